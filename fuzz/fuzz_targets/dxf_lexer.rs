@@ -4,7 +4,8 @@
 
 use libfuzzer_sys::fuzz_target;
 use wedm::dxf::Document;
-use wedm::ide::dxf::{Node, folds, outline, tokens, tokens_in};
+use wedm::ide::Symbol;
+use wedm::ide::dxf::{folds, outline, tokens, tokens_in};
 use wedm::text::SourceText;
 
 fuzz_target!(|data: &[u8]| {
@@ -28,7 +29,7 @@ fuzz_target!(|data: &[u8]| {
 });
 
 /// Siblings follow each other within what holds them.
-fn check(nodes: &[Node], within: std::ops::Range<usize>) {
+fn check(nodes: &[Symbol], within: std::ops::Range<usize>) {
     let mut from = within.start;
     for node in nodes {
         assert!(from <= node.range.start && node.range.end <= within.end, "{:?} within {within:?}, from {from} on", node.range);

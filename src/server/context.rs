@@ -10,6 +10,7 @@ use super::transport::panic_text;
 use crate::document::{self, Document, Source};
 use crate::dxf;
 use crate::finding::{Rule, Severity};
+use crate::ide::Whole;
 use crate::ide::dxf::{Name, name_at};
 use crate::program;
 use crate::settings::{Effective, SettingsError, from_json};
@@ -223,27 +224,20 @@ impl RequestContext {
         }
     }
 
-    /// The text of DXF, where it is all that the request holds.
-    pub fn text(&self) -> Option<&SourceText> {
+    /// The text, as a question about the whole of it holds it.
+    pub fn whole(&self) -> Option<Whole<'_>> {
         match &self.held {
-            Held::Text { text, .. } => Some(text),
-            Held::Document(_) | Held::Nothing => None,
-        }
-    }
-
-    /// What is named in DXF at the place that is asked about.
-    pub fn name(&self) -> Option<&Name> {
-        match &self.held {
-            Held::Text { name, .. } => name.as_ref(),
-            Held::Document(_) | Held::Nothing => None,
-        }
-    }
-
-    /// Drawing and contours of DXF.
-    pub fn snapshot(&self) -> Option<&document::Snapshot> {
-        match &self.held {
-            Held::Text { snapshot, .. } => snapshot.as_ref(),
-            Held::Document(_) | Held::Nothing => None,
+            Held::Text {
+                text,
+                name,
+                snapshot,
+            } => Some(Whole::Dxf {
+                text,
+                name: name.as_ref(),
+                snapshot: snapshot.as_ref(),
+            }),
+            Held::Document(document) => document.program().map(Whole::Program),
+            Held::Nothing => None,
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::convert;
 use crate::document::Document;
+use crate::ide::Stopped;
 use crate::job::Refusal;
 use crate::message::readable;
 use crate::protocol::{Diagnostic, Refused};
@@ -37,6 +38,12 @@ pub(super) fn moved_on() -> Error {
         code: ErrorCode::ContentModified,
         message: say!(the_document_has_changed_meanwhile).into(),
         data: None,
+    }
+}
+
+impl From<Stopped> for Error {
+    fn from(_: Stopped) -> Error {
+        moved_on()
     }
 }
 

@@ -1,5 +1,8 @@
 //! What group codes mean, record by record, and in which section a record stands. Facts of the public DXF reference.
 
+use crate::message::said;
+use std::borrow::Cow;
+
 /// What a value is, as far as more can be said of it than its digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Value {
@@ -14,57 +17,67 @@ pub(super) enum Value {
     Bulge,
 }
 
-use Value::{Bulge, Degrees, Handle, Length, OwnHandle, Plain};
+/// What stands behind a code in the tables: a value, or the first coordinate of several, whose codes are ten apart.
+#[derive(Clone, Copy)]
+enum Holds {
+    One(Value),
+    Coordinates(usize, Value),
+}
 
-type Codes = &'static [(i16, &'static str, Value)];
+const PLAIN: Holds = Holds::One(Value::Plain);
+const LENGTH: Holds = Holds::One(Value::Length);
+const DEGREES: Holds = Holds::One(Value::Degrees);
+const OWN_HANDLE: Holds = Holds::One(Value::OwnHandle);
+const HANDLE: Holds = Holds::One(Value::Handle);
+const BULGE: Holds = Holds::One(Value::Bulge);
+const POINT: Holds = Holds::Coordinates(3, Value::Length);
+const POINT_IN_PLANE: Holds = Holds::Coordinates(2, Value::Length);
+const DIRECTION: Holds = Holds::Coordinates(3, Value::Plain);
+
+/// What is said of a code, in the language that is spoken.
+pub(super) type About = fn() -> &'static str;
+/// A group code, what is said of it, and what its value is.
+pub(super) type Code = (i16, Cow<'static, str>, Value);
+type Row = (i16, About, Holds);
+type Codes = &'static [Row];
 
 /// Codes of every record.
 const COMMON: Codes = &[
-    (0, "name of the record that begins here", Plain),
-    (5, "handle of the record (hexadecimal)", OwnHandle),
+    (0, said::name_of_the_record_that_begins_here, PLAIN),
+    (5, said::handle_of_the_record_hexadecimal, OWN_HANDLE),
     (
         100,
-        "subclass: which class the following codes belong to",
-        Plain,
+        said::subclass_which_class_the_following_codes_belong_to,
+        PLAIN,
     ),
     (
         102,
-        "begin or end of a group of another program, in braces",
-        Plain,
+        said::begin_or_end_of_a_group_of_another_program_in_braces,
+        PLAIN,
     ),
-    (330, "handle of the owner", Handle),
-    (360, "handle of an owned record", Handle),
-    (999, "comment", Plain),
+    (330, said::handle_of_the_owner, HANDLE),
+    (360, said::handle_of_an_owned_record, HANDLE),
+    (999, said::a_comment, PLAIN),
 ];
 
 /// Codes of every entity.
 const ENTITY: Codes = &[
-    (6, "name of the linetype", Plain),
-    (8, "name of the layer", Plain),
-    (39, "thickness", Length),
-    (48, "scale of the linetype", Plain),
-    (60, "visibility: 0 visible, 1 invisible", Plain),
-    (
-        62,
-        "colour number: 0 by block, 256 by layer, 257 by entity",
-        Plain,
-    ),
-    (67, "space: 0 model space, 1 paper space", Plain),
-    (92, "number of bytes of the preview picture", Plain),
-    (347, "handle of the material", Handle),
-    (
-        370,
-        "line weight in hundredths of a millimetre; -1 by layer, -2 by block, -3 default",
-        Plain,
-    ),
-    (390, "handle of the plot style", Handle),
-    (410, "name of the layout", Plain),
-    (420, "true colour, 24 bits red, green, blue", Plain),
-    (430, "name of the colour", Plain),
-    (440, "transparency", Plain),
-    (210, "extrusion direction, x", Plain),
-    (220, "extrusion direction, y", Plain),
-    (230, "extrusion direction, z", Plain),
+    (6, said::name_of_the_linetype, PLAIN),
+    (8, said::name_of_the_layer, PLAIN),
+    (39, said::thickness, LENGTH),
+    (48, said::scale_of_the_linetype, PLAIN),
+    (60, said::visibility_0_visible_1_invisible, PLAIN),
+    (62, said::colour_number_or_whose_it_is, PLAIN),
+    (67, said::space_0_model_space_1_paper_space, PLAIN),
+    (92, said::number_of_bytes_of_the_preview_picture, PLAIN),
+    (347, said::handle_of_the_material, HANDLE),
+    (370, said::line_weight_or_whose_it_is, PLAIN),
+    (390, said::handle_of_the_plot_style, HANDLE),
+    (410, said::name_of_the_layout, PLAIN),
+    (420, said::true_colour_24_bits_red_green_blue, PLAIN),
+    (430, said::name_of_the_colour, PLAIN),
+    (440, said::transparency, PLAIN),
+    (210, said::extrusion_direction, DIRECTION),
 ];
 
 /// Codes of one kind of record; they go before the common ones.
@@ -72,308 +85,253 @@ const OF_RECORD: &[(&[&str], Codes)] = &[
     (
         &["SECTION"],
         &[
-            (2, "name of the section", Plain),
-            (9, "name of a header variable; its value follows", Plain),
+            (2, said::name_of_the_section, PLAIN),
+            (9, said::name_of_a_header_variable_its_value_follows, PLAIN),
         ],
     ),
     (
         &["TABLE"],
         &[
-            (2, "name of the table", Plain),
-            (5, "handle of the table", OwnHandle),
-            (70, "largest number of entries", Plain),
+            (2, said::name_of_the_table, PLAIN),
+            (5, said::handle_of_the_table, OWN_HANDLE),
+            (70, said::largest_number_of_entries, PLAIN),
         ],
     ),
     (
         &["LAYER"],
         &[
-            (2, "name of the layer", Plain),
+            (2, said::name_of_the_layer, PLAIN),
+            (70, said::flags_of_a_layer, PLAIN),
             (
-                70,
-                "flags: 1 frozen, 2 frozen in new viewports, 4 locked",
-                Plain,
+                62,
+                said::colour_number_negative_when_the_layer_is_off,
+                PLAIN,
             ),
-            (62, "colour number; negative when the layer is off", Plain),
-            (6, "name of the linetype", Plain),
-            (290, "plotted: 0 no, 1 yes", Plain),
-            (370, "line weight in hundredths of a millimetre", Plain),
-            (390, "handle of the plot style", Handle),
-            (347, "handle of the material", Handle),
-            (420, "true colour, 24 bits red, green, blue", Plain),
+            (6, said::name_of_the_linetype, PLAIN),
+            (290, said::plotted_0_no_1_yes, PLAIN),
+            (370, said::line_weight_in_hundredths_of_a_millimetre, PLAIN),
+            (390, said::handle_of_the_plot_style, HANDLE),
+            (347, said::handle_of_the_material, HANDLE),
+            (420, said::true_colour_24_bits_red_green_blue, PLAIN),
         ],
     ),
     (
         &["LTYPE"],
         &[
-            (2, "name of the linetype", Plain),
-            (3, "description", Plain),
-            (70, "flags", Plain),
-            (72, "alignment, always 65", Plain),
-            (73, "number of dashes", Plain),
-            (40, "length of the pattern", Length),
-            (49, "length of a dash; negative is a gap", Length),
-            (74, "kind of the element", Plain),
+            (2, said::name_of_the_linetype, PLAIN),
+            (3, said::the_description, PLAIN),
+            (70, said::flags, PLAIN),
+            (72, said::alignment_always_65, PLAIN),
+            (73, said::number_of_dashes, PLAIN),
+            (40, said::length_of_the_pattern, LENGTH),
+            (49, said::length_of_a_dash_negative_is_a_gap, LENGTH),
+            (74, said::kind_of_the_element, PLAIN),
         ],
     ),
     (
         &["STYLE"],
         &[
-            (2, "name of the text style", Plain),
-            (3, "font file", Plain),
-            (4, "big font file", Plain),
-            (40, "fixed text height; 0 is not fixed", Length),
-            (41, "width factor", Plain),
-            (42, "height used last", Length),
-            (50, "oblique angle", Degrees),
-            (70, "flags", Plain),
-            (71, "text generation: 2 backwards, 4 upside down", Plain),
+            (2, said::name_of_the_text_style, PLAIN),
+            (3, said::font_file, PLAIN),
+            (4, said::big_font_file, PLAIN),
+            (40, said::fixed_text_height_0_is_not_fixed, LENGTH),
+            (41, said::width_factor, PLAIN),
+            (42, said::height_used_last, LENGTH),
+            (50, said::oblique_angle, DEGREES),
+            (70, said::flags, PLAIN),
+            (71, said::text_generation, PLAIN),
         ],
     ),
     (
         &["BLOCK_RECORD"],
         &[
-            (2, "name of the block", Plain),
-            (340, "handle of the layout", Handle),
-            (70, "units of the block", Plain),
+            (2, said::name_of_the_block, PLAIN),
+            (340, said::handle_of_the_layout, HANDLE),
+            (70, said::units_of_the_block, PLAIN),
         ],
     ),
     (
         &["DIMSTYLE"],
         &[
-            (105, "handle of the record (hexadecimal)", OwnHandle),
-            (2, "name of the dimension style", Plain),
+            (105, said::handle_of_the_record_hexadecimal, OWN_HANDLE),
+            (2, said::name_of_the_dimension_style, PLAIN),
         ],
     ),
     (
         &["VPORT", "APPID", "UCS", "VIEW"],
-        &[(2, "name of the entry", Plain), (70, "flags", Plain)],
+        &[
+            (2, said::name_of_the_entry, PLAIN),
+            (70, said::flags, PLAIN),
+        ],
     ),
     (
         &["BLOCK"],
         &[
-            (2, "name of the block", Plain),
-            (3, "name of the block, again", Plain),
-            (8, "name of the layer", Plain),
-            (
-                70,
-                "flags: 1 anonymous, 2 has attributes, 4 external reference",
-                Plain,
-            ),
-            (10, "base point, x", Length),
-            (20, "base point, y", Length),
-            (30, "base point, z", Length),
-            (1, "path of the external reference", Plain),
+            (2, said::name_of_the_block, PLAIN),
+            (3, said::name_of_the_block_again, PLAIN),
+            (8, said::name_of_the_layer, PLAIN),
+            (70, said::flags_of_a_block, PLAIN),
+            (10, said::base_point, POINT),
+            (1, said::path_of_the_external_reference, PLAIN),
         ],
     ),
     (
         &["LINE"],
-        &[
-            (10, "start point, x", Length),
-            (20, "start point, y", Length),
-            (30, "start point, z", Length),
-            (11, "end point, x", Length),
-            (21, "end point, y", Length),
-            (31, "end point, z", Length),
-        ],
+        &[(10, said::start_point, POINT), (11, said::end_point, POINT)],
     ),
     (
         &["CIRCLE", "ARC"],
         &[
-            (10, "centre, x", Length),
-            (20, "centre, y", Length),
-            (30, "centre, z", Length),
-            (40, "radius", Length),
-            (50, "start angle; the arc runs counter-clockwise", Degrees),
-            (51, "end angle; the arc runs counter-clockwise", Degrees),
+            (10, said::centre, POINT),
+            (40, said::radius, LENGTH),
+            (
+                50,
+                said::start_angle_the_arc_runs_counter_clockwise,
+                DEGREES,
+            ),
+            (51, said::end_angle_the_arc_runs_counter_clockwise, DEGREES),
         ],
     ),
     (
         &["LWPOLYLINE"],
         &[
-            (90, "number of vertices", Plain),
-            (70, "flags: 1 closed, 128 linetype runs through", Plain),
-            (43, "constant width", Length),
-            (38, "elevation", Length),
-            (10, "vertex, x", Length),
-            (20, "vertex, y", Length),
-            (91, "identifier of the vertex", Plain),
-            (40, "width at the start of the segment", Length),
-            (41, "width at the end of the segment", Length),
+            (90, said::how_many_vertices, PLAIN),
+            (70, said::flags_of_an_lwpolyline, PLAIN),
+            (43, said::constant_width, LENGTH),
+            (38, said::elevation, LENGTH),
+            (10, said::vertex, POINT_IN_PLANE),
+            (91, said::identifier_of_the_vertex, PLAIN),
+            (40, said::width_at_the_start_of_the_segment, LENGTH),
+            (41, said::width_at_the_end_of_the_segment, LENGTH),
             (
                 42,
-                "bulge of the segment that starts in this vertex: tan(sweep / 4), positive counter-clockwise, 0 is a line",
-                Bulge,
+                said::bulge_of_the_segment_that_starts_in_this_vertex,
+                BULGE,
             ),
         ],
     ),
     (
         &["POLYLINE"],
         &[
-            (66, "vertices follow: always 1", Plain),
-            (
-                70,
-                "flags: 1 closed, 2 curve fit, 4 spline fit, 8 in space, 16 mesh, 64 polyface",
-                Plain,
-            ),
-            (10, "always 0", Plain),
-            (20, "always 0", Plain),
-            (30, "elevation", Length),
-            (40, "width at the start", Length),
-            (41, "width at the end", Length),
-            (71, "mesh: vertices in M", Plain),
-            (72, "mesh: vertices in N", Plain),
-            (75, "smoothing: 5 quadratic, 6 cubic, 8 Bézier", Plain),
+            (66, said::vertices_follow_always_1, PLAIN),
+            (70, said::flags_of_a_polyline, PLAIN),
+            (10, said::always_0, PLAIN),
+            (20, said::always_0, PLAIN),
+            (30, said::elevation, LENGTH),
+            (40, said::width_at_the_start, LENGTH),
+            (41, said::width_at_the_end, LENGTH),
+            (71, said::mesh_vertices_in_m, PLAIN),
+            (72, said::mesh_vertices_in_n, PLAIN),
+            (75, said::smoothing, PLAIN),
         ],
     ),
     (
         &["VERTEX"],
         &[
-            (10, "vertex, x", Length),
-            (20, "vertex, y", Length),
-            (30, "vertex, z", Length),
-            (40, "width at the start of the segment", Length),
-            (41, "width at the end of the segment", Length),
+            (10, said::vertex, POINT),
+            (40, said::width_at_the_start_of_the_segment, LENGTH),
+            (41, said::width_at_the_end_of_the_segment, LENGTH),
             (
                 42,
-                "bulge of the segment that starts in this vertex: tan(sweep / 4), positive counter-clockwise, 0 is a line",
-                Bulge,
+                said::bulge_of_the_segment_that_starts_in_this_vertex,
+                BULGE,
             ),
-            (50, "direction of the tangent of a curve fit", Degrees),
-            (
-                70,
-                "flags: 1 made by curve fit, 2 has a tangent, 8 made by spline fit, 16 control point",
-                Plain,
-            ),
+            (50, said::direction_of_the_tangent_of_a_curve_fit, DEGREES),
+            (70, said::flags_of_a_vertex, PLAIN),
         ],
     ),
     (
         &["POINT"],
         &[
-            (10, "position, x", Length),
-            (20, "position, y", Length),
-            (30, "position, z", Length),
-            (50, "angle of the x axis", Degrees),
+            (10, said::position, POINT),
+            (50, said::angle_of_the_x_axis, DEGREES),
         ],
     ),
     (
         &["TEXT", "ATTRIB", "ATTDEF"],
         &[
-            (1, "the text", Plain),
-            (2, "tag of the attribute", Plain),
-            (3, "prompt", Plain),
-            (7, "name of the text style", Plain),
-            (10, "position, x", Length),
-            (20, "position, y", Length),
-            (30, "position, z", Length),
-            (11, "alignment point, x", Length),
-            (21, "alignment point, y", Length),
-            (31, "alignment point, z", Length),
-            (40, "text height", Length),
-            (41, "width factor", Plain),
-            (50, "rotation", Degrees),
-            (51, "oblique angle", Degrees),
-            (71, "text generation: 2 backwards, 4 upside down", Plain),
-            (
-                72,
-                "horizontal alignment: 0 left, 1 centre, 2 right, 3 aligned, 4 middle, 5 fit",
-                Plain,
-            ),
-            (
-                73,
-                "vertical alignment: 0 baseline, 1 bottom, 2 middle, 3 top",
-                Plain,
-            ),
+            (1, said::the_text, PLAIN),
+            (2, said::tag_of_the_attribute, PLAIN),
+            (3, said::the_prompt, PLAIN),
+            (7, said::name_of_the_text_style, PLAIN),
+            (10, said::position, POINT),
+            (11, said::alignment_point, POINT),
+            (40, said::text_height, LENGTH),
+            (41, said::width_factor, PLAIN),
+            (50, said::rotation, DEGREES),
+            (51, said::oblique_angle, DEGREES),
+            (71, said::text_generation, PLAIN),
+            (72, said::horizontal_alignment, PLAIN),
+            (73, said::vertical_alignment, PLAIN),
         ],
     ),
     (
         &["MTEXT"],
         &[
-            (1, "the text, or its last part", Plain),
-            (3, "a part of the text that goes on", Plain),
-            (7, "name of the text style", Plain),
-            (10, "position, x", Length),
-            (20, "position, y", Length),
-            (30, "position, z", Length),
-            (40, "text height", Length),
-            (41, "width of the column", Length),
-            (50, "rotation, in radians", Plain),
-            (71, "attachment: 1 top left to 9 bottom right", Plain),
-            (
-                72,
-                "direction: 1 left to right, 3 top to bottom, 5 by style",
-                Plain,
-            ),
+            (1, said::the_text_or_its_last_part, PLAIN),
+            (3, said::a_part_of_the_text_that_goes_on, PLAIN),
+            (7, said::name_of_the_text_style, PLAIN),
+            (10, said::position, POINT),
+            (40, said::text_height, LENGTH),
+            (41, said::width_of_the_column, LENGTH),
+            (50, said::rotation_in_radians, PLAIN),
+            (71, said::attachment_of_the_text, PLAIN),
+            (72, said::direction_of_the_text, PLAIN),
         ],
     ),
     (
         &["INSERT"],
         &[
-            (2, "name of the block", Plain),
-            (10, "insertion point, x", Length),
-            (20, "insertion point, y", Length),
-            (30, "insertion point, z", Length),
-            (41, "scale in x", Plain),
-            (42, "scale in y", Plain),
-            (43, "scale in z", Plain),
-            (50, "rotation", Degrees),
-            (66, "attributes follow: 1 yes", Plain),
-            (70, "number of columns", Plain),
-            (71, "number of rows", Plain),
-            (44, "distance of the columns", Length),
-            (45, "distance of the rows", Length),
+            (2, said::name_of_the_block, PLAIN),
+            (10, said::insertion_point, POINT),
+            (41, said::scale_in_x, PLAIN),
+            (42, said::scale_in_y, PLAIN),
+            (43, said::scale_in_z, PLAIN),
+            (50, said::rotation, DEGREES),
+            (66, said::attributes_follow_1_yes, PLAIN),
+            (70, said::number_of_columns, PLAIN),
+            (71, said::number_of_rows, PLAIN),
+            (44, said::distance_of_the_columns, LENGTH),
+            (45, said::distance_of_the_rows, LENGTH),
         ],
     ),
     (
         &["ELLIPSE"],
         &[
-            (10, "centre, x", Length),
-            (20, "centre, y", Length),
-            (30, "centre, z", Length),
-            (11, "end of the major axis, x from the centre", Length),
-            (21, "end of the major axis, y from the centre", Length),
-            (31, "end of the major axis, z from the centre", Length),
-            (40, "ratio of the minor to the major axis", Plain),
-            (41, "start parameter, in radians", Plain),
-            (42, "end parameter, in radians", Plain),
+            (10, said::centre, POINT),
+            (11, said::end_of_the_major_axis_x_from_the_centre, LENGTH),
+            (21, said::end_of_the_major_axis_y_from_the_centre, LENGTH),
+            (31, said::end_of_the_major_axis_z_from_the_centre, LENGTH),
+            (40, said::ratio_of_the_minor_to_the_major_axis, PLAIN),
+            (41, said::start_parameter_in_radians, PLAIN),
+            (42, said::end_parameter_in_radians, PLAIN),
         ],
     ),
     (
         &["SPLINE"],
         &[
-            (
-                70,
-                "flags: 1 closed, 2 periodic, 4 rational, 8 planar, 16 linear",
-                Plain,
-            ),
-            (71, "degree", Plain),
-            (72, "number of knots", Plain),
-            (73, "number of control points", Plain),
-            (74, "number of fit points", Plain),
-            (40, "knot", Plain),
-            (41, "weight of a control point", Plain),
-            (42, "tolerance of the knots", Plain),
-            (43, "tolerance of the control points", Plain),
-            (44, "tolerance of the fit", Plain),
-            (10, "control point, x", Length),
-            (20, "control point, y", Length),
-            (30, "control point, z", Length),
-            (11, "fit point, x", Length),
-            (21, "fit point, y", Length),
-            (31, "fit point, z", Length),
-            (12, "tangent at the start, x", Plain),
-            (22, "tangent at the start, y", Plain),
-            (32, "tangent at the start, z", Plain),
-            (13, "tangent at the end, x", Plain),
-            (23, "tangent at the end, y", Plain),
-            (33, "tangent at the end, z", Plain),
+            (70, said::flags_of_a_spline, PLAIN),
+            (71, said::the_degree, PLAIN),
+            (72, said::number_of_knots, PLAIN),
+            (73, said::number_of_control_points, PLAIN),
+            (74, said::number_of_fit_points, PLAIN),
+            (40, said::a_knot, PLAIN),
+            (41, said::weight_of_a_control_point, PLAIN),
+            (42, said::tolerance_of_the_knots, PLAIN),
+            (43, said::tolerance_of_the_control_points, PLAIN),
+            (44, said::tolerance_of_the_fit, PLAIN),
+            (10, said::control_point, POINT),
+            (11, said::fit_point, POINT),
+            (12, said::tangent_at_the_start, DIRECTION),
+            (13, said::tangent_at_the_end, DIRECTION),
         ],
     ),
     (
         &["DICTIONARY"],
         &[
-            (3, "name of an entry", Plain),
-            (350, "handle of the entry", Handle),
-            (281, "what happens to doubles", Plain),
+            (3, said::name_of_an_entry, PLAIN),
+            (350, said::handle_of_the_entry, HANDLE),
+            (281, said::what_happens_to_doubles, PLAIN),
         ],
     ),
 ];
@@ -404,154 +362,104 @@ const NO_ENTITY: [&str; 22] = [
     "",
 ];
 
+/// A row for each coordinate of a point, else the row itself.
+fn codes_in((code, about, holds): &Row) -> impl Iterator<Item = Code> + use<> {
+    let (first, about) = (*code, about());
+    let (count, value, is_point) = match *holds {
+        Holds::One(value) => (1, value, false),
+        Holds::Coordinates(count, value) => (count, value, true),
+    };
+    (first..)
+        .step_by(10)
+        .zip(["x", "y", "z"])
+        .take(count)
+        .map(move |(code, axis)| {
+            let about = match is_point {
+                true => say!(coordinate_of, about, axis).into(),
+                false => about.into(),
+            };
+            (code, about, value)
+        })
+}
+
 /// What `code` means in a record of this name, and what its value is.
-pub(super) fn meaning(record: &str, code: i16) -> (&'static str, Value) {
-    let own = codes_of(record).find(|(known, _, _)| *known == code);
-    own.map_or_else(|| by_range(code), |(_, text, value)| (text, value))
+pub(super) fn meaning(record: &str, code: i16) -> (Cow<'static, str>, Value) {
+    let own = codes_of(record)
+        .into_iter()
+        .find(|(known, _, _)| *known == code);
+    own.map_or_else(
+        || {
+            let (about, value) = by_range(code);
+            (about().into(), value)
+        },
+        |(_, about, value)| (about, value),
+    )
 }
 
 /// The codes that make sense in a record of this name, those of its own kind first; each once.
-pub(super) fn codes_of(record: &str) -> impl Iterator<Item = (i16, &'static str, Value)> + use<> {
-    let own: Codes = OF_RECORD
-        .iter()
-        .find(|(names, _)| names.contains(&record))
-        .map_or(&[], |(_, codes)| codes);
+pub(super) fn codes_of(record: &str) -> Vec<Code> {
+    let own = OF_RECORD.iter().find(|(names, _)| names.contains(&record));
+    let own: Codes = own.map_or(&[], |(_, codes)| codes);
     let entity: Codes = if NO_ENTITY.contains(&record) {
         &[]
     } else {
         ENTITY
     };
-    let is_own = move |code: i16| own.iter().any(|(known, _, _)| *known == code);
-    // DIMSTYLE has its handle behind 105: its 5 is the name of an arrow head.
-    let no_handle = record == "DIMSTYLE";
-    let is_circle = record == "CIRCLE";
-    let rest = entity
-        .iter()
-        .chain(COMMON)
-        .filter(move |(code, _, _)| !(is_own(*code) || no_handle && *code == 5));
-    own.iter()
-        .filter(move |(code, _, _)| !(is_circle && matches!(code, 50 | 51)))
-        .chain(rest)
-        .copied()
+    let mut found: Vec<Code> = Vec::new();
+    for code in own.iter().chain(entity).chain(COMMON).flat_map(codes_in) {
+        let is_foreign = match record {
+            // Its handle stands behind 105: its 5 is the name of an arrow head.
+            "DIMSTYLE" => code.0 == 5,
+            "CIRCLE" => matches!(code.0, 50 | 51),
+            _ => false,
+        };
+        if !is_foreign && found.iter().all(|(known, _, _)| *known != code.0) {
+            found.push(code);
+        }
+    }
+    found
+}
+
+/// What the value of a code is wherever nothing more is known of it.
+pub(super) fn value_of(code: i16) -> Value {
+    by_range(code).1
 }
 
 /// What a code holds wherever nothing more is known of it.
-fn by_range(code: i16) -> (&'static str, Value) {
+fn by_range(code: i16) -> (About, Value) {
     match code {
-        5 | 105 => ("handle", OwnHandle),
-        0..=9 => ("text", Plain),
-        10..=18 => ("x of a point", Plain),
-        20..=28 => ("y of a point", Plain),
-        30..=37 => ("z of a point", Plain),
-        38..=49 | 59 | 140..=149 | 460..=469 => ("number", Plain),
-        50..=58 => ("angle", Degrees),
-        60..=79 | 170..=179 | 270..=289 | 370..=389 | 400..=409 => ("whole number", Plain),
-        90..=99 | 160..=169 | 420..=429 | 440..=459 => ("whole number of 32 bits or more", Plain),
-        101 => ("begin of an embedded object", Plain),
-        110..=139 | 210..=239 => ("number of a point or vector", Plain),
-        290..=299 => ("0 or 1", Plain),
-        300..=309 | 410..=419 | 430..=439 | 470..=479 => ("text", Plain),
-        310..=319 | 1004 => ("bytes, hexadecimal", Plain),
-        320..=329 | 480..=481 | 1005 => ("handle of a record", Handle),
-        330..=339 => ("handle of a record (soft pointer)", Handle),
-        340..=349 | 390..=399 => ("handle of a record (hard pointer)", Handle),
-        350..=359 => ("handle of a record (soft owner)", Handle),
-        360..=369 => ("handle of a record (hard owner)", Handle),
-        1000 => ("text of another program", Plain),
+        5 | 105 => (said::a_handle, Value::OwnHandle),
+        0..=9 => (said::some_text, Value::Plain),
+        10..=18 => (said::x_of_a_point, Value::Plain),
+        20..=28 => (said::y_of_a_point, Value::Plain),
+        30..=37 => (said::z_of_a_point, Value::Plain),
+        38..=49 | 59 | 140..=149 | 460..=469 => (said::a_number_of_any_kind, Value::Plain),
+        50..=58 => (said::an_angle, Value::Degrees),
+        60..=79 | 170..=179 | 270..=289 | 370..=389 | 400..=409 => {
+            (said::whole_number, Value::Plain)
+        }
+        90..=99 | 160..=169 | 420..=429 | 440..=459 => {
+            (said::whole_number_of_32_bits_or_more, Value::Plain)
+        }
+        101 => (said::begin_of_an_embedded_object, Value::Plain),
+        110..=139 | 210..=239 => (said::number_of_a_point_or_vector, Value::Plain),
+        290..=299 => (said::zero_or_one, Value::Plain),
+        300..=309 | 410..=419 | 430..=439 | 470..=479 => (said::some_text, Value::Plain),
+        310..=319 | 1004 => (said::bytes_hexadecimal, Value::Plain),
+        320..=329 | 480..=481 | 1005 => (said::handle_of_a_record, Value::Handle),
+        330..=339 => (said::handle_of_a_record_soft_pointer, Value::Handle),
+        340..=349 | 390..=399 => (said::handle_of_a_record_hard_pointer, Value::Handle),
+        350..=359 => (said::handle_of_a_record_soft_owner, Value::Handle),
+        360..=369 => (said::handle_of_a_record_hard_owner, Value::Handle),
+        1000 => (said::text_of_another_program, Value::Plain),
         1001 => (
-            "name of the program that the following codes belong to",
-            Plain,
+            said::name_of_the_program_that_the_following_codes_belong_to,
+            Value::Plain,
         ),
-        1002 => ("brace of a list of another program", Plain),
-        1003 => ("name of a layer, of another program", Plain),
-        1010..=1059 => ("number of another program", Plain),
-        1060..=1071 => ("whole number of another program", Plain),
-        _ => ("no meaning that is known here", Plain),
+        1002 => (said::brace_of_a_list_of_another_program, Value::Plain),
+        1003 => (said::name_of_a_layer_of_another_program, Value::Plain),
+        1010..=1059 => (said::number_of_another_program, Value::Plain),
+        1060..=1071 => (said::whole_number_of_another_program, Value::Plain),
+        _ => (said::no_meaning_that_is_known_here, Value::Plain),
     }
 }
-
-pub(super) const SECTIONS: [&str; 7] = [
-    "HEADER",
-    "CLASSES",
-    "TABLES",
-    "BLOCKS",
-    "ENTITIES",
-    "OBJECTS",
-    "THUMBNAILIMAGE",
-];
-pub(super) const TABLES: [&str; 9] = [
-    "VPORT",
-    "LTYPE",
-    "LAYER",
-    "STYLE",
-    "VIEW",
-    "UCS",
-    "APPID",
-    "DIMSTYLE",
-    "BLOCK_RECORD",
-];
-
-/// Names of records that can stand in a section, with what they are.
-pub(super) fn records_of(section: &str) -> &'static [(&'static str, &'static str)] {
-    match section {
-        "TABLES" => &[
-            ("TABLE", "begins a table"),
-            ("ENDTAB", "ends a table"),
-            ("LAYER", "a layer"),
-            ("LTYPE", "a linetype"),
-            ("STYLE", "a text style"),
-            ("APPID", "a registered program"),
-            ("BLOCK_RECORD", "a block's entry"),
-            ("DIMSTYLE", "a dimension style"),
-            ("ENDSEC", "ends the section"),
-        ],
-        "BLOCKS" | "ENTITIES" => &[
-            ("LWPOLYLINE", "polyline of lines and arcs"),
-            ("LINE", "line between two points"),
-            ("ARC", "arc of a circle"),
-            ("CIRCLE", "circle"),
-            ("POLYLINE", "polyline with VERTEX records"),
-            ("VERTEX", "vertex of a POLYLINE"),
-            ("SEQEND", "ends a POLYLINE or the attributes of an INSERT"),
-            ("SPLINE", "B-spline"),
-            ("ELLIPSE", "ellipse or a part of one"),
-            ("INSERT", "a block put in place"),
-            ("POINT", "point"),
-            ("TEXT", "one line of text"),
-            ("MTEXT", "text of several lines"),
-            ("BLOCK", "begins a block (section BLOCKS)"),
-            ("ENDBLK", "ends a block (section BLOCKS)"),
-            ("ENDSEC", "ends the section"),
-        ],
-        "" => &[("SECTION", "begins a section"), ("EOF", "end of the file")],
-        "OBJECTS" => &[
-            ("DICTIONARY", "names and handles"),
-            ("ENDSEC", "ends the section"),
-        ],
-        _ => &[("ENDSEC", "ends the section")],
-    }
-}
-
-/// Header variables that bear on a cut, with what they say.
-pub(super) const VARIABLES: &[(&str, &str)] = &[
-    (
-        "$ACADVER",
-        "version of the file: AC1009 is R12, AC1015 is 2000, AC1032 is 2018",
-    ),
-    ("$DWGCODEPAGE", "code page of texts in files before 2007"),
-    (
-        "$INSUNITS",
-        "unit of the drawing: 1 inch, 4 millimetre, 5 centimetre, 6 metre, 0 none",
-    ),
-    (
-        "$MEASUREMENT",
-        "0 imperial, 1 metric: chooses patterns, says nothing about the unit",
-    ),
-    ("$LUNITS", "how lengths are written"),
-    ("$EXTMIN", "lower left corner of what is drawn"),
-    ("$EXTMAX", "upper right corner of what is drawn"),
-    ("$LIMMIN", "lower left corner of the limits"),
-    ("$LIMMAX", "upper right corner of the limits"),
-    ("$HANDSEED", "the next handle that is free"),
-    ("$CLAYER", "name of the current layer"),
-];

@@ -1,16 +1,21 @@
 //! What can be written at a place: group codes of this record, names of records, layers, sections.
 
-use super::codes::{self, SECTIONS, TABLES};
+use super::codes::codes_of;
+use super::records::{self, Named, SECTIONS, TABLES};
 use super::spot::{Spot, section_of, spot, text_of};
 use crate::dxf::Document;
 use crate::dxf::lines::Lines;
 use crate::dxf::place::own_tags;
 use crate::dxf::table::{Became, Item};
 use crate::ide::{Completion, CompletionKind};
+use crate::message::said;
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 /// Names of layers and blocks that are listed at most.
 const NAMES: usize = 500;
+
+type Offer = (String, Cow<'static, str>, CompletionKind);
 
 /// What can stand at a byte, what belongs there most first.
 pub fn completions(document: &Document, offset: usize) -> Vec<Completion> {
@@ -18,92 +23,53 @@ pub fn completions(document: &Document, offset: usize) -> Vec<Completion> {
     // Behind the last line end there is a line for an editor, and none for the reader.
     let spot = spot(document, line).or_else(|| spot(document, line.checked_sub(1)?));
     let Some(spot) = spot else { return Vec::new() };
-    let range = if spot.line == line {
-        spot.lines.trimmed_range(line)
-    } else {
-        offset..offset
-    };
-    let range = if range.start <= offset && offset <= range.end {
-        range
-    } else {
-        offset..offset
-    };
+    let is_own = spot.line == line;
+    let range = Some(spot.lines.trimmed_range(line))
+        .filter(|range| is_own && range.start <= offset && offset <= range.end)
+        .unwrap_or(offset..offset);
     let record = text_of(spot.name);
-    let value_of = if line == spot.line && spot.at_value() {
-        spot.tag
-    } else {
-        None
-    };
-    let section = || section_of(document, spot.item).map_or_else(String::new, |(name, _)| name);
-    let list: Vec<(String, &'static str, CompletionKind)> = match value_of {
+    let section_at = |item| section_of(document, item).map_or_else(String::new, |(name, _)| name);
+    let code = spot.tag.filter(|_| is_own && spot.at_value());
+    let list: Vec<Offer> = match code.map(|tag| (tag.code, record.as_str())) {
         // The place of a group code, or of one that is not written yet.
-        None => codes_after(&spot, &record, &section()),
-        Some(tag) => match (tag.code, record.as_str()) {
-            (0, _) => {
-                // The record that is being written may have ended the section in the eyes of the reader.
-                let section = spot
-                    .item
-                    .checked_sub(1)
-                    .and_then(|item| section_of(document, item))
-                    .map_or_else(String::new, |(name, _)| name);
-                codes::records_of(&section)
-                    .iter()
-                    .map(|(name, about)| ((*name).into(), *about, CompletionKind::Record))
-                    .collect()
-            }
-            (2, "INSERT") => blocks(document)
-                .into_iter()
-                .map(|name| (name, "block of the drawing", CompletionKind::Name))
-                .collect(),
-            (8, _) => layers(document)
-                .into_iter()
-                .map(|name| (name, "layer of the drawing", CompletionKind::Name))
-                .collect(),
-            (2, "SECTION") => SECTIONS
-                .iter()
-                .map(|name| ((*name).into(), "section", CompletionKind::Name))
-                .collect(),
-            (2, "TABLE") => TABLES
-                .iter()
-                .map(|name| ((*name).into(), "table", CompletionKind::Name))
-                .collect(),
-            (9, "SECTION") => codes::VARIABLES
-                .iter()
-                .map(|(name, about)| ((*name).into(), *about, CompletionKind::Name))
-                .collect(),
-            _ => Vec::new(),
-        },
+        None => codes_after(&spot, &record, &section_at(spot.item)),
+        // The record that is being written may have ended the section in the eyes of the reader.
+        Some((0, _)) => {
+            let section = spot
+                .item
+                .checked_sub(1)
+                .map_or_else(String::new, section_at);
+            named(records::records_of(&section), CompletionKind::Record)
+        }
+        Some((9, "SECTION")) => named(records::VARIABLES, CompletionKind::Name),
+        Some((2, "SECTION")) => names(SECTIONS, said::a_section),
+        Some((2, "TABLE")) => names(TABLES, said::a_table_of_the_drawing),
+        Some((2, "INSERT")) => names(blocks(document), said::block_of_the_drawing),
+        Some((8, _)) => names(layers(document), said::layer_of_the_drawing),
+        Some(_) => Vec::new(),
     };
     list.into_iter()
-        .map(|(text, about, kind)| Completion {
-            label: text.clone(),
-            text,
-            about: about.into(),
-            kind,
-            range: range.clone(),
-        })
+        .map(|(text, about, kind)| Completion::new(text, about, &range, kind))
         .collect()
 }
 
-fn codes_after(
-    spot: &Spot<'_>,
-    record: &str,
-    section: &str,
-) -> Vec<(String, &'static str, CompletionKind)> {
-    let in_header = record == "SECTION" && section == "HEADER";
-    if in_header {
-        return vec![
-            (
-                "9".into(),
-                "name of a header variable; its value follows",
-                CompletionKind::Code,
-            ),
-            (
-                "0".into(),
-                "name of the record that begins here",
-                CompletionKind::Code,
-            ),
-        ];
+fn named(list: &[Named], kind: CompletionKind) -> Vec<Offer> {
+    let offer = |(name, about): &Named| ((*name).into(), about().into(), kind);
+    list.iter().map(offer).collect()
+}
+
+fn names<T: Into<String>>(
+    list: impl IntoIterator<Item = T>,
+    about: fn() -> &'static str,
+) -> Vec<Offer> {
+    let offer = |name: T| (name.into(), about().into(), CompletionKind::Name);
+    list.into_iter().map(offer).collect()
+}
+
+fn codes_after(spot: &Spot<'_>, record: &str, section: &str) -> Vec<Offer> {
+    let mut list = codes_of(record);
+    if record == "SECTION" && section == "HEADER" {
+        list.retain(|(code, _, _)| matches!(code, 0 | 9));
     }
     // A point is written x, y, z.
     let next = spot
@@ -111,7 +77,6 @@ fn codes_after(
         .map(|tag| tag.code)
         .filter(|code| (10..=28).contains(code))
         .map(|code| code + 10);
-    let mut list: Vec<_> = codes::codes_of(record).collect();
     if let Some(next) = next
         && let Some(index) = list.iter().position(|(code, _, _)| *code == next)
     {
@@ -126,12 +91,7 @@ fn codes_after(
 /// Names of blocks that somebody may mean: not those of layouts and of what programs make for themselves.
 fn blocks(document: &Document) -> BTreeSet<String> {
     let lines = Lines::new(document.text());
-    let items = document
-        .table()
-        .items
-        .iter()
-        .enumerate()
-        .filter(|(_, item)| item.became == Became::Block);
+    let items = document.table().items.iter().enumerate();
     let name = |(item, _): (usize, &Item)| {
         let name = own_tags(lines, document.table().lines_of(item, lines.count()))
             .filter(|tag| tag.code == 2)
@@ -139,6 +99,7 @@ fn blocks(document: &Document) -> BTreeSet<String> {
         Some(text_of(lines.trimmed(name.value_line())))
     };
     items
+        .filter(|(_, item)| item.became == Became::Block)
         .filter_map(name)
         .filter(|name| !name.is_empty() && !name.starts_with('*'))
         .take(NAMES)
@@ -146,15 +107,8 @@ fn blocks(document: &Document) -> BTreeSet<String> {
 }
 
 fn layers(document: &Document) -> BTreeSet<String> {
-    let mut found: BTreeSet<String> = BTreeSet::new();
-    found.extend(
-        document
-            .table()
-            .layers
-            .iter()
-            .take(NAMES)
-            .map(|entry| entry.name.to_string()),
-    );
+    let of_table = document.table().layers.iter().take(NAMES);
+    let mut found: BTreeSet<String> = of_table.map(|entry| entry.name.to_string()).collect();
     let mut last: Option<&str> = None;
     for (_, entity) in document.drawing().entities() {
         // Entities of one layer mostly stand together.

@@ -1,10 +1,9 @@
 //! What can be folded: sections, tables, blocks, entities, polylines with their vertices.
 
-use super::outline::{Node, NodeKind};
-use crate::ide::{Fold, FoldKind};
+use crate::ide::{Fold, FoldKind, Symbol, SymbolKind};
 
 /// The folds of a tree, in the order of the text. When there are more than `limit`, what holds others goes first.
-pub fn folds(tree: &[Node], limit: usize) -> Vec<Fold> {
+pub fn folds(tree: &[Symbol], limit: usize) -> Vec<Fold> {
     let mut found = Vec::new();
     collect(tree, 0, &mut found);
     if found.len() > limit {
@@ -15,12 +14,12 @@ pub fn folds(tree: &[Node], limit: usize) -> Vec<Fold> {
     found.into_iter().map(|(_, fold)| fold).collect()
 }
 
-fn collect(nodes: &[Node], depth: usize, found: &mut Vec<(usize, Fold)>) {
+fn collect(nodes: &[Symbol], depth: usize, found: &mut Vec<(usize, Fold)>) {
     for node in nodes {
         // The name of the record stays in sight, not its group code 0.
         let (first, last) = (node.lines.start + 1, node.lines.end.saturating_sub(1));
         if last > first {
-            let of_entity = if node.kind == NodeKind::Entity {
+            let of_entity = if node.kind == SymbolKind::Entity {
                 node.detail.as_str()
             } else {
                 ""

@@ -1,10 +1,10 @@
 //! The radius and the sweep of each arc, beside the number that makes it one.
 
-use super::hover::rounded;
 use crate::drawing::{Geometry, Unit};
 use crate::dxf::Document;
 use crate::finding::Place;
 use crate::geometry::Segment;
+use crate::ide::amounts::rounded;
 use crate::ide::{HINT_LINES, Hint};
 use std::ops::Range;
 
@@ -31,12 +31,11 @@ pub fn hints(document: &Document, range: Range<usize>, unit: Unit) -> Vec<Hint> 
             continue;
         }
         let sweep = rounded_to(arc.sweep.to_degrees(), 3);
+        let radius = rounded_to(arc.radius * unit.mm, 4);
         let text = match entity.geometry {
-            Geometry::Polyline { .. } => {
-                format!("R {} mm, {sweep}°", rounded_to(arc.radius * unit.mm, 4))
-            }
+            Geometry::Polyline { .. } => format!("R {radius} mm, {sweep}°"),
             _ if unit.mm == 1.0 => format!("{sweep}°"),
-            _ => format!("{} mm, {sweep}°", rounded_to(arc.radius * unit.mm, 4)),
+            _ => format!("{radius} mm, {sweep}°"),
         };
         found.push(Hint {
             offset: place.end,
@@ -48,5 +47,5 @@ pub fn hints(document: &Document, range: Range<usize>, unit: Unit) -> Vec<Hint> 
 
 fn rounded_to(value: f64, decimals: i32) -> String {
     let scale = 10f64.powi(decimals);
-    rounded((value * scale).round() / scale)
+    rounded((value * scale).round() / scale, 6)
 }

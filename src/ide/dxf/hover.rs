@@ -1,12 +1,15 @@
 //! What a group code or value means, and what it comes to in millimetres.
 
 use super::codes::{self, Value};
+use super::records;
 use super::spot::{Spot, spot, text_of, vertex_at};
 use crate::drawing::{EntityId, Geometry, Unit};
 use crate::dxf::Document;
 use crate::dxf::number::{self, Number};
 use crate::geometry::Segment;
 use crate::ide::Hover;
+use crate::ide::amounts::{rounded as rounded_to, segments, turn};
+use crate::message::said;
 
 /// What stands at a byte; `None` where no tag is.
 pub fn hover(document: &Document, offset: usize, unit: Unit) -> Option<Hover> {
@@ -18,9 +21,9 @@ pub fn hover(document: &Document, offset: usize, unit: Unit) -> Option<Hover> {
     let (about, value) = codes::meaning(&record, tag.code);
     let mut text = match tag.code {
         0 => about_record(document, &spot, &record),
-        999 => "comment: programs pass it over".to_owned(),
-        _ if record.is_empty() => format!("**{}** {about}", tag.code),
-        _ => format!("**{}** of {record}: {about}", tag.code),
+        999 => say!(a_comment_programs_pass_it_over).to_owned(),
+        _ if record.is_empty() => say!(word_in_bold, tag.code, about),
+        _ => say!(code_of_a_record, tag.code, record, about),
     };
     let number = match number::number(value_bytes) {
         Number::Exact(number) | Number::Blemished(number, _) => Some(number),
@@ -42,15 +45,13 @@ pub fn hover(document: &Document, offset: usize, unit: Unit) -> Option<Hover> {
         _ => None,
     };
     if tag.code == 9
-        && let Some((_, about)) = codes::VARIABLES
-            .iter()
-            .find(|(name, _)| name.as_bytes() == value_bytes)
+        && let Some((name, about)) = variable(value_bytes)
     {
-        text = format!("**{}** {about}", text_of(value_bytes));
+        text = say!(word_in_bold, name, about());
     } else if record == "SECTION" && tag.code != 2 {
         // A header variable's value stands behind its name.
         if let Some((name, about)) = variable_of(&spot) {
-            text = format!("**{name}** {about}");
+            text = say!(word_in_bold, name, about());
         }
     }
     if let Some(more) = more {
@@ -66,29 +67,24 @@ pub fn hover(document: &Document, offset: usize, unit: Unit) -> Option<Hover> {
 fn about_record(document: &Document, spot: &Spot<'_>, record: &str) -> String {
     let known = ["", "TABLES", "ENTITIES", "OBJECTS"]
         .iter()
-        .flat_map(|section| codes::records_of(section))
+        .flat_map(|section| records::records_of(section))
         .find(|(name, _)| *name == record);
-    let mut text = format!("**{record}**");
-    if let Some((_, about)) = known {
-        text = format!("{text}: {about}");
-    }
-    let entity = document
-        .table()
-        .items
-        .get(spot.item)
+    let text = match known {
+        Some((_, about)) => say!(record_and_what_it_is, record, about()),
+        None => format!("**{record}**"),
+    };
+    let item = document.table().items.get(spot.item);
+    let entity = item
         .and_then(|item| item.entity())
         .and_then(|id| document.drawing().get(id));
-    if let Some(entity) = entity {
-        let segments = match entity.geometry.segment_count() {
-            1 => "1 segment".to_owned(),
-            count => format!("{count} segments"),
-        };
-        text = format!(
-            "{text}\n\nentity {} on layer {}, {segments}",
-            entity.handle, entity.layer
-        );
+    match entity {
+        Some(entity) => {
+            let segments = segments(entity.geometry.segment_count());
+            let about = say!(entity_on_layer, entity.handle, entity.layer, segments);
+            format!("{text}\n\n{about}")
+        }
+        None => text,
     }
-    text
 }
 
 /// A length in millimetres, where the drawing has another unit.
@@ -105,14 +101,9 @@ fn about_bulge(
 ) -> String {
     let sweep = 4.0 * bulge.atan().to_degrees();
     if bulge == 0.0 {
-        return "a line".into();
+        return say!(a_line).into();
     }
-    let direction = if bulge > 0.0 {
-        "counter-clockwise"
-    } else {
-        "clockwise"
-    };
-    let angle = format!("arc of {}°, {direction}", rounded(sweep.abs()));
+    let angle = say!(arc_of_degrees, rounded(sweep.abs()), turn(bulge));
     let arc = entity.and_then(|entity| {
         let start = vertex_at(document, spot.item, spot.line)?.start;
         let from_item = (start - *document.table().lines.get(spot.item)? as usize) as u32;
@@ -126,16 +117,11 @@ fn about_bulge(
         document.drawing().segment(entity, index)
     });
     match arc {
-        Some(Segment::Line(_)) => format!(
-            "a line: {angle}, which rises less than a millionth of a millimetre above its chord"
-        ),
+        Some(Segment::Line(_)) => say!(a_line_since_the_arc_hardly_rises, angle),
         Some(Segment::Arc(arc)) => {
             let radius = radius_in(arc.radius, unit);
-            format!(
-                "{angle}\n\nradius {radius}, centre ({}, {})",
-                rounded(arc.center.x),
-                rounded(arc.center.y)
-            )
+            let (x, y) = (rounded(arc.center.x), rounded(arc.center.y));
+            format!("{angle}\n\n{}", say!(radius_and_centre, radius, x, y))
         }
         None => angle,
     }
@@ -170,84 +156,76 @@ fn about_angle(
     };
     let sweep = (end_angle - start_angle).to_degrees().rem_euclid(360.0);
     let sweep = if sweep == 0.0 { 360.0 } else { sweep };
-    Some(format!(
-        "the arc sweeps {}°, radius {}",
+    Some(say!(
+        the_arc_sweeps,
         rounded(sweep),
         radius_in(radius, unit)
     ))
 }
 
 fn about_handle(document: &Document, handle: &str) -> String {
-    match document
-        .drawing()
-        .find(handle)
-        .and_then(|id| document.drawing().get(id))
-    {
-        Some(entity) => format!("names {} on layer {}", entity.kind, entity.layer),
-        None if handle.chars().all(|digit| digit == '0') => "names nothing".into(),
-        None => "names no entity that is cut; \"go to definition\" looks for it in the whole file"
-            .into(),
+    let drawing = document.drawing();
+    match drawing.find(handle).and_then(|id| drawing.get(id)) {
+        Some(entity) => say!(names_an_entity_on_layer, entity.kind, entity.layer),
+        None if handle.chars().all(|digit| digit == '0') => say!(names_nothing).into(),
+        None => say!(names_no_entity_that_is_cut).into(),
     }
 }
 
 fn about_flags(record: &str, code: i16, value: f64) -> Option<String> {
-    let names: &[(i64, &str)] = match (record, code) {
-        ("LWPOLYLINE", 70) => &[(1, "closed"), (128, "linetype runs through")],
+    let names: &[(i64, fn() -> &'static str)] = match (record, code) {
+        ("LWPOLYLINE", 70) => &[(1, said::closed), (128, said::linetype_runs_through)],
         ("POLYLINE", 70) => &[
-            (1, "closed"),
-            (2, "curve fit"),
-            (4, "spline fit"),
-            (8, "in space"),
-            (16, "mesh"),
-            (64, "polyface"),
-            (128, "linetype runs through"),
+            (1, said::closed),
+            (2, said::curve_fit),
+            (4, said::spline_fit),
+            (8, said::in_space),
+            (16, said::mesh),
+            (64, said::polyface),
+            (128, said::linetype_runs_through),
         ],
         ("SPLINE", 70) => &[
-            (1, "closed"),
-            (2, "periodic"),
-            (4, "rational"),
-            (8, "planar"),
-            (16, "linear"),
+            (1, said::closed),
+            (2, said::periodic),
+            (4, said::rational),
+            (8, said::planar),
+            (16, said::linear),
         ],
-        ("LAYER", 70) => &[(1, "frozen"), (2, "frozen in new viewports"), (4, "locked")],
-        ("LAYER", 62) => {
-            return Some(if value < 0.0 {
-                "the layer is off".into()
-            } else {
-                "the layer is on".into()
-            });
-        }
+        ("LAYER", 70) => &[
+            (1, said::frozen),
+            (2, said::frozen_in_new_viewports),
+            (4, said::locked),
+        ],
+        ("LAYER", 62) if value < 0.0 => return Some(say!(the_layer_is_off).into()),
+        ("LAYER", 62) => return Some(say!(the_layer_is_on).into()),
         _ => return None,
     };
     let flags = value as i64;
     let set: Vec<&str> = names
         .iter()
         .filter(|(bit, _)| flags & bit != 0)
-        .map(|(_, name)| *name)
+        .map(|(_, name)| name())
         .collect();
-    Some(if set.is_empty() {
-        if record.contains("POLYLINE") {
-            "open".into()
-        } else {
-            "none is set".into()
-        }
-    } else {
-        set.join(", ")
+    Some(match (set.is_empty(), record.contains("POLYLINE")) {
+        (false, _) => set.join(", "),
+        (true, true) => say!(open).into(),
+        (true, false) => say!(no_flag_is_set).into(),
     })
 }
 
+fn variable(name: &[u8]) -> Option<records::Named> {
+    let known = |(known, _): &&records::Named| known.as_bytes() == name;
+    records::VARIABLES.iter().find(known).copied()
+}
+
 /// The header variable whose value the spot is.
-fn variable_of(spot: &Spot<'_>) -> Option<(&'static str, &'static str)> {
+fn variable_of(spot: &Spot<'_>) -> Option<records::Named> {
     let tag = spot.tag?;
     // A point has three tags behind the name.
     let before = (1..=3)
         .filter_map(|back| tag.line.checked_sub(2 * back))
         .find(|&line| spot.lines.trimmed(line) == b"9")?;
-    let name = spot.lines.trimmed(before + 1);
-    codes::VARIABLES
-        .iter()
-        .find(|(known, _)| known.as_bytes() == name)
-        .copied()
+    variable(spot.lines.trimmed(before + 1))
 }
 
 fn about_variable_value(spot: &Spot<'_>, value: f64) -> Option<String> {
@@ -256,16 +234,9 @@ fn about_variable_value(spot: &Spot<'_>, value: f64) -> Option<String> {
         return None;
     }
     let unit = crate::dxf::unit_of(value as i32)?;
-    Some(format!("one unit is {} mm", unit.mm))
+    Some(say!(one_unit_is_mm, unit.mm))
 }
 
-/// At most six decimals, none that say nothing.
-pub(super) fn rounded(value: f64) -> String {
-    let text = format!("{value:.6}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" {
-        "0".into()
-    } else {
-        text.into()
-    }
+fn rounded(value: f64) -> String {
+    rounded_to(value, 6)
 }

@@ -1,11 +1,12 @@
 //! What names what: handles, layers, blocks, linetypes, text styles; where each is defined and where it is used.
 
-use super::codes::{Value, meaning};
-use super::outline::{Stop, walk};
+use super::codes::{Value, value_of};
+use super::outline::walk;
 use super::spot::{section_of, spot, text_of};
 use crate::dxf::Document;
 use crate::dxf::lexer::Tag;
 use crate::dxf::lines::Lines;
+use crate::ide::{Occurrence, Role, Stop};
 use crate::text::SourceText;
 use std::ops::Range;
 
@@ -24,13 +25,6 @@ pub struct Name {
     pub names: Names,
     /// As it stands in the text; compared without regard to case, handles without regard to leading zeros as well.
     pub text: String,
-}
-
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Occurrence {
-    /// Bytes of the value.
-    pub range: Range<usize>,
-    pub defines: bool,
 }
 
 /// What is named at a byte, on either line of a tag; and the bytes of the value.
@@ -88,7 +82,11 @@ pub fn occurrences(
         if found.len() < limit && key(names, value).eq_ignore_ascii_case(wanted) {
             found.push(Occurrence {
                 range: lines.trimmed_range(tag.value_line()),
-                defines: defines && !in_group,
+                role: if defines && !in_group {
+                    Role::Defines
+                } else {
+                    Role::Uses
+                },
             });
         }
     });
@@ -130,7 +128,7 @@ fn named_by(record: &[u8], in_header: bool, code: i16) -> Option<(Names, bool)> 
         (_, 6) => Some((Names::Linetype, false)),
         (b"TEXT" | b"MTEXT" | b"ATTRIB" | b"ATTDEF", 7) => Some((Names::Style, false)),
         (_, 320..=369 | 390..=399 | 480..=481 | 1005) => {
-            (meaning("", code).1 == Value::Handle).then_some((Names::Record, false))
+            (value_of(code) == Value::Handle).then_some((Names::Record, false))
         }
         _ => None,
     }

@@ -3,53 +3,8 @@
 use super::spot::text_of;
 use crate::dxf::lexer::{Lexer, Tag};
 use crate::dxf::lines::Lines;
+use crate::ide::{Stop, Symbol, SymbolKind};
 use crate::text::SourceText;
-use std::ops::Range;
-
-/// Asked now and then: true when nobody wants the result any more.
-pub type Stop<'a> = &'a dyn Fn() -> bool;
-
-/// A contour of the drawing, as the tree names it: its entities' handles in order of travel.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ContourNote {
-    pub closed: bool,
-    pub segments: usize,
-    pub handles: Vec<crate::drawing::Handle>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NodeKind {
-    Section,
-    Table,
-    /// Entry of a table.
-    Entry,
-    Block,
-    Entity,
-    /// A record that is none of these.
-    Other,
-    Contours,
-    Contour,
-    /// A run of entities that are not listed one by one.
-    Group,
-}
-
-/// A part of the text with a name.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Node {
-    pub kind: NodeKind,
-    /// Name of the record, as `LWPOLYLINE`.
-    pub record: Box<str>,
-    /// Name of the section, table, entry or block; the handle of an entity.
-    pub name: Box<str>,
-    pub detail: String,
-    /// Bytes of all of it.
-    pub range: Range<usize>,
-    /// Bytes of the record's name.
-    pub selection: Range<usize>,
-    /// First line and one past the last.
-    pub lines: Range<usize>,
-    pub children: Vec<Node>,
-}
 
 /// Calls `visit` for each tag of the text; false when it was stopped.
 pub(super) fn walk(lines: Lines<'_>, stop: Stop<'_>, mut visit: impl FnMut(Tag)) -> bool {
@@ -73,7 +28,7 @@ pub(super) fn walk(lines: Lines<'_>, stop: Stop<'_>, mut visit: impl FnMut(Tag))
 }
 
 /// The tree of a text; `None` when it was stopped.
-pub fn outline(text: &SourceText, stop: Stop<'_>) -> Option<Vec<Node>> {
+pub fn outline(text: &SourceText, stop: Stop<'_>) -> Option<Vec<Symbol>> {
     let lines = Lines::new(text);
     let mut builder = Builder {
         lines,
@@ -101,10 +56,10 @@ pub fn outline(text: &SourceText, stop: Stop<'_>) -> Option<Vec<Node>> {
 struct Builder<'a> {
     lines: Lines<'a>,
     /// Section, table or block, POLYLINE: each holds the next.
-    open: Vec<Node>,
-    done: Vec<Node>,
+    open: Vec<Symbol>,
+    done: Vec<Symbol>,
     /// The record that is being read, when it is none of those that hold others.
-    record: Option<Node>,
+    record: Option<Symbol>,
     /// Vertices of the record or of the open POLYLINE.
     vertices: usize,
 }
@@ -136,7 +91,7 @@ impl Builder<'_> {
                 while !self.open.is_empty() {
                     self.close(line);
                 }
-                self.open.push(self.node(NodeKind::Section, tag));
+                self.open.push(self.node(SymbolKind::Section, tag));
             }
             b"ENDSEC" | b"EOF" => {
                 while !self.open.is_empty() {
@@ -146,34 +101,34 @@ impl Builder<'_> {
             b"TABLE" | b"BLOCK" => {
                 self.close_to_section(line);
                 let kind = if name == b"TABLE" {
-                    NodeKind::Table
+                    SymbolKind::Table
                 } else {
-                    NodeKind::Block
+                    SymbolKind::Block
                 };
                 self.open.push(self.node(kind, tag));
             }
             b"ENDTAB" => self.close_to_section(line + 2),
             b"ENDBLK" => {
                 // Its own tags come before the next record.
-                self.record = Some(self.node(NodeKind::Other, tag));
+                self.record = Some(self.node(SymbolKind::Record, tag));
             }
             b"POLYLINE" => {
                 self.vertices = 0;
-                self.open.push(self.node(NodeKind::Entity, tag));
+                self.open.push(self.node(SymbolKind::Entity, tag));
             }
             _ => {
                 let kind = match self
                     .open
                     .iter()
                     .rev()
-                    .find(|node| node.kind != NodeKind::Entity)
-                    .map(|node| (node.kind, &*node.name))
+                    .find(|node| node.kind != SymbolKind::Entity)
+                    .map(|node| (node.kind, node.name.as_str()))
                 {
-                    Some((NodeKind::Table, _)) => NodeKind::Entry,
-                    Some((NodeKind::Block, _) | (NodeKind::Section, "ENTITIES" | "BLOCKS")) => {
-                        NodeKind::Entity
+                    Some((SymbolKind::Table, _)) => SymbolKind::Entry,
+                    Some((SymbolKind::Block, _) | (SymbolKind::Section, "ENTITIES" | "BLOCKS")) => {
+                        SymbolKind::Entity
                     }
-                    _ => NodeKind::Other,
+                    _ => SymbolKind::Record,
                 };
                 self.vertices = 0;
                 let node = self.node(kind, tag);
@@ -200,23 +155,23 @@ impl Builder<'_> {
         match tag.code {
             2 if matches!(
                 node.kind,
-                NodeKind::Section | NodeKind::Table | NodeKind::Entry | NodeKind::Block
+                SymbolKind::Section | SymbolKind::Table | SymbolKind::Entry | SymbolKind::Block
             ) && node.name.is_empty() =>
             {
-                node.name = text_of(value).into();
+                node.name = text_of(value);
             }
             5 | 105
-                if matches!(node.kind, NodeKind::Entity | NodeKind::Other)
+                if matches!(node.kind, SymbolKind::Entity | SymbolKind::Record)
                     && node.name.is_empty() =>
             {
-                node.name = text_of(value).into()
+                node.name = text_of(value)
             }
-            8 if node.kind == NodeKind::Entity && node.detail.is_empty() => {
+            8 if node.kind == SymbolKind::Entity && node.detail.is_empty() => {
                 node.detail = text_of(value)
             }
             10 if &*node.record == "LWPOLYLINE" => self.vertices += 1,
             2 if &*node.record == "INSERT" => {
-                node.detail = format!("{}, block {}", node.detail, text_of(value))
+                node.detail = say!(on_layer_block, node.detail, text_of(value))
             }
             1 if matches!(&*node.record, "TEXT" | "MTEXT") => {
                 node.detail = format!("{}, \"{}\"", node.detail, text_of(value))
@@ -225,13 +180,13 @@ impl Builder<'_> {
         }
     }
 
-    fn node(&self, kind: NodeKind, tag: Tag) -> Node {
+    fn node(&self, kind: SymbolKind, tag: Tag) -> Symbol {
         let selection = self.lines.trimmed_range(tag.value_line());
         let start = self.lines.range(tag.line).start;
-        Node {
+        Symbol {
             kind,
             record: text_of(self.lines.trimmed(tag.value_line())).into(),
-            name: "".into(),
+            name: String::new(),
             detail: String::new(),
             range: start..selection.end,
             selection,
@@ -247,7 +202,7 @@ impl Builder<'_> {
         }
     }
 
-    fn ended(&self, mut node: Node, end: usize) -> Node {
+    fn ended(&self, mut node: Symbol, end: usize) -> Symbol {
         node.lines.end = end.max(node.lines.start + 1);
         node.range.end = self
             .lines
@@ -256,8 +211,8 @@ impl Builder<'_> {
             .max(node.selection.end);
         if matches!(&*node.record, "LWPOLYLINE" | "POLYLINE") {
             node.detail = match self.vertices {
-                1 => format!("{}, 1 vertex", node.detail),
-                count => format!("{}, {count} vertices", node.detail),
+                1 => say!(on_layer_1_vertex, node.detail),
+                count => say!(on_layer_vertices, node.detail, count),
             };
         }
         node
@@ -286,13 +241,13 @@ impl Builder<'_> {
         while self
             .open
             .last()
-            .is_some_and(|node| node.kind != NodeKind::Section)
+            .is_some_and(|node| node.kind != SymbolKind::Section)
         {
             self.close(end);
         }
     }
 
-    fn put(&mut self, node: Node) {
+    fn put(&mut self, node: Symbol) {
         match self.open.last_mut() {
             Some(holder) => holder.children.push(node),
             None => self.done.push(node),

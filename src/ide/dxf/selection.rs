@@ -3,6 +3,7 @@
 use super::spot::{section_of, spot, vertex_at};
 use crate::dxf::Document;
 use crate::dxf::lexer::Lexer;
+use crate::ide::widen;
 use std::ops::Range;
 
 /// Ranges of bytes around a byte, each within the next.
@@ -16,15 +17,7 @@ pub fn selections(document: &Document, offset: usize) -> Vec<Range<usize>> {
     let bytes_of = |range: Range<usize>| {
         lines.range(range.start).start..lines.range(range.end.saturating_sub(1)).end
     };
-    let mut wider = |range: Range<usize>| {
-        let grows = match found.last() {
-            None => range.start <= offset && offset <= range.end,
-            Some(last) => range.start <= last.start && last.end <= range.end && range != *last,
-        };
-        if grows {
-            found.push(range);
-        }
-    };
+    let mut wider = |range| widen(&mut found, offset, range);
     wider(lines.trimmed_range(spot.line));
     if let Some(tag) = spot.tag {
         wider(bytes_of(tag.line..tag.line + 2));

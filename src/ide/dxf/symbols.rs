@@ -1,6 +1,9 @@
 //! The tree as an editor lists it: with contours, and with runs in the place of very many entities.
 
-use super::outline::{ContourNote, Node, NodeKind};
+use crate::document::Snapshot;
+use crate::drawing::{Handle, Outline, Piece};
+use crate::ide::amounts::{closing, segments};
+use crate::ide::{Symbol, SymbolKind};
 use std::collections::HashMap;
 
 /// With more entities than this in one text, or more contours, runs of them are listed and not each by itself.
@@ -10,31 +13,43 @@ const RUNS: usize = 1000;
 /// Entities of a contour that are listed under it.
 const LISTED_OF_CONTOUR: usize = 200;
 
+/// A contour of the drawing, as the tree names it: its entities' handles in order of travel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ContourNote {
+    pub closed: bool,
+    pub segments: usize,
+    pub handles: Vec<Handle>,
+}
+
+/// The contours of a drawing.
+pub fn notes(snapshot: &Snapshot) -> Vec<ContourNote> {
+    let handle = |piece: &Piece| Some(snapshot.drawing.get(piece.entity)?.handle.clone());
+    let note = |outline: &Outline| ContourNote {
+        closed: outline.contour.closed,
+        segments: outline.contour.len(),
+        handles: outline.contour.pieces.iter().filter_map(handle).collect(),
+    };
+    snapshot.outlines.iter().map(note).collect()
+}
+
 /// Adds the contours to a tree and shortens it where it would be too long to list.
-pub fn symbols(mut tree: Vec<Node>, contours: &[ContourNote]) -> Vec<Node> {
+pub fn symbols(mut tree: Vec<Symbol>, contours: &[ContourNote]) -> Vec<Symbol> {
     let listed = contours_of(&tree, contours);
     shorten(&mut tree);
     if let Some(first) = listed.first()
         && let Some(section) = tree
             .iter_mut()
-            .find(|node| node.kind == NodeKind::Section && &*node.name == "ENTITIES")
+            .find(|node| node.kind == SymbolKind::Section && &*node.name == "ENTITIES")
     {
         // Symbols lie within the one that holds them: the contours are a part of their section.
-        let (range, selection, lines) = (
-            section.range.clone(),
-            first.selection.clone(),
-            section.lines.clone(),
-        );
-        let detail = format!("{} of them", contours.len());
-        let (record, name) = ("".into(), "Contours".into());
-        let mut node = Node {
-            kind: NodeKind::Contours,
-            record,
-            name,
-            detail,
-            range,
-            selection,
-            lines,
+        let mut node = Symbol {
+            kind: SymbolKind::Contours,
+            record: "".into(),
+            name: say!(contours_as_a_title).into(),
+            detail: say!(so_many_of_them, contours.len()),
+            range: section.range.clone(),
+            selection: first.selection.clone(),
+            lines: section.lines.clone(),
             children: listed,
         };
         shorten_children(&mut node.children);
@@ -43,7 +58,7 @@ pub fn symbols(mut tree: Vec<Node>, contours: &[ContourNote]) -> Vec<Node> {
     tree
 }
 
-fn shorten(tree: &mut [Node]) {
+fn shorten(tree: &mut [Symbol]) {
     let count: usize = tree.iter().map(count).sum();
     if count > GROUPED_ABOVE {
         for node in tree {
@@ -52,24 +67,24 @@ fn shorten(tree: &mut [Node]) {
     }
 }
 
-fn count(node: &Node) -> usize {
+fn count(node: &Symbol) -> usize {
     node.children.iter().map(|child| 1 + count(child)).sum()
 }
 
 /// Puts runs in the place of more children than can be listed.
-fn shorten_children(children: &mut Vec<Node>) {
+fn shorten_children(children: &mut Vec<Symbol>) {
     if children.len() <= RUNS {
         return;
     }
     let all = children.len();
     let size = all.div_ceil(RUNS);
-    let run = |(index, nodes): (usize, &[Node])| {
+    let run = |(index, nodes): (usize, &[Symbol])| {
         let (first, last) = (nodes.first()?, nodes.last()?);
         let mut kinds: Vec<&str> = nodes
             .iter()
             .map(|node| {
                 if node.record.is_empty() {
-                    "contour"
+                    say!(a_contour)
                 } else {
                     &*node.record
                 }
@@ -79,11 +94,11 @@ fn shorten_children(children: &mut Vec<Node>) {
         kinds.dedup();
         let from = index * size + 1;
         let range = first.range.start.min(last.range.start)..last.range.end.max(first.range.end);
-        Some(Node {
-            kind: NodeKind::Group,
+        Some(Symbol {
+            kind: SymbolKind::Run,
             record: "".into(),
-            name: format!("{from} to {}", from + nodes.len() - 1).into(),
-            detail: format!("{} · {} of {all}", kinds.join(", "), nodes.len()),
+            name: say!(from_one_to_another, from, from + nodes.len() - 1),
+            detail: say!(kinds_so_many_of_all, kinds.join(", "), nodes.len(), all),
             range,
             selection: first.selection.clone(),
             lines: first.lines.start..last.lines.end,
@@ -94,25 +109,25 @@ fn shorten_children(children: &mut Vec<Node>) {
 }
 
 /// One node for each contour whose entities are in the tree.
-fn contours_of(tree: &[Node], contours: &[ContourNote]) -> Vec<Node> {
+fn contours_of(tree: &[Symbol], contours: &[ContourNote]) -> Vec<Symbol> {
     let Some(section) = tree
         .iter()
-        .find(|node| node.kind == NodeKind::Section && &*node.name == "ENTITIES")
+        .find(|node| node.kind == SymbolKind::Section && &*node.name == "ENTITIES")
     else {
         return Vec::new();
     };
-    let mut by_handle: HashMap<String, &Node> = HashMap::with_capacity(section.children.len());
+    let mut by_handle: HashMap<String, &Symbol> = HashMap::with_capacity(section.children.len());
     for (ordinal, node) in section.children.iter().enumerate() {
         // Entities without a handle are known by their number.
         let handle = if node.name.is_empty() {
             format!("#{}", ordinal + 1)
         } else {
-            node.name.to_string()
+            node.name.clone()
         };
         by_handle.entry(handle).or_insert(node);
     }
     let node_of = |(index, contour): (usize, &ContourNote)| {
-        let members: Vec<&Node> = contour
+        let members: Vec<&Symbol> = contour
             .handles
             .iter()
             .filter_map(|handle| by_handle.get(&**handle).copied())
@@ -120,12 +135,6 @@ fn contours_of(tree: &[Node], contours: &[ContourNote]) -> Vec<Node> {
         let first = *members.first()?;
         let start = members.iter().map(|node| node.range.start).min()?;
         let end = members.iter().map(|node| node.range.end).max()?;
-        let closed = if contour.closed { "closed" } else { "open" };
-        let segments = if contour.segments == 1 {
-            "1 segment".into()
-        } else {
-            format!("{} segments", contour.segments)
-        };
         let children = if members.len() > 1 {
             members
                 .iter()
@@ -135,11 +144,16 @@ fn contours_of(tree: &[Node], contours: &[ContourNote]) -> Vec<Node> {
         } else {
             Vec::new()
         };
-        Some(Node {
-            kind: NodeKind::Contour,
+        Some(Symbol {
+            kind: SymbolKind::Contour,
             record: "".into(),
-            name: format!("contour {}", index + 1).into(),
-            detail: format!("{closed}, {segments}, {}", entities(&contour.handles)),
+            name: say!(contour_by_number, index + 1),
+            detail: [
+                closing(contour.closed),
+                &segments(contour.segments),
+                &entities(&contour.handles),
+            ]
+            .join(", "),
             range: start..end,
             selection: first.selection.clone(),
             lines: first.lines.clone(),
@@ -149,10 +163,10 @@ fn contours_of(tree: &[Node], contours: &[ContourNote]) -> Vec<Node> {
     contours.iter().enumerate().filter_map(node_of).collect()
 }
 
-fn entities(handles: &[crate::drawing::Handle]) -> String {
+fn entities(handles: &[Handle]) -> String {
     match handles {
-        [one] => format!("entity {one}"),
-        [first, ..] => format!("{} entities from {first} on", handles.len()),
-        [] => "no entity".into(),
+        [one] => say!(entity_by_handle, one),
+        [first, ..] => say!(entities_from_one_on, handles.len(), first),
+        [] => say!(no_entity).into(),
     }
 }

@@ -3,7 +3,7 @@
 use super::*;
 use crate::drawing::Unit;
 use crate::dxf::Document;
-use crate::ide::{Completion, FoldKind, Hint};
+use crate::ide::{Completion, FoldKind, Hint, Occurrence, Role, Symbol, Token, TokenKind};
 use crate::text::SourceText;
 use expect_test::{Expect, expect};
 use proptest::prelude::*;
@@ -170,7 +170,7 @@ fn hover_is_silent_where_no_tag_is() {
     check_hover("$0", MM, &expect!["nothing"]);
 }
 
-fn tree(nodes: &[Node], depth: usize, text: &mut String) {
+fn tree(nodes: &[Symbol], depth: usize, text: &mut String) {
     for node in nodes {
         let (first, last) = (node.lines.start, node.lines.end);
         let _ = writeln!(
@@ -185,7 +185,7 @@ fn tree(nodes: &[Node], depth: usize, text: &mut String) {
     }
 }
 
-fn outline_of(text: &str) -> Vec<Node> {
+fn outline_of(text: &str) -> Vec<Symbol> {
     outline(&SourceText::new(text.as_bytes().to_vec()), &|| false).expect("nobody stopped it")
 }
 
@@ -425,7 +425,11 @@ fn check_names(cursor_in: &str, expected: &Expect) {
             String::from_utf8_lossy(&document.text().bytes()[found.range.clone()]).into_owned();
         format!(
             "{}{} {text}",
-            if found.defines { "defined " } else { "" },
+            if found.role == Role::Defines {
+                "defined "
+            } else {
+                ""
+            },
             document.text().line_of(found.range.start)
         )
     };
@@ -641,6 +645,7 @@ fn the_tables_of_codes_name_each_code_once() {
         "TEXT",
     ] {
         let mut all: Vec<i16> = super::codes::codes_of(record)
+            .into_iter()
             .map(|(code, _, _)| code)
             .collect();
         let count = all.len();
@@ -657,7 +662,7 @@ fn ask_everything(text: Vec<u8>) {
     let tree = outline(document.text(), &|| false).unwrap_or_default();
     let mut all = Vec::new();
     fn ranges(
-        nodes: &[Node],
+        nodes: &[Symbol],
         holder: std::ops::Range<usize>,
         all: &mut Vec<std::ops::Range<usize>>,
     ) {

@@ -1,54 +1,14 @@
 //! Each line of the text with what it is, for colouring.
 
-use super::codes::{Value, meaning};
-use super::outline::Stop;
+use super::codes::{Value, value_of};
 use super::spot::spot;
 use crate::dxf::Document;
 use crate::dxf::lexer::{Lexer, Tag};
 use crate::dxf::lines::Lines;
 use crate::dxf::number::{self, Number};
+use crate::ide::{Stop, Token, TokenKind};
 use crate::text::SourceText;
 use std::ops::Range;
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TokenKind {
-    Code,
-    Record,
-    Handle,
-    Layer,
-    Number,
-    Text,
-    Comment,
-    /// Name of a header variable.
-    Variable,
-    /// Name of a section, table, block or subclass.
-    Name,
-}
-
-impl TokenKind {
-    /// All kinds; the position of each is its number.
-    pub const ALL: [TokenKind; 9] = [
-        TokenKind::Code,
-        TokenKind::Record,
-        TokenKind::Handle,
-        TokenKind::Layer,
-        TokenKind::Number,
-        TokenKind::Text,
-        TokenKind::Comment,
-        TokenKind::Variable,
-        TokenKind::Name,
-    ];
-}
-
-/// A line, or what stands on it between its padding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Token {
-    pub line: usize,
-    /// Bytes from the beginning of the line as the text has it.
-    pub start: usize,
-    pub length: usize,
-    pub kind: TokenKind,
-}
 
 /// The tokens of the whole text, at most `limit`; `None` when it was stopped.
 pub fn tokens(text: &SourceText, limit: usize, stop: Stop<'_>) -> Option<Vec<Token>> {
@@ -161,7 +121,7 @@ fn value_kind(tag: Tag, value: &[u8], is_style: bool) -> TokenKind {
         }
         // Points and numbers are nearly all that there is: no look into the table for them.
         10..=59 => number_or_text(value),
-        code => match meaning("", code).1 {
+        code => match value_of(code) {
             Value::Handle | Value::OwnHandle => TokenKind::Handle,
             _ => number_or_text(value),
         },

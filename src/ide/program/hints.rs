@@ -1,8 +1,8 @@
 //! Behind each block, where it ends and how tight it is.
 
-use super::sentences::{degrees, mm};
 use super::words::{WordKind, words_of};
 use crate::geometry::Segment;
+use crate::ide::amounts::{degrees, mm};
 use crate::ide::{HINT_LINES, Hint};
 use crate::program::Document;
 use crate::program::path::Kind;

@@ -1,10 +1,10 @@
 //! What stands at a place: the block in words, and what the word under the cursor means in it.
 
-use super::sentences::{degrees, mm, point};
 use super::words::words_of;
 use super::{iso, three_b};
 use crate::geometry::Segment;
 use crate::ide::Hover;
+use crate::ide::amounts::{degrees, mm, point, turn};
 use crate::program::Document;
 use crate::program::path::{Kind, Step};
 
@@ -53,61 +53,49 @@ fn about_step(step: &Step, one_of_many: bool) -> String {
     let name = step
         .number
         .map_or_else(String::new, |number| format!("N{number}: "));
-    let mut lines = Vec::new();
-    match (step.kind, &step.ideal) {
-        (Kind::Pause, _) => lines.push(format!("**{name}pause** at {} mm", point(step.start))),
-        (Kind::End, _) => lines.push(format!("**{name}end** at {} mm", point(step.start))),
-        (_, None) => lines.push(format!(
-            "**{name}block that leads nowhere**: the machine stays at {} mm",
-            point(step.start)
-        )),
+    let (start, end) = (point(step.start), point(step.end));
+    let mut lines = match (step.kind, &step.ideal) {
+        (Kind::Pause, _) => vec![say!(step_at, name, say!(pause), start)],
+        (Kind::End, _) => vec![say!(step_at, name, say!(end), start)],
+        (_, None) => vec![say!(step_leads_nowhere, name, start)],
         (kind, Some(Segment::Line(line))) => {
             let what = if kind == Kind::Rapid {
-                "way without the wire"
+                say!(way_without_the_wire)
             } else {
-                "line"
+                say!(line)
             };
             let along = line.end - line.start;
-            lines.push(format!("**{name}{what}** to {} mm", point(step.end)));
-            lines.push(format!(
-                "from {}, length {} mm, direction {}",
-                point(step.start),
-                mm(along.norm()),
-                degrees(along.y.atan2(along.x))
-            ));
+            let (length, direction) = (mm(along.norm()), degrees(along.y.atan2(along.x)));
+            vec![
+                say!(step_to, name, what, end),
+                say!(from_length_and_direction, start, length, direction),
+            ]
         }
         (_, Some(Segment::Arc(arc))) => {
-            let turn = if arc.sweep > 0.0 {
-                "counter-clockwise"
+            let what = if arc.is_full_turn() {
+                say!(circle)
             } else {
-                "clockwise"
+                say!(arc)
             };
-            let what = if arc.is_full_turn() { "circle" } else { "arc" };
-            lines.push(format!(
-                "**{name}{what}** {turn} about {} mm, R {} mm, {}",
-                point(arc.center),
-                mm(arc.radius),
-                degrees(arc.sweep.abs())
-            ));
-            lines.push(format!(
-                "from {} to {}, length {} mm",
-                point(step.start),
-                point(step.end),
-                mm(arc.length())
-            ));
+            let (centre, radius) = (point(arc.center), mm(arc.radius));
+            let (turn, sweep) = (turn(arc.sweep), degrees(arc.sweep.abs()));
+            vec![
+                say!(step_about, name, what, turn, centre, radius, sweep),
+                say!(from_to_and_length, start, end, mm(arc.length())),
+            ]
         }
-    }
+    };
     if step.moves() && step.deviation() > SHOWN_DEVIATION {
-        let ideal = step.ideal.map_or(step.end, |ideal| ideal.end());
-        lines.push(format!(
-            "the machine stops {:.1} µm beside the ideal end ({:.4}, {:.4})",
+        let ideal = step.ideal.map_or(step.end, |ideal| ideal.end()) / 1000.0;
+        lines.push(say!(
+            the_machine_stops_beside_the_ideal_end,
             step.deviation(),
-            ideal.x / 1000.0,
-            ideal.y / 1000.0
+            ideal.x,
+            ideal.y
         ));
     }
     if one_of_many {
-        lines.push("one of several in this line".into());
+        lines.push(say!(one_of_several_in_this_line).into());
     }
     lines.join("\n\n")
 }

@@ -20,7 +20,8 @@ pub fn number_at(document: &Document, offset: usize) -> Option<(Range<usize>, u3
 ///
 /// Errors: no number there, a name that is no number, or one that another block has.
 pub fn renamed(document: &Document, offset: usize, name: &str) -> Result<Vec<TextEdit>, String> {
-    let (digits, number) = number_at(document, offset).ok_or("there is no block number here")?;
+    let (digits, number) =
+        number_at(document, offset).ok_or(say!(there_is_no_block_number_here))?;
     if let Document::Iso(program) = document {
         return iso::renamed(program, digits, number, name);
     }
@@ -32,7 +33,7 @@ pub fn renamed(document: &Document, offset: usize, name: &str) -> Result<Vec<Tex
         .parse()
         .ok()
         .filter(|_| is_number)
-        .ok_or_else(|| format!("{name:?} is no block number, expected up to 8 digits"))?;
+        .ok_or_else(|| say!(is_no_block_number, name))?;
     let line = document.text().line_of(offset);
     let trace = document.trace();
     if let Some(step) = trace
@@ -40,10 +41,11 @@ pub fn renamed(document: &Document, offset: usize, name: &str) -> Result<Vec<Tex
         .iter()
         .find(|step| step.number == Some(number) && step.line != line)
     {
-        return Err(format!("N{number} is the block in line {}", step.line + 1));
+        return Err(say!(
+            the_number_is_that_of_another_block,
+            number,
+            step.line + 1
+        ));
     }
-    Ok(vec![TextEdit {
-        range: digits,
-        text: name.to_owned(),
-    }])
+    Ok(vec![TextEdit::new(digits, name)])
 }

@@ -1,6 +1,7 @@
 //! What an editor selects step by step: the word, the block, its line, the contour, everything between two pauses, everything.
 
 use super::words::words_of;
+use crate::ide::widen;
 use crate::program::Document;
 use crate::program::path::cut_at;
 use std::ops::Range;
@@ -10,15 +11,7 @@ pub fn selections(document: &Document, offset: usize) -> Vec<Range<usize>> {
     let text = document.text();
     let line = text.line_of(offset);
     let mut found: Vec<Range<usize>> = Vec::new();
-    let mut wider = |range: Range<usize>| {
-        let grows = match found.last() {
-            None => range.start <= offset && offset <= range.end,
-            Some(last) => range.start <= last.start && last.end <= range.end && range != *last,
-        };
-        if grows {
-            found.push(range);
-        }
-    };
+    let mut wider = |range| widen(&mut found, offset, range);
     if let Some(part) = words_of(document, line)
         .into_iter()
         .find(|part| part.range.start <= offset && offset <= part.range.end)

@@ -1,11 +1,12 @@
 //! The program as a tree: contours between pauses, each with its way in, its blocks and its way out.
 
-use super::sentences::{mm, point, step as step_in_words};
+use super::step;
 use crate::geometry::Segment;
+use crate::ide::amounts::{closing, mm, point, turn};
+use crate::ide::{Symbol, SymbolKind};
 use crate::program::Document;
-use crate::program::path::{Cut, cuts};
-use crate::program::path::{Kind, Step, Trace};
-use std::ops::Range;
+use crate::program::path::{Cut, Kind, Step, Trace, cuts};
+use crate::text::SourceText;
 
 /// With more blocks than this in one contour, runs of them are listed and not each by itself.
 const LISTED: usize = 2_000;
@@ -14,44 +15,12 @@ const RUNS: usize = 500;
 /// Contours, pauses and ways that are listed each by itself.
 const LISTED_CUTS: usize = 5_000;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SymbolKind {
-    Contour,
-    Lead,
-    Way,
-    Block,
-    /// Blocks that are too many to be listed one by one.
-    Run,
-    Word,
-}
-
-/// A node of the tree; ranges are bytes and lie within those of the node that holds it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Symbol {
-    pub kind: SymbolKind,
-    pub name: String,
-    pub detail: String,
-    pub range: Range<usize>,
-    pub selection: Range<usize>,
-    pub children: Vec<Symbol>,
-}
-
 /// The tree of a program, in the order of the text.
 pub fn symbols(document: &Document) -> Vec<Symbol> {
     let trace = document.trace();
-    let text = document.text();
-    let whole_lines = |steps: &[Step]| {
-        let first = steps
-            .iter()
-            .map(|step| text.line_start(step.line))
-            .min()
-            .unwrap_or(0);
-        let last = steps
-            .iter()
-            .map(|step| text.line_range(step.line).end.max(step.range.end))
-            .max()
-            .unwrap_or(0);
-        first..last.max(first)
+    let tree = Tree {
+        text: document.text(),
+        trace: &trace,
     };
     let mut found = Vec::new();
     let cuts = cuts(&trace);
@@ -61,17 +30,12 @@ pub fn symbols(document: &Document) -> Vec<Symbol> {
         match cuts.get(next).filter(|cut| cut.steps.start == index) {
             Some(cut) => {
                 ordinal += usize::from(!cut.is_way);
-                found.push(of_cut(&trace, cut, ordinal, &whole_lines));
+                found.push(tree.of_cut(cut, ordinal));
                 index = cut.steps.end;
                 next += 1;
             }
             None => {
-                let step = &trace.steps[index];
-                found.push(of_step(
-                    step,
-                    SymbolKind::Word,
-                    whole_lines(std::slice::from_ref(step)),
-                ));
+                found.push(tree.of_step(&trace.steps[index], SymbolKind::Stop));
                 index += 1;
             }
         }
@@ -81,134 +45,109 @@ pub fn symbols(document: &Document) -> Vec<Symbol> {
     found
 }
 
-fn of_cut(
-    trace: &Trace,
-    cut: &Cut,
-    ordinal: usize,
-    whole_lines: &dyn Fn(&[Step]) -> Range<usize>,
-) -> Symbol {
-    let steps = trace.steps.get(cut.steps.clone()).unwrap_or_default();
-    let contour = trace.steps.get(cut.contour_steps()).unwrap_or_default();
-    let length: f64 = contour
-        .iter()
-        .filter_map(|step| step.ideal.as_ref())
-        .map(Segment::length)
-        .sum();
-    let (kind, name, mut detail) = if cut.is_way {
-        let name = format!(
-            "way to {}",
-            point(steps.last().map_or(trace.start, |step| step.end))
-        );
-        (SymbolKind::Way, name, String::new())
-    } else {
-        let state = if cut.closed { "closed" } else { "open" };
-        let blocks = if contour.len() == 1 {
-            "1 block".into()
-        } else {
-            format!("{} blocks", contour.len())
+struct Tree<'a> {
+    text: &'a SourceText,
+    trace: &'a Trace,
+}
+
+impl Tree<'_> {
+    /// The whole lines of some steps, with the first step's bytes as the name.
+    fn symbol(&self, kind: SymbolKind, name: String, detail: String, steps: &[Step]) -> Symbol {
+        let lines = || steps.iter().map(|step| step.line);
+        let first = lines().min().unwrap_or(0);
+        let start = match steps {
+            [] => 0,
+            _ => self.text.line_start(first),
         };
-        (
-            SymbolKind::Contour,
-            format!("contour {ordinal}"),
-            format!("{state}, {blocks}, {} mm", mm(length)),
-        )
-    };
-    if let (true, Some(turn)) = (cut.closed, direction(contour)) {
-        detail = format!("{detail}, {turn}");
-    }
-    let range = whole_lines(steps);
-    let (lead_in, lead_out) = (
-        &steps[..cut.lead_in.min(steps.len())],
-        &steps[steps.len() - cut.lead_out.min(steps.len())..],
-    );
-    let mut children = Vec::new();
-    for (name, part) in [("lead-in", lead_in), ("", contour), ("lead-out", lead_out)] {
-        if name.is_empty() {
-            children.extend(blocks(part, whole_lines));
-        } else if let Some(first) = part.first() {
-            children.push(Symbol {
-                kind: SymbolKind::Lead,
-                name: name.into(),
-                detail: step_in_words(part.last().unwrap_or(first)),
-                range: whole_lines(part),
-                selection: first.range.clone(),
-                children: Vec::new(),
-            });
-        }
-    }
-    let selection = steps
-        .first()
-        .map_or(range.clone(), |step| step.range.clone());
-    Symbol {
-        kind,
-        name,
-        detail,
-        range,
-        selection,
-        children,
-    }
-}
-
-/// Which way round a closed contour is cut.
-fn direction(contour: &[Step]) -> Option<&'static str> {
-    let origin = contour.first()?.start;
-    let area: f64 = contour
-        .iter()
-        .filter_map(|step| step.ideal.as_ref())
-        .map(|ideal| ideal.twice_area(origin))
-        .sum();
-    (area != 0.0).then_some(if area > 0.0 {
-        "counter-clockwise"
-    } else {
-        "clockwise"
-    })
-}
-
-fn blocks(steps: &[Step], whole_lines: &dyn Fn(&[Step]) -> Range<usize>) -> Vec<Symbol> {
-    if steps.len() <= LISTED {
-        return steps
-            .iter()
-            .map(|step| {
-                of_step(
-                    step,
-                    SymbolKind::Block,
-                    whole_lines(std::slice::from_ref(step)),
-                )
-            })
-            .collect();
-    }
-    let size = steps.len().div_ceil(RUNS);
-    let run = |(index, run): (usize, &[Step])| {
-        let first = run.first()?;
-        let from = index * size + 1;
-        Some(Symbol {
-            kind: SymbolKind::Run,
-            name: format!("blocks {from} to {}", from + run.len() - 1),
-            detail: format!("from {}", point(first.start)),
-            range: whole_lines(run),
-            selection: first.range.clone(),
+        let end = |step: &Step| self.text.line_range(step.line).end.max(step.range.end);
+        let end = steps.iter().map(end).max().unwrap_or(0).max(start);
+        Symbol {
+            kind,
+            record: "".into(),
+            name,
+            detail,
+            range: start..end,
+            selection: steps.first().map_or(start..end, |step| step.range.clone()),
+            lines: first..lines().max().unwrap_or(0) + 1,
             children: Vec::new(),
-        })
-    };
-    steps.chunks(size).enumerate().filter_map(run).collect()
+        }
+    }
+
+    fn of_cut(&self, cut: &Cut, ordinal: usize) -> Symbol {
+        let steps_of = |range| self.trace.steps.get(range).unwrap_or_default();
+        let (steps, contour) = (steps_of(cut.steps.clone()), steps_of(cut.contour_steps()));
+        let (kind, name, detail) = if cut.is_way {
+            let to = steps.last().map_or(self.trace.start, |step| step.end);
+            (SymbolKind::Way, say!(way_to, point(to)), String::new())
+        } else {
+            let name = say!(contour_by_number, ordinal);
+            (SymbolKind::Cut, name, detail(cut, contour))
+        };
+        let lead_in = &steps[..cut.lead_in.min(steps.len())];
+        let lead_out = &steps[steps.len() - cut.lead_out.min(steps.len())..];
+        let lead = |name: &str, part: &[Step]| {
+            let detail = step::in_words(part.last()?);
+            Some(self.symbol(SymbolKind::Lead, name.into(), detail, part))
+        };
+        let mut children: Vec<Symbol> = lead(say!(lead_in), lead_in).into_iter().collect();
+        children.extend(self.blocks(contour));
+        children.extend(lead(say!(lead_out), lead_out));
+        Symbol {
+            children,
+            ..self.symbol(kind, name, detail, steps)
+        }
+    }
+
+    fn blocks(&self, steps: &[Step]) -> Vec<Symbol> {
+        if steps.len() <= LISTED {
+            let block = |step| self.of_step(step, SymbolKind::Move);
+            return steps.iter().map(block).collect();
+        }
+        let size = steps.len().div_ceil(RUNS);
+        let run = |(index, run): (usize, &[Step])| {
+            let from = index * size + 1;
+            let name = say!(blocks_from_one_to_another, from, from + run.len() - 1);
+            let detail = say!(from_place, point(run.first()?.start));
+            Some(self.symbol(SymbolKind::Run, name, detail, run))
+        };
+        steps.chunks(size).enumerate().filter_map(run).collect()
+    }
+
+    fn of_step(&self, step: &Step, kind: SymbolKind) -> Symbol {
+        let words = step::in_words(step);
+        let (name, detail) = match (step.number, step.kind) {
+            (Some(number), _) => (format!("N{number}"), words),
+            (None, Kind::Pause | Kind::End) => (words, String::new()),
+            (None, _) => {
+                let (name, detail) = words.split_once(' ').unwrap_or((&words, ""));
+                (name.to_owned(), detail.to_owned())
+            }
+        };
+        self.symbol(kind, name, detail, std::slice::from_ref(step))
+    }
 }
 
-fn of_step(step: &Step, kind: SymbolKind, range: Range<usize>) -> Symbol {
-    let words = step_in_words(step);
-    let (name, detail) = match (step.number, step.kind) {
-        (Some(number), _) => (format!("N{number}"), words),
-        (None, Kind::Pause | Kind::End) => (words, String::new()),
-        (None, _) => {
-            let (name, detail) = words.split_once(' ').unwrap_or((&words, ""));
-            (name.to_owned(), detail.to_owned())
-        }
+/// Closed or open, how many blocks, how long, and which way round a closed contour is cut.
+fn detail(cut: &Cut, contour: &[Step]) -> String {
+    let ideals = || contour.iter().filter_map(|step| step.ideal.as_ref());
+    let length: f64 = ideals().map(Segment::length).sum();
+    let blocks = match contour.len() {
+        1 => say!(n1_block).into(),
+        count => say!(blocks, count),
     };
-    Symbol {
-        kind,
-        name,
-        detail,
-        range,
-        selection: step.range.clone(),
-        children: Vec::new(),
+    let detail = say!(
+        closing_blocks_and_length,
+        closing(cut.closed),
+        blocks,
+        mm(length)
+    );
+    let area: f64 = match contour.first() {
+        Some(first) if cut.closed => ideals().map(|ideal| ideal.twice_area(first.start)).sum(),
+        _ => 0.0,
+    };
+    if area == 0.0 {
+        detail
+    } else {
+        format!("{detail}, {}", turn(area))
     }
 }

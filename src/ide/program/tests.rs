@@ -1,5 +1,5 @@
 use super::*;
-use crate::ide::{CompletionKind, FoldKind};
+use crate::ide::{CompletionKind, FoldKind, Symbol};
 use crate::program::{Document, Language, refactorings};
 use crate::settings::Effective;
 

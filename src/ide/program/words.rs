@@ -26,21 +26,6 @@ pub enum WordKind {
     Strange,
 }
 
-impl WordKind {
-    /// All kinds; the position of each is its number.
-    pub const ALL: [WordKind; 9] = [
-        WordKind::Number,
-        WordKind::Lead,
-        WordKind::Length,
-        WordKind::Setting,
-        WordKind::Motion,
-        WordKind::Stop,
-        WordKind::Stated,
-        WordKind::Comment,
-        WordKind::Strange,
-    ];
-}
-
 /// A piece of a line; bytes of the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part {

@@ -146,11 +146,11 @@ pub(crate) fn renamed(
         .parse()
         .ok()
         .filter(|_| is_number)
-        .ok_or_else(|| format!("{name:?} is no block number, expected up to 8 digits"))?;
+        .ok_or_else(|| say!(is_no_block_number, name))?;
     let (text, labels) = (document.text(), labels(document.text()));
     let own = text.line_of(digits.start);
     if let Some(line) = labels.get(&new).filter(|line| **line != own) {
-        return Err(format!("N{new} is the block in line {}", line + 1));
+        return Err(say!(the_number_is_that_of_another_block, new, line + 1));
     }
     let mut edits = vec![TextEdit::new(digits, name.to_owned())];
     if labels.get(&old) == Some(&own) {

@@ -218,7 +218,8 @@ pub fn is_tab(before: &dyn Way, behind: &dyn Way, whole: &dyn Way) -> Option<boo
 mod tests {
     use super::*;
     use crate::finding::Rule;
-    use crate::ide::program::{SymbolKind, symbols};
+    use crate::ide::SymbolKind;
+    use crate::ide::program::symbols;
     use crate::program::path::cuts;
     use crate::program::{Document, Language, convert};
     use crate::settings::Effective;
@@ -240,7 +241,7 @@ mod tests {
         let outline = symbols(&document);
         let mut contours_of_outline = outline
             .iter()
-            .filter(|symbol| symbol.kind == SymbolKind::Contour);
+            .filter(|symbol| symbol.kind == SymbolKind::Cut);
         let by_outline = contours_of_outline.all(|symbol| symbol.detail.starts_with("closed"));
         let converted = convert::cuts(&document);
         let by_conversion = converted.cuts.iter().all(|cut| cut.closed);

@@ -1,9 +1,7 @@
 //! `textDocument/foldingRange`: sections, tables, blocks, entities; contours and comments of programs.
 
-use crate::ide::dxf::{folds, outline};
-use crate::ide::{self, FoldKind};
+use crate::ide::{Fold, FoldKind};
 use crate::server::context::RequestContext;
-use crate::server::errors::moved_on;
 use ls_types::{FoldingRange, FoldingRangeKind, FoldingRangeParams};
 use tower_lsp::jsonrpc::Result;
 
@@ -14,20 +12,16 @@ pub(in crate::server) fn folding_range(
     context: &RequestContext,
     _: FoldingRangeParams,
 ) -> Result<Option<Vec<FoldingRange>>> {
-    let limit = context.abilities.folding_limit.unwrap_or(LIMIT).min(LIMIT);
-    let folds = if let Some(program) = context.program() {
-        ide::program::folds(program, limit)
-    } else if let Some(text) = context.text() {
-        let tree = outline(text, &|| context.is_cancelled()).ok_or_else(moved_on)?;
-        folds(&tree, limit)
-    } else {
+    let Some(whole) = context.whole() else {
         return Ok(None);
     };
+    let limit = context.abilities.folding_limit.unwrap_or(LIMIT).min(LIMIT);
+    let folds = whole.folds(limit, &|| context.is_cancelled())?;
     if folds.len() >= limit {
         tracing::warn!("more than {limit} folds: only what holds others is folded");
     }
     let line = |line: usize| u32::try_from(line).unwrap_or(u32::MAX);
-    let range = |fold: ide::Fold| {
+    let range = |fold: Fold| {
         let (kind, collapsed_text) = match fold.kind {
             FoldKind::Record(text) => (None, Some(text)),
             FoldKind::Contour => (Some(FoldingRangeKind::Region), None),

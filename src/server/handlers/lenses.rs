@@ -1,6 +1,7 @@
 //! `textDocument/codeLens`: what a client can do with a program, above its first block. For clients that have the commands.
 
-use crate::ide::program::{SymbolKind, symbols};
+use crate::ide::SymbolKind;
+use crate::ide::program::symbols;
 use crate::server::context::RequestContext;
 use ls_types::{CodeLens, CodeLensParams, Command};
 use serde_json::json;
@@ -26,10 +27,7 @@ pub(in crate::server) fn code_lens(
         data: None,
     };
     let tree = symbols(program);
-    let contours = || {
-        tree.iter()
-            .filter(|symbol| symbol.kind == SymbolKind::Contour)
-    };
+    let contours = || tree.iter().filter(|symbol| symbol.kind == SymbolKind::Cut);
     let of_program = contours().take(1).flat_map(|first| {
         // Commands of the client, each with the document's URI as its argument.
         [

@@ -1,6 +1,6 @@
 //! `textDocument/signatureHelp`: which number of a block the cursor is in.
 
-use crate::ide::program::signature;
+use crate::ide::signature;
 use crate::server::context::RequestContext;
 use ls_types::{
     Documentation, MarkupContent, MarkupKind, ParameterInformation, ParameterLabel, SignatureHelp,
@@ -13,10 +13,10 @@ pub(in crate::server) fn signature_help(
     params: SignatureHelpParams,
 ) -> Result<Option<SignatureHelp>> {
     let position = params.text_document_position_params.position;
-    let found = context
-        .program()
-        .and_then(|program| signature(program, context.offset(program.text(), position)));
-    let Some(found) = found else {
+    let Some((document, text)) = context.document_and_text() else {
+        return Ok(None);
+    };
+    let Some(found) = signature(document, context.offset(text, position)) else {
         return Ok(None);
     };
     let markdown = |value: String| {

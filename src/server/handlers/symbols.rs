@@ -1,160 +1,63 @@
 //! `textDocument/documentSymbol`: sections, tables, layers, blocks, entities, contours; contours and blocks of programs.
 
-use crate::drawing::{Drawing, Outline};
-use crate::ide::dxf::{ContourNote, Node, NodeKind, outline, symbols};
+use crate::ide::{Symbol, SymbolKind as Kind};
 use crate::server::context::RequestContext;
-use crate::server::errors::moved_on;
 use crate::text::SourceText;
 use ls_types::{
     DocumentSymbol, DocumentSymbolParams, DocumentSymbolResponse, Location, SymbolInformation,
     SymbolKind, Uri,
 };
-use std::ops::Range as Bytes;
 use tower_lsp::jsonrpc::Result;
 
 pub(in crate::server) fn document_symbol(
     context: &RequestContext,
     _: DocumentSymbolParams,
 ) -> Result<Option<DocumentSymbolResponse>> {
-    if let Some(program) = context.program() {
-        let tree = crate::ide::program::symbols(program).into_iter();
-        let tree = tree.map(Listed::of_program).collect();
-        return answer(context, program.text(), tree).map(Some);
-    }
-    let Some(text) = context.text() else {
+    let Some(whole) = context.whole() else {
         return Ok(None);
     };
-    let tree = outline(text, &|| context.is_cancelled()).ok_or_else(moved_on)?;
-    let contours = context.snapshot().map_or_else(Vec::new, |snapshot| {
-        notes(&snapshot.drawing, &snapshot.outlines)
-    });
-    let tree = symbols(tree, &contours);
+    let tree = whole.symbols(&|| context.is_cancelled())?;
     context.check()?;
-    let tree = tree.into_iter().map(Listed::of_dxf).collect();
-    answer(context, text, tree).map(Some)
-}
-
-/// A symbol as the protocol names it, with its places still in bytes.
-struct Listed {
-    name: String,
-    detail: String,
-    kind: SymbolKind,
-    range: Bytes<usize>,
-    selection: Bytes<usize>,
-    children: Vec<Listed>,
-}
-
-impl Listed {
-    fn of_dxf(node: Node) -> Listed {
-        let (name, kind) = (name_of(&node), kind_of(&node));
-        let children = node.children.into_iter().map(Listed::of_dxf).collect();
-        Listed {
-            name,
-            detail: node.detail,
-            kind,
-            range: node.range,
-            selection: node.selection,
-            children,
-        }
-    }
-
-    fn of_program(symbol: crate::ide::program::Symbol) -> Listed {
-        use crate::ide::program::SymbolKind as Of;
-        let kind = match symbol.kind {
-            Of::Contour => SymbolKind::CLASS,
-            Of::Lead => SymbolKind::CONSTRUCTOR,
-            Of::Way => SymbolKind::INTERFACE,
-            Of::Block => SymbolKind::METHOD,
-            Of::Run => SymbolKind::ARRAY,
-            Of::Word => SymbolKind::EVENT,
-        };
-        let children = symbol
-            .children
-            .into_iter()
-            .map(Listed::of_program)
-            .collect();
-        Listed {
-            name: symbol.name,
-            detail: symbol.detail,
-            kind,
-            range: symbol.range,
-            selection: symbol.selection,
-            children,
-        }
-    }
-}
-
-fn answer(
-    context: &RequestContext,
-    text: &SourceText,
-    tree: Vec<Listed>,
-) -> Result<DocumentSymbolResponse> {
-    if context.abilities.hierarchical_symbols {
-        let nested = tree.into_iter().map(|node| nested(context, text, node));
-        return Ok(DocumentSymbolResponse::Nested(nested.collect()));
-    }
-    let mut flat = Vec::new();
-    flatten(context, text, tree, None, &context.lsp_uri()?, &mut flat);
-    Ok(DocumentSymbolResponse::Flat(flat))
-}
-
-fn notes(drawing: &Drawing, outlines: &[Outline]) -> Vec<ContourNote> {
-    let handle = |piece: &crate::drawing::Piece| {
-        drawing
-            .get(piece.entity)
-            .map(|entity| entity.handle.clone())
-    };
-    let note = |outline: &Outline| ContourNote {
-        closed: outline.contour.closed,
-        segments: outline.contour.len(),
-        handles: outline.contour.pieces.iter().filter_map(handle).collect(),
-    };
-    outlines.iter().map(note).collect()
-}
-
-fn name_of(node: &Node) -> String {
-    let name = match node.kind {
-        NodeKind::Section | NodeKind::Contours | NodeKind::Contour | NodeKind::Group => {
-            node.name.to_string()
-        }
-        _ => format!("{} {}", node.record, node.name).trim().to_owned(),
-    };
-    // A symbol without a name is refused by editors.
-    if name.is_empty() {
-        "unnamed".into()
+    let text = whole.text();
+    Ok(Some(if context.abilities.hierarchical_symbols {
+        let nested = tree.into_iter().map(|symbol| nested(context, text, symbol));
+        DocumentSymbolResponse::Nested(nested.collect())
     } else {
-        name
-    }
+        let mut flat = Vec::new();
+        flatten(context, text, tree, None, &context.lsp_uri()?, &mut flat);
+        DocumentSymbolResponse::Flat(flat)
+    }))
 }
 
-fn kind_of(node: &Node) -> SymbolKind {
-    match node.kind {
-        NodeKind::Section => SymbolKind::MODULE,
-        NodeKind::Table => SymbolKind::NAMESPACE,
-        NodeKind::Entry => SymbolKind::CONSTANT,
-        NodeKind::Block => SymbolKind::CLASS,
-        NodeKind::Entity => SymbolKind::OBJECT,
-        NodeKind::Other => SymbolKind::STRUCT,
-        NodeKind::Contours | NodeKind::Group => SymbolKind::ARRAY,
-        NodeKind::Contour => SymbolKind::EVENT,
+fn kind_of(kind: Kind) -> SymbolKind {
+    match kind {
+        Kind::Section => SymbolKind::MODULE,
+        Kind::Table => SymbolKind::NAMESPACE,
+        Kind::Entry => SymbolKind::CONSTANT,
+        Kind::Block | Kind::Cut => SymbolKind::CLASS,
+        Kind::Entity => SymbolKind::OBJECT,
+        Kind::Record => SymbolKind::STRUCT,
+        Kind::Contours | Kind::Run => SymbolKind::ARRAY,
+        Kind::Contour | Kind::Stop => SymbolKind::EVENT,
+        Kind::Lead => SymbolKind::CONSTRUCTOR,
+        Kind::Way => SymbolKind::INTERFACE,
+        Kind::Move => SymbolKind::METHOD,
     }
 }
 
 #[expect(deprecated, reason = "the type has a field of that kind")]
-fn nested(context: &RequestContext, text: &SourceText, node: Listed) -> DocumentSymbol {
-    let children: Vec<DocumentSymbol> = node
-        .children
-        .into_iter()
-        .map(|child| nested(context, text, child))
-        .collect();
+fn nested(context: &RequestContext, text: &SourceText, symbol: Symbol) -> DocumentSymbol {
+    let name = symbol.title();
+    let children = symbol.children.into_iter();
+    let children: Vec<_> = children.map(|child| nested(context, text, child)).collect();
     DocumentSymbol {
-        name: node.name,
-        detail: (!node.detail.is_empty()).then_some(node.detail),
-        kind: node.kind,
+        name,
+        detail: (!symbol.detail.is_empty()).then_some(symbol.detail),
+        kind: kind_of(symbol.kind),
         tags: None,
         deprecated: None,
-        range: context.range(text, node.range),
-        selection_range: context.range(text, node.selection),
+        range: context.range(text, symbol.range),
+        selection_range: context.range(text, symbol.selection),
         children: (!children.is_empty()).then_some(children),
     }
 }
@@ -163,23 +66,24 @@ fn nested(context: &RequestContext, text: &SourceText, node: Listed) -> Document
 fn flatten(
     context: &RequestContext,
     text: &SourceText,
-    nodes: Vec<Listed>,
+    tree: Vec<Symbol>,
     holder: Option<&str>,
     uri: &Uri,
     flat: &mut Vec<SymbolInformation>,
 ) {
-    for node in nodes {
+    for symbol in tree {
+        let name = symbol.title();
         flat.push(SymbolInformation {
-            name: node.name.clone(),
-            kind: node.kind,
+            name: name.clone(),
+            kind: kind_of(symbol.kind),
             tags: None,
             deprecated: None,
             location: Location {
                 uri: uri.clone(),
-                range: context.range(text, node.range),
+                range: context.range(text, symbol.range),
             },
             container_name: holder.map(str::to_owned),
         });
-        flatten(context, text, node.children, Some(&node.name), uri, flat);
+        flatten(context, text, symbol.children, Some(&name), uri, flat);
     }
 }

@@ -1,9 +1,7 @@
 //! `textDocument/semanticTokens`: of the whole text, of what has changed in it, and of the lines in sight.
 
-use crate::ide::dxf::{Token, TokenKind, tokens, tokens_in};
-use crate::ide::program::{WordKind, words_of};
+use crate::ide::{Token, TokenKind, tokens_in};
 use crate::server::context::RequestContext;
-use crate::server::errors::moved_on;
 use crate::text::{Encoding, SourceText};
 use ls_types::{
     Range, SemanticToken, SemanticTokenType, SemanticTokens, SemanticTokensDelta,
@@ -11,7 +9,6 @@ use ls_types::{
     SemanticTokensParams, SemanticTokensRangeParams, SemanticTokensRangeResult,
     SemanticTokensResult,
 };
-use rayon::prelude::*;
 use tower_lsp::jsonrpc::Result;
 
 /// Tokens of one answer about a whole text.
@@ -37,72 +34,6 @@ fn type_of(kind: TokenKind) -> SemanticTokenType {
         TokenKind::Variable => SemanticTokenType::MACRO,
         TokenKind::Name => SemanticTokenType::TYPE,
     }
-}
-
-/// The same colours for the words of programs.
-fn kind_of(kind: WordKind) -> Option<TokenKind> {
-    Some(match kind {
-        WordKind::Number => TokenKind::Handle,
-        WordKind::Lead => TokenKind::Name,
-        WordKind::Length => TokenKind::Number,
-        WordKind::Setting => TokenKind::Code,
-        WordKind::Motion => TokenKind::Record,
-        WordKind::Stop => TokenKind::Variable,
-        WordKind::Stated => TokenKind::Text,
-        WordKind::Comment => TokenKind::Comment,
-        WordKind::Strange => return None,
-    })
-}
-
-/// The tokens of some lines of a program, at most `limit`.
-fn tokens_of(
-    program: &crate::program::Document,
-    lines: std::ops::Range<usize>,
-    limit: usize,
-) -> Vec<Token> {
-    let text = program.text();
-    let mut found = Vec::new();
-    for line in lines.start..lines.end.min(text.line_count()) {
-        let begin = text.line_start(line);
-        let token = |part: crate::ide::program::Part| {
-            Some(Token {
-                line,
-                start: part.range.start - begin,
-                length: part.range.len(),
-                kind: kind_of(part.kind)?,
-            })
-        };
-        found.extend(words_of(program, line).into_iter().filter_map(token));
-        if found.len() >= limit {
-            found.truncate(limit);
-            break;
-        }
-    }
-    found
-}
-
-/// The tokens of a program, at most [`LIMIT`]; what a line says hangs on no other line.
-fn all_tokens_of(program: &crate::program::Document) -> Vec<Token> {
-    const CHUNK: usize = 4_096;
-    let count = program.text().line_count();
-    if count <= CHUNK {
-        return tokens_of(program, 0..count, LIMIT);
-    }
-    let firsts: Vec<usize> = (0..count).step_by(CHUNK).collect();
-    let mut found = Vec::new();
-    // As many at once as there may be need for.
-    for some in firsts.chunks(16) {
-        let chunks: Vec<Vec<Token>> = some
-            .par_iter()
-            .map(|&first| tokens_of(program, first..first + CHUNK, LIMIT))
-            .collect();
-        found.extend(chunks.into_iter().flatten());
-        if found.len() >= LIMIT {
-            found.truncate(LIMIT);
-            break;
-        }
-    }
-    found
 }
 
 pub(in crate::server) fn full(
@@ -159,14 +90,11 @@ fn kept(
 
 /// All tokens, up to [`LIMIT`]; `None` where the document has none.
 fn all(context: &RequestContext) -> Result<Option<Vec<SemanticToken>>> {
-    if let Some(program) = context.program() {
-        let tokens = all_tokens_of(program);
-        return Ok(Some(encoded(program.text(), &tokens, context.encoding)));
-    }
-    let Some(text) = context.text() else {
+    let Some(whole) = context.whole() else {
         return Ok(None);
     };
-    let tokens = tokens(text, LIMIT, &|| context.is_cancelled()).ok_or_else(moved_on)?;
+    let text = whole.text();
+    let tokens = whole.tokens(LIMIT, &|| context.is_cancelled())?;
     if tokens.len() >= LIMIT {
         tracing::warn!(
             "only the first {LIMIT} tokens of a text of {} lines are coloured",
@@ -187,11 +115,10 @@ pub(in crate::server) fn range(
     // A range that ends at the beginning of a line does not touch it.
     let end = end.line as usize + usize::from(end.character > 0);
     let lines = first..end.min(first.saturating_add(LINES));
-    let (text, tokens) = match (context.program(), context.dxf()) {
-        (Some(program), _) => (program.text(), tokens_of(program, lines, usize::MAX)),
-        (_, Some(dxf)) => (dxf.text(), tokens_in(dxf, lines)),
-        _ => return Ok(None),
+    let Some((document, text)) = context.document_and_text() else {
+        return Ok(None);
     };
+    let tokens = tokens_in(document, lines);
     Ok(Some(SemanticTokensRangeResult::Tokens(SemanticTokens {
         result_id: None,
         data: encoded(text, &tokens, context.encoding),

@@ -2,14 +2,26 @@
 //!
 //! What hangs on the machine's way, whatever the language, is in [`crate::ide::program`].
 
+mod centres;
 mod completion;
 mod matching;
 mod meaning;
 mod signature;
 #[cfg(test)]
 mod tests;
+mod vocabulary;
 
 pub use completion::completions;
 pub use matching::partner;
 pub use meaning::meaning;
 pub use signature::signature;
+
+use crate::program::iso::block::word_range;
+
+/// True where a word stands in a line.
+fn holds(line: &[u8], letter: u8, number: i64) -> bool {
+    let is_it = |its: u8, own: crate::program::iso::word::Number| {
+        its == letter && own.whole() == Some(number)
+    };
+    word_range(line, 1, is_it).is_some()
+}

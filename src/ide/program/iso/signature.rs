@@ -1,77 +1,11 @@
 //! The form of a block, and which of its parts the cursor is in.
 
-use crate::ide::program::Signature;
-use crate::program::iso::block::{Motion, read_line};
+use super::holds;
+use crate::ide::Signature;
+use crate::program::iso::block::{Block, Compensation, Motion, read_line};
 use crate::program::iso::document::Document;
-use crate::program::iso::machine::CenterRule;
+use crate::program::iso::machine::{CenterRule, Machine};
 use crate::program::iso::word::{Token, WordFault, words};
-
-type Part = (&'static str, &'static str);
-
-const X: [Part; 2] = [
-    ("X", "where to, from the program's zero (G90)"),
-    ("X", "how far along X, from where the wire stands (G91)"),
-];
-const Y: [Part; 2] = [
-    ("Y", "where to, from the program's zero (G90)"),
-    ("Y", "how far along Y, from where the wire stands (G91)"),
-];
-const I: [Part; 3] = [
-    ("I", "from the arc's start to its centre, along X"),
-    ("I", "from the arc's centre to its start, along X"),
-    ("I", "the centre's own X"),
-];
-const J: [Part; 3] = [
-    ("J", "from the arc's start to its centre, along Y"),
-    ("J", "from the arc's centre to its start, along Y"),
-    ("J", "the centre's own Y"),
-];
-
-const LINE: [[Part; 2]; 2] = [[X[0], Y[0]], [X[1], Y[1]]];
-/// By how coordinates are meant, and how centres.
-const ARC: [[[Part; 4]; 3]; 2] = [
-    [
-        [X[0], Y[0], I[0], J[0]],
-        [X[0], Y[0], I[1], J[1]],
-        [X[0], Y[0], I[2], J[2]],
-    ],
-    [
-        [X[1], Y[1], I[0], J[0]],
-        [X[1], Y[1], I[1], J[1]],
-        [X[1], Y[1], I[2], J[2]],
-    ],
-];
-const RADIUS: [[Part; 3]; 2] = [
-    [
-        X[0],
-        Y[0],
-        (
-            "R",
-            "radius; negative where the arc turns by more than 180°",
-        ),
-    ],
-    [
-        X[1],
-        Y[1],
-        (
-            "R",
-            "radius; negative where the arc turns by more than 180°",
-        ),
-    ],
-];
-const POSITION: [Part; 2] = [
-    ("X", "where the wire stands"),
-    ("Y", "where the wire stands"),
-];
-const CORRECTION: [Part; 1] = [(
-    "D",
-    "place in the control's table that holds the correction; some controls say H",
-)];
-const CALL: [Part; 2] = [
-    ("P", "number at which the subprogram begins: its N or O"),
-    ("L", "how often it is run"),
-];
-const WAIT: [Part; 1] = [("P", "how long; some controls say X")];
 
 /// The form of the block that is written at a byte; `None` where none is.
 pub fn signature(document: &Document, offset: usize) -> Option<Signature> {
@@ -80,113 +14,99 @@ pub fn signature(document: &Document, offset: usize) -> Option<Signature> {
     let range = text.line_range(line);
     let bytes = text.bytes().get(range.clone())?;
     let cursor = offset.clamp(range.start, range.end) - range.start;
+    let (letter, inside) = word_before(bytes, cursor)?;
     let block = read_line(bytes, 1, |_| {});
     let before = document.machine_before(line).unwrap_or_default();
-    let mut last = None;
-    let mut is_comment = false;
+    let label = label(bytes, &block, &before, letter)?;
+    let incremental = block.incremental.unwrap_or(before.incremental);
+    let rule = document.reading().rule(incremental);
+    let about = |name: &'static str| (name, about(label, name, incremental, rule));
+    let parameters: Vec<_> = label.split(' ').skip(1).map(about).collect();
+    // Behind a word and a space the next one is meant; before the first of them, that.
+    let letter = if letter == b'H' { b'D' } else { letter };
+    let is_behind = !inside && bytes.get(cursor.wrapping_sub(1)) == Some(&b' ');
+    let at = parameters
+        .iter()
+        .position(|(name, _)| name.as_bytes() == [letter]);
+    let active = at.map_or(0, |at| at + usize::from(is_behind));
+    Some(Signature {
+        label,
+        active: active.min(parameters.len() - 1),
+        parameters,
+    })
+}
+
+/// The letter of the last word that begins before the cursor, and whether the cursor is within it; `None` where nothing has been written
+/// yet, and in a comment.
+fn word_before(bytes: &[u8], cursor: usize) -> Option<(u8, bool)> {
+    let (mut last, mut is_comment) = (None, false);
     // Counted from 1 so that no byte order mark is looked for.
     words(bytes, 1, |token| match token {
         Token::Word { letter, range, .. }
         | Token::Fault {
             fault: WordFault::NoNumber { letter },
             range,
-        } if range.start <= cursor => {
-            last = Some((letter, range.end > cursor));
-        }
+        } if range.start <= cursor => last = Some((letter, range.end > cursor)),
         Token::Comment { range }
         | Token::Fault {
             fault: WordFault::OpenComment,
             range,
-        } if range.start <= cursor => {
-            is_comment = range.end > cursor;
-        }
+        } if range.start <= cursor => is_comment = range.end > cursor,
         _ => {}
     });
-    // Where nothing has been written yet, nobody asks for a form.
-    let (letter, inside) = last.filter(|_| !is_comment)?;
-    let incremental = usize::from(block.incremental.unwrap_or(before.incremental));
+    last.filter(|_| !is_comment)
+}
+
+/// The word that says what the block is, and the letters that belong to it.
+fn label(bytes: &[u8], block: &Block, before: &Machine, letter: u8) -> Option<&'static str> {
     let motion = block.motion.unwrap_or(before.motion);
-    let is_arc = matches!(motion, Motion::Clockwise | Motion::CounterClockwise);
-    let coordinates = matches!(letter, b'X' | b'Y' | b'I' | b'J' | b'R');
-    let (label, parameters): (&str, &'static [Part]) = if block.sets_position {
-        ("G92 X Y", &POSITION)
-    } else if block.call.is_some() || is_m98(bytes) {
-        ("M98 P L", &CALL)
-    } else if block.takes_coordinates && is_wait(bytes) {
-        ("G04 P", &WAIT)
+    let is_of_motion = match letter {
+        b'X' | b'Y' | b'I' | b'J' | b'R' => true,
+        b'G' => block.motion.is_some(),
+        _ => false,
+    };
+    Some(if block.sets_position {
+        "G92 X Y"
+    } else if block.call.is_some() || holds(bytes, b'M', 98) {
+        "M98 P L"
     } else if block.takes_coordinates {
-        return None;
+        holds(bytes, b'G', 4).then_some("G04 P")?
     } else if block.compensation.is_some() && matches!(letter, b'G' | b'D' | b'H') {
         match block.compensation {
-            Some(crate::program::iso::block::Compensation::Left) => ("G41 D", &CORRECTION),
-            Some(crate::program::iso::block::Compensation::Right) => ("G42 D", &CORRECTION),
+            Some(Compensation::Left) => "G41 D",
+            Some(Compensation::Right) => "G42 D",
             _ => return None,
         }
-    } else if !(coordinates || letter == b'G' && block.motion.is_some()) {
+    } else if !is_of_motion {
         return None;
-    } else if is_arc && block.r.is_some() {
-        (
-            if motion == Motion::Clockwise {
-                "G02 X Y R"
-            } else {
-                "G03 X Y R"
-            },
-            &RADIUS[incremental],
-        )
-    } else if is_arc {
-        let rule = match document.reading().rule(incremental == 1) {
-            CenterRule::StartToCenter => 0,
-            CenterRule::CenterToStart => 1,
-            CenterRule::Absolute => 2,
-        };
-        (
-            if motion == Motion::Clockwise {
-                "G02 X Y I J"
-            } else {
-                "G03 X Y I J"
-            },
-            &ARC[incremental][rule],
-        )
     } else {
-        (
-            if motion == Motion::Rapid {
-                "G00 X Y"
-            } else {
-                "G01 X Y"
-            },
-            &LINE[incremental],
-        )
-    };
-    // Behind a word and a space the next one is meant; before the first of them, that.
-    let letter = if letter == b'H' { b'D' } else { letter };
-    let at = parameters
-        .iter()
-        .position(|(name, _)| name.as_bytes() == [letter]);
-    let active = at.map_or(0, |at| {
-        at + usize::from(
-            !inside
-                && bytes
-                    .get(cursor.wrapping_sub(1))
-                    .is_some_and(|byte| *byte == b' '),
-        )
-    });
-    Some(Signature {
-        label,
-        parameters,
-        active: active.min(parameters.len() - 1),
+        match (motion, block.r.is_some()) {
+            (Motion::Clockwise, true) => "G02 X Y R",
+            (Motion::Clockwise, false) => "G02 X Y I J",
+            (Motion::CounterClockwise, true) => "G03 X Y R",
+            (Motion::CounterClockwise, false) => "G03 X Y I J",
+            (Motion::Rapid, _) => "G00 X Y",
+            (Motion::Line, _) => "G01 X Y",
+        }
     })
 }
 
-fn is_m98(line: &[u8]) -> bool {
-    crate::program::iso::block::word_range(line, 1, |letter, number| {
-        letter == b'M' && number.whole() == Some(98)
-    })
-    .is_some()
-}
-
-fn is_wait(line: &[u8]) -> bool {
-    crate::program::iso::block::word_range(line, 1, |letter, number| {
-        letter == b'G' && number.whole() == Some(4)
-    })
-    .is_some()
+fn about(label: &str, name: &str, incremental: bool, rule: CenterRule) -> &'static str {
+    match (name, rule) {
+        ("X" | "Y", _) if label.starts_with("G92") => say!(where_the_wire_stands),
+        ("X", _) if incremental => say!(how_far_along_x),
+        ("Y", _) if incremental => say!(how_far_along_y),
+        ("X" | "Y", _) => say!(where_to_from_the_zero),
+        ("I", CenterRule::StartToCenter) => say!(from_the_start_to_the_centre_along_x),
+        ("I", CenterRule::CenterToStart) => say!(from_the_centre_to_the_start_along_x),
+        ("I", CenterRule::Absolute) => say!(x_of_the_centre),
+        ("J", CenterRule::StartToCenter) => say!(from_the_start_to_the_centre_along_y),
+        ("J", CenterRule::CenterToStart) => say!(from_the_centre_to_the_start_along_y),
+        ("J", CenterRule::Absolute) => say!(y_of_the_centre),
+        ("R", _) => say!(radius_with_its_sign),
+        ("D", _) => say!(place_that_holds_the_correction),
+        ("P", _) if label.starts_with("G04") => say!(how_long_some_controls_say_x),
+        ("P", _) => say!(number_at_which_the_subprogram_begins),
+        _ => say!(how_often_it_is_run),
+    }
 }

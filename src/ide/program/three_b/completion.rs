@@ -2,6 +2,7 @@
 //! blocks.
 
 use crate::geometry::{Arc, Point, Segment};
+use crate::ide::amounts::{mm, point, turn};
 use crate::ide::{Completion, CompletionKind};
 use crate::program::path::cut_of;
 use crate::program::steps::{self, Program};
@@ -76,14 +77,8 @@ impl Typed {
                     }
                 }
                 (Field::Axis, Some(typed)) => {
-                    let is_x = bytes
-                        .last()
-                        .is_some_and(|byte| byte.eq_ignore_ascii_case(&b'X'));
-                    typed.axis = Some(if is_x {
-                        CountingAxis::X
-                    } else {
-                        CountingAxis::Y
-                    });
+                    let is_x = matches!(bytes.last(), Some(b'X' | b'x'));
+                    typed.axis = Some([CountingAxis::Y, CountingAxis::X][usize::from(is_x)]);
                 }
                 (Field::Strange, Some(typed)) if piece.range.end == before.len() => {
                     typed.begun = Some(piece.range.start)
@@ -109,24 +104,16 @@ impl Typed {
             (None, Some(_)) => Vec::new(),
         };
         let completion = |block: Block| {
-            let mut out = Vec::new();
-            push_fields(&mut out, Layout::Compact, &block, None);
-            let whole = String::from_utf8(out).ok()?;
+            let whole = written(&block)?;
             // What stands there already is left out.
             let skipped = match (self.numbers[2], self.axis) {
                 (None, _) => whole.rfind('B')? + 1,
                 (Some(_), None) => whole.rfind('G')?,
                 (Some(_), Some(_)) => whole.rfind('G')? + 2,
             };
-            let text = whole.get(skipped..)?.to_owned();
             let about = about(&decode(&block, start).ok()?);
-            Some(Completion {
-                label: text.clone(),
-                about: about.into(),
-                text,
-                range: range.clone(),
-                kind: CompletionKind::Word,
-            })
+            let text = whole.get(skipped..)?;
+            Some(Completion::new(text, about, &range, CompletionKind::Word))
         };
         candidates.into_iter().filter_map(completion).collect()
     }
@@ -212,29 +199,24 @@ fn motions(x: i64, y: i64, j: i64, axis: CountingAxis) -> Vec<Block> {
 
 /// Where a piece leads, in words.
 fn about(piece: &Segment) -> String {
-    let mm = |value: f64| format!("{:.3}", value / 1000.0 + 0.0);
     match piece {
-        Segment::Line(line) => format!("line to ({}, {})", mm(line.end.x), mm(line.end.y)),
-        Segment::Arc(arc) => {
-            let turn = if arc.sweep > 0.0 {
-                "counter-clockwise"
-            } else {
-                "clockwise"
-            };
-            if arc.is_full_turn() {
-                return format!(
-                    "circle R {}, {turn}, about ({}, {})",
-                    mm(arc.radius),
-                    mm(arc.center.x),
-                    mm(arc.center.y)
-                );
-            }
-            format!(
-                "arc R {}, {:.1}° {turn}, to ({}, {})",
+        Segment::Line(line) => say!(line_to, point(line.end)),
+        Segment::Arc(arc) if arc.is_full_turn() => {
+            say!(
+                circle_about,
                 mm(arc.radius),
-                arc.sweep.abs().to_degrees(),
-                mm(arc.end.x),
-                mm(arc.end.y)
+                turn(arc.sweep),
+                point(arc.center)
+            )
+        }
+        Segment::Arc(arc) => {
+            let degrees = arc.sweep.abs().to_degrees();
+            say!(
+                arc_with_its_turn_to,
+                mm(arc.radius),
+                degrees,
+                turn(arc.sweep),
+                point(arc.end)
             )
         }
     }
@@ -255,56 +237,40 @@ fn stand(document: &Document, offset: usize) -> Point {
 /// What can begin a line.
 fn beginnings(document: &Document, start: usize, offset: usize) -> Vec<Completion> {
     let range = start..offset;
+    let word = |text: &str, about| Completion::new(text, about, &range, CompletionKind::Word);
     let mut found = Vec::new();
-    let plain = |label: &str, about: String, text: String| Completion {
-        label: label.to_owned(),
-        about: about.into(),
-        text,
-        range: range.clone(),
-        kind: CompletionKind::Word,
-    };
-    let at = stand(document, start);
-    let mut targets: Vec<(&str, Point)> = Vec::new();
-    if let Some(chain) = steps::chain_before(document, start) {
-        let first = chain.step(0);
-        targets
-            .extend(first.map(|first| ("back to the start of the program's contour", first.start)));
-        targets.extend(first.map(|first| ("to the end of the lead-in", first.end)));
-        let closed = cut_of(&chain).is_some_and(|cut| cut.closed);
-        if closed && chain.count() > 1 {
-            // The contour is closed: what is left is the way out.
-            targets.truncate(1);
+    let mut targets: Vec<(&'static str, Point)> = Vec::new();
+    if let Some(chain) = steps::chain_before(document, start)
+        && let Some(first) = chain.step(0)
+    {
+        targets.push((say!(line_back_to_the_start_of_the_contour), first.start));
+        // Where the contour is closed what is left is the way out.
+        if chain.count() == 1 || !cut_of(&chain).is_some_and(|cut| cut.closed) {
+            targets.push((say!(line_to_the_end_of_the_lead_in), first.end));
         }
     }
-    for (label, target) in targets {
-        let (Some(from), Some(to)) = (snap(at), snap(target)) else {
-            continue;
-        };
-        if from != to {
-            let mut out = Vec::new();
-            push_fields(&mut out, Layout::Compact, &line_block(from, to), None);
-            if let Ok(text) = String::from_utf8(out) {
-                found.push(plain(&text.clone(), format!("line {label}"), text));
-            }
+    let from = snap(stand(document, start));
+    for (about, target) in targets {
+        if let (Some(from), Some(to)) = (from, snap(target))
+            && from != to
+        {
+            found.extend(written(&line_block(from, to)).map(|text| word(&text, about)));
         }
     }
-    found.push(Completion {
-        label: "B X B Y B".into(),
-        about: "a block: J, G and Z are offered behind its third B".into(),
-        text: "B${1:0}B${2:0}B$0".into(),
-        range: range.clone(),
-        kind: CompletionKind::Snippet,
-    });
+    found.push(Completion::snippet(
+        "B X B Y B",
+        say!(a_block_whose_rest_is_offered),
+        "B${1:0}B${2:0}B$0",
+        &range,
+    ));
     let words = document.words();
-    found.push(plain(
-        words.pause,
-        "pause: the wire is cut or threaded".into(),
-        words.pause.to_owned(),
-    ));
-    found.push(plain(
-        words.end,
-        "end of the program".into(),
-        words.end.to_owned(),
-    ));
+    found.push(word(words.pause, say!(pause_for_the_wire)));
+    found.push(word(words.end, say!(end_of_the_program)));
     found
+}
+
+fn written(block: &Block) -> Option<String> {
+    let mut out = Vec::new();
+    push_fields(&mut out, Layout::Compact, block, None);
+    String::from_utf8(out).ok()
 }

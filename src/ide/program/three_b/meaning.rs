@@ -1,7 +1,7 @@
 //! What a word of a block means: X and Y of a line and of an arc, the counting length, the axis, the quadrant.
 
 use crate::program::three_b::Document;
-use crate::program::three_b::block::{Block, CountingAxis, Motion};
+use crate::program::three_b::block::{Block, CountingAxis, Motion, Quadrant};
 use crate::program::three_b::parse::{Item, read_line};
 use crate::program::three_b::pieces::{Field, pieces};
 use std::ops::Range;
@@ -25,76 +25,65 @@ pub fn meaning(document: &Document, word: Range<usize>) -> Option<String> {
         }
     });
     let is_line = holder.map(|block| matches!(block.motion, Motion::Line(_)));
+    let axis = holder.map(|block| block.axis);
     Some(match field {
-        Field::Number => "**N** block number: it has no meaning for the path".into(),
-        Field::Separator => "**B** leads each number of a block: `B` X `B` Y `B` J `G` Z".into(),
+        Field::Number => say!(number_without_meaning_for_the_path).into(),
+        Field::Separator => say!(b_leads_each_number).into(),
         Field::X | Field::Y => {
             let name = if field == Field::X { "X" } else { "Y" };
             match is_line {
-                Some(true) => {
-                    format!("**{name}** of a line: how far its end lies from its start along {name}, µm without sign; Z has the sign")
-                }
-                Some(false) => {
-                    format!("**{name}** of an arc: how far its start lies from its centre along {name}, µm without sign; Z has the sign")
-                }
-                None => format!("**{name}** µm without sign: of a line its end from its start, of an arc its start from its centre"),
+                Some(true) => say!(coordinate_of_a_line, name),
+                Some(false) => say!(coordinate_of_an_arc, name),
+                None => say!(coordinate_without_sign, name),
             }
         }
         Field::J => {
-            let axis = holder.map_or("counting axis", |block| if block.axis == CountingAxis::X { "X axis" } else { "Y axis" });
-            let way = match is_line {
-                Some(true) => "the line's projection",
-                Some(false) => "the arc's projections between the axis crossings, added up",
-                None => "the block's projection",
+            let projection = match is_line {
+                Some(true) => say!(the_projection_of_the_line),
+                Some(false) => say!(the_projections_of_the_arc),
+                None => say!(the_projection_of_the_block),
             };
-            format!("**J** counting length, µm: {way} on the {axis}. The controller counts it down and stops at 0")
+            let axis = match axis {
+                Some(CountingAxis::X) => say!(x_axis),
+                Some(CountingAxis::Y) => say!(y_axis),
+                None => say!(counting_axis),
+            };
+            say!(counting_length_of_a_block, projection, axis)
         }
-        Field::Radius => "**R** radius of a 4B arc, µm: the controller adds or takes off its correction".into(),
+        Field::Radius => say!(radius_of_a_4b_arc).into(),
         Field::Axis => {
-            let axis = holder.map_or("X or Y", |block| if block.axis == CountingAxis::X { "X" } else { "Y" });
             let rule = match is_line {
-                Some(true) => "the larger component of a line",
-                Some(false) => "of an arc, the axis that its end lies further from",
-                None => "of a line its larger component, of an arc the axis that its end lies further from",
+                Some(true) => say!(the_larger_component_of_a_line),
+                Some(false) => say!(the_axis_that_the_end_of_an_arc_lies_further_from),
+                None => say!(the_axis_of_a_line_and_of_an_arc),
             };
-            format!("**G{}** the controller counts steps along {axis}: {rule}", if axis.len() == 1 { axis } else { "" })
+            let (letter, axis) = match axis {
+                Some(CountingAxis::X) => ("X", "X"),
+                Some(CountingAxis::Y) => ("Y", "Y"),
+                None => ("", say!(x_or_y)),
+            };
+            say!(the_controller_counts_along, letter, axis, rule)
         }
-        Field::Convexity => "**D** convex, **DD** concave: whether the correction makes a 4B arc larger or smaller".into(),
-        Field::Motion => about_motion(holder?.motion),
-        Field::Pause => "**pause**: the machine stops, so that the wire can be cut or threaded".into(),
-        Field::End => "**end** of the program".into(),
-        Field::Coordinates => "where the block ends, absolute, mm: only for the reader, the controller passes it over".into(),
-        Field::StartPoint => "where the program begins, absolute, mm: only for the reader, the controller passes it over".into(),
+        Field::Convexity => say!(convex_or_concave).into(),
+        Field::Motion => match holder?.motion {
+            Motion::Line(quadrant) => {
+                let way = match quadrant {
+                    Quadrant::First => say!(right_or_up_to_the_right),
+                    Quadrant::Second => say!(up_or_up_to_the_left),
+                    Quadrant::Third => say!(left_or_down_to_the_left),
+                    Quadrant::Fourth => say!(down_or_down_to_the_right),
+                };
+                say!(line_into_quadrant, quadrant.number(), way)
+            }
+            Motion::Clockwise(quadrant) => say!(clockwise_arc_from_quadrant, quadrant.number()),
+            Motion::CounterClockwise(quadrant) => {
+                say!(counter_clockwise_arc_from_quadrant, quadrant.number())
+            }
+        },
+        Field::Pause => say!(the_machine_stops_to_cut_or_thread_the_wire).into(),
+        Field::End => say!(the_end_of_the_program).into(),
+        Field::Coordinates => say!(where_the_block_ends_for_the_reader).into(),
+        Field::StartPoint => say!(where_the_program_begins_for_the_reader).into(),
         Field::Comment | Field::Strange => return None,
     })
-}
-
-fn about_motion(motion: Motion) -> String {
-    match motion {
-        Motion::Line(quadrant) => {
-            let way = [
-                "+X, or up to the right",
-                "+Y, or up to the left",
-                "−X, or down to the left",
-                "−Y, or down to the right",
-            ];
-            let number = quadrant.number();
-            format!(
-                "**L{number}** line into quadrant {number}: {}",
-                way[usize::from(number) - 1]
-            )
-        }
-        Motion::Clockwise(quadrant) => {
-            let number = quadrant.number();
-            format!(
-                "**SR{number}** clockwise arc that starts in quadrant {number} about its centre"
-            )
-        }
-        Motion::CounterClockwise(quadrant) => {
-            let number = quadrant.number();
-            format!(
-                "**NR{number}** counter-clockwise arc that starts in quadrant {number} about its centre"
-            )
-        }
-    }
 }

@@ -1,41 +1,8 @@
 //! The form of a block, and which of its parts the cursor is in.
 
-use crate::ide::program::Signature;
+use crate::ide::Signature;
 use crate::program::three_b::Document;
 use crate::program::three_b::pieces::{Field, pieces};
-
-const THREE_B: &[(&str, &str)] = &[
-    (
-        "X",
-        "µm without sign: of a line its end from its start, of an arc its start from its centre",
-    ),
-    ("Y", "µm without sign, as X"),
-    (
-        "J",
-        "counting length in µm: the block's projection on the axis that G names, of an arc added up between the axis crossings",
-    ),
-    (
-        "G",
-        "counting axis, `GX` or `GY`: of a line its larger component, of an arc the axis that its end lies further from",
-    ),
-    (
-        "Z",
-        "`L1` to `L4` line, `NR1` to `NR4` counter-clockwise, `SR1` to `SR4` clockwise; the number is the quadrant of the line's direction or of the arc's start",
-    ),
-];
-
-const FOUR_B: &[(&str, &str)] = &[
-    THREE_B[0],
-    THREE_B[1],
-    THREE_B[2],
-    ("R", "radius of the arc in µm"),
-    THREE_B[3],
-    (
-        "D",
-        "`D` convex, `DD` concave: whether the correction makes the arc larger or smaller",
-    ),
-    THREE_B[4],
-];
 
 /// The form of the block that is written at a byte; `None` where none is.
 pub fn signature(document: &Document, offset: usize) -> Option<Signature> {
@@ -66,19 +33,32 @@ pub fn signature(document: &Document, offset: usize) -> Option<Signature> {
         _ => return None,
     };
     // Parts of 4B; 3B lacks the radius and the side.
-    let (label, parameters, active) = if is_four_b {
-        ("B X B Y B J B R G D Z", FOUR_B, part)
+    let (label, active) = if is_four_b {
+        ("B X B Y B J B R G D Z", part)
     } else {
         let active = match part {
             6 => 4,
             4 | 5 => 3,
             part => part.min(2),
         };
-        ("B X B Y B J G Z", THREE_B, active)
+        ("B X B Y B J G Z", active)
     };
+    let parameters = label.split(' ').filter(|word| *word != "B");
     Some(Signature {
         label,
-        parameters,
+        parameters: parameters.map(|name| (name, about(name))).collect(),
         active,
     })
+}
+
+fn about(name: &str) -> &'static str {
+    match name {
+        "X" => say!(x_of_a_block),
+        "Y" => say!(y_of_a_block),
+        "J" => say!(j_of_a_block),
+        "R" => say!(r_of_a_block),
+        "G" => say!(g_of_a_block),
+        "D" => say!(d_of_a_block),
+        _ => say!(z_of_a_block),
+    }
 }

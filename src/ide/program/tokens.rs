@@ -1,0 +1,64 @@
+//! The words of a program, for colouring.
+
+use super::words::{Part, WordKind, words_of};
+use crate::ide::{Token, TokenKind};
+use crate::program::Document;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Lines that are looked at in one go.
+const CHUNK: usize = 4_096;
+
+/// The colours that DXF has, for the words of programs.
+fn kind_of(kind: WordKind) -> Option<TokenKind> {
+    Some(match kind {
+        WordKind::Number => TokenKind::Handle,
+        WordKind::Lead => TokenKind::Name,
+        WordKind::Length => TokenKind::Number,
+        WordKind::Setting => TokenKind::Code,
+        WordKind::Motion => TokenKind::Record,
+        WordKind::Stop => TokenKind::Variable,
+        WordKind::Stated => TokenKind::Text,
+        WordKind::Comment => TokenKind::Comment,
+        WordKind::Strange => return None,
+    })
+}
+
+/// The tokens of some lines.
+pub fn tokens_in(document: &Document, lines: Range<usize>) -> Vec<Token> {
+    let text = document.text();
+    let mut found = Vec::new();
+    for line in lines.start..lines.end.min(text.line_count()) {
+        let begin = text.line_start(line);
+        let token = |part: Part| {
+            Some(Token {
+                line,
+                start: part.range.start - begin,
+                length: part.range.len(),
+                kind: kind_of(part.kind)?,
+            })
+        };
+        found.extend(words_of(document, line).into_iter().filter_map(token));
+    }
+    found
+}
+
+/// The tokens of the whole text, at most `limit`; what a line says hangs on no other line.
+pub fn tokens(document: &Document, limit: usize) -> Vec<Token> {
+    let firsts: Vec<usize> = (0..document.text().line_count()).step_by(CHUNK).collect();
+    let mut found = Vec::new();
+    // As many at once as there may be need for.
+    for some in firsts.chunks(16) {
+        let tokens = |&first: &usize| tokens_in(document, first..first + CHUNK);
+        let chunks: Vec<Vec<Token>> = match some {
+            [one] => vec![tokens(one)],
+            some => some.par_iter().map(tokens).collect(),
+        };
+        found.extend(chunks.into_iter().flatten());
+        if found.len() >= limit {
+            break;
+        }
+    }
+    found.truncate(limit);
+    found
+}
