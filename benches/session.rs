@@ -33,7 +33,7 @@ fn main() {
     if is_chosen("start") {
         start(if quick { 5 } else { 30 });
     }
-    let texts: [Named; 3] = [
+    let texts: [Named; 5] = [
         ("5 MB DXF of LWPOLYLINE", || generated::polylines(5_000_000)),
         ("5 MB DXF of LINE and ARC", || {
             generated::lines_and_arcs(5_000_000)
@@ -41,6 +41,10 @@ fn main() {
         ("5 MB DXF, one LWPOLYLINE", || {
             generated::one_polyline(140_000)
         }),
+        ("5 MB DXF, plates of LINE and ARC", || {
+            generated::plates(5_000_000)
+        }),
+        ("5 MB DXF, one fine zigzag", || generated::zigzag(170_000)),
     ];
     for (name, text) in texts.into_iter().filter(|(name, _)| is_chosen(name)) {
         text_session(name, &text(), rounds);
@@ -59,7 +63,7 @@ fn main() {
     {
         large_session(name, &text(), rounds / 4);
     }
-    for program in [THREE_B, ISO] {
+    for program in [THREE_B, ISO, THREE_B_ROUND, ISO_ROUND] {
         if is_chosen(program.session) {
             program_session(&program, rounds);
         }
@@ -322,6 +326,20 @@ const ISO: Program = Program {
     edited: "X",
     layout: "compact",
     refactorings: &[],
+};
+
+/// The same squares round and round.
+const THREE_B_ROUND: Program = Program {
+    name: "5 MB 3B, the same squares round",
+    text: generated::three_b_round,
+    refactorings: &[],
+    ..THREE_B
+};
+
+const ISO_ROUND: Program = Program {
+    name: "5 MB ISO, the same squares round",
+    text: generated::iso_round,
+    ..ISO
 };
 
 /// What an editor asks about it.

@@ -115,6 +115,94 @@ fn lines_and_arcs_while(goes_on: impl Fn(usize, usize) -> bool) -> String {
     text
 }
 
+/// DXF of at least `bytes` bytes: rounded plates in LINE and ARC, 40 beside each other in a row with little between them. An end that is
+/// thrown far to the side crosses its whole row.
+pub fn plates(bytes: usize) -> String {
+    let mut text = String::new();
+    header(&mut text);
+    let (mut plate, mut handle) = (0, 100);
+    while text.len() < bytes {
+        let (left, low) = ((plate % 40) as f64 * 21.0, (plate / 40) as f64 * 13.0);
+        let (right, high, r) = (left + 20.0, low + 12.0, 2.0);
+        let mut add = |kind: &str, tags: std::fmt::Arguments| {
+            handle += 1;
+            let _ = write!(text, "0\n{kind}\n5\n{handle:X}\n8\nPLATE\n{tags}");
+        };
+        for [x0, y0, x1, y1] in [
+            [left + r, low, right - r, low],
+            [right, low + r, right, high - r],
+            [right - r, high, left + r, high],
+            [left, high - r, left, low + r],
+        ] {
+            add(
+                "LINE",
+                format_args!("10\n{x0:.6}\n20\n{y0:.6}\n11\n{x1:.6}\n21\n{y1:.6}\n"),
+            );
+        }
+        for (x, y, from) in [
+            (right - r, low + r, 270),
+            (right - r, high - r, 0),
+            (left + r, high - r, 90),
+            (left + r, low + r, 180),
+        ] {
+            let to = (from + 90) % 360;
+            add(
+                "ARC",
+                format_args!("10\n{x:.6}\n20\n{y:.6}\n40\n{r:.6}\n50\n{from}\n51\n{to}\n"),
+            );
+        }
+        plate += 1;
+    }
+    text.push_str("0\nENDSEC\n0\nEOF\n");
+    text
+}
+
+/// DXF with one LWPOLYLINE of `count` vertices that goes up and down in steps finer than the wire, row over row.
+pub fn zigzag(count: usize) -> String {
+    const ROW: usize = 2_000;
+    let mut text = String::new();
+    header(&mut text);
+    let _ = write!(text, "0\nLWPOLYLINE\n5\n2A\n8\nDIE\n90\n{count}\n70\n0\n");
+    for i in 0..count {
+        let (row, step) = (i / ROW, i % ROW);
+        let along = if row % 2 == 0 { step } else { ROW - 1 - step };
+        let (x, y) = (along as f64 * 0.08, row as f64 * 3.0 + (i % 2) as f64 * 1.5);
+        let _ = write!(text, "10\n{x:.6}\n20\n{y:.6}\n");
+    }
+    text.push_str("0\nENDSEC\n0\nEOF\n");
+    text
+}
+
+/// A 3B program that runs the same two squares round, one within the other, as often as makes so many blocks.
+pub fn three_b_round(blocks: usize) -> String {
+    let mut text = String::with_capacity(blocks * 26);
+    for round in 0..blocks / 4 {
+        let side = if round % 2 == 0 { 100_000 } else { 90_000 };
+        for direction in ["GXL1", "GYL2", "GXL3", "GYL4"] {
+            let (x, y) = if direction.contains('X') {
+                (side, 0)
+            } else {
+                (0, side)
+            };
+            let _ = writeln!(text, "B{x}B{y}B{side}{direction}");
+        }
+    }
+    text + "DD\n"
+}
+
+/// The same squares as an ISO program, absolute in mm.
+pub fn iso_round(blocks: usize) -> String {
+    let mut text = String::with_capacity(blocks * 26);
+    text.push_str("%\nG90\nG92 X0.000 Y0.000\n");
+    for round in 0..blocks / 4 {
+        let side = if round % 2 == 0 { 100 } else { 90 };
+        for (x, y) in [(side, 0), (side, side), (0, side), (0, 0)] {
+            let _ = writeln!(text, "G01 X{x}.000 Y{y}.000");
+        }
+    }
+    text + "M02\n"
+}
+
 /// Vertices of one closed polyline of `count` vertices: a saw round a large circle, every tenth tooth rounded.
 pub fn long_outline(count: usize) -> Vec<[f64; 3]> {
     let radius = count as f64 * 0.2;
