@@ -219,6 +219,18 @@ impl Document {
         self.asked.fix_all.get_or_init(edit).clone()
     }
 
+    /// Whether there is anything for [`Document::fix_all`] to make; not worked out whole for it.
+    pub fn can_be_fixed(&self) -> bool {
+        match &self.source {
+            Source::Dxf(text) => {
+                let can = |edit: &DrawingEdit| text.text_edits(edit).is_ok();
+                self.analysis.has_fix_that(text.drawing(), &can)
+            }
+            Source::Cad(drawing) => self.analysis.has_fix_that(drawing, &|_| true),
+            Source::Program(_) => self.fix_all().is_some(),
+        }
+    }
+
     /// Other bytes in place of these, such as a repair has made them: a document of the same kind under the same settings. A drawing
     /// without text is none.
     pub fn reread(&self, bytes: Vec<u8>) -> Document {

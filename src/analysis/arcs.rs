@@ -1,7 +1,7 @@
 //! Arcs below the correction: which they are, and the larger arc in the place of a run of them.
 
 use super::Analysis;
-use super::repair::{self, Can};
+use super::repair::{self, Wanted};
 use crate::drawing::{ContourKey, ContourSegment, Drawing, DrawingEdit, EntityId};
 use crate::finding::{Fix, FixKind, NoFix, Rule, Side, SmallRadius};
 use crate::rules::small_radius::{self, Attempt, Replacement, Travel};
@@ -34,7 +34,7 @@ impl Analysis {
         })
     }
 
-    pub(super) fn fix_all_arcs(&self, drawing: &Drawing, can: Can<'_>) -> Option<DrawingEdit> {
+    pub(super) fn fix_all_arcs(&self, drawing: &Drawing, wanted: Wanted) -> Option<DrawingEdit> {
         self.settings.severity(Rule::SmallRadius)?;
         let mut replacements = Vec::new();
         for (key, wire_side) in self.with_tight_arcs(drawing) {
@@ -64,7 +64,7 @@ impl Analysis {
                     continue;
                 }
                 let alone = [(travel, replacement)];
-                let can_be_made = can.is_none_or(|can| {
+                let can_be_made = wanted.can.is_none_or(|can| {
                     small_radius::drawing_edit(drawing, &alone).is_some_and(|edit| can(&edit))
                 });
                 let [(travel, replacement)] = alone;
@@ -78,7 +78,7 @@ impl Analysis {
                     .map(|(_, travel, replacement)| (travel, replacement)),
             );
         }
-        repair::most_together(&replacements, self.tries(), |together, _| {
+        repair::most_together(&replacements, self.tries(), wanted, |together, _| {
             small_radius::drawing_edit(drawing, together)
                 .filter(|edit| self.enlarges(drawing, edit, None))
         })

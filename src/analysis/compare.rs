@@ -110,16 +110,17 @@ impl<'a> Walls<'a> {
             .contour
             .segments_in(outlook.drawing, range)
             .enumerate();
+        let mut before = outlook
+            .segment(first as isize - 1)
+            .map(|segment| segment.geometry);
         let wall = |(along, segment): (usize, ContourSegment)| {
-            let bounds = segment.geometry.bounds();
-            (
-                Wall {
-                    outlook: *outlook,
-                    index: first + along,
-                    segment,
-                },
-                bounds,
-            )
+            let wall = Wall {
+                outlook: *outlook,
+                index: first + along,
+                segment,
+                before: before.replace(segment.geometry),
+            };
+            (wall, segment.geometry.bounds())
         };
         let each: Vec<(Wall, Bounds)> = segments.map(wall).collect();
         let mut all = Bounds::EMPTY;

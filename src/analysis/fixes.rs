@@ -1,7 +1,7 @@
 //! The fixes of one finding, and of all.
 
 use super::Analysis;
-use super::repair::{self, Can};
+use super::repair::{self, Wanted};
 use crate::drawing::{Drawing, DrawingEdit, EntityId};
 use crate::finding::{Detail, Finding, Fix, FixKind, Place, Rule};
 use crate::rules::{CONTOUR_RULES, LOCAL_RULES, Observation, PAIR_RULES, Wall, small_radius};
@@ -96,7 +96,7 @@ impl Analysis {
     /// Doubles first, then arcs; where there are none to be mended, what the other rules can mend safely, one rule at a time: call
     /// again until nothing is left.
     pub fn fix_all(&self, drawing: &Drawing) -> Option<DrawingEdit> {
-        self.fix_all_of(drawing, None)
+        self.fix_all_of(drawing, Wanted::default())
     }
 
     /// As [`Analysis::fix_all`], of the fixes that `can` says can be made.
@@ -105,13 +105,33 @@ impl Analysis {
         drawing: &Drawing,
         can: &dyn Fn(&DrawingEdit) -> bool,
     ) -> Option<DrawingEdit> {
-        self.fix_all_of(drawing, Some(can))
+        let can = Some(can);
+        self.fix_all_of(
+            drawing,
+            Wanted {
+                can,
+                ..Wanted::default()
+            },
+        )
     }
 
-    pub(super) fn fix_all_of(&self, drawing: &Drawing, can: Can<'_>) -> Option<DrawingEdit> {
-        let doubles = self.fix_all_else(drawing, &repair::FIRST, can);
+    /// Whether there is anything that [`Analysis::fix_all_that`] makes: the first of it is enough.
+    pub(crate) fn has_fix_that(
+        &self,
+        drawing: &Drawing,
+        can: &dyn Fn(&DrawingEdit) -> bool,
+    ) -> bool {
+        let wanted = Wanted {
+            can: Some(can),
+            first_will_do: true,
+        };
+        self.fix_all_of(drawing, wanted).is_some()
+    }
+
+    fn fix_all_of(&self, drawing: &Drawing, wanted: Wanted) -> Option<DrawingEdit> {
+        let doubles = self.fix_all_else(drawing, &repair::FIRST, wanted);
         doubles
-            .or_else(|| self.fix_all_arcs(drawing, can))
-            .or_else(|| self.fix_all_else(drawing, &repair::THEN, can))
+            .or_else(|| self.fix_all_arcs(drawing, wanted))
+            .or_else(|| self.fix_all_else(drawing, &repair::THEN, wanted))
     }
 }

@@ -40,8 +40,7 @@ impl Analysis {
                 _ => None,
             })
             .collect();
-        let segments: usize = self.known.values().map(|known| known.index.len()).sum();
-        if hopeful.len().saturating_mul(segments) > MOST_TRIED {
+        if hopeful.len().saturating_mul(self.segments) > MOST_TRIED {
             return;
         }
         for (numbers, entity, segment) in &mut hopeful {

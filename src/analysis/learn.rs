@@ -14,12 +14,14 @@ use std::ops::Range;
 
 impl Analysis {
     pub(super) fn enter_known(&mut self, key: ContourKey, known: Known) {
+        self.segments += known.index.len();
         self.stated += usize::from(known.stated.is_some());
         self.known.insert(key, known);
     }
 
     pub(super) fn take_known(&mut self, key: ContourKey) -> Option<Known> {
         let known = self.known.remove(&key)?;
+        self.segments -= known.index.len();
         self.stated -= usize::from(known.stated.is_some());
         Some(known)
     }

@@ -59,6 +59,8 @@ pub struct Analysis {
     notable: FxHashMap<ContourKey, Notable>,
     /// Contours larger than any machine.
     vast: FxHashSet<ContourKey>,
+    /// How many segments the known contours have.
+    segments: usize,
     /// How many contours have a stated role.
     stated: usize,
     /// An entity that was removed and may come back nearly as it was, as one does in whose text a number is being typed: all
@@ -88,6 +90,7 @@ impl Analysis {
             known: FxHashMap::default(),
             notable: FxHashMap::default(),
             vast: FxHashSet::default(),
+            segments: 0,
             stated: 0,
             suspended: None,
             pairs: Pairs::default(),
@@ -216,7 +219,7 @@ impl Analysis {
     /// True when a look at all that is touched costs more than a look at everything.
     fn is_most(&self, delta: &Delta) -> bool {
         let touched = delta.touched.len();
-        touched > FEW && touched * RUN > self.known.values().map(|known| known.index.len()).sum()
+        touched > FEW && touched * RUN > self.segments
     }
 
     /// The settings that the findings hold under.

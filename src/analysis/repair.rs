@@ -21,6 +21,14 @@ const SEGMENTS: usize = 4_000_000;
 /// Whether the edit of one fix can be made where the drawing comes from; of all fixes where there is none to ask.
 pub(super) type Can<'a> = Option<&'a dyn Fn(&DrawingEdit) -> bool>;
 
+/// Which of the safe repairs are wanted.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Wanted<'a> {
+    pub can: Can<'a>,
+    /// Whether there is one is all that is asked.
+    pub first_will_do: bool,
+}
+
 impl Analysis {
     /// Those of the fixes of a finding of `rule` that make nothing worse and let the finding go.
     pub(super) fn checked(&self, drawing: &Drawing, rule: Rule, fixes: Vec<Fix>) -> Vec<Fix> {
@@ -60,13 +68,12 @@ impl Analysis {
 
     /// How many edits are tried.
     pub(super) fn tries(&self) -> usize {
-        let segments: usize = self.known.values().map(|known| known.index.len()).sum();
         let most = if self.pairs.uncompared() > 0 {
             FEW_TRIES
         } else {
             TRIES
         };
-        (SEGMENTS / segments.max(1)).clamp(2, most)
+        (SEGMENTS / self.segments.max(1)).clamp(2, most)
     }
 
     /// What there is to be said of the drawing as it is.
@@ -105,7 +112,7 @@ impl Analysis {
         &self,
         drawing: &Drawing,
         rules: &[Rule],
-        can: Can<'_>,
+        wanted: Wanted,
     ) -> Option<DrawingEdit> {
         let before = self.tallied(drawing);
         let rules: Vec<Rule> = rules
@@ -133,9 +140,9 @@ impl Analysis {
                     .changes
                     .iter()
                     .all(|change| drawing.accepts(change).is_ok());
-                (accepted && can.is_none_or(|can| can(&fix.edit))).then_some(fix.edit)
+                (accepted && wanted.can.is_none_or(|can| can(&fix.edit))).then_some(fix.edit)
             });
-            if let Some(edit) = self.most_of(drawing, rule, before, &apart(fixes)) {
+            if let Some(edit) = self.most_of(drawing, rule, before, &apart(fixes), wanted) {
                 return Some(edit);
             }
         }
@@ -149,10 +156,12 @@ impl Analysis {
         rule: Rule,
         before: &Tally,
         edits: &[DrawingEdit],
+        wanted: Wanted,
     ) -> Option<DrawingEdit> {
         let most = most_together(
             edits,
             self.tries(),
+            wanted,
             |together, best: Option<&(DrawingEdit, Tally)>| {
                 let tried = DrawingEdit {
                     changes: together
@@ -179,8 +188,17 @@ impl Analysis {
 pub(super) fn most_together<T: Clone, M>(
     parts: &[T],
     tries: usize,
+    wanted: Wanted,
     made: impl Fn(&[T], Option<&M>) -> Option<M>,
 ) -> Option<M> {
+    // The halves lead to the first of them in so many tries: what it makes of itself would be found.
+    if wanted.first_will_do
+        && let Some(halvings) = parts.len().checked_ilog2()
+        && (1..tries).contains(&(halvings as usize))
+        && let Some(first) = made(&parts[..1], None)
+    {
+        return Some(first);
+    }
     let (mut taken, mut best) = (Vec::new(), None);
     let mut waiting: Vec<&[T]> = [parts]
         .into_iter()

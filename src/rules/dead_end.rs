@@ -111,7 +111,7 @@ fn run_on(one: &Wall, other: &Wall, radius: f64) -> bool {
     // In the vertex that it starts in, a wall is touched from anywhere between its own normal and that of the wall before.
     for wall in [one, other] {
         turned = turned.max(
-            wall.beside(-1)
+            wall.before
                 .map_or(0.0, |before| (before.end_tangent() - along).norm()),
         );
     }

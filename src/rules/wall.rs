@@ -12,6 +12,8 @@ pub struct Wall<'a> {
     pub outlook: Outlook<'a>,
     pub index: usize,
     pub segment: ContourSegment,
+    /// The segment before it.
+    pub before: Option<Segment>,
 }
 
 /// A vertex of a contour: where one segment ends and the next begins. One of the two is missing at the end of an open contour.
@@ -28,6 +30,9 @@ impl<'a> Wall<'a> {
             outlook: *outlook,
             index,
             segment: outlook.segment(index as isize)?,
+            before: outlook
+                .segment(index as isize - 1)
+                .map(|segment| segment.geometry),
         })
     }
 
@@ -48,7 +53,7 @@ impl<'a> Wall<'a> {
         let geometry = *self.geometry();
         let start = Corner {
             at: geometry.start(),
-            incoming: self.beside(-1),
+            incoming: self.before,
             outgoing: Some(geometry),
         };
         let is_last = !self.outlook.contour.closed && self.index + 1 == self.outlook.contour.len();

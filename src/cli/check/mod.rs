@@ -149,7 +149,7 @@ fn check(path: &Path, common: &Common, settings: &Settings) -> Checked {
             rows.extend(report::rows(&path, &mut document));
             Checked {
                 rows,
-                fixable: document.fix_all().is_some(),
+                fixable: document.can_be_fixed(),
                 failure: None,
             }
         }
