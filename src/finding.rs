@@ -148,11 +148,6 @@ pub enum Detail {
     /// A fault in a block or contour of a program.
     Program(Box<Fault>),
     LeadIn(String),
-    /// A program holds one of `passes`, that of `correction` mm.
-    OnePass {
-        passes: usize,
-        correction: f64,
-    },
     /// `kind` of entity, and how many of it; the place is the first.
     UnsupportedEntity {
         kind: String,

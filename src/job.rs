@@ -12,7 +12,7 @@ use crate::program::{Format, ProofError, ProvedProgram};
 use crate::rule::Rule;
 use crate::settings::Effective;
 use crate::text::{Patch, TextEdit, edited};
-use crate::toolpath::{self, WirePath, entities_of, plan_while};
+use crate::toolpath::{self, Finished, Planned, WirePath, entities_of, plan_while};
 use std::sync::Arc;
 
 /// Whoever waits: whether it still does, and what it is told on the way.
@@ -178,10 +178,20 @@ pub fn paths(
     handles: Option<&[String]>,
     watch: &dyn Watch,
 ) -> Result<Vec<WirePath>, Refusal> {
+    Ok(planned(snapshot, settings, handles, false, watch)?.paths)
+}
+
+fn planned(
+    snapshot: &Snapshot,
+    settings: &Effective,
+    handles: Option<&[String]>,
+    finishes: bool,
+    watch: &dyn Watch,
+) -> Result<Planned, Refusal> {
     let (drawing, outlines) = (&snapshot.drawing, &snapshot.outlines);
-    Ok(plan_while(drawing, outlines, settings, handles, &|| {
-        watch.is_wanted()
-    })?)
+    let goes_on = || watch.is_wanted();
+    let planned = plan_while(drawing, outlines, settings, handles, finishes, &goes_on)?;
+    Ok(planned)
 }
 
 /// What a program is asked for.
@@ -197,6 +207,8 @@ pub struct Wanted<'a> {
 pub struct Generated {
     pub program: ProvedProgram,
     pub contours: usize,
+    /// What all passes leave, in mm and the drawing's coordinates, where there are several.
+    pub finished: Option<Finished>,
     /// What is to be said beside it.
     pub warnings: Vec<Finding>,
 }
@@ -226,7 +238,7 @@ pub fn generate(
     }
     watch.at(say!(laying_the_path), None);
     let of_format = wanted.format.settings(settings);
-    let paths = paths(snapshot, &of_format, wanted.handles, watch)?;
+    let Planned { paths, finished } = planned(snapshot, &of_format, wanted.handles, true, watch)?;
     let mut go_on = |done, all| {
         watch.at(say!(writing_and_proving), Some((done, all)));
         watch.is_wanted()
@@ -246,8 +258,13 @@ pub fn generate(
         .filter(|finding| finding.severity <= Severity::Warning);
     Ok(Generated {
         program,
-        contours: paths.len(),
-        warnings: settings.one_pass().into_iter().chain(warnings).collect(),
+        contours: paths.iter().filter(|path| path.pass == 1).count(),
+        finished: finished.map(|finished| Finished {
+            uncut: finished.uncut * unit_mm,
+            overcut: finished.overcut * unit_mm,
+            ..finished
+        }),
+        warnings: warnings.collect(),
     })
 }
 

@@ -23,7 +23,10 @@ impl Analysis {
             arcs: replacement.arcs,
             moved: replacement.moved,
         };
-        let in_fix_all = replacement.moved <= self.limits.correction;
+        let radius = self.chains.get(key)?.segment(drawing, index)?.geometry;
+        let is_for_skims = |radius| self.limits.is_for_skims(radius);
+        let in_fix_all = replacement.moved <= self.limits.correction
+            && !radius.as_arc().is_some_and(|arc| is_for_skims(arc.radius));
         let edit = small_radius::drawing_edit(drawing, &[(travel, replacement)])
             .filter(|edit| self.enlarges(drawing, edit, None))?;
         Some(Fix {
@@ -40,7 +43,8 @@ impl Analysis {
         for (key, wire_side) in self.with_tight_arcs(drawing) {
             let mut accepted: Vec<(Stretch, Travel, Replacement)> = Vec::new();
             for index in self.tight_in_entity_order(key) {
-                if self.fault(drawing, key, index, wire_side).is_none() {
+                let fault = self.fault(drawing, key, index, wire_side);
+                if fault.is_none_or(|(_, numbers)| numbers.taken_by_skims) {
                     continue;
                 }
                 let Some((

@@ -3,7 +3,7 @@
 use super::Analysis;
 use super::report::{Report, Tally};
 use crate::drawing::{ContourKey, Drawing, EntityId, Role};
-use crate::finding::{Detail, Finding, NoFix, Place, Rule, Side, SmallRadius};
+use crate::finding::{Detail, Finding, NoFix, Place, Rule, Severity, Side, SmallRadius};
 use crate::rules::{CONTOUR_RULES, Outlook, units};
 use crate::settings::SideSetting;
 use rustc_hash::FxHashMap;
@@ -228,6 +228,7 @@ impl Analysis {
             return;
         };
         if let Some((_, count)) = notable.faults.filter(|(side, _)| *side == wire_side)
+            && self.limits.last_correction == self.limits.correction
             && report.is_full(Rule::SmallRadius, None)
         {
             report.count(Rule::SmallRadius, None, count);
@@ -243,12 +244,13 @@ impl Analysis {
                 continue;
             };
             count += 1;
-            if report.counts(Rule::SmallRadius, None) {
+            let mildest = numbers.taken_by_skims.then_some(Severity::Warning);
+            if report.counts(Rule::SmallRadius, mildest) {
                 numbers.no_fix = self.answer(drawing, key, index);
                 let place = Place::from(&segment);
                 report.add(
                     Rule::SmallRadius,
-                    None,
+                    mildest,
                     place,
                     Detail::SmallRadius(Box::new(numbers)),
                     Vec::new(),

@@ -100,16 +100,25 @@ fn draw_program(arguments: &Arguments, document: &Document) -> Result<Verdict, F
     Ok(Verdict::Clean)
 }
 
-/// Layer of the wire's path in a drawing that is made.
+/// Layer of the wire's path in a drawing that is made; the passes after the first have their number behind it.
 const WIRE: &str = "WIRE";
 
-/// A new drawing of the contours as they are, and of the wire's path as LINE, ARC and CIRCLE on a layer of its own.
+/// A new drawing of the contours as they are, and of the wire's path as LINE, ARC and CIRCLE on layers of its own.
 fn with_paths(snapshot: &Snapshot, paths: &[WirePath]) -> Drawing {
     let mut drawing = Drawing::new(Some(snapshot.settings.unit_of(&snapshot.drawing)));
     for (_, entity) in snapshot.drawing.entities() {
         drawing.push(entity.clone());
     }
-    for segment in paths.iter().flat_map(|path| &path.segments) {
+    let pieces = paths.iter().flat_map(|path| {
+        let layer = match path.pass {
+            1 => WIRE.to_owned(),
+            pass => format!("{WIRE}{pass}"),
+        };
+        path.segments
+            .iter()
+            .map(move |segment| (segment, layer.clone()))
+    });
+    for (segment, layer) in pieces {
         let (kind, geometry) = match segment.geometry {
             Segment::Line(line) => (
                 crate::drawing::Kind::Line,
@@ -142,7 +151,7 @@ fn with_paths(snapshot: &Snapshot, paths: &[WirePath]) -> Drawing {
         };
         drawing.push(Entity {
             handle: WIRE.into(),
-            layer: WIRE.into(),
+            layer: layer.into(),
             role: None,
             kind,
             geometry,

@@ -68,14 +68,20 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     // What is wrong with the drawing says `wedm check`; these are of the program.
     let of_program = |finding: &&Finding| {
         let detail = &finding.detail;
-        matches!(
-            detail,
-            Detail::OffsetCollapse { point: true, .. } | Detail::OnePass { .. }
-        )
+        matches!(detail, Detail::OffsetCollapse { point: true, .. })
     };
     let said: Vec<Finding> = made.warnings.iter().filter(of_program).cloned().collect();
     report::say(path, document, &said);
     summarise(arguments, &made.program, made.contours);
+    if let Some(finished) = made.finished {
+        output::say(&say!(
+            the_finished_part_deviates,
+            finished.uncut,
+            finished.at.x,
+            finished.at.y,
+            finished.overcut
+        ));
+    }
     Ok(Verdict::Clean)
 }
 

@@ -1,8 +1,8 @@
 //! Options that several commands share, and the settings that come of them.
 
 use crate::settings::{
-    Compensation, Corner, Direction, Layout, Order, PointSetting, ProgramSettings, Settings,
-    SideSetting, words_of,
+    Compensation, Corner, Direction, Layout, Order, Passes, PointSetting, ProgramSettings,
+    Settings, SideSetting, words_of,
 };
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -16,6 +16,9 @@ pub struct Common {
     /// Wire radius + spark gap in mm: how far the wire's centre runs from the contour
     #[arg(long, value_name = "MM", value_parser = positive, allow_hyphen_values = true)]
     pub correction: Option<f64>,
+    /// Correction of each pass in mm, from rough to finish, in place of --correction
+    #[arg(long, value_name = "MM,MM", value_delimiter = ',', value_parser = positive)]
+    pub passes: Vec<f64>,
     /// Side on which the wire runs, where neither entity nor layer says
     #[arg(long, value_parser = words::<SideSetting>())]
     pub side: Option<SideSetting>,
@@ -72,6 +75,10 @@ impl Common {
         Settings {
             correction: self.correction,
             side: self.side,
+            passes: (!self.passes.is_empty()).then(|| Passes {
+                corrections: Some(self.passes.clone()),
+                ..Passes::default()
+            }),
             ..Settings::default()
         }
     }

@@ -147,13 +147,6 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
         }
         Detail::Program(fault) => program(fault),
         Detail::More { count } => say!(more_findings_are_not_shown, count),
-        Detail::OnePass { passes, correction } => {
-            say!(
-                the_program_holds_one_of_passes_that_of_correction_mm,
-                passes,
-                mm(*correction)
-            )
-        }
         Detail::LeadIn(sentence)
         | Detail::Units(sentence)
         | Detail::Syntax(sentence)
@@ -258,7 +251,15 @@ fn small_radius(numbers: &SmallRadius, unit_mm: f64) -> String {
         .pass
         .map_or(String::new(), |pass| say!(of_pass, pass));
     let mut text = say!(arc_r_mm_is_below_the_correction_mm, radius, required, pass);
-    if numbers.overcut * unit_mm >= 0.5e-6 {
+    if numbers.taken_by_skims {
+        text += &match numbers.stock_left.is_finite() {
+            true => say!(
+                the_later_passes_find_mm_more_stock,
+                mm(numbers.stock_left * unit_mm)
+            ),
+            false => say!(the_later_passes_find_more_stock).into(),
+        };
+    } else if numbers.overcut * unit_mm >= 0.5e-6 {
         text += &say!(
             the_wire_overcuts_the_contour_by_mm,
             mm(numbers.overcut * unit_mm)

@@ -41,6 +41,8 @@ pub struct SmallRadius {
     pub stock_left: f64,
     /// The pass (1-based) whose correction is the largest, where several passes are set.
     pub pass: Option<usize>,
+    /// A later pass can follow the arc: what this one leaves of it is that pass's stock.
+    pub taken_by_skims: bool,
     /// Why no fix is offered; `None` where one is.
     pub no_fix: Option<NoFix>,
 }
@@ -69,6 +71,7 @@ impl SmallRadius {
             overcut: short * (1.0 - turn.cos()),
             stock_left,
             pass: None,
+            taken_by_skims: false,
             no_fix: None,
         }
     }

@@ -149,7 +149,10 @@ fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     let is_lead = |source: &Source| matches!(source, Source::LeadIn | Source::LeadOut);
     for path in subject.paths {
         let distance = subject.mm(path.correction);
-        let label = say!(path_of_the_wire_centre, distance);
+        let mut label = say!(path_of_the_wire_centre, distance);
+        if path.pass > 1 || subject.paths.iter().any(|path| path.pass > 1) {
+            label += &say!(of_pass, path.pass);
+        }
         // Runs of one kind: the way round the contour is one line, the leads are others.
         for run in path
             .segments

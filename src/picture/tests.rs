@@ -29,6 +29,7 @@ fn tight(id: EntityId, segment: usize, geometry: Segment, required: f64) -> Find
         overcut: (required - arc.radius) * (1.0 - turn.cos()),
         stock_left: (required - arc.radius) * (1.0 / (turn / 2.0).cos() - 1.0),
         pass: None,
+        taken_by_skims: false,
         no_fix: None,
     };
     let place = Place::Segment {
@@ -121,6 +122,8 @@ fn plate() -> (Drawing, Vec<Outline>, Vec<Finding>, Vec<WirePath>) {
     segments[0].source = Source::LeadIn;
     let path = WirePath {
         outline: 0,
+        pass: 1,
+        counter_clockwise: None,
         correction: 0.1,
         thread_hole: at(20.0, 15.0),
         side: None,

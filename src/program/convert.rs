@@ -340,6 +340,8 @@ impl Cuts {
                 .collect();
             Some(WirePath {
                 outline: 0,
+                pass: 1,
+                counter_clockwise: None,
                 correction: 0.0,
                 thread_hole,
                 side: cut.side,

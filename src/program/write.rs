@@ -4,7 +4,7 @@
 //! language's grid, so that what a writer gets always joins, and comes back to where it began.
 
 use super::grid::{Node, point_of, snap};
-use crate::finding::{Finding, Side, sentence};
+use crate::finding::{Finding, sentence};
 use crate::geometry::{Arc, Point, Segment};
 use crate::toolpath::{Source, WirePath};
 use std::fmt;
@@ -66,12 +66,8 @@ const GAP: f64 = 1.5;
 /// Puts pieces of a path into the text of one language and proves them. Nodes and pieces are in steps of the language's grid.
 pub trait Writer {
     /// A path begins at `first`. `from` is where the program stands, `None` before the first path: the wire has to be taken there.
-    fn begin(
-        &mut self,
-        from: Option<Node>,
-        first: Node,
-        side: Option<Side>,
-    ) -> Result<(), ProofError>;
+    fn begin(&mut self, from: Option<Node>, first: Node, path: &WirePath)
+    -> Result<(), ProofError>;
     /// One piece of the path between two nodes, which are its snapped ends.
     fn piece(
         &mut self,
@@ -98,14 +94,9 @@ pub fn walk(
     let mut node: Option<Node> = None;
     for path in paths {
         // Where the wire can only stand, it is threaded and cuts nothing.
-        let (begin, end) = match (path.segments.first(), path.segments.last()) {
-            (Some(first), Some(last)) => {
-                (first.geometry.start() * steps, last.geometry.end() * steps)
-            }
-            _ => (path.thread_hole * steps, path.thread_hole * steps),
-        };
+        let (begin, end) = (path.begin() * steps, path.end() * steps);
         let first_node = node_of(begin)?;
-        writer.begin(node, first_node, path.side)?;
+        writer.begin(node, first_node, path)?;
         let mut from = first_node;
         let mut reached = begin;
         for segment in &path.segments {

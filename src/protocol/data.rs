@@ -169,7 +169,6 @@ impl FindingData {
                 data.distance = Some(*deviation);
             }
             Detail::Program(fault) => data.program(fault),
-            Detail::OnePass { passes, .. } => data.count = Some(*passes),
             Detail::LeadIn(_) | Detail::Units(_) | Detail::Syntax(_) | Detail::Settings(_) => {}
         }
         data

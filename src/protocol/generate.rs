@@ -1,8 +1,10 @@
 //! `wedm/generate`: a program for the machine.
 
 use super::diagnostic::Diagnostic;
+use super::drawing::Point;
 use crate::program::ProvedProgram;
 use crate::settings::Settings;
+use crate::toolpath::Finished;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -40,13 +42,31 @@ pub struct Program {
     /// Length of the path in mm.
     pub length: f64,
     pub closure: Closure,
-    /// Largest distance in µm between the end of a decoded block and the path.
+    /// Largest distance in µm of the decoded blocks from the path, over their whole length.
     pub deviation: f64,
+    /// What all passes leave of the contours, where several are cut.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub finished: Option<FinishedPart>,
     pub warnings: Vec<Diagnostic>,
 }
 
+/// The largest deviations of the part that all passes leave from its drawing.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FinishedPart {
+    /// What stays beyond the contour where it stays thickest, mm.
+    pub uncut: f64,
+    /// Where that is, drawing units.
+    pub at: Point,
+    /// How far the wire cuts beyond the contour, mm.
+    pub overcut: f64,
+}
+
 impl Program {
-    pub fn new(proved: ProvedProgram, warnings: Vec<Diagnostic>) -> Program {
+    pub fn new(
+        proved: ProvedProgram,
+        finished: Option<Finished>,
+        warnings: Vec<Diagnostic>,
+    ) -> Program {
         Program {
             program: proved.text,
             blocks: proved.blocks,
@@ -56,6 +76,11 @@ impl Program {
                 y: proved.closure[1],
             },
             deviation: proved.deviation,
+            finished: finished.map(|finished| FinishedPart {
+                uncut: finished.uncut,
+                at: finished.at.into(),
+                overcut: finished.overcut,
+            }),
             warnings,
         }
     }

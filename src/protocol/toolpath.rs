@@ -1,5 +1,6 @@
 //! The reply of `wedm/toolpath`: the path of the wire's centre.
 
+use super::contours::Direction;
 use super::drawing::Point;
 use super::segment::SegmentShape;
 use crate::drawing::Drawing;
@@ -24,6 +25,9 @@ pub struct ToolpathPath {
     pub contour: usize,
     /// 1-based number of the pass.
     pub pass: usize,
+    /// Which way a closed contour is gone round in this pass.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub direction: Option<Direction>,
     /// How far the path lies from the contour, drawing units.
     pub correction: f64,
     pub thread_hole: Point,
@@ -82,7 +86,11 @@ fn one_path(drawing: &Drawing, path: &WirePath) -> ToolpathPath {
     });
     ToolpathPath {
         contour: path.outline,
-        pass: 1,
+        pass: path.pass,
+        direction: path.counter_clockwise.map(|is| match is {
+            true => Direction::Ccw,
+            false => Direction::Cw,
+        }),
         correction: path.correction,
         thread_hole: path.thread_hole.into(),
         length: path

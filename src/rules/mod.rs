@@ -27,7 +27,7 @@ pub use wall::Wall;
 use crate::drawing::{Contour, ContourIndex, ContourSegment, Drawing};
 use crate::finding::{Detail, Fix, Place, Rule, Severity, Side};
 use crate::geometry::{Point, Tolerances, turn};
-use crate::settings::Effective;
+use crate::settings::{Compensation, Effective};
 use std::ops::Range;
 
 /// What the rules measure against, in the units of one drawing.
@@ -37,6 +37,10 @@ pub struct Limits {
     pub correction: f64,
     /// The smallest correction of all passes: what the last pass takes, the earlier ones need not leave.
     pub last_correction: f64,
+    /// What the last pass leaves in a sharp corner.
+    pub corner_radius: f64,
+    /// Each pass runs its own way: the control does not offset what is drawn.
+    passes_are_drawn: bool,
     /// Radius that a fix gives: correction + margin.
     pub fix_radius: f64,
     /// 1-based number of the pass with the largest correction, where several are set.
@@ -51,17 +55,21 @@ impl Limits {
     pub fn new(settings: &Effective, unit_mm: f64) -> Limits {
         Limits {
             correction: settings.correction / unit_mm,
-            last_correction: settings
-                .corrections
-                .iter()
-                .copied()
-                .fold(settings.correction, f64::min)
-                / unit_mm,
+            last_correction: settings.last_correction() / unit_mm,
+            corner_radius: settings.corner_radius() / unit_mm,
+            passes_are_drawn: settings.compensation == Compensation::Path,
             fix_radius: (settings.correction + settings.margin) / unit_mm,
             pass: settings.pass,
             tolerances: settings.tolerances.in_units(unit_mm),
             unit_mm,
         }
+    }
+
+    /// An arc below the correction that a later pass can follow.
+    pub fn is_for_skims(&self, radius: f64) -> bool {
+        self.passes_are_drawn
+            && self.last_correction < self.correction
+            && radius >= self.last_correction - self.tolerances.report
     }
 }
 

@@ -61,12 +61,12 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
     }
 }
 
-/// Left with R, the last pass's correction; uncut is what stands between the arc and this one corner: `R (1 / cos(θ/2) − 1)` between
+/// Left with R, which the last pass leaves; uncut is what stands between the arc and this one corner: `R (1 / cos(θ/2) − 1)` between
 /// straight walls, less where they are short. What stays beyond that since the wire does not come so far is `lost-pocket`.
 fn detail(outlook: &Outlook, observation: Observation, count: Option<usize>) -> Option<Detail> {
     let index = observation.index as usize;
     let turn = outlook.turn_at(index)?;
-    let radius = outlook.limits.last_correction;
+    let radius = outlook.limits.corner_radius;
     let uncut = corner_depth(outlook, index, radius)?;
     let behind = outlook.segment(index as isize)?;
     Some(Detail::SharpCorner {

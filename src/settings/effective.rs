@@ -1,11 +1,11 @@
 //! Settings with every default filled in.
 
 use super::{
-    Budget, Compensation, Corner, Direction, Jumps, Layout, Order, PointSetting, Profile,
-    RuleSeverity, Settings, SideSetting, UnitSetting,
+    Budget, Compensation, Corner, Direction, Jumps, Layout, Order, Passes, PointSetting, Profile,
+    RuleSeverity, Sequence, Settings, SideSetting, SkimCorner, UnitSetting,
 };
 use crate::drawing::{Color, Role, Unit};
-use crate::finding::{Detail, Finding, Place, Rule, Severity};
+use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::Tolerances;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,6 +21,8 @@ pub struct Effective {
     /// Diameter of the wire and spark gap in mm, where somebody has set them.
     pub wire_diameter: Option<f64>,
     pub gap: Option<f64>,
+    /// What is set of several passes.
+    pub passes: Passes,
     pub side: SideSetting,
     pub unit: Unit,
     pub margin: f64,
@@ -105,6 +107,7 @@ impl Effective {
             corrections,
             wire_diameter: settings.wire_diameter,
             gap: settings.gap,
+            passes: settings.passes.clone().unwrap_or_default(),
             side: settings.side(),
             unit: match settings.units() {
                 UnitSetting::Mm => Unit::MILLIMETRE,
@@ -152,38 +155,66 @@ impl Effective {
         10_i64.pow(self.digits.min(18)) - 1
     }
 
+    /// The same with one pass alone, that of the largest correction.
+    pub fn of_one_pass(&self) -> Effective {
+        Effective {
+            corrections: vec![self.correction],
+            pass: None,
+            passes: Passes::default(),
+            ..self.clone()
+        }
+    }
+
+    /// Which way the pass goes along the contour against the first one. They are counted from 0.
+    pub fn runs_back(&self, pass: usize) -> bool {
+        pass % 2 == 1 && self.passes.sequence() == Sequence::Alternate
+    }
+
+    /// Half the kerf of a pass in mm: the wire's radius and the spark gap, where both are known. They are counted from 0.
+    pub fn half_kerf(&self, pass: usize) -> Option<f64> {
+        let gap = match &self.passes.gaps {
+            Some(gaps) => gaps.get(pass).copied(),
+            None => self.gap,
+        };
+        Some(self.wire_diameter? / 2.0 + gap?)
+    }
+
+    /// What the last pass leaves in a sharp corner that the wire runs inside of, mm: half its kerf, which is its correction where nothing
+    /// else is known; with skims of constant stock, that and all that lies between the first path and the last.
+    pub fn corner_radius(&self) -> f64 {
+        let last = self.last_correction();
+        let number = self.corrections.len().saturating_sub(1);
+        let half_kerf = self.half_kerf(number).filter(|_| number > 0);
+        match self.passes.skim_corner() {
+            SkimCorner::Sharp => half_kerf.unwrap_or(last),
+            SkimCorner::ConstantStock => self.correction - last + half_kerf.unwrap_or(last),
+        }
+    }
+
+    /// The smallest correction of all passes, mm.
+    pub fn last_correction(&self) -> f64 {
+        let all = self.corrections.iter().copied();
+        all.fold(self.correction, f64::min)
+    }
+
+    /// The correction of each pass, mm, from rough to finish.
+    pub fn each_correction(&self) -> Vec<f64> {
+        match self.corrections.len() {
+            0 | 1 => vec![self.correction],
+            _ => self.corrections.clone(),
+        }
+    }
+
     /// Why no program is written: what is wrong with the corrections of the passes, where that is an error.
     pub fn pass_error(&self) -> Option<String> {
         let is_error = self.severity(Rule::PassOrder) == Some(Severity::Error);
-        let faults = || {
-            super::pass_faults(
-                &self.corrections,
-                self.corrections.len() > 1,
-                self.wire_diameter,
-            )
-        };
+        let passes = self.passes.corrections.is_some().then_some(&self.passes);
+        let faults = || super::pass_faults(&self.corrections, passes, self.wire_diameter);
         if is_error {
             faults().into_iter().next().map(|fault| fault.message)
         } else {
             None
         }
-    }
-
-    /// What is said beside a program that holds one pass of several.
-    pub fn one_pass(&self) -> Option<Finding> {
-        let passes = self.corrections.len();
-        let detail = Detail::OnePass {
-            passes,
-            correction: self.correction,
-        };
-        let severity = Severity::Warning;
-        (passes > 1).then(|| Finding {
-            rule: Rule::PassOrder,
-            severity,
-            place: Place::Document,
-            detail,
-            related: Vec::new(),
-        })
     }
 
     /// Severity of a rule, `None` when it is switched off.

@@ -8,7 +8,7 @@ use super::table::{Overlay, as_toml, kebab_case};
 use super::value::Node;
 use super::{
     CenterRule, Compensation, Coordinates, Corner, Direction, Jumps, Layout, LineEnd, NumberUnit,
-    Order, PointSetting, RuleSeverity, SideSetting, UnitSetting, Zero,
+    Order, PointSetting, RuleSeverity, Sequence, SideSetting, SkimCorner, UnitSetting, Zero,
 };
 use crate::drawing::Role;
 use schemars::JsonSchema;
@@ -67,9 +67,20 @@ tables! {
 
     /// Corrections of a multi-pass cut.
     Passes() {
-        /// Correction of each pass, mm, in place of `correction`. Radii are held against the largest. They fall:
+        /// Correction of each pass from rough to finish, mm, in place of `correction`: a program cuts each contour so often. They fall:
         /// [`pass-order`](rules/pass-order.md).
-        corrections: Vec<f64> => corrections in Range::ABOVE_ZERO;
+        corrections: Vec<f64> => numbers in Range::ABOVE_ZERO;
+        /// Spark gap of each pass, mm. Not set: `gap` for all.
+        gaps: Vec<f64> => numbers in Range::FROM_ZERO;
+        /// Which way the passes of a contour go.
+        sequence: Sequence = Sequence::Alternate => name;
+        /// Words of an ISO program that say where the control finds the correction of each pass. Not set: the profile's `register` for the
+        /// first pass, its number counted on for the others.
+        registers: Vec<String> => words;
+        /// What the passes after the first make of a corner that the wire runs inside of. With `constant-stock` the last one leaves a
+        /// radius there, the difference of the first and the last correction added to the wire's: [`sharp-corner`](rules/sharp-corner.md).
+        #[serde(alias = "skim-corner")]
+        skim_corner: SkimCorner = SkimCorner::Sharp => name;
     }
 
     /// How a program is written.
@@ -140,7 +151,10 @@ tables! {
         line_end: LineEnd = LineEnd::Lf => name;
         /// Lines before everything. `{x}` and `{y}` are the place where the wire is threaded first.
         begin: Vec<String> = [] => lines;
-        /// Lines before each contour. `{side}` is G41 or G42; a line with it is left out where the offset is in the coordinates.
+        /// Word that says where the control finds the correction of the first pass; that of the second has the next number.
+        register: String = "D1" => word;
+        /// Lines before each contour. `{side}` is G41 or G42, `{register}` where the correction of the pass stands; a line with `{side}` is
+        /// left out where the offset is in the coordinates.
         #[serde(alias = "contour-begin")]
         contour_begin: Vec<String> = [] => lines;
         /// Lines before the way out of each contour, where the control offsets it.

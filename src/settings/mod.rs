@@ -20,7 +20,7 @@ pub use effective::Effective;
 pub use from_json::from_json;
 pub use from_toml::{FILE_NAME, from_toml, place_in, read_file};
 pub use keys::{Passes, Profile, ProfileSettings, ProgramSettings, Settings, rows};
-pub use passes::{PassFault, pass_faults};
+pub use passes::{PassFault, pass_faults, passes_table};
 pub use profile::{CenterRule, Coordinates, LineEnd, NumberUnit, Zero, shipped_profiles};
 pub use reader::words_of;
 pub use row::{Range, Row};
@@ -132,6 +132,28 @@ pub enum Jumps {
     None,
 }
 
+/// Which way the passes of a contour go.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sequence {
+    /// To and fro: each pass goes back along the one before it.
+    #[default]
+    Alternate,
+    /// All the same way.
+    OneWay,
+}
+
+/// What the passes after the first make of a corner that the wire runs inside of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SkimCorner {
+    /// Each pass turns in a point: as sharp as the wire leaves it, with more stock in the corner than along the walls.
+    #[default]
+    Sharp,
+    /// Each pass runs at one distance beside the first: as much stock in the corner as along the walls, which is left rounder.
+    ConstantStock,
+}
+
 /// Where the correction is applied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -178,7 +200,7 @@ pub enum PointSetting {
 
 plain! {
     bool, f64, u8, u32, String, Vec<f64>, Vec<String>, Role, RuleSeverity, PointSetting, SideSetting, UnitSetting, Layout, Direction,
-    Corner, Order, Jumps, Compensation, CenterRule, Coordinates, Zero, NumberUnit, LineEnd,
+    Corner, Order, Jumps, Sequence, SkimCorner, Compensation, CenterRule, Coordinates, Zero, NumberUnit, LineEnd,
 }
 
 impl Settings {
@@ -210,24 +232,14 @@ impl Settings {
         }) else {
             return Vec::new();
         };
-        let (key, faults) = match (
-            self.passes
-                .as_ref()
-                .and_then(|passes| passes.corrections.as_ref()),
-            self.correction,
-        ) {
-            (Some(list), _) => (
-                "passes.corrections",
-                pass_faults(list, true, self.wire_diameter),
-            ),
-            (None, Some(single)) => (
-                "correction",
-                pass_faults(&[single], false, self.wire_diameter),
-            ),
+        let passes = self.passes.clone().unwrap_or_default();
+        let faults = match (&passes.corrections, self.correction) {
+            (Some(list), _) => pass_faults(list, Some(&passes), self.wire_diameter),
+            (None, Some(single)) => pass_faults(&[single], None, self.wire_diameter),
             (None, None) => return Vec::new(),
         };
         let error = |fault: PassFault| SettingsError {
-            key: key.into(),
+            key: fault.key.into(),
             range: place(&fault),
             message: fault.message,
             rule,

@@ -1,4 +1,6 @@
-//! The corrections of the passes, held against each other and against the wire.
+//! The corrections of the passes, held against each other and against the wire, and a table of them that is made.
+
+use super::Passes;
 
 /// Two lengths in mm that differ by less are equal: half a diameter is rounded.
 const ROUNDING: f64 = 1e-9;
@@ -6,6 +8,8 @@ const ROUNDING: f64 = 1e-9;
 /// A pass that cannot follow the one before it, or that no wire can cut.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassFault {
+    /// The dotted key that it speaks of.
+    pub key: &'static str,
     /// Index of the pass.
     pub pass: usize,
     /// Lower-case, no final dot.
@@ -13,18 +17,20 @@ pub struct PassFault {
 }
 
 /// What is wrong with the corrections of the passes from rough to finish, mm: one that is above that of the pass before it, and one
-/// that is below the wire's radius, where the diameter is known. `is_list`: they come from `passes.corrections`, not from `correction`.
+/// that is below the wire's radius, where the diameter is known. `passes` is what else is said of them, where they come from
+/// `passes.corrections` and not from `correction`: each list in it is of as many.
 pub fn pass_faults(
     corrections: &[f64],
-    is_list: bool,
+    passes: Option<&Passes>,
     wire_diameter: Option<f64>,
 ) -> Vec<PassFault> {
-    let name = |pass: usize| {
-        if is_list {
-            format!("passes.corrections[{pass}]")
-        } else {
-            "correction".into()
-        }
+    let key = match passes {
+        Some(_) => "passes.corrections",
+        None => "correction",
+    };
+    let name = |pass: usize| match passes {
+        Some(_) => format!("{key}[{pass}]"),
+        None => key.into(),
     };
     let mut faults = Vec::new();
     for (pass, &correction) in corrections.iter().enumerate() {
@@ -39,7 +45,7 @@ pub fn pass_faults(
                 correction,
                 before
             );
-            faults.push(PassFault { pass, message });
+            faults.push(PassFault { key, pass, message });
         }
         if let Some(radius) = wire_diameter.map(|diameter| diameter / 2.0)
             && correction < radius - ROUNDING
@@ -50,10 +56,44 @@ pub fn pass_faults(
                 correction,
                 radius
             );
-            faults.push(PassFault { pass, message });
+            faults.push(PassFault { key, pass, message });
+        }
+    }
+    let Some(passes) = passes else {
+        return faults;
+    };
+    let lists = [
+        ("passes.gaps", passes.gaps.as_ref().map(Vec::len)),
+        ("passes.registers", passes.registers.as_ref().map(Vec::len)),
+    ];
+    for (key, count) in lists {
+        if let Some(count) = count.filter(|&count| count != corrections.len()) {
+            let message = say!(
+                is_of_passes_expected_one_for_each,
+                key,
+                count,
+                corrections.len()
+            );
+            faults.push(PassFault {
+                key,
+                pass: usize::MAX,
+                message,
+            });
         }
     }
     faults
+}
+
+/// The corrections of a rough pass and `skims` skims for a wire of radius `wire`, mm: the rough one leaves the `stock`, of which each skim
+/// takes its share, the last one the rest. `gaps` are the spark gaps of the rough pass and of the skims.
+///
+/// Rough: ρ + δ rough + stock; skim i of n: ρ + δ skim + stock · (n − i) / n. Without skims nothing is left for them: ρ + δ rough.
+pub fn passes_table(wire: f64, gaps: [f64; 2], stock: f64, skims: usize) -> Vec<f64> {
+    let [rough, fine] = gaps;
+    let left = |skim: usize| stock * (skims - skim) as f64 / skims as f64;
+    let first = wire + rough + if skims > 0 { stock } else { 0.0 };
+    let skim = (1..=skims).map(|skim| wire + fine + left(skim));
+    std::iter::once(first).chain(skim).collect()
 }
 
 #[cfg(test)]
@@ -63,7 +103,7 @@ mod tests {
     #[test]
     fn corrections_fall_and_stay_above_the_radius_of_the_wire() {
         let check = |corrections: &[f64], diameter: Option<f64>, expected: &[usize]| {
-            let passes: Vec<usize> = pass_faults(corrections, true, diameter)
+            let passes: Vec<usize> = pass_faults(corrections, Some(&Passes::default()), diameter)
                 .iter()
                 .map(|fault| fault.pass)
                 .collect();
@@ -78,5 +118,44 @@ mod tests {
         check(&[0.175, 0.12], Some(0.25), &[1]);
         check(&[0.1, 0.12], Some(0.25), &[0, 1, 1]);
         check(&[], Some(0.25), &[]);
+    }
+
+    #[test]
+    fn lists_beside_the_corrections_are_of_as_many_passes() {
+        let check = |gaps: Option<Vec<f64>>, registers: Option<Vec<String>>, expected: &[&str]| {
+            let passes = Passes {
+                gaps,
+                registers,
+                ..Passes::default()
+            };
+            let faults = pass_faults(&[0.2, 0.17, 0.14], Some(&passes), None);
+            let found: Vec<&str> = faults.iter().map(|fault| fault.message.as_str()).collect();
+            assert_eq!(found, expected);
+        };
+        check(Some(vec![0.03, 0.015, 0.015]), None, &[]);
+        check(
+            Some(vec![0.03, 0.015]),
+            Some(vec!["D1".into()]),
+            &[
+                "passes.gaps is a list of 2, expected one for each of the 3 passes",
+                "passes.registers is a list of 1, expected one for each of the 3 passes",
+            ],
+        );
+    }
+
+    #[test]
+    fn a_table_leaves_each_skim_its_share_of_the_stock() {
+        let check = |gaps: [f64; 2], stock: f64, skims: usize, expected: &[f64]| {
+            let table = passes_table(0.125, gaps, stock, skims);
+            let same = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-12;
+            assert!(
+                table.len() == expected.len() && table.iter().zip(expected).all(same),
+                "{table:?}, expected {expected:?}"
+            );
+        };
+        check([0.03, 0.015], 0.06, 2, &[0.215, 0.170, 0.140]);
+        check([0.03, 0.015], 0.06, 1, &[0.215, 0.140]);
+        check([0.03, 0.015], 0.06, 0, &[0.155]);
+        check([0.02, 0.01], 0.0, 3, &[0.145, 0.135, 0.135, 0.135]);
     }
 }

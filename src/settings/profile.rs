@@ -186,7 +186,7 @@ mod tests {
         check(
             "begin = [\"G92 X{z}\"]",
             "\"G92 X{z}\"",
-            "profiles.mine.begin[0] holds {z}, expected {x}, {y} or {side}",
+            "profiles.mine.begin[0] holds {z}, expected {x}, {y}, {side} or {register}",
         );
         check("end = \"M02\"", "\"M02\"", "expected a list of lines");
         check(

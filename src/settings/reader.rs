@@ -114,7 +114,8 @@ impl Reader {
         .then_some(values)
     }
 
-    pub fn corrections(&mut self, key: &str, node: &Node, range: &Range) -> Option<Vec<f64>> {
+    /// A number for each pass.
+    pub fn numbers(&mut self, key: &str, node: &Node, range: &Range) -> Option<Vec<f64>> {
         let expected = say!(a_list_of_numbers_one_for_each_pass);
         match &node.value {
             Value::Null => None,
@@ -149,19 +150,35 @@ impl Reader {
         self.misfit(key, node, &names.join(", "))
     }
 
-    /// Lines of a program in which `{x}`, `{y}` and `{side}` stand for something.
+    /// Lines of a program in which `{x}`, `{y}`, `{side}` and `{register}` stand for something.
     pub fn lines(&mut self, key: &str, node: &Node) -> Option<Vec<String>> {
+        self.texts(key, node, say!(a_list_of_lines), Reader::line)
+    }
+
+    pub fn words(&mut self, key: &str, node: &Node) -> Option<Vec<String>> {
+        self.texts(key, node, say!(a_list_of_words), |reader, key, node| {
+            reader.word(key, node)
+        })
+    }
+
+    fn texts(
+        &mut self,
+        key: &str,
+        node: &Node,
+        expected: &str,
+        read: impl Fn(&mut Reader, &str, &Node) -> Option<String>,
+    ) -> Option<Vec<String>> {
         let items = match &node.value {
             Value::Null => return None,
             Value::List(items) => items,
-            _ => return self.misfit(key, node, say!(a_list_of_lines)),
+            _ => return self.misfit(key, node, expected),
         };
-        let lines: Vec<Option<String>> = items
+        let texts: Vec<Option<String>> = items
             .iter()
             .enumerate()
-            .map(|(index, item)| self.line(&format!("{key}[{index}]"), item))
+            .map(|(index, item)| read(self, &format!("{key}[{index}]"), item))
             .collect();
-        lines.into_iter().collect()
+        texts.into_iter().collect()
     }
 
     fn line(&mut self, key: &str, node: &Node) -> Option<String> {
@@ -175,7 +192,7 @@ impl Reader {
                 .find('}')
                 .map_or(rest.len(), |close| open + close + 1);
             let name = &rest[open..end];
-            if !["{x}", "{y}", "{side}"].contains(&name) {
+            if !["{x}", "{y}", "{side}", "{register}"].contains(&name) {
                 return self.complain(key, node, say!(holds_an_unknown_name, key, name));
             }
             rest = &rest[end..];
@@ -339,10 +356,10 @@ impl Reader {
 
 /// The value that a fault of the passes speaks of, else what else the tree says about the passes.
 pub(super) fn place_of(root: &Node, fault: &PassFault) -> Option<std::ops::Range<usize>> {
-    let corrections =
-        entry_of(root, "passes").and_then(|entry| entry_of(&entry.node, "corrections"));
-    let of_list = corrections.and_then(|entry| match &entry.node.value {
-        Value::List(items) => items.get(fault.pass)?.range.clone(),
+    let named = fault.key.rsplit('.').next().unwrap_or_default();
+    let list = entry_of(root, "passes").and_then(|entry| entry_of(&entry.node, named));
+    let of_list = list.and_then(|entry| match &entry.node.value {
+        Value::List(items) => items.get(fault.pass).unwrap_or(&entry.node).range.clone(),
         _ => None,
     });
     let of_key = |key: &str| entry_of(root, key).and_then(|entry| entry.node.range.clone());

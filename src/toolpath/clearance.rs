@@ -52,6 +52,22 @@ impl Walls {
         })
     }
 
+    /// How far a point is from the nearest one; they are looked for `reach` about it first. Endless where there are none.
+    pub fn distance_to(&self, point: Point, reach: f64) -> f64 {
+        let mut reach = reach.max(f64::MIN_POSITIVE);
+        loop {
+            let mut nearest = f64::INFINITY;
+            self.find(&Bounds::of_disc(point, reach), |index| {
+                nearest = nearest.min(self.segments[index].distance_to(point));
+                false
+            });
+            if nearest <= reach || self.segments.is_empty() || reach == f64::INFINITY {
+                return nearest;
+            }
+            reach *= 4.0;
+        }
+    }
+
     /// The first wall found that is nearer to a point than `distance`.
     pub fn nearer(&self, point: Point, distance: f64) -> Option<usize> {
         self.find(&Bounds::of_disc(point, distance), |index| {

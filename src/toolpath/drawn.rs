@@ -75,6 +75,8 @@ pub(super) fn one_path(
     }
     Some(WirePath {
         outline: *chosen.first()?,
+        pass: 1,
+        counter_clockwise: None,
         correction: 0.0,
         thread_hole: begin,
         side: None,

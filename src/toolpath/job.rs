@@ -17,6 +17,8 @@ pub(super) struct Job<'a> {
     /// What the selection says of contours, by outline.
     pub picks: FxHashMap<usize, Pick>,
     pub unit_mm: f64,
+    /// What all passes leave is worked out, too.
+    pub finishes: bool,
     pub goes_on: &'a dyn Fn() -> bool,
 }
 

@@ -19,6 +19,16 @@ const CRUMB: f64 = 4e-6;
 /// Elements of a path that are looked at between two questions whether it is still wanted.
 const STEP: usize = 1024;
 
+/// How a path runs along a contour.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Along {
+    /// +1 where the wire runs to the left of the walls, −1 to the right.
+    pub side: f64,
+    /// Drawing units.
+    pub correction: f64,
+    pub corner: Corner,
+}
+
 /// What a contour gives the wire.
 pub(super) enum Laid {
     Path(Vec<Element>),
@@ -47,6 +57,7 @@ impl Job<'_> {
         &self,
         contour: &Contour,
         side: f64,
+        correction: f64,
     ) -> Result<(Vec<Wall>, Walls, Outcome), Refusal> {
         let of = |shortest: f64| {
             let walls = walls(contour.segments(self.drawing), true, self.units(shortest));
@@ -54,14 +65,19 @@ impl Job<'_> {
             (walls, own)
         };
         let (walls, own) = of(self.settings.tolerances.zero_length);
-        let laid = self.laid(&walls, &own, side)?;
+        let along = Along {
+            side,
+            correction,
+            corner: self.settings.corner,
+        };
+        let laid = self.laid(&walls, &own, along)?;
         if laid.is_err()
             && walls
                 .iter()
                 .any(|wall| wall.geometry.length() <= self.units(CRUMB))
         {
             let (walls, own) = of(CRUMB);
-            if let Ok(path) = self.laid(&walls, &own, side)? {
+            if let Ok(path) = self.laid(&walls, &own, along)? {
                 return Ok((walls, own, Ok(path)));
             }
         }
@@ -69,8 +85,17 @@ impl Job<'_> {
     }
 
     /// The path along a closed contour, proved; `walls` have the wire on the side of that sign.
-    fn laid(&self, walls: &[Wall], own: &Walls, side: f64) -> Result<Outcome, Refusal> {
-        let correction = self.units(self.settings.correction);
+    pub(super) fn laid(
+        &self,
+        walls: &[Wall],
+        own: &Walls,
+        along: Along,
+    ) -> Result<Outcome, Refusal> {
+        let Along {
+            side,
+            correction,
+            corner,
+        } = along;
         let joining = Joining {
             correction,
             side,
@@ -91,7 +116,7 @@ impl Job<'_> {
         };
         let tipped = |path: Vec<(usize, Element)>| {
             let path: Vec<Element> = path.into_iter().map(|(_, element)| element).collect();
-            Laid::Path(match self.settings.corner {
+            Laid::Path(match corner {
                 Corner::Intersection => {
                     with_tips(path, walls, &joining, own, correction - rounding)
                 }
@@ -187,8 +212,7 @@ impl Job<'_> {
     }
 
     /// The finding that stands for a path which cannot be made.
-    pub(crate) fn no_path(&self, fault: &Fault, walls: &[Wall]) -> Finding {
-        let required = self.units(self.settings.correction);
+    pub(crate) fn no_path(&self, fault: &Fault, walls: &[Wall], required: f64) -> Finding {
         let near = |wall: usize| {
             walls
                 .get(wall)

@@ -238,6 +238,24 @@ enum Obstacle {
 }
 
 impl Surroundings<'_> {
+    /// Holds a lead of a later pass against everything; `correction` is that of the pass, drawing units.
+    pub(super) fn hold(
+        &self,
+        thread: Point,
+        begin: Point,
+        entry: &Entry,
+        walls: &[Wall],
+        correction: f64,
+    ) -> Result<(), Finding> {
+        let Some(obstacle) = self.obstacle(&Segment::line(thread, begin), begin) else {
+            return Ok(());
+        };
+        let (place, does) = self.told(&obstacle, walls, correction * self.unit_mm);
+        let source = walls.get(entry.wall).map(|wall| wall.source);
+        let sentence = say!(the_lead_in_does, thread.x, thread.y, begin.x, begin.y, does);
+        Err(fault(self.severity, source, sentence, place))
+    }
+
     /// What is in the way of a lead to `begin`.
     fn obstacle(&self, lead: &Segment, begin: Point) -> Option<Obstacle> {
         if let Some(wall) = self.own.too_near(lead, self.clearance) {
@@ -342,14 +360,9 @@ pub(super) fn thread_hole(
         if on_entry {
             return Ok(begin);
         }
-        return match surroundings.obstacle(&Segment::line(thread, begin), begin) {
-            None => Ok(thread),
-            Some(obstacle) => {
-                let (place, does) = surroundings.told(&obstacle, walls, correction);
-                let sentence = say!(the_lead_in_does, thread.x, thread.y, begin.x, begin.y, does);
-                Err(fault(severity, source, sentence, place))
-            }
-        };
+        return surroundings
+            .hold(thread, begin, entry, walls, correction / unit_mm)
+            .map(|()| thread);
     }
     if let Some(center) = center {
         if (center - begin).norm() <= 1e-6 / unit_mm {

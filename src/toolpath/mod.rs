@@ -7,6 +7,7 @@
 mod clearance;
 mod corners;
 mod drawn;
+mod finished;
 mod job;
 mod laid;
 mod leads;
@@ -20,6 +21,7 @@ mod proof;
 mod tests;
 mod wanted;
 
+pub use finished::Finished;
 pub use path::{PathSegment, Refusal, Source, WirePath};
 
 use crate::drawing::{Drawing, EntityId, Outline};
@@ -39,7 +41,17 @@ pub fn plan(
     settings: &Effective,
     handles: Option<&[String]>,
 ) -> Result<Vec<WirePath>, Refusal> {
-    plan_while(drawing, outlines, settings, handles, &|| true)
+    let planned = plan_while(drawing, outlines, settings, handles, false, &|| true)?;
+    Ok(planned.paths)
+}
+
+/// The paths of one request.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Planned {
+    /// In machining order, the passes of a contour one after another.
+    pub paths: Vec<WirePath>,
+    /// What all passes leave, where several are cut and it is asked for.
+    pub finished: Option<Finished>,
 }
 
 /// One contour among the cuts.
@@ -68,6 +80,7 @@ pub fn cuts(drawing: &Drawing, outlines: &[Outline], settings: &Effective) -> Op
         Order::Nearest => plan(drawing, outlines, settings, None)
             .ok()?
             .into_iter()
+            .filter(|path| path.pass == 1)
             .map(|path| path.outline)
             .collect(),
         order => {
@@ -88,14 +101,15 @@ pub fn cuts(drawing: &Drawing, outlines: &[Outline], settings: &Effective) -> Op
     )
 }
 
-/// The same for as long as `goes_on` says so, which is asked every few milliseconds.
+/// The same for as long as `goes_on` says so, which is asked every few milliseconds. `finishes`: what all passes leave is asked for, too.
 pub(crate) fn plan_while(
     drawing: &Drawing,
     outlines: &[Outline],
     settings: &Effective,
     handles: Option<&[String]>,
+    finishes: bool,
     goes_on: &dyn Fn() -> bool,
-) -> Result<Vec<WirePath>, Refusal> {
+) -> Result<Planned, Refusal> {
     let tolerances = settings.tolerances.in_units(settings.unit_of(drawing).mm);
     let Chosen {
         outlines: chosen,
@@ -117,7 +131,10 @@ pub(crate) fn plan_while(
             tolerances.join,
         )
     {
-        return Ok([path].into());
+        return Ok(Planned {
+            paths: vec![path],
+            finished: None,
+        });
     }
     let wanted = wanted::wanted(drawing, outlines, &chosen, settings)?;
     let job = Job {
@@ -126,11 +143,12 @@ pub(crate) fn plan_while(
         settings,
         picks,
         unit_mm: settings.unit_of(drawing).mm,
+        finishes,
         goes_on,
     };
     job.go_on()?;
     let contours = Contours::new(drawing, outlines);
-    let (paths, mut findings) = match settings.compensation {
+    let (Planned { paths, finished }, mut findings) = match settings.compensation {
         Compensation::None => job.as_drawn_all(&chosen, &wanted, &contours)?,
         Compensation::Path | Compensation::Controller => {
             job.offset_all(&chosen, &wanted, &contours)?
@@ -143,7 +161,7 @@ pub(crate) fn plan_while(
     };
     findings.extend(job.jumps_that_cut(&paths, &contours));
     if findings.is_empty() {
-        Ok(paths)
+        Ok(Planned { paths, finished })
     } else {
         Err(Refusal::Findings(findings))
     }
@@ -185,15 +203,17 @@ pub(crate) fn misfit(
         settings,
         picks: FxHashMap::default(),
         unit_mm: settings.unit_of(drawing).mm,
+        finishes: false,
         goes_on: &|| true,
     };
-    let (walls, _, laid) = job.along(&outline.contour, side).ok()?;
+    let correction = job.units(settings.correction);
+    let (walls, _, laid) = job.along(&outline.contour, side, correction).ok()?;
     match laid {
         Ok(Laid::Path(_)) => None,
         Ok(Laid::Point(_)) => {
-            let finding = job.no_path(&Fault::Nothing, &walls);
+            let finding = job.no_path(&Fault::Nothing, &walls, correction);
             let detail = Detail::OffsetCollapse {
-                required: job.units(settings.correction),
+                required: correction,
                 point: true,
             };
             Some(Finding {
@@ -202,6 +222,6 @@ pub(crate) fn misfit(
                 ..finding
             })
         }
-        Err(fault) => Some(job.no_path(&fault, &walls)),
+        Err(fault) => Some(job.no_path(&fault, &walls, correction)),
     }
 }

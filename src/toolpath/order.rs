@@ -252,32 +252,32 @@ pub(super) fn by_nearest(
     outlines: &[Outline],
     paths: Vec<WirePath>,
 ) -> Vec<WirePath> {
-    let chosen: Vec<usize> = paths.iter().map(|path| path.outline).collect();
+    // The paths of a contour stay together.
+    let (mut firsts, mut lasts): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
+    for (index, path) in paths.iter().enumerate() {
+        if index > 0 && paths[index - 1].outline == path.outline {
+            lasts.pop();
+        } else {
+            firsts.push(index);
+        }
+        lasts.push(index);
+    }
+    let chosen: Vec<usize> = firsts.iter().map(|&index| paths[index].outline).collect();
     let nesting = Nesting::new(drawing, outlines, &chosen);
-    let mut within = vec![0_usize; paths.len()];
+    let mut within = vec![0_usize; chosen.len()];
     nesting
         .around
         .iter()
         .flatten()
         .for_each(|&outer| within[outer] += 1);
-    let begin_of = |path: &WirePath| {
-        path.segments
-            .first()
-            .map_or(path.thread_hole, |piece| piece.geometry.start())
-    };
-    let end_of = |path: &WirePath| {
-        path.segments
-            .last()
-            .map_or(path.thread_hole, |piece| piece.geometry.end())
-    };
-    let begins: Vec<Point> = paths.iter().map(begin_of).collect();
+    let begins: Vec<Point> = firsts.iter().map(|&index| paths[index].begin()).collect();
     // What may be cut, from left to right.
     let key = |place: usize| (OrderedX(begins[place].x), place);
-    let mut free: BTreeSet<(OrderedX, usize)> = (0..paths.len())
+    let mut free: BTreeSet<(OrderedX, usize)> = (0..chosen.len())
         .filter(|&place| within[place] == 0)
         .map(key)
         .collect();
-    let mut order = Vec::with_capacity(paths.len());
+    let mut order = Vec::with_capacity(chosen.len());
     let mut next = free.iter().map(|(_, place)| *place).min();
     while let Some(place) = next {
         free.remove(&key(place));
@@ -288,7 +288,7 @@ pub(super) fn by_nearest(
                 free.insert(key(outer));
             }
         }
-        let here = end_of(&paths[place]);
+        let here = paths[lasts[place]].end();
         let mut best: Option<(f64, usize)> = None;
         let middle = (OrderedX(here.x), 0);
         let (mut left, mut right) = (
@@ -325,7 +325,8 @@ pub(super) fn by_nearest(
     let mut paths: Vec<Option<WirePath>> = paths.into_iter().map(Some).collect();
     order
         .into_iter()
-        .filter_map(|place| paths[place].take())
+        .flat_map(|place| firsts[place]..=lasts[place])
+        .filter_map(|index| paths[index].take())
         .collect()
 }
 

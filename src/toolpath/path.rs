@@ -45,6 +45,10 @@ pub struct PathSegment {
 pub struct WirePath {
     /// Index of the outline in the drawing's list.
     pub outline: usize,
+    /// 1-based number of the pass.
+    pub pass: usize,
+    /// Which way a closed contour is gone round in this pass; `None` where it is open.
+    pub counter_clockwise: Option<bool>,
     /// How far the path lies from the contour, drawing units; 0 where the contour is the path.
     pub correction: f64,
     /// Where the wire is threaded and comes back to.
@@ -53,6 +57,38 @@ pub struct WirePath {
     pub side: Option<Side>,
     /// In order of travel, lead-in and lead-out included.
     pub segments: Vec<PathSegment>,
+}
+
+impl WirePath {
+    /// The same path gone back.
+    pub fn reversed(self) -> WirePath {
+        let back = |piece: PathSegment| PathSegment {
+            geometry: piece.geometry.reversed(),
+            source: match piece.source {
+                Source::LeadIn => Source::LeadOut,
+                Source::LeadOut => Source::LeadIn,
+                of_contour => of_contour,
+            },
+        };
+        WirePath {
+            counter_clockwise: self.counter_clockwise.map(|is| !is),
+            side: self.side.map(Side::reversed),
+            segments: self.segments.into_iter().rev().map(back).collect(),
+            ..self
+        }
+    }
+
+    /// Where the path begins; where the wire is threaded if it only stands.
+    pub fn begin(&self) -> Point {
+        let first = self.segments.first();
+        first.map_or(self.thread_hole, |piece| piece.geometry.start())
+    }
+
+    /// Where the path ends; where the wire is threaded if it only stands.
+    pub fn end(&self) -> Point {
+        let last = self.segments.last();
+        last.map_or(self.thread_hole, |piece| piece.geometry.end())
+    }
 }
 
 /// Why no path can be made; a plain sentence for the user, lower-case, no final dot.

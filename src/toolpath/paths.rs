@@ -1,9 +1,11 @@
 //! The paths of all contours of one request, with their leads, each held against all contours.
 
+use super::Planned;
 use super::clearance::Walls;
 use super::corners::{Element, elements};
+use super::finished::{Finished, Kerf, finished};
 use super::job::{Job, ROUNDING};
-use super::laid::{Fault, Laid, goes_out_and_back};
+use super::laid::{Along, Fault, Laid, Outcome, goes_out_and_back};
 use super::leads::{
     Contours, Entry, Kerfs, Surroundings, circle_center, default_entry, fault, nearest,
     off_contour, path_point, thread_hole,
@@ -15,22 +17,24 @@ use super::wanted::Wanted;
 use crate::drawing::{Contour, Role};
 use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::{Point, Segment};
-use crate::settings::{Compensation, Jumps};
+use crate::settings::{Compensation, Corner, Jumps, SkimCorner};
 
-/// The offset of a contour, before it has leads.
-enum Offset {
-    Path(Box<Unled>),
-    /// The wire stands in one point.
-    Point(WirePath),
-}
-
+/// The offsets of a contour, before they have leads, all in the direction of the first pass.
 struct Unled {
     outline: usize,
     walls: Vec<Wall>,
     own: Walls,
-    /// Begins anywhere.
+    /// `None` where the wire only stands.
+    entry: Option<Entry>,
+    passes: Vec<Pass>,
+}
+
+/// One pass along a contour.
+struct Pass {
+    /// Drawing units.
+    correction: f64,
+    /// Begins anywhere; empty where the wire stands in one point.
     path: Vec<Element>,
-    entry: Entry,
     /// The element of the path that is entered, and where.
     element: usize,
     begin: Point,
@@ -43,7 +47,7 @@ impl Job<'_> {
         chosen: &[usize],
         wanted: &[Wanted],
         contours: &Contours,
-    ) -> Result<(Vec<WirePath>, Vec<Finding>), Refusal> {
+    ) -> Result<(Planned, Vec<Finding>), Refusal> {
         let (mut paths, mut findings) = (Vec::new(), Vec::new());
         for (&index, wanted) in chosen.iter().zip(wanted) {
             self.go_on()?;
@@ -76,7 +80,11 @@ impl Job<'_> {
             }
             paths.push(path);
         }
-        Ok((paths, findings))
+        let planned = Planned {
+            paths,
+            finished: None,
+        };
+        Ok((planned, findings))
     }
 
     /// The offsets of contours, with leads that are held against all of them, and the leads that do not fit.
@@ -85,8 +93,8 @@ impl Job<'_> {
         chosen: &[usize],
         wanted: &[Wanted],
         contours: &Contours,
-    ) -> Result<(Vec<WirePath>, Vec<Finding>), Refusal> {
-        let (mut paths, mut findings) = (Vec::new(), Vec::new());
+    ) -> Result<(Planned, Vec<Finding>), Refusal> {
+        let (mut planned, mut findings) = (Planned::default(), Vec::new());
         let mut offsets = Vec::with_capacity(chosen.len());
         for (&index, wanted) in chosen.iter().zip(wanted) {
             self.go_on()?;
@@ -96,24 +104,12 @@ impl Job<'_> {
                 Err(refusal) => return Err(refusal),
             }
         }
-        let kerfs = Kerfs::new(offsets.iter().filter_map(|(_, offset)| match offset {
-            Offset::Path(unled) => Some((unled.outline, &unled.path[..])),
-            Offset::Point(_) => None,
+        let kerfs = Kerfs::new(offsets.iter().filter_map(|(_, unled)| {
+            let rough = unled.passes.first()?;
+            Some((unled.outline, &rough.path[..]))
         }));
-        for (wanted, offset) in offsets {
+        for (wanted, unled) in offsets {
             self.go_on()?;
-            let by_control = self.settings.compensation == Compensation::Controller;
-            let unled = match offset {
-                Offset::Path(unled) => unled,
-                Offset::Point(point) if by_control => {
-                    paths.push(self.controlled(point.outline, wanted, point.thread_hole)?);
-                    continue;
-                }
-                Offset::Point(point) => {
-                    paths.push(point);
-                    continue;
-                }
-            };
             let thread = match self.thread_hole(&unled, wanted, contours, &kerfs) {
                 Ok(thread) => thread,
                 Err(finding) => {
@@ -121,20 +117,53 @@ impl Job<'_> {
                     continue;
                 }
             };
-            paths.push(if by_control {
+            if let Some(found) = self.finished(&unled) {
+                let before = planned.finished;
+                planned.finished = Some(before.map_or(found, |before| before.merged(found)));
+            }
+            planned.paths.extend(self.led(unled, wanted, thread)?);
+        }
+        Ok((planned, findings))
+    }
+
+    /// The passes of a contour with their leads, each in its own direction.
+    fn led(&self, unled: Unled, wanted: &Wanted, thread: Point) -> Result<Vec<WirePath>, Refusal> {
+        let mut paths = Vec::with_capacity(unled.passes.len());
+        for (number, pass) in unled.passes.into_iter().enumerate() {
+            let path = if self.settings.compensation == Compensation::Controller {
                 self.controlled(unled.outline, wanted, thread)?
             } else {
-                let path = begin_at(unled.path, unled.element, unled.begin);
-                self.with_leads(
-                    unled.outline,
-                    self.units(self.settings.correction),
-                    thread,
-                    path,
-                    true,
-                )
+                let path = begin_at(pass.path, pass.element, pass.begin);
+                self.with_leads(unled.outline, pass.correction, thread, path, true)
+            };
+            let path = WirePath {
+                pass: number + 1,
+                ..path
+            };
+            paths.push(match self.settings.runs_back(number) {
+                true => path.reversed(),
+                false => path,
             });
         }
-        Ok((paths, findings))
+        Ok(paths)
+    }
+
+    /// What all passes leave of a contour, where that is asked for.
+    fn finished(&self, unled: &Unled) -> Option<Finished> {
+        let count = unled.passes.len();
+        if !self.finishes || count < 2 {
+            return None;
+        }
+        // Half the kerf of the last pass is its correction where nothing else is known: no later pass finds any stock.
+        let kerf = |(number, pass): (usize, &Pass)| {
+            let last = (number + 1 == count).then_some(pass.correction);
+            let half = self.settings.half_kerf(number).map(|half| self.units(half));
+            let half = half.or(last)?;
+            Some(Kerf::new(&pass.path, pass.begin, pass.correction, half))
+        };
+        let kerfs: Vec<Kerf> = unled.passes.iter().enumerate().filter_map(kerf).collect();
+        let last = unled.passes.last()?;
+        finished(&unled.walls, &last.path, &kerfs, self.units(1e-5))
     }
 
     fn severity(&self) -> Severity {
@@ -143,11 +172,11 @@ impl Job<'_> {
             .unwrap_or(Severity::Error)
     }
 
-    /// How near the path may come to the walls.
-    fn clearance(&self) -> f64 {
+    /// How near a path at a correction, drawing units, may come to the walls.
+    fn clearance(&self, correction: f64) -> f64 {
         match self.settings.compensation {
             Compensation::None => self.units(ROUNDING),
-            _ => self.units(self.settings.correction - ROUNDING),
+            _ => correction - self.units(ROUNDING),
         }
     }
 
@@ -157,7 +186,8 @@ impl Job<'_> {
             let outline = contours.outline_of(wall);
             Some(outline) != but && self.outlines[outline].contour.closed
         };
-        contours.walls.find_near(way, self.clearance(), counts)
+        let clearance = self.clearance(self.units(self.settings.correction));
+        contours.walls.find_near(way, clearance, counts)
     }
 
     /// The ways from one contour to the next that cut through a part, where the wire stays threaded.
@@ -168,6 +198,9 @@ impl Job<'_> {
         let cut = |pair: &[WirePath]| {
             let (from, next) = (pair[0].segments.last()?.geometry.end(), &pair[1]);
             let to = next.segments.first()?.geometry.start();
+            if from == to {
+                return None;
+            }
             let wall = self.crossed(&Segment::line(from, to), contours, None)?;
             let sentence = say!(
                 the_way_cuts_into_contour,
@@ -250,8 +283,8 @@ impl Job<'_> {
         Ok(self.with_leads(index, 0.0, thread, path, contour.closed))
     }
 
-    /// The offset of a closed contour.
-    fn compensated(&self, index: usize, wanted: &Wanted) -> Result<Offset, Refusal> {
+    /// The offsets of a closed contour, one for each pass.
+    fn compensated(&self, index: usize, wanted: &Wanted) -> Result<Unled, Refusal> {
         let (outline, settings) = (&self.outlines[index], self.settings);
         let handle = name(self.drawing, outline);
         if !outline.contour.closed {
@@ -266,7 +299,6 @@ impl Job<'_> {
                 handle
             )));
         };
-        let correction = self.units(settings.correction);
         let (contour, turned) = self.directed(index);
         let side = if turned {
             own_side.reversed()
@@ -274,38 +306,125 @@ impl Job<'_> {
             own_side
         }
         .sign();
-        let (walls, own, laid) = self.along(&contour, side)?;
-        let path = match laid {
-            Ok(Laid::Path(path)) => path,
-            Ok(Laid::Point(point)) => {
-                return self
-                    .threaded(index, wanted, &walls, correction, point)
-                    .map(Offset::Point);
-            }
-            Err(fault) => return Err(Refusal::Findings(vec![self.no_path(&fault, &walls)])),
-        };
-        let entry = match self
-            .entry(index, &walls, wanted)?
-            .or_else(|| default_entry(&walls))
-        {
-            Some(entry) => entry,
-            None => return Err(Refusal::Sentence(say!(contour_has_no_length, handle))),
-        };
-        let (element, begin) =
-            path_point(&path, &walls, &entry, correction, side).ok_or_else(|| {
-                Refusal::Findings(vec![
-                    self.no_path(&Fault::Unproved { wall: entry.wall }, &walls),
-                ])
-            })?;
-        Ok(Offset::Path(Box::new(Unled {
+        let corrections = settings.each_correction();
+        let corrections = || corrections.iter().map(|&mm| self.units(mm));
+        let rough = corrections().fold(0.0, f64::max);
+        let (walls, own, first) = self.along(&contour, side, rough)?;
+        let mut first = Some(first);
+        let mut entry = None;
+        let mut passes: Vec<Pass> = Vec::with_capacity(corrections().len());
+        for correction in corrections() {
+            let along = Along {
+                side,
+                correction,
+                corner: settings.corner,
+            };
+            let laid = match (first.take(), passes.first()) {
+                (None, Some(rough)) => self.skim(&walls, &own, rough, along)?,
+                (None, None) => self.laid(&walls, &own, along)?,
+                (Some(first), _) => first,
+            };
+            let path = match laid {
+                Ok(Laid::Path(path)) => path,
+                Ok(Laid::Point(begin)) => {
+                    passes.push(Pass {
+                        correction,
+                        path: Vec::new(),
+                        element: 0,
+                        begin,
+                    });
+                    continue;
+                }
+                Err(fault) => {
+                    let finding = self.no_path(&fault, &walls, correction);
+                    return Err(Refusal::Findings(vec![finding]));
+                }
+            };
+            let at = match entry {
+                Some(entry) => Some(entry),
+                None => self
+                    .entry(index, &walls, wanted)?
+                    .or_else(|| default_entry(&walls)),
+            };
+            let Some(at) = at else {
+                return Err(Refusal::Sentence(say!(contour_has_no_length, handle)));
+            };
+            let (element, begin) =
+                path_point(&path, &walls, &at, correction, side).ok_or_else(|| {
+                    let fault = Fault::Unproved { wall: at.wall };
+                    Refusal::Findings(vec![self.no_path(&fault, &walls, correction)])
+                })?;
+            entry = Some(at);
+            passes.push(Pass {
+                correction,
+                path,
+                element,
+                begin,
+            });
+        }
+        if let Some(stand) = passes.iter().find(|pass| pass.path.is_empty()) {
+            self.refuse_other_thread(wanted, &walls, stand)?;
+        }
+        Ok(Unled {
             outline: index,
             walls,
             own,
-            path,
             entry,
-            element,
-            begin,
-        })))
+            passes,
+        })
+    }
+
+    /// The path of a pass behind the first: beside the contour, or where the corners are to have a constant stock beside the first path.
+    fn skim(
+        &self,
+        walls: &[Wall],
+        own: &Walls,
+        rough: &Pass,
+        along: Along,
+    ) -> Result<Outcome, Refusal> {
+        let by = rough.correction - along.correction;
+        let is_constant = self.settings.passes.skim_corner() == SkimCorner::ConstantStock;
+        if !is_constant || by <= self.units(ROUNDING) || rough.path.is_empty() {
+            return self.laid(walls, own, along);
+        }
+        let beside: Vec<Wall> = rough
+            .path
+            .iter()
+            .map(|element| Wall {
+                geometry: element.geometry,
+                source: element.source,
+            })
+            .collect();
+        let near = Walls::new(beside.iter().map(|wall| wall.geometry).collect());
+        let back = Along {
+            side: -along.side,
+            correction: by,
+            corner: Corner::Arc,
+        };
+        let laid = self.laid(&beside, &near, back)?;
+        Ok(match laid {
+            Ok(Laid::Path(mut path)) => {
+                for element in &mut path {
+                    element.wall = rough.path[element.wall].wall;
+                }
+                let least = along.correction - 2.0 * self.units(ROUNDING);
+                let into = path
+                    .iter()
+                    .find_map(|element| own.too_near(&element.geometry, least));
+                match into {
+                    Some(wall) => Err(Fault::Unproved { wall }),
+                    None => Ok(Laid::Path(path)),
+                }
+            }
+            Err(Fault::Several { near, wall }) => Err(Fault::Several {
+                near,
+                wall: rough.path[wall].wall,
+            }),
+            Err(Fault::Unproved { wall }) => Err(Fault::Unproved {
+                wall: rough.path[wall].wall,
+            }),
+            nothing => nothing,
+        })
     }
 
     /// The thread hole for the offset of a contour, or what is in the way.
@@ -316,18 +435,18 @@ impl Job<'_> {
         contours: &Contours,
         kerfs: &Kerfs,
     ) -> Result<Point, Finding> {
-        if wanted.thread.is_none() && goes_out_and_back(&unled.path) {
-            // There is no room beside the path.
-            return Ok(unled.begin);
-        }
-        let surroundings = Surroundings {
+        let stand = unled.passes.iter().find(|pass| pass.path.is_empty());
+        let (Some(rough), Some(entry)) = (unled.passes.first(), &unled.entry) else {
+            return Ok(stand.map_or_else(Point::origin, |pass| pass.begin));
+        };
+        let surroundings = |correction: f64| Surroundings {
             drawing: self.drawing,
             outlines: self.outlines,
             outline: unled.outline,
             own: &unled.own,
             contours,
             kerfs,
-            clearance: self.clearance(),
+            clearance: self.clearance(correction),
             unit_mm: self.unit_mm,
             severity: self.severity(),
         };
@@ -340,55 +459,59 @@ impl Job<'_> {
         } else {
             None
         };
-        thread_hole(
-            wanted,
-            center,
-            &unled.entry,
-            unled.begin,
-            &unled.walls,
-            self.settings,
-            &surroundings,
-        )
+        let thread = if let Some(stand) = stand {
+            stand.begin
+        } else if wanted.thread.is_none() && goes_out_and_back(&rough.path) {
+            // There is no room beside the path.
+            rough.begin
+        } else {
+            thread_hole(
+                wanted,
+                center,
+                entry,
+                rough.begin,
+                &unled.walls,
+                self.settings,
+                &surroundings(rough.correction),
+            )?
+        };
+        // The first lead has been held against everything.
+        let first = usize::from(stand.is_none());
+        for pass in unled.passes.iter().skip(first) {
+            if pass.begin != thread && !pass.path.is_empty() {
+                let surroundings = surroundings(pass.correction);
+                surroundings.hold(thread, pass.begin, entry, &unled.walls, pass.correction)?;
+            }
+        }
+        Ok(thread)
     }
 
-    /// The path where the wire's centre can only stand: it is threaded there, and cuts nothing more.
-    fn threaded(
+    /// Where the wire's centre can only stand it is threaded, and cuts nothing more: no other thread hole will do.
+    fn refuse_other_thread(
         &self,
-        index: usize,
         wanted: &Wanted,
         walls: &[Wall],
-        correction: f64,
-        point: Point,
-    ) -> Result<WirePath, Refusal> {
-        let join = self.units(self.settings.tolerances.join);
-        if let Some(thread) = wanted
+        stand: &Pass,
+    ) -> Result<(), Refusal> {
+        let (join, point) = (self.units(self.settings.tolerances.join), stand.begin);
+        let Some(thread) = wanted
             .thread
             .filter(|thread| (thread - point).norm() > join)
-        {
-            let wall = nearest(walls, thread, join).map_or(0, |(entry, _)| entry.wall);
-            let sentence = say!(
-                the_thread_hole_comes_nearer_to_the_contour,
-                thread.x,
-                thread.y,
-                self.settings.correction,
-                point.x,
-                point.y
-            );
-            let source = walls.get(wall).map(|wall| wall.source);
-            return Err(Refusal::Findings(vec![fault(
-                self.severity(),
-                source,
-                sentence,
-                None,
-            )]));
-        }
-        Ok(WirePath {
-            outline: index,
-            correction,
-            thread_hole: point,
-            side: None,
-            segments: Vec::new(),
-        })
+        else {
+            return Ok(());
+        };
+        let wall = nearest(walls, thread, join).map_or(0, |(entry, _)| entry.wall);
+        let sentence = say!(
+            the_thread_hole_comes_nearer_to_the_contour,
+            thread.x,
+            thread.y,
+            stand.correction * self.unit_mm,
+            point.x,
+            point.y
+        );
+        let source = walls.get(wall).map(|wall| wall.source);
+        let finding = fault(self.severity(), source, sentence, None);
+        Err(Refusal::Findings(vec![finding]))
     }
 
     /// The part's contour, which the control offsets, with the thread hole of the path that comes of it.
@@ -503,8 +626,12 @@ impl Job<'_> {
                 source: Source::LeadOut,
             });
         }
+        let turned = || self.directed(outline).1;
         WirePath {
             outline,
+            pass: 1,
+            counter_clockwise: closed
+                .then(|| (self.outlines[outline].twice_area > 0.0) != turned()),
             correction,
             thread_hole,
             side: None,

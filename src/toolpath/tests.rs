@@ -799,7 +799,7 @@ fn a_path_that_nobody_wants_any_more_is_given_up() {
             asked.set(asked.get() + 1);
             asked.get() <= most
         };
-        plan_while(&drawing, &outlines, &defaults(), None, &goes_on)
+        plan_while(&drawing, &outlines, &defaults(), None, false, &goes_on)
     };
     assert!(until(usize::MAX).is_ok());
     let places = asked.get();

@@ -135,6 +135,7 @@ declare! {
     left_as_they_stand(path, damaged) => "{path}: left as they stand: {damaged} with a syntax error, see wedm check";
     written_program(styled, target, program, contours, length) => "{styled} {target}: {program}, {contours}, wire path {length:.3} mm";
     a_controller_that_counts_j_drifts_by_um(x, y) => "; a controller that counts J drifts by {x:.2}, {y:.2} µm";
+    the_finished_part_deviates(uncut, x, y, overcut) => "finished part: at most {uncut:.4} mm stay uncut, at {x:.3}, {y:.3}; {overcut:.4} mm cut beyond the contour";
     decoded_again_at_most_um(deviation, drift) => "decoded again: at most {deviation:.2} µm from the path{drift}";
     all_of_them_can_be_cut => "all of them can be cut";
     not_ok(count) => "{count} not ok";

@@ -29,7 +29,6 @@ declare! {
     less_than_a_wire_is_thick => "less than a wire is thick";
     the_largest_contour_is_mm_long_or_wide(size, what) => "the largest contour is {size} mm long or wide, {what}: the unit is another one, or the drawing is no part";
     more_findings_are_not_shown(count) => "{count} more findings are not shown";
-    the_program_holds_one_of_passes_that_of_correction_mm(passes, correction) => "the program holds one of {passes} passes, that of correction {correction} mm: the others are not written";
     n1_entity => "1 entity";
     is => "is";
     entities(count) => "{count} entities";
@@ -183,6 +182,8 @@ declare! {
     arc_r_mm_is_below_the_correction_mm(radius, required, pass) => "arc R {radius} mm is below the correction {required} mm{pass}";
     the_wire_overcuts_the_contour_by_mm(overcut) => ": the wire overcuts the contour by {overcut} mm";
     or_leaves_mm_where(stock_left) => ", or leaves {stock_left} mm where the control trims";
+    the_later_passes_find_mm_more_stock(stock) => ": the later passes find {stock} mm more stock there";
+    the_later_passes_find_more_stock => ": the later passes find more stock there";
     the_control_loses_the_arc => ": the control loses the arc";
     no_arc_of_the_required_radius_fits_here(required) => "; no arc of the required radius fits here (narrow-slot: the wire needs {required} mm)";
     the_arc_that_fits_would_seal_the_slot => "; the arc that fits would seal the slot (narrow-slot)";

@@ -6,6 +6,7 @@ declare! {
     a_number_from_to(least, most) => "a number from {least} to {most}";
     a_whole_number_from_to(least, most) => "a whole number from {least} to {most}";
     a_list_of_numbers_one_for_each_pass => "a list of numbers above 0, one for each pass";
+    a_list_of_words => "a list of words of letters and digits such as [\"D1\", \"D2\"]";
     a_list_of_lines => "a list of lines such as [\"G90\"]";
     one_line_of_text => "one line of text";
     one_line_without_control_characters => "one line without control characters";
@@ -21,9 +22,10 @@ declare! {
     is_expected(key, found, expected) => "{key} is {found}, expected {expected}";
     is_empty_expected(key, expected) => "{key} is empty, expected {expected}";
     is_not_known_expected(key, expected) => "{key} is not known, expected {expected}";
-    holds_an_unknown_name(key, name) => "{key} holds {name}, expected {{x}}, {{y}} or {{side}}";
+    holds_an_unknown_name(key, name) => "{key} holds {name}, expected {{x}}, {{y}}, {{side}} or {{register}}";
     there_is_no_profile(name, names) => "there is no profile {name:?}, expected {names}";
     is_expected_at_most_that_of_the_pass_before(pass, correction, before) => "{pass} is {correction}, expected at most {before}, that of the pass before: corrections fall";
+    is_of_passes_expected_one_for_each(key, count, passes) => "{key} is a list of {count}, expected one for each of the {passes} passes";
     is_expected_at_least_the_wire_radius(pass, correction, radius) => "{pass} is {correction}, expected at least the wire's radius {radius}: the wire would cut into the part";
     the_file_has_bytes_expected_at_most(bytes, most) => "the file has {bytes} bytes, expected at most {most}: none of it holds";
 }

@@ -34,7 +34,7 @@ pub fn write_with(
         .as_ref()
         .map_err(|sentence| ProofError::Refused(sentence.clone()))?;
     let per_mm = 10_i64.pow(u32::from(profile.decimals.clamp(3, 6)));
-    let mut lines = Lines::new(profile, settings.jumps, 1_000_000 / per_mm);
+    let mut lines = Lines::new(profile, settings, 1_000_000 / per_mm);
     walk(
         paths,
         unit_mm * per_mm as f64,
@@ -47,7 +47,9 @@ pub fn write_with(
 
 struct Lines<'a> {
     profile: &'a Profile,
-    jumps: Jumps,
+    settings: &'a Effective,
+    /// 1-based number of the pass.
+    pass: usize,
     /// nm in one step of the grid.
     step: i64,
     reading: Reading,
@@ -74,8 +76,9 @@ impl Writer for Lines<'_> {
         &mut self,
         from: Option<Node>,
         first: Node,
-        side: Option<Side>,
+        path: &WirePath,
     ) -> Result<(), ProofError> {
+        self.pass = path.pass;
         match from {
             None => {
                 if self.profile.zero == Zero::Start {
@@ -91,9 +94,14 @@ impl Writer for Lines<'_> {
             }
             Some(from) => self.jump(from, first)?,
         }
-        (self.side, self.is_switched_off) = (side, false);
+        (self.side, self.is_switched_off) = (path.side, false);
         self.fixed(&self.profile.contour_begin, first)?;
-        if side.is_some() && self.machine.side != side {
+        if path.side.is_some() && path.pass > 1 && !self.names_registers() {
+            return Err(self.refused(
+                "all passes would have one correction: expected a line with {register} in its contour-begin",
+            ));
+        }
+        if path.side.is_some() && self.machine.side != path.side {
             return Err(self.refused(
                 "its contour-begin does not switch the correction on: expected a line with {side}",
             ));
@@ -145,7 +153,7 @@ impl Writer for Lines<'_> {
 }
 
 impl<'a> Lines<'a> {
-    fn new(profile: &'a Profile, jumps: Jumps, step: i64) -> Lines<'a> {
+    fn new(profile: &'a Profile, settings: &'a Effective, step: i64) -> Lines<'a> {
         let reading = Reading {
             whole_numbers_are_fine: profile.unit == NumberUnit::Um,
             absolute: profile.center,
@@ -158,7 +166,8 @@ impl<'a> Lines<'a> {
         };
         Lines {
             profile,
-            jumps,
+            settings,
+            pass: 1,
             step,
             reading,
             machine: Machine::default(),
@@ -197,7 +206,7 @@ impl<'a> Lines<'a> {
         if from == to {
             return Ok(());
         }
-        match self.jumps {
+        match self.settings.jumps {
             Jumps::Blocks => {
                 self.step_out(&Encoded {
                     motion: Motion::Rapid,
@@ -228,6 +237,20 @@ impl<'a> Lines<'a> {
         self.fixed(&self.profile.contour_end, at)
     }
 
+    fn names_registers(&self) -> bool {
+        let mut lines = self.profile.contour_begin.iter();
+        lines.any(|line| line.contains("{register}"))
+    }
+
+    /// The word that says where the control finds the correction of the pass.
+    fn register(&self) -> String {
+        let stated = self.settings.passes.registers.as_ref();
+        let stated = stated.and_then(|words| words.get(self.pass - 1));
+        stated
+            .cloned()
+            .unwrap_or_else(|| counted_on(&self.profile.register, self.pass - 1))
+    }
+
     /// Lines of the profile; none of them may move the wire.
     fn fixed(&mut self, lines: &[String], at: Node) -> Result<(), ProofError> {
         for line in lines {
@@ -243,6 +266,7 @@ impl<'a> Lines<'a> {
                 self.push_length(&mut y, at.y - self.zero.y);
                 let (x, y) = (String::from_utf8_lossy(&x), String::from_utf8_lossy(&y));
                 line.replace("{side}", word)
+                    .replace("{register}", &self.register())
                     .replace("{x}", &x)
                     .replace("{y}", &y)
             } else {
@@ -455,6 +479,16 @@ impl Separator {
         }
         self.first = false;
         out.extend_from_slice(word);
+    }
+}
+
+/// A word with the number at its end counted on.
+fn counted_on(word: &str, by: usize) -> String {
+    let name = word.trim_end_matches(|letter: char| letter.is_ascii_digit());
+    let digits = &word[name.len()..];
+    match digits.parse::<usize>() {
+        Ok(number) if by > 0 => format!("{name}{:0width$}", number + by, width = digits.len()),
+        _ => word.to_owned(),
     }
 }
 

@@ -25,6 +25,8 @@ fn path_of(segments: Vec<Segment>) -> WirePath {
         .collect();
     WirePath {
         outline: 0,
+        pass: 1,
+        counter_clockwise: None,
         correction: 0.0,
         thread_hole,
         side: None,

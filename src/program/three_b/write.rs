@@ -88,16 +88,16 @@ struct Blocks<'a> {
 }
 
 impl Writer for Blocks<'_> {
-    /// From one contour to the next the wire is taken out, the table moves, the wire is threaded.
+    /// From one contour to the next the wire is taken out, the table moves, the wire is threaded; from pass to pass there is a pause.
     fn begin(
         &mut self,
         from: Option<Node>,
         first: Node,
-        side: Option<Side>,
+        path: &WirePath,
     ) -> Result<(), ProofError> {
-        if let (Some(part), Some(side)) = (&mut self.part, side) {
+        if let (Some(part), Some(side)) = (&mut self.part, path.side) {
             (part.side, part.direction) = (side, None);
-        } else if side.is_some() {
+        } else if path.side.is_some() {
             return Err(ProofError::Refused(
                 "a 3B program cannot leave the correction to the controller: set compensation to path, or to none where the contour is the wire's path".into(),
             ));

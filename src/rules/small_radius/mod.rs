@@ -55,6 +55,7 @@ pub fn check(
     Some(SmallRadius {
         overcut: (detail.overcut - later).max(0.0),
         pass: limits.pass,
+        taken_by_skims: limits.is_for_skims(arc.radius),
         ..detail
     })
 }

@@ -36,11 +36,14 @@ pub(in crate::server) fn generate(context: &RequestContext, params: Params) -> R
     let made = job::generate(&task.snapshot, findings(&task), &wanted, context);
     context.check()?;
     let Generated {
-        program, warnings, ..
+        program,
+        finished,
+        warnings,
+        ..
     } = made.map_err(|refusal| task.refused(context, &refusal))?;
     let shown = &warnings[..warnings.len().min(convert::PUBLISH_LIMIT)];
     let warnings = convert::diagnostics(&task.subject, shown, context.encoding);
-    Ok(Program::new(program, warnings))
+    Ok(Program::new(program, finished, warnings))
 }
 
 /// What the reader of the text found, and what the rules say under the request's options.

@@ -182,6 +182,8 @@ class WirePath:
     segments: list[PathPiece]
     # `pass` in the protocol.
     pass_number: int = 1
+    # "ccw" or "cw" of a closed contour.
+    direction: str | None = None
 
 
 @dataclass(frozen=True)
@@ -199,6 +201,15 @@ class Closure:
 
 
 @dataclass(frozen=True)
+class FinishedPart:
+    """What all passes leave of a drawing's contours: mm that stay beyond them at most, and where, and mm cut beyond them."""
+
+    uncut: float
+    at: Point
+    overcut: float
+
+
+@dataclass(frozen=True)
 class Program:
     """A program for the machine, decoded again by the server before it was handed out. ``length`` is mm, ``deviation`` µm."""
 
@@ -207,6 +218,7 @@ class Program:
     length: float
     closure: Closure
     deviation: float = 0.0
+    finished: FinishedPart | None = None
     warnings: list[Diagnostic] = field(default_factory=list)
 
     def save(self, path: str | os.PathLike[str]) -> None:

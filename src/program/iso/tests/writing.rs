@@ -35,6 +35,8 @@ fn path_of(segments: &[Segment], side: Option<Side>) -> WirePath {
     }
     WirePath {
         outline: 0,
+        pass: 1,
+        counter_clockwise: None,
         correction: 0.0,
         thread_hole,
         side,

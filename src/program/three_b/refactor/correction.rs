@@ -88,7 +88,7 @@ fn corrected(sheet: &Sheet<'_, ThreeB>, role: Role) -> Result<Vec<TextEdit>, Str
         direction: Direction::AsDrawn,
         thread: Some(PointSetting::ByHandle(threads)),
         entry: Some(PointSetting::ByHandle(entries)),
-        ..sheet.settings.clone()
+        ..sheet.settings.of_one_pass()
     };
     let paths = plan(&drawing, &outlines, &settings, None).map_err(|refusal| match refusal {
         Refusal::Sentence(sentence) => sentence,
