@@ -174,6 +174,8 @@ fn the_readme_shows_every_key_with_its_default() {
     // What wins over what is not set, and what has no default is an example.
     let example = |key: &str| match key {
         "passes.corrections" => "[0.175, 0.146, 0.140]",
+        "passes.gaps" => "[0.02, 0.01, 0.01]",
+        "passes.registers" => "[\"D1\", \"D2\", \"D3\"]",
         "layers" => "{ DIE = \"opening\", FRAME = \"ignore\" }",
         "colors" => "{ red = \"punch\" }",
         "contours" => "{ 2A = \"punch\" }",

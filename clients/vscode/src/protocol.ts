@@ -25,6 +25,14 @@ export type Role = "opening" | "punch" | "both" | "ignore";
 export type SideSetting = "both" | "auto" | "opening" | "punch";
 export type UnitSetting = "mm" | "inch";
 /**
+ * Which way the passes of a contour go.
+ */
+export type Sequence = "alternate" | "one-way";
+/**
+ * What the passes after the first make of a corner that the wire runs inside of.
+ */
+export type SkimCorner = "sharp" | "constant-stock";
+/**
  * Severity of a rule, or off.
  */
 export type RuleSeverity = "error" | "warning" | "information" | "hint" | "off";
@@ -369,9 +377,25 @@ export interface Settings {
  */
 export interface Passes {
   /**
-   * Correction of each pass, mm, in place of `correction`. Radii are held against the largest. They fall: `pass-order`.
+   * Correction of each pass from rough to finish, mm, in place of `correction`: a program cuts each contour so often. They fall: `pass-order`.
    */
   corrections?: number[];
+  /**
+   * Spark gap of each pass, mm. Not set: `gap` for all.
+   */
+  gaps?: number[];
+  /**
+   * Which way the passes of a contour go.
+   */
+  sequence?: Sequence;
+  /**
+   * Words of an ISO program that say where the control finds the correction of each pass. Not set: the profile's `register` for the first pass, its number counted on for the others.
+   */
+  registers?: string[];
+  /**
+   * What the passes after the first make of a corner that the wire runs inside of. With `constant-stock` the last one leaves a radius there, the difference of the first and the last correction added to the wire's: `sharp-corner`.
+   */
+  skimCorner?: SkimCorner;
 }
 /**
  * How a program is written.
@@ -487,7 +511,11 @@ export interface ProfileSettings {
    */
   begin?: string[];
   /**
-   * Lines before each contour. `{side}` is G41 or G42; a line with it is left out where the offset is in the coordinates.
+   * Word that says where the control finds the correction of the first pass; that of the second has the next number.
+   */
+  register?: string;
+  /**
+   * Lines before each contour. `{side}` is G41 or G42, `{register}` where the correction of the pass stands; a line with `{side}` is left out where the offset is in the coordinates.
    */
   contourBegin?: string[];
   /**
@@ -525,6 +553,10 @@ export interface ToolpathPath {
    * 1-based number of the pass.
    */
   pass: number;
+  /**
+   * Which way a closed contour is gone round in this pass.
+   */
+  direction?: Direction;
   /**
    * How far the path lies from the contour, drawing units.
    */
@@ -757,10 +789,31 @@ export interface Program {
   length: number;
   closure: Closure;
   /**
-   * Largest distance in µm between the end of a decoded block and the path.
+   * Largest distance in µm of the decoded blocks from the path, over their whole length.
    */
   deviation: number;
+  /**
+   * What all passes leave of the contours, where several are cut.
+   */
+  finished?: FinishedPart;
   warnings: Diagnostic[];
+}
+/**
+ * The largest deviations of the part that all passes leave from its drawing.
+ */
+export interface FinishedPart {
+  /**
+   * What stays beyond the contour where it stays thickest, mm.
+   */
+  uncut: number;
+  /**
+   * Where that is, drawing units.
+   */
+  at: Point;
+  /**
+   * How far the wire cuts beyond the contour, mm.
+   */
+  overcut: number;
 }
 /**
  * One finding. In a drawing's diagnostics the line is the segment's index within its entity.

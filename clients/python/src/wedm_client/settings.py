@@ -17,6 +17,10 @@ class Passes(TypedDict, total=False):
     """Several passes."""
 
     corrections: Sequence[float]
+    gaps: Sequence[float]
+    sequence: Literal["alternate", "one-way"]
+    registers: Sequence[str]
+    skim_corner: Literal["sharp", "constant-stock"]
 
 
 class ProgramSettings(TypedDict, total=False):
@@ -53,6 +57,7 @@ class Profile(TypedDict, total=False):
     numbers: int
     line_end: Literal["lf", "crlf"]
     begin: Sequence[str]
+    register: str
     contour_begin: Sequence[str]
     contour_end: Sequence[str]
     pause: Sequence[str]

@@ -294,8 +294,11 @@ impl Offer<'_> {
         self.subprograms("M98 ");
         self.push("M00", say!(stop_to_thread_the_wire));
         self.push(self.document.limits.end.clone(), say!(end_of_the_program));
+        let profile = self.document.limits.profile.as_deref();
+        let register = profile.map_or("", |profile| &profile.register);
         for line in self.document.limits.lines() {
             let line = line.replace("{x}", &zero).replace("{y}", &zero);
+            let line = line.replace("{register}", register);
             let sides: &[&str] = match line.contains("{side}") {
                 true => &["G41", "G42"],
                 false => &[""],
