@@ -1,6 +1,10 @@
 //! Every rule of every document, once: its name, its severity where nothing is set, the kinds of documents that it speaks of, and what
 //! it says in a few words. The page of a rule is `docs/rules/<name>.md`; its check stands where it can see what it needs.
 
+mod page;
+
+pub use page::Line;
+
 /// How bad a finding is; the order is from worst to mildest.
 #[derive(
     Clone,
@@ -51,6 +55,13 @@ macro_rules! rules {
 
         impl Rule {
             pub const ALL: [Rule; TABLE.len()] = [$(Rule::$rule,)+];
+
+            /// Its page of documentation as it is written.
+            fn written(self) -> &'static str {
+                match self {
+                    $(Rule::$rule => include_str!(concat!("../docs/rules/", $name, ".md")),)+
+                }
+            }
 
             /// What it says, in a few words, for lists of rules.
             pub fn summary(self) -> &'static str {

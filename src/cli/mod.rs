@@ -10,11 +10,13 @@ mod contours;
 mod convert;
 mod demo;
 mod draw;
+mod explain;
 mod files;
 mod fix;
 mod format;
 mod generate;
 mod inspect;
+mod man;
 mod options;
 mod output;
 mod report;
@@ -66,9 +68,11 @@ enum Command {
     Contours(contours::Arguments),
     Convert(convert::Arguments),
     Simulate(simulate::Arguments),
+    Explain(explain::Arguments),
     Demo(demo::Arguments),
     Serve(serve::Arguments),
     Completions(completions::Arguments),
+    Man(man::Arguments),
 }
 
 /// How a command ended.
@@ -160,10 +164,12 @@ pub fn run() -> ExitCode {
         Some(Command::Contours(arguments)) => contours::run(&arguments),
         Some(Command::Convert(arguments)) => convert::run(&arguments),
         Some(Command::Simulate(arguments)) => simulate::run(&arguments),
+        Some(Command::Explain(arguments)) => explain::run(&arguments),
         Some(Command::Demo(arguments)) => demo::run(&arguments),
         Some(Command::Completions(arguments)) => {
             completions::run(&arguments, &mut CommandLine::command())
         }
+        Some(Command::Man(arguments)) => man::run(&arguments, CommandLine::command()),
     };
     let verdict = outcome.unwrap_or_else(|Failure(sentence)| {
         output::complain(&sentence);

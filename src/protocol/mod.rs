@@ -32,7 +32,8 @@ pub use inspection::{InspectedEntity, InspectedSegment, Inspection};
 pub use locate::{Locate, Located};
 pub use requests::{
     Applied, ApplyDrawingEdit, ChangeDrawing, CloseDrawing, DrawingEdit, DrawingName,
-    DrawingVersion, Inspect, OpenDrawing, OptionsOf, Picture, ResendDrawing, Resent, ScaleProgram,
+    DrawingVersion, Inspect, OpenDrawing, OptionsOf, Picture, ResendDrawing, Resent, RulePage,
+    RulePageText, ScaleProgram,
 };
 pub use schema::schema;
 pub use segment::{SegmentKind, SegmentShape};
@@ -57,6 +58,7 @@ pub mod method {
     pub const SIMULATE: &str = "wedm/simulate";
     pub const LOCATE: &str = "wedm/locate";
     pub const SETTINGS: &str = "wedm/settings";
+    pub const RULE_PAGE: &str = "wedm/rulePage";
     /// The command that a drawing's code actions hold.
     pub const APPLY_DRAWING_EDIT_COMMAND: &str = "wedm.applyDrawingEdit";
     /// The server's command that scales a program; its argument is `{ uri, factor }`.

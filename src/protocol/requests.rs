@@ -103,3 +103,17 @@ pub struct OptionsOf {
 pub struct Picture {
     pub svg: String,
 }
+
+/// Params of `wedm/rulePage`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct RulePage {
+    /// Name of the rule, which is the `code` of its findings.
+    pub rule: String,
+}
+
+/// Result of `wedm/rulePage`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct RulePageText {
+    /// Markdown without pictures. Links lead to pages of other rules only, as `NAME.md`.
+    pub text: String,
+}

@@ -22,6 +22,7 @@ pub fn schema() -> Value {
         method::SIMULATE: { "params": of::<Simulate>(&mut types), "result": of::<Simulation>(&mut types) },
         method::LOCATE: { "params": of::<Locate>(&mut types), "result": of::<Option<Located>>(&mut types) },
         method::SETTINGS: { "params": of::<DrawingName>(&mut types), "result": of::<SettingsInForce>(&mut types) },
+        method::RULE_PAGE: { "params": of::<RulePage>(&mut types), "result": of::<RulePageText>(&mut types) },
         method::GENERATE: {
             "params": of::<Generate>(&mut types),
             "result": of::<Program>(&mut types),

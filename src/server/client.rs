@@ -37,6 +37,8 @@ pub(super) struct Abilities {
     pub disabled_actions: bool,
     /// The client has the commands that lenses name.
     pub code_lens: bool,
+    /// The client opens pages of rules, which it asks for.
+    pub rule_pages: bool,
     /// Completions may be snippets.
     pub snippets: bool,
     /// Symbols may be a tree.

@@ -21,8 +21,13 @@ pub(super) struct ProjectFile {
     pub errors: Vec<SettingsError>,
 }
 
+/// The address of a rule's page, for clients that open such addresses by `wedm/rulePage`.
+const PAGE_OF_CLIENT: &str = "wedm-rule:/{rule}.md";
+
 #[derive(Default)]
 pub(super) struct Config {
+    /// The client opens pages of rules itself.
+    pub rule_pages: bool,
     initialization: Settings,
     /// `workspace/didChangeConfiguration` with the settings in it.
     pushed: Settings,
@@ -93,10 +98,14 @@ impl Config {
             .initialization
             .overlaid(&self.pushed)
             .overlaid(&self.pulled);
-        match file {
+        let mut settings = match file {
             Some(project) => levels.overlaid(&project.settings),
             None => levels,
+        };
+        if self.rule_pages && settings.docs_url.is_none() {
+            settings.docs_url = Some(PAGE_OF_CLIENT.into());
         }
+        settings
     }
 
     pub fn effective_for(&self, file: Option<&ProjectFile>) -> Arc<Effective> {

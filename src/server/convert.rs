@@ -19,9 +19,6 @@ use serde::Serialize;
 /// A publish holds at most this many findings.
 pub(super) const PUBLISH_LIMIT: usize = 500;
 
-/// Where the pages of the rules stand.
-const RULES: &str = "https://github.com/wedm/wedm/blob/main/docs/rules/";
-
 /// The findings of one publish: at most [`PUBLISH_LIMIT`], errors first, then one that counts the others. And how many
 /// there are in all.
 ///
@@ -134,7 +131,10 @@ fn diagnostic_at(document: &Document, finding: &Finding, encoding: Encoding) -> 
             .unwrap_or_default(),
         severity: severity_number(finding.severity),
         code: finding.rule.name().into(),
-        code_description: code_description(finding.rule),
+        code_description: document
+            .settings()
+            .page_of(finding.rule)
+            .map(|href| CodeDescription { href }),
         source: "wedm".into(),
         message: finding::sentence(finding, document.unit_mm()),
         related_information: None,
@@ -155,7 +155,7 @@ pub(super) fn settings_diagnostics(
             .map_or_else(Range::default, |bytes| range_of(text, bytes, encoding)),
         severity: severity_number(error.severity),
         code: error.rule.name().into(),
-        code_description: code_description(error.rule),
+        code_description: None,
         source: "wedm".into(),
         message: error.message.clone(),
         related_information: None,
@@ -169,12 +169,6 @@ pub(super) fn written(told: &(impl Serialize + ?Sized)) -> Written {
     Written::of(&told).unwrap_or_else(|error| {
         tracing::error!("findings cannot be written: {error}");
         Written::default()
-    })
-}
-
-fn code_description(rule: Rule) -> Option<CodeDescription> {
-    Some(CodeDescription {
-        href: format!("{RULES}{}.md", rule.name()),
     })
 }
 

@@ -10,6 +10,7 @@ use super::state::{Mailbox, Reply, State};
 use super::transport::Written;
 use super::{parent, texts};
 use crate::protocol::{self, method};
+use crate::rule::Rule;
 use ls_types::request::*;
 use ls_types::*;
 use serde::Serialize;
@@ -241,7 +242,8 @@ pub(super) fn service(
         .custom_method(method::DID_OPEN_DRAWING, Backend::did_open_drawing)
         .custom_method(method::DID_CHANGE_DRAWING, Backend::did_change_drawing)
         .custom_method(method::DID_CLOSE_DRAWING, Backend::did_close_drawing)
-        .custom_method(method::SETTINGS, Backend::settings);
+        .custom_method(method::SETTINGS, Backend::settings)
+        .custom_method(method::RULE_PAGE, Backend::rule_page);
     #[cfg(feature = "testing")]
     let build = build
         .custom_method("wedm/test/panic", Backend::test_panic)
@@ -376,6 +378,13 @@ impl Backend {
             let _ = reply.send(in_force.map_err(|error| internal(error.to_string())));
         })
         .await
+    }
+
+    /// What the program holds for every document alike.
+    async fn rule_page(&self, params: protocol::RulePage) -> Result<protocol::RulePageText> {
+        let unknown = || Error::invalid_params(say!(there_is_no_rule_named, params.rule));
+        let rule = Rule::named(&params.rule).ok_or_else(unknown)?;
+        Ok(protocol::RulePageText { text: rule.page() })
     }
 
     #[cfg(feature = "testing")]

@@ -33,6 +33,7 @@ pub struct Effective {
     pub severities: BTreeMap<Rule, Option<Severity>>,
     /// The rules whose severity somebody has set.
     pub stated: BTreeSet<Rule>,
+    pub docs_url: Option<String>,
     pub layout: Layout,
     /// The layout that somebody has set; without one, a program that is formatted stays in its own.
     pub stated_layout: Option<Layout>,
@@ -63,6 +64,11 @@ pub struct Effective {
 }
 
 impl Effective {
+    /// Where the page of a rule is, if anywhere.
+    pub fn page_of(&self, rule: Rule) -> Option<String> {
+        Some(self.docs_url.as_ref()?.replace("{rule}", rule.name()))
+    }
+
     /// Fills the defaults in. Values that do not fit have been reported and left out before.
     pub fn of(settings: &Settings) -> Effective {
         let single = match (settings.correction, settings.wire_diameter, settings.gap) {
@@ -124,6 +130,7 @@ impl Effective {
                 .collect(),
             severities: severities.into_iter().collect(),
             stated: Rule::ALL.into_iter().filter(is_stated).collect(),
+            docs_url: settings.docs_url.clone(),
             layout: program.layout(),
             stated_layout: program.layout,
             direction: program.direction(),

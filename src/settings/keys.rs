@@ -59,6 +59,10 @@ tables! {
         /// Severity of a rule, by its name. What is set here holds also where a case would be milder; the defaults stand on
         /// [each rule's page](rules/).
         rules: BTreeMap<String, RuleSeverity> => rules;
+        /// Address of the page of a rule, such as `https://edm.example/rules/{rule}.html`: `{rule}` stands for its name. Findings link there.
+        /// Not set: they link nowhere, and `wedm explain RULE` shows the page.
+        #[serde(alias = "docs-url")]
+        docs_url: String => page_address;
         /// How a program is written.
         program: ProgramSettings => table;
         /// [Profiles](programs.md#profiles) of ISO programs of your own, by name.

@@ -140,6 +140,19 @@ impl Reader {
         self.text(key, node, say!(the_name_of_a_profile))
     }
 
+    /// An address with `{rule}` in it.
+    pub fn page_address(&mut self, key: &str, node: &Node) -> Option<String> {
+        let expected = say!(an_address_with_rule_in_it);
+        let address = self.text(key, node, expected)?;
+        let is_address = ["https://", "http://", "file://"]
+            .iter()
+            .any(|scheme| address.starts_with(scheme));
+        if is_address && address.contains("{rule}") {
+            return Some(address);
+        }
+        self.misfit(key, node, expected)
+    }
+
     /// The name of a profile that ships. The shipped profiles themselves are read by this reader and have no base.
     pub fn base(&mut self, key: &str, node: &Node) -> Option<String> {
         let name = self.profile_name(key, node)?;

@@ -156,6 +156,7 @@ CASES = [
     Case("wedm/picture", CAD, {"svg": text("<svg", 'data-handle="2A"')}),
     Case("wedm/locate", DXF, {"handle": "2A", "segment": 1, "range": {"start": {"line": BULGE}}}, at(BULGE, 0)),
     Case("wedm/locate", DXF, {"handle": "2A", "segment": 1, "range": {"start": {"line": BULGE}}}, {"handle": "2A", "segment": 1}),
+    Case("wedm/rulePage", DXF, {"text": anything}, {"rule": "small-radius"}),
     Case("wedm/settings", DXF, {"correction": near(0.1), "correctionFrom": "default", "side": "both"}),
     Case("wedm/generate", "cad:clean", {"program": text("B", "DD"), "blocks": anything, "warnings": some({"code": "sharp-corner"})}, {"format": "3b"}),
     Case("wedm/simulate", PROGRAM, {"blocks": anything}),
@@ -255,7 +256,7 @@ async def test_params_that_do_not_fit(client: Client, params: Any) -> None:
     assert await client.ask("wedm/inspect", {"uri": CAD})
 
 
-@pytest.mark.parametrize("case", [case for case in CASES if case.uri in (DXF, CAD, PROGRAM) and case.method != "wedm/settings"], ids=str)
+@pytest.mark.parametrize("case", [case for case in CASES if case.uri in (DXF, CAD, PROGRAM) and case.method not in ("wedm/settings", "wedm/rulePage")], ids=str)
 async def test_a_document_that_is_not_open(client: Client, case: Case) -> None:
     params = asked(Case(case.method, case.uri.replace("session", "nowhere").replace("plate", "none"), None, case.params))
     if case.method.startswith("wedm/") or case.method == "textDocument/codeAction":
@@ -289,6 +290,7 @@ REFUSALS = [
     ("wedm/simulate", {"uri": CAD}, -32803, "is a drawing, expected a program"),
     ("wedm/simulate", {"uri": PROGRAM, "feed": "fast"}, -32602, "fast"),
     ("wedm/simulate", {"uri": PROGRAM, "feed": -1}, -32602, "feed is -1, expected mm/min above 0"),
+    ("wedm/rulePage", {"rule": "tight"}, -32602, "no rule named tight"),
     ("wedm/settings", {"uri": 7}, -32602, "expected a string"),
     ("wedm/locate", {"uri": DXF}, -32602, "either position or handle"),
     ("wedm/locate", {"uri": DXF, "handle": "2A", "segment": 99}, -32602, "99"),

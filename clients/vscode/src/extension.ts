@@ -11,6 +11,7 @@ import { Front } from "./front";
 import { watchLargeFiles } from "./large";
 import { Pictures } from "./picture/pictures";
 import { Radii } from "./radii/tree";
+import { rulePages } from "./rulePages";
 import { sayWhatFails } from "./server/notices";
 import { Server } from "./server/server";
 import { Status } from "./status";
@@ -58,6 +59,7 @@ export function activate(context: vscode.ExtensionContext): void {
     new Status(server, front),
     sayWhatFails(server, log),
     watchLargeFiles(),
+    rulePages(server),
     vscode.workspace.onDidChangeConfiguration((event) => {
       if (STARTS_ANEW.some((key) => event.affectsConfiguration(key))) {
         void server.restart();

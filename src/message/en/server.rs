@@ -8,6 +8,7 @@ declare! {
     internal_error_the_document_could => "internal error: the document could not be judged; its text is kept and is tried again with the next change";
     looking_for_fixes => "Looking for fixes";
     internal_error_in(name) => "internal error in {name}";
+    there_is_no_rule_named(name) => "there is no rule named {name}";
     was_ignored(method, reason) => "{method} was ignored: {reason}";
     internal_error_in_2(name, panic_text) => "internal error in {name}: {panic_text}";
     was_open_already_the_new(uri) => "{uri} was open already: the new text or drawing takes its place";

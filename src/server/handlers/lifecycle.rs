@@ -32,6 +32,7 @@ pub(in crate::server) fn initialize(
     };
     state.encoding = encoding;
     state.client.abilities = Arc::new(abilities(&able));
+    state.config.rule_pages = state.client.abilities.rule_pages;
     state.config.set_folders(folders(&params));
     let options = params.initialization_options.unwrap_or_default();
     state.set_level(Level::Initialization, &options);
@@ -97,6 +98,7 @@ fn abilities(client: &Value) -> Abilities {
         apply_drawing_edit: able("/experimental/wedm/applyDrawingEdit"),
         resend_drawing: able("/experimental/wedm/resendDrawing"),
         code_lens: able("/experimental/wedm/codeLens"),
+        rule_pages: able("/experimental/wedm/rulePages"),
         apply_edit: able("/workspace/applyEdit"),
         document_changes: able("/workspace/workspaceEdit/documentChanges"),
         configuration: able("/workspace/configuration"),

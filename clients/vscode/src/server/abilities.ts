@@ -6,7 +6,7 @@ import type { ClientCapabilities, FeatureState, StaticFeature } from "vscode-lan
 export const abilities: StaticFeature = {
   fillClientCapabilities(capabilities: ClientCapabilities): void {
     const others = typeof capabilities.experimental === "object" ? (capabilities.experimental as object) : {};
-    capabilities.experimental = { ...others, wedm: { codeLens: true } };
+    capabilities.experimental = { ...others, wedm: { codeLens: true, rulePages: true } };
   },
   initialize: () => undefined,
   getState: (): FeatureState => ({ kind: "static" }),

@@ -1,0 +1,114 @@
+//! The page of a rule as the program holds it: Markdown that leads nowhere but to other rules.
+
+use super::Rule;
+
+impl Rule {
+    /// The page of documentation, without pictures; of its links those to other rules are left, as `NAME.md`.
+    pub fn page(self) -> String {
+        let is_picture = |line: &&str| line.starts_with("![");
+        let lines: Vec<&str> = self
+            .written()
+            .lines()
+            .filter(|line| !is_picture(line))
+            .collect();
+        let mut page = unlinked(&lines.join("\n"), |target| {
+            target
+                .strip_suffix(".md")
+                .is_some_and(|name| Rule::named(name).is_some())
+        });
+        while page.contains("\n\n\n") {
+            page = page.replace("\n\n\n", "\n\n");
+        }
+        page + "\n"
+    }
+
+    /// The page as plain text for a terminal, line by line, each with what it is.
+    pub fn lines(self) -> Vec<(Line, String)> {
+        let mut is_code = false;
+        let mut lines = Vec::new();
+        for line in unlinked(&self.page(), |_| false).lines() {
+            if line.starts_with("```") {
+                is_code = !is_code;
+            } else if is_code {
+                lines.push((Line::Code, line.to_owned()));
+            } else if line.starts_with('#') {
+                lines.push((
+                    Line::Heading,
+                    line.trim_start_matches('#').trim().to_owned(),
+                ));
+            } else {
+                lines.push((Line::Text, line.replace("**", "")));
+            }
+        }
+        lines
+    }
+
+    /// The rule of a name.
+    pub fn named(name: &str) -> Option<Rule> {
+        Rule::ALL.into_iter().find(|rule| rule.name() == name)
+    }
+}
+
+/// What a line of a page is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Line {
+    Heading,
+    Text,
+    Code,
+}
+
+/// Markdown in which links whose target is not kept are their text alone.
+fn unlinked(text: &str, keep: impl Fn(&str) -> bool) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some((before, link)) = rest.split_once("](") {
+        let Some((label_start, (target, behind))) = before.rfind('[').zip(link.split_once(')'))
+        else {
+            break;
+        };
+        let label = &before[label_start + 1..];
+        out.push_str(&before[..label_start]);
+        if keep(target) {
+            out.push_str(&format!("[{label}]({target})"));
+        } else {
+            out.push_str(label);
+        }
+        rest = behind;
+    }
+    out + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_page_leads_out_of_the_program() {
+        for rule in Rule::ALL {
+            let page = rule.page();
+            assert!(page.starts_with(&format!("# {}\n", rule.name())), "{page}");
+            for link in page.split("](").skip(1) {
+                let target = link.split(')').next().unwrap_or_default();
+                let name = target.strip_suffix(".md").unwrap_or_default();
+                assert!(Rule::named(name).is_some(), "{}: {target}", rule.name());
+            }
+            let text = rule.lines();
+            assert!(text.len() > 10, "{}", rule.name());
+            assert!(
+                text.iter().all(|(_, line)| !line.contains("](")),
+                "{}",
+                rule.name()
+            );
+        }
+    }
+
+    #[test]
+    fn links_become_their_text() {
+        let text = "a [b](c.md) d [`e`](f#g), [h](i";
+        assert_eq!(unlinked(text, |_| false), "a b d `e`, [h](i");
+        assert_eq!(
+            unlinked(text, |target| target == "c.md"),
+            "a [b](c.md) d `e`, [h](i"
+        );
+    }
+}
