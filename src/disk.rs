@@ -30,7 +30,17 @@ pub(crate) fn read_at_most(file: &File, cap: u64) -> Result<Vec<u8>, String> {
                 .saturating_add(1),
         );
     }
-    file.take(cap.saturating_add(1))
+    read_stream_at_most(file, cap, bytes)
+}
+
+/// The same of a stream, behind what `bytes` holds.
+pub(crate) fn read_stream_at_most(
+    stream: impl Read,
+    cap: u64,
+    mut bytes: Vec<u8>,
+) -> Result<Vec<u8>, String> {
+    stream
+        .take(cap.saturating_add(1))
         .read_to_end(&mut bytes)
         .map_err(|error| plain(&error))?;
     if bytes.len() as u64 > cap {

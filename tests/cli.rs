@@ -109,12 +109,75 @@ fn commands_print_and_end_as_they_say() {
                 "--> tight.dxf:34:1",
                 "33 |  42",
                 "34 | 0.414213562373",
-                "^^^^^^^^^^^^^^ 2A, segment 1",
+                "^^^^^^^^^^^^^^ 2A, segment 1, at 19.920, 0.000",
                 "1 file checked: 1 error",
                 "wedm fix tight.dxf --in-place",
             ],
         ),
         ("check tight.dxf --correction 0.07", 0, &["nothing found"]),
+        (
+            "check tight.dxf --output concise",
+            1,
+            &[
+                "tight.dxf:34:1: error[small-radius]: arc R 0.080 mm is below",
+                "(2A, segment 1, at 19.920, 0.000)\n1 file checked: 1 error",
+            ],
+        ),
+        (
+            "check tight.dxf --output grouped",
+            1,
+            &["tight.dxf\n  34:1: error[small-radius]: arc R 0.080 mm"],
+        ),
+        (
+            "check tight.dxf --output github",
+            1,
+            &[
+                "::error file=tight.dxf,line=34,endLine=34,col=1,endColumn=15,title=small-radius::arc R 0.080 mm",
+            ],
+        ),
+        (
+            "check tight.dxf missing.dxf --output junit",
+            2,
+            &[
+                "<testsuites name=\"wedm\" tests=\"1\" failures=\"1\" errors=\"1\">",
+                "<testcase classname=\"tight.dxf\" name=\"small-radius\" line=\"34\" column=\"1\"><failure type=\"error\"",
+                "<error message=\"missing.dxf: ",
+            ],
+        ),
+        (
+            "check tight.dxf --statistics",
+            1,
+            &["      1  small-radius         error        An arc is tighter than the correction"],
+        ),
+        (
+            "check tight.dxf --ignore small-radius",
+            0,
+            &["nothing found"],
+        ),
+        (
+            "check tight.dxf --select gap,overlap",
+            0,
+            &["nothing found"],
+        ),
+        ("check garbage.dxf --select gap", 1, &["error[syntax]"]),
+        (
+            "check --select smal-radius",
+            2,
+            &["!similar value exists: 'small-radius'"],
+        ),
+        (
+            "explain small-radius",
+            0,
+            &["small-radius\n", "Why it matters for the cut\n"],
+        ),
+        ("explain", 0, &["gap                  warning     Two ends"]),
+        (
+            "explain smallradius",
+            2,
+            &["!similar value exists: 'small-radius'"],
+        ),
+        ("config schema", 0, &["\"wire-diameter\"", "\"minimum\": 4"]),
+        ("check - --watch", 2, &["!stdin cannot be watched"]),
         (
             "check clean.dxf --correction 0.6",
             1,
@@ -146,7 +209,7 @@ fn commands_print_and_end_as_they_say() {
             2,
             &["2 files checked: 1 error", "!missing.dxf"],
         ),
-        ("check", 2, &["!PATH"]),
+        ("check", 1, &["code_page.dxf:50:1"]),
         ("check clean.dxf --correction -1", 2, &["!above 0"]),
         ("check clean.dxf --correction NaN", 2, &["!above 0"]),
         (
@@ -302,6 +365,162 @@ fn commands_print_and_end_as_they_say() {
     for (arguments, code, texts) in cases {
         check(&desk, arguments, *code, texts);
     }
+}
+
+#[test]
+fn what_gitignore_and_its_like_name_is_passed_over() {
+    let desk = Desk::new();
+    let tight = desk.read("tight.dxf");
+    for name in [
+        "tight",
+        "old/tight",
+        "tmp/tight",
+        ".cache/tight",
+        "kept/tight",
+    ] {
+        desk.write(&format!("work/{name}.dxf"), &tight);
+    }
+    desk.write("work/.gitignore", "tmp/\n");
+    desk.write("work/.wedmignore", "old\n");
+    check(&desk, "check work", 1, &["2 files checked: 2 errors"]);
+    check(&desk, "check work --exclude kept", 1, &["1 file checked"]);
+    check(&desk, "check work --no-ignore", 1, &["5 files checked"]);
+    // What is named itself is checked.
+    check(&desk, "check work/old/tight.dxf", 1, &["1 file checked"]);
+    let here = desk
+        .command("check --output concise")
+        .current_dir(desk.path("work"))
+        .output();
+    let here = Ended::of(here.unwrap());
+    assert!(here.stdout.starts_with("kept/tight.dxf:34:1: "), "{here:?}");
+}
+
+#[test]
+fn stdin_is_checked_under_the_name_that_it_is_given() {
+    let desk = Desk::new();
+    desk.write("fine/wedm.toml", "correction = 0.07\n");
+    let said = |arguments: &str, file: &str| {
+        let mut command = desk.command(arguments);
+        command.stdin(std::fs::File::open(desk.path(file)).unwrap());
+        Ended::of(command.output().unwrap())
+    };
+    let of_drawing = said("check - --output concise", "tight.dxf");
+    assert!(
+        of_drawing
+            .stdout
+            .starts_with("stdin.dxf:34:1: error[small-radius]"),
+        "{of_drawing:?}"
+    );
+    assert!(!of_drawing.stdout.contains("wedm fix"), "{of_drawing:?}");
+    assert_eq!(
+        said("check - --stdin-name fine/new.dxf", "tight.dxf").code,
+        Some(0)
+    );
+    assert_eq!(
+        said("check - --stdin-name hole.3b", "hole.3b").code,
+        Some(0)
+    );
+    assert_eq!(
+        said("check - --stdin-name plate.dwg", "tight.dxf").code,
+        Some(2)
+    );
+}
+
+#[test]
+fn what_is_watched_is_checked_again_when_it_changes() {
+    let desk = Desk::new();
+    desk.write("work/plate.dxf", desk.read("clean.dxf"));
+    let mut watching = desk
+        .command("check --watch work --output concise")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let (sender, lines) = std::sync::mpsc::channel();
+    let stdout = std::io::BufReader::new(watching.stdout.take().unwrap());
+    std::thread::spawn(move || {
+        for line in std::io::BufRead::lines(stdout).map_while(Result::ok) {
+            let _ = sender.send(line);
+        }
+    });
+    let expect = |text: &str| {
+        let line = lines.recv_timeout(std::time::Duration::from_secs(20));
+        assert!(
+            line.as_ref().is_ok_and(|line| line.contains(text)),
+            "{line:?}"
+        );
+    };
+    expect("nothing found");
+    desk.write("work/plate.dxf", desk.read("tight.dxf"));
+    expect("error[small-radius]");
+    expect("1 error");
+    expect("wedm fix");
+    desk.write("work/wedm.toml", "correction = 0.07\n");
+    expect("nothing found");
+    watching.kill().unwrap();
+    watching.wait().unwrap();
+}
+
+#[test]
+fn a_settings_file_is_begun() {
+    let desk = Desk::new();
+    check(
+        &desk,
+        "init --wire 0.25 --gap 0.03 --passes 3 --machine robofil work",
+        2,
+        &["!work/wedm.toml"],
+    );
+    std::fs::create_dir(desk.path("work")).unwrap();
+    let begin = "init --wire 0.25 --gap 0.03 --passes 3 --machine robofil work";
+    check(&desk, begin, 0, &["!work/wedm.toml written"]);
+    let text = String::from_utf8(desk.read("work/wedm.toml")).unwrap();
+    for line in [
+        "wire-diameter = 0.25",
+        "corrections = [0.2150, 0.1700, 0.1400]",
+        "profile = \"robofil\"",
+        "# margin = 0.001",
+    ] {
+        assert!(text.contains(&format!("\n{line}\n")), "{line}: {text}");
+    }
+    check(&desk, begin, 2, &["!it is there already"]);
+    desk.write("work/clean.dxf", desk.read("clean.dxf"));
+    check(&desk, "check work", 0, &["nothing found"]);
+}
+
+#[test]
+fn manual_pages_are_written_for_every_command() {
+    let desk = Desk::new();
+    check(&desk, "man pages", 0, &[]);
+    for page in ["wedm", "wedm-check", "wedm-generate", "wedm-man"] {
+        let text = String::from_utf8(desk.read(&format!("pages/{page}.1"))).unwrap();
+        assert!(text.contains(".TH ") && text.contains(".SH NAME"), "{text}");
+    }
+}
+
+#[test]
+fn sarif_leads_to_the_pages_where_they_are_published() {
+    let desk = Desk::new();
+    let rule = |desk: &Desk| {
+        desk.run("check tight.dxf --output sarif").json()["runs"][0]["tool"]["driver"]["rules"][0]
+            .clone()
+    };
+    let without = rule(&desk);
+    assert!(without.get("helpUri").is_none() && without["help"]["markdown"].is_string());
+    desk.write(
+        "wedm.toml",
+        "docs-url = \"https://edm.example/{rule}.html\"\n",
+    );
+    assert_eq!(
+        rule(&desk)["helpUri"],
+        "https://edm.example/small-radius.html"
+    );
+    desk.write("wedm.toml", "docs-url = \"https://edm.example/\"\n");
+    check(
+        &desk,
+        "check tight.dxf",
+        1,
+        &["expected an address such as"],
+    );
 }
 
 #[test]

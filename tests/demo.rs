@@ -161,11 +161,38 @@ fn the_folder_is_wedm_demo_when_none_is_named() {
         .status()
         .unwrap();
     assert!(status.success());
-    for name in ["demo.dxf", "demo.3b", "demo.svg"] {
+    for name in ["demo.dxf", "demo.3b", "demo.svg", "wedm.toml"] {
         assert!(
             folder.path().join("wedm-demo").join(name).is_file(),
             "{name}"
         );
+    }
+}
+
+/// What it says can be done next works word for word, under each correction.
+#[test]
+fn the_commands_that_are_said_at_the_end_work() {
+    for correction in ["0.1", "0.12"] {
+        let played = play(&["--correction", correction]);
+        let (_, next) = played.said.split_once("Go on with").expect("a heading");
+        let commands: Vec<&str> = next
+            .lines()
+            .filter_map(|line| line.trim().strip_prefix("wedm "))
+            .collect();
+        assert!(commands.len() >= 5, "{next}");
+        for command in commands {
+            let output = Command::new(env!("CARGO_BIN_EXE_wedm"))
+                .args(command.split(' '))
+                .current_dir(played.folder.path())
+                .output()
+                .unwrap();
+            assert!(
+                output.status.success(),
+                "wedm {command}: {}{}",
+                String::from_utf8_lossy(&output.stdout),
+                String::from_utf8_lossy(&output.stderr)
+            );
+        }
     }
 }
 

@@ -179,6 +179,7 @@ fn the_readme_shows_every_key_with_its_default() {
         "layers" => "{ DIE = \"opening\", FRAME = \"ignore\" }",
         "colors" => "{ red = \"punch\" }",
         "contours" => "{ 2A = \"punch\" }",
+        "docs-url" => "\"https://edm.example/rules/{rule}.html\"",
         "program.thread" => "[115.0, -10.0]",
         "program.entry" => "[105.0, -10.0]",
         "program.units" => "\"inch\"",

@@ -47,6 +47,19 @@ pub fn open(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Fai
     })
 }
 
+/// What stands on stdin, read as if it were the file of that name, and what is wrong with the settings that hold for it.
+pub fn open_stdin(
+    name: &Path,
+    common: &Common,
+    last: &Settings,
+) -> Result<(Document, Vec<Row>), Failure> {
+    let kind = kind_of(name)?;
+    let (settings, rows) = settings_for(name, common, last)?;
+    let bytes = disk::read_stream_at_most(std::io::stdin().lock(), LARGEST_STREAM, Vec::new())
+        .map_err(|reason| Failure::of(name, reason))?;
+    Ok((document(&kind, bytes, Arc::new(settings)), rows))
+}
+
 /// A text that cannot be held whole is refused: what is written from it would lack its end.
 const LARGEST: u64 = u32::MAX as u64 - 1;
 /// The same of a device or a pipe, which may have no end.
@@ -179,7 +192,11 @@ fn settings_row(file: &Path, source: &SourceText, error: SettingsError) -> Row {
 
 /// The nearest `wedm.toml` in the input's folder or one that holds it.
 fn project_file(path: &Path) -> Option<PathBuf> {
-    let folder = path.canonicalize().ok()?.parent()?.to_path_buf();
+    // What comes on stdin has a name, and need not be there.
+    let folder = match path.canonicalize() {
+        Ok(file) => file.parent()?.to_path_buf(),
+        Err(_) => Path::new(".").join(path.parent()?).canonicalize().ok()?,
+    };
     let file = folder
         .ancestors()
         .map(|folder| folder.join(settings::FILE_NAME))
@@ -199,30 +216,91 @@ pub struct Found {
     pub failures: Vec<Failure>,
 }
 
-/// The files that `paths` name: files as they are, folders searched, in the order of their names. None stands twice.
-pub fn search(paths: &[PathBuf]) -> Found {
+/// What a search passes over.
+#[derive(Default)]
+pub struct Search<'a> {
+    /// Patterns as .gitignore has them.
+    pub exclude: &'a [String],
+    /// Hidden files, too, and what .gitignore and its like name.
+    pub all: bool,
+}
+
+/// The files that `paths` name: files as they are, folders searched, in the order of their names. None stands twice. `-` is taken as it stands.
+pub fn search(paths: &[PathBuf], search: &Search) -> Found {
     let mut found = Found::default();
     let mut seen = std::collections::HashSet::new();
     for path in paths {
-        for entry in walkdir::WalkDir::new(path).sort_by_file_name() {
+        if path == Path::new("-") {
+            found.files.push(path.clone());
+            continue;
+        }
+        let walk = match walk(path, search) {
+            Ok(walk) => walk,
+            Err(error) => {
+                found.failures.push(Failure(error.to_string()));
+                continue;
+            }
+        };
+        for entry in walk {
             match entry {
                 Ok(entry) => {
                     let named = entry.depth() == 0 && !entry.path().is_dir();
                     // A link to a file counts; a link to a folder may lead back to where it stands.
                     let found_inside = has_known_ending(entry.path()) && entry.path().is_file();
                     if (named || found_inside) && seen.insert(entry.path().to_path_buf()) {
-                        found.files.push(entry.into_path());
+                        // What is found in the folder that one works in is named as one would name it.
+                        let here = entry.path().strip_prefix(".").ok();
+                        let here = here.filter(|_| path == Path::new("."));
+                        found.files.push(here.unwrap_or(entry.path()).to_path_buf());
                     }
                 }
                 Err(error) => {
-                    let place = error.path().unwrap_or(path).display().to_string();
-                    let reason = error.io_error().map_or_else(|| error.to_string(), plain);
+                    let place = place_of(&error).unwrap_or(path).display().to_string();
+                    let reason = reason_of(&error).map_or_else(|| error.to_string(), plain);
                     found.failures.push(Failure(format!("{place}: {reason}")));
                 }
             }
         }
     }
     found
+}
+
+fn walk(path: &Path, search: &Search) -> Result<ignore::Walk, ignore::Error> {
+    let mut excluded = ignore::overrides::OverrideBuilder::new(path);
+    for pattern in search.exclude {
+        excluded.add(&format!("!{pattern}"))?;
+    }
+    let mut walk = ignore::WalkBuilder::new(path);
+    if !search.all {
+        walk.add_custom_ignore_filename(".wedmignore");
+    }
+    Ok(walk
+        .standard_filters(!search.all)
+        .require_git(false)
+        .overrides(excluded.build()?)
+        .sort_by_file_name(std::ffi::OsStr::cmp)
+        .build())
+}
+
+/// What the system says, without the names that the search has put round it.
+fn reason_of(error: &ignore::Error) -> Option<&std::io::Error> {
+    let error = error.io_error()?;
+    let inner = error.get_ref().and_then(|inner| inner.source());
+    Some(
+        inner
+            .and_then(|inner| inner.downcast_ref())
+            .unwrap_or(error),
+    )
+}
+
+fn place_of(error: &ignore::Error) -> Option<&Path> {
+    match error {
+        ignore::Error::WithPath { path, .. } => Some(path),
+        ignore::Error::WithDepth { err, .. } | ignore::Error::WithLineNumber { err, .. } => {
+            place_of(err)
+        }
+        _ => None,
+    }
 }
 
 fn has_known_ending(path: &Path) -> bool {

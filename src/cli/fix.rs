@@ -63,6 +63,9 @@ fn repaired_rules() -> [(Rule, &'static str); 6] {
 /// Findings that are asked why they were not repaired: each answer costs a look at the drawing.
 const LISTED: usize = 100;
 
+/// More findings that are left are counted by rule.
+const LEFT: usize = 8;
+
 pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = &arguments.path;
     if let Some(target) = &arguments.target.output {
@@ -244,11 +247,21 @@ fn summarise(path: &Path, repair: &Repair) {
             (other.rule, other.line, other.column) == (row.rule, row.line, row.column)
         })
     };
-    for row in repair
-        .after
-        .iter()
-        .filter(|row| row.severity <= Severity::Warning && !is_refused(row))
-    {
+    let is_left = |row: &&Row| row.severity <= Severity::Warning && !is_refused(row);
+    let left: Vec<&Row> = repair.after.iter().filter(is_left).collect();
+    if left.len() > LEFT {
+        let mut rules: Vec<Rule> = left.iter().map(|row| row.rule).collect();
+        rules.sort_unstable();
+        let counts = rules
+            .chunk_by(|one, other| one == other)
+            .map(|same| format!("{} {}", same.len(), same[0].name()))
+            .collect::<Vec<_>>()
+            .join(", ");
+        let heading = styled(output::WARNING, "left:");
+        output::say(&say!(left_in_all, heading, counts, name));
+        return;
+    }
+    for row in left {
         let reason = match &row.data.no_fix {
             None if row.rule == Rule::SmallRadius => {
                 say!(its_fix_moves_the_contour_by_more_than_the_correction)

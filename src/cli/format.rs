@@ -71,7 +71,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let files::Found {
         mut files,
         failures,
-    } = files::search(&arguments.paths);
+    } = files::search(&arguments.paths, &files::Search::default());
     // Folders hold drawings, too; a drawing that is named itself is refused.
     files.retain(|path| arguments.paths.contains(path) || is_program(path));
     if target.is_one() && (files.len() != 1 || arguments.paths.len() != 1) {

@@ -6,6 +6,7 @@
 mod changes;
 mod check;
 mod completions;
+mod config;
 mod contours;
 mod convert;
 mod demo;
@@ -15,6 +16,7 @@ mod files;
 mod fix;
 mod format;
 mod generate;
+mod init;
 mod inspect;
 mod man;
 mod options;
@@ -32,7 +34,7 @@ use std::process::ExitCode;
 /// Language server and command line for wire EDM
 ///
 /// Finds every arc that is tighter than the wire's correction, repairs it, and writes proved 3B programs.
-/// Without a command it is the language server on stdin and stdout.
+/// Without a command it is the language server on stdin and stdout; on a terminal, this help.
 #[derive(Debug, Parser)]
 #[command(name = "wedm", version, max_term_width = 100, after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
 struct CommandLine {
@@ -69,6 +71,8 @@ enum Command {
     Convert(convert::Arguments),
     Simulate(simulate::Arguments),
     Explain(explain::Arguments),
+    Init(init::Arguments),
+    Config(config::Arguments),
     Demo(demo::Arguments),
     Serve(serve::Arguments),
     Completions(completions::Arguments),
@@ -153,6 +157,10 @@ pub fn run() -> ExitCode {
         error.exit()
     });
     let outcome = match arguments.command {
+        None if arguments.server.is_asked_by_nobody() => {
+            output::print(CommandLine::command().render_help().ansi().to_string())
+                .map(|()| Verdict::Clean)
+        }
         None => return serve::run(&arguments.server),
         Some(Command::Serve(arguments)) => return serve::run(&arguments),
         Some(Command::Check(arguments)) => check::run(&arguments),
@@ -165,6 +173,8 @@ pub fn run() -> ExitCode {
         Some(Command::Convert(arguments)) => convert::run(&arguments),
         Some(Command::Simulate(arguments)) => simulate::run(&arguments),
         Some(Command::Explain(arguments)) => explain::run(&arguments),
+        Some(Command::Init(arguments)) => init::run(&arguments),
+        Some(Command::Config(arguments)) => config::run(&arguments),
         Some(Command::Demo(arguments)) => demo::run(&arguments),
         Some(Command::Completions(arguments)) => {
             completions::run(&arguments, &mut CommandLine::command())

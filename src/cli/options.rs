@@ -124,7 +124,7 @@ where
     PossibleValuesParser::new(words).try_map(|word| serde_json::from_value::<T>(word.into()))
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+pub fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(length) if length.is_finite() && length > 0.0 => Ok(length),
         _ => Err(say!(expected_a_length_in_mm_above_0).into()),

@@ -203,9 +203,12 @@ impl Row {
                     .annotation(
                         AnnotationKind::Primary
                             .span(excerpt.span.clone())
-                            .label(self.label()),
+                            .label(self.whereabouts()),
                     );
-                renderer.render(&[title.element(snippet)])
+                let others = self.related.iter().map(|related| {
+                    Level::NOTE.message(say!(in_line, related.message, related.line))
+                });
+                renderer.render(&[title.element(snippet).elements(others)])
             }
             None => {
                 let place = annotate_snippets::Origin::path(path.as_ref())
@@ -216,14 +219,17 @@ impl Row {
         }
     }
 
-    /// What stands beside the caret.
-    fn label(&self) -> Option<String> {
-        let handle = self.data.handle.as_ref()?;
-        let place = self
-            .data
-            .segment
-            .map_or_else(String::new, |segment| format!(", segment {segment}"));
-        Some(format!("{}{place}", readable(handle)))
+    /// Which entity, which segment of it, and where that begins, in drawing units.
+    pub fn whereabouts(&self) -> Option<String> {
+        let data = &self.data;
+        let mut place = readable(data.handle.as_ref()?).into_owned();
+        if let Some(segment) = data.segment {
+            place.push_str(&format!(", segment {segment}"));
+        }
+        if let Some(point) = data.at.or(data.start).or(data.center) {
+            place.push_str(&say!(at_point, point.0, point.1));
+        }
+        Some(place)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::server::{self, Options};
 use clap::Args;
+use std::io::IsTerminal;
 use std::process::ExitCode;
 
 /// Speak the language server protocol on stdin and stdout (what happens without a command)
@@ -13,6 +14,14 @@ pub struct Arguments {
     /// Go on when the process that the client names has died: in a container its number means nothing
     #[arg(long)]
     no_parent_watch: bool,
+}
+
+impl Arguments {
+    /// True where no client can be meant: a person sits at the terminal and has asked for nothing.
+    pub fn is_asked_by_nobody(&self) -> bool {
+        let terminals = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
+        terminals && !self.stdio && !self.no_parent_watch
+    }
 }
 
 pub fn run(arguments: &Arguments) -> ExitCode {

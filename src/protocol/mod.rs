@@ -35,7 +35,7 @@ pub use requests::{
     DrawingVersion, Inspect, OpenDrawing, OptionsOf, Picture, ResendDrawing, Resent, RulePage,
     RulePageText, ScaleProgram,
 };
-pub use schema::schema;
+pub use schema::{schema, settings_schema};
 pub use segment::{SegmentKind, SegmentShape};
 pub use simulate::{Simulate, SimulatedBlock, SimulatedBounds, Simulation, StepKind};
 pub use toolpath::{PathPiece, PathSource, Toolpath, ToolpathPath};

@@ -62,6 +62,57 @@ pub fn schema() -> Value {
     })
 }
 
+/// The JSON Schema of `wedm.toml`.
+pub fn settings_schema() -> Value {
+    let whole = schema();
+    let mut definitions = Map::new();
+    gather(&whole["settings"], &whole["$defs"], &mut definitions);
+    json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": settings::FILE_NAME,
+        "type": "object",
+        "allOf": [whole["settings"]],
+        "$defs": definitions,
+    })
+}
+
+/// Copies the types that a part of the schema leads to, the keys of tables as TOML has them.
+fn gather(part: &Value, from: &Value, into: &mut Map<String, Value>) {
+    match part {
+        Value::Array(items) => items.iter().for_each(|item| gather(item, from, into)),
+        Value::Object(keys) => {
+            let name = keys.get("$ref").and_then(Value::as_str);
+            if let Some(name) = name.and_then(|path| path.strip_prefix("#/$defs/"))
+                && !into.contains_key(name)
+            {
+                let mut definition = from[name].clone();
+                if let Some(Value::Object(properties)) = definition.get_mut("properties") {
+                    *properties = std::mem::take(properties)
+                        .into_iter()
+                        .map(|(key, value)| (hyphened(&key), value))
+                        .collect();
+                }
+                into.insert(name.into(), definition.clone());
+                gather(&definition, from, into);
+            }
+            keys.values().for_each(|value| gather(value, from, into));
+        }
+        _ => {}
+    }
+}
+
+/// `lead-in` of `leadIn`.
+fn hyphened(key: &str) -> String {
+    let mut out = String::with_capacity(key.len() + 2);
+    for letter in key.chars() {
+        if letter.is_ascii_uppercase() {
+            out.push('-');
+        }
+        out.push(letter.to_ascii_lowercase());
+    }
+    out
+}
+
 /// Puts into the type of a level of settings what the row of a key says beside the type: the range, and the meaning as plain text.
 fn declare(definitions: &mut Map<String, Value>, row: &Row) {
     let (of, key) = match row.key.rsplit_once('.') {
@@ -100,6 +151,29 @@ fn declare(definitions: &mut Map<String, Value>, row: &Row) {
 
 #[cfg(test)]
 mod tests {
+    #[test]
+    fn the_schema_of_the_file_has_the_keys_of_the_file() {
+        let schema = super::settings_schema();
+        for row in super::settings::rows() {
+            let (of, key) = match row.key.rsplit_once('.') {
+                Some(("passes", key)) => ("Passes", key),
+                Some(("program", key)) => ("ProgramSettings", key),
+                Some((_, key)) => ("ProfileSettings", key),
+                None => ("Settings", row.key.as_str()),
+            };
+            assert!(
+                schema["$defs"][of]["properties"].get(key).is_some(),
+                "{of} {key}"
+            );
+        }
+        let text = schema.to_string();
+        for rest in text.split("\"#/$defs/").skip(1) {
+            let name = rest.split('"').next().unwrap();
+            assert!(schema["$defs"].get(name).is_some(), "{name}");
+        }
+        assert!(schema["$defs"].get("Inspection").is_none());
+    }
+
     #[test]
     fn every_reference_of_the_schema_leads_to_a_type() {
         let schema = super::schema();

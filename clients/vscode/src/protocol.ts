@@ -135,6 +135,10 @@ export interface Methods {
     params: DrawingName;
     result: SettingsInForce;
   };
+  "wedm/rulePage": {
+    params: RulePage;
+    result: RulePageText;
+  };
   "wedm/generate": {
     params: Generate;
     result: Program;
@@ -361,6 +365,10 @@ export interface Settings {
   rules?: {
     [k: string]: RuleSeverity;
   };
+  /**
+   * Address of the page of a rule, such as `https://edm.example/rules/{rule}.html`: `{rule}` stands for its name. Findings link there. Not set: they link nowhere, and `wedm explain RULE` shows the page.
+   */
+  docsUrl?: string;
   /**
    * How a program is written.
    */
@@ -751,6 +759,24 @@ export interface SettingsInForce {
    * URI of the `wedm.toml` that holds for the document, where there is one.
    */
   file?: string;
+}
+/**
+ * Params of `wedm/rulePage`.
+ */
+export interface RulePage {
+  /**
+   * Name of the rule, which is the `code` of its findings.
+   */
+  rule: string;
+}
+/**
+ * Result of `wedm/rulePage`.
+ */
+export interface RulePageText {
+  /**
+   * Markdown without pictures. Links lead to pages of other rules only, as `NAME.md`.
+   */
+  text: string;
 }
 /**
  * Params of `wedm/generate`.

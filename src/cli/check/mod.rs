@@ -1,13 +1,16 @@
 //! `wedm check`: diagnostics of files and folders.
 
+mod lines;
 mod sarif;
 mod text;
+mod watch;
 
-use super::files::{self, Opened};
+use super::explain::rule_name;
+use super::files;
 use super::options::Common;
-use super::report::{self, Row};
+use super::report::Row;
 use super::{Failure, Verdict, output};
-use crate::finding::Severity;
+use crate::finding::{Rule, Severity};
 use crate::settings::Settings;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -16,22 +19,46 @@ use std::path::{Path, PathBuf};
 
 /// Say what is wrong in drawings and programs
 ///
-/// Folders are searched for .dxf, .dxb, .3b, .4b, .iso and .nc. Ends with 0 when no error was found, with 1 when one was, and with 2
-/// when something could not be read.
+/// Folders are searched for .dxf, .dxb, .3b, .4b, .iso and .nc; what .gitignore, .ignore or .wedmignore name is passed over, and so are hidden
+/// files. Ends with 0 when no error was found, with 1 when one was, and with 2 when something could not be read.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
   wedm check plate.dxf
   wedm check --correction 0.12 --side opening drawings/
+  wedm check --output concise --ignore sharp-corner,near-tangent
+  wedm check --statistics --exclude 'old/**' drawings/
   wedm check --output sarif drawings/ > findings.sarif
-  wedm check --deny warning plate.dxf program.3b")]
+  wedm check --deny warning plate.dxf program.3b
+  generate-plate | wedm check - --stdin-name plate.dxf")]
 pub struct Arguments {
-    /// Files, and folders to search
-    #[arg(required = true, value_name = "PATH")]
+    /// Files, and folders to search; `-` is stdin
+    #[arg(value_name = "PATH", default_value = ".")]
     paths: Vec<PathBuf>,
     /// Form of what is printed
     #[arg(long, value_enum, default_value_t = Format::Text)]
     output: Format,
+    /// How often each rule speaks, in place of the findings
+    #[arg(long)]
+    statistics: bool,
+    /// Only these rules, and what says that a file could not be judged
+    #[arg(long, value_name = "RULE", value_delimiter = ',', value_parser = rule_name(), hide_possible_values = true)]
+    select: Vec<Rule>,
+    /// All but these rules
+    #[arg(long, value_name = "RULE", value_delimiter = ',', value_parser = rule_name(), hide_possible_values = true)]
+    ignore: Vec<Rule>,
+    /// Pass over files and folders that fit a pattern, as .gitignore has them
+    #[arg(long, value_name = "PATTERN")]
+    exclude: Vec<String>,
+    /// Search hidden files, too, and what .gitignore and its like name
+    #[arg(long)]
+    no_ignore: bool,
+    /// Name of what comes on stdin: its ending says what it is, its folder which wedm.toml holds
+    #[arg(long, value_name = "NAME", default_value = "stdin.dxf")]
+    stdin_name: PathBuf,
+    /// Check again whenever a file changes, until the process is ended
+    #[arg(long)]
+    watch: bool,
     /// End with 1 also for findings of this severity
     #[arg(long, value_enum, value_name = "SEVERITY")]
     deny: Option<Deny>,
@@ -39,11 +66,36 @@ pub struct Arguments {
     common: Common,
 }
 
+impl Arguments {
+    fn search(&self) -> files::Search<'_> {
+        files::Search {
+            exclude: &self.exclude,
+            all: self.no_ignore,
+        }
+    }
+
+    /// True for a rule that is asked about. That a file could not be judged is no answer to leave out unasked.
+    fn wants(&self, rule: Rule) -> bool {
+        let always = [Rule::Syntax, Rule::Settings, Rule::NotJudged, Rule::More];
+        let selected =
+            self.select.is_empty() || self.select.contains(&rule) || always.contains(&rule);
+        selected && !self.ignore.contains(&rule)
+    }
+}
+
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Format {
     Text,
+    /// A line for each finding
+    Concise,
+    /// The same, under a heading for each file
+    Grouped,
     Json,
     Sarif,
+    /// Annotations of a GitHub workflow
+    Github,
+    /// JUnit's XML
+    Junit,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -57,6 +109,8 @@ struct Checked {
     /// Some of it is repaired by `wedm fix`.
     fixable: bool,
     failure: Option<Failure>,
+    /// Where the pages of the rules are.
+    docs_url: Option<String>,
 }
 
 /// All that was looked at.
@@ -65,12 +119,30 @@ struct Survey {
     rows: Vec<Row>,
     fixable: Vec<PathBuf>,
     failures: Vec<Failure>,
+    docs_url: Option<String>,
 }
 
 pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+    if !arguments.watch {
+        return report(arguments);
+    }
+    if arguments.paths.iter().any(|path| path == Path::new("-")) {
+        return Err(Failure(say!(stdin_is_not_watched).into()));
+    }
+    match watch::run(arguments)? {}
+}
+
+fn report(arguments: &Arguments) -> Result<Verdict, Failure> {
     let survey = survey(arguments);
     match arguments.output {
+        _ if arguments.statistics => {
+            output::print(lines::statistics(&survey) + &text::summary(&survey))?
+        }
         Format::Text => output::print(text::render(&survey))?,
+        Format::Concise => output::print(lines::concise(&survey) + &text::summary(&survey))?,
+        Format::Grouped => output::print(lines::grouped(&survey) + &text::summary(&survey))?,
+        Format::Github => output::print(lines::github(&survey))?,
+        Format::Junit => output::print(lines::junit(&survey))?,
         Format::Json => output::print_json(&serde_json::json!({ "diagnostics": survey.rows }))?,
         Format::Sarif => output::print_json_text(&format!("{:#}\n", sarif::log(&survey)))?,
     }
@@ -95,11 +167,11 @@ fn verdict(survey: &Survey, deny: Option<Deny>) -> Verdict {
 }
 
 fn survey(arguments: &Arguments) -> Survey {
-    let found = files::search(&arguments.paths);
+    let found = files::search(&arguments.paths, &arguments.search());
     let settings = arguments.common.settings();
     let progress = progress(found.files.len());
     let check_and_count = |path: &PathBuf| {
-        let checked = check(path, &arguments.common, &settings);
+        let checked = check(path, arguments, &settings);
         progress.inc(1);
         checked
     };
@@ -110,11 +182,13 @@ fn survey(arguments: &Arguments) -> Survey {
         rows: Vec::new(),
         fixable: Vec::new(),
         failures: found.failures,
+        docs_url: None,
     };
     for (path, file) in found.files.into_iter().zip(checked) {
         survey.files += usize::from(file.failure.is_none());
         survey.failures.extend(file.failure);
         survey.rows.extend(file.rows);
+        survey.docs_url = survey.docs_url.or(file.docs_url);
         if file.fixable {
             survey.fixable.push(path);
         }
@@ -125,6 +199,7 @@ fn survey(arguments: &Arguments) -> Survey {
         crate::finding::Rule::Settings,
         crate::finding::Rule::PassOrder,
     ];
+    survey.rows.retain(|row| arguments.wants(row.rule));
     survey.rows.retain(|row| {
         !of_settings.contains(&row.rule)
             || said.insert((row.path.clone(), row.line, row.message.clone()))
@@ -132,25 +207,29 @@ fn survey(arguments: &Arguments) -> Survey {
     survey
 }
 
-fn check(path: &Path, common: &Common, settings: &Settings) -> Checked {
-    match files::open(path, common, settings) {
+fn check(path: &Path, arguments: &Arguments, settings: &Settings) -> Checked {
+    let (common, stdin) = (&arguments.common, path == Path::new("-"));
+    let name = if stdin { &arguments.stdin_name } else { path };
+    let opened = if stdin {
+        files::open_stdin(name, common, settings)
+    } else {
+        files::open(name, common, settings).map(|opened| (opened.document, opened.settings_rows))
+    };
+    match opened {
         Err(failure) => Checked {
             rows: Vec::new(),
             fixable: false,
             failure: Some(failure),
+            docs_url: None,
         },
-        Ok(Opened {
-            path,
-            mut document,
-            settings_rows,
-            ..
-        }) => {
-            let mut rows = settings_rows;
-            rows.extend(report::rows(&path, &mut document));
+        Ok((mut document, mut rows)) => {
+            rows.extend(super::report::rows(name, &mut document));
             Checked {
                 rows,
-                fixable: document.can_be_fixed(),
+                // What came on stdin is in no file that could be repaired.
+                fixable: !stdin && document.can_be_fixed(),
                 failure: None,
+                docs_url: document.settings().docs_url.clone(),
             }
         }
     }

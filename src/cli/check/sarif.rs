@@ -19,7 +19,7 @@ pub(super) fn log(survey: &Survey) -> Value {
             "tool": { "driver": {
                 "name": "wedm",
                 "semanticVersion": env!("CARGO_PKG_VERSION"),
-                "rules": Rule::ALL.iter().map(|&rule| described(rule)).collect::<Vec<_>>(),
+                "rules": Rule::ALL.iter().map(|&rule| described(rule, survey.docs_url.as_deref())).collect::<Vec<_>>(),
             } },
             "columnKind": "unicodeCodePoints",
             "invocations": [{
@@ -31,12 +31,18 @@ pub(super) fn log(survey: &Survey) -> Value {
     })
 }
 
-fn described(rule: Rule) -> Value {
-    json!({
+fn described(rule: Rule, docs_url: Option<&str>) -> Value {
+    let lines: Vec<String> = rule.lines().into_iter().map(|(_, line)| line).collect();
+    let mut described = json!({
         "id": rule.name(),
         "shortDescription": { "text": rule.summary() },
+        "help": { "text": lines.join("\n"), "markdown": rule.page() },
         "defaultConfiguration": { "level": level(rule.default_severity()) },
-    })
+    });
+    if let Some(docs_url) = docs_url {
+        described["helpUri"] = docs_url.replace("{rule}", rule.name()).into();
+    }
+    described
 }
 
 fn result(row: &Row) -> Value {

@@ -10,6 +10,12 @@ pub(super) fn render(survey: &Survey) -> String {
     for row in &survey.rows {
         let _ = writeln!(text, "{}\n", row.rendered());
     }
+    text + &summary(survey)
+}
+
+/// What it all comes to, and what can be done.
+pub(super) fn summary(survey: &Survey) -> String {
+    let mut text = String::new();
     let count = |severity| {
         survey
             .rows

@@ -72,10 +72,19 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     punch::session(&mut narrator, &mut client, correction)?;
     client.end()?;
 
+    // The levels of the session that was played, so that commands in this folder see the drawing as it did.
+    let settings = format!(
+        "correction = {correction}\n\n[layers]\nDIE = \"opening\"\nHOLES = \"opening\"\nPLATE = \"ignore\"\n"
+    );
     narrator.step(say!(the_server_has_ended_as_it_should_these_files));
     for (name, bytes, what) in [
         ("demo.dxf", made.dxf.as_bytes(), say!(the_plate_repaired)),
         ("demo.3b", made.program.as_bytes(), say!(its_program)),
+        (
+            crate::settings::FILE_NAME,
+            settings.as_bytes(),
+            say!(the_settings_of_this_session),
+        ),
         (
             "demo.svg",
             made.picture.as_bytes(),
@@ -85,6 +94,18 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         let path = arguments.folder.join(name);
         output::write(Some(&path), bytes)?;
         narrator.say(&format!("{}  {what}", output::name(&path)));
+    }
+    narrator.step(say!(go_on_with));
+    let drawing = output::name(&arguments.folder.join("demo.dxf"));
+    let program = output::name(&arguments.folder.join("plate.3b"));
+    for words in [
+        &["check", &drawing][..],
+        &["inspect", &drawing],
+        &["generate", &drawing, "-o", &program],
+        &["check", &program],
+        &["explain", "small-radius"],
+    ] {
+        narrator.say(&format!("wedm {}", words.join(" ")));
     }
     narrator.good(say!(everything_above_was_checked_as_it_was_said));
     Ok(Verdict::Clean)

@@ -78,6 +78,7 @@ class Settings(TypedDict, total=False):
     colors: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
     arc_fit: float
     rules: Mapping[str, Literal["error", "warning", "information", "hint", "off"]]
+    docs_url: str
     profiles: Mapping[str, Profile]
     passes: Passes
     program: ProgramSettings

@@ -1,0 +1,182 @@
+//! The findings a line each: for people who want an overview, and for tools that read such lines.
+
+use super::Survey;
+use crate::cli::output::{self, styled};
+use crate::cli::report::Row;
+use crate::finding::{Rule, Severity};
+use crate::message::readable;
+use std::fmt::Write;
+
+/// `path:line:column: severity[rule]: sentence (where)`.
+pub(super) fn concise(survey: &Survey) -> String {
+    let line = |row: &Row| format!("{}:{}", readable(&row.path), told(row));
+    survey.rows.iter().map(line).collect()
+}
+
+/// The same under a heading for each file.
+pub(super) fn grouped(survey: &Survey) -> String {
+    let mut text = String::new();
+    for rows in survey.rows.chunk_by(|one, other| one.path == other.path) {
+        let path = readable(&rows[0].path);
+        let _ = writeln!(text, "{}", styled(output::STRONG, path));
+        rows.iter()
+            .for_each(|row| text.push_str(&format!("  {}", told(row))));
+        text.push('\n');
+    }
+    text
+}
+
+fn told(row: &Row) -> String {
+    let style = match row.severity {
+        Severity::Error => output::ERROR,
+        Severity::Warning => output::WARNING,
+        _ => output::NOTE,
+    };
+    let head = styled(
+        style,
+        format!("{}[{}]", name(row.severity), row.rule.name()),
+    );
+    let others = row.related.iter().map(|related| related.message.clone());
+    let places: Vec<String> = row.whereabouts().into_iter().chain(others).collect();
+    let place = match places.join("; ") {
+        none if none.is_empty() => none,
+        places => format!(" ({places})"),
+    };
+    format!(
+        "{}:{}: {head}: {}{place}\n",
+        row.line, row.column, row.message
+    )
+}
+
+/// How often each rule speaks, most often first.
+pub(super) fn statistics(survey: &Survey) -> String {
+    let mut counts: Vec<(usize, Rule, Severity)> = Vec::new();
+    for row in &survey.rows {
+        match counts.iter_mut().find(|count| count.1 == row.rule) {
+            Some(count) => (count.0, count.2) = (count.0 + 1, count.2.min(row.severity)),
+            None => counts.push((1, row.rule, row.severity)),
+        }
+    }
+    counts.sort_by_key(|&(count, rule, _)| (std::cmp::Reverse(count), rule));
+    let mut text = String::new();
+    for (count, rule, severity) in counts {
+        let (rule, summary) = (rule.name(), rule.summary());
+        let _ = writeln!(
+            text,
+            "{count:>7}  {rule:<20} {:<11}  {summary}",
+            name(severity)
+        );
+    }
+    text
+}
+
+fn name(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Information => "information",
+        Severity::Hint => "hint",
+    }
+}
+
+/// Commands of a workflow of GitHub, which shows them beside the lines of a change.
+pub(super) fn github(survey: &Survey) -> String {
+    let of_row = |row: &Row| {
+        let level = match row.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Information | Severity::Hint => "notice",
+        };
+        format!(
+            "::{level} file={},line={},endLine={},col={},endColumn={},title={}::{}\n",
+            escaped(&row.path, true),
+            row.line,
+            row.end_line,
+            row.column,
+            row.end_column,
+            row.rule.name(),
+            escaped(&row.message, false)
+        )
+    };
+    survey.rows.iter().map(of_row).collect()
+}
+
+/// What would end a property or the command stands as its number.
+fn escaped(text: &str, is_property: bool) -> String {
+    let mut out = text.replace('%', "%25");
+    out = out.replace('\r', "%0D").replace('\n', "%0A");
+    if is_property {
+        out = out.replace(':', "%3A").replace(',', "%2C");
+    }
+    out
+}
+
+/// JUnit's XML: a suite for each file, a failed case for each finding.
+pub(super) fn junit(survey: &Survey) -> String {
+    let (files, findings) = (survey.files, survey.rows.len());
+    let mut text = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"wedm\" tests=\"{}\" failures=\"{findings}\" errors=\"{}\">\n",
+        files.max(findings),
+        survey.failures.len()
+    );
+    for rows in survey.rows.chunk_by(|one, other| one.path == other.path) {
+        let (path, count) = (xml(&rows[0].path), rows.len());
+        let _ = writeln!(
+            text,
+            "  <testsuite name=\"{path}\" tests=\"{count}\" failures=\"{count}\">"
+        );
+        for row in rows {
+            let (rule, severity) = (row.rule.name(), name(row.severity));
+            let _ = writeln!(
+                text,
+                "    <testcase classname=\"{path}\" name=\"{rule}\" line=\"{}\" column=\"{}\"><failure type=\"{severity}\" message=\"{}\"/></testcase>",
+                row.line,
+                row.column,
+                xml(&row.message)
+            );
+        }
+        text.push_str("  </testsuite>\n");
+    }
+    for failure in &survey.failures {
+        let _ = writeln!(
+            text,
+            "  <testsuite name=\"wedm\" tests=\"1\" errors=\"1\"><testcase name=\"read\"><error message=\"{}\"/></testcase></testsuite>",
+            xml(&failure.0)
+        );
+    }
+    text.push_str("</testsuites>\n");
+    text
+}
+
+/// Text as it may stand in an attribute; what XML has no place for is left as a mark.
+fn xml(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\n' | '\t' => out.push(' '),
+            control if control.is_control() => out.push(char::REPLACEMENT_CHARACTER),
+            '\u{fffe}' | '\u{ffff}' => out.push(char::REPLACEMENT_CHARACTER),
+            other => out.push(other),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_tools_read_is_escaped() {
+        assert_eq!(escaped("a:b,c%\n", true), "a%3Ab%2Cc%25%0A");
+        assert_eq!(escaped("a: b", false), "a: b");
+        assert_eq!(
+            xml("<a & \"b\">\u{1b}"),
+            "&lt;a &amp; &quot;b&quot;&gt;\u{fffd}"
+        );
+    }
+}

@@ -1,0 +1,201 @@
+//! `wedm init`: a commented `wedm.toml`, from flags or from questions.
+
+use super::{Failure, Verdict, output};
+use crate::settings::{self, FILE_NAME, Row, shipped_profiles};
+use clap::Args;
+use std::fmt::Write;
+use std::io::{BufRead, IsTerminal};
+use std::path::PathBuf;
+
+/// Write a commented wedm.toml for a folder of drawings
+///
+/// On a terminal it asks for what no flag says. With several passes it works their corrections out: the rough pass runs at the wire's
+/// radius + gap + stock, skim i of n at the radius + fine gap + stock (n − i) / n.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  wedm init
+  wedm init --wire 0.18 --gap 0.01 --machine 3b
+  wedm init --wire 0.25 --gap 0.03 --passes 3 --machine robofil drawings")]
+pub struct Arguments {
+    /// Folder that the file is written to
+    #[arg(value_name = "DIR", default_value = ".")]
+    folder: PathBuf,
+    /// Diameter of the wire, mm
+    #[arg(long, value_name = "MM", value_parser = super::options::positive)]
+    wire: Option<f64>,
+    /// Spark gap, mm; with several passes that of the rough one
+    #[arg(long, value_name = "MM", value_parser = super::options::positive)]
+    gap: Option<f64>,
+    /// Spark gap of the skims, mm [default: half the gap]
+    #[arg(long, value_name = "MM", value_parser = super::options::positive)]
+    fine_gap: Option<f64>,
+    /// What the rough pass leaves for the skims, mm
+    #[arg(long, value_name = "MM", value_parser = super::options::positive, default_value = "0.06")]
+    stock: f64,
+    /// Passes along each contour
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=9))]
+    passes: Option<u8>,
+    /// What the machine reads: 3b, or a profile of ISO programs
+    #[arg(long, value_parser = machines())]
+    machine: Option<String>,
+    /// Write over a wedm.toml that is there
+    #[arg(long)]
+    force: bool,
+}
+
+fn machines() -> clap::builder::PossibleValuesParser {
+    let names = shipped_profiles().map(|name| &*name.to_owned().leak());
+    std::iter::once("3b")
+        .chain(names)
+        .collect::<Vec<&'static str>>()
+        .into()
+}
+
+pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+    let path = arguments.folder.join(FILE_NAME);
+    if path.exists() && !arguments.force {
+        return Err(Failure::of(&path, say!(it_is_there_already)));
+    }
+    let defaults = settings::Settings::default();
+    let asks = std::io::stdin().is_terminal() && std::io::stderr().is_terminal();
+    let number = |said: Option<f64>, question: &str, default: f64| match said {
+        Some(number) => Ok(number),
+        None if asks => ask(question, &default.to_string(), super::options::positive),
+        None => Ok(default),
+    };
+    let wire = number(
+        arguments.wire,
+        say!(wire_diameter_mm),
+        defaults.wire_diameter(),
+    )?;
+    let gap = number(arguments.gap, say!(spark_gap_mm), defaults.gap())?;
+    let passes = match arguments.passes {
+        Some(passes) => passes,
+        None if asks => ask(say!(passes_along_each_contour), "1", |text| {
+            let count = text.parse().ok().filter(|count| (1..=9).contains(count));
+            count.ok_or_else(|| say!(a_whole_number_from_to, 1, 9))
+        })?,
+        None => 1,
+    };
+    let names: Vec<&str> = std::iter::once("3b").chain(shipped_profiles()).collect();
+    let machine = match &arguments.machine {
+        Some(machine) => machine.clone(),
+        None if asks => ask(
+            &say!(what_the_machine_reads, names.join(", ")),
+            "3b",
+            |text| {
+                let known = names.contains(&text).then(|| text.to_owned());
+                known.ok_or_else(|| names.join(", "))
+            },
+        )?,
+        None => "3b".into(),
+    };
+    let mut set = vec![
+        ("wire-diameter", wire.to_string()),
+        ("gap", gap.to_string()),
+    ];
+    if passes > 1 {
+        let fine_gap = arguments.fine_gap.unwrap_or(gap / 2.0);
+        let list = corrections(wire / 2.0, gap, fine_gap, arguments.stock, passes);
+        set.push(("passes.corrections", list));
+    }
+    if machine != "3b" {
+        set.push(("program.profile", format!("\"{machine}\"")));
+    }
+    output::write(Some(&path), file(&set).as_bytes())?;
+    output::say(&say!(written_file, output::name(&path)));
+    Ok(Verdict::Clean)
+}
+
+/// The correction of each pass, as a list of TOML, mm.
+fn corrections(radius: f64, gap: f64, fine_gap: f64, stock: f64, passes: u8) -> String {
+    let skims = f64::from(passes - 1);
+    let skim = |number| radius + fine_gap + stock * (skims - f64::from(number)) / skims;
+    let all = std::iter::once(radius + gap + stock).chain((1..passes).map(skim));
+    let numbers: Vec<String> = all.map(|number| format!("{number:.4}")).collect();
+    format!("[{}]", numbers.join(", "))
+}
+
+/// Asks until the answer fits; no answer is the default, and so is the end of the input.
+fn ask<T>(
+    question: &str,
+    default: &str,
+    read: impl Fn(&str) -> Result<T, String>,
+) -> Result<T, Failure> {
+    loop {
+        output::say(&format!("{question} [{default}]"));
+        let mut line = String::new();
+        let length = std::io::stdin().lock().read_line(&mut line);
+        let answer = match line.trim() {
+            "" => default,
+            answer => answer,
+        };
+        match read(answer) {
+            Ok(value) => return Ok(value),
+            Err(expected) if length.is_ok_and(|length| length > 0) => output::say(&expected),
+            Err(expected) => return Err(Failure(expected)),
+        }
+    }
+}
+
+/// Every key with what it means; those that are set with their value, the others commented out with their default.
+fn file(set: &[(&str, String)]) -> String {
+    let mut text = format!("# {}\n", say!(settings_of_wedm));
+    let mut section = "";
+    let rows = settings::rows();
+    for row in rows.iter().filter(|row| !row.key.starts_with("profiles.")) {
+        let (of, key) = row.key.rsplit_once('.').unwrap_or(("", &row.key));
+        if of != section {
+            section = of;
+            let _ = write!(text, "\n[{section}]\n");
+        }
+        let value = set.iter().find(|(name, _)| *name == row.key);
+        let _ = match (value, &row.default) {
+            (Some((_, value)), _) => write!(text, "\n# {}\n{key} = {value}\n", meaning(row)),
+            (None, Some(default)) => write!(text, "\n# {}\n# {key} = {default}\n", meaning(row)),
+            (None, None) => write!(text, "\n# {key}: {}\n", meaning(row)),
+        };
+    }
+    text
+}
+
+/// The first sentence of what a key means.
+fn meaning(row: &Row) -> String {
+    let meaning = row.plain_meaning();
+    let end = meaning.find(". ").map_or(meaning.len(), |end| end + 1);
+    meaning[..end].to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn passes_are_those_of_the_formula() {
+        let list = corrections(0.125, 0.03, 0.015, 0.06, 3);
+        assert_eq!(list, "[0.2150, 0.1700, 0.1400]");
+    }
+
+    #[test]
+    fn what_is_written_is_read_without_a_complaint() {
+        for set in [
+            vec![],
+            vec![
+                ("wire-diameter", "0.25".to_owned()),
+                ("gap", "0.03".to_owned()),
+                ("passes.corrections", "[0.2150, 0.1700, 0.1400]".to_owned()),
+                ("program.profile", "\"robofil\"".to_owned()),
+            ],
+        ] {
+            let text = file(&set);
+            let (settings, errors) = settings::from_toml(&text);
+            assert_eq!(errors, [], "{text}");
+            let uncommented = text
+                .lines()
+                .filter(|line| line.contains(" = ") && !line.starts_with('#'));
+            assert_eq!(uncommented.count(), set.len(), "{text}");
+            assert_eq!(settings.wire_diameter.is_some(), !set.is_empty());
+        }
+    }
+}
