@@ -1,6 +1,8 @@
 //! Edits of a program's text, as an editor takes them best. What they say is not known here.
 
 use crate::text::{SourceText, TextEdit};
+use rayon::prelude::*;
+use std::ops::Range;
 
 /// So many edits of one text are many.
 const MANY: usize = 2_000;
@@ -10,7 +12,7 @@ const LITTLE: usize = 64;
 
 /// Sorted and disjoint edits. Where nearly all of a long text changes, those become one that are parted by little: tens of thousands of
 /// edits cost an editor more than the text between them.
-pub(in crate::program) fn joined(edits: Vec<TextEdit>, text: &SourceText) -> Vec<TextEdit> {
+fn joined(edits: Vec<TextEdit>, text: &SourceText) -> Vec<TextEdit> {
     if edits.len() <= MANY {
         return edits;
     }
@@ -33,6 +35,51 @@ pub(in crate::program) fn joined(edits: Vec<TextEdit>, text: &SourceText) -> Vec
         }
     }
     joined
+}
+
+/// Lines that are written together.
+pub(in crate::program) const AT_ONCE: usize = 2048;
+
+/// Edits of lines in the making, each with the lines that it writes anew from their beginning to their end: those of lines that follow
+/// each other become one. What writes only a part of a line has none.
+#[derive(Default)]
+pub(in crate::program) struct LineEdits(Vec<(Range<usize>, TextEdit)>);
+
+impl LineEdits {
+    pub fn push(&mut self, text: &SourceText, lines: Range<usize>, edit: TextEdit) {
+        let goes_on = |before: &Range<usize>| {
+            !before.is_empty() && !lines.is_empty() && before.end == lines.start
+        };
+        match self.0.last_mut().filter(|(before, _)| goes_on(before)) {
+            Some((before, last)) => {
+                let between = text.bytes().get(last.range.end..edit.range.start);
+                let between = between.and_then(|bytes| std::str::from_utf8(bytes).ok());
+                last.text.push_str(between.unwrap_or("\n"));
+                last.text.push_str(&edit.text);
+                (last.range.end, before.end) = (edit.range.end, lines.end);
+            }
+            None if edit.range.is_empty() && edit.text.is_empty() => {}
+            None => self.0.push((lines, edit)),
+        }
+    }
+}
+
+/// The edits of the pieces of a text, in their order.
+pub(in crate::program) fn formed<P: Sync>(
+    text: &SourceText,
+    pieces: &[P],
+    form: impl Fn(&P) -> LineEdits + Send + Sync,
+) -> Vec<TextEdit> {
+    let formed: Vec<LineEdits> = if pieces.len() > 2 {
+        pieces.par_iter().map(form).collect()
+    } else {
+        pieces.iter().map(form).collect()
+    };
+    let mut edits = LineEdits::default();
+    for (lines, edit) in formed.into_iter().flat_map(|piece| piece.0) {
+        edits.push(text, lines, edit);
+    }
+    joined(edits.0.into_iter().map(|(_, edit)| edit).collect(), text)
 }
 
 #[cfg(test)]

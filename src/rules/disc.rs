@@ -1,7 +1,7 @@
 //! A disc beside the walls of a contour: where it touches them, and where its centre may lie that it does.
 
 use super::Limits;
-use super::locus::Locus;
+use crate::geometry::Locus;
 use super::wall::{Corner, Wall};
 use crate::finding::Side;
 use crate::geometry::{Point, Segment, Vector, left_normal, turn};

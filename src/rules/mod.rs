@@ -9,7 +9,6 @@ mod disc;
 mod duplicate_entity;
 mod ends;
 mod gap;
-mod locus;
 pub mod lost_pocket;
 mod narrow_slot;
 mod near_tangent;

@@ -5,7 +5,7 @@
 
 use super::arc_as_chords::{self, are_between_chords};
 use super::disc::{loci, slack, touch};
-use super::locus::Locus;
+use crate::geometry::Locus;
 use super::small_radius::{Travel, fillet};
 use super::wall::Wall;
 use super::{LocalRule, Observation, Outlook, other_at_joint};

@@ -3,7 +3,7 @@
 
 use super::block::{Corner, Motion, read_line};
 use super::machine::{Bend, Course, Machine, Move, Reading, added, bend_about, micrometres};
-use crate::geometry::{Point, Segment, Vector, cross, left_normal};
+use crate::geometry::{Locus, Point, Segment, cross, turn};
 
 /// Lines behind a corner's in which the move that it leads to is looked for.
 pub const REACH: usize = 64;
@@ -164,23 +164,21 @@ fn chamfered(one: &Segment, other: &Segment, length: f64) -> Option<(Point, Poin
         && length <= one.length()
         && length <= other.length();
     let (from, to) = (one.end_tangent(), other.start_tangent());
-    let turns = cross(from, to).atan2(from.dot(&to)).abs() > STRAIGHT;
+    let turns = turn(from, to).abs() > STRAIGHT;
     (fits && turns).then(|| (one.end() - from * length, other.start() + to * length, None))
 }
 
 /// Where the arc of a radius that runs on from one way and into the other begins and ends, and its centre.
 fn rounded(one: &Segment, other: &Segment, radius: f64) -> Option<(Point, Point, Option<Point>)> {
     let (from, to) = (one.end_tangent(), other.start_tangent());
-    let turn = cross(from, to).atan2(from.dot(&to));
+    let turn = turn(from, to);
     if turn.abs() < STRAIGHT || turn.abs() > std::f64::consts::PI - STRAIGHT {
         return None;
     }
     let corner = one.end();
     let side = turn.signum();
-    let found = meetings(
-        &parallel(one, side * radius)?,
-        &parallel(other, side * radius)?,
-    );
+    let beside = |way: &Segment| Locus::beside(way, side, radius, 0.0);
+    let found = beside(one)?.meet(&beside(other)?);
     let feet = found.into_iter().filter_map(|center| {
         let (begin, end) = (foot(one, center)?, foot(other, center)?);
         Some((begin, end, center))
@@ -188,72 +186,6 @@ fn rounded(one: &Segment, other: &Segment, radius: f64) -> Option<(Point, Point,
     let nearest =
         feet.min_by(|(_, _, a), (_, _, b)| (a - corner).norm().total_cmp(&(b - corner).norm()))?;
     Some((nearest.0, nearest.1, Some(nearest.2)))
-}
-
-/// What lies so far to the left of a way: a line by a point and its direction, or a circle.
-enum Locus {
-    Line(Point, Vector),
-    Circle(Point, f64),
-}
-
-fn parallel(way: &Segment, left: f64) -> Option<Locus> {
-    match way {
-        Segment::Arc(arc) => {
-            let radius = if arc.sweep > 0.0 {
-                arc.radius - left
-            } else {
-                arc.radius + left
-            };
-            (radius > 0.0).then_some(Locus::Circle(arc.center, radius))
-        }
-        _ => Some(Locus::Line(
-            way.start() + left_normal(way.start_tangent()) * left,
-            way.start_tangent(),
-        )),
-    }
-}
-
-fn meetings(one: &Locus, other: &Locus) -> Vec<Point> {
-    match (one, other) {
-        (Locus::Line(a, along), Locus::Line(b, across)) => {
-            let turn = cross(*along, *across);
-            if turn == 0.0 {
-                Vec::new()
-            } else {
-                vec![a + along * (cross(b - a, *across) / turn)]
-            }
-        }
-        (Locus::Line(a, along), Locus::Circle(center, radius))
-        | (Locus::Circle(center, radius), Locus::Line(a, along)) => {
-            let nearest = a + along * (center - a).dot(along);
-            let height = radius * radius - (nearest - center).norm_squared();
-            if height < 0.0 {
-                Vec::new()
-            } else {
-                [-1.0, 1.0]
-                    .map(|sign| nearest + along * (sign * height.sqrt()))
-                    .to_vec()
-            }
-        }
-        (Locus::Circle(a, r), Locus::Circle(b, s)) => {
-            let between = b - a;
-            let distance = between.norm();
-            if distance == 0.0 {
-                return Vec::new();
-            }
-            let along = (distance * distance + r * r - s * s) / (2.0 * distance);
-            let height = r * r - along * along;
-            let middle = a + between * (along / distance);
-            let across = left_normal(between) / distance;
-            if height < 0.0 {
-                Vec::new()
-            } else {
-                [-1.0, 1.0]
-                    .map(|sign| middle + across * (sign * height.sqrt()))
-                    .to_vec()
-            }
-        }
-    }
 }
 
 /// The point of a way next to a centre, where it lies on it.

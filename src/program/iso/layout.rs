@@ -3,10 +3,9 @@
 //! No number is rewritten: whether it has a decimal point, and how many digits, means something to a control.
 
 use super::word::{Token, words};
-use crate::program::edits::joined;
+use crate::program::edits::{self, AT_ONCE, LineEdits};
 use crate::settings::Layout;
 use crate::text::{SourceText, TextEdit};
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Lines that are looked at to find out whether words are parted by spaces.
@@ -19,45 +18,21 @@ const LOOKED_AT: usize = 1000;
 pub fn format(text: &SourceText, layout: Option<Layout>, lines: Range<usize>) -> Vec<TextEdit> {
     let parted = layout.map_or_else(|| is_parted(text), |layout| layout != Layout::Compact);
     let lines = lines.start..lines.end.min(text.line_count());
-    let formed = |line: usize| {
-        let range = text.line_range(line);
-        formed(&text.bytes()[range.clone()], parted).map(|text| (line, TextEdit { range, text }))
-    };
-    let all = |lines: Range<usize>| lines.filter_map(formed).collect::<Vec<_>>();
-    let formed: Vec<Vec<(usize, TextEdit)>> = if lines.len() > 2 * AT_ONCE {
-        let firsts: Vec<usize> = lines.clone().step_by(AT_ONCE).collect();
-        firsts
-            .into_par_iter()
-            .map(|first| all(first..(first + AT_ONCE).min(lines.end)))
-            .collect()
-    } else {
-        vec![all(lines)]
-    };
-    let mut edits: Vec<TextEdit> = Vec::new();
-    let mut last = None;
-    for (line, next) in formed.into_iter().flatten() {
-        match edits
-            .last_mut()
-            .filter(|_| last.is_some() && last == line.checked_sub(1))
-        {
-            // Lines that follow each other become one edit.
-            Some(edit) => {
-                edit.text.push_str(
-                    std::str::from_utf8(&text.bytes()[edit.range.end..next.range.start])
-                        .unwrap_or("\n"),
-                );
-                edit.text.push_str(&next.text);
-                edit.range.end = next.range.end;
+    let firsts = lines.clone().step_by(AT_ONCE);
+    let pieces: Vec<Range<usize>> = firsts
+        .map(|first| first..(first + AT_ONCE).min(lines.end))
+        .collect();
+    edits::formed(text, &pieces, |lines| {
+        let mut edits = LineEdits::default();
+        for line in lines.clone() {
+            let range = text.line_range(line);
+            if let Some(new) = formed(&text.bytes()[range.clone()], parted) {
+                edits.push(text, line..line + 1, TextEdit { range, text: new });
             }
-            None => edits.push(next),
         }
-        last = Some(line);
-    }
-    joined(edits, text)
+        edits
+    })
 }
-
-/// Lines that are written together.
-const AT_ONCE: usize = 2048;
 
 /// True where words are parted by spaces in most lines.
 pub(super) fn is_parted(text: &SourceText) -> bool {
@@ -133,16 +108,8 @@ fn formed(line: &[u8], parted: bool) -> Option<String> {
         return None;
     }
     let again = tokens_of(out.as_bytes());
-    let is_same = |(old, new): (&Token, &Token)| match (old, new) {
-        (
-            Token::Word { letter, number, .. },
-            Token::Word {
-                letter: again,
-                number: its,
-                ..
-            },
-        ) => (letter, number) == (again, its),
-        _ => meaning(old.clone(), line) == meaning(new.clone(), out.as_bytes()),
+    let is_same = |(old, new): (&Token, &Token)| {
+        meaning(old.clone(), line) == meaning(new.clone(), out.as_bytes())
     };
     (tokens.len() == again.len() && tokens.iter().zip(&again).all(is_same)).then_some(out)
 }
@@ -155,65 +122,17 @@ fn tokens_of(line: &[u8]) -> Vec<Token> {
     tokens.into_iter().map(|token| token.moved(shift)).collect()
 }
 
-/// A token without its place; what a comment or a definition says is its text.
-fn meaning(token: Token, line: &[u8]) -> (Token, String) {
-    let text = |range: Range<usize>| {
-        String::from_utf8_lossy(line.get(range).unwrap_or_default())
+/// A token without its place; what a comment, a definition or the machine's own words say is their text.
+fn meaning(mut token: Token, line: &[u8]) -> (Token, String) {
+    let range = std::mem::take(token.range_mut());
+    let said = match token {
+        Token::Word { .. } | Token::Corner { .. } | Token::Tape { .. } => String::new(),
+        _ => String::from_utf8_lossy(line.get(range).unwrap_or_default())
             .trim_end()
             .to_ascii_uppercase()
-            .replace([' ', '\t'], "")
+            .replace([' ', '\t'], ""),
     };
-    match token {
-        Token::Word { letter, number, .. } => (
-            Token::Word {
-                letter,
-                number,
-                range: 0..0,
-            },
-            String::new(),
-        ),
-        Token::Definition {
-            letter,
-            index,
-            value,
-            range,
-        } => (
-            Token::Definition {
-                letter,
-                index,
-                value,
-                range: 0..0,
-            },
-            text(range),
-        ),
-        Token::Sum {
-            letter,
-            index,
-            terms,
-            range,
-        } => (
-            Token::Sum {
-                letter,
-                index,
-                terms,
-                range: 0..0,
-            },
-            text(range),
-        ),
-        Token::Corner { round, number, .. } => (
-            Token::Corner {
-                round,
-                number,
-                range: 0..0,
-            },
-            String::new(),
-        ),
-        Token::Comment { range } => (Token::Comment { range: 0..0 }, text(range)),
-        Token::Tape { .. } => (Token::Tape { range: 0..0 }, String::new()),
-        Token::Skip { range } => (Token::Skip { range: 0..0 }, text(range)),
-        Token::Foreign { range } => (Token::Foreign { range: 0..0 }, text(range)),
-        Token::Fault { fault, range } => (Token::Fault { fault, range: 0..0 }, text(range)),
-    }
+    (token, said)
 }
 
 #[cfg(test)]

@@ -69,66 +69,26 @@ pub enum Token {
 }
 
 impl Token {
-    /// The same in another place.
-    pub fn moved(self, place: impl Fn(Range<usize>) -> Range<usize>) -> Token {
+    /// Where it stands.
+    pub fn range_mut(&mut self) -> &mut Range<usize> {
         match self {
-            Token::Word {
-                letter,
-                number,
-                range,
-            } => Token::Word {
-                letter,
-                number,
-                range: place(range),
-            },
-            Token::Definition {
-                letter,
-                index,
-                value,
-                range,
-            } => Token::Definition {
-                letter,
-                index,
-                value,
-                range: place(range),
-            },
-            Token::Sum {
-                letter,
-                index,
-                terms,
-                range,
-            } => Token::Sum {
-                letter,
-                index,
-                terms,
-                range: place(range),
-            },
-            Token::Corner {
-                round,
-                number,
-                range,
-            } => Token::Corner {
-                round,
-                number,
-                range: place(range),
-            },
-            Token::Foreign { range } => Token::Foreign {
-                range: place(range),
-            },
-            Token::Comment { range } => Token::Comment {
-                range: place(range),
-            },
-            Token::Tape { range } => Token::Tape {
-                range: place(range),
-            },
-            Token::Skip { range } => Token::Skip {
-                range: place(range),
-            },
-            Token::Fault { fault, range } => Token::Fault {
-                fault,
-                range: place(range),
-            },
+            Token::Word { range, .. }
+            | Token::Definition { range, .. }
+            | Token::Sum { range, .. }
+            | Token::Corner { range, .. }
+            | Token::Foreign { range }
+            | Token::Comment { range }
+            | Token::Tape { range }
+            | Token::Skip { range }
+            | Token::Fault { range, .. } => range,
         }
+    }
+
+    /// The same in another place.
+    pub fn moved(mut self, place: impl Fn(Range<usize>) -> Range<usize>) -> Token {
+        let range = self.range_mut();
+        *range = place(range.clone());
+        self
     }
 }
 

@@ -5,7 +5,7 @@
 
 use super::pieces::{Field, Piece, pieces};
 use crate::geometry::{Point, Vector};
-use crate::program::edits::joined;
+use crate::program::edits::{self, AT_ONCE, LineEdits};
 use crate::program::three_b::block::{Block, Node, PartArc};
 use crate::program::three_b::decode::decode;
 use crate::program::three_b::encode::{point_of, snap as node_of};
@@ -46,8 +46,7 @@ pub fn format(
     };
     let read = |first: usize| Chunk::read(text, words, first..(first + AT_ONCE).min(end));
     let firsts: Vec<usize> = (0..end).step_by(AT_ONCE).collect();
-    let is_long = firsts.len() > 2;
-    let mut chunks: Vec<Chunk> = if is_long {
+    let mut chunks: Vec<Chunk> = if firsts.len() > 2 {
         firsts.into_par_iter().map(read).collect()
     } else {
         firsts.into_iter().map(read).collect()
@@ -55,19 +54,10 @@ pub fn format(
     let numbers_count_blocks = numbers_count_blocks(&chunks);
     let mut walk = Walk::new(layout);
     chunks.iter_mut().for_each(|chunk| walk.go_through(chunk));
-    let form = |chunk: &Chunk| chunk.form(text, words, layout, numbers_count_blocks, &lines);
-    let formed: Vec<Edits> = if is_long {
-        chunks.par_iter().map(form).collect()
-    } else {
-        chunks.iter().map(form).collect()
-    };
-    let mut edits = Edits::default();
-    formed.into_iter().for_each(|next| edits.append(text, next));
-    joined(edits.list, text)
+    edits::formed(text, &chunks, |chunk| {
+        chunk.form(text, words, layout, numbers_count_blocks, &lines)
+    })
 }
-
-/// Lines that are read and written together.
-const AT_ONCE: usize = 2048;
 
 /// The layout in which most of the first blocks stand.
 fn layout_of(text: &SourceText, words: &Words<'_>) -> Layout {
@@ -195,8 +185,8 @@ impl Chunk {
         layout: Layout,
         numbers_count_blocks: bool,
         lines: &Range<usize>,
-    ) -> Edits {
-        let mut edits = Edits::default();
+    ) -> LineEdits {
+        let mut edits = LineEdits::default();
         let (mut ordinal, mut is_over, mut first) = (self.ordinal, self.is_over, 0);
         for (line, Line { end, is_sound }) in (self.first_line..).zip(&self.lines) {
             let (items, stated) = (&self.items[first..*end], &self.stated[first..*end]);
@@ -216,7 +206,7 @@ impl Chunk {
                     is_sound: *is_sound,
                 };
                 if let Some(formed) = writer.form(bytes, line_end(text, line)) {
-                    edits.replace(text, line, range, &formed);
+                    replace(&mut edits, text, line, formed);
                 }
             }
             ordinal += count_blocks(items);
@@ -669,88 +659,23 @@ enum Stated {
     Absent(Option<Node>),
 }
 
-/// Edits in the making: lines that follow each other become one.
-#[derive(Default)]
-struct Edits {
-    list: Vec<TextEdit>,
-    /// The first edit begins with this line, and the last one reaches to the end of this one.
-    first_line: Option<usize>,
-    last_line: Option<usize>,
-}
-
-impl Edits {
-    fn replace(&mut self, text: &SourceText, line: usize, range: Range<usize>, formed: &Formed) {
-        let old = &text.bytes()[range.clone()];
-        let kept = old.get(formed.kept.clone()).unwrap_or_default();
-        let Ok(kept_text) = std::str::from_utf8(kept) else {
-            // Bytes in another code page are not touched, so they are in no edit.
-            self.push(
-                range.start + formed.from.min(formed.kept.start)..range.start + formed.kept.start,
-                formed.head.clone(),
-            );
-            self.push(range.start + formed.kept.end..range.end, String::new());
-            self.last_line = None;
-            return;
-        };
-        if formed.from >= old.len() {
-            // Only space at the end goes.
-            self.push(range.start + formed.kept.end..range.end, String::new());
-            self.last_line = None;
-            return;
+fn replace(edits: &mut LineEdits, text: &SourceText, line: usize, formed: Formed) {
+    let range = text.line_range(line);
+    let old = text.bytes().get(range.clone()).unwrap_or_default();
+    let Formed { from, head, kept } = formed;
+    let behind = TextEdit::new(range.start + kept.end..range.end, "");
+    match std::str::from_utf8(old.get(kept.clone()).unwrap_or_default()) {
+        // Only space at the end goes.
+        Ok(_) if from >= old.len() => edits.push(text, 0..0, behind),
+        Ok(kept) => {
+            let new = TextEdit::new(range.start + from..range.end, head + kept);
+            edits.push(text, line..line + 1, new);
         }
-        let previous = line.checked_sub(1);
-        match self
-            .list
-            .last_mut()
-            .filter(|_| previous.is_some() && self.last_line == previous)
-        {
-            Some(edit) => {
-                edit.text.push_str(
-                    std::str::from_utf8(&text.bytes()[edit.range.end..range.start]).unwrap_or("\n"),
-                );
-                edit.text.push_str(&formed.head);
-                edit.text.push_str(kept_text);
-                edit.range.end = range.end;
-            }
-            None => {
-                if self.list.is_empty() {
-                    self.first_line = Some(line);
-                }
-                self.list.push(TextEdit {
-                    range: range.start + formed.from..range.end,
-                    text: [&formed.head, kept_text].concat(),
-                });
-            }
-        }
-        self.last_line = Some(line);
-    }
-
-    /// Takes the edits of the lines behind.
-    fn append(&mut self, text: &SourceText, mut next: Edits) {
-        if next.list.is_empty() {
-            return;
-        }
-        let follows =
-            self.last_line.is_some() && self.last_line.map(|last| last + 1) == next.first_line;
-        if self.list.is_empty() {
-            self.first_line = next.first_line;
-        }
-        if let Some(edit) = self.list.last_mut().filter(|_| follows) {
-            let first = next.list.remove(0);
-            edit.text.push_str(
-                std::str::from_utf8(&text.bytes()[edit.range.end..first.range.start])
-                    .unwrap_or("\n"),
-            );
-            edit.text.push_str(&first.text);
-            edit.range.end = first.range.end;
-        }
-        self.list.append(&mut next.list);
-        self.last_line = next.last_line;
-    }
-
-    fn push(&mut self, range: Range<usize>, text: String) {
-        if !(range.is_empty() && text.is_empty()) {
-            self.list.push(TextEdit { range, text });
+        // Bytes in another code page are not touched, so they are in no edit.
+        Err(_) => {
+            let before = range.start + from.min(kept.start)..range.start + kept.start;
+            edits.push(text, 0..0, TextEdit::new(before, head));
+            edits.push(text, 0..0, behind);
         }
     }
 }

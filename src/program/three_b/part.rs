@@ -5,9 +5,7 @@
 //! it. The ways in and out are lines: they lead to where the wire's path begins, beside the contour.
 
 use crate::finding::{Detail, Finding, Place, Rule, Severity, Side, Unwritable};
-use crate::geometry::{
-    Arc, Point, Segment, Vector, circle_circle, left_normal, line_circle, line_line, turn,
-};
+use crate::geometry::{Arc, Locus, Point, Segment, left_normal, turn};
 use crate::program::grid::{best_center, point_of, snap};
 use crate::program::write::{ProofError, scaled, too_far_out};
 use crate::toolpath::{PathSegment, Source, WirePath};
@@ -79,7 +77,7 @@ pub(super) fn rounded(
         source: Source::LeadIn,
     }));
     segments.extend(contour.iter().map(|piece| PathSegment {
-        geometry: moved(&piece.geometry, by),
+        geometry: piece.geometry.moved(by),
         ..*piece
     }));
     segments.extend(leads.then(|| PathSegment {
@@ -197,15 +195,8 @@ struct Transition {
 fn transition(before: &Segment, behind: &Segment, angle: f64, radius: f64) -> Option<Transition> {
     let side = angle.signum();
     let corner = behind.start();
-    let centers = match (
-        Locus::of(before, side, radius)?,
-        Locus::of(behind, side, radius)?,
-    ) {
-        (Locus::Line(p, u), Locus::Line(q, v)) => line_line(p, u, q, v).into_iter().collect(),
-        (Locus::Line(p, u), Locus::Circle(center, far))
-        | (Locus::Circle(center, far), Locus::Line(p, u)) => line_circle(p, u, center, far),
-        (Locus::Circle(a, far_a), Locus::Circle(b, far_b)) => circle_circle(a, far_a, b, far_b),
-    };
+    let centers = Locus::beside(before, side, radius, 0.0)?
+        .meet(&Locus::beside(behind, side, radius, 0.0)?);
     let fitting = centers.into_iter().filter_map(|center| {
         let (leaves, meets) = (before.share_of(center), behind.share_of(center));
         let left = [before.length() * leaves, behind.length() * (1.0 - meets)];
@@ -228,44 +219,4 @@ fn transition(before: &Segment, behind: &Segment, angle: f64, radius: f64) -> Op
             .norm()
             .total_cmp(&(b.arc.center - corner).norm())
     })
-}
-
-/// Where the centre of an arc lies that touches a piece from one side.
-enum Locus {
-    /// Through a point along a direction.
-    Line(Point, Vector),
-    Circle(Point, f64),
-}
-
-impl Locus {
-    /// On the left where `side` is 1, on the right where it is −1. `None` inside of an arc that is as small.
-    fn of(piece: &Segment, side: f64, radius: f64) -> Option<Locus> {
-        match piece {
-            Segment::Line(line) => Some(Locus::Line(
-                line.start + left_normal(line.direction()) * (side * radius),
-                line.direction(),
-            )),
-            Segment::Arc(arc) => {
-                let is_inside = (arc.sweep > 0.0) == (side > 0.0);
-                let far = if is_inside {
-                    arc.radius - radius
-                } else {
-                    arc.radius + radius
-                };
-                (far > 0.0).then_some(Locus::Circle(arc.center, far))
-            }
-        }
-    }
-}
-
-fn moved(segment: &Segment, by: Vector) -> Segment {
-    match segment {
-        Segment::Line(line) => Segment::line(line.start + by, line.end + by),
-        Segment::Arc(arc) => Segment::Arc(Arc {
-            center: arc.center + by,
-            start: arc.start + by,
-            end: arc.end + by,
-            ..*arc
-        }),
-    }
 }

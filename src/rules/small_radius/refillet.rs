@@ -4,7 +4,7 @@ use super::Travel;
 use crate::finding::NoFix;
 use crate::geometry::{Arc, Bounds, Point, Segment, positive_angle};
 use crate::rules::Limits;
-use crate::rules::locus::Locus;
+use crate::geometry::Locus;
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 

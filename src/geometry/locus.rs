@@ -1,9 +1,9 @@
 //! Where the centre of a disc may lie that touches something: a line or a circle.
 
-use crate::geometry::{Point, Segment, Vector, circle_circle, left_normal, line_circle, line_line};
+use super::{Point, Segment, Vector, circle_circle, left_normal, line_circle, line_line};
 
 #[derive(Clone, Copy, Debug)]
-pub enum Locus {
+pub(crate) enum Locus {
     Line { point: Point, direction: Vector },
     Circle { center: Point, radius: f64 },
 }
