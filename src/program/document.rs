@@ -1,6 +1,6 @@
 //! A program as an open document, whatever its language. A new language adds its variant here and is complete when this compiles.
 
-use super::path::{Chain, Step, Trace};
+use super::path::{Chain, Cut, Step, Trace, cut_of};
 use super::repair::gate;
 use super::steps::{self, Program};
 use super::{iso, three_b};
@@ -172,6 +172,19 @@ impl Document {
     /// The same with every step of the chain.
     pub fn whole_chain_at(&self, offset: usize) -> Option<(Chain<'static>, usize)> {
         steps::chain_at(self.program(), offset, usize::MAX)
+    }
+
+    /// The chain of moves that touches a byte, what it comes to, and the number of the touching one.
+    pub fn cut_at(&self, offset: usize) -> Option<(Chain<'static>, Cut, usize)> {
+        let (mut chain, mut nth) = self.chain_at(offset)?;
+        let cut = match cut_of(&chain) {
+            Some(cut) => cut,
+            None => {
+                (chain, nth) = self.whole_chain_at(offset)?;
+                cut_of(&chain)?
+            }
+        };
+        Some((chain, cut, nth))
     }
 
     /// The moves from the last stop on that stand before a byte, by their ends.

@@ -3,6 +3,7 @@
 //! [`Document`] is a program as the faces hold it, whatever its language; [`path`] is what every language comes to: where the
 //! machine goes. What a language alone knows stands in its own folder.
 
+mod alike;
 mod chunks;
 pub mod convert;
 mod document;

@@ -1,9 +1,9 @@
 //! A disc beside the walls of a contour: where it touches them, and where its centre may lie that it does.
 
 use super::Limits;
-use crate::geometry::Locus;
 use super::wall::{Corner, Wall};
 use crate::finding::Side;
+use crate::geometry::Locus;
 use crate::geometry::{Point, Segment, Vector, left_normal, turn};
 
 /// A turn (radians) below which two segments are one wall.

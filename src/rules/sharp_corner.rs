@@ -5,11 +5,11 @@
 
 use super::arc_as_chords::{self, are_between_chords};
 use super::disc::{loci, slack, touch};
-use crate::geometry::Locus;
 use super::small_radius::{Travel, fillet};
 use super::wall::Wall;
 use super::{LocalRule, Observation, Outlook, other_at_joint};
 use crate::finding::{Detail, Fix, FixKind, Rule, Side};
+use crate::geometry::Locus;
 use crate::geometry::{Point, turn};
 use std::ops::Range;
 

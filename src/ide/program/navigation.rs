@@ -3,7 +3,6 @@
 use super::iso;
 use crate::program::Document;
 use crate::program::path::Kind;
-use crate::program::path::cut_at;
 use std::ops::Range;
 
 /// The place that belongs to the one at a byte.
@@ -51,7 +50,7 @@ fn pair(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize
         Kind::Pause => document.stop_behind(own.range.start)?,
         Kind::End => document.first_move()?,
         Kind::Line | Kind::Arc | Kind::Rapid => {
-            let (chain, cut, index) = cut_at(document, own.range.start)?;
+            let (chain, cut, index) = document.cut_at(own.range.start)?;
             let contour = cut.contour_steps();
             let lead_out = contour.end..cut.steps.end;
             let target = if index < contour.start {

@@ -3,7 +3,6 @@
 use super::words::words_of;
 use crate::ide::widen;
 use crate::program::Document;
-use crate::program::path::cut_at;
 use std::ops::Range;
 
 /// Ranges of bytes around a byte, each within the next.
@@ -29,7 +28,7 @@ pub fn selections(document: &Document, offset: usize) -> Vec<Range<usize>> {
     let step = touching.or_else(|| own.iter().find(|step| step.line == line));
     if let Some((chain, cut, index)) = step
         .filter(|step| step.moves())
-        .and_then(|step| cut_at(document, step.range.start))
+        .and_then(|step| document.cut_at(step.range.start))
     {
         let lines = |steps: Range<usize>| {
             let (first, last) = (

@@ -1,6 +1,6 @@
 //! Where the cuts of a program cross themselves, found anew for what an edit has touched.
 
-use super::cuts::{contours, way_of};
+use super::cuts::way_of;
 use super::document::{Crossings, Document};
 use crate::finding::Finding;
 use crate::program::path::Found;
@@ -15,16 +15,16 @@ impl Crossings {
         let Crossings { known, found } = self;
         found.clear();
         known.begin();
-        contours(document, &mut |cut| {
+        for cut in document.contours() {
             if !cut.run.whole || cut.run.faulty || cut.run.moves < FEWEST_MOVES {
-                return;
+                continue;
             }
             let (mark, parts) = (cut.mark(document), cut.parts.len());
             let crossings = known.crossings(mark, parts, || cut.way(document));
             if !crossings.is_clean() {
                 found.push((cut.places(), crossings));
             }
-        });
+        }
         known.tidy();
     }
 

@@ -3,10 +3,10 @@
 
 use super::document::{Document, Placed, StopAt};
 use super::machine::{Move, Place, apart, micrometres};
-use super::run::{Path, Run, SEVERAL, changes_side};
+use super::run::{Run, SEVERAL, changes_side};
 use crate::geometry::{Point, Segment};
 use crate::program::path::{
-    self, Blocks, HeldWay, Node, PartedWay, Writing, closing, goes_round, is_tab, mixed, pieces_of,
+    self, Blocks, Ends, HeldWay, Lay, Node, PartedWay, Writing, is_tab, mixed, pieces_of,
 };
 use std::cell::OnceCell;
 use std::ops::Range;
@@ -36,9 +36,6 @@ pub(super) struct Cut {
     /// Where the wire was sent to the other side first, and the line that did so.
     pub flip: Option<(Place, Range<usize>)>,
 }
-
-/// Twice the area of which no way to and fro encloses as much, nm²: 1 mm².
-const LARGE: u128 = 2_000_000_000_000;
 
 impl Cut {
     pub fn of(placed: &Placed<'_>, stretch: usize, run: usize) -> Option<Cut> {
@@ -97,21 +94,41 @@ impl Cut {
         self.parts.iter().map(place).collect()
     }
 
+    /// The stretch that holds all of it, and its run in there.
+    pub fn only_place(&self) -> Option<(usize, usize)> {
+        let [part] = self.parts[..] else { return None };
+        Some((part.stretch, part.run))
+    }
+
     /// Its moves, from where it begins.
     pub fn way<'a>(&self, document: &'a Document) -> PartedWay<'a> {
-        let begin = self.run.start();
-        let seen = |place: Place| Node::at(micrometres(apart(place, begin)));
-        let step = |step: &Move| [seen(step.from), seen(step.to)];
-        let ends = [step(&self.run.first[0]), step(&self.run.last[1])];
+        let Ends { begin, end, .. } = self.ends(document);
         let stop = self.before_tab.map(|moves| moves as usize);
-        way_of(document, self.places(), stop, Some(ends))
+        way_of(
+            document,
+            self.places(),
+            stop,
+            Some([[begin[0], begin[1]], end]),
+        )
+    }
+
+    /// Where it begins and ends, seen from where it begins.
+    fn ends(&self, document: &Document) -> Ends {
+        let ([first, second], [_, last]) = (&self.run.first, &self.run.last);
+        let seen = |place: Place| Node::at(micrometres(apart(place, first.from)));
+        Ends {
+            begin: [first.from, first.to, second.to].map(seen),
+            end: [last.from, last.to].map(seen),
+            blocks: self.run.moves as usize,
+            tolerance: self.tolerance(document),
+        }
     }
 
     /// Cuts that run on one way, fall into stretches alike and stop before one move of it have one mark.
     pub fn mark(&self, document: &Document) -> u64 {
-        let path = |part: &Part| document.stretches().get(part.stretch)?.paths.get(part.run);
+        let lay = |part: &Part| document.stretches().get(part.stretch)?.lays.get(part.run);
         let stop = self.before_tab.map_or(0, |moves| u64::from(moves) + 1);
-        let marks = self.parts.iter().filter_map(path).map(|path| path.mark);
+        let marks = self.parts.iter().filter_map(lay).map(|lay| lay.mark);
         marks.fold(stop, mixed)
     }
 
@@ -121,44 +138,28 @@ impl Cut {
     }
 
     /// How it lies on itself, where it runs through one stretch.
-    fn only_path<'a>(&self, document: &'a Document) -> Option<&'a Path> {
-        let [part] = self.parts[..] else { return None };
-        document.stretches().get(part.stretch)?.paths.get(part.run)
+    fn only_lay<'a>(&self, document: &'a Document) -> Option<&'a Lay> {
+        let (stretch, run) = self.only_place()?;
+        document.stretches().get(stretch)?.lays.get(run)
     }
 
-    /// Whether it goes round something: passes to and fro do not.
     fn goes_round(&self, document: &Document) -> bool {
-        // What encloses so much needs no closer look, which an edit would pay for every cut that runs from one stretch into the next.
-        if self.run.twice_area.unsigned_abs() > LARGE && self.closes_by_ends(document) {
-            return true;
-        }
-        self.only_path(document).map_or_else(
-            || goes_round(&self.way(document)) == Some(true),
-            |path| path.goes_round,
-        )
+        // nm² in µm².
+        let twice_area = self.run.twice_area as f64 / 1e6;
+        let (ends, only) = (self.ends(document), self.only_lay(document));
+        ends.go_round(twice_area, only, || self.way(document))
     }
 
-    fn closes_by_ends(&self, document: &Document) -> bool {
-        let tolerance = self.tolerance(document);
-        let is_near = |a: Place, b: Place| super::machine::distance(a, b) / 1e3 <= tolerance;
-        let (begin, end) = (self.run.first[0], self.run.last[1].to);
-        is_near(begin.from, end) || (self.run.moves > 2 && is_near(begin.to, end))
-    }
-
-    /// Whether it closes; its ends alone tell that for nearly all cuts.
     pub fn closes(&self, document: &Document) -> bool {
-        if self.closes_by_ends(document) {
-            return true;
-        }
-        if let Some(path) = self.only_path(document) {
-            return path.closes;
-        }
-        closing(&self.way(document)).is_some_and(|closing| closing.closed)
+        let (ends, only) = (self.ends(document), self.only_lay(document));
+        ends.closes(only, || self.way(document))
     }
 }
 
-/// Hands out the cuts in the order in which they run; `None` stands for cuts with which nothing is wrong, all in one stretch.
-pub(super) fn cuts(document: &Document, each: &mut dyn FnMut(Option<Cut>)) {
+/// The cuts in the order in which they run; `None` stands for cuts with which nothing is wrong, all in one stretch.
+pub(super) fn cuts(document: &Document) -> Vec<Option<Cut>> {
+    let mut cuts = Vec::new();
+    // The last one, while more may come to it.
     let mut open: Option<Cut> = None;
     for (index, placed) in document.placed().enumerate() {
         let stretch = placed.stretch;
@@ -177,74 +178,62 @@ pub(super) fn cuts(document: &Document, each: &mut dyn FnMut(Option<Cut>)) {
         } else {
             0..0
         };
-        for run in (0..skipped.start).chain(skipped.end..stretch.run_count()) {
-            if run == skipped.end && !skipped.is_empty() {
-                open.take().into_iter().for_each(|cut| each(Some(cut)));
-                each(None);
-            }
+        let before = (0..skipped.start).map(Some);
+        let calm = (!skipped.is_empty()).then_some(None);
+        let behind = (skipped.end..stretch.run_count()).map(Some);
+        for run in before.chain(calm).chain(behind) {
+            let Some(run) = run else {
+                cuts.extend(open.take().map(Some));
+                cuts.push(None);
+                continue;
+            };
             let Some(own) = Cut::of(&placed, index, run) else {
                 continue;
             };
             match &mut open {
                 Some(known) if own.run.continues && known.run.open => known.append(own),
-                _ => open
-                    .replace(own)
-                    .into_iter()
-                    .for_each(|cut| each(Some(cut))),
+                _ => cuts.extend(open.replace(own).map(Some)),
             }
         }
-        if !skipped.is_empty() && skipped.end == stretch.run_count() {
-            open.take().into_iter().for_each(|cut| each(Some(cut)));
-            each(None);
-        }
     }
-    open.into_iter().for_each(|cut| each(Some(cut)));
+    cuts.extend(open.map(Some));
+    cuts
 }
 
-/// Hands out the cuts with which something may be wrong, each with what goes on behind the stop at its tab.
-pub(super) fn contours(document: &Document, each: &mut dyn FnMut(Cut)) {
-    let mut waiting: Option<Cut> = None;
-    cuts(document, &mut |cut| {
-        let Some(cut) = cut else { return };
-        let cut = match waiting.take() {
-            Some(mut before) => {
-                before.append(cut);
-                before
-            }
-            None => cut,
-        };
-        if cut.single_stop().is_some_and(|stop| document.is_tab(stop)) {
-            waiting = Some(cut);
-        } else {
-            each(cut);
+/// The cuts with which something may be wrong, each with what goes on behind the stop at its tab.
+pub(super) fn contours(cuts: Vec<Option<Cut>>, tabs: &[StopAt]) -> Vec<Cut> {
+    let mut contours: Vec<Cut> = Vec::new();
+    let mut goes_on = false;
+    for cut in cuts.into_iter().flatten() {
+        match contours.last_mut().filter(|_| goes_on) {
+            Some(before) => before.append(cut),
+            None => contours.push(cut),
         }
-    });
-    waiting.into_iter().for_each(each);
-}
-
-impl Document {
-    /// The stops before tabs, in the order in which they run.
-    pub(super) fn find_tabs(&self) -> Vec<StopAt> {
-        tabs(self)
+        let stop = contours.last().and_then(Cut::single_stop);
+        goes_on = stop.is_some_and(|stop| tabs.binary_search(&stop).is_ok());
     }
+    contours
 }
 
-fn tabs(document: &Document) -> Vec<StopAt> {
+/// The stops before tabs, in the order in which they run.
+pub(super) fn tabs(document: &Document, cuts: &[Option<Cut>]) -> Vec<StopAt> {
+    let mut found = Vec::new();
     if document
         .stretches()
         .iter()
         .all(|stretch| stretch.pauses == 0)
     {
-        return Vec::new();
+        return found;
     }
-    let mut found = Vec::new();
     // Cuts that are open, one behind the other.
-    let mut open: Vec<OpenCut> = Vec::new();
-    cuts(document, &mut |cut| {
-        let Some(cut) = cut.filter(|cut| cut.run.whole && !cut.goes_round(document)) else {
-            return open.clear();
+    let mut open: Vec<OpenCut<'_>> = Vec::new();
+    for cut in cuts {
+        let is_open = |cut: &&Cut| cut.run.whole && !cut.goes_round(document);
+        let Some(cut) = cut.as_ref().filter(is_open) else {
+            open.clear();
+            continue;
         };
-        let goes_on = |last: &OpenCut| {
+        let goes_on = |last: &OpenCut<'_>| {
             last.cut.single_stop().is_some() && last.cut.run.last[1].to == cut.run.first[0].from
         };
         if !open.last().is_some_and(goes_on) {
@@ -281,24 +270,21 @@ fn tabs(document: &Document) -> Vec<StopAt> {
         if open.len() > MOST_STOPS {
             open.remove(0);
         }
-        if open
-            .last()
-            .is_some_and(|last| last.cut.single_stop().is_none())
-        {
+        if cut.single_stop().is_none() {
             open.clear();
         }
-    });
+    }
     found
 }
 
 /// A cut that does not go round for itself, and its moves, once they were asked for.
-struct OpenCut {
-    cut: Cut,
+struct OpenCut<'a> {
+    cut: &'a Cut,
     pieces: OnceCell<Vec<Segment>>,
 }
 
 /// Cuts as one way, from where the first begins.
-fn held(document: &Document, cuts: &[OpenCut]) -> HeldWay {
+fn held(document: &Document, cuts: &[OpenCut<'_>]) -> HeldWay {
     let begin = cuts.first().map_or([0, 0], |open| open.cut.run.start());
     let mut way = HeldWay::from(Node::at(Point::origin()), document.reading().writing());
     for (nth, OpenCut { cut, pieces }) in cuts.iter().enumerate() {
@@ -331,14 +317,11 @@ pub(super) fn way_of(
         .map_or([0, 0], |(start, ..)| start);
     let part = |place: &(usize, usize)| {
         let (start, moves, arcs) = extent(place)?;
-        let path = document.stretches().get(place.0)?.paths.get(place.1)?;
         Some(path::Part {
-            mark: path.mark,
+            lay: document.stretches().get(place.0)?.lays.get(place.1)?,
             blocks: moves as usize,
             arcs: arcs as usize,
             start: apart(start, begin),
-            bounds: path.bounds,
-            near: &path.near,
         })
     };
     let parts = places.iter().filter_map(part).collect();

@@ -2,6 +2,7 @@
 
 use super::block::{Block, Offset, read_line};
 use super::control::{Control, lines_from};
+use super::cuts::{self, Cut};
 use super::evidence::Evidence;
 use super::limits::Limits;
 use super::machine::{Machine, Reading};
@@ -30,7 +31,9 @@ pub struct Document {
     evidence: Evidence,
     /// The order of the lines, where it is not that of the text: then there is one stretch for each range in it.
     order: Option<Order>,
-    /// Where the cuts cross themselves.
+    /// The cuts with which something may be wrong, each with what goes on behind the stop at its tab.
+    contours: Vec<Cut>,
+    /// Where they cross themselves.
     crossings: Box<Crossings>,
     /// The stops within contours, before their tabs, in the order in which they run.
     tabs: Vec<StopAt>,
@@ -81,6 +84,7 @@ impl Document {
             reading: Evidence::default().reading(limits.center),
             evidence: Evidence::default(),
             order: None,
+            contours: Vec::new(),
             crossings: Box::default(),
             tabs: Vec::new(),
             limits: Box::new(limits),
@@ -123,14 +127,18 @@ impl Document {
             self.guess_reading();
             return self.run_all();
         }
+        self.look_at_all();
+        if center {
+            self.find_reading();
+        }
+        self.look();
+    }
+
+    /// Nothing is known any more to have nothing wrong with it.
+    fn look_at_all(&mut self) {
         self.stretches
             .iter_mut()
             .for_each(|stretch| stretch.is_quiet = false);
-        if center {
-            self.settle();
-        } else {
-            self.find_quiet();
-        }
     }
 
     /// A line's bytes, without its end.
@@ -163,6 +171,10 @@ impl Document {
     /// Whether a stop stands within a contour, before its tab.
     pub(super) fn is_tab(&self, stop: StopAt) -> bool {
         self.tabs.binary_search(&stop).is_ok()
+    }
+
+    pub(super) fn contours(&self) -> &[Cut] {
+        &self.contours
     }
 
     pub(super) fn crossings(&self) -> &Crossings {
@@ -280,26 +292,35 @@ impl Document {
     /// finest step, then, measured with these, where I and J lead.
     fn settle(&mut self) {
         self.find_reading();
-        self.tabs = self.find_tabs();
-        let mut crossings = std::mem::take(&mut self.crossings);
-        crossings.look(self);
-        self.crossings = crossings;
-        self.find_quiet();
+        self.look();
     }
 
-    /// What a cut within one stretch comes to hangs on its own lines, on the settings and on the control's table: one with which nothing is
-    /// wrong is not judged again.
-    fn find_quiet(&mut self) {
+    /// Looks for what hangs on the program as a whole.
+    fn look(&mut self) {
+        // What a cut within one stretch comes to hangs on its own lines, on the settings and on the control's table: one with which nothing
+        // is wrong is not judged again.
         let table = self.stated_table();
         if table != *self.table {
             *self.table = table;
-            self.stretches
-                .iter_mut()
-                .for_each(|stretch| stretch.is_quiet = false);
+            self.look_at_all();
         }
+        let cuts = cuts::cuts(self);
+        self.tabs = cuts::tabs(self, &cuts);
+        self.contours = cuts::contours(cuts, &self.tabs);
+        let mut crossings = std::mem::take(&mut self.crossings);
+        crossings.look(self);
+        self.crossings = crossings;
         for index in self.quiet() {
             self.stretches[index].is_quiet = true;
         }
+        let stretches = &self.stretches;
+        self.contours.retain(|cut| {
+            let is_quiet = |(stretch, run): (usize, usize)| {
+                stretches[stretch].is_quiet && stretches[stretch].inner().contains(&run)
+            };
+            !cut.only_place().is_some_and(is_quiet)
+        });
+        self.contours.shrink_to_fit();
     }
 
     fn find_reading(&mut self) {

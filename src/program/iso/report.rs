@@ -1,7 +1,7 @@
 //! What is wrong in a program, out of what its stretches have seen.
 
 use super::block::{Code, Motion, read_line, word_range};
-use super::cuts::{Cut, contours};
+use super::cuts::Cut;
 use super::document::{Document, Placed, Table};
 use super::evidence::FEW_BARE;
 use super::limits::Limits;
@@ -129,7 +129,9 @@ fn plain_findings(document: &Document) -> Vec<Finding> {
             report.add(at(offset, behind), Fault::BehindEnd);
         }
     }
-    contours(document, &mut |cut| report.judge(&cut));
+    for cut in document.contours() {
+        report.judge(cut);
+    }
     report
         .findings
         .extend(document.crossings().findings(document));
@@ -294,8 +296,8 @@ impl<'a> Report<'a> {
     fn is_quiet(&mut self, placed: &Placed<'_>, index: usize) -> bool {
         // Passes to and fro are closed for themselves, and may belong to the next or to the one before.
         let may_be_tab = |run: usize| {
-            let path = placed.stretch.paths.get(run);
-            path.is_some_and(|path| path.closes && !path.goes_round)
+            let lay = placed.stretch.lays.get(run);
+            lay.is_some_and(|lay| lay.closes && !lay.goes_round)
         };
         if self.document.crossings().touch(index) || placed.stretch.inner().any(may_be_tab) {
             return false;
@@ -749,8 +751,8 @@ impl<'a> Report<'a> {
             .document
             .stretches()
             .iter()
-            .flat_map(|stretch| &stretch.paths)
-            .map(|path| path.bounds);
+            .flat_map(|stretch| &stretch.lays)
+            .map(|lay| lay.bounds);
         let size = sizes
             .filter(|bounds| !bounds.is_empty())
             .map(|bounds| (bounds.max - bounds.min).amax() / 1e3)

@@ -2,8 +2,8 @@
 //! their arcs that may be too tight.
 
 use super::machine::{Bend, Move, Place, Reading, added};
-use crate::geometry::{Bounds, Point, Segment, Side};
-use crate::program::path::{HeldWay, Node, closing, goes_round, mixed, near_each_other};
+use crate::geometry::{Point, Side};
+use crate::program::path::{HeldWay, Lay, Node, mixed};
 
 /// Consecutive cuts without rapid or stop between, or the part of them that lies in one stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -161,20 +161,6 @@ fn joined(a: RunSide, b: RunSide) -> RunSide {
     }
 }
 
-/// How a run lies on itself: what tells where the way crosses itself.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Path {
-    /// Tells two runs apart: equal ways have equal marks.
-    pub mark: u64,
-    /// µm, seen from where the run begins.
-    pub bounds: Bounds,
-    /// Moves of it that come near each other, by their number in the run.
-    pub near: Box<[(u32, u32)]>,
-    /// It holds a closed contour, and one that goes round something.
-    pub closes: bool,
-    pub goes_round: bool,
-}
-
 /// Hears of every move of a run: the run's index, the move, the place of its words.
 pub type Hears<'a> = dyn FnMut(usize, &Move, (u32, u32)) + 'a;
 
@@ -187,38 +173,15 @@ impl Ways {
         self.0.push(step);
     }
 
-    pub fn path(self, reading: &Reading) -> Path {
+    /// How the run lies on itself.
+    pub fn lay(self, reading: &Reading) -> Lay {
         let start = self.0.first().map_or([0, 0], |step| step.from);
-        let ways: Vec<Segment> = self
-            .0
-            .iter()
-            .map(|step| step.seen_from(start).segment(reading))
-            .collect();
-        let boxes: Vec<Bounds> = ways.iter().map(Segment::bounds).collect();
-        let mut near = Vec::new();
-        near_each_other(&ways, &boxes, &mut |first, second| {
-            near.push((first as u32, second as u32))
-        });
-        let bounds = boxes
-            .iter()
-            .fold(Bounds::EMPTY, |whole, part| whole.merged(part));
-        let way = self.held(&ways, reading);
-        let closes = closing(&way).is_some_and(|closing| closing.closed);
-        Path {
-            mark: self.mark(reading),
-            bounds,
-            near: near.into(),
-            closes,
-            goes_round: closes && goes_round(&way) == Some(true),
+        let mut way = HeldWay::from(Node::at(Point::origin()), reading.writing());
+        for step in &self.0 {
+            let piece = step.seen_from(start).segment(reading);
+            way.push(piece, step.is_arc(), Node::at(piece.end()));
         }
-    }
-
-    fn held(&self, ways: &[Segment], reading: &Reading) -> HeldWay {
-        let mut held = HeldWay::from(Node::at(Point::origin()), reading.writing());
-        for (step, piece) in self.0.iter().zip(ways) {
-            held.push(*piece, step.is_arc(), Node::at(piece.end()));
-        }
-        held
+        Lay::of(&way, self.mark(reading))
     }
 
     fn mark(&self, reading: &Reading) -> u64 {

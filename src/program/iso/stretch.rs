@@ -6,9 +6,10 @@
 use super::block::{Code, Offset};
 use super::evidence::Evidence;
 use super::machine::{Machine, Place, Reading, added};
-use super::run::{Path, Run, Tight, Tightest, Ways};
+use super::run::{Run, Tight, Tightest, Ways};
 use super::word::Term;
 use crate::finding::Finding;
+use crate::program::path::Lay;
 use crate::program::steps::Sum;
 use std::ops::Range;
 
@@ -27,9 +28,9 @@ impl Pathless {
     /// How each run lies on itself: what takes time, and hangs on nothing but the moves.
     pub fn with_paths(self) -> Stretch {
         let Pathless { mut stretch, ways } = self;
-        stretch.paths = ways
+        stretch.lays = ways
             .into_iter()
-            .map(|ways| ways.path(&stretch.reading))
+            .map(|ways| ways.lay(&stretch.reading))
             .collect();
         stretch
     }
@@ -69,7 +70,7 @@ pub struct Stretch {
     /// By how much it has been moved since its lines were run.
     pub moved: Place,
     /// Of each run, how it lies on itself.
-    pub paths: Vec<Path>,
+    pub lays: Vec<Lay>,
     /// The runs that begin and end here are known to have nothing wrong with them as a whole.
     pub is_quiet: bool,
     pub foreign: Vec<Foreign>,

@@ -3,6 +3,7 @@
 //! Nothing here knows what a word means, and nothing that one line says hangs on another.
 
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
+use crate::program::alike::{Alike, alike};
 use std::ops::Range;
 
 /// The digits that a number may have before its decimal point, and those that are read behind it; more than any control takes.
@@ -703,18 +704,25 @@ struct Plain {
 impl Plain {
     /// `None` where no word of the line is written in other characters.
     fn of(line: &[u8]) -> Option<Plain> {
-        let is_utf8 = std::str::from_utf8(line).is_ok();
         let mut plain = Plain {
             bytes: Vec::with_capacity(line.len()),
             places: Vec::with_capacity(line.len() + 1),
             first: 0..0,
         };
+        // A byte order mark is none of them.
+        let is_mark = |found: &Alike| line[found.at..].starts_with(b"\xef\xbb\xbf");
+        let mut others = alike(line)
+            .into_iter()
+            .filter(|found| !is_mark(found))
+            .peekable();
         let (mut at, mut depth, mut is_wide) = (0, 0_usize, false);
         while at < line.len() {
-            let alike = lookalike(&line[at..], is_utf8)
-                .filter(|(_, byte)| depth == 0 || (is_wide && *byte == b')'));
-            let (length, byte) = alike.unwrap_or((1, line[at]));
-            if alike.is_some() {
+            let other = others.next_if(|found| found.at == at);
+            let other =
+                other.filter(|found| depth == 0 || (is_wide && found.likeness.ascii() == b')'));
+            let length = other.map_or(1, |found| found.length);
+            let byte = other.map_or(line[at], |found| found.likeness.ascii());
+            if other.is_some() {
                 if plain.first.is_empty() {
                     plain.first = at..at + length;
                 } else if plain.first.end == at {
@@ -722,7 +730,7 @@ impl Plain {
                 }
             }
             match byte {
-                b'(' if depth == 0 => (depth, is_wide) = (1, alike.is_some()),
+                b'(' if depth == 0 => (depth, is_wide) = (1, other.is_some()),
                 b'(' if !is_wide => depth += 1,
                 b')' => depth = depth.saturating_sub(1),
                 b';' if depth == 0 => depth = usize::MAX / 2,
@@ -748,77 +756,4 @@ impl Plain {
 /// A line with the characters of its words as those that they look like; `None` where none is another.
 pub fn plain(line: &[u8]) -> Option<Vec<u8>> {
     Plain::of(line).map(|plain| plain.bytes)
-}
-
-/// Letters of other scripts that look like those of words.
-const LETTERS: [(char, u8); 34] = [
-    ('А', b'A'),
-    ('В', b'B'),
-    ('С', b'C'),
-    ('Е', b'E'),
-    ('Н', b'H'),
-    ('К', b'K'),
-    ('М', b'M'),
-    ('О', b'O'),
-    ('Р', b'P'),
-    ('Т', b'T'),
-    ('Х', b'X'),
-    ('У', b'Y'),
-    ('а', b'a'),
-    ('с', b'c'),
-    ('е', b'e'),
-    ('о', b'O'),
-    ('р', b'p'),
-    ('х', b'x'),
-    ('у', b'y'),
-    ('І', b'I'),
-    ('Ј', b'J'),
-    ('Χ', b'X'),
-    ('Υ', b'Y'),
-    ('Ι', b'I'),
-    ('Μ', b'M'),
-    ('Ν', b'N'),
-    ('Η', b'H'),
-    ('Ο', b'O'),
-    ('Τ', b'T'),
-    ('−', b'-'),
-    ('–', b'-'),
-    ('。', b'.'),
-    ('\u{3000}', b' '),
-    ('\u{a0}', b' '),
-];
-
-/// The character that the first one looks like, and how many bytes the first one has.
-fn lookalike(bytes: &[u8], is_utf8: bool) -> Option<(usize, u8)> {
-    if bytes.first()?.is_ascii() {
-        return None;
-    }
-    if !is_utf8 {
-        // GB 18030 and its forerunners.
-        return match *bytes {
-            [0xa3, low @ 0xa1..=0xfe, ..] => Some((2, low - 0x80)),
-            [0xa1, 0xa1, ..] => Some((2, b' ')),
-            _ => None,
-        };
-    }
-    let length = match bytes.first()? {
-        0xc0..=0xdf => 2,
-        0xe0..=0xef => 3,
-        _ => 4,
-    };
-    let character = std::str::from_utf8(bytes.get(..length)?)
-        .ok()?
-        .chars()
-        .next()?;
-    let code = u32::from(character);
-    if (0xff01..=0xff5e).contains(&code) {
-        return Some((length, (code - 0xfee0) as u8));
-    }
-    if matches!(code, 0x2000..=0x200a | 0x202f) {
-        return Some((length, b' '));
-    }
-    LETTERS
-        .iter()
-        .find(|(other, _)| *other == character)
-        .map(|&(_, byte)| (length, byte))
 }

@@ -4,12 +4,8 @@
 //! the way in has; a way out may follow. A stop while the contour is open, behind which a block goes on from that very point and comes
 //! to close or meet the contour, belongs to the contour: it holds the part while its tab is cut.
 
-use super::Way;
-
-/// How far a way of so many arcs may end beside a place and still end in it, µm: rounding adds up as a random walk.
-pub fn tolerance(arcs: usize) -> f64 {
-    2.0 + (arcs as f64).sqrt()
-}
+use super::way::{Node, Way};
+use crate::geometry::Vector;
 
 /// Blocks in the ways in and out together among which an answer is looked for before the whole way is gone through.
 const SHORT_LEADS: usize = 6;
@@ -19,6 +15,38 @@ const LONGEST_WAY_OUT: usize = 12;
 
 /// Blocks behind a stop of which one has to meet the contour that is open.
 const BEHIND_A_STOP: usize = 16;
+
+/// The ends of a way, which alone tell of nearly all ways that they close.
+pub struct Ends {
+    /// Where it begins, and where its first two blocks end.
+    pub begin: [Node; 3],
+    /// Where its last block begins and ends.
+    pub end: [Node; 2],
+    pub blocks: usize,
+    /// µm.
+    pub tolerance: f64,
+}
+
+impl Ends {
+    /// True where they come back to the start or to the end of a way in of one or two blocks; a way out that goes elsewhere counts as one
+    /// only where it runs neither back along the way in nor on in its direction.
+    pub fn close(&self) -> bool {
+        let ([start, first, second], [last, end]) = (self.begin, self.end);
+        let is_near = |one: Node, other: Node| one.is_near(&other, self.tolerance);
+        self.blocks == 0
+            || is_near(start, end)
+            || (self.blocks >= 3 && is_near(first, end))
+            || (self.blocks >= 6 && is_near(second, end))
+            || (self.blocks >= 5
+                && is_near(first, last)
+                && !runs_along(first.meant - start.meant, end.meant - last.meant))
+    }
+}
+
+/// True where the second move runs against the first, or on in its direction, through the contour; within a few degrees.
+fn runs_along(first: Vector, last: Vector) -> bool {
+    first.dot(&last).abs() >= 0.99 * first.norm() * last.norm()
+}
 
 /// How a way falls into way in, contour and way out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -216,7 +244,7 @@ pub fn is_tab(before: &dyn Way, behind: &dyn Way, whole: &dyn Way) -> Option<boo
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::program::path::tolerance;
     use crate::finding::Rule;
     use crate::ide::SymbolKind;
     use crate::ide::program::symbols;

@@ -5,8 +5,9 @@
 //! then decided from the whole way, so that it does not hang on where parts begin.
 
 use super::crossing::{Crossing, MOST_PAIRS, Tangle, come_near, crossings, margin};
-use super::way::micrometres;
-use super::{Part, PartedWay, Way, passes, pieces_of};
+use super::parted::{Part, PartedWay, micrometres};
+use super::passes::{passes, pieces_of};
+use super::way::Way;
 use crate::finding::{Detail, Fault, Finding, NotJudged, Place, Rule, Severity};
 use crate::geometry::{Bounds, Segment, Vector};
 use crate::text::SourceText;
@@ -61,7 +62,7 @@ impl Known {
 
     fn search(&mut self, way: &PartedWay<'_>) -> Found {
         if let [one] = &way.parts[..]
-            && one.near.is_empty()
+            && one.lay.near.is_empty()
         {
             return Found::default();
         }
@@ -160,7 +161,14 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
     let apart = |a: usize, b: usize| {
         [0, 1].map(|axis| parts[b].start[axis].wrapping_sub(parts[a].start[axis]))
     };
-    let key = |a: usize, b: usize| (parts[a].mark, parts[b].mark, apart(a, b), b == a + 1);
+    let key = |a: usize, b: usize| {
+        (
+            parts[a].lay.mark,
+            parts[b].lay.mark,
+            apart(a, b),
+            b == a + 1,
+        )
+    };
     let look = |&(a, b): &(usize, usize)| -> (Pair, Near) {
         let by = micrometres(apart(a, b));
         (key(a, b), prepared(a).near(prepared(b), by, b == a + 1))
@@ -191,7 +199,8 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
         known.pairs.extend(found);
         for (part, first) in parts[behind..next].iter().zip(&firsts[behind..next]) {
             near.extend(
-                part.near
+                part.lay
+                    .near
                     .iter()
                     .map(|&(a, b)| (first + a as usize, first + b as usize)),
             );

@@ -1,8 +1,7 @@
 //! The contours of a program: what is cut between two pauses, with its way in and its way out; a pause before a tab is part of it.
 
-use super::closing;
-use super::{Chain, Kind, Step, Trace};
-use crate::program::Document;
+use super::contour::closing;
+use super::trace::{Chain, Kind, Step, Trace};
 use std::ops::Range;
 
 /// A contour with its ways in and out, or the way between two contours.
@@ -92,17 +91,6 @@ fn cut_in(trace: &Trace, steps: Range<usize>) -> Cut {
         lead_out: own.len() - end.max(place(contour.start)),
         ..cut
     }
-}
-
-/// The chain of moves that touches a byte, what it comes to, and the number of the touching one.
-pub fn cut_at(document: &Document, offset: usize) -> Option<(Chain<'static>, Cut, usize)> {
-    let (chain, nth) = document.chain_at(offset)?;
-    if let Some(cut) = cut_of(&chain) {
-        return Some((chain, cut, nth));
-    }
-    let (chain, nth) = document.whole_chain_at(offset)?;
-    let cut = cut_of(&chain)?;
-    Some((chain, cut, nth))
 }
 
 /// What a chain of steps comes to, its steps counted from 0; `None` where it hangs on steps that the chain does not hold.

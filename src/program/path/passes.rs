@@ -1,6 +1,6 @@
 //! Passes: one contour that is cut several times over in one go, each time on the same way or a little beside it.
 
-use super::Way;
+use super::way::Way;
 use crate::geometry::{Bounds, Point, Segment};
 use std::ops::Range;
 

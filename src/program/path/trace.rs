@@ -3,7 +3,7 @@
 //! Points are µm in the program's own frame, as `f64`: a machine that counts stands on whole µm, an ISO program may name parts of
 //! them. Nothing here knows how a language is written.
 
-use super::{Node, Way, Writing};
+use super::way::{Node, Way, Writing};
 use crate::finding::Side;
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use std::borrow::Cow;

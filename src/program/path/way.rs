@@ -1,9 +1,11 @@
-//! Ways: blocks that cut one after another, held as a whole or in parts.
+//! Ways: blocks that cut one after another, and where they lead.
 
-use super::tolerance;
-use crate::geometry::{Bounds, Point, Segment, Vector};
-use std::cell::OnceCell;
-use std::ops::Range;
+use crate::geometry::{Point, Segment};
+
+/// How far a way of so many arcs may end beside a place and still end in it, µm: rounding adds up as a random walk.
+pub fn tolerance(arcs: usize) -> f64 {
+    2.0 + (arcs as f64).sqrt()
+}
 
 /// Where a way stands between two of its blocks, µm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,6 +86,10 @@ impl HeldWay {
         }
     }
 
+    pub fn pieces(&self) -> &[Segment] {
+        &self.pieces
+    }
+
     /// What comes next stands behind a stop.
     pub fn stop_here(&mut self) {
         self.stop.get_or_insert(self.pieces.len());
@@ -133,191 +139,6 @@ impl Way for HeldWay {
             .iter()
             .enumerate()
             .any(|(index, piece)| each(index, piece));
-        Some(())
-    }
-}
-
-/// Blocks of a way that are held together: what an edit leaves as it was.
-#[derive(Clone, Copy, Debug)]
-pub struct Part<'a> {
-    /// Tells two parts apart: equal ways have equal marks.
-    pub mark: u64,
-    pub blocks: usize,
-    pub arcs: usize,
-    /// Where it begins, seen from the beginning of the way, nm.
-    pub start: [i64; 2],
-    /// µm, seen from its beginning.
-    pub bounds: Bounds,
-    /// Blocks of it that come near each other, by their number in the part, neighbours left out.
-    pub near: &'a [(u32, u32)],
-}
-
-impl Part<'_> {
-    /// Where it begins, µm.
-    pub fn offset(&self) -> Vector {
-        micrometres(self.start)
-    }
-
-    /// Its box where it lies.
-    pub fn placed(&self) -> Bounds {
-        self.bounds.moved(self.offset())
-    }
-}
-
-/// A displacement of whole nm in µm.
-pub fn micrometres(nm: [i64; 2]) -> Vector {
-    Vector::new(nm[0] as f64 * 1e-3, nm[1] as f64 * 1e-3)
-}
-
-/// What the mark of a way becomes with one field more.
-pub fn mixed(mark: u64, field: u64) -> u64 {
-    (mark ^ field)
-        .wrapping_mul(0x2545_f491_4f6c_dd1d)
-        .rotate_left(23)
-}
-
-/// What hands out the blocks of parts.
-pub trait Blocks: Sync {
-    /// Those of a part, from the origin on.
-    fn pieces(&self, part: usize) -> Vec<Segment>;
-
-    /// Where a block of a part begins, or where the last one ends; `None` where that is told by the pieces.
-    fn node(&self, _part: usize, _nth: usize) -> Option<Node> {
-        None
-    }
-
-    /// Bytes of a block of a part.
-    fn range(&self, part: usize, nth: usize) -> Option<Range<usize>>;
-
-    fn writing(&self) -> Writing;
-}
-
-/// A way in parts. Costs these, and the blocks of those that are asked for.
-pub struct PartedWay<'a> {
-    pub blocks: Box<dyn Blocks + 'a>,
-    pub parts: Vec<Part<'a>>,
-    /// Blocks before each part.
-    firsts: Vec<usize>,
-    pieces: Vec<OnceCell<Vec<Segment>>>,
-    count: usize,
-    arcs: usize,
-    /// Blocks before the stop at its tab.
-    stop: Option<usize>,
-    /// Before and behind the first and the last block, where they are known beforehand.
-    ends: Option<[[Node; 2]; 2]>,
-}
-
-/// What boxes are grown by, µm: places are rounded to nm.
-const SLACK: f64 = 1.0;
-
-impl<'a> PartedWay<'a> {
-    pub fn new(
-        blocks: Box<dyn Blocks + 'a>,
-        parts: Vec<Part<'a>>,
-        stop: Option<usize>,
-        ends: Option<[[Node; 2]; 2]>,
-    ) -> PartedWay<'a> {
-        let mut count = 0;
-        let firsts = parts.iter().map(|part| {
-            count += part.blocks;
-            count - part.blocks
-        });
-        let firsts = firsts.collect();
-        PartedWay {
-            blocks,
-            firsts,
-            pieces: parts.iter().map(|_| OnceCell::new()).collect(),
-            arcs: parts.iter().map(|part| part.arcs).sum(),
-            parts,
-            count,
-            stop,
-            ends,
-        }
-    }
-
-    /// Bytes of a block by its number.
-    pub fn range(&self, index: usize) -> Option<Range<usize>> {
-        let part = self.part_of(index)?;
-        self.blocks.range(part, index - self.firsts.get(part)?)
-    }
-
-    fn part_of(&self, index: usize) -> Option<usize> {
-        self.firsts
-            .partition_point(|first| *first <= index)
-            .checked_sub(1)
-    }
-
-    fn pieces(&self, index: usize) -> Option<&[Segment]> {
-        let part = self.parts.get(index)?;
-        let made = || {
-            let own = self.blocks.pieces(index).into_iter();
-            own.map(|piece| piece.moved(part.offset())).collect()
-        };
-        Some(self.pieces.get(index)?.get_or_init(made))
-    }
-}
-
-impl Way for PartedWay<'_> {
-    fn count(&self) -> usize {
-        self.count
-    }
-
-    fn arcs(&self) -> usize {
-        self.arcs
-    }
-
-    fn writing(&self) -> Writing {
-        self.blocks.writing()
-    }
-
-    fn stop(&self) -> Option<usize> {
-        self.stop
-    }
-
-    fn node(&self, index: usize) -> Option<Node> {
-        let known = self.ends.and_then(|[first, last]| match index {
-            0 => Some(first[0]),
-            1 => Some(first[1]),
-            _ if index == self.count => Some(last[1]),
-            _ if index + 1 == self.count => Some(last[0]),
-            _ => None,
-        });
-        let told = || {
-            let part = self.part_of(index.min(self.count.checked_sub(1)?))?;
-            self.blocks.node(part, index - self.firsts.get(part)?)
-        };
-        known.or_else(told).or_else(|| {
-            Some(Node::at(if index == self.count {
-                self.piece(index.checked_sub(1)?)?.end()
-            } else {
-                self.piece(index)?.start()
-            }))
-        })
-    }
-
-    fn piece(&self, index: usize) -> Option<Segment> {
-        let part = self.part_of(index)?;
-        self.pieces(part)?.get(index - self.firsts[part]).copied()
-    }
-
-    fn pieces_about(
-        &self,
-        at: Point,
-        reach: f64,
-        each: &mut dyn FnMut(usize, &Segment) -> bool,
-    ) -> Option<()> {
-        let place = Bounds::of_disc(at, reach + SLACK);
-        for (index, part) in self.parts.iter().enumerate() {
-            if part.placed().touches(&place)
-                && self
-                    .pieces(index)?
-                    .iter()
-                    .zip(self.firsts[index]..)
-                    .any(|(piece, index)| each(index, piece))
-            {
-                break;
-            }
-        }
         Some(())
     }
 }

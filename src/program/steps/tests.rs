@@ -1,6 +1,6 @@
 //! What is asked of a part of a program is held against the whole trace, for programs of both languages under edits.
 
-use crate::program::path::{Chain, Cut, Kind, Step, Trace, cut_at, cuts};
+use crate::program::path::{Chain, Cut, Kind, Step, Trace, cuts};
 use crate::program::{Document, Language};
 use crate::settings::Effective;
 use proptest::prelude::*;
@@ -81,7 +81,7 @@ fn assert_parts_are_of_the_whole(document: &Document) -> Result<(), TestCaseErro
             {
                 prop_assert!(chain.step(index).is_some());
             }
-            let cut = cut_at(document, offset).map(|(_, cut, _)| cut);
+            let cut = document.cut_at(offset).map(|(_, cut, _)| cut);
             let touched = trace
                 .steps
                 .iter()

@@ -224,7 +224,7 @@ impl Language for Reader<'_> {
 mod tests {
     use super::*;
     use crate::program::path::Step;
-    use crate::program::path::{Cut, cut_at, cuts};
+    use crate::program::path::{Cut, cuts};
     use proptest::prelude::*;
 
     /// Findings in one order, whatever runs the lines lie in.
@@ -323,7 +323,7 @@ mod tests {
             for (index, step) in trace.steps.iter().enumerate().filter(|(index, step)| step.moves() && index % 13 == 0) {
                 let whole = all.iter().find(|cut| cut.steps.contains(&index)).cloned();
                 let Some(whole) = whole else { return Err(TestCaseError::fail("no cut")) };
-                let Some((chain, cut, nth)) = cut_at(&document, step.range.start) else {
+                let Some((chain, cut, nth)) = document.cut_at(step.range.start) else {
                     return Err(TestCaseError::fail("no chain"));
                 };
                 // A pause before a tab is a step of the trace and none of the chain.

@@ -29,6 +29,14 @@ pub struct SyntaxFault {
 }
 
 impl SyntaxFault {
+    pub fn new(range: Range<usize>, flaw: Flaw) -> SyntaxFault {
+        SyntaxFault {
+            range,
+            flaw,
+            number: None,
+        }
+    }
+
     /// What was found and what was expected.
     pub fn sentence(&self) -> String {
         match &self.flaw {

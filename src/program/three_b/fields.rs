@@ -2,10 +2,10 @@
 
 use super::block::{Block, CountingAxis, Motion, PartArc, Quadrant};
 use super::fault::{Flaw, SyntaxFault};
-use super::plain::wide_space;
+use crate::program::alike::wide_space;
 use std::ops::Range;
 
-/// More digits than any controller takes are not read as a number.
+/// More digits than any controller takes are not read as a number; [`numbers`] says how many.
 const MOST_DIGITS: usize = 12;
 
 /// Where the fields of a block stand, in bytes of the text that it was read from. A number that is not there is an empty range
@@ -62,12 +62,12 @@ pub(super) fn strict(text: &[u8]) -> Option<(Block, Option<PartArc>, usize)> {
         None
     };
     let j = numbers[2]?;
-    let axis = reader.axis()?;
+    let axis = axis_of(&mut reader, 3).ok()?;
     let side = reader.side();
     if radius.is_some() != side.is_some() {
         return None;
     }
-    let motion = reader.motion()?;
+    let motion = motion_of(&mut reader).ok()?;
     let part = radius
         .zip(side)
         .map(|(radius, concave)| PartArc { radius, concave });
@@ -139,37 +139,14 @@ impl Reader<'_> {
         Some((self.at > start).then_some(value))
     }
 
-    fn axis(&mut self) -> Option<CountingAxis> {
-        if !self.take(b'G') {
-            return None;
-        }
-        if self.take(b'X') {
-            return Some(CountingAxis::X);
-        }
-        self.take(b'Y').then_some(CountingAxis::Y)
-    }
-
     /// `D` convex, `DD` concave.
     fn side(&mut self) -> Option<bool> {
         self.take(b'D').then(|| self.take(b'D'))
     }
-
-    fn motion(&mut self) -> Option<Motion> {
-        let kind: fn(Quadrant) -> Motion = if self.take(b'L') {
-            Motion::Line
-        } else if self.take(b'S') {
-            self.take(b'R')
-                .then_some(Motion::Clockwise as fn(Quadrant) -> Motion)?
-        } else {
-            (self.take(b'N') && self.take(b'R'))
-                .then_some(Motion::CounterClockwise as fn(Quadrant) -> Motion)?
-        };
-        self.skip();
-        let quadrant = Quadrant::from_number(self.text.get(self.at)?.wrapping_sub(b'0'))?;
-        self.at += 1;
-        Some(kind(quadrant))
-    }
 }
+
+/// Where reading stopped, and what was expected there.
+type Expected = (usize, &'static str);
 
 /// A block in which what was meant is plain.
 pub(super) struct Found {
@@ -191,7 +168,7 @@ struct Number {
 }
 
 /// Reads a block with at most one number damaged; else the place where reading stopped, and what was expected there.
-pub(super) fn lenient(text: &[u8]) -> Result<Found, (usize, String)> {
+pub(super) fn lenient(text: &[u8]) -> Result<Found, Expected> {
     let mut reader = Reader { text, at: 0 };
     let mut faults = Vec::new();
     let mut numbers = numbers(&mut reader, &mut faults)?;
@@ -228,13 +205,10 @@ pub(super) fn lenient(text: &[u8]) -> Result<Found, (usize, String)> {
         let meant = &numbers[0];
         let number = meant.value.and_then(|value| u32::try_from(value).ok());
         let Some((b, number)) = meant.b.zip(number) else {
-            return Err((meant.digits.start, "B before the number".into()));
+            return Err((meant.digits.start, "B before the number"));
         };
-        faults.push(SyntaxFault {
-            range: b..meant.digits.end,
-            flaw: Flaw::BlockNumberAsB { number },
-            number: None,
-        });
+        let flaw = Flaw::BlockNumberAsB { number };
+        faults.push(SyntaxFault::new(b..meant.digits.end, flaw));
         row = Some(number);
         numbers.remove(0);
     } else if numbers.len() == 4 {
@@ -247,7 +221,7 @@ pub(super) fn lenient(text: &[u8]) -> Result<Found, (usize, String)> {
         let at = numbers
             .get(3)
             .map_or(axis_at, |number| number.b.unwrap_or(number.digits.start));
-        return Err((at, "G and the counting axis, GX or GY".into()));
+        return Err((at, "G and the counting axis, GX or GY"));
     };
     for number in [x, y, j].into_iter().filter(|number| number.b.is_none()) {
         // What was split has been said already.
@@ -255,17 +229,15 @@ pub(super) fn lenient(text: &[u8]) -> Result<Found, (usize, String)> {
             .iter()
             .any(|fault| matches!(fault.flaw, Flaw::MissingB { .. }))
         {
-            faults.push(SyntaxFault {
-                range: number.digits.clone(),
-                flaw: Flaw::MissingB {
-                    at: number.digits.start,
-                },
-                number: None,
-            });
+            let at = number.digits.start;
+            faults.push(SyntaxFault::new(
+                number.digits.clone(),
+                Flaw::MissingB { at },
+            ));
         }
     }
     let Some(length) = j.value else {
-        return Err((j.digits.start, "the counting length J in \u{b5}m".into()));
+        return Err((j.digits.start, "the counting length J in \u{b5}m"));
     };
     let first = x.b.unwrap_or(x.digits.start);
     let block = Block {
@@ -303,7 +275,7 @@ pub(super) fn lenient(text: &[u8]) -> Result<Found, (usize, String)> {
 fn numbers(
     reader: &mut Reader<'_>,
     faults: &mut Vec<SyntaxFault>,
-) -> Result<Vec<Number>, (usize, String)> {
+) -> Result<Vec<Number>, Expected> {
     let mut numbers: Vec<Number> = Vec::new();
     loop {
         reader.skip();
@@ -317,11 +289,7 @@ fn numbers(
             let digit = match reader.text.get(reader.at) {
                 Some(digit @ b'0'..=b'9') => *digit,
                 Some(b'O' | b'o') => {
-                    faults.push(SyntaxFault {
-                        range: reader.at..reader.at + 1,
-                        flaw: Flaw::LetterO,
-                        number: None,
-                    });
+                    faults.push(SyntaxFault::new(reader.at..reader.at + 1, Flaw::LetterO));
                     b'0'
                 }
                 _ => break,
@@ -333,7 +301,7 @@ fn numbers(
             reader.at += 1;
         }
         if significant > MOST_DIGITS {
-            return Err((start, format!("at most {MOST_DIGITS} digits")));
+            return Err((start, "at most 12 digits"));
         }
         if b.is_none() && reader.at == start {
             return Ok(numbers);
@@ -342,7 +310,7 @@ fn numbers(
             let fourth = &numbers[3];
             return Err((
                 fourth.b.unwrap_or(fourth.digits.start),
-                "G and the counting axis, GX or GY".into(),
+                "G and the counting axis, GX or GY",
             ));
         }
         numbers.push(Number {
@@ -353,7 +321,7 @@ fn numbers(
     }
 }
 
-fn axis_of(reader: &mut Reader<'_>, numbers: usize) -> Result<CountingAxis, (usize, String)> {
+fn axis_of(reader: &mut Reader<'_>, numbers: usize) -> Result<CountingAxis, Expected> {
     let expected = match numbers {
         0 => "B and X, Y and J",
         1 => "digits of X, or B before Y",
@@ -361,30 +329,30 @@ fn axis_of(reader: &mut Reader<'_>, numbers: usize) -> Result<CountingAxis, (usi
         _ => "G and the counting axis, GX or GY",
     };
     if !reader.take(b'G') {
-        return Err((reader.at, expected.into()));
+        return Err((reader.at, expected));
     }
     match (reader.take(b'X'), reader.take(b'Y')) {
         (true, _) => Ok(CountingAxis::X),
         (false, true) => Ok(CountingAxis::Y),
-        (false, false) => Err((reader.at, "X or Y after G".into())),
+        (false, false) => Err((reader.at, "X or Y after G")),
     }
 }
 
-fn motion_of(reader: &mut Reader<'_>) -> Result<Motion, (usize, String)> {
+fn motion_of(reader: &mut Reader<'_>) -> Result<Motion, Expected> {
     let kind: fn(Quadrant) -> Motion = if reader.take(b'L') {
         Motion::Line
     } else if reader.take(b'S') {
         if !reader.take(b'R') {
-            return Err((reader.at, "R of SR".into()));
+            return Err((reader.at, "R of SR"));
         }
         Motion::Clockwise
     } else if reader.take(b'N') {
         if !reader.take(b'R') {
-            return Err((reader.at, "R of NR".into()));
+            return Err((reader.at, "R of NR"));
         }
         Motion::CounterClockwise
     } else {
-        return Err((reader.at, "L, SR or NR and a quadrant".into()));
+        return Err((reader.at, "L, SR or NR and a quadrant"));
     };
     reader.skip();
     let quadrant = reader
@@ -392,7 +360,7 @@ fn motion_of(reader: &mut Reader<'_>) -> Result<Motion, (usize, String)> {
         .get(reader.at)
         .and_then(|byte| Quadrant::from_number(byte.wrapping_sub(b'0')));
     let Some(quadrant) = quadrant else {
-        return Err((reader.at, "a quadrant from 1 to 4".into()));
+        return Err((reader.at, "a quadrant from 1 to 4"));
     };
     reader.at += 1;
     Ok(kind(quadrant))
@@ -406,8 +374,8 @@ fn split_numbers(
     motion: Motion,
     axis_at: usize,
     faults: &mut Vec<SyntaxFault>,
-) -> Result<Vec<Number>, (usize, String)> {
-    let expected = || (axis_at, "digits of Y, or B before J".to_owned());
+) -> Result<Vec<Number>, Expected> {
+    let expected = || (axis_at, "digits of Y, or B before J");
     let [first, second] = &numbers[..] else {
         return Err(expected());
     };
@@ -455,11 +423,7 @@ fn split_numbers(
                 .find(|number| number.b.is_none())
                 .map_or(axis_at, |number| number.digits.start);
             let start = first.b.unwrap_or(first.digits.start);
-            faults.push(SyntaxFault {
-                range: start..axis_at,
-                flaw: Flaw::MissingB { at },
-                number: None,
-            });
+            faults.push(SyntaxFault::new(start..axis_at, Flaw::MissingB { at }));
             Ok(way)
         }
         _ => Err(expected()),

@@ -5,6 +5,7 @@
 
 use super::pieces::{Field, Piece, pieces};
 use crate::geometry::{Point, Vector};
+use crate::program::alike::with_plain_marks;
 use crate::program::edits::{self, AT_ONCE, LineEdits};
 use crate::program::three_b::block::{Block, Node, PartArc};
 use crate::program::three_b::decode::decode;
@@ -13,7 +14,6 @@ use crate::program::three_b::layout::{
     push_block_number, push_end_point, push_fields, push_to_comment_column,
 };
 use crate::program::three_b::parse::{Item, StatedPoint, Word, Words, before_comment, read_line};
-use crate::program::three_b::plain::with_plain_marks;
 use crate::settings::Layout;
 use crate::text::{SourceText, TextEdit};
 use rayon::prelude::*;

@@ -15,7 +15,6 @@ mod machine;
 pub(crate) mod parse;
 mod part;
 pub(crate) mod pieces;
-mod plain;
 mod proof;
 pub(in crate::program) mod refactor;
 mod repair;

@@ -6,8 +6,8 @@
 
 use super::block::{Block, PartArc};
 use super::fault::{Flaw, SyntaxFault};
-use super::fields::{self, Fields};
-use super::plain::{Likeness, alike, in_plain_letters, with_plain_marks};
+use super::fields;
+use crate::program::alike::{Likeness, alike, in_plain_letters, with_plain_marks};
 use std::ops::Range;
 
 /// What a word between the blocks does.
@@ -141,11 +141,7 @@ pub fn read(text: &[u8], words: &Words<'_>) -> (Vec<Item>, Vec<SyntaxFault>) {
 pub(super) fn unexpected(text: &[u8], range: Range<usize>, column: usize) -> SyntaxFault {
     let found = shown(text.get(range.clone()).unwrap_or_default());
     let sentence = format!("column {column}: found `{found}`, expected {BLOCK_OR_WORD}");
-    SyntaxFault {
-        range,
-        flaw: Flaw::Unreadable(sentence),
-        number: None,
-    }
+    SyntaxFault::new(range, Flaw::Unreadable(sentence))
 }
 
 const BLOCK_OR_WORD: &str =
@@ -234,10 +230,10 @@ fn not_plain(line: &[u8], readable: &[u8], words: &Words<'_>) -> Option<SyntaxFa
         "column {}: found `{found}`, expected {expected}, these are {script} ones",
         first.at + 1
     );
+    let range = first.at..end.max(first.at + first.length);
     Some(SyntaxFault {
-        range: first.at..end.max(first.at + first.length),
-        flaw: Flaw::NotPlain(sentence),
         number,
+        ..SyntaxFault::new(range, Flaw::NotPlain(sentence))
     })
 }
 
@@ -259,40 +255,19 @@ fn read_plain_line(line: &[u8], offset: usize, words: &Words<'_>, each: &mut dyn
                     *stated_end = Some(end);
                 }
             }
-            Ok(Some(Token::Block {
-                block,
-                part,
-                range,
-                row,
-                faults,
-            })) => {
+            Ok(Some(Token::Item(mut item, faults))) => {
                 waiting.take().into_iter().for_each(&mut *each);
                 faults.into_iter().map(Item::Fault).for_each(&mut *each);
-                waiting = Some(Item::Block {
-                    block,
-                    range,
-                    number: number.take().or(row),
-                    stated_end: None,
-                    part,
-                });
-                cursor.behind_block = true;
-            }
-            Ok(Some(Token::Word {
-                word,
-                is_own,
-                range,
-            })) => {
-                waiting.take().into_iter().for_each(&mut *each);
-                each(Item::Word {
-                    word,
-                    is_own,
-                    range,
-                    number: number.take(),
-                });
-            }
-            Ok(Some(Token::Other(item))) => {
-                waiting.take().into_iter().for_each(&mut *each);
-                each(item);
+                if let Item::Block { number: own, .. } | Item::Word { number: own, .. } = &mut item
+                {
+                    *own = number.take().or(*own);
+                }
+                if matches!(item, Item::Block { .. }) {
+                    waiting = Some(item);
+                    cursor.behind_block = true;
+                } else {
+                    each(item);
+                }
             }
             Ok(None) => break,
             Err(fault) => {
@@ -313,21 +288,16 @@ fn read_plain_line(line: &[u8], offset: usize, words: &Words<'_>, each: &mut dyn
 enum Token {
     /// `N12` before a block.
     Number(u32),
-    Block {
-        block: Block,
-        part: Option<PartArc>,
-        range: Range<usize>,
-        /// Number of the row that stands before the first `B`.
-        row: Option<u32>,
-        faults: Vec<SyntaxFault>,
-    },
-    Word {
-        word: Word,
-        is_own: bool,
-        range: Range<usize>,
-    },
     Coordinates(StatedPoint),
-    Other(Item),
+    /// With what is wrong in a block that is read all the same. The number of a block is that of the row, which stands before its first
+    /// `B`.
+    Item(Item, Vec<SyntaxFault>),
+}
+
+impl From<Item> for Token {
+    fn from(item: Item) -> Token {
+        Token::Item(item, Vec::new())
+    }
 }
 
 struct Cursor<'a> {
@@ -372,17 +342,15 @@ impl Cursor<'_> {
             b';' => {
                 self.at = self.line.len();
                 if let Some(at) = start_point(&rest[1..]) {
-                    return Ok(Some(Token::Other(Item::StartPoint {
-                        at,
-                        range: self.range(start),
-                    })));
+                    let range = self.range(start);
+                    return Ok(Some(Item::StartPoint { at, range }.into()));
                 }
                 // Nothing else of the line is looked at behind this: the numbers may be as long as they are.
                 let comment = &rest[1..];
                 let coordinates =
                     &comment[..memchr::memchr(b';', comment).unwrap_or(comment.len())];
                 if has_decimal_commas(coordinates) {
-                    return Ok(Some(Token::Other(self.decimal_commas(start + 1))));
+                    return Ok(Some(self.decimal_commas(start + 1).into()));
                 }
                 return match point_in(coordinates) {
                     Some(end) => Ok(Some(Token::Coordinates(end))),
@@ -410,7 +378,7 @@ impl Cursor<'_> {
                     return Ok(Some(Token::Coordinates(end)));
                 }
                 if self.behind_block && has_decimal_commas(before_comment(rest)) {
-                    return Ok(Some(Token::Other(self.decimal_commas(start))));
+                    return Ok(Some(self.decimal_commas(start).into()));
                 }
                 if !self.behind_block
                     && let Some((number, length)) =
@@ -442,7 +410,7 @@ impl Cursor<'_> {
             range: self.offset + start..self.offset + end,
             column: start + 1,
         };
-        holds_block.then_some(Token::Other(comment))
+        holds_block.then_some(comment.into())
     }
 
     /// Coordinates with commas for points, from a byte of the line on.
@@ -453,11 +421,8 @@ impl Cursor<'_> {
             from + code.len() - code.trim_ascii_start().len(),
             from + code.trim_ascii_end().len(),
         );
-        Item::Fault(SyntaxFault {
-            range: self.offset + start..self.offset + end,
-            flaw: Flaw::DecimalCommas,
-            number: None,
-        })
+        let range = self.offset + start..self.offset + end;
+        Item::Fault(SyntaxFault::new(range, Flaw::DecimalCommas))
     }
 
     fn word_or_block(&mut self, words: &Words<'_>) -> Result<Option<Token>, SyntaxFault> {
@@ -465,13 +430,14 @@ impl Cursor<'_> {
         let rest = &self.line[start..];
         if let Some((block, part, length)) = fields::strict(rest) {
             self.at += length;
-            return Ok(Some(Token::Block {
+            let block = Item::Block {
                 block,
                 part,
                 range: self.range(start),
-                row: None,
-                faults: Vec::new(),
-            }));
+                number: None,
+                stated_end: None,
+            };
+            return Ok(Some(block.into()));
         }
         let length = rest
             .iter()
@@ -482,18 +448,18 @@ impl Cursor<'_> {
         {
             let is_own = words.is_own(&rest[..length]);
             self.at += length;
-            return Ok(Some(Token::Word {
+            let word = Item::Word {
                 word,
                 is_own,
                 range: self.range(start),
-            }));
+                number: None,
+            };
+            return Ok(Some(word.into()));
         }
         if let Some(at) = start_point(rest) {
             self.at = self.line.len();
-            return Ok(Some(Token::Other(Item::StartPoint {
-                at,
-                range: self.range(start),
-            })));
+            let range = self.range(start);
+            return Ok(Some(Item::StartPoint { at, range }.into()));
         }
         if matches!(rest.first(), Some(b'N' | b'n'))
             && let Some((number, length)) = n_word(rest)
@@ -510,10 +476,11 @@ impl Cursor<'_> {
                 return Ok(None);
             }
             let end = start + rest.trim_ascii_end().len();
-            return Ok(Some(Token::Other(Item::Text {
+            let text = Item::Text {
                 range: self.offset + start..self.offset + end,
                 column: start + 1,
-            })));
+            };
+            return Ok(Some(text.into()));
         }
         match fields::lenient(rest) {
             Ok(found) => {
@@ -523,19 +490,19 @@ impl Cursor<'_> {
                     .into_iter()
                     .map(|fault| self.placed(fault, start))
                     .collect();
-                let (Fields { first, .. }, end) = (&found.fields, self.at);
-                let range = self.offset + start + first..self.offset + end;
-                Ok(Some(Token::Block {
+                let first = self.offset + start + found.fields.first;
+                let block = Item::Block {
                     block: found.block,
                     part: found.part,
-                    range,
-                    row: found.row,
-                    faults,
-                }))
+                    range: first..self.offset + self.at,
+                    number: found.row,
+                    stated_end: None,
+                };
+                Ok(Some(Token::Item(block, faults)))
             }
             Err((at, expected)) => {
                 self.at = start + at;
-                Err(self.fault(&expected))
+                Err(self.fault(expected))
             }
         }
     }
@@ -557,37 +524,22 @@ impl Cursor<'_> {
         self.offset + start..self.offset + self.at
     }
 
-    /// The fault at the cursor; its range is what stands there up to the next space.
+    /// The fault at the cursor; its range is what stands there up to the next space. There is nothing to underline behind the end, so the
+    /// last byte stands for it.
     fn fault(&self, expected: &str) -> SyntaxFault {
-        let column = self.at + 1;
-        let rest = &self.line[self.at..];
-        if rest.is_empty() {
-            // There is nothing to underline behind the end, so the last byte stands for it.
-            let range = self.offset + self.at.saturating_sub(1)..self.offset + self.at;
-            let flaw = Flaw::Unreadable(format!(
-                "column {column}: the line ends, expected {expected}"
-            ));
-            return SyntaxFault {
-                range,
-                flaw,
-                number: None,
-            };
-        }
-        let length = rest
-            .iter()
-            .position(u8::is_ascii_whitespace)
+        let (column, rest) = (self.at + 1, &self.line[self.at..]);
+        let length = rest.iter().position(u8::is_ascii_whitespace);
+        let length = length
             .unwrap_or(rest.len())
-            .max(1);
-        let range = self.offset + self.at..self.offset + self.at + length;
-        let flaw = Flaw::Unreadable(format!(
-            "column {column}: found `{}`, expected {expected}",
-            shown(&rest[..length])
-        ));
-        SyntaxFault {
-            range,
-            flaw,
-            number: None,
-        }
+            .clamp(rest.len().min(1), rest.len());
+        let (start, found) = if rest.is_empty() {
+            (self.at.saturating_sub(1), "the line ends".to_owned())
+        } else {
+            (self.at, format!("found `{}`", shown(&rest[..length])))
+        };
+        let range = self.offset + start..self.offset + self.at + length;
+        let sentence = format!("column {column}: {found}, expected {expected}");
+        SyntaxFault::new(range, Flaw::Unreadable(sentence))
     }
 
     /// Goes behind the quadrant that the broken block ends in, where more blocks may stand; false where there is none.

@@ -195,8 +195,8 @@ struct Transition {
 fn transition(before: &Segment, behind: &Segment, angle: f64, radius: f64) -> Option<Transition> {
     let side = angle.signum();
     let corner = behind.start();
-    let centers = Locus::beside(before, side, radius, 0.0)?
-        .meet(&Locus::beside(behind, side, radius, 0.0)?);
+    let centers =
+        Locus::beside(before, side, radius, 0.0)?.meet(&Locus::beside(behind, side, radius, 0.0)?);
     let fitting = centers.into_iter().filter_map(|center| {
         let (leaves, meets) = (before.share_of(center), behind.share_of(center));
         let left = [before.length() * leaves, behind.length() * (1.0 - meets)];

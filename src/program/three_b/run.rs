@@ -10,8 +10,8 @@ use super::parse::{Item, StatedPoint, Word, Words, read_line};
 use super::rules::position_mismatch::mismatch;
 use super::rules::{self, Counts, Limits, Spot};
 use crate::finding::{Detail, Fault, Rule};
-use crate::geometry::{Bounds, Point, Segment, Vector};
-use crate::program::path::{HeldWay, Node, Writing, goes_round, mixed, near_each_other};
+use crate::geometry::{Point, Segment, Vector};
+use crate::program::path::{Ends, HeldWay, Lay, Node, Writing, mixed, tolerance};
 use std::ops::Range;
 
 /// Something found at bytes of the run.
@@ -79,6 +79,18 @@ impl Sum {
         }
     }
 
+    pub fn ends(&self) -> Ends {
+        let first = self.first.unwrap_or_default();
+        let second = first.plus(self.second.unwrap_or_default());
+        let last = self.travel.minus(self.last.unwrap_or_default());
+        Ends {
+            begin: [Move::default(), first, second].map(|at| at.node()),
+            end: [last, self.travel].map(|at| at.node()),
+            blocks: self.blocks,
+            tolerance: tolerance(self.arcs),
+        }
+    }
+
     fn push(&mut self, entry: &BlockEntry, segment: Option<&Segment>) {
         let origin = Point::origin();
         let one = Sum {
@@ -130,64 +142,45 @@ pub(super) struct Part {
     pub sum: Sum,
     /// The word behind it, at `entries.end`.
     pub word: Option<(Word, bool)>,
-    /// It holds a closed contour that goes round something.
-    pub goes_round: bool,
-    /// Of its way, µm from where it begins.
-    pub bounds: Bounds,
-    /// Blocks of it whose ways come near each other, by their number in the part, neighbours left out.
-    pub near: Box<[(u32, u32)]>,
+    pub lay: Lay,
 }
 
 /// A part under way.
 struct Open {
-    part: Part,
+    /// Its first entry.
+    first: usize,
+    sum: Sum,
     way: HeldWay,
-    ways: Vec<Segment>,
-    boxes: Vec<Bounds>,
 }
 
 impl Open {
-    fn at(entry: usize) -> Open {
-        let part = Part {
-            entries: entry..entry,
-            sum: Sum::default(),
-            word: None,
-            goes_round: false,
-            bounds: Bounds::EMPTY,
-            near: Box::default(),
-        };
+    fn at(first: usize) -> Open {
         Open {
-            part,
+            first,
+            sum: Sum::default(),
             way: HeldWay::from(Node::at(Point::origin()), Writing::default()),
-            ways: Vec::new(),
-            boxes: Vec::new(),
         }
     }
 
     fn push(&mut self, entry: &BlockEntry) {
         let segment = meant(&entry.block, Point::origin());
-        let [x, y] = self.part.sum.travel.meant_um();
+        let [x, y] = self.sum.travel.meant_um();
         let (start, by) = (Point::new(x, y), Vector::new(x, y));
         let way = segment
             .as_ref()
             .map_or(Segment::line(start, start), |segment| segment.moved(by));
-        let bounds = way.bounds();
-        self.part.bounds.merge(&bounds);
-        self.ways.push(way);
-        self.boxes.push(bounds);
-        self.part.sum.push(entry, segment.as_ref());
-        self.way
-            .push(way, !entry.is_line(), self.part.sum.travel.node());
+        self.sum.push(entry, segment.as_ref());
+        self.way.push(way, !entry.is_line(), self.sum.travel.node());
     }
 
-    fn closed(mut self) -> Part {
-        let mut near = Vec::new();
-        near_each_other(&self.ways, &self.boxes, &mut |first, second| {
-            near.push((first as u32, second as u32))
-        });
-        self.part.near = near.into();
-        self.part.goes_round = goes_round(&self.way) == Some(true);
-        self.part
+    /// The part up to an entry, with the word that stands there.
+    fn closed(self, end: usize, word: Option<(Word, bool)>) -> Part {
+        Part {
+            entries: self.first..end,
+            lay: Lay::of(&self.way, self.sum.mark),
+            sum: self.sum,
+            word,
+        }
     }
 }
 
@@ -349,8 +342,8 @@ impl Run {
                 run.take(item, line as u32, offset, &mut open, limits)
             });
         }
-        open.part.entries.end = run.entries.len();
-        run.parts.push(open.closed());
+        let end = run.entries.len();
+        run.parts.push(open.closed(end, None));
         run.sum_up();
         run
     }
@@ -370,8 +363,8 @@ impl Run {
             }
             if index > 0 && index < last {
                 self.open
-                    .extend((!is_jump(&part.sum) && !part.goes_round).then_some(index));
-                let may_cross = !part.near.is_empty() && may_cross_itself(&part.sum);
+                    .extend((!is_jump(&part.sum) && !part.lay.goes_round).then_some(index));
+                let may_cross = !part.lay.near.is_empty() && may_cross_itself(&part.sum);
                 self.tangled.extend(may_cross.then_some(index));
             }
         }
@@ -392,7 +385,7 @@ impl Run {
                 let part_index = self.parts.len();
                 for sight in rules::look(&block, part, limits) {
                     // What is only unusual, or too tight, leads where it says.
-                    open.part.sum.errors += usize::from(
+                    open.sum.errors += usize::from(
                         sight.counts == Counts::Always && sight.rule != Rule::SmallRadius,
                     );
                     let (rule, spot, counts, detail) =
@@ -419,12 +412,10 @@ impl Run {
                 range,
                 number,
             } => {
-                open.part.entries.end = self.entries.len();
-                open.part.word = Some((word, is_own));
+                let end = self.entries.len();
                 self.push(local(range), line, number, What::Word { word, is_own });
-                let next = self.entries.len();
-                self.parts
-                    .push(std::mem::replace(open, Open::at(next)).closed());
+                let before = std::mem::replace(open, Open::at(end + 1));
+                self.parts.push(before.closed(end, Some((word, is_own))));
             }
             Item::StartPoint { at, range } => {
                 self.positions.anchor = Some(Some(StatedPoint { at, decimals: 3 }));
@@ -441,8 +432,8 @@ impl Run {
             Item::Fault(fault) => {
                 let is_unread = matches!(fault.flaw, Flaw::Unreadable(_) | Flaw::NotPlain(_));
                 // Without its coordinates a block leads where it says.
-                open.part.sum.errors += usize::from(fault.flaw != Flaw::DecimalCommas);
-                open.part.sum.unread += usize::from(is_unread);
+                open.sum.errors += usize::from(fault.flaw != Flaw::DecimalCommas);
+                open.sum.unread += usize::from(is_unread);
                 if is_unread {
                     // Its number has its turn, and where it ends nobody knows.
                     self.positions.anchor = Some(None);

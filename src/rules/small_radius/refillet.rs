@@ -2,9 +2,9 @@
 
 use super::Travel;
 use crate::finding::NoFix;
+use crate::geometry::Locus;
 use crate::geometry::{Arc, Bounds, Point, Segment, positive_angle};
 use crate::rules::Limits;
-use crate::geometry::Locus;
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 

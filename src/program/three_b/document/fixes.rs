@@ -7,14 +7,15 @@ use super::super::fields::fields_of;
 use super::super::layout::push_fields;
 use super::super::parse::StatedPoint;
 use super::super::pieces::{Field, Piece, pieces};
-use super::super::plain::{Alike, alike};
 use super::super::rules::position_mismatch::Mismatched;
 use super::super::rules::{
-    self, Site, TextFix, block_number, missing_end, not_closed, position_mismatch, text_after_end,
+    self, Site, TextFix, block_number, missing_end, position_mismatch, text_after_end,
 };
 use super::super::run::Sum;
 use super::{At, Document};
 use crate::finding::{Detail, Fault, Finding, FixKind, Place};
+use crate::program::alike::{Alike, alike};
+use crate::program::path::gap;
 use crate::program::repair::merged;
 use crate::settings::Layout;
 use crate::text::{TextEdit, WIDEST_COLUMN};
@@ -168,7 +169,7 @@ impl Document {
         if self.last_block_of(&section) == Some(at) {
             sum.last = blocks.last().map(travel_of).or(sum.last);
         }
-        section.sum.blocks >= 3 && not_closed::is_closed(&sum)
+        section.sum.blocks >= 3 && sum.ends().close()
     }
 
     /// A straight block that closes the contour.
@@ -179,7 +180,10 @@ impl Document {
         let Some(section) = self.section_of(at) else {
             return Vec::new();
         };
-        let [x, y] = not_closed::gap(&section.sum).map(|um| um.round() as i64);
+        let Some([x, y]) = gap(&self.way(&section)).map(|gap| gap.map(|um| um.round() as i64))
+        else {
+            return Vec::new();
+        };
         let largest = self.limits.largest();
         if x.abs().max(y.abs()) > largest || (x, y) == (0, 0) {
             return Vec::new();

@@ -5,11 +5,11 @@ use super::super::fields::fields_of;
 use super::super::parse::unexpected;
 use super::super::repair::FEWEST_BLAMED;
 use super::super::rules::{self, not_closed};
-use super::super::run::may_cross_itself;
+use super::super::run::{Sum, may_cross_itself};
 use super::sections::joined;
 use super::{At, Document, PartAt, Section, View};
 use crate::finding::{Axis, Detail, Fault, Finding, Place, Rule, Severity};
-use crate::program::path::{Known, Way, closing, gap, goes_round, is_tab, mixed, tolerance};
+use crate::program::path::{Known, Lay, Way, gap, is_tab, mixed, tolerance};
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -28,9 +28,6 @@ struct GoesOn {
     /// All of them, where the last one cuts off the tab.
     held: Option<Section>,
 }
-
-/// Twice the area of which no way to and fro encloses as much, µm²: 1 mm².
-const LARGE: f64 = 2e6;
 
 impl Document {
     /// `calm` takes the contours within one run of which is known now that they do not cross themselves, in their order.
@@ -103,20 +100,21 @@ impl Document {
     }
 
     fn is_closed(&self, section: &Section) -> bool {
-        closing(&self.way(section)).is_some_and(|closing| closing.closed)
+        let ends = section.sum.ends();
+        ends.closes(self.only_lay(section), || self.way(section))
     }
 
     fn goes_round(&self, section: &Section) -> bool {
-        if section.sum.twice_area.abs() > LARGE && not_closed::is_closed(&section.sum) {
-            return true;
-        }
-        match section.parts {
-            [(run, part), last] if (run, part) == last => {
-                let of = self.runs.get(run).and_then(|run| run.parts.get(part));
-                of.is_some_and(|part| part.goes_round)
-            }
-            _ => goes_round(&self.way(section)) == Some(true),
-        }
+        let Sum { twice_area, .. } = section.sum;
+        let ends = section.sum.ends();
+        ends.go_round(twice_area, self.only_lay(section), || self.way(section))
+    }
+
+    /// How a section lies on itself that is one part of a run.
+    fn only_lay(&self, section: &Section) -> Option<&Lay> {
+        let [(run, part), last] = section.parts;
+        let of = self.runs.get(run).filter(|_| (run, part) == last)?;
+        of.parts.get(part).map(|part| &part.lay)
     }
 
     /// What goes on with an open section behind a stop: a tab, or blocks that come back to the start together, in whatever order they
@@ -135,7 +133,7 @@ impl Document {
                 && more.sum.blocks > 0
                 && longer.sum.blocks > 2
                 && is_tab(&self.way(&whole), &self.way(&more), &self.way(&longer)) == Some(true);
-            if is_tab || not_closed::is_closed(&longer.sum) {
+            if is_tab || longer.sum.ends().close() {
                 return Some(GoesOn {
                     begins,
                     behind: self.part_behind(more.parts[1]),

@@ -39,12 +39,10 @@ impl Document {
                         start: at,
                     });
                     parts.push(Part {
-                        mark: part.sum.mark,
+                        lay: &part.lay,
                         blocks: part.sum.blocks,
                         arcs: part.sum.arcs,
                         start: at.meant,
-                        bounds: part.bounds,
-                        near: &part.near,
                     });
                     at = at.plus(part.sum.travel);
                     count += part.sum.blocks;

@@ -1,9 +1,9 @@
-//! Characters that look like those of a program and are others: full-width forms, wide spaces, Cyrillic and Greek letters; in UTF-8, and
-//! full-width forms in GBK, which editors of Chinese Windows write.
+//! Characters that look like those of a program and are others: full-width forms, wide spaces, dashes, Cyrillic and Greek letters; in
+//! UTF-8, and in GBK, which editors of Chinese Windows write.
 
 /// What a character that is not ASCII looks like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Likeness {
+pub(in crate::program) enum Likeness {
     FullWidth(u8),
     Space,
     /// Cyrillic or Greek.
@@ -26,14 +26,14 @@ impl Likeness {
 
 /// A character by its place in a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Alike {
+pub(in crate::program) struct Alike {
     pub at: usize,
     pub length: usize,
     pub likeness: Likeness,
 }
 
 /// The characters of a line that look like others, in their order.
-pub(super) fn alike(line: &[u8]) -> Vec<Alike> {
+pub(in crate::program) fn alike(line: &[u8]) -> Vec<Alike> {
     let mut found = Vec::new();
     if line.is_ascii() {
         return found;
@@ -78,24 +78,40 @@ fn in_utf_8(rest: &[u8]) -> (Option<Likeness>, usize) {
             '\u{a0}' | '\u{2000}'..='\u{200b}' | '\u{202f}' | '\u{205f}' | '\u{3000}' | '\u{feff}',
         ) => Some(Likeness::Space),
         Some('\u{3001}') => Some(Likeness::FullWidth(b',')),
+        Some('\u{3002}') => Some(Likeness::FullWidth(b'.')),
+        Some('\u{2212}' | '\u{2013}') => Some(Likeness::FullWidth(b'-')),
         Some(letter) => foreign(letter).map(Likeness::Foreign),
         None => None,
     };
     (likeness, length)
 }
 
-/// Letters that are drawn as one of a block.
+/// Letters that are drawn as one of a program.
 fn foreign(letter: char) -> Option<u8> {
     Some(match letter {
+        'А' | 'Α' => b'A',
+        'а' => b'a',
         'В' | 'в' | 'Β' => b'B',
-        'Х' | 'х' | 'Χ' => b'X',
-        'У' | 'у' | 'Υ' | 'Ү' => b'Y',
-        'О' | 'о' | 'Ο' => b'O',
-        'Е' | 'е' | 'Ε' => b'E',
-        'А' | 'а' | 'Α' => b'A',
-        'Ѕ' => b'S',
-        'Ν' => b'N',
+        'С' => b'C',
+        'с' => b'c',
+        'Е' | 'Ε' => b'E',
+        'е' => b'e',
         'Ԍ' => b'G',
+        'Н' | 'Η' => b'H',
+        'І' | 'Ι' => b'I',
+        'Ј' => b'J',
+        'К' => b'K',
+        'М' | 'Μ' => b'M',
+        'Ν' => b'N',
+        'О' | 'о' | 'Ο' => b'O',
+        'Р' => b'P',
+        'р' => b'p',
+        'Ѕ' => b'S',
+        'Т' | 'Τ' => b'T',
+        'Х' | 'Χ' => b'X',
+        'х' => b'x',
+        'У' | 'Υ' | 'Ү' => b'Y',
+        'у' => b'y',
         _ => return None,
     })
 }
@@ -127,7 +143,7 @@ fn foreign_in_gbk(row: u8, low: u8) -> Option<u8> {
 
 /// The line with marks and spaces as a controller has them, each in the place of the other one; `None` where there is none. Letters and
 /// digits stay.
-pub(super) fn with_plain_marks(line: &[u8]) -> Option<Vec<u8>> {
+pub(in crate::program) fn with_plain_marks(line: &[u8]) -> Option<Vec<u8>> {
     let marks: Vec<Alike> = alike(line)
         .into_iter()
         .filter(|found| !found.likeness.is_letter())
@@ -143,7 +159,7 @@ pub(super) fn with_plain_marks(line: &[u8]) -> Option<Vec<u8>> {
 }
 
 /// The line in plain letters, digits, marks and spaces.
-pub(super) fn in_plain_letters(line: &[u8], alike: &[Alike]) -> Vec<u8> {
+pub(in crate::program) fn in_plain_letters(line: &[u8], alike: &[Alike]) -> Vec<u8> {
     let mut plain = Vec::with_capacity(line.len());
     let mut from = 0;
     for found in alike {
@@ -156,7 +172,7 @@ pub(super) fn in_plain_letters(line: &[u8], alike: &[Alike]) -> Vec<u8> {
 }
 
 /// How many bytes of space begin a text, wide ones among them.
-pub(super) fn wide_space(text: &[u8]) -> usize {
+pub(in crate::program) fn wide_space(text: &[u8]) -> usize {
     match text {
         [0xc2, 0xa0, ..] => 2,
         [0xe3, 0x80, 0x80, ..] | [0xe2, 0x80, 0x80..=0x8b | 0xaf, ..] | [0xef, 0xbb, 0xbf, ..] => 3,

@@ -1,0 +1,47 @@
+//! How blocks that stand together lie on themselves: an edit elsewhere leaves that as it was.
+
+use super::contour::{closing, goes_round};
+use super::crossing::near_each_other;
+use super::way::HeldWay;
+use crate::geometry::{Bounds, Segment};
+
+/// What a part of a cut comes to by itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lay {
+    /// Tells two parts apart: equal ways have equal marks.
+    pub mark: u64,
+    /// µm, seen from its beginning.
+    pub bounds: Bounds,
+    /// Blocks of it that come near each other, by their number in the part, neighbours left out.
+    pub near: Box<[(u32, u32)]>,
+    /// It holds a closed contour, and one that goes round something.
+    pub closes: bool,
+    pub goes_round: bool,
+}
+
+impl Lay {
+    /// Of a way that begins at the origin.
+    pub fn of(way: &HeldWay, mark: u64) -> Lay {
+        let boxes: Vec<Bounds> = way.pieces().iter().map(Segment::bounds).collect();
+        let mut near = Vec::new();
+        near_each_other(way.pieces(), &boxes, &mut |first, second| {
+            near.push((first as u32, second as u32))
+        });
+        let whole = |whole: Bounds, part: &Bounds| whole.merged(part);
+        let closes = closing(way).is_some_and(|closing| closing.closed);
+        Lay {
+            mark,
+            bounds: boxes.iter().fold(Bounds::EMPTY, whole),
+            near: near.into(),
+            closes,
+            goes_round: closes && goes_round(way) == Some(true),
+        }
+    }
+}
+
+/// What the mark of a way becomes with one field more.
+pub fn mixed(mark: u64, field: u64) -> u64 {
+    (mark ^ field)
+        .wrapping_mul(0x2545_f491_4f6c_dd1d)
+        .rotate_left(23)
+}
