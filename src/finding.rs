@@ -186,12 +186,23 @@ pub struct Finding {
 impl Finding {
     /// A fault of a program, at some bytes of its text.
     pub(crate) fn of(fault: Fault, range: Range<usize>) -> Finding {
+        let (rule, severity) = (fault.rule(), fault.severity());
+        Finding::in_text(rule, range, Detail::Program(Box::new(fault))).with(severity)
+    }
+
+    /// What a rule says of some bytes of a text, as severe as the rule is by itself.
+    pub(crate) fn in_text(rule: Rule, range: Range<usize>, detail: Detail) -> Finding {
         Finding {
-            rule: fault.rule(),
-            severity: fault.severity(),
+            rule,
+            severity: rule.default_severity(),
             place: Place::Text { range },
-            detail: Detail::Program(Box::new(fault)),
+            detail,
             related: Vec::new(),
         }
+    }
+
+    /// The same with another severity.
+    pub(crate) fn with(self, severity: Severity) -> Finding {
+        Finding { severity, ..self }
     }
 }

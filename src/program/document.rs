@@ -110,10 +110,7 @@ impl Document {
         for finding in of_reader {
             // The reader knows no severities but its own: the settings' are laid over them here.
             if let Some(severity) = settings.severity_of(&finding) {
-                findings.push(Finding {
-                    severity,
-                    ..finding
-                });
+                findings.push(finding.with(severity));
             }
         }
         let count = findings.len();

@@ -151,3 +151,25 @@ pub fn scaled(segment: &Segment, scale: f64) -> Segment {
         }),
     }
 }
+
+/// Appends a number, right-aligned in `width` columns, wider where it does not fit.
+pub(super) fn push_number(out: &mut Vec<u8>, mut value: u64, width: usize) {
+    let mut digits = [b' '; 20];
+    let mut first = digits.len();
+    loop {
+        first -= 1;
+        digits[first] = b'0' + (value % 10) as u8;
+        value /= 10;
+        if value == 0 {
+            break;
+        }
+    }
+    out.extend_from_slice(&digits[first.min(digits.len() - width.min(digits.len()))..]);
+}
+
+/// Appends the last `count` digits of a number, zeros in front of them too.
+pub(super) fn push_places(out: &mut Vec<u8>, value: u64, count: u32) {
+    for place in (0..count).rev() {
+        out.push(b'0' + (value / 10_u64.pow(place) % 10) as u8);
+    }
+}

@@ -6,6 +6,7 @@ pub(crate) mod block;
 mod control;
 mod corner;
 mod crossings;
+mod cursor;
 mod cuts;
 pub(crate) mod document;
 mod encode;

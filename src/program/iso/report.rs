@@ -1,20 +1,16 @@
 //! What is wrong in a program, out of what its stretches have seen.
 
-use super::block::{Code, Motion, read_line, word_range};
+mod text;
+
+use super::block::{Code, Motion, word_range};
 use super::cuts::Cut;
 use super::document::{Document, Placed, Table};
-use super::evidence::FEW_BARE;
 use super::limits::Limits;
 use super::machine::{Course, Move, Place as Spot, Reading, apart, distance, micrometres};
-use super::order::MOST_CALLS;
 use super::repair::{Repair, is_trouble, line_of};
 use super::run::{Run, RunSide, Tight};
 use super::stretch::Stretch;
-use super::table::value;
-use super::word::{Token, words};
-use crate::finding::{
-    Detail, Fault, Finding, NoFix, NotJudged, Place, Rule, Severity, Side, SmallRadius,
-};
+use crate::finding::{Detail, Fault, Finding, NoFix, Place, Rule, Severity, Side, SmallRadius};
 use crate::geometry::cross;
 use crate::program::path::{UM_IN_MM, is_tight, tolerance};
 use crate::settings::{Compensation, SideSetting};
@@ -27,18 +23,6 @@ const FEWEST_MOVES: u32 = 3;
 
 /// How many lines before its cut the word that switches the correction is looked for.
 const SWITCH_REACH: usize = 1_000;
-
-/// A part of less is no part in mm, mm.
-const SMALLEST_PART: f64 = 2.0;
-
-/// A part of less, with numbers as fine as those in inches are, speaks for inches, mm.
-const SMALL_PART: f64 = 12.0;
-
-/// A part of more speaks against inches, whatever its corrections are, mm.
-const LARGE_PART: f64 = 40.0;
-
-/// The thinnest wire there is, with its spark gap, has a larger correction, nm.
-const THINNEST: i64 = 14_000;
 
 impl Document {
     /// What is wrong in the program, in the order of the text.
@@ -89,10 +73,8 @@ fn suspects(document: &Document, findings: &[Finding]) -> Vec<Finding> {
         } else {
             Severity::Information
         };
-        Some(Finding {
-            severity,
-            ..Finding::of(fault, words.0 as usize..words.1 as usize)
-        })
+        let range = words.0 as usize..words.1 as usize;
+        Some(Finding::of(fault, range).with(severity))
     };
     repairs
         .into_iter()
@@ -210,21 +192,11 @@ impl<'a> Report<'a> {
     }
 
     fn add_as(&mut self, severity: Severity, range: Range<usize>, fault: Fault) {
-        let finding = Finding::of(fault, range);
-        self.findings.push(Finding {
-            severity,
-            ..finding
-        });
+        self.findings.push(Finding::of(fault, range).with(severity));
     }
 
-    fn push(&mut self, rule: Rule, severity: Severity, range: Range<usize>, detail: Detail) {
-        self.findings.push(Finding {
-            rule,
-            severity,
-            place: Place::Text { range },
-            detail,
-            related: Vec::new(),
-        });
+    fn push(&mut self, rule: Rule, range: Range<usize>, detail: Detail) {
+        self.findings.push(Finding::in_text(rule, range, detail));
     }
 
     fn line_faults(&mut self, stretch: &Stretch, offset: usize) {
@@ -487,12 +459,8 @@ impl<'a> Report<'a> {
                     no_fix: Some(NoFix::Program),
                     ..SmallRadius::of(&arc, arc.radius, required, UM_IN_MM)
                 };
-                self.push(
-                    Rule::SmallRadius,
-                    Rule::SmallRadius.default_severity(),
-                    range.clone(),
-                    Detail::SmallRadius(Box::new(detail)),
-                );
+                let detail = Detail::SmallRadius(Box::new(detail));
+                self.push(Rule::SmallRadius, range.clone(), detail);
             }
         }
     }
@@ -512,297 +480,6 @@ impl<'a> Report<'a> {
         stated.map_or(self.limits.correction * 1e3, |&value| {
             (value as f64 / 1e3).abs()
         })
-    }
-
-    fn foreign_words(&mut self) {
-        let mut words = std::mem::take(&mut self.foreign);
-        words.retain(|code, _| !self.limits.known.contains(code));
-        let mut words: Vec<_> = words.into_values().collect();
-        words.sort_by_key(|(range, _)| range.start);
-        for (range, count) in words {
-            let word: String = self.shown(&range);
-            self.add(range, Fault::Foreign { word, count });
-        }
-    }
-
-    /// The beginning of some bytes of the text.
-    fn shown(&self, range: &Range<usize>) -> String {
-        let bytes = self.text.bytes().get(range.clone()).unwrap_or_default();
-        String::from_utf8_lossy(&bytes[..bytes.len().min(48)])
-            .chars()
-            .take(12)
-            .collect()
-    }
-
-    /// Numbers that stand twice, and blocks that lack the one that the others skip.
-    fn block_numbers(&mut self) {
-        let (mut blocks, mut numbers) = (0_usize, 0_usize);
-        let mut last = None;
-        let mut rising = true;
-        for placed in self.document.placed() {
-            blocks += placed.stretch.blocks as usize;
-            numbers += placed.stretch.numbers.len();
-            let ends = (
-                placed.stretch.numbers.first(),
-                placed.stretch.numbers.last(),
-            );
-            if let (Some((first, _)), Some((end, _))) = ends {
-                rising &= placed.stretch.numbers_rise && last.is_none_or(|last| *first > last);
-                last = Some(*end);
-            }
-        }
-        if numbers < blocks && numbers * 4 >= blocks * 3 {
-            self.lacking_numbers();
-        }
-        // Those of a text in rising order stand once.
-        if !rising {
-            self.doubled_numbers();
-        }
-    }
-
-    fn lacking_numbers(&mut self) {
-        for placed in self.document.placed() {
-            if (placed.stretch.numbers.len() as u32) < placed.stretch.blocks {
-                for (line, expected) in self.document.lacking_numbers(&placed) {
-                    let range = self.text.line_range(line);
-                    let words =
-                        super::read::words_of(&self.text.bytes()[range.clone()], range.start);
-                    self.add(
-                        words.0 as usize..words.1 as usize,
-                        Fault::Unnumbered { expected },
-                    );
-                }
-            }
-        }
-    }
-
-    fn doubled_numbers(&mut self) {
-        let mut seen: FxHashMap<u32, usize> = FxHashMap::default();
-        for placed in self.document.placed() {
-            let mut programs = placed.stretch.programs.iter().peekable();
-            for (index, &(number, place)) in placed.stretch.numbers.iter().enumerate() {
-                // Another program counts for itself.
-                while programs
-                    .next_if(|before| **before as usize <= index)
-                    .is_some()
-                {
-                    seen.clear();
-                }
-                let start = placed.offset + place as usize;
-                if *seen.entry(number).or_insert(start) != start {
-                    let line = self.text.line_of(start);
-                    let range = self.text.line_range(line);
-                    let word = word_range(
-                        &self.text.bytes()[range.clone()],
-                        range.start,
-                        |letter, _| letter == b'N',
-                    )
-                    .unwrap_or(range);
-                    self.add(word, Fault::DoubledNumber { number });
-                }
-            }
-            if programs.next().is_some() {
-                seen.clear();
-            }
-        }
-    }
-
-    fn calls(&mut self) {
-        let Some(order) = self.document.order() else {
-            return;
-        };
-        for &(line, number) in &order.missing {
-            self.add(self.text.line_range(line), Fault::NoSubprogram { number });
-        }
-        for &(line, number) in &order.unreturned {
-            let range = self.words_of(line);
-            self.add(range, Fault::NoReturn { number });
-        }
-        if let Some(line) = order.endless {
-            let range = self.text.line_range(line);
-            self.add(range, Fault::EndlessCalls);
-        }
-        if let Some(line) = order.left_out {
-            let what = NotJudged::Calls {
-                lines: order.most_lines,
-                calls: MOST_CALLS,
-            };
-            self.push(
-                Rule::NotJudged,
-                Rule::NotJudged.default_severity(),
-                self.text.line_range(line),
-                Detail::NotJudged(what),
-            );
-        }
-    }
-
-    fn words_of(&self, line: usize) -> Range<usize> {
-        let range = self.text.line_range(line);
-        let words = super::read::words_of(
-            self.text.bytes().get(range.clone()).unwrap_or_default(),
-            range.start,
-        );
-        words.0 as usize..words.1 as usize
-    }
-
-    /// Values for the table that hang on places which the program does not fill.
-    fn definitions(&mut self) {
-        let mut table = Table::default();
-        for placed in self.document.placed() {
-            for definition in &placed.stretch.definitions {
-                match value(&table, definition, self.reading) {
-                    Some(value) => _ = table.insert(definition.offset, value),
-                    None => {
-                        table.remove(&definition.offset);
-                        let range = at(placed.offset, definition.range);
-                        let word = self.shown(&range);
-                        self.add(range, Fault::UnknownValue { word });
-                    }
-                }
-            }
-        }
-    }
-
-    /// Numbers without a decimal point among numbers with one: each where they are few, else the first.
-    fn bare_numbers(&mut self) {
-        let evidence = self.document.evidence();
-        let usual = evidence.pointed();
-        let count = if usual == Some(false) {
-            evidence.with_point
-        } else {
-            evidence.bare
-        };
-        if evidence.with_point == 0 || count == 0 {
-            return;
-        }
-        let is_few = usual.is_some();
-        let odd = usize::from(usual == Some(false));
-        let places = self.document.placed().flat_map(|placed| {
-            let own = placed.stretch.lengths[odd].clone();
-            own.into_iter().map(move |range| at(placed.offset, range))
-        });
-        let places: Vec<Range<usize>> = places
-            .take(if is_few { FEW_BARE as usize } else { 1 })
-            .collect();
-        for range in places {
-            let word = self.shown(&range);
-            let fault = match usual {
-                Some(false) => Fault::Pointed { word },
-                Some(true) => Fault::Bare { word, count: 1 },
-                None => Fault::Bare {
-                    word,
-                    count: count as usize,
-                },
-            };
-            let severity = if is_few {
-                Rule::MixedNumbers.default_severity()
-            } else {
-                Severity::Information
-            };
-            self.add_as(severity, range, fault);
-        }
-    }
-
-    /// The one or two numbers that have other decimals than all the others.
-    fn odd_places(&mut self) {
-        let Some((usual, odd)) = self.document.usual_places().filter(|(_, odd)| *odd > 0) else {
-            return;
-        };
-        let mut found = Vec::new();
-        for placed in self.document.placed() {
-            let own = &placed.stretch.evidence.places;
-            if own.iter().sum::<u32>() == own[usize::from(usual)] {
-                continue;
-            }
-            for line in placed.lines {
-                let range = self.text.line_range(line);
-                words(
-                    &self.text.bytes()[range.clone()],
-                    range.start.max(1),
-                    |token| {
-                        if let Token::Word {
-                            letter: b'X' | b'Y' | b'I' | b'J' | b'R',
-                            number,
-                            range: word,
-                        } = token
-                            && number.point
-                            && number.decimals != usual
-                        {
-                            let by = range.start.max(1) - range.start;
-                            found.push(word.start - by..word.end - by);
-                        }
-                    },
-                );
-            }
-        }
-        for range in found.into_iter().take(odd as usize) {
-            let word = self.shown(&range);
-            self.add(range, Fault::Places { word, usual });
-        }
-    }
-
-    /// A program that does not say its unit, and whose size or numbers speak for inches.
-    fn unit(&mut self) {
-        let evidence = self.document.evidence();
-        if evidence.says_unit || evidence.with_point == 0 || self.limits.has_unit {
-            return;
-        }
-        let sizes = self
-            .document
-            .stretches()
-            .iter()
-            .flat_map(|stretch| &stretch.lays)
-            .map(|lay| lay.bounds);
-        let size = sizes
-            .filter(|bounds| !bounds.is_empty())
-            .map(|bounds| (bounds.max - bounds.min).amax() / 1e3)
-            .fold(0.0, f64::max);
-        // No wire is as thin as the corrections that the program fills in, or its numbers are as fine as those in inches are.
-        let has_thin_wire = self
-            .definitions
-            .values()
-            .any(|value| (1..THINNEST).contains(&value.abs()));
-        let has_fine_numbers = evidence.fine * 4 >= evidence.with_point;
-        let is_small = size < SMALLEST_PART || (has_fine_numbers && size < SMALL_PART);
-        if size > 0.0
-            && (is_small || (has_thin_wire && size < LARGE_PART))
-            && let Some(range) = self.first_length()
-        {
-            self.add(range, Fault::LooksLikeInches { size });
-        }
-    }
-
-    /// The first line with a length.
-    fn first_length(&self) -> Option<Range<usize>> {
-        let has_length = |line: &usize| {
-            let block = read_line(&self.text.bytes()[self.text.line_range(*line)], 1, |_| {});
-            [block.x, block.y]
-                .into_iter()
-                .flatten()
-                .any(|number| number.mantissa != 0)
-        };
-        (0..self.text.line_count())
-            .find(has_length)
-            .map(|line| self.words_of(line))
-    }
-
-    /// The first I or J of the text.
-    fn first_center(&self) -> Option<Range<usize>> {
-        for placed in self.document.placed() {
-            let has_arcs =
-                placed.stretch.evidence.absolute.all + placed.stretch.evidence.incremental.all > 0;
-            for line in placed.lines.filter(|_| has_arcs) {
-                let range = self.text.line_range(line);
-                let bytes = &self.text.bytes()[range.clone()];
-                let block = read_line(bytes, range.start, |_| {});
-                if block.i.is_some() || block.j.is_some() {
-                    return word_range(bytes, range.start, |letter, _| {
-                        matches!(letter, b'I' | b'J')
-                    });
-                }
-            }
-        }
-        None
     }
 
     /// Sorted by place; a line that a subprogram runs several times is said once.

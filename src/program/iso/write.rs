@@ -7,7 +7,8 @@ use crate::finding::Side;
 use crate::geometry::Segment;
 use crate::program::grid::{Node, largest_distance, point_of};
 use crate::program::write::{
-    NOTHING_TO_WRITE, ProofError, ProvedProgram, Writer, cuts, scaled, walk, way,
+    NOTHING_TO_WRITE, ProofError, ProvedProgram, Writer, cuts, push_number, push_places, scaled,
+    walk, way,
 };
 use crate::settings::{Coordinates, Effective, Jumps, LineEnd, NumberUnit, Profile, Zero};
 use crate::toolpath::{Source, WirePath};
@@ -324,7 +325,7 @@ impl<'a> Lines<'a> {
         if self.profile.numbers > 0 {
             self.number = self.number.saturating_add(self.profile.numbers);
             separate.push(&mut out, b"N");
-            push_whole(&mut out, u64::from(self.number));
+            push_number(&mut out, u64::from(self.number), 0);
         }
         if !modal || self.motion != Some(step.motion) {
             separate.push(
@@ -433,16 +434,12 @@ impl<'a> Lines<'a> {
         }
         let magnitude = steps.unsigned_abs();
         if self.profile.unit == NumberUnit::Um {
-            return push_whole(out, magnitude);
+            return push_number(out, magnitude, 0);
         }
         let per_mm = 10_u64.pow(u32::from(self.profile.decimals));
-        push_whole(out, magnitude / per_mm);
+        push_number(out, magnitude / per_mm, 0);
         out.push(b'.');
-        let mut place = per_mm / 10;
-        while place > 0 {
-            out.push(b'0' + (magnitude / place % 10) as u8);
-            place /= 10;
-        }
+        push_places(out, magnitude % per_mm, self.profile.decimals.into());
     }
 
     /// `cuts` tells that there is more to the paths than places where the wire is threaded.
@@ -490,18 +487,4 @@ fn counted_on(word: &str, by: usize) -> String {
         Ok(number) if by > 0 => format!("{name}{:0width$}", number + by, width = digits.len()),
         _ => word.to_owned(),
     }
-}
-
-fn push_whole(out: &mut Vec<u8>, mut value: u64) {
-    let mut digits = [0_u8; 20];
-    let mut first = digits.len();
-    loop {
-        first -= 1;
-        digits[first] = b'0' + (value % 10) as u8;
-        value /= 10;
-        if value == 0 {
-            break;
-        }
-    }
-    out.extend_from_slice(&digits[first..]);
 }

@@ -244,11 +244,11 @@ pub fn is_tab(before: &dyn Way, behind: &dyn Way, whole: &dyn Way) -> Option<boo
 
 #[cfg(test)]
 mod tests {
-    use crate::program::path::tolerance;
     use crate::finding::Rule;
     use crate::ide::SymbolKind;
     use crate::ide::program::symbols;
     use crate::program::path::cuts;
+    use crate::program::path::tolerance;
     use crate::program::{Document, Language, convert};
     use crate::settings::Effective;
     use proptest::prelude::*;

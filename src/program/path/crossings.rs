@@ -122,13 +122,8 @@ impl Found {
             let what = NotJudged::Crossings {
                 blocks: way.count(),
             };
-            findings.push(Finding {
-                rule: Rule::NotJudged,
-                severity: Severity::Information,
-                place: Place::Text { range },
-                detail: Detail::NotJudged(what),
-                related: Vec::new(),
-            });
+            let finding = Finding::in_text(Rule::NotJudged, range, Detail::NotJudged(what));
+            findings.push(finding.with(Severity::Information));
         }
         findings
     }

@@ -117,14 +117,6 @@ impl Trace {
             .sum()
     }
 
-    /// Length in µm of what is cut: ways without the wire left out.
-    pub fn cut_length(&self) -> f64 {
-        let cut = self.steps.iter().filter(|step| step.kind != Kind::Rapid);
-        cut.filter_map(|step| step.ideal.as_ref())
-            .map(Segment::length)
-            .sum()
-    }
-
     /// The box of the way, µm; `None` where nothing moves.
     pub fn bounds(&self) -> Option<Bounds> {
         let mut bounds = Bounds::EMPTY;

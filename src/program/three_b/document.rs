@@ -12,12 +12,10 @@ mod sequence;
 mod walk;
 mod way;
 
-pub use walk::PlacedBlock;
-
 use super::entry::Entry;
-use super::parse::Words;
 use super::rules::Limits;
 use super::run::{Run, Sum};
+use super::words::Words;
 use crate::finding::Finding;
 use crate::geometry::Point;
 use crate::program::chunks::{Chunks, Language};

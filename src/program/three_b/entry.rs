@@ -1,9 +1,10 @@
 //! What stands in a line of a 3B program, and where a block leads.
 
+use super::around::StatedPoint;
 use super::block::{self, Block, Motion, PartArc};
 use super::decode::meant;
 use super::machine::travel;
-use super::parse::{StatedPoint, Word};
+use super::words::Word;
 use crate::geometry::Point;
 use crate::program::path::Node;
 use std::ops::Range;

@@ -1,6 +1,7 @@
 //! What blocks look like as text: compact, aligned, checking.
 
 use super::block::{Block, CountingAxis, Motion, Node, PartArc};
+use crate::program::write::{push_number, push_places};
 use crate::settings::Layout;
 
 /// Appends one block with its line end; with `part` it is one of 4B. `number` (from 1) and the absolute end point stand in the checking layout only.
@@ -92,21 +93,6 @@ pub(crate) fn push_start_point(out: &mut Vec<u8>, start: Node) {
     out.push(b'\n');
 }
 
-/// Right-aligned in `width` columns, wider where it does not fit.
-fn push_number(out: &mut Vec<u8>, mut value: u64, width: usize) {
-    let mut digits = [b' '; 20];
-    let mut first = digits.len();
-    loop {
-        first -= 1;
-        digits[first] = b'0' + (value % 10) as u8;
-        value /= 10;
-        if value == 0 {
-            break;
-        }
-    }
-    out.extend_from_slice(&digits[first.min(digits.len() - width.min(digits.len()))..]);
-}
-
 /// µm as mm with three decimals, right-aligned in `width` columns.
 fn push_millimetres(out: &mut Vec<u8>, micrometres: i64, width: usize) {
     let mut text = Vec::with_capacity(24);
@@ -116,9 +102,7 @@ fn push_millimetres(out: &mut Vec<u8>, micrometres: i64, width: usize) {
     let magnitude = micrometres.unsigned_abs();
     push_number(&mut text, magnitude / 1000, 0);
     text.push(b'.');
-    for digit in [magnitude / 100 % 10, magnitude / 10 % 10, magnitude % 10] {
-        text.push(b'0' + digit as u8);
-    }
+    push_places(&mut text, magnitude % 1000, 3);
     out.extend(std::iter::repeat_n(b' ', width.saturating_sub(text.len())));
     out.extend_from_slice(&text);
 }

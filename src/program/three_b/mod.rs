@@ -2,6 +2,7 @@
 //!
 //! Everything in here counts in micrometres on the program's grid; only [`write()`] knows of a drawing's unit.
 
+mod around;
 pub(crate) mod block;
 pub(crate) mod decode;
 mod document;
@@ -22,16 +23,19 @@ mod rules;
 mod run;
 #[cfg(test)]
 mod tests;
+pub(crate) mod words;
 mod write;
 
 pub use crate::program::write::{ProofError, ProvedProgram};
 
+pub use around::StatedPoint;
 pub use block::{Block, CountingAxis, Motion, Node, PartArc, Quadrant};
 pub use decode::{DecodeFault, decode};
-pub use document::{Document, PlacedBlock};
+pub use document::Document;
 pub use encode::{Encoded, encode, snap};
 pub use fault::{Flaw, SyntaxFault};
 pub use fields::{Fields, fields_of};
 pub use machine::{interpolate, travel};
-pub use parse::{Item, StatedPoint, Word, Words, read, read_line};
+pub use parse::{Item, read, read_line};
+pub use words::{Word, Words};
 pub use write::{write, write_four_b, write_with};

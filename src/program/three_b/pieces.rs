@@ -3,9 +3,8 @@
 //! The reader in [`super::super::parse`] says what a sound line means. Here nothing is judged: an editor asks where the cursor stands
 //! while a block is still being written.
 
-use crate::program::three_b::parse::{
-    Word, Words, before_comment, is_remark, start_point, two_numbers,
-};
+use crate::program::three_b::around::{before_comment, is_remark, start_point, two_numbers};
+use crate::program::three_b::words::{Word, Words};
 use std::ops::Range;
 
 /// What a piece of a line is.

@@ -3,7 +3,8 @@
 use super::block::{Block, Node, PartArc};
 use super::decode::decode;
 use super::encode::{ASIDE_TOLERANCE, END_TOLERANCE, Encoded, alternatives, point_of};
-use super::parse::{Item, Words, read_line};
+use super::parse::{Item, read_line};
+use super::words::Words;
 use crate::geometry::Vector;
 use crate::program::grid::largest_distance;
 use crate::program::path::tolerance;

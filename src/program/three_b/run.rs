@@ -2,13 +2,15 @@
 //!
 //! Places count from the run's first byte and line, so that an edit elsewhere changes nothing here.
 
+use super::around::StatedPoint;
 use super::block::{Block, Motion};
 use super::decode::meant;
 use super::entry::{BlockEntry, Entry, Move, NO_NUMBER, What};
 use super::fault::Flaw;
-use super::parse::{Item, StatedPoint, Word, Words, read_line};
+use super::parse::{Item, read_line};
 use super::rules::position_mismatch::mismatch;
 use super::rules::{self, Counts, Limits, Spot};
+use super::words::{Word, Words};
 use crate::finding::{Detail, Fault, Rule};
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::path::{Ends, HeldWay, Lay, Node, Writing, mixed, tolerance};

@@ -1,8 +1,10 @@
 //! Text, blocks and paths held against each other.
 
+use super::around::StatedPoint;
 use super::block::{Block, CountingAxis, Motion, Node, Quadrant};
 use super::encode::{ASIDE_TOLERANCE, END_TOLERANCE, Encoded, encode, point_of, snap};
-use super::parse::{Item, StatedPoint, Word, Words, read};
+use super::parse::{Item, read};
+use super::words::{Word, Words};
 use super::write::{write, write_with};
 use super::{DecodeFault, Document, decode};
 use crate::drawing::EntityId;

@@ -1,11 +1,11 @@
 //! What can be done about one finding.
 
+use super::super::around::StatedPoint;
 use super::super::block::{Block, Node};
 use super::super::encode::line_block;
 use super::super::entry::{BlockEntry, Entry, Move, What, travel_of};
 use super::super::fields::fields_of;
 use super::super::layout::push_fields;
-use super::super::parse::StatedPoint;
 use super::super::pieces::{Field, Piece, pieces};
 use super::super::rules::position_mismatch::Mismatched;
 use super::super::rules::{

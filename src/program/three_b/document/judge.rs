@@ -8,7 +8,7 @@ use super::super::rules::{self, not_closed};
 use super::super::run::{Sum, may_cross_itself};
 use super::sections::joined;
 use super::{At, Document, PartAt, Section, View};
-use crate::finding::{Axis, Detail, Fault, Finding, Place, Rule, Severity};
+use crate::finding::{Axis, Detail, Fault, Finding, Rule, Severity};
 use crate::program::path::{Known, Lay, Way, gap, is_tab, mixed, tolerance};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -180,10 +180,7 @@ impl Document {
         } else {
             fault.rule().default_severity()
         };
-        let mut findings = vec![Finding {
-            severity,
-            ..Finding::of(fault, self.range_of(last))
-        }];
+        let mut findings = vec![Finding::of(fault, self.range_of(last)).with(severity)];
         let may_be_one_field = section.sum.errors == 0
             && section.sum.blocks >= FEWEST_BLAMED
             && !self.lacks_a_number(section);
@@ -280,10 +277,8 @@ impl Document {
             } else {
                 fault.rule().default_severity()
             };
-            view.findings.push(Finding {
-                severity,
-                ..Finding::of(fault, self.range_of(last_block))
-            });
+            let finding = Finding::of(fault, self.range_of(last_block));
+            view.findings.push(finding.with(severity));
             return;
         };
         let behind = self
@@ -350,10 +345,7 @@ impl Document {
                 } else {
                     Severity::Warning
                 };
-                findings.push(Finding {
-                    severity,
-                    ..syntax(range, sentence)
-                });
+                findings.push(syntax(range, sentence).with(severity));
                 continue;
             }
             let is_fault = match (first_block, view.end) {
@@ -375,21 +367,13 @@ impl Document {
                 Severity::Warning
             };
             let sentence = "no block is found, expected B X B Y B J G Z".to_owned();
-            findings.push(Finding {
-                severity,
-                ..syntax(0..self.text.line_range(0).end, sentence)
-            });
+            let range = 0..self.text.line_range(0).end;
+            findings.push(syntax(range, sentence).with(severity));
         }
         view.findings.extend(findings);
     }
 }
 
 fn syntax(range: Range<usize>, sentence: String) -> Finding {
-    Finding {
-        rule: Rule::Syntax,
-        severity: Rule::Syntax.default_severity(),
-        place: Place::Text { range },
-        detail: Detail::Syntax(sentence),
-        related: Vec::new(),
-    }
+    Finding::in_text(Rule::Syntax, range, Detail::Syntax(sentence))
 }

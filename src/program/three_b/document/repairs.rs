@@ -1,10 +1,10 @@
 //! Repairs of a contour as edits of the text.
 
+use super::super::around::{StatedPoint, before_comment, two_numbers};
 use super::super::block::Motion;
 use super::super::entry::{Entry, Move, What};
 use super::super::fields::{Fields, fields_of};
 use super::super::layout::{push_end_point, push_fields, push_to_comment_column};
-use super::super::parse::{StatedPoint, before_comment, two_numbers};
 use super::super::repair::{
     BLOCKS, Change, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs,
 };

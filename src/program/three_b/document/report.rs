@@ -67,10 +67,7 @@ impl Document {
                 }
                 Kept::OnWhole { index } => self.view.findings.get(index)?.clone(),
             };
-            Some(Finding {
-                severity,
-                ..finding
-            })
+            Some(finding.with(severity))
         });
         (made.collect(), count)
     }
@@ -130,13 +127,6 @@ impl Document {
             }
             detail => detail.clone(),
         };
-        let severity = self.own_severity(run, local);
-        Finding {
-            rule: local.rule,
-            severity,
-            place: Place::Text { range },
-            detail,
-            related: Vec::new(),
-        }
+        Finding::in_text(local.rule, range, detail).with(self.own_severity(run, local))
     }
 }

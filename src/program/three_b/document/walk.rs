@@ -1,6 +1,5 @@
-//! The machine on its way through a program, and the blocks about a place in the text.
+//! The machine on its way through a program.
 
-use super::super::block::{Block, PartArc};
 use super::super::decode::meant;
 use super::super::entry::What;
 use super::super::run::is_jump;
@@ -11,21 +10,6 @@ use crate::program::steps::{self, Program, Sum};
 use crate::text::SourceText;
 use std::ops::Range;
 
-/// A block and what stands about it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlacedBlock {
-    /// Bytes of the text, from the first `B` to the quadrant.
-    pub range: Range<usize>,
-    /// From 0.
-    pub line: usize,
-    pub number: Option<u32>,
-    pub block: Block,
-    /// What a 4B block says beside a 3B block.
-    pub part: Option<PartArc>,
-    /// Coordinates behind the block, mm.
-    pub stated_end: Option<[f64; 2]>,
-}
-
 impl Document {
     /// Where the machine goes, block by block, up to the end word.
     pub fn trace(&self) -> Trace {
@@ -35,32 +19,6 @@ impl Document {
     /// The steps whose text overlaps or touches a range of bytes.
     pub fn steps_in(&self, range: Range<usize>) -> Vec<Step> {
         steps::steps_in(self, range)
-    }
-
-    /// The blocks whose text overlaps or touches a range of bytes, as they stand there.
-    pub fn blocks_in(&self, range: Range<usize>) -> Vec<PlacedBlock> {
-        let mut blocks = Vec::new();
-        for run in self.runs.at(range.start)..=self.runs.at(range.end) {
-            let first_line = self.runs.place(run).lines.start;
-            let entries = self.runs.get(run).map_or(&[][..], |of| &of.entries);
-            for (entry, what) in entries.iter().enumerate() {
-                let own = self.range_of(At { run, entry });
-                if let Some(block) = what.block()
-                    && own.start <= range.end
-                    && range.start <= own.end
-                {
-                    blocks.push(PlacedBlock {
-                        range: own,
-                        line: first_line + what.line as usize,
-                        number: what.number(),
-                        block: block.block,
-                        part: block.part(),
-                        stated_end: block.stated_end().map(|stated| stated.at),
-                    });
-                }
-            }
-        }
-        blocks
     }
 
     /// The line of the first block of 4B, from 0.

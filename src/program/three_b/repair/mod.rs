@@ -12,11 +12,11 @@ mod slips;
 pub(super) use loose::{Loose, loose};
 pub(super) use slips::{Digits, Number, Slip, is_sound};
 
+use super::around::StatedPoint;
 use super::block::{Block, Motion};
 use super::decode::meant;
 use super::encode::encode;
 use super::entry::{Move, travel_of};
-use super::parse::StatedPoint;
 use super::rules::Limits;
 use super::rules::position_mismatch::mismatch;
 use crate::geometry::{Point, Segment, Vector, turn};

@@ -3,7 +3,8 @@
 use super::{Site, TextFix, one_edit};
 use crate::finding::FixKind;
 use crate::program::three_b::fault::Flaw;
-use crate::program::three_b::parse::{Item, Words, read_line};
+use crate::program::three_b::parse::{Item, read_line};
+use crate::program::three_b::words::Words;
 use crate::text::TextEdit;
 
 pub(super) fn fixes(site: &Site) -> Vec<TextFix> {

@@ -2,11 +2,11 @@
 //!
 //! Each end point is held against the one before it and the block between them, so that one wrong block is one finding.
 
+use super::super::around::StatedPoint;
 use super::super::block::{Block, CountingAxis, Motion, Node};
 use super::super::decode::meant;
 use super::super::encode::{counted, line_block};
 use super::super::entry::{Move, travel_of};
-use super::super::parse::StatedPoint;
 use super::{TextFix, motion_name, one_edit};
 use crate::finding::FixKind;
 use crate::geometry::{Arc, Point, Segment, Vector};

@@ -1,0 +1,273 @@
+//! What stands about the blocks of a line: numbers of rows, names, coordinates, remarks.
+
+use super::fields;
+use super::words::Words;
+
+/// A point that stands behind a block, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StatedPoint {
+    pub at: [f64; 2],
+    /// The fewest decimals of its two numbers.
+    pub decimals: u8,
+}
+
+/// `N12`, `N 12`, `N12:`: the number, and how many bytes it takes.
+pub(super) fn n_word(text: &[u8]) -> Option<(u32, usize)> {
+    let digits = 1 + text[1..]
+        .iter()
+        .take_while(|byte| matches!(byte, b' ' | b'\t'))
+        .count();
+    let (number, length) = digits_of(&text[digits..])?;
+    let mut end = digits + length;
+    let space = text[end..]
+        .iter()
+        .take_while(|byte| matches!(byte, b' ' | b'\t'))
+        .count();
+    if text.get(end + space) == Some(&b':') {
+        end += space + 1;
+    }
+    Some((number, end))
+}
+
+/// A number of a row that is marked as one: `(1)`, `1)`, `1.`, `1:`, `1、`.
+pub(super) fn row_number(text: &[u8]) -> Option<(u32, usize)> {
+    let spaces = |at: usize| {
+        text[at..]
+            .iter()
+            .take_while(|byte| matches!(byte, b' ' | b'\t'))
+            .count()
+    };
+    let opens = text.first() == Some(&b'(');
+    let open = if opens { 1 + spaces(1) } else { 0 };
+    let (number, length) = digits_of(&text[open..])?;
+    let length = if opens {
+        length + spaces(open + length)
+    } else {
+        length
+    };
+    let behind = &text[open + length..];
+    let mark = match (opens, behind.first()?) {
+        (_, b')') => 1,
+        (false, b':') => 1,
+        (false, b',') if !behind.get(1).is_some_and(u8::is_ascii_digit) => 1,
+        (false, b'.') if !behind.get(1).is_some_and(u8::is_ascii_digit) => 1,
+        _ => return None,
+    };
+    Some((number, open + length + mark))
+}
+
+/// The bare number of a row in which a word stands.
+pub(super) fn row_of_word(text: &[u8], words: &Words<'_>) -> Option<(u32, usize)> {
+    let (number, length) = digits_of(text)?;
+    let behind = &text[length..];
+    let behind = &behind[behind
+        .iter()
+        .take_while(|byte| matches!(byte, b' ' | b'\t' | b'|' | b','))
+        .count()..];
+    let word = &behind[..behind
+        .iter()
+        .position(|byte| !byte.is_ascii_alphanumeric())
+        .unwrap_or(behind.len())];
+    (behind.len() < text.len() - length && words.meaning(word).is_some())
+        .then_some((number, length))
+}
+
+fn digits_of(text: &[u8]) -> Option<(u32, usize)> {
+    let length = text.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    let digits = std::str::from_utf8(text.get(..length)?)
+        .ok()
+        .filter(|digits| !digits.is_empty())?;
+    Some((digits.parse().unwrap_or(u32::MAX), length))
+}
+
+/// Two numbers with commas in the place of their points, as some languages write them.
+pub(super) fn has_decimal_commas(text: &[u8]) -> bool {
+    let Ok(text) = std::str::from_utf8(text) else {
+        return false;
+    };
+    if text.bytes().filter(|byte| *byte == b',').count() < 2 || text.contains('.') {
+        return false;
+    }
+    let is_number = |word: &str| {
+        let digits = word.trim_start_matches(['-', '+']);
+        digits.split_once(',').is_some_and(|(whole, places)| {
+            let all = |digits: &str| digits.bytes().all(|byte| byte.is_ascii_digit());
+            !whole.is_empty() && !places.is_empty() && all(whole) && all(places)
+        })
+    };
+    let words: Vec<&str> = text
+        .split(|c: char| c.is_ascii_whitespace() || c == ';')
+        .filter(|word| !word.is_empty() && *word != ",")
+        .collect();
+    matches!(words[..], [x, y] if is_number(x.trim_end_matches(',')) && is_number(y))
+}
+
+/// The bytes before a sound block where they are a name for it: nothing of them belongs to a block, and they are no word.
+pub(super) fn label(text: &[u8], words: &Words<'_>) -> Option<usize> {
+    // What opens a comment comments a block out.
+    let opens_comment = matches!(
+        text.first(),
+        Some(b';' | b'*' | b'#' | b'%' | b'\'' | b'"' | b'/')
+    ) || [";", "(", "\u{ff1b}", "\u{ff08}"]
+        .iter()
+        .any(|mark| text.starts_with(mark.as_bytes()));
+    if opens_comment {
+        return None;
+    }
+    let code = before_comment(text);
+    let at = memchr::memchr2_iter(b'B', b'b', code)
+        .take(4)
+        .find(|&at| fields::strict(&code[at..]).is_some())?;
+    let name = code.get(..at)?.trim_ascii();
+    let is_word = name
+        .split(|byte| !byte.is_ascii_alphanumeric())
+        .any(|word| !word.is_empty() && words.meaning(word).is_some());
+    // A number alone is that of the row, or of the block.
+    let is_number = name.strip_suffix(b",").unwrap_or(name).iter().all(|byte| {
+        byte.is_ascii_digit() || matches!(byte, b'N' | b'n' | b' ' | b'|' | b':' | b'.' | b')')
+    });
+    (at > 0 && !is_word && !is_number && !has_block_parts(name)).then_some(at)
+}
+
+/// Whether anything of a block stands in a text: `B` and a digit, `G` and an axis, a quadrant.
+fn has_block_parts(text: &[u8]) -> bool {
+    let is_part = |pair: &[u8]| {
+        matches!(
+            (pair[0].to_ascii_uppercase(), pair[1].to_ascii_uppercase()),
+            (b'B', b'0'..=b'9') | (b'G', b'X' | b'Y') | (b'R', b'1'..=b'4')
+        )
+    };
+    text.windows(2).any(is_part)
+}
+
+/// Words behind a block, without the mark of a comment: what the block is for, in the hand of who wrote it. At least two letters that
+/// nothing of a block begins with, and space before them.
+pub(super) fn is_remark(line: &[u8], at: usize, words: &Words<'_>) -> bool {
+    let rest = line.get(at..).unwrap_or_default();
+    let letters = rest
+        .iter()
+        .take_while(|byte| byte.is_ascii_alphabetic())
+        .count();
+    let stands_apart = at
+        .checked_sub(1)
+        .and_then(|before| line.get(before))
+        .is_some_and(|byte| matches!(byte, b' ' | b'\t' | b'|'));
+    let is_bare =
+        stands_apart && letters >= 2 && !rest.get(letters).is_some_and(u8::is_ascii_digit);
+    is_bare
+        && words.meaning(&rest[..letters]).is_none()
+        && !wants_to_be_a_block(rest)
+        && fields::strict(rest).is_none()
+}
+
+/// Whether text has enough of a block to be taken for a broken one.
+pub(super) fn wants_to_be_a_block(text: &[u8]) -> bool {
+    let code = before_comment(&text[..text.len().min(160)]);
+    let followed_by = |first: &[u8], fits: fn(u8) -> bool| {
+        let mut count = 0;
+        for (at, byte) in code.iter().enumerate() {
+            let next = code[at + 1..]
+                .iter()
+                .find(|byte| !matches!(byte, b' ' | b'\t' | b'|'));
+            count += usize::from(
+                first.contains(&byte.to_ascii_uppercase()) && next.is_some_and(|&next| fits(next)),
+            );
+        }
+        count
+    };
+    let numbers = followed_by(b"B", |byte| byte.is_ascii_digit());
+    let axes = followed_by(b"G", |byte| {
+        matches!(byte.to_ascii_uppercase(), b'X' | b'Y')
+    });
+    let ends = followed_by(b"LR", |byte| byte.is_ascii_digit());
+    let begins = matches!(
+        code.first().map(u8::to_ascii_uppercase),
+        Some(b'B' | b'0'..=b'9')
+    );
+    let kinds = usize::from(numbers > 0) + usize::from(axes > 0) + usize::from(ends > 0);
+    kinds >= 2
+        || (begins
+            && (numbers >= 2
+                || kinds == 1
+                    && code
+                        .iter()
+                        .filter(|byte| byte.eq_ignore_ascii_case(&b'B'))
+                        .count()
+                        >= 2))
+}
+
+/// Whether a text in other letters has what a block has: three numbers, an axis and a quadrant.
+pub(super) fn looks_like_a_block(text: &[u8]) -> bool {
+    let text = &text[..text.len().min(160)];
+    let follows = |first: &[u8], second: fn(u8) -> bool| {
+        text.windows(2)
+            .any(|pair| first.contains(&pair[0].to_ascii_uppercase()) && second(pair[1]))
+    };
+    let numbers = text
+        .chunk_by(|a, b| a.is_ascii_digit() == b.is_ascii_digit())
+        .filter(|run| run[0].is_ascii_digit())
+        .count();
+    numbers >= 4
+        && follows(b"G", |byte| matches!(byte, b'X' | b'x' | b'Y' | b'y'))
+        && follows(b"LR", |byte| matches!(byte, b'1'..=b'4'))
+}
+
+/// The point of `Start Point = x , y`.
+pub(super) fn start_point(text: &[u8]) -> Option<[f64; 2]> {
+    let text = text.trim_ascii_start();
+    let name = b"start point";
+    if !text.get(..name.len())?.eq_ignore_ascii_case(name) {
+        return None;
+    }
+    let value = text[name.len()..].trim_ascii_start();
+    let value = value
+        .strip_prefix(b"=")
+        .or_else(|| value.strip_prefix(b":"))?;
+    two_numbers(before_comment(value))
+}
+
+/// Nothing that is looked for from one place of a line on is longer, names and coordinates among spaces included: a line of a megabyte is
+/// read as fast as one of its length may be.
+const FARTHEST: usize = 1024;
+
+/// What stands before a `;`, of a longer text its first [`FARTHEST`] bytes.
+pub(super) fn before_comment(text: &[u8]) -> &[u8] {
+    let near = &text[..text.len().min(FARTHEST)];
+    &near[..memchr::memchr(b';', near).unwrap_or(near.len())]
+}
+
+/// `x , y` or `x y`, and nothing else, mm.
+pub(super) fn two_numbers(text: &[u8]) -> Option<[f64; 2]> {
+    stated_point(text).map(|point| point.at)
+}
+
+/// `x , y`, `x y`, `X=x Y=y`, in brackets or not, and nothing else.
+pub(super) fn stated_point(text: &[u8]) -> Option<StatedPoint> {
+    if text.len() < FARTHEST {
+        point_in(text)
+    } else {
+        None
+    }
+}
+
+pub(super) fn point_in(text: &[u8]) -> Option<StatedPoint> {
+    let text = std::str::from_utf8(text).ok()?;
+    let is_between = |c: char| {
+        matches!(
+            c,
+            ',' | '(' | ')' | '[' | ']' | '=' | ':' | 'X' | 'Y' | 'x' | 'y' | '|'
+        ) || c.is_ascii_whitespace()
+    };
+    let mut fields = text.split(is_between).filter(|field| !field.is_empty());
+    let mut decimals = usize::MAX;
+    let mut number = || {
+        let field = fields.next()?.trim_end_matches("mm");
+        decimals = decimals.min(field.split_once('.').map_or(0, |(_, places)| places.len()));
+        field.parse::<f64>().ok().filter(|value| value.is_finite())
+    };
+    let at = [number()?, number()?];
+    fields.next().is_none().then_some(StatedPoint {
+        at,
+        decimals: decimals.min(9) as u8,
+    })
+}

@@ -1,0 +1,151 @@
+//! The machine on its way through a program that is formatted, and what its stated end points are worth.
+
+use super::{Chunk, Line, STATED_TOLERANCE, Way, count_blocks, has_end};
+use crate::geometry::Point;
+use crate::program::three_b::around::StatedPoint;
+use crate::program::three_b::block::Node;
+use crate::program::three_b::encode::{point_of, snap as node_of};
+use crate::program::three_b::parse::Item;
+use crate::program::three_b::words::Word;
+use crate::settings::Layout;
+
+/// The way through a program, line by line.
+pub(super) struct Walk {
+    layout: Layout,
+    /// Blocks so far.
+    ordinal: u64,
+    stand: Stand,
+    /// The end word has come: nothing behind it is formatted.
+    is_over: bool,
+}
+
+impl Walk {
+    pub fn new(layout: Layout) -> Walk {
+        Walk {
+            layout,
+            ordinal: 0,
+            stand: Stand {
+                at: Point::origin(),
+                trust: Trust::Known,
+                arcs: 0.0,
+            },
+            is_over: false,
+        }
+    }
+
+    /// Follows the machine through some lines.
+    pub fn go_through(&mut self, chunk: &mut Chunk) {
+        (chunk.ordinal, chunk.is_over) = (self.ordinal, self.is_over);
+        let mut first = 0;
+        for Line { end, is_sound } in &chunk.lines {
+            if !is_sound {
+                self.stand.trust = Trust::Lost;
+            }
+            for (item, way) in chunk.items[first..*end]
+                .iter()
+                .zip(&chunk.ways[first..*end])
+            {
+                let stand = &mut self.stand;
+                let mut stated = Stated::Absent(None);
+                match item {
+                    Item::Block { stated_end, .. } => {
+                        stated = stand.go_on(*stated_end, *way, self.layout)
+                    }
+                    Item::Word {
+                        word: Word::Pause, ..
+                    } if stand.trust == Trust::Known => stand.trust = Trust::UnlessStated,
+                    Item::StartPoint { at: [x, y], .. } => {
+                        *stand = Stand {
+                            at: Point::new(x * 1000.0, y * 1000.0),
+                            trust: Trust::Known,
+                            arcs: 0.0,
+                        };
+                    }
+                    Item::Word { .. }
+                    | Item::Text { .. }
+                    | Item::CommentedBlock { .. }
+                    | Item::Fault(_) => {}
+                }
+                chunk.stated.push(stated);
+            }
+            first = *end;
+        }
+        self.ordinal += count_blocks(&chunk.items);
+        self.is_over |= has_end(&chunk.items);
+    }
+}
+
+/// Where the machine stands.
+#[derive(Clone, Copy)]
+struct Stand {
+    /// µm.
+    at: Point,
+    trust: Trust,
+    /// Arcs since a place that was told.
+    arcs: f64,
+}
+
+impl Stand {
+    /// Moves on to a block's end, and tells what its stated end point is worth.
+    ///
+    /// Where stated points stay in the text, what follows is held against them; where they go, against the blocks alone, so that
+    /// formatting again finds the same.
+    fn go_on(&mut self, stated: Option<StatedPoint>, way: Option<Way>, layout: Layout) -> Stated {
+        let stated = stated
+            .and_then(|StatedPoint { at: [x, y], .. }| node_of(Point::new(x * 1000.0, y * 1000.0)));
+        let told = if layout == Layout::Checking {
+            stated
+        } else {
+            None
+        };
+        match way {
+            Some(Way { by, is_arc }) => {
+                self.arcs += f64::from(u8::from(is_arc));
+                self.at += by;
+            }
+            // The block means nothing: from here on only a stated point says where the machine is.
+            None => self.trust = Trust::Lost,
+        }
+        if let Some(node) = told
+            && (self.trust != Trust::Known || self.is_near(node))
+        {
+            *self = Stand {
+                at: point_of(node),
+                trust: Trust::Known,
+                arcs: 0.0,
+            };
+            return Stated::Right(node);
+        }
+        match (stated, self.trust) {
+            (Some(node), Trust::Known | Trust::UnlessStated) if self.is_near(node) => {
+                Stated::Right(node)
+            }
+            (Some(_), _) => Stated::Wrong,
+            (None, Trust::Lost) => Stated::Absent(None),
+            (None, _) => Stated::Absent(node_of(self.at)),
+        }
+    }
+
+    fn is_near(&self, node: Node) -> bool {
+        (point_of(node) - self.at).norm() <= STATED_TOLERANCE + self.arcs
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Trust {
+    Known,
+    /// The table may have been moved by hand while the wire was out: a stated point says where to.
+    UnlessStated,
+    /// Behind something damaged.
+    Lost,
+}
+
+/// A stated end point, or where the block ends without one.
+#[derive(Clone, Copy)]
+pub(super) enum Stated {
+    /// It is the block's own.
+    Right(Node),
+    Wrong,
+    /// There is none; the block's own, where it is known.
+    Absent(Option<Node>),
+}

@@ -1,0 +1,60 @@
+//! The words between the blocks.
+
+/// What a word between the blocks does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Word {
+    /// The machine stops until the wire is threaded.
+    Pause,
+    End,
+}
+
+/// The words between blocks of one controller. The usual ones of other controllers are read as well.
+#[derive(Clone, Copy, Debug)]
+pub struct Words<'a> {
+    pub pause: &'a str,
+    pub end: &'a str,
+}
+
+impl Default for Words<'_> {
+    fn default() -> Self {
+        Words {
+            pause: "D",
+            end: "DD",
+        }
+    }
+}
+
+impl Words<'_> {
+    /// What a word does; `None` for what is no word of a program. Letter case does not matter.
+    pub(super) fn meaning(&self, word: &[u8]) -> Option<Word> {
+        let is = |known: &str| word.eq_ignore_ascii_case(known.as_bytes());
+        if is(self.end) {
+            return Some(Word::End);
+        }
+        // A setting may have made one of the usual end words the pause.
+        if is(self.pause) {
+            return Some(Word::Pause);
+        }
+        if ["DD", "E", "FF", "MJ"].into_iter().any(is) {
+            return Some(Word::End);
+        }
+        (is("D") || is("A")).then_some(Word::Pause)
+    }
+
+    /// The letters and digits that `text` begins with, as far as a word may reach.
+    pub(super) fn letters_of<'t>(&self, text: &'t [u8]) -> &'t [u8] {
+        let longest = self.pause.len().max(self.end.len()).max(2);
+        let near = &text[..text.len().min(longest + 1)];
+        &near[..near
+            .iter()
+            .position(|byte| !byte.is_ascii_alphanumeric())
+            .unwrap_or(near.len())]
+    }
+
+    /// True for the two words that the settings name.
+    pub(super) fn is_own(&self, word: &[u8]) -> bool {
+        [self.pause, self.end]
+            .iter()
+            .any(|own| word.eq_ignore_ascii_case(own.as_bytes()))
+    }
+}
