@@ -191,6 +191,7 @@ mod tests {
             plain("（１）Ｂ９９00В0\u{3000}\u{a0}N8：ＤＤ".as_bytes()),
             "(1)B9900B0  N8:DD"
         );
+        assert_eq!(plain("Х−1。5 у–2 Ԍ".as_bytes()), "X-1.5 y-2 G");
         // The same in GBK.
         assert_eq!(plain(b"\xa7\xa39900\xa6\xa2"), "B9900B");
         assert_eq!(plain(b"\xa3\xa81\xa3\xa9\xa3\xc29\xa1\xa1"), "(1)B9 ");
