@@ -2,12 +2,14 @@
 //!
 //! The bytes may be anything; nothing here knows what the text means. Offsets are bytes, lines count from 0.
 
+mod gap;
 mod line_starts;
 mod patch;
 
 pub(crate) use line_starts::LineStarts;
 pub use patch::Patch;
 
+use gap::Bytes;
 use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
@@ -73,7 +75,7 @@ pub(crate) fn difference(old: &[u8], new: &[u8]) -> Option<TextEdit> {
 /// cannot be held: what lies beyond is cut off. A clone shares the text until one of the two is edited.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceText {
-    bytes: Arc<Vec<u8>>,
+    bytes: Arc<Bytes>,
     line_starts: Arc<LineStarts>,
 }
 
@@ -88,22 +90,49 @@ impl SourceText {
         bytes.truncate(u32::MAX as usize);
         let line_starts = Arc::new(LineStarts::new(&bytes));
         SourceText {
-            bytes: Arc::new(bytes),
+            bytes: Arc::new(Bytes::new(bytes)),
             line_starts,
         }
     }
 
+    /// The whole text. Behind an edit that left a gap the first to ask has it copied: whoever wants a line asks for that.
     pub fn bytes(&self) -> &[u8] {
-        &self.bytes
+        self.bytes.whole()
     }
 
     pub fn into_bytes(self) -> Vec<u8> {
-        Arc::unwrap_or_clone(self.bytes)
+        Arc::unwrap_or_clone(self.bytes).into_whole()
+    }
+
+    /// A range of bytes; `None` where it reaches past the end.
+    #[inline]
+    pub(crate) fn slice(&self, range: Range<usize>) -> Option<&[u8]> {
+        self.bytes.slice(range)
+    }
+
+    #[inline]
+    pub(crate) fn byte(&self, at: usize) -> Option<u8> {
+        self.bytes.get(at).copied()
+    }
+
+    /// The bytes from the beginning up to a line, and those from there to the end. Both hold whole lines.
+    pub(crate) fn pieces(&self) -> (&[u8], &[u8]) {
+        match self.bytes.pieces() {
+            ([], whole) => (whole, &[]),
+            pieces => pieces,
+        }
+    }
+
+    /// Makes the text one piece again, for whoever reads all of it.
+    pub(crate) fn join(&mut self) {
+        if !self.bytes.pieces().1.is_empty() && !self.bytes.pieces().0.is_empty() {
+            Arc::make_mut(&mut self.bytes).join();
+        }
     }
 
     /// The first digits in a range of bytes.
     pub(crate) fn digits_in(&self, range: &Range<usize>) -> Option<Range<usize>> {
-        let bytes = self.bytes.get(range.clone())?;
+        let bytes = self.slice(range.clone())?;
         let start = bytes.iter().position(u8::is_ascii_digit)?;
         let digits = bytes[start..]
             .iter()
@@ -114,7 +143,7 @@ impl SourceText {
 
     /// The text with `U+FFFD` in the place of what is not UTF-8.
     pub fn as_str_lossy(&self) -> Cow<'_, str> {
-        String::from_utf8_lossy(&self.bytes)
+        String::from_utf8_lossy(self.bytes())
     }
 
     pub fn len(&self) -> usize {
@@ -122,7 +151,7 @@ impl SourceText {
     }
 
     pub fn is_empty(&self) -> bool {
-        self.bytes.is_empty()
+        self.bytes.len() == 0
     }
 
     pub fn line_count(&self) -> usize {
@@ -145,9 +174,16 @@ impl SourceText {
 
     /// The line end that the text uses before a place: that of the last line which ends there, LF where none does.
     pub(crate) fn line_end_before(&self, place: usize) -> &'static str {
-        let before = self.bytes.get(..place).unwrap_or_default();
-        match memchr::memrchr(b'\n', before) {
-            Some(at) if at > 0 && before[at - 1] == b'\r' => "\r\n",
+        let (head, tail) = self.pieces();
+        let in_tail = tail
+            .get(..place.saturating_sub(head.len()))
+            .unwrap_or_default();
+        let in_head = head.get(..place.min(head.len())).unwrap_or_default();
+        let end = memchr::memrchr(b'\n', in_tail)
+            .map(|at| at + head.len())
+            .or_else(|| memchr::memrchr(b'\n', in_head));
+        match end.and_then(|at| self.byte(at.checked_sub(1)?)) {
+            Some(b'\r') => "\r\n",
             _ => "\n",
         }
     }
@@ -157,10 +193,10 @@ impl SourceText {
         let start = self.line_start(line);
         let mut end = self.line_start(line.saturating_add(1)).max(start);
         if line + 1 < self.line_starts.len() {
-            if end > start && self.bytes[end - 1] == b'\n' {
+            if end > start && self.byte(end - 1) == Some(b'\n') {
                 end -= 1;
             }
-            if end > start && self.bytes[end - 1] == b'\r' {
+            if end > start && self.byte(end - 1) == Some(b'\r') {
                 end -= 1;
             }
         }
@@ -170,18 +206,34 @@ impl SourceText {
     /// Replaces a range of bytes, which is clamped to the text. Costs a move of the tail; where lines come or
     /// go, also a step for each line behind it.
     pub fn replace(&mut self, range: Range<usize>, replacement: &str) {
+        self.replaced(range, replacement, |bytes, range, _| {
+            bytes.replace(range, replacement.as_bytes());
+        });
+    }
+
+    /// As [`SourceText::replace`]; costs a move of what lies between this place and that of the edit before. The text is in two pieces
+    /// then: [`SourceText::bytes`] has a price.
+    pub(crate) fn replace_here(&mut self, range: Range<usize>, replacement: &str) {
+        self.replaced(range, replacement, |bytes, range, next| {
+            bytes.replace_beside_gap(range, replacement.as_bytes(), next);
+        });
+    }
+
+    /// `make` is given the clamped range, and where the first line behind it begins.
+    fn replaced(
+        &mut self,
+        range: Range<usize>,
+        replacement: &str,
+        make: impl FnOnce(&mut Bytes, Range<usize>, usize),
+    ) {
         let end = range.end.min(self.bytes.len());
         let start = range.start.min(end);
         // The starts that the edit can make or unmake lie between its two ends, both included:
         // a CR and a LF that meet there are one line end.
         let first = self.line_starts.begun_by(start.saturating_sub(1));
         let last = self.line_starts.begun_by(end).max(first);
-        let bytes = Arc::make_mut(&mut self.bytes);
-        if end - start == replacement.len() {
-            bytes[start..end].copy_from_slice(replacement.as_bytes());
-        } else {
-            bytes.splice(start..end, replacement.bytes());
-        }
+        let next = self.line_start(self.line_starts.begun_by(end));
+        make(Arc::make_mut(&mut self.bytes), start..end, next);
         let new_end = start + replacement.len();
         let fresh: Vec<u32> = (start.max(1)..=new_end)
             .filter(|&at| self.begins_line(at))
@@ -208,7 +260,7 @@ impl SourceText {
         let Range { start: mut at, end } = self.line_range(line);
         let mut left = character;
         while at < end && left > 0 {
-            let (bytes, units) = measure(&self.bytes[at..end], encoding);
+            let (bytes, units) = measure(self.slice(at..end).unwrap_or_default(), encoding);
             if units > left {
                 break;
             }
@@ -229,7 +281,7 @@ impl SourceText {
     /// Characters from the byte `from` on to the byte `to` of the same line, and where the last of them ends: before `to` where that lies
     /// within a character.
     pub fn counted(&self, from: usize, to: usize, encoding: Encoding) -> (usize, usize) {
-        let Some(bytes) = self.bytes.get(from..to) else {
+        let Some(bytes) = self.slice(from..to) else {
             return (from, 0);
         };
         if bytes.is_ascii() {
@@ -237,7 +289,13 @@ impl SourceText {
         }
         let (mut at, mut characters) = (from, 0);
         while at < to {
-            let (bytes, units) = measure(&self.bytes[at..], encoding);
+            // No character goes on behind the end of its line, and so of the piece that it lies in.
+            let end = match self.pieces().0.len() {
+                head if at < head => head,
+                _ => self.len(),
+            };
+            let character = self.slice(at..end.min(at + LONGEST_CHARACTER));
+            let (bytes, units) = measure(character.unwrap_or_default(), encoding);
             if at + bytes > to {
                 break;
             }
@@ -247,6 +305,9 @@ impl SourceText {
         (at, characters)
     }
 }
+
+/// Bytes of a character in UTF-8.
+const LONGEST_CHARACTER: usize = 4;
 
 /// Bytes and units of the first character; a byte that is no UTF-8 is a character of one unit.
 fn measure(bytes: &[u8], encoding: Encoding) -> (usize, usize) {
@@ -336,9 +397,33 @@ mod tests {
             edits in prop::collection::vec((0usize..24, 0usize..6, "[x\r\n]{0,5}"), 1..8),
         ) {
             let mut text = SourceText::new(start.into_bytes());
+            let (mut apart, mut shared) = (text.clone(), Vec::new());
             for (at, length, replacement) in edits {
                 text.replace(at..at + length, &replacement);
                 prop_assert_eq!(&text, &SourceText::new(text.bytes().to_vec()));
+                apart.replace_here(at..at + length, &replacement);
+                let (before, behind) = apart.pieces();
+                prop_assert_eq!([before, behind].concat(), text.bytes());
+                prop_assert!(behind.is_empty() || apart.begins_line(before.len()), "{:?}", apart.pieces());
+                prop_assert_eq!(apart.line_starts(), text.line_starts());
+                for place in 0..=text.len() {
+                    prop_assert_eq!(apart.line_end_before(place), text.line_end_before(place));
+                    for encoding in [Encoding::Utf8, Encoding::Utf16] {
+                        prop_assert_eq!(apart.position_of(place, encoding), text.position_of(place, encoding));
+                    }
+                    for end in place..=text.len() {
+                        prop_assert_eq!(apart.slice(place..end), Some(&text.bytes()[place..end]));
+                    }
+                }
+                prop_assert_eq!(&apart, &text);
+                // Whoever holds the text as it was keeps it.
+                shared.push((apart.clone(), text.clone()));
+                if at % 5 == 0 {
+                    apart.join();
+                }
+            }
+            for (apart, text) in shared {
+                prop_assert_eq!(apart.into_bytes(), text.into_bytes());
             }
         }
 

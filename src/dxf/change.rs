@@ -97,7 +97,7 @@ impl Document {
     /// lines behind it, and would perhaps be told otherwise.
     fn fault_decided_by(&self, edit: &TextEdit) -> Option<usize> {
         let ends = |bytes: &[u8]| SourceText::new(bytes.to_vec()).line_count();
-        if ends(self.text.bytes().get(edit.range.clone())?) == ends(edit.text.as_bytes()) {
+        if ends(self.text.slice(edit.range.clone())?) == ends(edit.text.as_bytes()) {
             return None;
         }
         let reach = self.text.line_start(
@@ -263,9 +263,10 @@ impl Document {
             .last()
         {
             let range = lines.trimmed_range(tag.value_line());
-            let flags: Option<i64> = std::str::from_utf8(&self.text.bytes()[range.clone()])
-                .ok()
-                .and_then(|text| text.parse().ok());
+            let flags: Option<i64> =
+                std::str::from_utf8(self.text.slice(range.clone()).unwrap_or_default())
+                    .ok()
+                    .and_then(|text| text.parse().ok());
             let Some(flags) = flags else {
                 return Err(say!(group_code_70_of_is_no_whole_number, name));
             };
@@ -367,7 +368,7 @@ impl Document {
             if let Some(tag) = own_tags(lines, head).filter(|tag| tag.code == 90).last() {
                 let text = left.to_string();
                 let range = lines.trimmed_range(tag.value_line());
-                if self.text.bytes()[range.clone()] != *text.as_bytes() {
+                if self.text.slice(range.clone()) != Some(text.as_bytes()) {
                     edits.push(TextEdit { range, text });
                 }
             }
@@ -397,12 +398,17 @@ impl Document {
             return Err(say!(cannot_take_the_bulge, name));
         };
         let code_line = lines.range(before.line);
-        let line_end = &self.text.bytes()[code_line.end..self.text.line_start(before.line + 1)];
+        let line_end = self
+            .text
+            .slice(code_line.end..self.text.line_start(before.line + 1))
+            .unwrap_or_default();
         let code = lines.trimmed_range(before.line);
         let text = [
-            &self.text.bytes()[code_line.start..code.start],
+            self.text
+                .slice(code_line.start..code.start)
+                .unwrap_or_default(),
             b"42",
-            &self.text.bytes()[code.end..code_line.end],
+            self.text.slice(code.end..code_line.end).unwrap_or_default(),
             line_end,
             written(vertex.bulge, BULGE_DECIMALS).as_bytes(),
             line_end,

@@ -28,6 +28,9 @@ const HEAD: usize = 1024;
 /// Each entity that comes or goes costs the length of the drawing; of more than these, all are read again.
 const FEW: usize = 64;
 
+/// From so many bytes on an edit leaves the text in two pieces. Tests know no small text.
+const LARGE: usize = if cfg!(test) { 0 } else { 64 * 1024 };
+
 /// A vertex that an edit lies in: its lines before the edit, and what must stay as it is.
 pub(super) struct VertexZone {
     pub(super) entity: EntityId,
@@ -60,10 +63,14 @@ impl Document {
             .item_zone(&range)
             .filter(|zone| !self.holds_frame(zone));
         let (old_lines, old_length) = (self.text.line_count(), self.text.len());
-        self.text.replace(range.clone(), replacement);
+        if old_length < LARGE {
+            self.text.replace(range.clone(), replacement);
+        } else {
+            self.text.replace_here(range.clone(), replacement);
+        }
         let lines = self.text.line_count() as i64 - old_lines as i64;
         let bytes = self.text.len() as i64 - old_length as i64;
-        if range.start >= HEAD || foreign::recognise(self.text.bytes()).is_none() {
+        if range.start >= HEAD || foreign::recognise(self.head()).is_none() {
             if let Some(delta) =
                 sleeper.and_then(|sleeper| self.wake(sleeper, &range, lines, bytes))
             {
@@ -82,6 +89,13 @@ impl Document {
         }
         self.read_all();
         Delta::all()
+    }
+
+    /// The beginning of the text, by which other kinds of file are known.
+    fn head(&self) -> &[u8] {
+        self.text
+            .slice(0..HEAD.min(self.text.len()))
+            .unwrap_or_default()
     }
 
     /// The vertex that the edit lies in, when it leaves the first and the last byte of the vertex alone.

@@ -9,28 +9,42 @@ pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 /// Lines by number, without line ends, without a byte-order mark, without the empty line behind the last line end.
 #[derive(Clone, Copy)]
 pub(crate) struct Lines<'a> {
-    bytes: &'a [u8],
+    text: &'a SourceText,
+    /// What of the text lies before its gap, if it has one.
+    head: &'a [u8],
     starts: &'a LineStarts,
     count: usize,
 }
 
 impl<'a> Lines<'a> {
     pub(crate) fn new(text: &'a SourceText) -> Lines<'a> {
-        let (bytes, starts) = (text.bytes(), text.line_starts());
+        let ((head, _), starts) = (text.pieces(), text.line_starts());
         let empty_last = starts
             .len()
             .checked_sub(1)
             .and_then(|last| starts.get(last))
-            .is_some_and(|last| last >= bytes.len());
+            .is_some_and(|last| last >= text.len());
         Lines {
-            bytes,
+            text,
+            head,
             starts,
             count: starts.len() - usize::from(empty_last),
         }
     }
 
-    pub(crate) fn bytes(&self) -> &'a [u8] {
-        self.bytes
+    /// As many of the bytes about a place as lie in one piece, and where they begin. They hold whole lines.
+    pub(crate) fn piece_at(&self, at: usize) -> (&'a [u8], usize) {
+        match at < self.head.len() {
+            true => (self.head, 0),
+            false => (self.text.pieces().1, self.head.len()),
+        }
+    }
+
+    fn slice(&self, range: Range<usize>) -> &'a [u8] {
+        match self.head.get(range.clone()) {
+            Some(bytes) => bytes,
+            None => self.text.slice(range).unwrap_or_default(),
+        }
     }
 
     pub(crate) fn count(&self) -> usize {
@@ -43,25 +57,23 @@ impl<'a> Lines<'a> {
     }
 
     pub(crate) fn has_byte_order_mark(&self) -> bool {
-        self.bytes.starts_with(BYTE_ORDER_MARK)
+        self.head.starts_with(BYTE_ORDER_MARK)
     }
 
     pub(crate) fn range(&self, line: usize) -> Range<usize> {
         let Some(mut start) = self.starts.get(line) else {
-            return self.bytes.len()..self.bytes.len();
+            return self.text.len()..self.text.len();
         };
         let mut end = match self.starts.get(line + 1) {
             Some(next) => {
                 // A line that has a follower ends with LF, CR or CR LF.
                 let shortened = next.saturating_sub(1);
-                let crlf = self.bytes.get(shortened) == Some(&b'\n')
-                    && shortened > start
-                    && self.bytes[shortened - 1] == b'\r';
+                let crlf = shortened > start && self.slice(shortened - 1..shortened + 1) == b"\r\n";
                 shortened - usize::from(crlf)
             }
-            None => self.bytes.len(),
+            None => self.text.len(),
         };
-        if line == 0 && self.bytes.starts_with(BYTE_ORDER_MARK) {
+        if line == 0 && self.has_byte_order_mark() {
             start = BYTE_ORDER_MARK.len();
         }
         end = end.max(start);
@@ -69,18 +81,18 @@ impl<'a> Lines<'a> {
     }
 
     pub(crate) fn content(&self, line: usize) -> &'a [u8] {
-        &self.bytes[self.range(line)]
+        self.slice(self.range(line))
     }
 
     /// Where a line's content stands without padding.
     pub(crate) fn trimmed_range(&self, line: usize) -> Range<usize> {
         let range = self.range(line);
-        let inner = trimmed(&self.bytes[range.clone()]);
+        let inner = trimmed(self.slice(range.clone()));
         range.start + inner.start..range.start + inner.end
     }
 
     /// A line's content without padding.
     pub(crate) fn trimmed(&self, line: usize) -> &'a [u8] {
-        &self.bytes[self.trimmed_range(line)]
+        self.slice(self.trimmed_range(line))
     }
 }

@@ -184,6 +184,7 @@ impl Document {
     fn read_all(&mut self) {
         self.sleeper = None;
         self.findings.clear();
+        self.text.join();
         *self.table = Table::default();
         if let Some(sentence) = foreign::recognise(self.text.bytes()) {
             return self.is_no_dxf(sentence);

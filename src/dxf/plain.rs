@@ -16,8 +16,9 @@ const CODES: [i16; 9] = [10, 20, 30, 11, 21, 31, 40, 50, 51];
 
 /// The entity whose record begins at `line`, and the line of the next record. `None` where it needs a closer look.
 pub(super) fn read(lines: Lines, line: usize, layers: &mut Layers) -> Option<(Read, usize)> {
-    let bytes = lines.bytes();
-    let mut at = lines.range(line + 1).start;
+    let at = lines.range(line + 1).start;
+    let (bytes, begin) = lines.piece_at(at);
+    let mut at = at - begin;
     let begins = |kind: &Kind| {
         bytes
             .get(at..)

@@ -31,11 +31,7 @@ impl Style {
         let width = (code.end - whole.start).min(WIDEST_COLUMN);
         Style {
             width,
-            line_end: text
-                .bytes()
-                .get(whole.end..next)
-                .unwrap_or_default()
-                .to_vec(),
+            line_end: text.slice(whole.end..next).unwrap_or_default().to_vec(),
         }
     }
 
@@ -52,8 +48,8 @@ impl Style {
 
     /// `record` as it has to be inserted at `at`: behind a last line without a line end, that end comes first.
     pub(super) fn inserted(&self, text: &SourceText, at: usize, record: Vec<u8>) -> String {
-        let is_cut =
-            at >= text.len() && !text.bytes().ends_with(b"\n") && !text.bytes().ends_with(b"\r");
+        let is_cut = at >= text.len()
+            && !matches!(text.byte(text.len().wrapping_sub(1)), Some(b'\n' | b'\r'));
         let before = if is_cut { &self.line_end[..] } else { &[] };
         String::from_utf8_lossy(&[before, &record].concat()).into_owned()
     }

@@ -47,7 +47,9 @@ impl Content {
         match self {
             Content::Read(document) => match document.source() {
                 Source::Cad(drawing) => is_small_drawing(drawing),
-                Source::Dxf(dxf) => is_small_text(Kind::Dxf, dxf.text().bytes()),
+                Source::Dxf(dxf) => {
+                    dxf.text().len() <= SMALL_TEXT && is_small_text(Kind::Dxf, dxf.text().bytes())
+                }
                 Source::Program(program) => is_small_text(self.kind(), program.text().bytes()),
             },
             Content::Unread(Remains::Text { kind, text }) => is_small_text(*kind, text.bytes()),

@@ -1,0 +1,131 @@
+//! Bytes with a gap in them, so that one edit after another in the same place moves a line and not the rest of the text.
+
+use std::ops::Range;
+use std::sync::OnceLock;
+
+/// The bytes of a text. The gap lies where a line begins, or at the end: no line has it in its middle.
+#[derive(Debug, Default)]
+pub(super) struct Bytes {
+    buffer: Vec<u8>,
+    /// Bytes of the buffer that are none of the text.
+    gap: Range<usize>,
+    /// The text in one piece, once somebody has asked for it.
+    whole: OnceLock<Vec<u8>>,
+}
+
+/// How much wider than needed the gap is made.
+const ROOM: usize = 64 * 1024;
+
+impl Bytes {
+    pub fn new(buffer: Vec<u8>) -> Bytes {
+        Bytes {
+            buffer,
+            ..Bytes::default()
+        }
+    }
+
+    pub fn len(&self) -> usize {
+        self.buffer.len() - self.gap.len()
+    }
+
+    /// What lies before the gap, and what behind it.
+    pub fn pieces(&self) -> (&[u8], &[u8]) {
+        (&self.buffer[..self.gap.start], &self.buffer[self.gap.end..])
+    }
+
+    /// The text in one piece: a copy, kept until the next edit, where it has a gap.
+    pub fn whole(&self) -> &[u8] {
+        match self.pieces() {
+            _ if self.gap.is_empty() => &self.buffer,
+            (before, []) => before,
+            ([], behind) => behind,
+            (before, behind) => self.whole.get_or_init(|| [before, behind].concat()),
+        }
+    }
+
+    #[inline]
+    pub fn get(&self, at: usize) -> Option<&u8> {
+        let at = if at < self.gap.start {
+            at
+        } else {
+            at + self.gap.len()
+        };
+        self.buffer.get(at)
+    }
+
+    /// A range of bytes; those of one line cost nothing.
+    #[inline]
+    pub fn slice(&self, range: Range<usize>) -> Option<&[u8]> {
+        if range.end <= self.gap.start {
+            self.buffer.get(range)
+        } else if range.start >= self.gap.start {
+            let gap = self.gap.len();
+            self.buffer.get(range.start + gap..range.end + gap)
+        } else {
+            self.whole().get(range)
+        }
+    }
+
+    /// Closes the gap.
+    pub fn join(&mut self) {
+        self.whole = OnceLock::new();
+        self.buffer.drain(std::mem::take(&mut self.gap));
+    }
+
+    pub fn into_whole(mut self) -> Vec<u8> {
+        self.join();
+        self.buffer
+    }
+
+    /// Replaces a range and leaves no gap.
+    pub fn replace(&mut self, range: Range<usize>, replacement: &[u8]) {
+        self.join();
+        if range.len() == replacement.len() {
+            self.buffer[range].copy_from_slice(replacement);
+        } else {
+            self.buffer.splice(range, replacement.iter().copied());
+        }
+    }
+
+    /// Replaces a range and leaves the gap before the byte that was at `next`, which is not before the end of the range.
+    pub fn replace_beside_gap(&mut self, range: Range<usize>, replacement: &[u8], next: usize) {
+        self.whole = OnceLock::new();
+        let more = replacement.len().saturating_sub(range.len());
+        if self.gap.len() < more {
+            let (old, room) = (self.buffer.len(), more + ROOM);
+            self.buffer.reserve_exact(room);
+            self.buffer.resize(old + room, 0);
+            self.buffer
+                .copy_within(self.gap.end..old, self.gap.end + room);
+            self.gap.end += room;
+        }
+        let width = self.gap.len();
+        if next < self.gap.start {
+            self.buffer.copy_within(next..self.gap.start, next + width);
+        } else {
+            let moved = next - self.gap.start;
+            self.buffer
+                .copy_within(self.gap.end..self.gap.end + moved, self.gap.start);
+        }
+        let behind = range.start + replacement.len();
+        self.buffer.copy_within(range.end..next, behind);
+        self.buffer[range.start..behind].copy_from_slice(replacement);
+        self.gap = next - range.end + behind..next + width;
+    }
+}
+
+impl Clone for Bytes {
+    /// In one piece.
+    fn clone(&self) -> Bytes {
+        let (before, behind) = self.pieces();
+        Bytes::new([before, behind].concat())
+    }
+}
+
+impl PartialEq for Bytes {
+    fn eq(&self, other: &Bytes) -> bool {
+        self.whole() == other.whole()
+    }
+}
+
+impl Eq for Bytes {}
