@@ -7,7 +7,7 @@ use super::evidence::Evidence;
 use super::limits::Limits;
 use super::machine::{Machine, Reading};
 use super::order::{Order, order};
-use super::repair::found::Repairs;
+use super::repair::Repairs;
 use super::run::Hears;
 use super::stretch::Stretch;
 use crate::program::chunks::{Chunks, Language};

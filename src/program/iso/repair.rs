@@ -1,20 +1,26 @@
-//! The one slip that would make a cut in trouble sound: tried word by word and block by block, ranked by what it leaves.
+//! The one slip that would make a cut in trouble sound.
 //!
 //! A cut in trouble is taken as the lines between two stops. A change of one block is run from there on until the machine stands again as
 //! it did, so that most cost a few lines; all is bounded by counted lines, so that what is found hangs on the text alone.
 
-mod change;
-pub mod found;
+mod lost;
 mod scan;
+mod words;
 
+use super::block::{Block, word_range};
 use super::document::Document;
-use super::machine::Machine;
-use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity};
-use change::{Change, Pool};
-pub use found::{Repair, Repairs};
-use scan::{Line, Scan, Way};
+use super::line::push_changed;
+use super::machine::{Machine, Move, distance};
+use super::word::plain;
+use crate::finding::{Detail, Fault, Finding, FixKind, Place, Rule, Severity};
+use crate::geometry::{Segment, Vector};
+use crate::program::repair::search::{self, Contour, Verdict, search};
+use crate::text::TextEdit;
+use scan::{Against, Line, Way};
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
+use words::{Meant, Pool, Words, prior};
 
 /// Cuts of more lines are searched only near what is wrong.
 const MOST_LINES: usize = 160;
@@ -37,14 +43,26 @@ const MOST_TROUBLES: usize = 6;
 /// Lines that are run for all of them.
 const MOST_RUNS: usize = 40_000;
 
-/// The best changes that are held against each other.
-const FINALISTS: usize = 16;
+/// A change that makes a cut sound, or sounder.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Repair {
+    pub kind: FixKind,
+    pub edits: Vec<TextEdit>,
+    /// The line that it changes first.
+    pub line: usize,
+    /// What is written, and what is meant.
+    pub found: String,
+    pub meant: String,
+    /// The cut does not close without it.
+    pub closes: bool,
+    /// Nothing is wrong any more, and no other change does as well.
+    pub is_sure: bool,
+    /// What is wrong speaks for it: a cut that only crosses itself may be meant to run elsewhere altogether.
+    pub explains: bool,
+}
 
-/// Repairs that are offered.
-const OFFERED: usize = 4;
-
-/// By how much a change must be better than any other that leads elsewhere to be the one that is meant.
-const CLEAR: f64 = 1.5;
+/// Repairs by the lines of the cuts that they belong to.
+pub type Repairs = Vec<(Range<usize>, Vec<Repair>)>;
 
 impl Document {
     /// The slips that may be behind what is wrong, by the lines of the cuts that they stand in.
@@ -56,7 +74,6 @@ impl Document {
 
 /// Searches the cuts in which something is wrong.
 fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
-    let text = document.text();
     let mut found: Repairs = Vec::new();
     let mut too_long: Vec<Range<usize>> = Vec::new();
     let mut left = MOST_RUNS;
@@ -93,17 +110,14 @@ fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
             found.push((lines, Vec::new()));
             continue;
         }
-        let mut search = Search::new(document, lines.clone(), before, left);
-        let repairs = search.best(&own);
-        left = search.left;
+        let suspect = Suspect::new(document, lines.clone(), before, &own);
+        left = left.saturating_sub(lines.len());
+        let repairs = search(&suspect, &mut left).into_iter();
+        let repairs = repairs
+            .filter_map(|repair| suspect.repair(repair))
+            .collect();
         found.push((lines, repairs));
     }
-    debug_assert!(
-        found
-            .iter()
-            .flat_map(|(_, repairs)| repairs)
-            .all(|repair| repair.line < text.line_count())
-    );
     found
 }
 
@@ -176,148 +190,293 @@ fn stands_alone(document: &Document, lines: &Range<usize>) -> bool {
     !(has_corner && has_arc) && (document.order().is_none() || !is_begun())
 }
 
-struct Search<'a> {
+/// A cut that something is wrong with.
+struct Suspect<'a> {
     document: &'a Document,
     lines: Range<usize>,
     way: Way<'a>,
     pool: Pool,
-    left: usize,
+    total: Against,
+    order: Vec<usize>,
 }
 
-/// A change, what it leaves and what speaks against it.
-struct Tried {
-    change: Change,
-    hard: u32,
-    beside: u32,
-    cost: f64,
+impl Contour for Suspect<'_> {
+    type Meant = Meant;
+    /// All moves.
+    type Lead = Vec<Move>;
+
+    const CLEARLY: f64 = 1.5;
+    const FINALISTS: usize = 16;
+
+    fn order(&self) -> Vec<usize> {
+        self.order.clone()
+    }
+
+    fn meant(&self, index: usize) -> Vec<(Meant, f64)> {
+        if !self.may_be_wrong(index) {
+            return Vec::new();
+        }
+        let words = Words {
+            document: self.document,
+            pool: &self.pool,
+            bytes: &self.bytes(index),
+            index,
+            before: self.way.machine_before(index),
+            meant: Vec::new(),
+        };
+        words.all(&self.way)
+    }
+
+    fn deleted(&self, index: usize) -> Option<f64> {
+        let prior = if self.is_twice(index) {
+            prior::TWICE
+        } else {
+            prior::BLOCK
+        };
+        self.moves(index).then_some(prior)
+    }
+
+    fn exchanged(&self, index: usize) -> Option<f64> {
+        let next = &self.way.lines.get(index + 1)?.block;
+        let is_other = next.has_coordinates() || next.i.is_some() || next.j.is_some();
+        let is_other = is_other && self.bytes(index) != self.line(index + 1);
+        (self.moves(index) && is_other).then_some(prior::BLOCKS)
+    }
+
+    fn gaps(&self, index: usize) -> Vec<Vector> {
+        match is_way(self.block(index)) {
+            true => self.gaps_before(index),
+            false => Vec::new(),
+        }
+    }
+
+    fn headings(&self, index: usize) -> Option<[Vector; 2]> {
+        self.headings_at(index)
+    }
+
+    fn filling(&self, index: usize, way: &Segment) -> Option<(Meant, f64)> {
+        self.filled(index, way)
+    }
+
+    fn judged(&self, change: &Change, cost: f64) -> (Option<Verdict>, usize) {
+        let lines = self.lines_with(change);
+        let (after, runs) = self.way.with(change.index(), change.replaced(), &lines);
+        let cost = after.soft + cost;
+        let is_sounder = self.total.hard == 0 && cost + Self::CLEARLY < self.total.soft;
+        let is_better = after.hard < self.total.hard || (after.hard == 0 && is_sounder);
+        // What lays a new way, or takes away what stands but once, is never sure.
+        let is_a_slip = match change {
+            Change::Delete { index } => self.is_twice(*index),
+            Change::Insert { .. } => false,
+            Change::Replace { .. } | Change::Exchange { .. } => true,
+        };
+        let verdict = Verdict {
+            left: after.hard as usize,
+            cost,
+            may_be_sure: after.hard == 0 && after.beside == 0 && is_a_slip && self.total.hard > 0,
+        };
+        (is_better.then_some(verdict), runs + 1)
+    }
+
+    fn lead(&self, change: &Change) -> Vec<Move> {
+        let lines = self.lines_with(change);
+        self.way
+            .moves_with(change.index(), change.replaced(), &lines)
+    }
+
+    fn is_alike(one: &Vec<Move>, other: &Vec<Move>) -> bool {
+        one == other
+    }
 }
 
-impl<'a> Search<'a> {
+type Change = search::Change<Meant>;
+
+impl<'a> Suspect<'a> {
+    /// `places` are the lines at which something is said.
     fn new(
         document: &'a Document,
         lines: Range<usize>,
         before: Machine,
-        left: usize,
-    ) -> Search<'a> {
+        places: &[usize],
+    ) -> Suspect<'a> {
         let own: Vec<Line> = lines
             .clone()
             .map(|line| Line::read(document.line_bytes(line), document))
             .collect();
         let pool = Pool::of(document, &own);
         let way = Way::new(document.reading(), own, before);
-        Search {
+        let apart = |index: &usize| {
+            let apart = |place: &usize| place.abs_diff(lines.start + index);
+            places.iter().map(apart).min().unwrap_or(0)
+        };
+        let is_long = lines.len() > MOST_LINES;
+        let mut order: Vec<usize> = (0..lines.len())
+            .filter(|index| !is_long || apart(index) <= NEAR)
+            .collect();
+        order.sort_by_key(apart);
+        Suspect {
             document,
+            total: way.total(),
             lines,
             way,
             pool,
-            left,
+            order,
         }
     }
 
-    /// The best repairs; `places` are the lines at which something is said.
-    fn best(&mut self, places: &[usize]) -> Vec<Repair> {
-        let total = self.way.total();
-        let (hard, soft) = (total.hard, total.soft);
-        self.left = self.left.saturating_sub(self.lines.len());
-        let mut finalists: Vec<Tried> = Vec::new();
-        let is_long = self.lines.len() > MOST_LINES;
-        // Those near what is wrong come first.
-        let apart = |index: usize| {
-            places
-                .iter()
-                .map(|place| place.abs_diff(self.lines.start + index))
-                .min()
-                .unwrap_or(0)
-        };
-        let mut order: Vec<usize> = (0..self.lines.len())
-            .filter(|index| !is_long || apart(*index) <= NEAR)
-            .collect();
-        order.sort_by_key(|index| apart(*index));
-        for index in order {
-            let changes = change::of_line(self.document, &self.way, &self.pool, &self.lines, index);
-            for change in changes {
-                if self.left == 0 {
-                    break;
-                }
-                let lines: Vec<Line> = change
-                    .lines
-                    .iter()
-                    .map(|bytes| Line::read(bytes, self.document))
-                    .collect();
-                let (scan, runs) = self.way.with(index, change.replaced, &lines);
-                self.left = self.left.saturating_sub(runs + 1);
-                let cost = scan.soft + change.prior;
-                let is_better =
-                    scan.hard < hard || (scan.hard == hard && hard == 0 && cost + CLEAR < soft);
-                if is_better {
-                    keep(
-                        &mut finalists,
-                        Tried {
-                            change,
-                            hard: scan.hard,
-                            beside: scan.beside,
-                            cost,
-                        },
-                    );
-                }
-            }
-        }
-        self.ranked(finalists, total)
+    fn block(&self, index: usize) -> &Block {
+        &self.way.lines[index].block
     }
 
-    /// Those that lead somewhere of their own, best first.
-    fn ranked(&self, finalists: Vec<Tried>, total: Scan) -> Vec<Repair> {
-        let mut seen: Vec<u64> = Vec::new();
-        let mut different: Vec<Tried> = Vec::new();
-        for tried in finalists {
-            let lines: Vec<Line> = tried
-                .change
-                .lines
-                .iter()
-                .map(|bytes| Line::read(bytes, self.document))
-                .collect();
-            let mark = self
-                .way
-                .mark_with(tried.change.index, tried.change.replaced, &lines);
-            if !seen.contains(&mark) {
-                seen.push(mark);
-                different.push(tried);
+    fn line(&self, index: usize) -> &[u8] {
+        self.document.line_bytes(self.lines.start + index)
+    }
+
+    /// A line in plain letters.
+    fn bytes(&self, index: usize) -> Cow<'_, [u8]> {
+        let own = self.line(index);
+        plain(own).map_or(Cow::Borrowed(own), Cow::Owned)
+    }
+
+    /// The move that a line makes.
+    fn made(&self, index: usize) -> Option<Move> {
+        let mut machine = *self.way.machine_before(index);
+        machine.run(self.block(index), self.way.reading)
+    }
+
+    fn may_be_wrong(&self, index: usize) -> bool {
+        is_way(self.block(index)) && self.block(index).stop.is_none()
+    }
+
+    /// True for a line that makes a move, or would if it could be read.
+    fn moves(&self, index: usize) -> bool {
+        let has_fault = self.way.lines[index].faults > 0;
+        self.may_be_wrong(index) && (has_fault || self.made(index).is_some())
+    }
+
+    /// True for a line that says what the one before says.
+    fn is_twice(&self, index: usize) -> bool {
+        let said = |line: &Line| {
+            let Block {
+                x,
+                y,
+                i,
+                j,
+                r,
+                motion,
+                ..
+            } = line.block;
+            (x, y, i, j, r, motion)
+        };
+        let before = index.checked_sub(1).map(|before| &self.way.lines[before]);
+        before.is_some_and(|before| {
+            said(before) == said(&self.way.lines[index]) && !before.block.empty
+        })
+    }
+
+    /// The lines that come of a change.
+    fn texts_with(&self, change: &Change) -> Vec<Vec<u8>> {
+        match change {
+            Change::Replace { meant, .. } | Change::Insert { meant, .. } => {
+                vec![meant.line.clone()]
+            }
+            Change::Delete { .. } => Vec::new(),
+            Change::Exchange { index } => {
+                with_numbers_kept(&self.bytes(*index), self.line(index + 1))
             }
         }
-        let is_clear = match &different[..] {
-            [] => false,
-            [_] => true,
-            [first, second, ..] => first.hard < second.hard || first.cost + CLEAR <= second.cost,
-        };
-        let repair = |(rank, tried): (usize, Tried)| {
-            let is_sure = rank == 0
-                && tried.hard == 0
-                && tried.beside == 0
-                && tried.change.is_a_slip
-                && is_clear
-                && total.hard > 0;
-            let repair = tried.change.into_repair(self.document, self.lines.start)?;
-            Some(Repair {
-                closes: total.open > 0,
-                is_sure,
-                explains: total.hard > 0,
-                ..repair
-            })
-        };
-        different
-            .into_iter()
-            .take(OFFERED)
-            .enumerate()
-            .filter_map(repair)
+    }
+
+    fn lines_with(&self, change: &Change) -> Vec<Line> {
+        let texts = self.texts_with(change);
+        texts
+            .iter()
+            .map(|text| Line::read(text, self.document))
             .collect()
+    }
+
+    /// A change as edits of the text.
+    fn repair(&self, repair: search::Repair<Meant>) -> Option<Repair> {
+        let (text, change) = (self.document.text(), &repair.change);
+        let line = self.lines.start + change.index();
+        let start = text.line_start(line);
+        let edits = match change {
+            Change::Insert { meant, .. } => {
+                let end = text.line_end_before(text.line_range(line).end);
+                let new = String::from_utf8(meant.line.clone()).ok()?;
+                vec![TextEdit::new(start..start, format!("{new}{end}"))]
+            }
+            // The whole line goes, with its end.
+            Change::Delete { .. } => vec![TextEdit::new(start..text.line_start(line + 1), "")],
+            Change::Replace { .. } | Change::Exchange { .. } => {
+                let mut edits = Vec::new();
+                for (line, new) in (line..).zip(self.texts_with(change)) {
+                    let old = self.document.line_bytes(line);
+                    push_changed(&mut edits, text.line_range(line), old, &new).ok()?;
+                }
+                edits
+            }
+        };
+        let shown = |bytes: &[u8]| String::from_utf8_lossy(bytes).trim().to_owned();
+        let own = || shown(&self.bytes(change.index()));
+        let (found, meant) = match change {
+            Change::Replace { meant, .. } | Change::Insert { meant, .. } => {
+                (meant.found.clone(), meant.meant.clone())
+            }
+            Change::Delete { .. } => (own(), String::new()),
+            Change::Exchange { index } => (own(), shown(self.line(index + 1))),
+        };
+        let kind = match change {
+            Change::Replace { .. } => FixKind::Rewrite {
+                found: found.clone(),
+                meant: meant.clone(),
+            },
+            Change::Delete { .. } => FixKind::DeleteBlock,
+            Change::Exchange { .. } => FixKind::ExchangeBlocks,
+            Change::Insert { index, meant } => {
+                let block = Line::read(&meant.line, self.document).block;
+                let made = { *self.way.machine_before(*index) }.run(&block, self.way.reading)?;
+                FixKind::InsertBlock {
+                    length: distance(made.from, made.to) / 1e6,
+                    is_arc: made.is_arc(),
+                }
+            }
+        };
+        Some(Repair {
+            kind,
+            edits,
+            line,
+            found,
+            meant,
+            closes: self.total.open > 0,
+            is_sure: repair.is_sure,
+            explains: self.total.hard > 0,
+        })
     }
 }
 
-fn keep(finalists: &mut Vec<Tried>, tried: Tried) {
-    let is_before = |other: &Tried| (other.hard, other.cost) <= (tried.hard, tried.cost);
-    let at = finalists.partition_point(is_before);
-    if at < FINALISTS {
-        finalists.insert(at, tried);
-        finalists.truncate(FINALISTS);
+/// True for a line of the way itself.
+fn is_way(block: &Block) -> bool {
+    !(block.empty || block.sets_position || block.takes_coordinates)
+}
+
+/// Two lines exchanged; their block numbers stay where they are.
+fn with_numbers_kept(one: &[u8], other: &[u8]) -> Vec<Vec<u8>> {
+    let number = |line: &[u8]| {
+        word_range(line, 1, |letter, _| letter == b'N').map(|range| range.start - 1..range.end - 1)
+    };
+    match (number(one), number(other)) {
+        (Some(a), Some(b)) => {
+            let with = |line: &[u8], place: Range<usize>, number: &[u8]| {
+                let mut line = line.to_vec();
+                line.splice(place, number.iter().copied());
+                line
+            };
+            vec![
+                with(other, b.clone(), &one[a.clone()]),
+                with(one, a, &other[b]),
+            ]
+        }
+        _ => vec![other.to_vec(), one.to_vec()],
     }
 }

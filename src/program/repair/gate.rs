@@ -4,6 +4,7 @@
 //! finding, no full turn out of nothing, and what it leads to closes. Where only what is written changes and not where the machine
 //! goes, nothing can be spoilt. Where a contour stays open, the fault has to say by itself what was meant, and the gap may not grow.
 
+use super::keys::is_slip;
 use crate::finding::{Detail, Fault, Finding, FixKind, Rule, Severity, TextFix};
 use crate::geometry::{Arc, Segment};
 use crate::program::Document;
@@ -200,23 +201,6 @@ fn edited(program: &Document, edits: &[TextEdit]) -> Document {
     edited
 }
 
-/// True where one key more, less, another or two exchanged make one text of the other.
-pub(in crate::program) fn is_slip(found: &[u8], meant: &[u8]) -> bool {
-    let head = found.iter().zip(meant).take_while(|(a, b)| a == b).count();
-    let (a, b) = (&found[head..], &meant[head..]);
-    let tail = a
-        .iter()
-        .rev()
-        .zip(b.iter().rev())
-        .take_while(|(a, b)| a == b)
-        .count();
-    match (&a[..a.len() - tail], &b[..b.len() - tail]) {
-        ([_], [] | [_]) | ([], [_]) => true,
-        ([one, two], [other, another]) => one == another && two == other,
-        _ => false,
-    }
-}
-
 fn is_by_a_slip(program: &Document, edits: &[TextEdit]) -> bool {
     let found = |edit: &TextEdit| {
         program
@@ -360,30 +344,5 @@ impl Taken {
 
     fn edits(self) -> Vec<TextEdit> {
         self.edits.into_values().collect()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::is_slip;
-
-    #[test]
-    fn a_slip_is_one_key() {
-        for (found, meant, expected) in [
-            ("5000", "500", true),
-            ("500", "5000", true),
-            ("5000", "5100", true),
-            ("1500", "5100", true),
-            ("", "7", true),
-            ("5000", "5000", false),
-            ("5000", "3100", false),
-            ("12", "2100", false),
-        ] {
-            assert_eq!(
-                is_slip(found.as_bytes(), meant.as_bytes()),
-                expected,
-                "{found} {meant}"
-            );
-        }
     }
 }

@@ -1,7 +1,10 @@
-//! Repairs of a program, whatever its language: what fills a gap, how what is found is offered, and what of it may be made.
+//! Repairs of a program, whatever its language: what fills a gap, which slip explains what is wrong, how what is found is offered, and
+//! what of it may be made.
 
 pub(super) mod gap;
 pub(super) mod gate;
+pub(super) mod keys;
+pub(super) mod search;
 
 use crate::finding::{FixKind, TextFix};
 use crate::text::TextEdit;

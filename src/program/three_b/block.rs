@@ -18,7 +18,23 @@ pub enum Quadrant {
     Fourth,
 }
 
+impl CountingAxis {
+    pub fn other(self) -> CountingAxis {
+        match self {
+            CountingAxis::X => CountingAxis::Y,
+            CountingAxis::Y => CountingAxis::X,
+        }
+    }
+}
+
 impl Quadrant {
+    pub const ALL: [Quadrant; 4] = [
+        Quadrant::First,
+        Quadrant::Second,
+        Quadrant::Third,
+        Quadrant::Fourth,
+    ];
+
     /// The quadrant by its number, `None` but for 1 to 4.
     pub fn from_number(number: u8) -> Option<Quadrant> {
         match number {
@@ -79,6 +95,20 @@ pub enum Motion {
     Clockwise(Quadrant),
     /// `NR1` to `NR4`.
     CounterClockwise(Quadrant),
+}
+
+impl Motion {
+    pub fn is_line(self) -> bool {
+        matches!(self, Motion::Line(_))
+    }
+
+    pub fn quadrant(self) -> Quadrant {
+        match self {
+            Motion::Line(quadrant)
+            | Motion::Clockwise(quadrant)
+            | Motion::CounterClockwise(quadrant) => quadrant,
+        }
+    }
 }
 
 /// `B X B Y B J G Z`.

@@ -1,11 +1,10 @@
 //! What speaks against a way, move by move: faults, and what is merely odd.
 
-use crate::finding::Side;
-use crate::geometry::{Vector, cross};
-use crate::program::iso::block::{Block, Note, Stop, read_line};
+use crate::geometry::Vector;
+use crate::program::iso::block::{Block, Motion, Note, Stop, read_line};
 use crate::program::iso::document::Document;
 use crate::program::iso::machine::{Bend, Course, Machine, Move, Place, Reading, distance};
-use crate::program::iso::shape::directions;
+use crate::program::iso::shape::{directions, turn};
 
 /// Ends within this, and what arcs add, have met, nm.
 const CLOSED: f64 = 2_000.0;
@@ -58,16 +57,42 @@ struct Cut {
     whole: bool,
 }
 
-/// A way as far as it has been run.
-#[derive(Clone, Copy, Debug)]
-pub struct Scan {
-    pub machine: Machine,
+/// What speaks against a way.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Against {
     pub hard: u32,
     pub soft: f64,
     /// Cuts that do not close.
     pub open: u32,
     /// Cuts that close, and do not come back to where the wire was threaded.
     pub beside: u32,
+}
+
+impl Against {
+    fn plus(self, other: Against) -> Against {
+        Against {
+            hard: self.hard + other.hard,
+            soft: self.soft + other.soft,
+            open: self.open + other.open,
+            beside: self.beside + other.beside,
+        }
+    }
+
+    fn minus(self, other: Against) -> Against {
+        Against {
+            hard: self.hard - other.hard,
+            soft: self.soft - other.soft,
+            open: self.open - other.open,
+            beside: self.beside - other.beside,
+        }
+    }
+}
+
+/// A way as far as it has been run.
+#[derive(Clone, Copy, Debug)]
+struct Scan {
+    machine: Machine,
+    against: Against,
     cut: Option<Cut>,
     torn: bool,
     said: Option<Block>,
@@ -78,15 +103,7 @@ pub struct Scan {
 struct End {
     from: Place,
     to: Place,
-    cost: Closing,
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Closing {
-    hard: u32,
-    soft: f64,
-    open: u32,
-    beside: u32,
+    cost: Against,
 }
 
 /// The lines of a cut with what has been found before each.
@@ -105,10 +122,7 @@ impl<'a> Way<'a> {
     pub fn new(reading: &'a Reading, lines: Vec<Line>, machine: Machine) -> Way<'a> {
         let mut scan = Scan {
             machine,
-            hard: 0,
-            soft: 0.0,
-            open: 0,
-            beside: 0,
+            against: Against::default(),
             cut: None,
             torn: false,
             said: None,
@@ -122,9 +136,7 @@ impl<'a> Way<'a> {
             let cut = scan.cut;
             let ended = scan.step(line, reading);
             if let Some(end) = ended {
-                for slot in &mut ends[begun..=index] {
-                    *slot = Some(end);
-                }
+                ends[begun..=index].fill(Some(end));
             }
             if scan.cut.is_none() || (cut.is_none() && scan.cut.is_some()) {
                 begun = index + 1;
@@ -136,9 +148,7 @@ impl<'a> Way<'a> {
             }
         }
         if let Some(end) = scan.finish(reading) {
-            for slot in &mut ends[begun..] {
-                *slot = Some(end);
-            }
+            ends[begun..].fill(Some(end));
         }
         before.push(scan);
         Way {
@@ -151,8 +161,8 @@ impl<'a> Way<'a> {
     }
 
     /// All that speaks against the way.
-    pub fn total(&self) -> Scan {
-        self.before[self.lines.len()]
+    pub fn total(&self) -> Against {
+        self.before[self.lines.len()].against
     }
 
     /// Where the last move of the cut that is under way before a line leads at its end.
@@ -165,7 +175,7 @@ impl<'a> Way<'a> {
     }
 
     /// What speaks against the way with other lines in the place of `count` ones, and how many lines were run to know it.
-    pub fn with(&self, index: usize, count: usize, lines: &[Line]) -> (Scan, usize) {
+    pub fn with(&self, index: usize, count: usize, lines: &[Line]) -> (Against, usize) {
         let mut scan = self.before[index];
         let mut runs = 0;
         for line in lines {
@@ -180,11 +190,11 @@ impl<'a> Way<'a> {
             runs += 1;
         }
         scan.finish(self.reading);
-        (scan, runs)
+        (scan.against, runs)
     }
 
     /// The whole of it, where from a line on everything is as it was, or only lies elsewhere.
-    fn rest(&self, scan: &Scan, at: usize) -> Option<Scan> {
+    fn rest(&self, scan: &Scan, at: usize) -> Option<Against> {
         let known = &self.before[at];
         let by = [0, 1].map(|axis| scan.machine.at[axis].wrapping_sub(known.machine.at[axis]));
         if by != [0, 0] && at < self.loose_from {
@@ -199,16 +209,9 @@ impl<'a> Way<'a> {
         {
             return None;
         }
-        let total = self.total();
-        let mut whole = Scan {
-            hard: scan.hard + (total.hard - known.hard),
-            soft: scan.soft + (total.soft - known.soft),
-            open: scan.open + (total.open - known.open),
-            beside: scan.beside + (total.beside - known.beside),
-            ..*scan
-        };
+        let whole = scan.against.plus(self.total().minus(known.against));
         match (&scan.cut, &known.cut) {
-            (None, None) => {}
+            (None, None) => Some(whole),
             (Some(own), Some(its)) => {
                 let is_alike = own.last.seen_from(own.last.to) == its.last.seen_from(its.last.to)
                     || own.heading == its.heading;
@@ -218,14 +221,10 @@ impl<'a> Way<'a> {
                 let end = self.ends[at]?;
                 let moved = |place: Place| [0, 1].map(|axis| place[axis].wrapping_add(by[axis]));
                 let closing = closing(own, moved(end.from), moved(end.to), self.reading);
-                whole.hard = whole.hard + closing.hard - end.cost.hard;
-                whole.soft += closing.soft - end.cost.soft;
-                whole.open = whole.open + closing.open - end.cost.open;
-                whole.beside = whole.beside + closing.beside - end.cost.beside;
+                Some(whole.plus(closing).minus(end.cost))
             }
-            _ => return None,
+            _ => None,
         }
-        Some(whole)
     }
 
     /// From where the cut of a line ends to where it would close: at its beginning, or at the end of its way in; none where it closes.
@@ -246,68 +245,51 @@ impl<'a> Way<'a> {
         ]
     }
 
-    /// Ways that lead alike have the same mark.
-    pub fn mark_with(&self, index: usize, count: usize, lines: &[Line]) -> u64 {
-        let mix = |mark: u64, field: i64| {
-            (mark ^ field as u64)
-                .wrapping_mul(0x2545_f491_4f6c_dd1d)
-                .rotate_left(23)
-        };
+    /// All moves that lead anywhere, with other lines in the place of `count` ones, each about its centre or with its radius: ways that
+    /// lead alike have the same.
+    pub fn moves_with(&self, index: usize, count: usize, lines: &[Line]) -> Vec<Move> {
         let mut machine = self.before[0].machine;
         let all = self.lines[..index]
             .iter()
             .chain(lines)
             .chain(&self.lines[(index + count).min(self.lines.len())..]);
-        let mut mark = 1;
-        for line in all {
-            if let Some(made) = machine.run(&line.block, self.reading) {
-                if made.from == made.to && !made.is_arc() {
-                    continue;
-                }
-                let side = made
-                    .side
-                    .map_or(0, |side| if side == Side::Left { 1 } else { 2 });
-                let bend = match made.bend {
-                    Bend::Center { .. } => made
-                        .center(self.reading.rule(made.incremental))
-                        .unwrap_or_default(),
-                    Bend::Radius(radius) => [radius, i64::MIN],
-                    Bend::Nothing => [0, i64::MAX],
-                };
-                let fields = [
-                    made.from[0],
-                    made.from[1],
-                    made.to[0],
-                    made.to[1],
-                    bend[0],
-                    bend[1],
-                    made.motion as i64,
-                    side,
-                ];
-                mark = fields.into_iter().fold(mark, mix);
-            }
-        }
-        mark
+        let moves = all.filter_map(|line| machine.run(&line.block, self.reading));
+        let alike = |made: Move| Move {
+            bend: match made.center(self.reading.rule(made.incremental)) {
+                Some(absolute) => Bend::Center {
+                    i: 0,
+                    j: 0,
+                    absolute,
+                },
+                None => made.bend,
+            },
+            incremental: false,
+            offset: None,
+            switches: None,
+            corner: None,
+            ..made
+        };
+        let leads = |made: &Move| made.from != made.to || made.is_arc();
+        moves.filter(leads).map(alike).collect()
     }
 }
 
 impl Scan {
     /// Runs a line; gives the end of the cut that ends with it.
     fn step(&mut self, line: &Line, reading: &Reading) -> Option<End> {
-        self.hard += line.faults;
+        self.against.hard += line.faults;
         let block = &line.block;
         let made = self.machine.run(block, reading);
         let is_arc = matches!(
             self.machine.motion,
-            crate::program::iso::block::Motion::Clockwise
-                | crate::program::iso::block::Motion::CounterClockwise
+            Motion::Clockwise | Motion::CounterClockwise
         );
         if (block.i.is_some() || block.j.is_some())
             && !is_arc
             && !block.takes_coordinates
             && !block.sets_position
         {
-            self.hard += 1;
+            self.against.hard += 1;
         }
         let mut ended = None;
         match made {
@@ -325,7 +307,7 @@ impl Scan {
             let end = self.finish(reading);
             ended = ended.or(end);
             if block.stop == Some(Stop::End) && self.machine.side.is_some() {
-                self.hard += 1;
+                self.against.hard += 1;
             }
         }
         ended
@@ -334,21 +316,21 @@ impl Scan {
     fn cut(&mut self, made: &Move, block: &Block, reading: &Reading) {
         let is_again = self.said.replace(*block) == Some(*block);
         if made.from == made.to && !made.is_arc() {
-            self.soft += 4.0;
+            self.against.soft += 4.0;
             return;
         }
         if is_again && !made.incremental {
-            self.hard += 1;
+            self.against.hard += 1;
         } else if is_again {
-            self.soft += 1.5;
+            self.against.soft += 1.5;
         }
         let begins = self.cut.as_ref().map(|cut| (cut.last, cut.heading));
         let mut heading = None;
         let mut slack = 0.0175;
         // Controls switch the correction on straight cuts alone.
-        self.hard += u32::from(made.is_arc() && made.switches.is_some());
+        self.against.hard += u32::from(made.is_arc() && made.switches.is_some());
         match made.course(reading) {
-            Course::Line => self.soft += slant(made),
+            Course::Line => self.against.soft += slant(made),
             Course::Arc(arc) => {
                 slack += 3.0 / arc.radius;
                 let miss = made
@@ -356,9 +338,9 @@ impl Scan {
                     .map_or(0.0, |center| {
                         (distance(made.from, center) - distance(made.to, center)).abs()
                     });
-                self.soft += (miss / 1e3).min(3.0) * 0.6;
+                self.against.soft += (miss / 1e3).min(3.0) * 0.6;
             }
-            Course::OffRadius { .. } | Course::NoRadius => self.hard += 1,
+            Course::OffRadius { .. } | Course::NoRadius => self.against.hard += 1,
         }
         if let Some((start, end)) = directions(made, reading) {
             heading = Some(end);
@@ -366,7 +348,7 @@ impl Scan {
                 self.joint(&last, before, made, start, slack, reading);
             }
         }
-        if made.motion == crate::program::iso::block::Motion::Rapid {
+        if made.motion == Motion::Rapid {
             return;
         }
         match &mut self.cut {
@@ -374,7 +356,7 @@ impl Scan {
                 if let (Some(one), Some(other)) = (cut.last.side, made.side)
                     && one != other
                 {
-                    self.hard += 1;
+                    self.against.hard += 1;
                 }
                 cut.moves += 1;
                 cut.arcs += u32::from(made.is_arc());
@@ -406,17 +388,17 @@ impl Scan {
         slack: f64,
         reading: &Reading,
     ) {
-        let turned = cross(before, start).atan2(before.dot(&start)).abs();
+        let turned = turn(before, start);
         let has_arc = made.is_arc() || last.is_arc();
         if turned > 3.09 {
-            self.hard += 1;
+            self.against.hard += 1;
             return;
         }
         let slack = match last.center(reading.rule(last.incremental)) {
             Some(center) if last.is_arc() => slack + 3_000.0 / distance(last.from, center).max(1.0),
             _ => slack,
         };
-        self.soft += match (has_arc, turned) {
+        self.against.soft += match (has_arc, turned) {
             (_, turned) if turned < slack => 0.0,
             (true, turned) if turned < 0.35 => 5.0,
             (true, _) => 3.0,
@@ -433,18 +415,15 @@ impl Scan {
         let cut = cut?;
         let (from, to) = (cut.last.from, cut.last.to);
         let cost = closing(&cut, from, to, reading);
-        self.hard += cost.hard;
-        self.soft += cost.soft;
-        self.open += cost.open;
-        self.beside += cost.beside;
+        self.against = self.against.plus(cost);
         Some(End { from, to, cost })
     }
 }
 
 /// What speaks against how a cut closes that ends with a move.
-fn closing(cut: &Cut, from: Place, to: Place, reading: &Reading) -> Closing {
+fn closing(cut: &Cut, from: Place, to: Place, reading: &Reading) -> Against {
     if !cut.whole {
-        return Closing::default();
+        return Against::default();
     }
     let pairs = [
         (cut.start, to),
@@ -460,7 +439,7 @@ fn closing(cut: &Cut, from: Place, to: Place, reading: &Reading) -> Closing {
         .fold(f64::INFINITY, f64::min);
     let tolerance = (CLOSED + 1_000.0 * f64::from(cut.arcs).sqrt()).max(reading.tolerance as f64);
     if missed > tolerance {
-        return Closing {
+        return Against {
             hard: 1,
             soft: 0.0,
             open: 1,
@@ -470,7 +449,7 @@ fn closing(cut: &Cut, from: Place, to: Place, reading: &Reading) -> Closing {
     // A program is written so that it closes to the last digit, and comes back to where the wire was threaded.
     let is_beside = distance(cut.start, to) > tolerance;
     let soft = if missed > 0.0 { 2.0 } else { 0.0 } + if is_beside { 2.0 } else { 0.0 };
-    Closing {
+    Against {
         hard: 0,
         soft,
         open: 0,

@@ -1,12 +1,11 @@
 //! Repairs of a contour as edits of the text.
 
 use super::super::around::{StatedPoint, before_comment, two_numbers};
-use super::super::block::Motion;
-use super::super::entry::{Entry, Move, What};
+use super::super::entry::{Entry, What, travel_of};
 use super::super::fields::{Fields, fields_of};
 use super::super::layout::{push_end_point, push_fields, push_to_comment_column};
 use super::super::repair::{
-    BLOCKS, Change, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs,
+    BLOCKS, Change, Item, Loose, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs,
 };
 use super::super::rules::{TextFix, axis_of, block_number, motion_name};
 use super::{At, Document, Section};
@@ -72,21 +71,26 @@ impl Document {
             Change::Delete { index } if best.is_sure => {
                 return Some((index, Fault::TwinKeepsOpen));
             }
-            Change::Replace { index, block, slip } => (index, block, slip),
+            Change::Replace { index, meant } => (index, meant.0, meant.1),
             _ => return None,
         };
         let is_sure = best.is_sure;
         // One field of another block would do as well.
         let is_field =
             |slip: &Slip| matches!(slip, Slip::Motion | Slip::Axis | Slip::Number(Number::J, _));
-        let is_rival = |other: &Repair| match &other.change {
-            Change::Replace { slip, .. } => other.is_whole && is_field(slip),
-            _ => false,
+        let is_rival = |other: &Repair| {
+            let Change::Replace {
+                meant: (_, slip), ..
+            } = &other.change
+            else {
+                return false;
+            };
+            other.is_whole && is_field(slip)
         };
         if !is_sure && (!is_field(&slip) || others.iter().any(is_rival)) {
             return None;
         }
-        let old = pieces.get(index)?.block?;
+        let old = pieces.get(index)?.item.block?;
         let fault = match slip {
             Slip::Motion => {
                 let [found, meant] = [old.motion, block.motion].map(motion_name);
@@ -196,20 +200,18 @@ impl Document {
                     }
                     let fields = fields_of(self.text.bytes(), own.clone())?;
                     let digits = |range: &Range<usize>| {
-                        self.text
-                            .bytes()
-                            .get(range.clone())
-                            .unwrap_or_default()
-                            .to_vec()
+                        let digits = self.text.bytes().get(range.clone()).unwrap_or_default();
+                        String::from_utf8_lossy(digits).into_owned()
                     };
                     Piece {
-                        block: Some(block.block),
+                        item: Item {
+                            stated: block.stated_end(),
+                            number: entry.number(),
+                            is_faulty: !is_sound(&block.block, &self.limits),
+                            ..Item::of(&block.block)
+                        },
                         loose: None,
                         digits: [&fields.x, &fields.y, &fields.j].map(digits),
-                        travel: block.travel,
-                        stated: block.stated_end(),
-                        number: entry.number(),
-                        is_faulty: !is_sound(&block.block, &self.limits),
                     }
                 }
                 What::Unread => {
@@ -220,13 +222,13 @@ impl Document {
                         .position(|byte| *byte == b';')
                         .and_then(|at| two_numbers(before_comment(&text[at + 1..])));
                     Piece {
-                        block: None,
+                        item: Item {
+                            stated: behind.map(|at| StatedPoint { at, decimals: 3 }),
+                            number: entry.number(),
+                            ..Item::default()
+                        },
                         loose: loose(before_comment(text)),
                         digits: Default::default(),
-                        travel: Move::default(),
-                        stated: behind.map(|at| StatedPoint { at, decimals: 3 }),
-                        number: entry.number(),
-                        is_faulty: false,
                     }
                 }
                 _ => continue,
@@ -255,55 +257,34 @@ impl Document {
             Some(is_other(index.checked_sub(1)) && is_other(index.checked_add(1)))
         };
         match change {
-            Change::Replace { index, block, .. } if pieces.get(*index)?.block.is_none() => {
-                let loose = pieces.get(*index)?.loose.as_ref()?;
-                let line = self.text.line_range(line(*index)?);
-                let range = line.start + loose.range.start..line.start + loose.range.end;
-                let found = text.get(range.clone())?;
-                let layout = if found.contains(&b' ') {
-                    Layout::Aligned
-                } else {
-                    Layout::Compact
+            Change::Replace {
+                index,
+                meant: (block, slip),
+            } => {
+                let Some(old) = pieces.get(*index)?.item.block else {
+                    return self.restoration(own(*index)?, pieces[*index].loose.as_ref()?, block);
                 };
-                let mut made = Vec::new();
-                push_fields(&mut made, layout, block, None);
-                if found.iter().all(|byte| !byte.is_ascii_uppercase()) {
-                    made.make_ascii_lowercase();
-                }
-                let made = String::from_utf8(made).ok()?;
-                Some((
-                    FixKind::RestoreBlock {
-                        block: made.clone(),
-                    },
-                    vec![TextEdit::new(range, made)],
-                ))
-            }
-            Change::Replace { index, block, slip } => {
-                let old = pieces.get(*index)?.block?;
                 let fields = fields_of(text, own(*index)?)?;
                 Some((
                     kind_of(&old, block, slip),
                     changed_fields(text, &fields, &old, block),
                 ))
             }
-            Change::Delete { index } if is_alone(*index)? => Some((
-                FixKind::DeleteTwin,
-                vec![TextEdit::new(whole(line(*index)?), "")],
-            )),
             Change::Delete { index } => {
-                Some((FixKind::DeleteTwin, vec![TextEdit::new(own(*index)?, "")]))
+                let range = match is_alone(*index)? {
+                    true => whole(line(*index)?),
+                    false => own(*index)?,
+                };
+                Some((FixKind::DeleteTwin, vec![TextEdit::new(range, "")]))
             }
             Change::Exchange { index } => {
-                let (one, other) = (own(*index)?, own(index + 1)?);
+                let mut ranges = [own(*index)?, own(index + 1)?];
                 // With what stands behind and before them, where each has its line.
-                let (one, other) = match (
-                    is_alone(*index)? && is_alone(index + 1)?,
-                    line(*index)?,
-                    line(index + 1)?,
-                ) {
-                    (true, a, b) => (self.text.line_range(a), self.text.line_range(b)),
-                    _ => (one, other),
-                };
+                if is_alone(*index)? && is_alone(index + 1)? {
+                    ranges =
+                        [line(*index)?, line(index + 1)?].map(|line| self.text.line_range(line));
+                }
+                let [one, other] = ranges;
                 let taken = |range: &Range<usize>| {
                     Some(
                         std::str::from_utf8(text.get(range.clone())?)
@@ -317,10 +298,34 @@ impl Document {
                 ];
                 Some((FixKind::ExchangeBlocks, edits))
             }
-            Change::Insert { index, block } => {
-                self.insertion(*index, block, places, pieces, is_jump)
-            }
+            Change::Insert {
+                index,
+                meant: (block, _),
+            } => self.insertion(*index, block, places, pieces, is_jump),
         }
+    }
+
+    /// A block in the place of what is left of it.
+    fn restoration(
+        &self,
+        own: Range<usize>,
+        loose: &Loose,
+        block: &Block,
+    ) -> Option<(FixKind, Vec<TextEdit>)> {
+        let start = self.text.line_start(self.text.line_of(own.start));
+        let range = start + loose.range.start..start + loose.range.end;
+        let found = self.text.bytes().get(range.clone())?;
+        let mut made = Vec::new();
+        push_fields(&mut made, layout_of(found), block, None);
+        if found.iter().all(|byte| !byte.is_ascii_uppercase()) {
+            made.make_ascii_lowercase();
+        }
+        let made = String::from_utf8(made).ok()?;
+        let block = made.clone();
+        Some((
+            FixKind::RestoreBlock { block },
+            vec![TextEdit::new(range, made)],
+        ))
     }
 
     /// A line more, written as its neighbour is.
@@ -336,12 +341,11 @@ impl Document {
         let model = index.saturating_sub(1);
         let own = self.range_of(*places.get(model)?);
         let line = self.text.line_range(self.text.line_of(own.start));
-        let found = text.get(own.clone())?;
-        let is_spaced = found.contains(&b' ');
-        let number = |index: usize| pieces.get(index).and_then(|piece| piece.number);
+        let item = |index: usize| pieces.get(index).map(|piece| &piece.item);
         let mut made = Vec::new();
         let first = || self.number_before(*places.first()?);
-        let number = number(model)
+        let number = item(model)
+            .and_then(|item| item.number)
             .zip(self.number_step())
             .map(|(own, step)| match index {
                 0 => first().map_or(own.saturating_sub(step), |last| {
@@ -352,34 +356,19 @@ impl Document {
         if let Some(number) = number {
             made.extend_from_slice(&renumbered(text.get(line.start..own.start)?, number));
         }
-        push_fields(
-            &mut made,
-            if is_spaced {
-                Layout::Aligned
-            } else {
-                Layout::Compact
-            },
-            block,
-            None,
-        );
+        let layout = layout_of(text.get(own.clone())?);
+        push_fields(&mut made, layout, block, None);
         let before = match index.checked_sub(1) {
-            Some(before) => pieces.get(before).and_then(|piece| piece.stated),
+            Some(before) => item(before).and_then(|item| item.stated),
             None => places.first().and_then(|first| self.stated_before(*first)),
         };
-        let is_stated = pieces
-            .get(model)
-            .is_some_and(|piece| piece.stated.is_some());
+        let is_stated = item(model).is_some_and(|item| item.stated.is_some());
+        let [x, y] = travel_of(block).meant_um();
         if let Some(before) = before.filter(|_| is_stated) {
-            let [x, y] = super::super::entry::travel_of(block).meant_um();
             let um = |mm: f64, by: f64| (mm * 1000.0 + by).round() as i64;
             push_to_comment_column(&mut made, block);
-            push_end_point(
-                &mut made,
-                Node {
-                    x: um(before.at[0], x),
-                    y: um(before.at[1], y),
-                },
-            );
+            let (x, y) = (um(before.at[0], x), um(before.at[1], y));
+            push_end_point(&mut made, Node { x, y });
         }
         let made = String::from_utf8(made).ok()?;
         let line_end = super::super::rules::missing_end::line_end_of(&self.text);
@@ -398,15 +387,16 @@ impl Document {
             }
             _ => TextEdit::new(line.end..line.end, format!("{line_end}{made}")),
         };
-        let [x, y] = super::super::entry::travel_of(block).meant_um();
-        let is_arc = !matches!(block.motion, Motion::Line(_));
-        Some((
-            FixKind::InsertBlock {
-                length: x.hypot(y) / 1000.0,
-                is_arc,
-            },
-            vec![edit],
-        ))
+        let (length, is_arc) = (x.hypot(y) / 1000.0, !block.motion.is_line());
+        Some((FixKind::InsertBlock { length, is_arc }, vec![edit]))
+    }
+}
+
+/// How a block is written.
+fn layout_of(found: &[u8]) -> Layout {
+    match found.contains(&b' ') {
+        true => Layout::Aligned,
+        false => Layout::Compact,
     }
 }
 

@@ -137,12 +137,8 @@ pub(in super::super) fn loose(text: &[u8]) -> Option<Loose> {
     if !is_over || !is_block || !(2..=3).contains(&numbers.len()) {
         return None;
     }
-    let kind_of = |motion: &Motion| {
-        kinds
-            .iter()
-            .any(|kind| QUADRANTS.iter().any(|quadrant| kind(*quadrant) == *motion))
-    };
-    let is_in = |motion: &Motion| quadrant.is_none_or(|quadrant| quadrant_of(*motion) == quadrant);
+    let kind_of = |motion: &Motion| kinds.iter().any(|kind| kind(motion.quadrant()) == *motion);
+    let is_in = |motion: &Motion| quadrant.is_none_or(|quadrant| motion.quadrant() == quadrant);
     let motions = motions()
         .filter(|motion| kind_of(motion) && is_in(motion))
         .collect();
@@ -154,21 +150,6 @@ pub(in super::super) fn loose(text: &[u8]) -> Option<Loose> {
         marks,
         missing,
     })
-}
-
-const QUADRANTS: [Quadrant; 4] = [
-    Quadrant::First,
-    Quadrant::Second,
-    Quadrant::Third,
-    Quadrant::Fourth,
-];
-
-fn quadrant_of(motion: Motion) -> Quadrant {
-    match motion {
-        Motion::Line(quadrant)
-        | Motion::Clockwise(quadrant)
-        | Motion::CounterClockwise(quadrant) => quadrant,
-    }
 }
 
 impl Loose {

@@ -1,6 +1,6 @@
 //! The blocks that one slip makes of a block, as far as they lead where the path wants.
 
-use super::super::block::{Block, CountingAxis, Motion, Quadrant};
+use super::super::block::{Block, Motion, Quadrant};
 use super::super::decode::meant;
 use super::super::encode::{counted, line_block};
 use super::super::entry::{Move, travel_of};
@@ -8,7 +8,7 @@ use super::super::rules::{self, Counts, Limits};
 use crate::finding::Rule;
 use crate::geometry::{Arc, Point, Segment};
 use crate::program::grid::Node;
-use crate::program::repair::gate::is_slip;
+use crate::program::repair::keys::{self, Key};
 
 /// A number of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,45 +79,26 @@ pub(in super::super) fn is_sound(block: &Block, limits: &Limits) -> bool {
 
 /// True where the quadrant is the one that is written for a start or a direction on an axis.
 pub(super) fn is_usual(block: &Block) -> bool {
-    let (quadrant, is_clockwise) = match block.motion {
-        Motion::Line(quadrant) | Motion::CounterClockwise(quadrant) => (quadrant, false),
-        Motion::Clockwise(quadrant) => (quadrant, true),
-    };
+    let quadrant = block.motion.quadrant();
     let (sx, sy) = quadrant.signs();
     let (x, y) = (block.x * sx as i64, block.y * sy as i64);
-    (x, y) == (0, 0)
-        || quadrant
-            == if is_clockwise {
-                Quadrant::clockwise(x, y)
-            } else {
-                Quadrant::counter_clockwise(x, y)
-            }
+    let usual = match block.motion {
+        Motion::Clockwise(_) => Quadrant::clockwise(x, y),
+        _ => Quadrant::counter_clockwise(x, y),
+    };
+    (x, y) == (0, 0) || quadrant == usual
 }
-
-const QUADRANTS: [Quadrant; 4] = [
-    Quadrant::First,
-    Quadrant::Second,
-    Quadrant::Third,
-    Quadrant::Fourth,
-];
 
 pub(super) fn motions() -> impl Iterator<Item = Motion> {
     let kinds: [fn(Quadrant) -> Motion; 3] =
         [Motion::Line, Motion::CounterClockwise, Motion::Clockwise];
-    kinds.into_iter().flat_map(|kind| QUADRANTS.map(kind))
-}
-
-pub(super) fn other(axis: CountingAxis) -> CountingAxis {
-    match axis {
-        CountingAxis::X => CountingAxis::Y,
-        CountingAxis::Y => CountingAxis::X,
-    }
+    kinds.into_iter().flat_map(|kind| Quadrant::ALL.map(kind))
 }
 
 /// The sound blocks that differ from one by a slip and lead where it is wanted. `digits` are its numbers as they are written.
 pub(super) fn blocks_to(
     block: &Block,
-    digits: &[Vec<u8>; 3],
+    digits: &[String; 3],
     wanted: &Wanted,
     limits: &Limits,
 ) -> Vec<(Block, Slip)> {
@@ -127,31 +108,17 @@ pub(super) fn blocks_to(
             found.push((changed, slip));
         }
     };
-    for motion in motions() {
-        take(Block { motion, ..*block }, Slip::Motion);
-    }
-    take(
-        Block {
-            axis: other(block.axis),
-            ..*block
-        },
-        Slip::Axis,
-    );
-    take(
-        Block {
-            x: block.y,
-            y: block.x,
-            ..*block
-        },
-        Slip::Exchanged,
-    );
+    motions().for_each(|motion| take(Block { motion, ..*block }, Slip::Motion));
+    let axis = block.axis.other();
+    take(Block { axis, ..*block }, Slip::Axis);
+    let (x, y) = (block.y, block.x);
+    take(Block { x, y, ..*block }, Slip::Exchanged);
     for number in [Number::X, Number::Y, Number::J] {
         for (value, how) in values(block, number, digits, wanted) {
             let changed = with(block, number, value);
             // A full turn, or a line in another scale, comes of no number that was not nearly written.
-            let is_scaled = number == Number::J
-                && matches!(block.motion, Motion::Line(_))
-                && value != block.x.max(block.y);
+            let is_scaled =
+                number == Number::J && block.motion.is_line() && value != block.x.max(block.y);
             if how == Digits::One || !(is_scaled || is_full_turn(&changed)) {
                 take(changed, Slip::Number(number, how));
             }
@@ -175,46 +142,28 @@ pub(super) fn with(block: &Block, number: Number, value: i64) -> Block {
     }
 }
 
-/// Values of a number with which a block may lead where it is wanted: those that are one digit from what is written first.
+/// Values of a number with which a block may lead where it is wanted: those that are one digit from what is written first. A digit more
+/// is one that is doubled.
 fn values(
     block: &Block,
     number: Number,
-    digits: &[Vec<u8>; 3],
+    digits: &[String; 3],
     wanted: &Wanted,
 ) -> Vec<(i64, Digits)> {
-    let written = match number {
-        Number::X => &digits[0],
-        Number::Y => &digits[1],
-        Number::J => &digits[2],
-    };
     let Some((value, within)) = solved(block, number, wanted) else {
         return Vec::new();
     };
-    let near = (value - within).max(0)..=value.saturating_add(within);
-    let mut slips: Vec<i64> = near
-        .filter(|value| is_likely(written, value.to_string().as_bytes()))
-        .collect();
-    slips.sort_by_key(|slip| slip.abs_diff(value));
-    slips
+    let is_likely = |key: &Key| !matches!(key, Key::More | Key::Sign | Key::Point);
+    let mut slips: Vec<i64> = keys::meant(&digits[number as usize], None)
         .into_iter()
-        .map(|slip| (slip, Digits::One))
-        .chain([(value, Digits::Any)])
-        .collect()
-}
-
-/// True for a slip that hands make: a digit more is one that is doubled.
-fn is_likely(written: &[u8], meant: &[u8]) -> bool {
-    let doubled = |at: usize| {
-        written.get(at) == written.get(at + 1) || (at > 0 && written.get(at - 1) == written.get(at))
-    };
-    let one_more = || {
-        written
-            .iter()
-            .zip(meant)
-            .take_while(|(a, b)| a == b)
-            .count()
-    };
-    is_slip(written, meant) && (written.len() <= meant.len() || doubled(one_more()))
+        .filter(|(_, key)| is_likely(key))
+        .filter_map(|(text, _)| text.parse().ok())
+        .filter(|slip: &i64| slip.abs_diff(value) <= within as u64)
+        .collect();
+    slips.sort_unstable_by_key(|slip| (slip.abs_diff(value), *slip));
+    slips.dedup();
+    let slips = slips.into_iter().map(|slip| (slip, Digits::One));
+    slips.chain([(value, Digits::Any)]).collect()
 }
 
 /// How far round a solved value one is looked for that is nearly written, µm.
@@ -230,11 +179,7 @@ pub(super) fn solved(block: &Block, number: Number, wanted: &Wanted) -> Option<(
         (Motion::Line(_), Number::X) => Some((whole(dx.abs())?, wanted.near.ceil() as i64)),
         (Motion::Line(_), Number::Y) => Some((whole(dy.abs())?, wanted.near.ceil() as i64)),
         (Motion::Line(_), Number::J) => {
-            let along = if block.axis == CountingAxis::X {
-                dx
-            } else {
-                dy
-            };
+            let along = wanted.by[block.axis as usize];
             let larger = block.x.max(block.y);
             // The projection where it leads there, without what the others have added up to.
             let near = (along.abs() - larger as f64).abs() <= wanted.near;

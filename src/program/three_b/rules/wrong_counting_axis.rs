@@ -54,15 +54,8 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     })
 }
 
-fn other(axis: CountingAxis) -> CountingAxis {
-    match axis {
-        CountingAxis::X => CountingAxis::Y,
-        CountingAxis::Y => CountingAxis::X,
-    }
-}
-
 pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
-    let axis = other(site.block.axis);
+    let axis = site.block.axis.other();
     let name = axis_of(axis);
     let only_axis = |in_fix_all| {
         one_edit(

@@ -1,0 +1,462 @@
+//! What the words of a line may have been meant to say: the slips of a hand or of a bad line, each turned back.
+
+use super::scan::{Line, Way};
+use crate::program::iso::block::Motion;
+use crate::program::iso::document::Document;
+use crate::program::iso::layout::is_parted;
+use crate::program::iso::line::with_word;
+use crate::program::iso::machine::{Bend, CenterRule, Machine, Move, Place};
+use crate::program::iso::style::Style;
+use crate::program::iso::word::{Number, Token, WordFault, words};
+use crate::program::repair::keys::{self, Key};
+use rustc_hash::FxHashMap;
+use std::ops::Range;
+
+/// How much a slip is less likely than none, by its kind.
+pub(super) mod prior {
+    pub const SIGN: f64 = 0.3;
+    pub const SWAP: f64 = 0.3;
+    pub const MOTION: f64 = 0.3;
+    pub const POINT: f64 = 0.3;
+    pub const DIGIT: f64 = 0.6;
+    pub const DOUBLED: f64 = 0.3;
+    pub const MORE: f64 = 0.8;
+    pub const LOST: f64 = 0.8;
+    pub const TWICE: f64 = 0.2;
+    pub const BLOCKS: f64 = 0.5;
+    pub const LETTER: f64 = 0.2;
+    pub const WORD: f64 = 1.2;
+    pub const VALUE: f64 = 1.0;
+    pub const BLOCK: f64 = 3.0;
+    pub const LOST_BLOCK: f64 = 2.0;
+    pub const TANGENT: f64 = 1.0;
+    /// A length that stands elsewhere in the cut, and one that stands nowhere else.
+    pub const KNOWN: f64 = 1.0;
+    pub const ALONE: f64 = 0.5;
+}
+
+/// The lengths of a cut, and how often each stands in it.
+pub struct Pool {
+    /// Along X and Y, from an arc to its centre: nm, without sign.
+    counts: [FxHashMap<i64, u32>; 2],
+    /// What absolute coordinates along each axis are, as they are written.
+    coordinates: [Vec<Number>; 2],
+    pub is_parted: bool,
+    pub styles: [Style; 2],
+}
+
+/// Coordinates that are tried for one that is lost.
+const MOST_COORDINATES: usize = 40;
+
+impl Pool {
+    pub fn of(document: &Document, lines: &[Line]) -> Pool {
+        let mut pool = Pool {
+            counts: Default::default(),
+            coordinates: Default::default(),
+            is_parted: is_parted(document.text()),
+            styles: [false, true].map(|inch| Style::of(document, inch)),
+        };
+        let length = |number: Number| document.reading().length(number, false).abs();
+        for Line { block, .. } in lines {
+            for (group, numbers) in [[block.x, block.y], [block.i, block.j]]
+                .into_iter()
+                .enumerate()
+            {
+                numbers
+                    .into_iter()
+                    .flatten()
+                    .for_each(|number| *pool.counts[group].entry(length(number)).or_default() += 1);
+            }
+            for (axis, number) in [block.x, block.y].into_iter().enumerate() {
+                if let Some(number) = number
+                    && pool.coordinates[axis].len() < MOST_COORDINATES
+                    && !pool.coordinates[axis].contains(&number)
+                {
+                    pool.coordinates[axis].push(number);
+                }
+            }
+        }
+        pool
+    }
+
+    /// What speaks for a number in the place of another.
+    fn prior(&self, letter: u8, found: Option<i64>, meant: i64) -> f64 {
+        let counts = &self.counts[usize::from(matches!(letter, b'I' | b'J'))];
+        let count = |length: i64| counts.get(&length.abs()).copied().unwrap_or(0);
+        let others = count(meant)
+            - u32::from(found.is_some_and(|found| found.abs() == meant.abs()) && count(meant) > 0);
+        let known = if others > 0 && meant != 0 {
+            -prior::KNOWN
+        } else {
+            0.0
+        };
+        let alone = if found.is_some_and(|found| count(found) <= 1) {
+            -prior::ALONE
+        } else {
+            0.0
+        };
+        known + alone
+    }
+}
+
+/// What a line may have been meant to be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Meant {
+    pub line: Vec<u8>,
+    /// What is written, and what is meant.
+    pub found: String,
+    pub meant: String,
+}
+
+/// A line whose words are changed.
+pub struct Words<'a> {
+    pub document: &'a Document,
+    pub pool: &'a Pool,
+    pub bytes: &'a [u8],
+    pub index: usize,
+    pub before: &'a Machine,
+    pub meant: Vec<(Meant, f64)>,
+}
+
+/// A letter stands for another axis where it stands for anything else.
+fn other_axis(letter: u8) -> u8 {
+    match letter {
+        b'X' => b'Y',
+        b'Y' => b'X',
+        b'I' => b'J',
+        _ => b'I',
+    }
+}
+
+impl Words<'_> {
+    /// What each way to read the line asks for.
+    pub fn all(mut self, way: &Way<'_>) -> Vec<(Meant, f64)> {
+        self.of_tokens();
+        let line = &way.lines[self.index];
+        let mut machine = *self.before;
+        let made = machine.run(&line.block, way.reading);
+        if let Some(made) = &made {
+            self.of_center(made);
+        }
+        if made.is_some() || line.faults > 0 {
+            self.of_values(&machine, way);
+        }
+        self.meant
+    }
+
+    fn put(&mut self, line: Vec<u8>, prior: f64, found: &str, meant: &str) {
+        let (found, meant) = (found.to_owned(), meant.to_owned());
+        self.meant.push((Meant { line, found, meant }, prior));
+    }
+
+    fn push(&mut self, range: Range<usize>, text: &str, prior: f64, found: &str, meant: &str) {
+        let mut line = self.bytes.to_vec();
+        line.splice(range, text.bytes());
+        self.put(line, prior, found, meant);
+    }
+
+    /// Another text in a place.
+    fn rewrite(&mut self, range: Range<usize>, meant: &str, prior: f64) {
+        let found = self.text(&range);
+        self.push(range, meant, prior, &found, meant);
+    }
+
+    fn text(&self, range: &Range<usize>) -> String {
+        String::from_utf8_lossy(self.bytes.get(range.clone()).unwrap_or_default()).into_owned()
+    }
+
+    /// Slips within the words.
+    fn of_tokens(&mut self) {
+        let mut tokens = Vec::new();
+        // Counted from 1 so that no byte order mark is looked for.
+        words(self.bytes, 1, |token| tokens.push(token));
+        let placed = |range: &Range<usize>| range.start - 1..range.end - 1;
+        // Where each letter stands, the last one first.
+        let mut places: FxHashMap<u8, Vec<Range<usize>>> = FxHashMap::default();
+        let (mut motion, mut twice) = (None, None);
+        for token in &tokens {
+            match token {
+                Token::Word {
+                    letter: letter @ (b'X' | b'Y' | b'I' | b'J' | b'R'),
+                    number,
+                    range,
+                } => {
+                    self.of_number(*letter, *number, placed(range));
+                    let known = places.entry(*letter).or_default();
+                    if !known.is_empty() {
+                        twice = Some(*letter);
+                    }
+                    known.insert(0, placed(range));
+                }
+                Token::Word {
+                    letter: b'G',
+                    number,
+                    range,
+                } if number.decimals == 0 && (0..=3).contains(&number.mantissa) => {
+                    motion = Some((number.mantissa, placed(range)));
+                }
+                Token::Fault { fault, range } => self.of_fault(*fault, placed(range)),
+                _ => {}
+            }
+        }
+        let place = |letter: u8| places.get(&letter).map(|places| places[0].clone());
+        for (one, other) in [(b'X', b'Y'), (b'I', b'J')] {
+            if let (Some(a), Some(b)) = (place(one), place(other)) {
+                self.swap(a, b);
+            }
+        }
+        // A letter of another axis.
+        for letter in *b"XYIJ" {
+            if let (Some(range), None) = (place(letter), place(other_axis(letter))) {
+                self.as_letter(range, other_axis(letter), prior::WORD);
+            }
+        }
+        if let Some(letter) = twice {
+            for range in &places[&letter] {
+                if letter != b'R' && place(other_axis(letter)).is_none() {
+                    self.as_letter(range.clone(), other_axis(letter), prior::LETTER);
+                }
+                self.rewrite(range.clone(), "", prior::LOST);
+            }
+        }
+        self.of_motion(motion, &place);
+    }
+
+    /// The numbers of two words change places, the letters stay.
+    fn swap(&mut self, one: Range<usize>, other: Range<usize>) {
+        let (a, b) = match one.start < other.start {
+            true => (one, other),
+            false => (other, one),
+        };
+        let (first, second, between) = (self.text(&a), self.text(&b), self.text(&(a.end..b.start)));
+        let [one, other] = [
+            format!("{}{}", &first[..1], &second[1..]),
+            format!("{}{}", &second[..1], &first[1..]),
+        ];
+        let text = format!("{one}{between}{other}");
+        let [found, meant] = [format!("{first} {second}"), format!("{one} {other}")];
+        self.push(a.start..b.end, &text, prior::SWAP, &found, &meant);
+    }
+
+    fn as_letter(&mut self, range: Range<usize>, letter: u8, prior: f64) {
+        let meant = format!("{}{}", letter as char, &self.text(&range)[1..]);
+        self.rewrite(range, &meant, prior);
+    }
+
+    fn of_motion(
+        &mut self,
+        motion: Option<(i64, Range<usize>)>,
+        place: &dyn Fn(u8) -> Option<Range<usize>>,
+    ) {
+        let has_center = b"IJR".iter().any(|letter| place(*letter).is_some());
+        for other in (1..=3).filter(|other| has_center != (*other == 1)) {
+            let meant = format!("G{other:02}");
+            match &motion {
+                Some((own, range)) if *own != other => {
+                    self.rewrite(range.clone(), &meant, prior::MOTION);
+                }
+                Some(_) => {}
+                None => {
+                    let with = with_word(self.bytes, &meant, self.pool.is_parted);
+                    self.put(with, prior::MOTION, "", &meant);
+                }
+            }
+        }
+        // I and J where a straight cut is meant.
+        let is_line = self.before.motion == Motion::Line && motion.is_none_or(|(own, _)| own == 1);
+        let ranges = [place(b'I'), place(b'J')].into_iter().flatten();
+        let both = ranges.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end));
+        if let Some(both) = both.filter(|_| is_line) {
+            self.rewrite(both, "", prior::WORD);
+        }
+    }
+
+    /// Slips in one number; `range` is that of the word.
+    fn of_number(&mut self, letter: u8, number: Number, range: Range<usize>) {
+        let word = self.text(&range);
+        let is_number = |byte: u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+');
+        let Some(at) = word.bytes().position(is_number) else {
+            return;
+        };
+        let (letters, text) = word.split_at(at);
+        let found = self.length(number);
+        for (text, key) in keys::meant(text, self.document.pointed()) {
+            let prior = match key {
+                Key::Digit => prior::DIGIT,
+                Key::Lost | Key::More => prior::MORE,
+                Key::Doubled => prior::DOUBLED,
+                Key::Swapped => prior::SWAP,
+                Key::Sign => prior::SIGN,
+                Key::Point => prior::POINT,
+            };
+            let more = number_of(&text).map_or(0.0, |number| {
+                self.pool.prior(letter, Some(found), self.length(number))
+            });
+            let meant = format!("{letters}{text}");
+            self.push(range.clone(), &meant, prior + more, &word, &meant);
+        }
+    }
+
+    fn length(&self, number: Number) -> i64 {
+        self.document.reading().length(number, false)
+    }
+
+    /// What cannot be read.
+    fn of_fault(&mut self, fault: WordFault, range: Range<usize>) {
+        let text = self.text(&range);
+        match fault {
+            WordFault::NotANumber { .. } => {
+                for (at, _) in text.match_indices(['.', ',']) {
+                    let meant = format!("{}{}", &text[..at], &text[at + 1..]);
+                    self.rewrite(range.clone(), &meant, prior::POINT);
+                }
+            }
+            WordFault::NoNumber { .. } => {
+                self.rewrite(range.clone(), "", prior::WORD);
+                let is_pointed = self.document.pointed() == Some(true);
+                let point = if is_pointed { "." } else { "" };
+                for digit in 0..=9 {
+                    self.rewrite(range.clone(), &format!("{text}{digit}{point}"), prior::MORE);
+                }
+            }
+            // A number without its letter.
+            WordFault::NoWord if number_of(&text).is_some() => {
+                for letter in ["X", "Y", "I", "J", "G"] {
+                    self.rewrite(range.clone(), &format!("{letter}{text}"), prior::LETTER);
+                }
+            }
+            WordFault::LetterO => {
+                self.rewrite(range, &text.replace(['O', 'o'], "0"), prior::LETTER)
+            }
+            WordFault::DecimalComma => self.rewrite(range, ".", prior::LETTER),
+            _ => {}
+        }
+    }
+
+    /// I or J of an arc as the other one and its ends tell it.
+    fn of_center(&mut self, made: &Move) {
+        let Bend::Center { .. } = made.bend else {
+            return;
+        };
+        let reading = self.document.reading();
+        let rule = reading.rule(made.incremental);
+        let Some(center) = made.center(rule) else {
+            return;
+        };
+        for axis in 0..2 {
+            let Some(place) = solved(made, center, axis) else {
+                continue;
+            };
+            let length = match rule {
+                CenterRule::StartToCenter => place.wrapping_sub(made.from[axis]),
+                CenterRule::CenterToStart => made.from[axis].wrapping_sub(place),
+                CenterRule::Absolute => place.wrapping_sub(self.before.zero[axis]),
+            };
+            self.set(if axis == 0 { b'I' } else { b'J' }, length);
+        }
+    }
+
+    /// A word of a length, in the place of the one that stands or behind the last one.
+    fn set(&mut self, letter: u8, length: i64) {
+        let style = self.pool.styles[usize::from(self.before.inch)];
+        if length.abs() > 10_000_000_000 {
+            return;
+        }
+        let meant = format!("{}{}", letter as char, style.number(length));
+        let mut places = Vec::new();
+        words(self.bytes, 1, |token| {
+            if let Token::Word {
+                letter,
+                number,
+                range,
+            } = token
+                && matches!(letter, b'X' | b'Y' | b'I' | b'J' | b'G' | b'N')
+            {
+                places.push((letter, number, range.start - 1..range.end - 1));
+            }
+        });
+        let own = places.iter().find(|(its, ..)| *its == letter).cloned();
+        if let Some((_, number, range)) = own {
+            let found = self.length(number);
+            if found != length {
+                let prior = prior::VALUE + self.pool.prior(letter, Some(found), length);
+                self.rewrite(range, &meant, prior);
+            }
+            return;
+        }
+        let order = |letter: u8| b"NGXYIJ".iter().position(|its| *its == letter);
+        let behind = places
+            .iter()
+            .filter(|(its, ..)| order(*its) < order(letter))
+            .map(|(.., range)| range.end)
+            .max();
+        let at = behind.unwrap_or(0);
+        let text = if self.pool.is_parted && at > 0 {
+            format!(" {meant}")
+        } else {
+            meant.clone()
+        };
+        let prior = prior::LOST + self.pool.prior(letter, None, length);
+        self.push(at..at, &text, prior, "", &meant);
+    }
+
+    /// Coordinates that close the cut, or that others have.
+    fn of_values(&mut self, behind: &Machine, way: &Way<'_>) {
+        if behind.incremental {
+            let gaps = way.gaps(self.index);
+            for axis in 0..2 {
+                let letter = [b'X', b'Y'][axis];
+                let own = [way.lines[self.index].block.x, way.lines[self.index].block.y][axis]
+                    .map_or(0, |number| self.length(number));
+                for gap in gaps.iter().filter(|gap| gap[axis] != 0) {
+                    self.set(letter, own.wrapping_add(gap[axis]));
+                }
+            }
+            return;
+        }
+        let block = &way.lines[self.index].block;
+        for (axis, own) in [block.x, block.y].into_iter().enumerate() {
+            if own.is_some() {
+                continue;
+            }
+            for number in self.pool.coordinates[axis].clone() {
+                self.set(
+                    [b'X', b'Y'][axis],
+                    self.document.reading().length(number, self.before.inch),
+                );
+            }
+        }
+    }
+}
+
+/// Where along an axis the centre of an arc lies that has the other coordinate of `center`; `None` where its ends do not tell.
+fn solved(made: &Move, center: Place, axis: usize) -> Option<i64> {
+    let other = 1 - axis;
+    let at = |place: Place, axis: usize| place[axis].wrapping_sub(made.from[axis]) as f64;
+    let end = [at(made.to, 0), at(made.to, 1)];
+    let along = end[axis];
+    if along.abs() < 1_000.0 {
+        return None;
+    }
+    let square = end[0] * end[0] + end[1] * end[1];
+    let place = (square / 2.0 - at(center, other) * end[other]) / along;
+    (place.abs() < 1e13).then(|| made.from[axis].wrapping_add(place.round() as i64))
+}
+
+fn number_of(text: &str) -> Option<Number> {
+    let mut found = None;
+    words(format!("X{text}").as_bytes(), 1, |token| {
+        found = match (token, found) {
+            (
+                Token::Word {
+                    letter: b'X',
+                    number,
+                    range,
+                },
+                None,
+            ) if range.len() == text.len() + 1 => Some(Some(number)),
+            _ => Some(None),
+        };
+    });
+    found.flatten()
+}

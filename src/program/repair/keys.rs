@@ -1,0 +1,167 @@
+//! What one wrong key makes of a number.
+
+/// What was done to a number that is turned back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::program) enum Key {
+    /// Another digit.
+    Digit,
+    /// A digit was lost.
+    Lost,
+    /// A digit stands twice.
+    Doubled,
+    /// Any other digit is too many.
+    More,
+    /// Two digits stand for each other.
+    Swapped,
+    Sign,
+    /// A point was lost, or put in.
+    Point,
+}
+
+/// What a number may have been meant to be, of which one key is wrong. `pointed` tells whether numbers have a point, where that is known.
+/// Nobody writes a number with a zero more in front of it.
+pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(String, Key)> {
+    let bytes = text.as_bytes();
+    let digits: Vec<usize> = (0..bytes.len())
+        .filter(|at| bytes[*at].is_ascii_digit())
+        .collect();
+    let mut meant: Vec<(String, Key)> = Vec::new();
+    let mut put = |at: usize, end: usize, other: &str, key: Key| {
+        meant.push((format!("{}{other}{}", &text[..at], &text[end..]), key));
+    };
+    let all: [&str; 10] = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
+    for (nth, &at) in digits.iter().enumerate() {
+        let own = &text[at..at + 1];
+        let before = nth.checked_sub(1).map(|nth| digits[nth]);
+        let last = before.map(|before| &text[before..before + 1]);
+        let is_behind = before.is_some_and(|before| before + 1 == at);
+        for digit in all {
+            if digit != own {
+                put(at, at + 1, digit, Key::Digit);
+            }
+            // Behind its like it is the same.
+            if !(is_behind && last == Some(digit)) {
+                put(at, at, digit, Key::Lost);
+            }
+        }
+        if digits.len() > 1 {
+            let is_doubled = last == Some(own);
+            put(
+                at,
+                at + 1,
+                "",
+                if is_doubled { Key::Doubled } else { Key::More },
+            );
+        }
+        if let Some(&next) = digits.get(nth + 1)
+            && bytes[next] != bytes[at]
+        {
+            let between = &text[at + 1..next];
+            let swapped = format!("{}{between}{own}", &text[next..next + 1]);
+            put(at, next + 1, &swapped, Key::Swapped);
+        }
+    }
+    for digit in all {
+        put(text.len(), text.len(), digit, Key::Lost);
+    }
+    match text.starts_with(['-', '+']) {
+        true => put(0, 1, "", Key::Sign),
+        false => put(0, 0, "-", Key::Sign),
+    }
+    match (text.find('.'), pointed) {
+        (None, Some(true)) => {
+            let places = digits.iter().copied();
+            let places = places
+                .clone()
+                .skip(1)
+                .chain([bytes.len()])
+                .chain(places.take(1));
+            places.for_each(|at| put(at, at, ".", Key::Point));
+        }
+        (Some(at), Some(false)) => put(at, at + 1, "", Key::Point),
+        _ => {}
+    }
+    let most = zeros(text);
+    meant.retain(|(text, _)| zeros(text) <= most);
+    meant
+}
+
+/// Zeros in front of a number that it could do without.
+fn zeros(text: &str) -> usize {
+    let digits = text.trim_start_matches(['-', '+']);
+    let rest = digits.trim_start_matches('0');
+    let is_needed = rest.is_empty() || rest.starts_with('.');
+    (digits.len() - rest.len()).saturating_sub(usize::from(is_needed))
+}
+
+/// True where one key more, less, another or two exchanged make one text of the other.
+pub(in crate::program) fn is_slip(found: &[u8], meant: &[u8]) -> bool {
+    let head = found.iter().zip(meant).take_while(|(a, b)| a == b).count();
+    let (a, b) = (&found[head..], &meant[head..]);
+    let tail = a
+        .iter()
+        .rev()
+        .zip(b.iter().rev())
+        .take_while(|(a, b)| a == b)
+        .count();
+    match (&a[..a.len() - tail], &b[..b.len() - tail]) {
+        ([_], [] | [_]) | ([], [_]) => true,
+        ([one, two], [other, another]) => one == another && two == other,
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slip_is_one_key() {
+        for (found, meant, expected) in [
+            ("5000", "500", true),
+            ("500", "5000", true),
+            ("5000", "5100", true),
+            ("1500", "5100", true),
+            ("", "7", true),
+            ("5000", "5000", false),
+            ("5000", "3100", false),
+            ("12", "2100", false),
+        ] {
+            assert_eq!(
+                is_slip(found.as_bytes(), meant.as_bytes()),
+                expected,
+                "{found} {meant}"
+            );
+        }
+    }
+
+    #[test]
+    fn whatever_may_be_meant_is_one_key_away() {
+        for (text, pointed) in [
+            ("0", None),
+            ("5000", Some(true)),
+            ("-12.50", Some(false)),
+            ("1100", None),
+            ("", None),
+        ] {
+            for (meant, key) in meant(text, pointed) {
+                let has_point = text.contains('.') || meant.contains('.');
+                let is_one = is_slip(text.as_bytes(), meant.as_bytes());
+                assert!(
+                    is_one || (key == Key::Swapped && has_point),
+                    "{text}: {meant}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_meant_has_no_zero_more_in_front() {
+        let meant = meant("500", None);
+        let has = |text: &str| meant.iter().find(|(meant, _)| meant == text);
+        assert_eq!(has("0500"), None);
+        assert_eq!(has("050"), None);
+        assert_eq!(has("-500"), Some(&("-500".into(), Key::Sign)));
+        assert_eq!(has("1500"), Some(&("1500".into(), Key::Lost)));
+    }
+}

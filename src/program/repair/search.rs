@@ -1,0 +1,261 @@
+//! Which one slip explains what is wrong with a contour, and what undoes it: one search for every language.
+//!
+//! A slip is what a hand or a bad line makes of a program: a digit, X for Y, a lost word, a block twice, lost or exchanged with the
+//! next. Each that could have been is undone and the contour looked at again. What explains more, with less, stands before the rest.
+//!
+//! A language says what its blocks may have been meant to be and what the text holds against a change; what is tried, how much of it, and
+//! which of it is sure is decided here. All is bounded by what is counted, so that what is found hangs on the text alone.
+
+use super::gap::half_turn_between;
+use crate::geometry::{Point, Segment, Vector};
+
+/// Repairs that are handed out.
+const HANDED_OUT: usize = 4;
+
+/// Shorter blocks are not lost, but rounding, µm.
+const SHORTEST: f64 = 10.0;
+
+/// What is done to the blocks of a contour, by their index.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::program) enum Change<M> {
+    Replace {
+        index: usize,
+        meant: M,
+    },
+    /// One of two equal blocks goes, or one that leads astray.
+    Delete {
+        index: usize,
+    },
+    /// The block changes places with the next one.
+    Exchange {
+        index: usize,
+    },
+    /// A block comes before another one.
+    Insert {
+        index: usize,
+        meant: M,
+    },
+}
+
+impl<M> Change<M> {
+    pub fn index(&self) -> usize {
+        match self {
+            Change::Replace { index, .. }
+            | Change::Delete { index }
+            | Change::Exchange { index }
+            | Change::Insert { index, .. } => *index,
+        }
+    }
+
+    /// How many blocks it takes the place of.
+    pub fn replaced(&self) -> usize {
+        match self {
+            Change::Replace { .. } | Change::Delete { .. } => 1,
+            Change::Exchange { .. } => 2,
+            Change::Insert { .. } => 0,
+        }
+    }
+}
+
+/// A change that makes a contour sound, or sounder.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::program) struct Repair<M> {
+    pub change: Change<M>,
+    /// It leaves nothing to be said, and no other one is as likely.
+    pub is_sure: bool,
+    /// Nothing is left to be said of the contour.
+    pub is_whole: bool,
+}
+
+/// What a change comes to.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::program) struct Verdict {
+    /// How much is left against the contour.
+    pub left: usize,
+    /// What it asks for: the less, the likelier.
+    pub cost: f64,
+    /// Nothing speaks against it but another one that is as likely.
+    pub may_be_sure: bool,
+}
+
+/// A contour that something is wrong with, as a language holds it.
+pub(in crate::program) trait Contour {
+    /// What a block may have been meant to be.
+    type Meant;
+
+    /// Where a change leads.
+    type Lead;
+
+    /// How much more the second best repair has to ask for, for the best to be sure.
+    const CLEARLY: f64;
+
+    /// The best changes that are held against each other.
+    const FINALISTS: usize;
+
+    /// The blocks that are searched, those nearest to what is wrong first.
+    fn order(&self) -> Vec<usize>;
+
+    /// What the words of a block may have been meant to say, and what each asks for.
+    fn meant(&self, index: usize) -> Vec<(Self::Meant, f64)>;
+
+    /// What it asks for that a block goes; `None` where it stays.
+    fn deleted(&self, index: usize) -> Option<f64>;
+
+    /// What it asks for that a block and the next one change places; `None` where they do not.
+    fn exchanged(&self, index: usize) -> Option<f64>;
+
+    /// How far a block that is lost before another one may have led, µm.
+    fn gaps(&self, index: usize) -> Vec<Vector>;
+
+    /// Where the way leads before and behind a gap; `None` where no arc fills it.
+    fn headings(&self, index: usize) -> Option<[Vector; 2]>;
+
+    /// The block that runs along a line or an arc from the origin, and what it asks for.
+    fn filling(&self, index: usize, way: &Segment) -> Option<(Self::Meant, f64)>;
+
+    /// What a change comes to, `None` for what explains nothing; and how much was run to know it.
+    fn judged(&self, change: &Change<Self::Meant>, cost: f64) -> (Option<Verdict>, usize);
+
+    fn lead(&self, change: &Change<Self::Meant>) -> Self::Lead;
+
+    /// True for two changes that come to the same.
+    fn is_alike(one: &Self::Lead, other: &Self::Lead) -> bool;
+
+    /// True for two changes that come to the same, of which it is not known which is meant.
+    fn is_either(&self, _one: &Change<Self::Meant>, _other: &Change<Self::Meant>) -> bool {
+        false
+    }
+
+    /// Whether a change is handed out. All are looked for: a block that may be lost speaks against another one that may be wrong.
+    fn holds(&self, _change: &Change<Self::Meant>) -> bool {
+        true
+    }
+
+    /// Whether the way crosses itself.
+    fn crosses(&self, _change: Option<&Change<Self::Meant>>) -> bool {
+        false
+    }
+}
+
+/// The repairs of a contour, the most likely one first. `left` is how much may be run.
+pub(in crate::program) fn search<C: Contour>(
+    contour: &C,
+    left: &mut usize,
+) -> Vec<Repair<C::Meant>> {
+    // Blocks that are lost are looked for everywhere, and must leave room for those that are wrong.
+    let reserve = *left / 4 * 3;
+    let (mut lost, mut moved, mut found) = (Vec::new(), Vec::new(), Vec::new());
+    let mut judge = |change: Change<C::Meant>, cost: f64, reserve: usize, into: &mut Vec<_>| {
+        if *left <= reserve {
+            return;
+        }
+        let (verdict, runs) = contour.judged(&change, cost);
+        *left = left.saturating_sub(runs);
+        into.extend(verdict.map(|verdict| (verdict, change)));
+    };
+    let order = contour.order();
+    for &index in &order {
+        if let Some(cost) = contour.deleted(index) {
+            judge(Change::Delete { index }, cost, 0, &mut moved);
+        }
+        if let Some(cost) = contour.exchanged(index) {
+            judge(Change::Exchange { index }, cost, 0, &mut moved);
+        }
+    }
+    for &index in &order {
+        for gap in contour.gaps(index) {
+            for way in fillings(gap, contour.headings(index)) {
+                if let Some((meant, cost)) = contour.filling(index, &way) {
+                    judge(Change::Insert { index, meant }, cost, reserve, &mut lost);
+                }
+            }
+        }
+    }
+    for index in order {
+        for (meant, cost) in contour.meant(index) {
+            judge(Change::Replace { index, meant }, cost, 0, &mut found);
+        }
+    }
+    found.extend(moved);
+    found.extend(lost);
+    ranked(contour, found)
+}
+
+/// The line over a gap, and the arc that runs smoothly between what is before it and behind it.
+fn fillings(gap: Vector, headings: Option<[Vector; 2]>) -> impl Iterator<Item = Segment> {
+    let (start, end) = (Point::origin(), Point::from(gap));
+    let half = headings.and_then(|[before, behind]| half_turn_between(before, behind, gap));
+    let arc = half.map(|half| Segment::from_bulge(start, end, (half / 2.0).tan()));
+    let ways = arc.into_iter().chain([Segment::line(start, end)]);
+    ways.filter(move |_| gap.norm() >= SHORTEST)
+}
+
+/// Those that lead somewhere of their own, best first.
+fn ranked<C: Contour>(contour: &C, mut judged: Vec<Judged<C>>) -> Vec<Repair<C::Meant>> {
+    judged.sort_by(|(a, _), (b, _)| a.left.cmp(&b.left).then(a.cost.total_cmp(&b.cost)));
+    judged.truncate(C::FINALISTS);
+    let crosses_now = !judged.is_empty() && contour.crosses(None);
+    // Of those that lead the same way the first is the plainest; what crosses itself as before comes last.
+    let (mut kept, mut leads, mut crossing) = (Vec::<Judged<C>>::new(), Vec::new(), Vec::new());
+    let (mut is_either, mut outside) = (false, None);
+    for (verdict, change) in judged {
+        let best = kept.first();
+        if kept.len() == HANDED_OUT || best.is_some_and(|(best, _)| verdict.left > best.left) {
+            break;
+        }
+        let lead = contour.lead(&change);
+        if let Some(known) = leads.iter().position(|known| C::is_alike(known, &lead)) {
+            is_either |= best.is_some_and(|(best, other)| {
+                known == 0
+                    && verdict.cost - best.cost < C::CLEARLY
+                    && contour.is_either(other, &change)
+            });
+            continue;
+        }
+        let is_held = contour.holds(&change);
+        if !is_held && outside.is_some() {
+            continue;
+        }
+        match (is_held, contour.crosses(Some(&change))) {
+            (true, false) => {
+                kept.push((verdict, change));
+                leads.push(lead);
+            }
+            (false, false) => outside = Some(verdict),
+            (true, true) if crosses_now && !matches!(change, Change::Exchange { .. }) => {
+                crossing.push((verdict, change))
+            }
+            _ => {}
+        }
+    }
+    let is_sure = !is_either && is_sure::<C>(&kept, outside);
+    if kept.is_empty() {
+        crossing.truncate(HANDED_OUT);
+        (kept, is_either) = (crossing, true);
+    }
+    let repair = |(nth, (verdict, change)): (usize, Judged<C>)| Repair {
+        change,
+        is_sure: nth == 0 && is_sure && !is_either,
+        is_whole: verdict.left == 0,
+    };
+    kept.into_iter().enumerate().map(repair).collect()
+}
+
+type Judged<C> = (Verdict, Change<<C as Contour>::Meant>);
+
+/// True where the first of the repairs is the one that is meant: no other one, `outside` of those that are handed out neither, explains
+/// as much with as little.
+fn is_sure<C: Contour>(kept: &[Judged<C>], outside: Option<Verdict>) -> bool {
+    let Some(((best, change), others)) = kept.split_first() else {
+        return false;
+    };
+    // A block that stands twice says more than one that could be lost.
+    let is_twin = matches!(change, Change::Delete { .. });
+    let counts = |(_, other): &&Judged<C>| !is_twin || !matches!(other, Change::Insert { .. });
+    let rival = others.iter().find(counts).map(|(rival, _)| *rival);
+    let is_clear = |rival: Verdict| {
+        rival.left > best.left || (rival.left == best.left && rival.cost - best.cost >= C::CLEARLY)
+    };
+    let mut rivals = rival.into_iter().chain(outside.filter(|_| !is_twin));
+    best.may_be_sure && rivals.all(is_clear)
+}

@@ -1,0 +1,218 @@
+//! What the blocks of a contour hold for and against a change: coordinates, numbers, closing, and how the blocks meet.
+
+use super::super::entry::Move;
+use super::super::rules::position_mismatch::mismatch;
+use super::{Change, Item, STATED, Slip, Suspect};
+use crate::geometry::{Point, Segment, Vector, turn};
+use crate::program::path::{HeldWay, Writing, closing, crossings_of};
+use crate::program::repair::gap::{SMOOTH, is_one_line};
+use crate::program::repair::search::Verdict;
+
+/// What speaks against a contour.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Against {
+    pub unread: usize,
+    pub faulty: usize,
+    pub off: usize,
+    pub out_of_turn: usize,
+    pub is_open: bool,
+}
+
+impl Against {
+    pub fn count(&self) -> usize {
+        self.unread + self.faulty + self.off + self.out_of_turn + usize::from(self.is_open)
+    }
+}
+
+/// How the blocks of a contour meet.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Joints {
+    smooth: i32,
+    /// Those of them at an arc.
+    pub round: i32,
+    /// Two lines that would have been written as one.
+    split: i32,
+    /// Where the wire runs back on the way that it came.
+    doubled: i32,
+    /// Sum of all turns, radians.
+    turns: f64,
+}
+
+impl Suspect<'_> {
+    pub(super) fn against(&self, items: &[Item]) -> Against {
+        let mut against = Against::default();
+        let (mut before, mut off_before): (_, Option<[f64; 2]>) = (self.path.start, None);
+        // Counting may begin anew in each contour.
+        let first = items.iter().find_map(|item| item.number);
+        let goes_on = |before: &u32| first.is_some_and(|first| first > *before);
+        let mut last = self.path.number.filter(goes_on);
+        for item in items {
+            against.unread += usize::from(item.is_unread());
+            against.faulty += usize::from(item.is_faulty);
+            let off = before
+                .as_ref()
+                .zip(item.stated.as_ref())
+                .and_then(|(from, to)| mismatch(from, &item.travel, to));
+            // One end point that is off on its own is off once there and once back.
+            let goes_back = off
+                .zip(off_before)
+                .is_some_and(|([x, y], [a, b])| (a + x).abs() <= STATED && (b + y).abs() <= STATED);
+            against.off += usize::from(off.is_some() && !goes_back);
+            off_before = off.filter(|_| !goes_back);
+            before = item.stated;
+            if let (Some(last), Some(own), Some(step)) = (last, item.number, self.path.step) {
+                against.out_of_turn += usize::from(own != u32::saturating_add(last, step));
+            }
+            last = item.number.or(last);
+        }
+        against.is_open = self.closes && against.unread == 0 && !is_closed(items);
+        against
+    }
+
+    /// What a change comes to; `None` for what explains nothing.
+    pub(super) fn verdict(&self, change: &Change, cost: f64) -> Option<Verdict> {
+        let items = self.with(change);
+        let after = self.against(&items);
+        let (left, was) = (after.count(), self.before.count());
+        let joints = joints(&items);
+        let mut was_joined = self.joints;
+        if let Change::Delete { index } = change {
+            // The joint of two equal blocks goes with one of them.
+            was_joined = was_joined.without(&self::joints(&self.items[index - 1..=*index]));
+        }
+        let joined = joints.without(&was_joined);
+        let gain = joined.smooth - joined.split;
+        let restores = matches!(
+            change,
+            Change::Replace {
+                meant: (_, Slip::Unread { .. }),
+                ..
+            }
+        );
+        let is_better = match change {
+            // Where nothing else is wrong it has to run on better.
+            Change::Exchange { .. } if was == 0 => left == 0 && gain >= 2 && joined.doubled <= 0,
+            _ if restores => left < was || (left == was && after.is_open),
+            Change::Insert { .. } => left == 0,
+            _ => {
+                left < was
+                    && after.unread <= self.before.unread
+                    && after.faulty <= self.before.faulty
+                    && after.off <= self.before.off
+            }
+        };
+        let is_stated = self.before.off > after.off;
+        if !is_better || (joined.doubled > 0 && !is_stated && !restores) {
+            return None;
+        }
+        let gain = f64::from(gain.clamp(-2, 2));
+        let leads = if !self.is_mirrored && is_mirrored(&items) {
+            0.8
+        } else {
+            0.0
+        };
+        let cost = match is_stated {
+            true => cost - 0.3 * gain,
+            false => {
+                let doubled = 1.5 * f64::from(joined.doubled);
+                cost - leads - 0.6 * gain + 0.3 * joined.turns.clamp(-3.0, 3.0) + doubled
+            }
+        };
+        // Where most are out of their turn, the numbers follow another rule.
+        let lacks_a_number =
+            after.out_of_turn > 0 && (2 * after.out_of_turn <= items.len() || items.len() == 1);
+        Some(Verdict {
+            left,
+            cost,
+            may_be_sure: !lacks_a_number && self.may_be_sure(change, left),
+        })
+    }
+
+    /// What lays a new way is never sure, what goes by the coordinates alone only where nothing else is wrong, and an arc for what is
+    /// written like a line only where coordinates say so.
+    fn may_be_sure(&self, change: &Change, left: usize) -> bool {
+        match change {
+            Change::Insert { .. } => false,
+            Change::Replace {
+                meant: (_, Slip::Coordinates),
+                ..
+            } => left == 0,
+            Change::Replace {
+                index,
+                meant: (block, Slip::Motion),
+            } => {
+                block.motion.is_line()
+                    || self.items[*index].is_arc()
+                    || block.j != block.x.max(block.y)
+                    || self.stated(*index).is_some()
+            }
+            _ => true,
+        }
+    }
+}
+
+impl Joints {
+    fn without(&self, other: &Joints) -> Joints {
+        Joints {
+            smooth: self.smooth - other.smooth,
+            round: self.round - other.round,
+            split: self.split - other.split,
+            doubled: self.doubled - other.doubled,
+            turns: self.turns - other.turns,
+        }
+    }
+}
+
+pub(super) fn joints(items: &[Item]) -> Joints {
+    let mut joints = Joints::default();
+    for pair in items.windows(2) {
+        let (Some(one), Some(other)) = (&pair[0].way, &pair[1].way) else {
+            continue;
+        };
+        let angle = turn(one.end_tangent(), other.start_tangent()).abs();
+        let has_arc = pair[0].is_arc() || pair[1].is_arc();
+        let is_split =
+            !has_arc && is_one_line(one.end() - one.start(), other.end() - other.start());
+        joints.split += i32::from(is_split);
+        joints.smooth += i32::from(angle <= SMOOTH && !is_split);
+        joints.round += i32::from(angle <= SMOOTH && has_arc);
+        joints.doubled += i32::from(angle >= std::f64::consts::PI - SMOOTH);
+        joints.turns += angle;
+    }
+    joints
+}
+
+/// What each block means where it is meant to begin, and where it leads to.
+fn ways(items: &[Item]) -> impl Iterator<Item = (Segment, Move)> {
+    items.iter().scan(Move::default(), |at, item| {
+        let [x, y] = at.meant_um();
+        let start = Point::new(x, y);
+        *at = at.plus(item.travel);
+        let way = item.way.map(|way| way.moved(Vector::new(x, y)));
+        Some((way.unwrap_or(Segment::line(start, start)), *at))
+    })
+}
+
+pub(super) fn crosses_itself(items: &[Item], arcs: usize) -> bool {
+    let pieces: Vec<Segment> = ways(items).map(|(way, _)| way).collect();
+    !crossings_of(&pieces, arcs).is_empty()
+}
+
+fn is_closed(items: &[Item]) -> bool {
+    let mut way = HeldWay::from(Move::default().node(), Writing::default());
+    for (item, (piece, end)) in items.iter().zip(ways(items)) {
+        way.push(piece, item.is_arc(), end.node());
+    }
+    closing(&way).is_none_or(|closing| closing.closed)
+}
+
+/// True where the way out is the way in backwards.
+pub(super) fn is_mirrored(items: &[Item]) -> bool {
+    let is_line = |item: &Item| !item.is_arc() && !item.is_unread();
+    match items {
+        [first, _, .., last] => {
+            is_line(first) && is_line(last) && first.travel.plus(last.travel).is_within(3.0)
+        }
+        _ => false,
+    }
+}
