@@ -1,20 +1,21 @@
 //! Repairs of a program as edits of its text. Where it is not clear what was meant, none is offered.
 
-use super::block::{Motion, Stop, read_line, word_range};
+mod centers;
+
+use super::block::{Compensation, Motion, Stop, read_line, word_range};
 use super::document::Document;
 use super::layout::is_parted;
-use super::line::{Bent, Target, line_to, with_word};
-use super::machine::{Bend, CenterRule, Machine, Move, Place, distance, micrometres};
+use super::line::with_word;
+use super::machine::{Machine, Place, distance};
 use super::numbers::numbered;
 use super::order::labels;
 use super::repair::{is_trouble, line_of};
 use super::style::Style;
 use super::word::plain;
-use crate::finding::{CenterFix, Detail, Fault, Finding, FixKind, Place as Where, Rule, TextFix};
-use crate::geometry::Arc;
-use crate::program::grid::{best_center, snap};
+use crate::finding::{Detail, Fault, Finding, FixKind, Place as Where, Rule, TextFix};
 use crate::program::repair::{merged, offered};
 use crate::text::TextEdit;
+use centers::center_fixes;
 use std::ops::Range;
 
 impl Document {
@@ -67,133 +68,82 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<TextFix> {
         Detail::Syntax(_) => return character_fixes(document, range),
         _ => return Vec::new(),
     };
-    let line = document.text().line_of(range.start);
     match fault {
+        Fault::Bare { .. } => bare_fixes(document, range),
+        Fault::OffRadius { .. } => center_fixes(document, range),
+        Fault::DoubledNumber { .. } | Fault::Unnumbered { .. } => {
+            number_fixes(document, fault, range)
+        }
+        fault => plain_fix(document, fault, range).into_iter().collect(),
+    }
+}
+
+/// The fix of a fault that has but one.
+fn plain_fix(document: &Document, fault: &Fault, range: &Range<usize>) -> Option<TextFix> {
+    let text = document.text();
+    let line = text.line_of(range.start);
+    let line_end = || text.line_end_before(range.end);
+    let behind = |word: &str| {
+        let end = text.line_range(text.line_of(range.end)).end;
+        TextEdit::new(end..end, format!("{}{word}", line_end()))
+    };
+    let (kind, is_safe, edit) = match fault {
         Fault::ReversedArc { is_sure } => {
             let before = document.machine_before(line).map(|machine| machine.motion);
-            let Some((found, meant, edit)) = exchanged_word(document, line, before) else {
-                return Vec::new();
-            };
-            one(FixKind::Rewrite { found, meant }, *is_sure, edit)
+            let (found, meant, edit) = exchanged_word(document, line, before)?;
+            (FixKind::Rewrite { found, meant }, *is_sure, edit)
         }
-        Fault::DoubledBlock { .. } => one(FixKind::DeleteBlock, true, whole_line(document, line)),
-        Fault::Spur { .. } => spur_fix(document, line).into_iter().collect(),
+        Fault::DoubledBlock { .. } => (FixKind::DeleteBlock, true, whole_line(document, line)),
+        Fault::Spur { .. } => return spur_fix(document, line),
+        Fault::CutOpen { .. } => return closing_fix(document, range),
         Fault::NoOffset { .. } => {
-            let Some(offset) = document.only_offset() else {
-                return Vec::new();
-            };
-            let word = format!("{}{}", offset.letter as char, offset.index);
-            let text = if is_parted(document.text()) {
-                format!(" {word}")
-            } else {
-                word.clone()
-            };
-            let edit = TextEdit::new(range.end..range.end, text);
-            one(
-                FixKind::Rewrite {
-                    found: String::new(),
-                    meant: word,
-                },
-                false,
-                edit,
-            )
+            let offset = document.only_offset()?;
+            let (found, meant) = (
+                String::new(),
+                format!("{}{}", offset.letter as char, offset.index),
+            );
+            let space = if is_parted(text) { " " } else { "" };
+            let edit = TextEdit::new(range.end..range.end, format!("{space}{meant}"));
+            (FixKind::Rewrite { found, meant }, false, edit)
         }
-        Fault::SideChange { .. } => {
-            let other = match document.text().bytes().get(range.clone()) {
-                Some(word) if word.ends_with(b"41") => "G42",
-                Some(word) if word.ends_with(b"42") => "G41",
-                _ => return Vec::new(),
+        Fault::SideChange { .. } | Fault::RoleSide { .. } | Fault::EntrySide { .. } => {
+            let word = text.bytes().get(range.clone())?;
+            let is_word = word.get(1..)?.iter().all(u8::is_ascii_digit);
+            let said = read_line(word, 1, |_| {}).compensation.filter(|_| is_word);
+            let other = match said? {
+                Compensation::Left => "G42",
+                Compensation::Right => "G41",
+                Compensation::Off => return None,
             };
-            one(
-                FixKind::SwapSide,
-                false,
-                TextEdit::new(range.clone(), other),
-            )
+            let edit = TextEdit::new(range.clone(), other);
+            (FixKind::SwapSide, false, edit)
         }
         Fault::StillOn => {
-            let Some(at) = way_out(document, line) else {
-                return Vec::new();
-            };
-            let start = document.text().line_start(at);
-            let text = format!("G40{}", document.text().line_end_before(range.end));
-            one(
-                FixKind::InsertLine {
-                    block: "G40".into(),
-                },
-                false,
-                TextEdit::new(start..start, text),
-            )
+            let start = text.line_start(way_out(document, line)?);
+            let edit = TextEdit::new(start..start, format!("G40{}", line_end()));
+            let block = "G40".into();
+            (FixKind::InsertLine { block }, false, edit)
         }
         Fault::NoReturn { .. } => {
-            let end = document.text().line_range(line).end;
-            let text = format!("{}M99", document.text().line_end_before(range.end));
-            one(
-                FixKind::InsertLine {
-                    block: "M99".into(),
-                },
-                true,
-                TextEdit::new(end..end, text),
-            )
+            let block = "M99".into();
+            (FixKind::InsertLine { block }, true, behind("M99"))
         }
-        Fault::Bare { .. } => bare_fixes(document, range),
-        Fault::MissingEnd { word } => {
-            let end = document
-                .text()
-                .line_range(document.text().line_of(range.end))
-                .end;
-            let text = format!("{}{word}", document.text().line_end_before(range.end));
-            one(
-                FixKind::AddEnd { word: word.clone() },
-                true,
-                TextEdit::new(end..end, text),
-            )
-        }
+        Fault::MissingEnd { word } => (FixKind::AddEnd { word: word.clone() }, true, behind(word)),
+        // The rapid that the correction would go on with is cut instead.
         Fault::Switch {
             on: true,
             arc: false,
         } => {
-            // The rapid that the correction would go on with is cut instead.
-            let Some(word) = rapid_word(document, range) else {
-                return Vec::new();
-            };
-            one(FixKind::CutRapid, false, TextEdit::new(word, "G01"))
-        }
-        Fault::RoleSide { .. } | Fault::EntrySide { .. } => {
-            let bytes = document
-                .text()
-                .bytes()
-                .get(range.clone())
-                .unwrap_or_default();
-            let other = match read_line(bytes, 0, |_| {}).compensation {
-                Some(super::block::Compensation::Left) => "G42",
-                Some(super::block::Compensation::Right) => "G41",
-                _ => return Vec::new(),
-            };
-            one(
-                FixKind::SwapSide,
-                false,
-                TextEdit::new(range.clone(), other),
-            )
-        }
-        Fault::OffRadius { .. } => center_fixes(document, range),
-        Fault::CutOpen { .. } => closing_fix(document, range).into_iter().collect(),
-        Fault::DoubledNumber { .. } | Fault::Unnumbered { .. } => {
-            number_fixes(document, fault, range)
+            let edit = TextEdit::new(rapid_word(document, range)?, "G01");
+            (FixKind::CutRapid, false, edit)
         }
         Fault::BehindEnd => {
-            let end = document.text().len();
-            one(
-                FixKind::DeleteBehindEnd,
-                false,
-                TextEdit::new(range.start..end, ""),
-            )
+            let edit = TextEdit::new(range.start..text.len(), "");
+            (FixKind::DeleteBehindEnd, false, edit)
         }
-        _ => Vec::new(),
-    }
-}
-
-fn one(kind: FixKind, in_fix_all: bool, edit: TextEdit) -> Vec<TextFix> {
-    vec![TextFix::text(kind, in_fix_all, edit)]
+        _ => return None,
+    };
+    Some(TextFix::text(kind, is_safe, edit))
 }
 
 /// Characters that only look like those of a control.
@@ -228,7 +178,7 @@ fn character_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
             (FixKind::PlainLetters, TextEdit::new(line, text))
         }
     };
-    one(kind, true, edit)
+    vec![TextFix::text(kind, true, edit)]
 }
 
 /// G02 for G03 of a line, or the other way round: what stands, what is meant, and the edit.
@@ -356,100 +306,6 @@ fn bare_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
         .preferred_if(false)
     };
     vec![fix(fine), fix(format!("{found}."))]
-}
-
-/// Centres that the ends of an arc fit: where another convention, a lost sign or a swap of I and J leads, else the nearest one.
-fn center_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
-    let text = document.text();
-    let line = text.line_of(range.start);
-    let Some(before) = document.machine_before(line) else {
-        return Vec::new();
-    };
-    let bytes = text.bytes().get(text.line_range(line)).unwrap_or_default();
-    let (mut machine, reading) = (before, document.reading());
-    let Some(made) = machine.run(&read_line(bytes, 1, |_| {}), reading) else {
-        return Vec::new();
-    };
-    let Bend::Center { i, j, absolute } = made.bend else {
-        return Vec::new();
-    };
-    let rule = reading.rule(made.incremental);
-    let own = made.center(rule);
-    let mut centers: Vec<(Place, CenterFix)> = Vec::new();
-    for other in [
-        CenterRule::StartToCenter,
-        CenterRule::CenterToStart,
-        CenterRule::Absolute,
-    ] {
-        if other != rule && !(made.incremental && other == CenterRule::Absolute) {
-            centers.extend(
-                made.center(other)
-                    .map(|center| (center, CenterFix::OtherConvention)),
-            );
-        }
-    }
-    // As from the point that I and J count from.
-    let about = match rule {
-        CenterRule::StartToCenter | CenterRule::CenterToStart => made.from,
-        CenterRule::Absolute => [absolute[0].wrapping_sub(i), absolute[1].wrapping_sub(j)],
-    };
-    let sign = if rule == CenterRule::CenterToStart {
-        -1
-    } else {
-        1
-    };
-    let at = |i: i64, j: i64| {
-        [
-            about[0].wrapping_add(i.wrapping_mul(sign)),
-            about[1].wrapping_add(j.wrapping_mul(sign)),
-        ]
-    };
-    centers.extend([(-i, j), (i, -j), (-i, -j)].map(|(i, j)| (at(i, j), CenterFix::Sign)));
-    centers.extend([(j, i), (-j, i), (j, -i), (-j, -i)].map(|(i, j)| (at(i, j), CenterFix::Swap)));
-    let fits = |center: Place| {
-        (distance(made.from, center) - distance(made.to, center)).abs() <= reading.tolerance as f64
-    };
-    centers.retain(|(center, _)| fits(*center));
-    let nearest = own.and_then(|own| nearest_center(document, &made, own, machine.inch));
-    centers.extend(nearest.map(|(center, moved)| (center, CenterFix::Nearest { moved })));
-    let mut fixes: Vec<TextFix> = Vec::new();
-    let mut seen: Vec<Place> = own.into_iter().collect();
-    for (center, how) in centers {
-        if seen.contains(&center) {
-            continue;
-        }
-        seen.push(center);
-        let target = Target {
-            bend: Bent::Center(center),
-            ..Target::of(&made, reading)
-        };
-        let Some(edit) = line_to(document, line, &before, &target) else {
-            continue;
-        };
-        let radius = distance(made.from, center) / 1e6;
-        let kind = FixKind::SetCenter { radius, how };
-        fixes.push(TextFix::text(kind, false, edit).preferred_if(fixes.is_empty()));
-    }
-    fixes
-}
-
-/// The centre that is as far from both ends and nearest to the one that stands, and how far from it, mm.
-fn nearest_center(
-    document: &Document,
-    made: &Move,
-    own: Place,
-    inch: bool,
-) -> Option<(Place, f64)> {
-    let step = Style::of(document, inch).step();
-    let scale = 1e3 / step as f64;
-    let [from, to, center] = [made.from, made.to, own].map(|place| micrometres(place) * scale);
-    let along = (to - from).try_normalize(0.0)?;
-    let on_line = center - along * (center - (from + (to - from) / 2.0)).dot(&along);
-    let node = best_center(&Arc::about(on_line, from, to, true), snap(from)?, snap(to)?);
-    let place = [node.x.checked_mul(step)?, node.y.checked_mul(step)?];
-    let moved = distance(place, own);
-    // Beyond that it is another arc, not a slip.
-    (moved <= distance(place, made.from)).then_some((place, moved / 1e6))
 }
 
 /// A straight cut behind the last one that leads back to where the cut began, or to where its way in ended.

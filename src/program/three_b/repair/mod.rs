@@ -22,7 +22,7 @@ use crate::program::grid::Node;
 use crate::program::path::tolerance;
 use crate::program::repair::search::{self, Contour, Verdict, search};
 use evidence::{Against, Joints, crosses_itself, is_mirrored, joints};
-use slips::{Digits, Wanted, blocks_to, is_usual, solved, straight, with};
+use slips::{Wanted, straight};
 use std::mem::{Discriminant, discriminant};
 
 pub(super) type Change = search::Change<(Block, Slip)>;
@@ -39,12 +39,6 @@ const STATED: f64 = 4.0;
 
 /// Changes that are looked at.
 const LOOKED_AT: usize = 400;
-
-/// What each µm asks for by which a repair leads beside where it should.
-const MISS: f64 = 0.2;
-
-/// What the other one of two quadrants asks for between which a start or a direction lies.
-const UNUSUAL: f64 = 0.3;
 
 /// A block of a contour on its way, changed or not.
 #[derive(Clone, Copy, Debug, Default)]
@@ -427,69 +421,6 @@ impl<'a> Suspect<'a> {
         wanted
     }
 
-    /// What a block that can be read may have been meant to be.
-    fn replaced(
-        &self,
-        block: &Block,
-        piece: &Piece,
-        wanted: &[(Wanted, bool)],
-    ) -> Vec<((Block, Slip), f64)> {
-        let mut found = Vec::new();
-        // What is written like a line is one.
-        let is_like_line = block.j == block.x.max(block.y);
-        for (wanted, is_stated) in wanted {
-            for (changed, slip) in blocks_to(block, &piece.digits, wanted, self.path.limits) {
-                let is_other_kind = block.motion.is_line() != changed.motion.is_line();
-                let cost = match slip {
-                    Slip::Number(Number::J, Digits::Any) => 1.6,
-                    // Along an axis nothing of a number stands there.
-                    Slip::Number(_, Digits::Any) if block.x == 0 || block.y == 0 => 3.4,
-                    Slip::Number(_, Digits::Any) => 2.6,
-                    Slip::Motion if is_other_kind && is_like_line && changed.motion.is_line() => {
-                        0.9
-                    }
-                    Slip::Motion if is_other_kind && is_like_line => 2.2,
-                    _ => 1.0,
-                };
-                let is_unusual = slip == Slip::Motion && !is_usual(&changed);
-                let cost = cost + if is_unusual { UNUSUAL } else { 0.0 };
-                found.push(((changed, slip), cost + MISS * wanted.miss(&changed)));
-            }
-            if let Some(line) = straight(wanted).filter(|line| *is_stated && line != block) {
-                found.push(((line, Slip::Coordinates), 3.0));
-            }
-        }
-        found
-    }
-
-    /// What a block that cannot be read may have been meant to be.
-    fn restored(&self, loose: &Loose, wanted: &[(Wanted, bool)]) -> Vec<((Block, Slip), f64)> {
-        let readings = loose.readings();
-        let mut found = Vec::new();
-        let mut take = |block: Block, keys: usize, more: f64| {
-            if is_sound(&block, self.path.limits) {
-                let slip = Slip::Unread { keys };
-                found.push(((block, slip), restored(&block, keys) + more));
-            }
-        };
-        for (wanted, _) in wanted {
-            for reading in &readings {
-                let made = match reading.unknown {
-                    None => Some(reading.block),
-                    Some(number) => solved(&reading.block, number, wanted)
-                        .map(|(value, _)| with(&reading.block, number, value)),
-                };
-                if let Some(made) = made.filter(|made| wanted.is_met(made)) {
-                    take(made, reading.keys, MISS * wanted.miss(&made));
-                }
-            }
-        }
-        // What it says by itself, where nothing says where it leads.
-        let whole = readings.iter().filter(|reading| reading.unknown.is_none());
-        whole.for_each(|reading| take(reading.block, reading.keys, 1.0));
-        found
-    }
-
     /// The blocks with a change made.
     fn with(&self, change: &Change) -> Vec<Item> {
         let mut items = self.items.clone();
@@ -527,12 +458,4 @@ impl<'a> Suspect<'a> {
         }
         items
     }
-}
-
-/// What a block asks for that is read with so many keys more or less: one that is written like a line is no arc, and a line is seldom
-/// a ratio.
-fn restored(block: &Block, keys: usize) -> f64 {
-    let is_like_a_line = block.j == block.x.max(block.y) || (block.x, block.y) == (0, 0);
-    let is_odd = is_like_a_line != block.motion.is_line();
-    0.4 * keys as f64 + if is_odd { 0.8 } else { 0.0 } + if is_usual(block) { 0.0 } else { UNUSUAL }
 }

@@ -1,0 +1,105 @@
+//! Centres that the ends of an arc fit.
+
+use super::super::block::read_line;
+use super::super::document::Document;
+use super::super::line::{Bent, Target, line_to};
+use super::super::machine::{Bend, CenterRule, Move, Place, distance, micrometres};
+use super::super::style::Style;
+use crate::finding::{CenterFix, FixKind, TextFix};
+use crate::geometry::Arc;
+use crate::program::grid::{best_center, snap};
+use std::ops::Range;
+
+/// Centres that the ends of an arc fit: where another convention, a lost sign or a swap of I and J leads, else the nearest one.
+pub(super) fn center_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
+    let text = document.text();
+    let line = text.line_of(range.start);
+    let Some(before) = document.machine_before(line) else {
+        return Vec::new();
+    };
+    let bytes = text.bytes().get(text.line_range(line)).unwrap_or_default();
+    let (mut machine, reading) = (before, document.reading());
+    let Some(made) = machine.run(&read_line(bytes, 1, |_| {}), reading) else {
+        return Vec::new();
+    };
+    let Bend::Center { i, j, absolute } = made.bend else {
+        return Vec::new();
+    };
+    let rule = reading.rule(made.incremental);
+    let own = made.center(rule);
+    let mut centers: Vec<(Place, CenterFix)> = Vec::new();
+    for other in [
+        CenterRule::StartToCenter,
+        CenterRule::CenterToStart,
+        CenterRule::Absolute,
+    ] {
+        if other != rule && !(made.incremental && other == CenterRule::Absolute) {
+            centers.extend(
+                made.center(other)
+                    .map(|center| (center, CenterFix::OtherConvention)),
+            );
+        }
+    }
+    // As from the point that I and J count from.
+    let about = match rule {
+        CenterRule::StartToCenter | CenterRule::CenterToStart => made.from,
+        CenterRule::Absolute => [absolute[0].wrapping_sub(i), absolute[1].wrapping_sub(j)],
+    };
+    let sign = if rule == CenterRule::CenterToStart {
+        -1
+    } else {
+        1
+    };
+    let at = |i: i64, j: i64| {
+        [
+            about[0].wrapping_add(i.wrapping_mul(sign)),
+            about[1].wrapping_add(j.wrapping_mul(sign)),
+        ]
+    };
+    centers.extend([(-i, j), (i, -j), (-i, -j)].map(|(i, j)| (at(i, j), CenterFix::Sign)));
+    centers.extend([(j, i), (-j, i), (j, -i), (-j, -i)].map(|(i, j)| (at(i, j), CenterFix::Swap)));
+    let fits = |center: Place| {
+        (distance(made.from, center) - distance(made.to, center)).abs() <= reading.tolerance as f64
+    };
+    centers.retain(|(center, _)| fits(*center));
+    let nearest = own.and_then(|own| nearest_center(document, &made, own, machine.inch));
+    centers.extend(nearest.map(|(center, moved)| (center, CenterFix::Nearest { moved })));
+    let mut fixes: Vec<TextFix> = Vec::new();
+    let mut seen: Vec<Place> = own.into_iter().collect();
+    for (center, how) in centers {
+        if seen.contains(&center) {
+            continue;
+        }
+        seen.push(center);
+        let target = Target {
+            bend: Bent::Center(center),
+            ..Target::of(&made, reading)
+        };
+        let Some(edit) = line_to(document, line, &before, &target) else {
+            continue;
+        };
+        let radius = distance(made.from, center) / 1e6;
+        let kind = FixKind::SetCenter { radius, how };
+        fixes.push(TextFix::text(kind, false, edit).preferred_if(fixes.is_empty()));
+    }
+    fixes
+}
+
+/// The centre that is as far from both ends and nearest to the one that stands, and how far from it, mm.
+fn nearest_center(
+    document: &Document,
+    made: &Move,
+    own: Place,
+    inch: bool,
+) -> Option<(Place, f64)> {
+    let step = Style::of(document, inch).step();
+    let scale = 1e3 / step as f64;
+    let [from, to, center] = [made.from, made.to, own].map(|place| micrometres(place) * scale);
+    let along = (to - from).try_normalize(0.0)?;
+    let on_line = center - along * (center - (from + (to - from) / 2.0)).dot(&along);
+    let node = best_center(&Arc::about(on_line, from, to, true), snap(from)?, snap(to)?);
+    let place = [node.x.checked_mul(step)?, node.y.checked_mul(step)?];
+    let moved = distance(place, own);
+    // Beyond that it is another arc, not a slip.
+    (moved <= distance(place, made.from)).then_some((place, moved / 1e6))
+}
