@@ -10,6 +10,7 @@ use crate::message::{is_hidden, readable};
 use crate::protocol::FindingData;
 use crate::text::SourceText;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use rayon::prelude::*;
 use serde::Serialize;
 use std::ops::Range;
 use std::path::Path;
@@ -65,10 +66,13 @@ fn rule_name<S: serde::Serializer>(rule: &Rule, serializer: S) -> Result<S::Ok, 
 /// More findings of one file are counted: a drawing of millions of faults would take gigabytes to tell of, and nobody reads them.
 pub const MOST: usize = 100_000;
 
+/// So many findings at least are worth another thread.
+pub const SHARE: usize = 256;
+
 /// The findings of a document, errors first; behind [`MOST`] of them one that says how many more there are.
 pub fn rows(path: &Path, document: &mut Document) -> Vec<Row> {
     let (findings, _) = job::check(document, MOST);
-    let rows = findings.iter();
+    let (document, rows) = (&*document, findings.par_iter().with_min_len(SHARE));
     rows.map(|finding| row(path, document, finding)).collect()
 }
 

@@ -2,13 +2,19 @@
 
 use super::Survey;
 use crate::cli::output::{self, counted, styled};
+use crate::cli::report::{Row, SHARE};
 use crate::finding::Severity;
+use rayon::prelude::*;
 use std::fmt::Write;
 
 pub(super) fn render(survey: &Survey) -> String {
     let mut text = String::new();
-    for row in &survey.rows {
-        let _ = writeln!(text, "{}\n", row.rendered());
+    for rows in survey.rows.chunks(16 * SHARE) {
+        let rows = rows.par_iter().with_min_len(SHARE);
+        let rendered: Vec<String> = rows.map(Row::rendered).collect();
+        for row in rendered {
+            let _ = writeln!(text, "{row}\n");
+        }
     }
     text + &summary(survey)
 }
