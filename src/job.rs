@@ -258,7 +258,7 @@ pub fn generate(
         .filter(|finding| finding.severity <= Severity::Warning);
     Ok(Generated {
         program,
-        contours: paths.iter().filter(|path| path.pass == 1).count(),
+        contours: paths.iter().filter(|path| path.is_first()).count(),
         finished: finished.map(|finished| Finished {
             uncut: finished.uncut * unit_mm,
             overcut: finished.overcut * unit_mm,

@@ -112,6 +112,7 @@ fn path_of(segments: &[Segment]) -> WirePath {
         outline: 0,
         pass: 1,
         counter_clockwise: None,
+        cut_off: false,
         correction: 0.0,
         thread_hole,
         side: None,

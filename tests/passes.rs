@@ -337,3 +337,184 @@ fn a_radius_that_only_a_later_pass_can_follow_is_a_warning_with_its_stock() {
     check(0.13, "path", Some(Severity::Error), "0.130");
     check(0.15, "controller", Some(Severity::Error), "of pass 1");
 }
+
+/// 40 × 20, entered in the middle of its lower side.
+const PLATE: [[f64; 3]; 4] = [
+    [0.0, 0.0, 0.0],
+    [40.0, 0.0, 0.0],
+    [40.0, 20.0, 0.0],
+    [0.0, 20.0, 0.0],
+];
+
+fn length(path: &WirePath, is_it: impl Fn(&Source) -> bool) -> f64 {
+    let pieces = path.segments.iter().filter(|piece| is_it(&piece.source));
+    pieces.map(|piece| piece.geometry.length()).sum()
+}
+
+fn is_of_contour(source: &Source) -> bool {
+    matches!(source, Source::Segment { .. } | Source::Corner { .. })
+}
+
+/// What a program says when it is read again.
+#[track_caller]
+fn held(drawing: &Drawing, settings: &Effective, format: Format) -> Document {
+    let made = generated(drawing, settings, format);
+    assert_eq!(made.contours, 1);
+    let language = match format {
+        Format::Iso => Language::Iso,
+        _ => Language::ThreeB,
+    };
+    let text = made.program.text;
+    let document = Document::read(language, text.clone().into(), settings);
+    let (findings, _) = document.findings(settings, usize::MAX);
+    assert_eq!(findings, [], "{text}");
+    document
+}
+
+#[test]
+fn a_punch_stands_on_its_tab_until_it_is_cut_off() {
+    let text = "correction = 0.155\n[program]\ntab = 3\n";
+    let settings = settings(text);
+    let drawing = drawing(Role::Punch, &PLATE);
+    let found = paths(&drawing, &settings);
+    let [cut, tab] = &found[..] else {
+        panic!("{found:?}")
+    };
+    assert_eq!((cut.cut_off, tab.cut_off, tab.pass), (false, true, 1));
+    assert!((length(tab, is_of_contour) - 3.0).abs() < 1e-9, "{tab:?}");
+    let round = 2.0 * (40.0 + 20.0) + 2.0 * std::f64::consts::PI * 0.155;
+    let both = length(cut, is_of_contour) + length(tab, is_of_contour);
+    assert!((both - round).abs() < 1e-9);
+    // It goes on where the others stopped, and ends where the wire was threaded.
+    assert_eq!(cut.end(), tab.begin());
+    assert_eq!((cut.begin(), tab.end()), (cut.thread_hole, cut.thread_hole));
+    for format in [Format::ThreeB, Format::Iso] {
+        let document = held(&drawing, &settings, format);
+        let contours = document.trace().steps.last().map_or(0, |step| step.contour);
+        assert_eq!(contours, 0, "one contour");
+    }
+}
+
+#[test]
+fn passes_leave_the_tab_and_cut_it_off_in_passes_of_its_own() {
+    {
+        for corrections in ["0.17, 0.14", "0.215, 0.17, 0.14"] {
+            for compensation in ["path", "controller"] {
+                let text = format!(
+                    "[passes]\ncorrections = [{corrections}]\n[program]\ntab = 3\ncompensation = \"{compensation}\"\n"
+                );
+                let settings = settings(&text);
+                let drawing = drawing(Role::Punch, &PLATE);
+                let found = paths(&drawing, &settings);
+                let count = settings.corrections.len();
+                assert_eq!(found.len(), 2 * count, "{text}");
+                for (number, path) in found.iter().enumerate() {
+                    assert_eq!(path.cut_off, number >= count);
+                    assert_eq!(path.pass, number % count + 1);
+                    let own = length(path, is_of_contour);
+                    assert!((own - 3.0).abs() < 1e-9 || own > 116.0, "{own}: {text}");
+                    // Nothing is left out between one path and the next but jumps from the thread hole or to it.
+                    if let Some(next) = found.get(number + 1) {
+                        assert_eq!(path.end(), next.begin(), "{number}: {text}");
+                    }
+                }
+                held(&drawing, &settings, Format::Iso);
+                if compensation == "path" {
+                    held(&drawing, &settings, Format::ThreeB);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn passes_one_way_leave_no_tab() {
+    let settings = settings(&format!(
+        "{THREE}sequence = \"one-way\"\n[program]\ntab = 3\n"
+    ));
+    let drawing = drawing(Role::Punch, &PLATE);
+    let refused = plan(&drawing, &outlines(&drawing, &settings), &settings, None);
+    assert!(
+        format!("{refused:?}").contains("expected passes.sequence alternate"),
+        "{refused:?}"
+    );
+}
+
+#[test]
+fn the_machine_stops_before_the_tab_by_its_own_word() {
+    let text = "[program]\ntab = 3\ntab-stop = \"M01\"\n";
+    let drawing = drawing(Role::Punch, &PLATE);
+    let made = generated(&drawing, &settings(text), Format::Iso);
+    let stops: Vec<&str> = made
+        .program
+        .text
+        .lines()
+        .filter(|line| line.starts_with('M'))
+        .collect();
+    assert_eq!(stops, ["M01", "M02"]);
+    let refused = Format::ThreeB
+        .write(
+            &paths(&drawing, &settings(text)),
+            1.0,
+            &settings(text),
+            &mut |_, _| true,
+        )
+        .expect_err("3B has no such word");
+    assert!(refused.to_string().contains("\"M01\""), "{refused}");
+}
+
+#[test]
+fn a_slug_above_its_limit_keeps_a_tab_and_a_tab_is_shorter_than_its_contour() {
+    let count = |text: &str| paths(&drawing(Role::Opening, &PLATE), &settings(text)).len();
+    // 7.85 g/cm³ × 8 cm² × 4 cm = 251.2 g.
+    let tab = "[program]\ntab = 3\n";
+    assert_eq!(count(tab), 1);
+    assert_eq!(
+        count(&format!("{tab}[job]\nthickness = 40\nslug-limit = 251\n")),
+        2
+    );
+    assert_eq!(
+        count(&format!("{tab}[job]\nthickness = 40\nslug-limit = 252\n")),
+        1
+    );
+    for (text, says) in [
+        (
+            "[program]\ntab = 120\n",
+            "the tab of 120.000 mm leaves nothing of contour 2A, which is 120.000 mm long",
+        ),
+        (
+            "[program]\nclosing-overlap = 130\n",
+            "the overlap of 130.000 mm goes all round contour 2A",
+        ),
+    ] {
+        let settings = settings(text);
+        let drawing = drawing(Role::Punch, &PLATE);
+        let refused = plan(&drawing, &outlines(&drawing, &settings), &settings, None);
+        assert!(format!("{refused:?}").contains(says), "{refused:?}");
+    }
+}
+
+#[test]
+fn a_pass_goes_on_past_its_start() {
+    for (text, count) in [
+        ("[program]\nclosing-overlap = 0.5\n", 1),
+        ("[program]\nclosing-overlap = 0.5\ntab = 2\n", 2),
+        (
+            "[passes]\ncorrections = [0.17, 0.14]\n[program]\nclosing-overlap = 0.5\n",
+            2,
+        ),
+    ] {
+        let settings = settings(text);
+        let drawing = drawing(Role::Punch, &PLATE);
+        let found = paths(&drawing, &settings);
+        assert_eq!(found.len(), count);
+        let over: f64 = found
+            .iter()
+            .map(|path| length(path, |source| matches!(source, Source::Overlap { .. })))
+            .sum();
+        let times = if settings.tab > 0.0 { 1 } else { count };
+        assert!((over - 0.5 * times as f64).abs() < 1e-9, "{over}: {text}");
+        held(&drawing, &settings, Format::ThreeB);
+        held(&drawing, &settings, Format::Iso);
+    }
+}

@@ -176,6 +176,9 @@ fn the_readme_shows_every_key_with_its_default() {
         "passes.corrections" => "[0.175, 0.146, 0.140]",
         "passes.gaps" => "[0.02, 0.01, 0.01]",
         "passes.registers" => "[\"D1\", \"D2\", \"D3\"]",
+        "program.tab-stop" => "\"M01\"",
+        "job.thickness" => "40",
+        "job.slug-limit" => "100",
         "layers" => "{ DIE = \"opening\", FRAME = \"ignore\" }",
         "colors" => "{ red = \"punch\" }",
         "contours" => "{ 2A = \"punch\" }",
@@ -391,6 +394,7 @@ fn the_python_client_has_every_key() {
     let mut text = String::new();
     let classes = [
         ("Passes", "passes.", "Several passes."),
+        ("Job", "job.", "The workpiece."),
         ("ProgramSettings", "program.", "How a program is written."),
         (
             "Profile",
@@ -417,7 +421,7 @@ fn the_python_client_has_every_key() {
             text += &format!("    {}: {kind}\n", key.replace('-', "_"));
         }
         if prefix.is_empty() {
-            text += "    passes: Passes\n    program: ProgramSettings\n";
+            text += "    passes: Passes\n    job: Job\n    program: ProgramSettings\n";
         }
     }
     hold(

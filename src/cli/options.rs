@@ -46,6 +46,9 @@ pub struct Program {
     /// Length of the lead-in in mm, where no thread hole is given
     #[arg(long, value_name = "MM", value_parser = positive, allow_hyphen_values = true)]
     pub lead_in: Option<f64>,
+    /// Length of a punch's contour in mm that stands until all passes are cut, then is cut off
+    #[arg(long, value_name = "MM", value_parser = positive)]
+    pub tab: Option<f64>,
     /// Order of the contours; what lies within one always comes before it [default: inside-first]
     #[arg(long, value_parser = words::<Order>())]
     pub order: Option<Order>,
@@ -103,6 +106,7 @@ impl Program {
             thread: self.thread.map(PointSetting::One),
             entry: self.entry.map(PointSetting::One),
             lead_in: self.lead_in,
+            tab: self.tab,
             order: self.order,
             compensation: self.compensation,
             digits: self.digits,

@@ -117,7 +117,7 @@ fn free_place(at: (f64, f64), outward: f64, with_text: bool, taken: &[Label], to
 /// Thread hole, where the cut begins on the path, and which way it goes.
 pub(super) fn thread_holes(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     // The passes of a contour share it.
-    for path in subject.paths.iter().filter(|path| path.pass == 1) {
+    for path in subject.paths.iter().filter(|path| path.is_first()) {
         let hole = path.thread_hole;
         let (across, up) = frame.local(hole);
         let [x, y, left, below] = [across, up, across - 8.0, up - 8.0].map(number);

@@ -124,6 +124,7 @@ fn plate() -> (Drawing, Vec<Outline>, Vec<Finding>, Vec<WirePath>) {
         outline: 0,
         pass: 1,
         counter_clockwise: None,
+        cut_off: false,
         correction: 0.1,
         thread_hole: at(20.0, 15.0),
         side: None,

@@ -342,6 +342,7 @@ impl Cuts {
                 outline: 0,
                 pass: 1,
                 counter_clockwise: None,
+                cut_off: false,
                 correction: 0.0,
                 thread_hole,
                 side: cut.side,

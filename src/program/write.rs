@@ -76,8 +76,15 @@ pub trait Writer {
         to: Node,
         source: Source,
     ) -> Result<(), ProofError>;
-    /// The path ends at `last`; it is closed where both ends of it are one point.
-    fn end(&mut self, closed: bool, first: Node, last: Node) -> Result<(), ProofError>;
+    /// The path ends at `last`; it is closed where both ends of it are one point. `goes_on`: after a stop the next one goes on from
+    /// here as if it were the same.
+    fn end(
+        &mut self,
+        closed: bool,
+        first: Node,
+        last: Node,
+        goes_on: bool,
+    ) -> Result<(), ProofError>;
 }
 
 /// Walks along the paths. `step_mm` is the drawing's unit in steps of the grid. `go_on` hears every few thousand segments how many are
@@ -92,7 +99,7 @@ pub fn walk(
     let total = paths.iter().map(|path| path.segments.len()).sum();
     let mut done = 0;
     let mut node: Option<Node> = None;
-    for path in paths {
+    for (index, path) in paths.iter().enumerate() {
         // Where the wire can only stand, it is threaded and cuts nothing.
         let (begin, end) = (path.begin() * steps, path.end() * steps);
         let first_node = node_of(begin)?;
@@ -118,7 +125,12 @@ pub fn walk(
             from = to;
         }
         let closed = (begin - end).norm() * step_um <= 1e-3;
-        writer.end(closed, first_node, from)?;
+        let goes_on = paths.get(index + 1).is_some_and(|next| {
+            next.cut_off
+                && (next.pass, next.side) == (path.pass, path.side)
+                && next.begin() == path.end()
+        });
+        writer.end(closed, first_node, from, goes_on)?;
         node = Some(from);
     }
     Ok(())

@@ -45,6 +45,12 @@ pub enum PathSource {
     Corner,
     LeadIn,
     LeadOut,
+    /// At the end of a tab, from one pass to the next.
+    Tab,
+    /// Along the tab, which it cuts off.
+    CutOff,
+    /// On past the place where the contour is closed.
+    Overlap,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -76,6 +82,12 @@ fn one_path(drawing: &Drawing, path: &WirePath) -> ToolpathPath {
             Source::Corner { entity, segment } => (PathSource::Corner, Some((entity, segment))),
             Source::LeadIn => (PathSource::LeadIn, None),
             Source::LeadOut => (PathSource::LeadOut, None),
+            Source::Tab => (PathSource::Tab, None),
+            Source::Overlap { entity, segment } => (PathSource::Overlap, Some((entity, segment))),
+        };
+        let source = match source {
+            PathSource::Segment | PathSource::Corner if path.cut_off => PathSource::CutOff,
+            source => source,
         };
         PathPiece {
             source,

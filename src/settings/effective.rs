@@ -1,8 +1,8 @@
 //! Settings with every default filled in.
 
 use super::{
-    Budget, Compensation, Corner, Direction, Jumps, Layout, Order, Passes, PointSetting, Profile,
-    RuleSeverity, Sequence, Settings, SideSetting, SkimCorner, UnitSetting,
+    Budget, Compensation, Corner, Direction, JobSettings, Jumps, Layout, Order, Passes,
+    PointSetting, Profile, RuleSeverity, Sequence, Settings, SideSetting, SkimCorner, UnitSetting,
 };
 use crate::drawing::{Color, Role, Unit};
 use crate::finding::{Finding, Rule, Severity};
@@ -46,6 +46,13 @@ pub struct Effective {
     pub lead_in: f64,
     /// The length of the lead-in that somebody has set.
     pub stated_lead_in: Option<f64>,
+    /// What stands of a punch until it is cut off, mm; 0 for none.
+    pub tab: f64,
+    /// The word before that, where somebody has set one.
+    pub tab_stop: Option<String>,
+    /// mm past the start.
+    pub closing_overlap: f64,
+    pub job: JobSettings,
     pub order: Order,
     pub jumps: Jumps,
     /// The wire stays threaded on the way from one contour to the next: that way cuts, too. A format says so whose programs do not stop.
@@ -140,6 +147,10 @@ impl Effective {
             entry: program.entry.clone(),
             lead_in: program.lead_in(),
             stated_lead_in: program.lead_in,
+            tab: program.tab(),
+            tab_stop: program.tab_stop.clone(),
+            closing_overlap: program.closing_overlap(),
+            job: settings.job.clone().unwrap_or_default(),
             order: program.order(),
             jumps: program.jumps(),
             stays_threaded: false,
@@ -168,6 +179,8 @@ impl Effective {
             corrections: vec![self.correction],
             pass: None,
             passes: Passes::default(),
+            tab: 0.0,
+            closing_overlap: 0.0,
             ..self.clone()
         }
     }
@@ -184,6 +197,14 @@ impl Effective {
             None => self.gap,
         };
         Some(self.wire_diameter? / 2.0 + gap?)
+    }
+
+    /// True where the slug of so many mm² is too heavy to drop.
+    pub fn keeps_slug(&self, area: f64) -> bool {
+        /// g in a mm³ of steel.
+        const STEEL: f64 = 7.85e-3;
+        let limit = self.job.thickness.zip(self.job.slug_limit);
+        limit.is_some_and(|(thickness, limit)| STEEL * area * thickness > limit)
     }
 
     /// What the last pass leaves in a sharp corner that the wire runs inside of, mm: half its kerf, which is its correction where nothing

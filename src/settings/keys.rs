@@ -65,6 +65,8 @@ tables! {
         docs_url: String => page_address;
         /// How a program is written.
         program: ProgramSettings => table;
+        /// The workpiece.
+        job: JobSettings => table;
         /// [Profiles](programs.md#profiles) of ISO programs of your own, by name.
         profiles: BTreeMap<String, ProfileSettings> => tables;
     }
@@ -107,6 +109,16 @@ tables! {
         /// Length of the lead from thread hole to contour where no thread hole is given, mm. Halved until it fits.
         #[serde(alias = "lead-in")]
         lead_in: f64 = 3.0 => number in Range::ABOVE_ZERO;
+        /// Length of the contour, mm, that all passes leave standing before the entry, so that a punch does not drop while it is cut: then comes
+        /// the stop, then what stands is cut off in passes of its own. An opening whose slug is heavier than `job.slug-limit` keeps one,
+        /// too. 0: none.
+        tab: f64 = 0.0 => number in Range::FROM_ZERO;
+        /// Word that stops the machine before the tab is cut off. Not set: the profile's `pause` in ISO, `pause` in 3B.
+        #[serde(alias = "tab-stop")]
+        tab_stop: String => word;
+        /// How far each pass goes on past its start when the contour is closed, mm.
+        #[serde(alias = "closing-overlap")]
+        closing_overlap: f64 = 0.0 => number in Range::FROM_ZERO;
         /// Order of the contours; what lies within one always comes before it.
         order: Order = Order::InsideFirst => name;
         /// What stands between the contours of one program.
@@ -125,6 +137,16 @@ tables! {
         end: String = "DD" => word;
         /// Word of letters and digits that stops the machine so that the wire can be cut or threaded.
         pause: String = "D" => word;
+    }
+
+    /// The workpiece.
+    JobSettings() {
+        /// Height of the workpiece, mm.
+        thickness: f64 => number in Range::ABOVE_ZERO;
+        /// Mass of a slug in g above which an opening keeps a tab of the length `program.tab`. It needs `thickness`: 7.85 g/cm³ × area ×
+        /// thickness.
+        #[serde(alias = "slug-limit")]
+        slug_limit: f64 => number in Range::FROM_ZERO;
     }
 
     /// What somebody has set of a profile.
@@ -173,11 +195,12 @@ tables! {
 
 /// Every key, in the order of the documentation.
 pub fn rows() -> Vec<Row> {
-    let tables = ["passes", "program"];
+    let tables = ["passes", "program", "job"];
     let mut rows = Settings::rows("");
     rows.retain(|row| !tables.contains(&row.key.as_str()));
     rows.extend(Passes::rows("passes."));
     rows.extend(ProgramSettings::rows("program."));
+    rows.extend(JobSettings::rows("job."));
     rows.extend(ProfileSettings::rows("profiles.NAME."));
     rows
 }

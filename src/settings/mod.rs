@@ -19,7 +19,7 @@ pub use budget::Budget;
 pub use effective::Effective;
 pub use from_json::from_json;
 pub use from_toml::{FILE_NAME, from_toml, place_in, read_file};
-pub use keys::{Passes, Profile, ProfileSettings, ProgramSettings, Settings, rows};
+pub use keys::{JobSettings, Passes, Profile, ProfileSettings, ProgramSettings, Settings, rows};
 pub use passes::{PassFault, pass_faults, passes_table};
 pub use profile::{CenterRule, Coordinates, LineEnd, NumberUnit, Zero, shipped_profiles};
 pub use reader::words_of;

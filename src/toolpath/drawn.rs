@@ -77,6 +77,7 @@ pub(super) fn one_path(
         outline: *chosen.first()?,
         pass: 1,
         counter_clockwise: None,
+        cut_off: false,
         correction: 0.0,
         thread_hole: begin,
         side: None,

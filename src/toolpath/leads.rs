@@ -61,7 +61,7 @@ pub(super) fn default_entry(walls: &[Wall]) -> Option<Entry> {
         Source::Segment { entity, segment } | Source::Corner { entity, segment } => {
             (entity, segment)
         }
-        Source::LeadIn | Source::LeadOut => (crate::drawing::EntityId(u32::MAX), 0),
+        _ => (crate::drawing::EntityId(u32::MAX), 0),
     };
     let longest = |arcs: bool| {
         let mut best: Option<usize> = None;

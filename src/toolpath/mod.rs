@@ -17,6 +17,7 @@ mod order;
 mod path;
 mod paths;
 mod proof;
+mod tab;
 #[cfg(test)]
 mod tests;
 mod wanted;
@@ -80,7 +81,7 @@ pub fn cuts(drawing: &Drawing, outlines: &[Outline], settings: &Effective) -> Op
         Order::Nearest => plan(drawing, outlines, settings, None)
             .ok()?
             .into_iter()
-            .filter(|path| path.pass == 1)
+            .filter(WirePath::is_first)
             .map(|path| path.outline)
             .collect(),
         order => {

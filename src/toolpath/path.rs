@@ -17,6 +17,13 @@ pub enum Source {
         entity: EntityId,
         segment: usize,
     },
+    /// On along this segment past the place where the contour is closed.
+    Overlap {
+        entity: EntityId,
+        segment: usize,
+    },
+    /// At the end of a tab, from the path of one pass to that of the next.
+    Tab,
     LeadIn,
     LeadOut,
 }
@@ -25,10 +32,10 @@ impl Source {
     /// The segment of the drawing, where it is of one.
     pub fn place(self) -> Option<Place> {
         match self {
-            Source::Segment { entity, segment } | Source::Corner { entity, segment } => {
-                Some(Place::Segment { entity, segment })
-            }
-            Source::LeadIn | Source::LeadOut => None,
+            Source::Segment { entity, segment }
+            | Source::Corner { entity, segment }
+            | Source::Overlap { entity, segment } => Some(Place::Segment { entity, segment }),
+            Source::Tab | Source::LeadIn | Source::LeadOut => None,
         }
     }
 }
@@ -49,6 +56,8 @@ pub struct WirePath {
     pub pass: usize,
     /// Which way a closed contour is gone round in this pass; `None` where it is open.
     pub counter_clockwise: Option<bool>,
+    /// It cuts off what the passes of the contour have left standing; before its first pass the machine stops.
+    pub cut_off: bool,
     /// How far the path lies from the contour, drawing units; 0 where the contour is the path.
     pub correction: f64,
     /// Where the wire is threaded and comes back to.
@@ -60,22 +69,14 @@ pub struct WirePath {
 }
 
 impl WirePath {
-    /// The same path gone back.
-    pub fn reversed(self) -> WirePath {
-        let back = |piece: PathSegment| PathSegment {
-            geometry: piece.geometry.reversed(),
-            source: match piece.source {
-                Source::LeadIn => Source::LeadOut,
-                Source::LeadOut => Source::LeadIn,
-                of_contour => of_contour,
-            },
-        };
-        WirePath {
-            counter_clockwise: self.counter_clockwise.map(|is| !is),
-            side: self.side.map(Side::reversed),
-            segments: self.segments.into_iter().rev().map(back).collect(),
-            ..self
-        }
+    /// The first path of its contour.
+    pub fn is_first(&self) -> bool {
+        self.pass == 1 && !self.cut_off
+    }
+
+    /// It cuts a tab that another pass has cut before, from where that ended: the machine does not stop in between.
+    pub fn goes_back_along_tab(&self) -> bool {
+        self.cut_off && self.pass > 1 && self.begin() != self.thread_hole
     }
 
     /// Where the path begins; where the wire is threaded if it only stands.

@@ -16,28 +16,30 @@ use super::path::{PathSegment, Refusal, Source, WirePath};
 use super::wanted::Wanted;
 use crate::drawing::{Contour, Role};
 use crate::finding::{Finding, Rule, Severity};
-use crate::geometry::{Point, Segment};
+use crate::geometry::{Point, Segment, Side};
 use crate::settings::{Compensation, Corner, Jumps, SkimCorner};
 
 /// The offsets of a contour, before they have leads, all in the direction of the first pass.
-struct Unled {
-    outline: usize,
-    walls: Vec<Wall>,
+pub(super) struct Unled {
+    pub outline: usize,
+    pub walls: Vec<Wall>,
     own: Walls,
     /// `None` where the wire only stands.
-    entry: Option<Entry>,
-    passes: Vec<Pass>,
+    pub entry: Option<Entry>,
+    /// +1 where the wire runs to the left of the walls, −1 to the right.
+    pub side: f64,
+    pub passes: Vec<Pass>,
 }
 
 /// One pass along a contour.
-struct Pass {
+pub(super) struct Pass {
     /// Drawing units.
-    correction: f64,
+    pub correction: f64,
     /// Begins anywhere; empty where the wire stands in one point.
-    path: Vec<Element>,
+    pub path: Vec<Element>,
     /// The element of the path that is entered, and where.
-    element: usize,
-    begin: Point,
+    pub element: usize,
+    pub begin: Point,
 }
 
 impl Job<'_> {
@@ -121,31 +123,13 @@ impl Job<'_> {
                 let before = planned.finished;
                 planned.finished = Some(before.map_or(found, |before| before.merged(found)));
             }
-            planned.paths.extend(self.led(unled, wanted, thread)?);
+            match self.led(unled, wanted, thread, contours, &kerfs) {
+                Ok(paths) => planned.paths.extend(paths),
+                Err(Refusal::Findings(found)) => findings.extend(found),
+                Err(refusal) => return Err(refusal),
+            }
         }
         Ok((planned, findings))
-    }
-
-    /// The passes of a contour with their leads, each in its own direction.
-    fn led(&self, unled: Unled, wanted: &Wanted, thread: Point) -> Result<Vec<WirePath>, Refusal> {
-        let mut paths = Vec::with_capacity(unled.passes.len());
-        for (number, pass) in unled.passes.into_iter().enumerate() {
-            let path = if self.settings.compensation == Compensation::Controller {
-                self.controlled(unled.outline, wanted, thread)?
-            } else {
-                let path = begin_at(pass.path, pass.element, pass.begin);
-                self.with_leads(unled.outline, pass.correction, thread, path, true)
-            };
-            let path = WirePath {
-                pass: number + 1,
-                ..path
-            };
-            paths.push(match self.settings.runs_back(number) {
-                true => path.reversed(),
-                false => path,
-            });
-        }
-        Ok(paths)
     }
 
     /// What all passes leave of a contour, where that is asked for.
@@ -166,7 +150,7 @@ impl Job<'_> {
         finished(&unled.walls, &last.path, &kerfs, self.units(1e-5))
     }
 
-    fn severity(&self) -> Severity {
+    pub(super) fn severity(&self) -> Severity {
         self.settings
             .severity(Rule::LeadIn)
             .unwrap_or(Severity::Error)
@@ -226,7 +210,7 @@ impl Job<'_> {
     }
 
     /// The contour in the direction of the cut, and whether that is against its own.
-    fn directed(&self, index: usize) -> (Contour, bool) {
+    pub(super) fn directed(&self, index: usize) -> (Contour, bool) {
         let picked = self.picks.get(&index).and_then(|pick| pick.turned);
         let outline = &self.outlines[index];
         // An explicit direction wins; an open contour has none but that of the selection.
@@ -370,6 +354,7 @@ impl Job<'_> {
             walls,
             own,
             entry,
+            side,
             passes,
         })
     }
@@ -427,6 +412,27 @@ impl Job<'_> {
         })
     }
 
+    /// What the leads of a pass are held against; its correction is in drawing units.
+    pub(super) fn surroundings<'a>(
+        &'a self,
+        unled: &'a Unled,
+        contours: &'a Contours,
+        kerfs: &'a Kerfs,
+        correction: f64,
+    ) -> Surroundings<'a> {
+        Surroundings {
+            drawing: self.drawing,
+            outlines: self.outlines,
+            outline: unled.outline,
+            own: &unled.own,
+            contours,
+            kerfs,
+            clearance: self.clearance(correction),
+            unit_mm: self.unit_mm,
+            severity: self.severity(),
+        }
+    }
+
     /// The thread hole for the offset of a contour, or what is in the way.
     fn thread_hole(
         &self,
@@ -439,17 +445,7 @@ impl Job<'_> {
         let (Some(rough), Some(entry)) = (unled.passes.first(), &unled.entry) else {
             return Ok(stand.map_or_else(Point::origin, |pass| pass.begin));
         };
-        let surroundings = |correction: f64| Surroundings {
-            drawing: self.drawing,
-            outlines: self.outlines,
-            outline: unled.outline,
-            own: &unled.own,
-            contours,
-            kerfs,
-            clearance: self.clearance(correction),
-            unit_mm: self.unit_mm,
-            severity: self.severity(),
-        };
+        let surroundings = |correction: f64| self.surroundings(unled, contours, kerfs, correction);
         let is_opening = self.outlines[unled.outline].role == Role::Opening;
         let says_nothing = wanted.entry.is_none()
             && wanted.beside.is_none()
@@ -514,15 +510,14 @@ impl Job<'_> {
         Err(Refusal::Findings(vec![finding]))
     }
 
-    /// The part's contour, which the control offsets, with the thread hole of the path that comes of it.
+    /// The part's contour, which the control offsets, from its entry on; and the side of travel on which the wire runs.
     ///
-    /// That path has been made all the same: where it cannot be, the control would cut into the part or stop.
-    fn controlled(
+    /// The wire's path has been made all the same: where it cannot be, the control would cut into the part or stop.
+    pub(super) fn controlled(
         &self,
         index: usize,
         wanted: &Wanted,
-        thread_hole: Point,
-    ) -> Result<WirePath, Refusal> {
+    ) -> Result<(Vec<Element>, Option<Side>), Refusal> {
         let outline = &self.outlines[index];
         let (contour, turned) = self.directed(index);
         let side = outline
@@ -542,11 +537,7 @@ impl Job<'_> {
                 name(self.drawing, outline)
             )));
         };
-        let path = begin_at(elements(&walls), entry.wall, entry.point);
-        Ok(WirePath {
-            side,
-            ..self.with_leads(index, 0.0, thread_hole, path, true)
-        })
+        Ok((begin_at(elements(&walls), entry.wall, entry.point), side))
     }
 
     /// The entry that is asked for, that beside the mark, the begin of the entity that was picked first, or the point nearest to the
@@ -597,7 +588,7 @@ impl Job<'_> {
     }
 
     /// The path with the way from and back to the thread hole, where that is another point than its begin. An open path ends where it ends.
-    fn with_leads(
+    pub(super) fn with_leads(
         &self,
         outline: usize,
         correction: f64,
@@ -610,21 +601,13 @@ impl Job<'_> {
             _ => (thread_hole, thread_hole),
         };
         let mut segments: Vec<PathSegment> = Vec::with_capacity(path.len() + 2);
-        if thread_hole != begin {
-            segments.push(PathSegment {
-                geometry: Segment::line(thread_hole, begin),
-                source: Source::LeadIn,
-            });
-        }
+        segments.extend(lead(thread_hole, begin, Source::LeadIn));
         segments.extend(path.iter().map(|element| PathSegment {
             geometry: element.geometry,
             source: element.source,
         }));
-        if thread_hole != begin && closed {
-            segments.push(PathSegment {
-                geometry: Segment::line(end, thread_hole),
-                source: Source::LeadOut,
-            });
+        if closed {
+            segments.extend(lead(end, thread_hole, Source::LeadOut));
         }
         let turned = || self.directed(outline).1;
         WirePath {
@@ -632,10 +615,19 @@ impl Job<'_> {
             pass: 1,
             counter_clockwise: closed
                 .then(|| (self.outlines[outline].twice_area > 0.0) != turned()),
+            cut_off: false,
             correction,
             thread_hole,
             side: None,
             segments,
         }
     }
+}
+
+/// A straight way between two points, where they are two.
+pub(super) fn lead(from: Point, to: Point, source: Source) -> Option<PathSegment> {
+    (from != to).then(|| PathSegment {
+        geometry: Segment::line(from, to),
+        source,
+    })
 }

@@ -136,6 +136,7 @@ fn path(nth: usize, is_offset_by_control: bool, chance: &mut Chance) -> WirePath
         outline: 0,
         pass: 1,
         counter_clockwise: None,
+        cut_off: false,
         correction: 0.0,
         thread_hole,
         side,

@@ -89,7 +89,7 @@ export type LineEnd = "lf" | "crlf";
 /**
  * What a piece of the path follows.
  */
-export type PathSource = ("segment" | "lead-in" | "lead-out") | "corner";
+export type PathSource = ("segment" | "lead-in" | "lead-out") | "corner" | "tab" | "cut-off" | "overlap";
 /**
  * What a step of the program does.
  */
@@ -374,6 +374,10 @@ export interface Settings {
    */
   program?: ProgramSettings;
   /**
+   * The workpiece.
+   */
+  job?: JobSettings;
+  /**
    * Profiles of ISO programs of your own, by name.
    */
   profiles?: {
@@ -434,6 +438,18 @@ export interface ProgramSettings {
    */
   leadIn?: number;
   /**
+   * Length of the contour, mm, that all passes leave standing before the entry, so that a punch does not drop while it is cut: then comes the stop, then what stands is cut off in passes of its own. An opening whose slug is heavier than `job.slug-limit` keeps one, too. 0: none.
+   */
+  tab?: number;
+  /**
+   * Word that stops the machine before the tab is cut off. Not set: the profile's `pause` in ISO, `pause` in 3B.
+   */
+  tabStop?: string;
+  /**
+   * How far each pass goes on past its start when the contour is closed, mm.
+   */
+  closingOverlap?: number;
+  /**
    * Order of the contours; what lies within one always comes before it.
    */
   order?: Order;
@@ -465,6 +481,20 @@ export interface ProgramSettings {
    * Word of letters and digits that stops the machine so that the wire can be cut or threaded.
    */
   pause?: string;
+}
+/**
+ * The workpiece.
+ */
+export interface JobSettings {
+  /**
+   * Height of the workpiece, mm.
+   */
+  thickness?: number;
+  /**
+   * Mass of a slug in g above which an opening keeps a tab of the length `program.tab`. It needs `thickness`: 7.85 g/cm³ × area ×
+   * thickness.
+   */
+  slugLimit?: number;
 }
 /**
  * What somebody has set of a profile.

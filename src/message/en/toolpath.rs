@@ -14,6 +14,10 @@ declare! {
     crosses_the_contour_or_comes_nearer(correction) => "crosses the contour or comes nearer to it than the correction {correction:.3} mm";
     cuts_into_contour_or_comes_nearer(contour, correction) => "cuts into contour {contour} or comes nearer to it than the correction {correction:.3} mm";
     runs_into_the_cut_along_contour(contour) => "runs into the cut along contour {contour}";
+    the_tab_is_longer_than_contour(tab, handle, length) => "the tab of {tab:.3} mm leaves nothing of contour {handle}, which is {length:.3} mm long: expected a shorter tab";
+    the_overlap_is_longer_than_contour(overlap, handle, length) => "the overlap of {overlap:.3} mm goes all round contour {handle}, which is {length:.3} mm long: expected a shorter one";
+    passes_one_way_leave_no_tab => "passes that all go one way leave no tab: expected passes.sequence alternate, or program.tab 0";
+    no_tab_fits_at(tab, x, y) => "no tab of {tab:.3} mm begins at ({x:.3}, {y:.3}): the wire does not come there";
     the_lead_in_does(x, y, x1, y1, does) => "the lead-in from the thread hole ({x:.3}, {y:.3}) to ({x1:.3}, {y1:.3}) {does}";
     no_lead_in_fits_at(length, correction, x, y, why) => "no lead-in from {length:.3} mm down to the correction {correction:.3} mm fits at ({x:.3}, {y:.3}){why}: give a thread hole or another entry";
     because_it(does) => " (it {does})";

@@ -61,6 +61,8 @@ struct Lines<'a> {
     zero: Node,
     side: Option<Side>,
     is_switched_off: bool,
+    /// The path goes on where the last one ended, with all that is in force there.
+    goes_on: bool,
     number: u32,
     /// What is in force for a profile that leaves it out.
     motion: Option<Motion>,
@@ -93,7 +95,10 @@ impl Writer for Lines<'_> {
                     return Err(self.refused("its begin does not say that the wire stands at the start: expected G92 X{x} Y{y}"));
                 }
             }
-            Some(from) => self.jump(from, first)?,
+            Some(from) => self.jump(from, first, path)?,
+        }
+        if std::mem::take(&mut self.goes_on) {
+            return Ok(());
         }
         (self.side, self.is_switched_off) = (path.side, false);
         self.fixed(&self.profile.contour_begin, first)?;
@@ -143,13 +148,23 @@ impl Writer for Lines<'_> {
         Ok(())
     }
 
-    fn end(&mut self, closed: bool, first: Node, last: Node) -> Result<(), ProofError> {
+    fn end(
+        &mut self,
+        closed: bool,
+        first: Node,
+        last: Node,
+        goes_on: bool,
+    ) -> Result<(), ProofError> {
         if closed && first != last {
             return Err(ProofError::Mismatch(format!(
                 "the cut begins at {first:?} and ends at {last:?}"
             )));
         }
-        self.switch_off(last)
+        self.goes_on = goes_on;
+        match goes_on {
+            true => Ok(()),
+            false => self.switch_off(last),
+        }
     }
 }
 
@@ -176,6 +191,7 @@ impl<'a> Lines<'a> {
             zero: Node { x: 0, y: 0 },
             side: None,
             is_switched_off: false,
+            goes_on: false,
             number: 0,
             motion: None,
             blocks: 0,
@@ -202,8 +218,15 @@ impl<'a> Lines<'a> {
     }
 
     /// From one contour to the next: the wire is taken out, the table moves, the wire is threaded.
-    fn jump(&mut self, from: Node, to: Node) -> Result<(), ProofError> {
-        self.fixed(&self.profile.pause, from)?;
+    fn jump(&mut self, from: Node, to: Node, path: &WirePath) -> Result<(), ProofError> {
+        if path.goes_back_along_tab() && from == to {
+            return Ok(());
+        }
+        let stop = self.settings.tab_stop.as_ref();
+        match stop.filter(|_| path.cut_off && path.pass == 1) {
+            Some(word) => self.fixed(std::slice::from_ref(word), from)?,
+            None => self.fixed(&self.profile.pause, from)?,
+        }
         if from == to {
             return Ok(());
         }

@@ -82,6 +82,11 @@ pub fn closing(way: &dyn Way) -> Option<Closing> {
         {
             leads += 1;
         }
+        if leads == 0
+            && let Some(lead_out) = overlapping(way, tolerance)?
+        {
+            return closed(1, lead_out);
+        }
         return closed(leads, leads);
     }
     if count >= 3 && is_near(1, count)? {
@@ -129,6 +134,35 @@ pub fn closing(way: &dyn Way) -> Option<Closing> {
     }
     Some(meeting(way, tolerance)?.unwrap_or_default())
 }
+
+/// Blocks behind the place where a contour closes, where it goes on from there along its first blocks and then back to the thread hole.
+fn overlapping(way: &dyn Way, tolerance: f64) -> Option<Option<usize>> {
+    let count = way.count();
+    for lead_out in 2..=LONGEST_OVERLAP {
+        if lead_out + 3 > count {
+            break;
+        }
+        let closes = way
+            .node(1)?
+            .is_near(&way.node(count - lead_out)?, tolerance);
+        if !closes || !encloses(way, 1, lead_out)? {
+            continue;
+        }
+        let mut goes_on = true;
+        for nth in 1..lead_out {
+            let (along, first) = (way.piece(count - lead_out + nth - 1)?, way.piece(nth)?);
+            let is_on = |share| first.distance_to(along.point_at(share)) <= tolerance;
+            goes_on &= is_on(0.5) && is_on(1.0);
+        }
+        if goes_on {
+            return Some(Some(lead_out));
+        }
+    }
+    Some(None)
+}
+
+/// The most blocks of a way on past the place where a contour closes and out from there.
+const LONGEST_OVERLAP: usize = 4;
 
 /// A way whose tab comes to meet what was cut before its stop, elsewhere than where it stopped.
 fn meeting(way: &dyn Way, tolerance: f64) -> Option<Option<Closing>> {

@@ -202,7 +202,9 @@ impl Tangle<'_> {
 
     /// Whether the way that runs through `at` in one piece crosses what it does there in another.
     fn crosses(&self, first: usize, second: usize, at: Point) -> bool {
-        if self.is_where_leads_end(first, second, at) {
+        if self.is_where_leads_end(first, second, at)
+            || self.goes_on_past_its_start(first, second, at)
+        {
             return false;
         }
         let mut reach = 4.0 * self.margin;
@@ -239,6 +241,21 @@ impl Tangle<'_> {
                 .into_iter()
                 .any(|count| near(back(count).map(|piece| piece.start())))
                 || near(back(1).map(|piece| piece.end())))
+    }
+
+    /// The way goes on along its first block past the place where it closes, and out from there: it cuts nothing but its own way in.
+    fn goes_on_past_its_start(&self, first: usize, second: usize, at: Point) -> bool {
+        if first > 2 || second + 3 < self.count || self.count < 5 {
+            return false;
+        }
+        let pieces = [0, 1, self.count - 2].map(|index| self.at(index));
+        let [Some(lead_in), Some(along), Some(beyond)] = pieces else {
+            return false;
+        };
+        (beyond.start() - lead_in.end()).norm() <= 2.0 * self.margin
+            && [at, beyond.point_at(0.5), beyond.end()]
+                .iter()
+                .all(|&point| along.distance_to(point) <= self.margin)
     }
 
     /// Whether the way from `at` in one piece to `at` in another is shorter than `length`.

@@ -29,6 +29,7 @@ fn path_of(segments: Vec<Segment>) -> WirePath {
         outline: 0,
         pass: 1,
         counter_clockwise: None,
+        cut_off: false,
         correction: 0.0,
         thread_hole,
         side: None,

@@ -48,6 +48,9 @@ pub fn write_four_b(
     let correction = settings.correction * 1000.0;
     // Whole micrometres, and above the correction whatever the margin.
     let radius = (correction + (settings.margin * 1000.0).max(1.0)).ceil();
+    if paths.iter().any(|path| path.cut_off) || settings.closing_overlap > 0.0 {
+        return Err(ProofError::Refused(say!(four_b_has_no_tab).into()));
+    }
     let paths: Vec<WirePath> = paths
         .iter()
         .map(|path| rounded(path, unit_mm * 1000.0, correction, radius))
@@ -109,7 +112,14 @@ impl Writer for Blocks<'_> {
             }
             return Ok(());
         };
-        self.word(Word::Pause)?;
+        if path.goes_back_along_tab() && from == first {
+            return Ok(());
+        }
+        let stop = self.settings.tab_stop.as_deref();
+        match stop.filter(|_| path.cut_off && path.pass == 1) {
+            Some(word) => self.push_word(word)?,
+            None => self.word(Word::Pause)?,
+        }
         if self.settings.jumps == Jumps::Blocks && from != first {
             self.piece(&way(from, first), from, first, Source::LeadIn)?;
             self.word(Word::Pause)?;
@@ -166,7 +176,7 @@ impl Writer for Blocks<'_> {
         Ok(())
     }
 
-    fn end(&mut self, closed: bool, first: Node, last: Node) -> Result<(), ProofError> {
+    fn end(&mut self, closed: bool, first: Node, last: Node, _: bool) -> Result<(), ProofError> {
         self.proof
             .finish_contour(closed, first, last)
             .map_err(ProofError::Mismatch)
@@ -238,18 +248,25 @@ impl<'a> Blocks<'a> {
 
     /// Writes a pause or end word, and reads it again: it comes from the settings.
     fn word(&mut self, meaning: Word) -> Result<(), ProofError> {
-        let word = match meaning {
+        self.push_word(match meaning {
             Word::Pause => self.words.pause,
             Word::End => self.words.end,
-        };
+        })
+    }
+
+    fn push_word(&mut self, word: &str) -> Result<(), ProofError> {
         let mut read = Vec::new();
         read_line(word.as_bytes(), 1, &self.words, |item| read.push(item));
         let sound = matches!(read[..], [Item::Word { .. }])
             && word.bytes().all(|byte| byte.is_ascii_alphanumeric());
         if !sound {
-            return Err(ProofError::Mismatch(format!(
+            let sentence = format!(
                 "the word {word:?} between blocks cannot be read again, expected letters and digits"
-            )));
+            );
+            return Err(match self.settings.tab_stop.as_deref() {
+                Some(stop) if stop == word => ProofError::Refused(sentence),
+                _ => ProofError::Mismatch(sentence),
+            });
         }
         self.out.extend_from_slice(word.as_bytes());
         self.out.push(b'\n');

@@ -23,6 +23,13 @@ class Passes(TypedDict, total=False):
     skim_corner: Literal["sharp", "constant-stock"]
 
 
+class Job(TypedDict, total=False):
+    """The workpiece."""
+
+    thickness: float
+    slug_limit: float
+
+
 class ProgramSettings(TypedDict, total=False):
     """How a program is written."""
 
@@ -32,6 +39,9 @@ class ProgramSettings(TypedDict, total=False):
     thread: Place
     entry: Place
     lead_in: float
+    tab: float
+    tab_stop: str
+    closing_overlap: float
     order: Literal["as-drawn", "inside-first", "nearest", "as-picked"]
     jumps: Literal["blocks", "none"]
     compensation: Literal["path", "controller", "none"]
@@ -81,12 +91,13 @@ class Settings(TypedDict, total=False):
     docs_url: str
     profiles: Mapping[str, Profile]
     passes: Passes
+    job: Job
     program: ProgramSettings
 
 
 def to_json(settings: Settings) -> dict[str, Any]:
     """The settings with the keys of the protocol. Names of layers, rules and handles stay as they are."""
-    written = _camel(settings, {"passes", "program"})
+    written = _camel(settings, {"passes", "program", "job"})
     if "profiles" in written:
         written["profiles"] = {name: _camel(profile, set()) for name, profile in written["profiles"].items()}
     return written

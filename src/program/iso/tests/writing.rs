@@ -37,6 +37,7 @@ fn path_of(segments: &[Segment], side: Option<Side>) -> WirePath {
         outline: 0,
         pass: 1,
         counter_clockwise: None,
+        cut_off: false,
         correction: 0.0,
         thread_hole,
         side,

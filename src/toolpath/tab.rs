@@ -1,0 +1,326 @@
+//! The passes of a contour with their leads: to and fro, on past the start, and but for a tab, which is cut off after a stop.
+//!
+//! With a tab the passes end where it begins, and alternate ones go back from there: a step leads from the path of one to that of the
+//! next. Then the tab is cut in passes of its own, to and fro from where the wire stands.
+
+use super::corners::Element;
+use super::job::{Job, ROUNDING};
+use super::leads::{Contours, Entry, Kerfs, fault, path_point};
+use super::offset::normal;
+use super::order::{begin_at, name};
+use super::path::{PathSegment, Refusal, Source, WirePath};
+use super::paths::{Pass, Unled, lead};
+use super::wanted::Wanted;
+use crate::drawing::Role;
+use crate::geometry::{Point, Segment, Side};
+use crate::settings::{Compensation, Sequence};
+
+/// How much further than the correction the wire goes from a part's contour at a tab, where the control switches the correction, mm.
+const CLEAR: f64 = 0.01;
+
+/// One pass, from the entry on.
+#[derive(Default)]
+struct Round {
+    /// All of it but for the tab.
+    main: Vec<Element>,
+    /// Along the tab, which ends at the entry.
+    held: Vec<Element>,
+    /// Drawing units; 0 where the contour is the path.
+    correction: f64,
+    /// Where the wire goes at the tab to have its correction switched.
+    aside: Option<Point>,
+}
+
+impl Job<'_> {
+    /// The paths of all passes, each in its own direction, and those that cut off the tab.
+    pub(super) fn led(
+        &self,
+        mut unled: Unled,
+        wanted: &Wanted,
+        thread: Point,
+        contours: &Contours,
+        kerfs: &Kerfs,
+    ) -> Result<Vec<WirePath>, Refusal> {
+        let tab = self.tab(&unled)?;
+        let overlap = self.overlap(&unled)?;
+        let passes = std::mem::take(&mut unled.passes);
+        let count = passes.len();
+        let (mut rounds, mut side) = (Vec::with_capacity(count), None);
+        for pass in passes {
+            let (round, of_control) = self.round(&unled, wanted, pass, tab.as_ref(), count)?;
+            rounds.push(round);
+            side = of_control;
+        }
+        let outline = &self.outlines[unled.outline];
+        let counter_clockwise = (outline.twice_area > 0.0) != self.directed(unled.outline).1;
+        let mut paths = Vec::with_capacity(2 * count);
+        // Where the wire stands, if that is at the tab.
+        let mut at_tab: Option<Point> = None;
+        let cut_off = (0..count).map(|number| (number, true));
+        let stages = (0..count)
+            .map(|number| (number, false))
+            .chain(cut_off.filter(|_| tab.is_some()));
+        for (number, cut_off) in stages {
+            let round = &rounds[number];
+            let back = match cut_off {
+                true => at_tab.is_none(),
+                false => self.settings.runs_back(number),
+            };
+            let from_tab = tab.is_some() && cut_off != back;
+            let to_tab = tab.is_some() && !from_tab;
+            let way = directed(if cut_off { &round.held } else { &round.main }, back);
+            let (begin, end) = match (way.first(), way.last()) {
+                (Some(first), Some(last)) => (first.geometry.start(), last.geometry.end()),
+                _ => (thread, thread),
+            };
+            let mut segments: Vec<PathSegment> = Vec::with_capacity(way.len() + 3);
+            segments.extend(match (from_tab, round.aside) {
+                (false, _) => lead(thread, begin, Source::LeadIn),
+                (true, Some(_)) => lead(at_tab.unwrap_or(begin), begin, Source::LeadIn),
+                (true, None) => lead(at_tab.unwrap_or(begin), begin, Source::Tab),
+            });
+            segments.extend(way.iter().map(|element| PathSegment {
+                geometry: element.geometry,
+                source: element.source,
+            }));
+            let mut last = end;
+            if overlap > 0.0 && !to_tab && (cut_off || tab.is_none()) {
+                segments.extend(beyond(&directed(&round.main, back), overlap));
+                last = segments.last().map_or(end, |piece| piece.geometry.end());
+                if let Some(entry) = &unled.entry {
+                    let correction = self.units(self.settings.each_correction()[number]);
+                    let surroundings = self.surroundings(&unled, contours, kerfs, correction);
+                    let held = match round.correction > 0.0 {
+                        true => surroundings.hold(thread, last, entry, &unled.walls, correction),
+                        // The control moves the way out as it moves the contour.
+                        false => Ok(()),
+                    };
+                    held.map_err(|finding| Refusal::Findings(vec![finding]))?;
+                }
+            }
+            at_tab = match (to_tab, round.aside) {
+                (true, Some(aside)) => {
+                    segments.extend(lead(last, aside, Source::LeadOut));
+                    Some(aside)
+                }
+                (true, None) => Some(last),
+                (false, _) => {
+                    segments.extend(lead(last, thread, Source::LeadOut));
+                    None
+                }
+            };
+            paths.push(WirePath {
+                outline: unled.outline,
+                pass: number + 1,
+                counter_clockwise: Some(counter_clockwise != back),
+                cut_off,
+                correction: round.correction,
+                thread_hole: thread,
+                side: if back { side.map(Side::reversed) } else { side },
+                segments,
+            });
+        }
+        Ok(paths)
+    }
+
+    /// One pass from its entry on, and the side of travel on which the control lets the wire run.
+    fn round(
+        &self,
+        unled: &Unled,
+        wanted: &Wanted,
+        pass: Pass,
+        tab: Option<&Entry>,
+        count: usize,
+    ) -> Result<(Round, Option<Side>), Refusal> {
+        let wire = pass.correction;
+        let (ring, tab_at, correction, side) =
+            if self.settings.compensation == Compensation::Controller {
+                let (ring, side) = self.controlled(unled.outline, wanted)?;
+                (ring, tab.map(|tab| tab.point), 0.0, side)
+            } else {
+                let at =
+                    tab.and_then(|tab| path_point(&pass.path, &unled.walls, tab, wire, unled.side));
+                let ring = begin_at(pass.path, pass.element, pass.begin);
+                (ring, at.map(|(_, at)| at), wire, None)
+            };
+        let (Some(at), Some(tab)) = (tab_at, tab) else {
+            let round = Round {
+                main: ring,
+                correction,
+                ..Round::default()
+            };
+            return Ok((round, side));
+        };
+        let (main, held) = split(ring, at, self.units(ROUNDING));
+        let wall = &unled.walls[tab.wall];
+        if main.is_empty() || held.is_empty() {
+            let sentence = say!(no_tab_fits_at, self.settings.tab, tab.point.x, tab.point.y);
+            let finding = fault(self.severity(), Some(wall.source), sentence, None);
+            return Err(Refusal::Findings(vec![finding]));
+        }
+        // One pass goes on along the tab as it came.
+        let aside = (side.is_some() && count > 1).then(|| {
+            let away = normal(&wall.geometry, tab.share, unled.side);
+            tab.point + away * (wire + self.units(CLEAR))
+        });
+        let round = Round {
+            main,
+            held,
+            correction,
+            aside,
+        };
+        Ok((round, side))
+    }
+
+    /// Where on the walls the tab begins; `None` for a contour that keeps none.
+    fn tab(&self, unled: &Unled) -> Result<Option<Entry>, Refusal> {
+        let settings = self.settings;
+        let outline = &self.outlines[unled.outline];
+        let area = outline.twice_area.abs() / 2.0 * self.unit_mm.powi(2);
+        let keeps_one = settings.tab > 0.0
+            && match outline.role {
+                Role::Punch => true,
+                Role::Opening => settings.keeps_slug(area),
+                _ => false,
+            };
+        let stands = unled.passes.iter().any(|pass| pass.path.is_empty());
+        let Some(entry) = unled.entry.filter(|_| keeps_one && !stands) else {
+            return Ok(None);
+        };
+        if unled.passes.len() > 1 && settings.passes.sequence() == Sequence::OneWay {
+            return Err(Refusal::Sentence(say!(passes_one_way_leave_no_tab).into()));
+        }
+        let length = self.hold_shorter(unled, settings.tab, |tab, handle, length| {
+            say!(the_tab_is_longer_than_contour, tab, handle, length)
+        })?;
+        let (mut left, mut wall, mut share) = (self.units(settings.tab), entry.wall, entry.share);
+        loop {
+            let geometry = &unled.walls[wall].geometry;
+            let along = geometry.length();
+            if share * along >= left || left <= 1e-12 * length {
+                let share = (share - left / along).clamp(0.0, 1.0);
+                return Ok(Some(Entry {
+                    wall,
+                    share,
+                    point: geometry.point_at(share),
+                }));
+            }
+            left -= share * along;
+            wall = (wall + unled.walls.len() - 1) % unled.walls.len();
+            share = 1.0;
+        }
+    }
+
+    /// How far each pass goes on past its start, drawing units.
+    fn overlap(&self, unled: &Unled) -> Result<f64, Refusal> {
+        let overlap = self.settings.closing_overlap;
+        if overlap > 0.0 {
+            self.hold_shorter(unled, overlap, |overlap, handle, length| {
+                say!(the_overlap_is_longer_than_contour, overlap, handle, length)
+            })?;
+        }
+        Ok(self.units(overlap))
+    }
+
+    /// The length of a contour in drawing units; an error where `mm` are as long.
+    fn hold_shorter(
+        &self,
+        unled: &Unled,
+        mm: f64,
+        sentence: impl Fn(f64, &str, f64) -> String,
+    ) -> Result<f64, Refusal> {
+        let length: f64 = unled.walls.iter().map(|wall| wall.geometry.length()).sum();
+        if self.units(mm) < length {
+            return Ok(length);
+        }
+        let handle = name(self.drawing, &self.outlines[unled.outline]);
+        let source = unled.walls.first().map(|wall| wall.source);
+        let sentence = sentence(mm, handle, length * self.unit_mm);
+        Err(Refusal::Findings(vec![fault(
+            self.severity(),
+            source,
+            sentence,
+            None,
+        )]))
+    }
+}
+
+/// A way, gone back where that is asked for.
+fn directed(way: &[Element], back: bool) -> Vec<Element> {
+    if !back {
+        return way.to_vec();
+    }
+    let reversed = |element: &Element| Element {
+        geometry: element.geometry.reversed(),
+        ..*element
+    };
+    way.iter().rev().map(reversed).collect()
+}
+
+/// What lies before a point of a way, and what behind it: the last place of the way that is there.
+fn split(mut way: Vec<Element>, at: Point, rounding: f64) -> (Vec<Element>, Vec<Element>) {
+    let is_there = |element: &Element| element.geometry.distance_to(at) <= rounding;
+    let Some(index) = way.iter().rposition(is_there) else {
+        return (way, Vec::new());
+    };
+    let element = way[index];
+    let length = element.geometry.length();
+    let share = element.geometry.share_of(at).clamp(0.0, 1.0);
+    if share * length <= rounding {
+        let behind = way.split_off(index);
+        return (way, behind);
+    }
+    if (1.0 - share) * length <= rounding {
+        let behind = way.split_off(index + 1);
+        return (way, behind);
+    }
+    let mut behind = way.split_off(index);
+    behind[0].geometry = with_ends(
+        element.geometry.part(share, 1.0),
+        at,
+        element.geometry.end(),
+    );
+    let before = with_ends(
+        element.geometry.part(0.0, share),
+        element.geometry.start(),
+        at,
+    );
+    way.push(Element {
+        geometry: before,
+        ..element
+    });
+    (way, behind)
+}
+
+/// A segment with its ends where they are but for rounding.
+fn with_ends(mut segment: Segment, start: Point, end: Point) -> Segment {
+    match &mut segment {
+        Segment::Line(line) => (line.start, line.end) = (start, end),
+        Segment::Arc(arc) => (arc.start, arc.end) = (start, end),
+    }
+    segment
+}
+
+/// The first so much of a way once more.
+fn beyond(way: &[Element], length: f64) -> Vec<PathSegment> {
+    let (mut left, mut pieces) = (length, Vec::new());
+    for element in way {
+        let along = element.geometry.length();
+        let geometry = match left < along {
+            true => element.geometry.part(0.0, left / along),
+            false => element.geometry,
+        };
+        let source = match element.source {
+            Source::Segment { entity, segment } | Source::Corner { entity, segment } => {
+                Source::Overlap { entity, segment }
+            }
+            other => other,
+        };
+        pieces.push(PathSegment { geometry, source });
+        left -= along;
+        if left <= 0.0 {
+            break;
+        }
+    }
+    pieces
+}
