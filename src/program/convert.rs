@@ -171,14 +171,11 @@ impl Cuts {
     /// Why the cuts cannot become a program of a language without losing the correction: lower-case, no final dot.
     pub fn refusal(&self, format: Format, settings: &Effective) -> Option<String> {
         if let Some(line) = self.four_b {
-            return Some(format!(
-                "line {}: a 4B program holds the part's contour, and its controller adds the correction; the side and the correction would be lost",
-                line + 1
-            ));
+            return Some(say!(a_4b_program_holds_the_contour_of_the_part, line + 1));
         }
         if let Some(line) = self.cuts.iter().find_map(|cut| cut.switched) {
-            return Some(format!(
-                "line {}: the correction is switched within the contour, expected one side all the way round",
+            return Some(say!(
+                the_correction_is_switched_within_the_contour,
                 line + 1
             ));
         }
@@ -189,9 +186,10 @@ impl Cuts {
             .find(|(_, correction)| differs(correction))
             .filter(|_| format == Format::FourB);
         let (name, correction) = own.filter(|_| self.cuts.iter().any(|cut| cut.side.is_some()))?;
-        Some(format!(
-            "the program's own correction {name} is {correction:.3} mm, that of the settings {:.3} mm: the transition arcs of 4B hang on it, \
-             set correction to the one that the machine has",
+        Some(say!(
+            the_correction_of_the_program_is_not_that_of_the_settings,
+            name,
+            correction,
             settings.correction
         ))
     }
@@ -206,19 +204,16 @@ impl Cuts {
                 .take(5)
                 .map(|(name, mm)| format!("{name} = {mm:.3} mm"))
                 .collect();
-            losses.push(format!(
-                "not written: the program's own corrections, {}; set them at the machine",
+            losses.push(say!(
+                not_written_the_corrections_of_the_program,
                 own.join(", ")
             ));
         }
         if let Some(taper) = &self.taper {
-            losses.push(format!("not written: the taper; {taper}"));
+            losses.push(say!(not_written_the_taper, taper));
         }
         if let Some(line) = self.stops.first() {
-            losses.push(format!(
-                "not written: the stop in line {}, which holds the part while its tab is cut",
-                line + 1
-            ));
+            losses.push(say!(not_written_the_stop_before_a_tab, line + 1));
         }
         losses
     }

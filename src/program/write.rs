@@ -48,15 +48,17 @@ impl fmt::Display for ProofError {
 
 impl std::error::Error for ProofError {}
 
-/// Said of paths that are shorter than a step of the grid.
-pub(super) const NOTHING_TO_WRITE: &str =
-    "the path is shorter than the smallest step of a program: nothing of it can be written";
+/// The path is shorter than a step of the grid.
+pub(super) fn nothing_to_write() -> ProofError {
+    ProofError::Refused(say!(the_path_is_shorter_than_the_smallest_step).into())
+}
 
 /// No number of a program reaches `point`, which is in steps of its grid.
 pub(super) fn too_far_out(point: Point) -> ProofError {
-    ProofError::Refused(format!(
-        "the path passes {:.0}, {:.0} steps of the grid, too far out for a program",
-        point.x, point.y
+    ProofError::Refused(say!(
+        the_path_passes_too_far_out_for_a_program,
+        point.x,
+        point.y
     ))
 }
 
@@ -114,8 +116,10 @@ pub fn walk(
             let piece = scaled(&segment.geometry, steps);
             let gap = (piece.start() - reached).norm() * step_um;
             if gap > GAP || gap.is_nan() {
-                return Err(ProofError::Mismatch(format!(
-                    "the path has a gap of {gap:.3} µm before segment {done}"
+                return Err(ProofError::Mismatch(say!(
+                    the_path_has_a_gap_before_a_segment,
+                    gap,
+                    done
                 )));
             }
             reached = piece.end();

@@ -53,7 +53,7 @@ pub(super) fn summary(survey: &Survey) -> String {
             "{}",
             say!(
                 wedm_fix_in_place,
-                styled(output::NOTE, "repair what can be repaired with:"),
+                styled(output::NOTE, say!(repair_what_can_be_repaired_with)),
                 output::name(only)
             )
         );

@@ -152,7 +152,7 @@ fn start(narrator: &mut Narrator, correction: f64) -> Result<Client, Failure> {
     )?;
     narrator.say(&say!(
         wedm_protocol_started_and_answered_within,
-        version.as_str().unwrap_or("of unknown version"),
+        version.as_str().unwrap_or(say!(of_unknown_version)),
         protocol,
         narrator::duration(elapsed)
     ));

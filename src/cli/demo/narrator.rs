@@ -57,9 +57,12 @@ impl Narrator {
             Behind::Nothing => String::new(),
         };
         let at = &diagnostic["data"]["start"];
-        let place = format!(
-            "{} {line}{handle} segment {segment}, at {:.3}, {:.3}",
+        let place = say!(
+            rule_and_place_of_a_segment,
             diagnostic["code"].as_str().unwrap_or_default(),
+            line,
+            handle,
+            segment,
             at[0].as_f64().unwrap_or(f64::NAN),
             at[1].as_f64().unwrap_or(f64::NAN)
         );

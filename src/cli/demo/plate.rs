@@ -176,7 +176,7 @@ impl Session<'_> {
             .map_or(0, Vec::len);
         self.narrator.say(&say!(
             the_preferred_one_is_applied_in_the_text,
-            counted(edits, "new number")
+            counted(edits, say!(new_number))
         ));
         let before = self.diagnostics.len();
         let params = self.copy.apply(&action["edit"])?;

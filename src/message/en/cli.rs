@@ -166,4 +166,8 @@ declare! {
     expected_a_number_above_0 => "expected a number above 0";
     ends_um_from_its_start_at_most_um(x, y, deviation) => ", ends {x:.0}, {y:.0} µm from its start, at most {deviation:.2} µm beside a block's end";
     x_mm_from(width, height, corner, corner2) => "{width:.3} x {height:.3} mm, from {corner:.3}, {corner2:.3}";
+    repair_what_can_be_repaired_with => "repair what can be repaired with:";
+    of_unknown_version => "of unknown version";
+    rule_and_place_of_a_segment(rule, line, handle, segment, x, y) => "{rule} {line}{handle} segment {segment}, at {x:.3}, {y:.3}";
+    new_number => "new number";
 }

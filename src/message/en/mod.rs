@@ -7,21 +7,22 @@ mod files;
 mod findings;
 mod ide;
 mod job;
+mod program;
 mod rules;
 mod server;
 mod settings;
 mod toolpath;
 
 pub(super) use {
-    cli::*, codes::*, drawing::*, files::*, findings::*, ide::*, job::*, rules::*, server::*,
-    settings::*, toolpath::*,
+    cli::*, codes::*, drawing::*, files::*, findings::*, ide::*, job::*, program::*, rules::*,
+    server::*, settings::*, toolpath::*,
 };
 
 /// Every sentence, in the language that is spoken.
 pub(crate) mod said {
     pub(crate) use super::{
         cli::said::*, codes::said::*, drawing::said::*, files::said::*, findings::said::*,
-        ide::said::*, job::said::*, rules::said::*, server::said::*, settings::said::*,
-        toolpath::said::*,
+        ide::said::*, job::said::*, program::said::*, rules::said::*, server::said::*,
+        settings::said::*, toolpath::said::*,
     };
 }

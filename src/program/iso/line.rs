@@ -117,7 +117,7 @@ pub(super) fn push_changed(
 ) -> Result<(), String> {
     if old != new {
         let TextEdit { range: own, text } =
-            difference(old, new).ok_or("a line is in another code page")?;
+            difference(old, new).ok_or(say!(a_line_is_in_another_code_page))?;
         edits.push(TextEdit {
             range: range.start + own.start..range.start + own.end,
             text,
@@ -134,13 +134,13 @@ pub(super) fn prove(
 ) -> Result<(), String> {
     let fault = |what: &str| Err(format!("line {}: {what}", line + 1));
     let Some(made) = made else {
-        return fault("the new line does not move");
+        return fault(say!(the_new_line_does_not_move));
     };
     if made.to != target.to || made.motion != target.motion {
-        return fault("the new line leads elsewhere");
+        return fault(say!(the_new_line_leads_elsewhere));
     }
     if !matches!(made.course(reading), Course::Line | Course::Arc(_)) {
-        return fault("its arc cannot be written with the program's decimals");
+        return fault(say!(its_arc_cannot_be_written_with_the_program_s_decimals));
     }
     Ok(())
 }
@@ -203,7 +203,7 @@ impl Line<'_> {
             } = token
             else {
                 if let Token::Fault { .. } = token {
-                    fault = Some("the line cannot be read");
+                    fault = Some(say!(the_line_cannot_be_read));
                 }
                 continue;
             };

@@ -57,7 +57,7 @@ pub(super) fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, 
             _ => {
                 let new = with_word(bytes, &format!("N{number}"), parted);
                 let new = String::from_utf8(new)
-                    .map_err(|_| format!("line {}: it is in another code page", line + 1))?;
+                    .map_err(|_| say!(that_line_is_in_another_code_page, line + 1))?;
                 edits.push(TextEdit::new(range, new));
             }
         }
@@ -192,9 +192,7 @@ fn refuse_unknown_calls(document: &Document) -> Result<(), String> {
         .iter()
         .find(|word| memchr::memmem::find(&text, word.as_bytes()).is_some())
     {
-        Some(word) => Err(format!(
-            "{word} may call a block by its number, and it is not known how"
-        )),
+        Some(word) => Err(say!(a_word_may_call_a_block_by_its_number, word)),
         None => Ok(()),
     }
 }

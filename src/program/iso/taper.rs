@@ -51,10 +51,10 @@ fn reason(document: &Document, line: usize, wanted: Words) -> Option<&'static st
         };
         match letter {
             b'U' | b'V' if number(at + 1).is_some() => {
-                Some("the way of the upper guide (U, V) is not followed")
+                Some(say!(the_way_of_the_upper_guide_is_not_followed))
             }
             b':' if code[at..].iter().any(|byte| matches!(byte, b'X' | b'Y')) => {
-                Some("the second contour behind the colon is not followed")
+                Some(say!(the_second_contour_behind_the_colon_is_not_followed))
             }
             b'G' if wanted == Words::All => {
                 let whole = number(at + 1)
@@ -62,13 +62,13 @@ fn reason(document: &Document, line: usize, wanted: Words) -> Option<&'static st
                     .and_then(|number| number.parse::<u32>().ok());
                 whole
                     .filter(|code| matches!(code, 51 | 52 | 140..=142))
-                    .map(|_| "a taper (G51, G52, G140 to G142) is not followed")
+                    .map(|_| say!(a_taper_is_not_followed))
             }
             b'T' if wanted == Words::All
                 && matches!(code.get(at + 1), Some(b'P' | b'N'))
                 && number(at + 2).is_some() =>
             {
-                Some("the planes of a taper (TP, TN) are not followed")
+                Some(say!(the_planes_of_a_taper_are_not_followed))
             }
             _ => None,
         }

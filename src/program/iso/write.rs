@@ -7,7 +7,7 @@ use crate::finding::Side;
 use crate::geometry::Segment;
 use crate::program::grid::{Node, largest_distance, point_of};
 use crate::program::write::{
-    NOTHING_TO_WRITE, ProofError, ProvedProgram, Writer, cuts, push_number, push_places, scaled,
+    ProofError, ProvedProgram, Writer, cuts, nothing_to_write, push_number, push_places, scaled,
     walk, way,
 };
 use crate::settings::{Coordinates, Effective, Jumps, LineEnd, NumberUnit, Profile, Zero};
@@ -92,7 +92,7 @@ impl Writer for Lines<'_> {
                     self.machine.at = self.place(first);
                 }
                 if self.machine.at != self.place(first) {
-                    return Err(self.refused("its begin does not say that the wire stands at the start: expected G92 X{x} Y{y}"));
+                    return Err(self.refused(say!(its_begin_does_not_say_where_the_wire_stands)));
                 }
             }
             Some(from) => self.jump(from, first, path)?,
@@ -104,12 +104,12 @@ impl Writer for Lines<'_> {
         self.fixed(&self.profile.contour_begin, first)?;
         if path.side.is_some() && path.pass > 1 && !self.names_registers() {
             return Err(self.refused(
-                "all passes would have one correction: expected a line with {register} in its contour-begin",
+                say!(all_passes_would_have_one_correction),
             ));
         }
         if path.side.is_some() && self.machine.side != path.side {
             return Err(self.refused(
-                "its contour-begin does not switch the correction on: expected a line with {side}",
+                say!(its_contour_begin_does_not_switch_the_correction_on),
             ));
         }
         Ok(())
@@ -136,9 +136,7 @@ impl Writer for Lines<'_> {
             &mut encoded,
         )
         .ok_or_else(|| {
-            ProofError::Mismatch(format!(
-                "no moves within tolerance lead from {from:?} to {to:?}"
-            ))
+            ProofError::Mismatch(say!(no_moves_within_tolerance_lead_from_to, format_args!("{from:?}"), format_args!("{to:?}")))
         })?;
         for step in &encoded {
             self.step_out(step)?;
@@ -156,9 +154,7 @@ impl Writer for Lines<'_> {
         goes_on: bool,
     ) -> Result<(), ProofError> {
         if closed && first != last {
-            return Err(ProofError::Mismatch(format!(
-                "the cut begins at {first:?} and ends at {last:?}"
-            )));
+            return Err(ProofError::Mismatch(say!(the_cut_begins_at_and_ends_at, format_args!("{first:?}"), format_args!("{last:?}"))));
         }
         self.goes_on = goes_on;
         match goes_on {
@@ -246,7 +242,7 @@ impl<'a> Lines<'a> {
                 self.fixed(&["G92 X{x} Y{y}".to_owned()], to)?;
                 if self.machine.at != self.place(to) {
                     return Err(self
-                        .refused("without jumps its pause has to stop the machine: expected M00"));
+                        .refused(say!(its_pause_has_to_stop_the_machine)));
                 }
                 Ok(())
             }
@@ -304,10 +300,10 @@ impl<'a> Lines<'a> {
             });
             let made = self.machine.run(&block, &self.reading);
             if fault.is_some() {
-                return Err(self.refused(&format!("its line `{text}` cannot be read again")));
+                return Err(self.refused(&say!(its_line_cannot_be_read_again, text)));
             }
             if made.is_some() {
-                return Err(self.refused(&format!("its line `{text}` moves the wire")));
+                return Err(self.refused(&say!(its_line_moves_the_wire, text)));
             }
             if block.motion.is_some() {
                 self.motion = None;
@@ -401,37 +397,25 @@ impl<'a> Lines<'a> {
     /// Holds what the control does with the line against the node and the piece of the path; how far it lies from that at most, µm.
     fn check(&self, step: &Encoded, made: Option<Move>) -> Result<f64, ProofError> {
         let Some(made) = made else {
-            return Err(ProofError::Mismatch(format!(
-                "a written move to {:?} does not move",
-                step.to
-            )));
+            return Err(ProofError::Mismatch(say!(a_written_move_does_not_move, format_args!("{:?}", step.to))));
         };
         let (from, to) = (self.place(step.from), self.place(step.to));
         if made.from != from || made.to != to || made.motion != step.motion {
             // Only the profile can have changed what coordinates count from, or in which unit.
-            let profile = format!(
-                "its lines lead elsewhere than they should: a move to {to:?} nm goes to {:?} nm; expected G90 or G91 as coordinates say",
-                made.to
-            );
+            let profile = say!(its_lines_lead_elsewhere, format_args!("{to:?}"), format_args!("{:?}", made.to));
             return Err(self.refused(&profile));
         }
         if made.is_cut() && !self.is_switched_off && made.side != self.side {
-            return Err(self.refused("the correction is not in force along the contour"));
+            return Err(self.refused(say!(the_correction_is_not_in_force_along_the_contour)));
         }
         let decoded = match made.course(&self.reading) {
             Course::Line => Segment::line(micrometres(made.from), micrometres(made.to)),
             Course::Arc(arc) => Segment::Arc(arc),
             Course::OffRadius { start, end, .. } => {
-                return Err(ProofError::Mismatch(format!(
-                    "the arc to {:?} has ends {start:.3} and {end:.3} µm from its centre",
-                    step.to
-                )));
+                return Err(ProofError::Mismatch(say!(the_ends_of_the_arc_lie_apart_from_its_centre, format_args!("{:?}", step.to), start, end)));
             }
             Course::NoRadius => {
-                return Err(ProofError::Mismatch(format!(
-                    "the arc to {:?} has no radius",
-                    step.to
-                )));
+                return Err(ProofError::Mismatch(say!(the_arc_to_a_place_has_no_radius, format_args!("{:?}", step.to))));
             }
         };
         let piece = scaled(
@@ -441,11 +425,7 @@ impl<'a> Lines<'a> {
         let middles = (decoded.point_at(0.5) - piece.point_at(0.5)).norm();
         let aside = largest_distance(&decoded, &piece);
         if aside.max(middles) > ASIDE_TOLERANCE + 1e-6 || aside.is_nan() || middles.is_nan() {
-            return Err(ProofError::Mismatch(format!(
-                "the move to {:?} runs {:.3} µm beside the path",
-                step.to,
-                aside.max(middles)
-            )));
+            return Err(ProofError::Mismatch(say!(the_move_runs_beside_the_path, format_args!("{:?}", step.to), aside.max(middles))));
         }
         Ok(aside)
     }
@@ -468,13 +448,13 @@ impl<'a> Lines<'a> {
     /// `cuts` tells that there is more to the paths than places where the wire is threaded.
     fn finish(mut self, cuts: bool) -> Result<ProvedProgram, ProofError> {
         if self.blocks == 0 && cuts {
-            return Err(ProofError::Refused(NOTHING_TO_WRITE.into()));
+            return Err(nothing_to_write());
         }
         self.side = None;
         self.fixed(&self.profile.end, self.zero)?;
         let (step_um, blocks) = (self.step_um(), self.blocks);
         let text = String::from_utf8(self.out)
-            .map_err(|_| ProofError::Mismatch("the program is not text".into()))?;
+            .map_err(|_| ProofError::Mismatch(say!(the_program_is_not_text).into()))?;
         let deviation = self.deviation;
         Ok(ProvedProgram {
             text,

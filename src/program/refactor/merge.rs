@@ -16,7 +16,7 @@ use std::ops::Range;
 pub(super) fn merge<N: Notation>() -> Refactoring<N> {
     Refactoring {
         id: "refactor.rewrite.merge",
-        title: |_| "Merge collinear blocks".into(),
+        title: |_| say!(merge_collinear_blocks).into(),
         rewrite: merged,
     }
 }

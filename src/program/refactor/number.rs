@@ -17,7 +17,7 @@ pub(super) fn all<N: Notation>() -> [Refactoring<N>; 2] {
         },
         Refactoring {
             id: "refactor.rewrite.withoutNumbers",
-            title: |_| "Leave the block numbers out".into(),
+            title: |_| say!(leave_the_block_numbers_out).into(),
             rewrite: |sheet| same_way(sheet, N::without_numbers(sheet.document)?),
         },
     ]

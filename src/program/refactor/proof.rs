@@ -19,10 +19,10 @@ pub(super) fn prove<N: Notation>(
     let again = Sheet::<N>::new(after, sheet.settings, 0..0);
     let now = again
         .content()
-        .map_err(|reason| format!("the new program cannot be read: {reason}"))?;
+        .map_err(|reason| say!(the_new_program_cannot_be_read, reason))?;
     let meant = rewrite.meant(sheet, content);
     if now.rows.len() != meant.len() {
-        return Err("the new program reads otherwise than it was meant".into());
+        return Err(say!(the_new_program_reads_otherwise_than_it_was_meant).into());
     }
     for (row, meant) in now.rows.iter().zip(&meant) {
         N::agree(after, row, meant).map_err(|what| format!("line {}: {what}", row.line + 1))?;
@@ -32,7 +32,7 @@ pub(super) fn prove<N: Notation>(
         trace.steps.iter().filter(is_pause).count()
     };
     if pauses(&again.trace) != pauses(&sheet.trace) {
-        return Err("a stop would be lost".into());
+        return Err(say!(a_stop_would_be_lost).into());
     }
     if !sheet.trace.writing.names_places {
         // Without a header the program counts from its own start.
@@ -40,9 +40,7 @@ pub(super) fn prove<N: Notation>(
         let end = again.trace.end() + (start - again.trace.start);
         let miss = (end - rewrite.end.unwrap_or(sheet.trace.end())).norm();
         if miss > END_TOLERANCE + content.arcs().max(now.arcs()) as f64 {
-            return Err(format!(
-                "the new program ends {miss:.1} µm from where it should"
-            ));
+            return Err(say!(the_new_program_ends_elsewhere, miss));
         }
     }
     refuse_new_errors::<N>(sheet.document, after)
@@ -57,12 +55,12 @@ fn refuse_new_errors<N: Notation>(before: &N::Document, after: &N::Document) -> 
     };
     let (before, after) = (errors(before), errors(after));
     match after.iter().find(|rule| !before.contains(rule)) {
-        Some(rule) => Err(format!(
-            "the new program would have a fault that this one has not: {}",
+        Some(rule) => Err(say!(
+            the_new_program_would_have_a_fault_that_this_one_has_not,
             rule.name()
         )),
         None if after.len() > before.len() => {
-            Err("the new program would have more faults than this one".into())
+            Err(say!(the_new_program_would_have_more_faults_than_this_one).into())
         }
         None => Ok(()),
     }
@@ -83,10 +81,10 @@ pub(super) fn same_way<N: Notation>(
         return Ok(edits);
     }
     let bytes =
-        edited(N::text(sheet.document).bytes(), &edits).ok_or("the edits lie on each other")?;
+        edited(N::text(sheet.document).bytes(), &edits).ok_or(say!(the_edits_lie_on_each_other))?;
     let after = N::read(bytes, sheet.settings);
     if way(&N::trace(&after).as_meant()) != way(&sheet.trace) {
-        return Err("the numbers are part of what the machine does".into());
+        return Err(say!(the_numbers_are_part_of_what_the_machine_does).into());
     }
     refuse_new_errors::<N>(sheet.document, &after)?;
     Ok(edits)

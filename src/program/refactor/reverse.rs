@@ -15,7 +15,7 @@ use crate::text::TextEdit;
 pub(super) fn reverse<N: Notation>() -> Refactoring<N> {
     Refactoring {
         id: "refactor.rewrite.reverse",
-        title: |_| "Reverse the direction of the contour".into(),
+        title: |_| say!(reverse_the_direction_of_the_contour).into(),
         rewrite: reversed,
     }
 }

@@ -39,7 +39,7 @@ impl<N: Notation> Rewrite<N> {
             return Ok(edits);
         }
         let old = N::text(sheet.document).bytes();
-        let bytes = edited(old, &edits).ok_or("the edits lie on each other")?;
+        let bytes = edited(old, &edits).ok_or(say!(the_edits_lie_on_each_other))?;
         let after = N::read(bytes, sheet.settings);
         prove(sheet, content, &self, &after)?;
         let more = N::finishing(&sheet.trace, &after);

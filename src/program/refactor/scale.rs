@@ -14,12 +14,12 @@ pub(super) fn all<N: Notation>() -> [Refactoring<N>; 2] {
     [
         Refactoring {
             id: "refactor.rewrite.scale.inchToMm",
-            title: |_| "Scale by 25.4 (inch to mm)".into(),
+            title: |_| say!(scale_from_inch_to_mm).into(),
             rewrite: |sheet| between_units(sheet, 25.4),
         },
         Refactoring {
             id: "refactor.rewrite.scale.mmToInch",
-            title: |_| "Scale by 1/25.4 (mm to inch)".into(),
+            title: |_| say!(scale_from_mm_to_inch).into(),
             rewrite: |sheet| between_units(sheet, 1.0 / 25.4),
         },
     ]
@@ -43,15 +43,13 @@ pub(in crate::program) fn scaled<N: Notation>(
 ) -> Result<Vec<TextEdit>, String> {
     if !FACTORS.contains(&factor) {
         let (least, most) = (FACTORS.start(), FACTORS.end());
-        return Err(format!(
-            "the factor is {factor}, expected one between {least} and {most}"
-        ));
+        return Err(say!(the_factor_is_expected_between, factor, least, most));
     }
     let content = sheet.content()?;
     N::refuse(sheet, Change::Scale)?;
     let node = |row, node| {
         N::scaled_node(sheet, row, node, factor)
-            .ok_or_else(|| "the scaled path runs too far out for a program".to_owned())
+            .ok_or_else(|| say!(the_scaled_path_runs_too_far_out_for_a_program).to_owned())
     };
     let mut rewrite = Rewrite::new();
     let mut from = None;
@@ -61,10 +59,7 @@ pub(in crate::program) fn scaled<N: Notation>(
         rewrite.start = rewrite.start.or(Some(begin));
         let news = N::scaled(sheet, content, index, [begin, to], factor)?;
         if news.is_empty() {
-            return Err(format!(
-                "line {}: the block becomes shorter than 1 µm",
-                row.line + 1
-            ));
+            return Err(say!(the_block_becomes_shorter_than_1_um, row.line + 1));
         }
         rewrite.rows.insert(index, news);
         rewrite.end = Some(Content::<N>::point(to));

@@ -70,7 +70,7 @@ impl<'a, N: Notation> Sheet<'a, N> {
         let moves = trace.steps.iter().filter(|step| step.moves()).count();
         let content = N::rows(document, &trace, &contours).and_then(|rows| {
             if rows.len() != moves {
-                return Err("the program is not followed as a whole".into());
+                return Err(say!(the_program_is_not_followed_as_a_whole).into());
             }
             Ok(Content {
                 rows,
@@ -148,8 +148,8 @@ impl<N: Notation> Content<N> {
     pub fn refuse_pause(&self, contour: &Contour) -> Result<(), String> {
         let within = |row: &usize| contour.rows.start < *row && *row < contour.rows.end;
         match self.pauses.iter().copied().find(within) {
-            Some(row) => Err(format!(
-                "the contour pauses before line {}, to hold the part while its tab is cut",
+            Some(row) => Err(say!(
+                the_contour_pauses_to_hold_the_part,
                 self.rows[row].line + 1
             )),
             None => Ok(()),
@@ -161,8 +161,9 @@ impl<N: Notation> Content<N> {
         self.refuse_pause(contour)?;
         let (own, ordinal) = (contour.own_rows(), contour.ordinal);
         if !contour.closed || own.is_empty() {
-            return Err(format!(
-                "contour {ordinal} is open: only a closed one begins elsewhere or goes round the other way"
+            return Err(say!(
+                only_a_closed_contour_begins_elsewhere_or_goes_round,
+                ordinal
             ));
         }
         if !self.names_places {
@@ -173,7 +174,7 @@ impl<N: Notation> Content<N> {
             (0..=contour.lead_in.min(contour.lead_out)).map(|by| own.start - by..own.end + by);
         wider
             .find(|own| self.rows[own.start].from == self.rows[own.end - 1].to)
-            .ok_or_else(|| format!("contour {ordinal} misses its own begin: close it first"))
+            .ok_or_else(|| say!(the_contour_misses_its_own_begin, ordinal))
     }
 }
 

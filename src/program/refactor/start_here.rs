@@ -15,7 +15,7 @@ use std::ops::Range;
 pub(super) fn start_here<N: Notation>() -> Refactoring<N> {
     Refactoring {
         id: "refactor.rewrite.startHere",
-        title: |_| "Begin the contour with this block".into(),
+        title: |_| say!(begin_the_contour_with_this_block).into(),
         rewrite: begun_here,
     }
 }
@@ -27,16 +27,14 @@ fn begun_here<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String
     let content = sheet.content()?;
     let (rows, line) = (&content.rows, sheet.selected_lines().start);
     let first = rows.iter().position(|row| row.line == line);
-    let first = first.ok_or("no block is selected")?;
+    let first = first.ok_or(say!(no_block_is_selected))?;
     let mut contours = content.contours.iter();
     let contour = contours
         .find(|contour| contour.rows.contains(&first))
-        .ok_or("no contour is selected")?;
+        .ok_or(say!(no_contour_is_selected))?;
     let own = content.closed(contour)?;
     if !own.contains(&first) {
-        return Err(
-            "the block leads to the contour or away from it, expected one of the contour".into(),
-        );
+        return Err(say!(the_block_leads_to_the_contour_or_away_from_it).into());
     }
     if first == own.start {
         return Ok(Vec::new());
@@ -55,12 +53,12 @@ fn begun_here<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String
             rewrite.start = Some(begin);
             rewrite.end = Some(Content::<N>::point(begin));
         }
-        (0, 0) => return Err("what comes before and behind leads to the present start".into()),
+        (0, 0) => return Err(say!(what_comes_before_and_behind_leads_to_the_present_start).into()),
         (1, 0 | 1) => {
             let hole = rows[all.start].from;
             let mut lead = |row: usize, ends: [Node; 2], far: Node| {
                 if rows[row].piece.as_arc().is_some() {
-                    return Err(format!("line {}: the way is an arc", rows[row].line + 1));
+                    return Err(say!(the_way_is_an_arc, rows[row].line + 1));
                 }
                 refuse_crossing(content, own.clone(), far, begin)?;
                 let straight = N::straight(sheet, content, row, ends)?;
@@ -74,11 +72,11 @@ fn begun_here<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String
             } else {
                 rewrite.end = Some(Content::<N>::point(begin));
                 if own.end < rows.len() {
-                    return Err("what comes behind begins at the present end of the contour".into());
+                    return Err(say!(what_comes_behind_begins_at_the_present_end).into());
                 }
             }
         }
-        _ => return Err("the way in or out is more than one block".into()),
+        _ => return Err(say!(the_way_in_or_out_is_more_than_one_block).into()),
     }
     rewrite.edits(sheet, content)
 }
@@ -91,14 +89,14 @@ fn refuse_crossing<N: Notation>(
     begin: Node,
 ) -> Result<(), String> {
     if hole == begin {
-        return Err("the thread hole lies on the start".into());
+        return Err(say!(the_thread_hole_lies_on_the_start).into());
     }
     let way = Segment::line(Content::<N>::point(hole), Content::<N>::point(begin));
     for row in &content.rows[own] {
         let mut met = meetings(&way, &row.piece).into_iter();
         if met.any(|at| (at - way.end()).norm() > TOUCH) {
-            return Err(format!(
-                "the way from the thread hole would cut the contour in line {}",
+            return Err(say!(
+                the_way_from_the_thread_hole_would_cut_the_contour,
                 row.line + 1
             ));
         }

@@ -16,27 +16,27 @@ pub(super) fn all<N: Notation>() -> [Refactoring<N>; 5] {
     [
         Refactoring {
             id: "refactor.rewrite.mirror.x",
-            title: |_| "Mirror left and right (X to −X)".into(),
+            title: |_| say!(mirror_left_and_right).into(),
             rewrite: |sheet| transformed(sheet, [-1, 0, 0, 1]),
         },
         Refactoring {
             id: "refactor.rewrite.mirror.y",
-            title: |_| "Mirror up and down (Y to −Y)".into(),
+            title: |_| say!(mirror_up_and_down).into(),
             rewrite: |sheet| transformed(sheet, [1, 0, 0, -1]),
         },
         Refactoring {
             id: "refactor.rewrite.rotate.left",
-            title: |_| "Rotate by 90° counter-clockwise".into(),
+            title: |_| say!(rotate_by_90_counter_clockwise).into(),
             rewrite: |sheet| transformed(sheet, [0, -1, 1, 0]),
         },
         Refactoring {
             id: "refactor.rewrite.rotate.right",
-            title: |_| "Rotate by 90° clockwise".into(),
+            title: |_| say!(rotate_by_90_clockwise).into(),
             rewrite: |sheet| transformed(sheet, [0, 1, -1, 0]),
         },
         Refactoring {
             id: "refactor.rewrite.rotate.half",
-            title: |_| "Rotate by 180°".into(),
+            title: |_| say!(rotate_by_180).into(),
             rewrite: |sheet| transformed(sheet, [-1, 0, 0, -1]),
         },
     ]

@@ -41,15 +41,12 @@ impl SyntaxFault {
     pub fn sentence(&self) -> String {
         match &self.flaw {
             Flaw::Unreadable(sentence) | Flaw::NotPlain(sentence) => sentence.clone(),
-            Flaw::DecimalCommas => {
-                "the coordinates have decimal commas and are not read, expected decimal points"
-                    .into()
-            }
-            Flaw::MissingB { .. } => "a B of the block is missing".into(),
+            Flaw::DecimalCommas => say!(the_coordinates_have_decimal_commas).into(),
+            Flaw::MissingB { .. } => say!(a_b_of_the_block_is_missing).into(),
             Flaw::BlockNumberAsB { number } => {
-                format!("B{number} stands where N{number} was meant")
+                say!(b_stands_where_n_was_meant, number)
             }
-            Flaw::LetterO => "the letter O stands where a zero was meant".into(),
+            Flaw::LetterO => say!(the_letter_o_stands_where_a_zero_was_meant).into(),
         }
     }
 }

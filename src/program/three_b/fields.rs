@@ -205,7 +205,7 @@ pub(super) fn lenient(text: &[u8]) -> Result<Found, Expected> {
         let meant = &numbers[0];
         let number = meant.value.and_then(|value| u32::try_from(value).ok());
         let Some((b, number)) = meant.b.zip(number) else {
-            return Err((meant.digits.start, "B before the number"));
+            return Err((meant.digits.start, say!(b_before_the_number)));
         };
         let flaw = Flaw::BlockNumberAsB { number };
         faults.push(SyntaxFault::new(b..meant.digits.end, flaw));
@@ -221,7 +221,7 @@ pub(super) fn lenient(text: &[u8]) -> Result<Found, Expected> {
         let at = numbers
             .get(3)
             .map_or(axis_at, |number| number.b.unwrap_or(number.digits.start));
-        return Err((at, "G and the counting axis, GX or GY"));
+        return Err((at, say!(g_and_the_counting_axis)));
     };
     for number in [x, y, j].into_iter().filter(|number| number.b.is_none()) {
         // What was split has been said already.
@@ -237,7 +237,7 @@ pub(super) fn lenient(text: &[u8]) -> Result<Found, Expected> {
         }
     }
     let Some(length) = j.value else {
-        return Err((j.digits.start, "the counting length J in \u{b5}m"));
+        return Err((j.digits.start, say!(the_counting_length_j)));
     };
     let first = x.b.unwrap_or(x.digits.start);
     let block = Block {
@@ -301,7 +301,7 @@ fn numbers(
             reader.at += 1;
         }
         if significant > MOST_DIGITS {
-            return Err((start, "at most 12 digits"));
+            return Err((start, say!(at_most_12_digits)));
         }
         if b.is_none() && reader.at == start {
             return Ok(numbers);
@@ -310,7 +310,7 @@ fn numbers(
             let fourth = &numbers[3];
             return Err((
                 fourth.b.unwrap_or(fourth.digits.start),
-                "G and the counting axis, GX or GY",
+                say!(g_and_the_counting_axis),
             ));
         }
         numbers.push(Number {
@@ -323,10 +323,10 @@ fn numbers(
 
 fn axis_of(reader: &mut Reader<'_>, numbers: usize) -> Result<CountingAxis, Expected> {
     let expected = match numbers {
-        0 => "B and X, Y and J",
-        1 => "digits of X, or B before Y",
-        2 => "digits of Y, or B before J",
-        _ => "G and the counting axis, GX or GY",
+        0 => say!(b_and_the_numbers),
+        1 => say!(digits_of_x_or_b_before_y),
+        2 => say!(digits_of_y_or_b_before_j),
+        _ => say!(g_and_the_counting_axis),
     };
     if !reader.take(b'G') {
         return Err((reader.at, expected));
@@ -352,7 +352,7 @@ fn motion_of(reader: &mut Reader<'_>) -> Result<Motion, Expected> {
         }
         Motion::CounterClockwise
     } else {
-        return Err((reader.at, "L, SR or NR and a quadrant"));
+        return Err((reader.at, say!(the_motion_and_a_quadrant)));
     };
     reader.skip();
     let quadrant = reader
@@ -360,7 +360,7 @@ fn motion_of(reader: &mut Reader<'_>) -> Result<Motion, Expected> {
         .get(reader.at)
         .and_then(|byte| Quadrant::from_number(byte.wrapping_sub(b'0')));
     let Some(quadrant) = quadrant else {
-        return Err((reader.at, "a quadrant from 1 to 4"));
+        return Err((reader.at, say!(a_quadrant_from_1_to_4)));
     };
     reader.at += 1;
     Ok(kind(quadrant))
@@ -375,7 +375,7 @@ fn split_numbers(
     axis_at: usize,
     faults: &mut Vec<SyntaxFault>,
 ) -> Result<Vec<Number>, Expected> {
-    let expected = || (axis_at, "digits of Y, or B before J");
+    let expected = || (axis_at, say!(digits_of_y_or_b_before_j));
     let [first, second] = &numbers[..] else {
         return Err(expected());
     };

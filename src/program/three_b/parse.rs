@@ -78,12 +78,9 @@ pub fn read(text: &[u8], words: &Words<'_>) -> (Vec<Item>, Vec<SyntaxFault>) {
 /// The fault of text between the blocks.
 pub(super) fn unexpected(text: &[u8], range: Range<usize>, column: usize) -> SyntaxFault {
     let found = shown(text.get(range.clone()).unwrap_or_default());
-    let sentence = format!("column {column}: found `{found}`, expected {BLOCK_OR_WORD}");
+    let sentence = say!(found_in_a_column, column, found, say!(a_block_or_word_or_comment_of_3b));
     SyntaxFault::new(range, Flaw::Unreadable(sentence))
 }
-
-const BLOCK_OR_WORD: &str =
-    "a block (B X B Y B J G Z), a pause or end word, or a comment after `;`";
 
 /// The bytes of each line without its end.
 fn lines(text: &[u8]) -> impl Iterator<Item = Range<usize>> + '_ {
@@ -158,16 +155,13 @@ fn not_plain(line: &[u8], readable: &[u8], words: &Words<'_>) -> Option<SyntaxFa
     }
     let end = line[..code].trim_ascii_end().len();
     let script = if matches!(first.likeness, Likeness::Foreign(_)) {
-        "Cyrillic or Greek"
+        say!(cyrillic_or_greek)
     } else {
-        "full-width"
+        say!(full_width)
     };
     let found = shown(&line[first.at..]);
-    let expected = "a block in plain letters and digits";
-    let sentence = format!(
-        "column {}: found `{found}`, expected {expected}, these are {script} ones",
-        first.at + 1
-    );
+    let expected = say!(a_block_in_plain_letters_and_digits);
+    let sentence = say!(found_letters_of_another_script, first.at + 1, found, expected, script);
     let range = first.at..end.max(first.at + first.length);
     Some(SyntaxFault {
         number,
@@ -298,7 +292,7 @@ impl Cursor<'_> {
             // Some writers open with a heading between rows of stars; brackets and slashes open comments elsewhere.
             b'*' | b'#' | b'%' | b'\'' | b'"' | b'/' => return Ok(self.comment_at(start)),
             0x80.. if looks_like_a_block(before_comment(rest)) => {
-                return Err(self.fault("a block in plain letters and digits"));
+                return Err(self.fault(say!(a_block_in_plain_letters_and_digits)));
             }
             0x80.. => return Ok(self.comment()),
             b'(' => match row_number(rest) {
@@ -471,12 +465,12 @@ impl Cursor<'_> {
             .unwrap_or(rest.len())
             .clamp(rest.len().min(1), rest.len());
         let (start, found) = if rest.is_empty() {
-            (self.at.saturating_sub(1), "the line ends".to_owned())
+            (self.at.saturating_sub(1), say!(the_line_ends).to_owned())
         } else {
-            (self.at, format!("found `{}`", shown(&rest[..length])))
+            (self.at, say!(found_something, shown(&rest[..length])))
         };
         let range = self.offset + start..self.offset + self.at + length;
-        let sentence = format!("column {column}: {found}, expected {expected}");
+        let sentence = say!(expected_in_a_column, column, found, expected);
         SyntaxFault::new(range, Flaw::Unreadable(sentence))
     }
 

@@ -23,10 +23,7 @@ pub(super) fn rounded(
 ) -> Result<WirePath, ProofError> {
     let refused = |sentence: String| Err(ProofError::Refused(sentence));
     let Some(side) = path.side else {
-        return refused(
-            "4B holds the part's contour: set compensation to controller, and say opening or punch"
-                .into(),
-        );
+        return refused(say!(n4b_needs_the_side_of_the_contour).into());
     };
     let is_lead = |piece: &PathSegment| matches!(piece.source, Source::LeadIn | Source::LeadOut);
     let mut contour: Vec<PathSegment> = path
@@ -39,7 +36,7 @@ pub(super) fn rounded(
         .iter_mut()
         .for_each(|piece| piece.geometry = scaled(&piece.geometry, scale));
     let (Some(first), Some(last)) = (contour.first().copied(), contour.last().copied()) else {
-        return refused("there is no contour to cut".into());
+        return refused(say!(there_is_no_contour_to_cut).into());
     };
     for piece in &contour {
         if let Segment::Arc(arc) = piece.geometry

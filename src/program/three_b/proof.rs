@@ -38,40 +38,46 @@ impl Proof {
             _ => {}
         });
         if let Some(fault) = fault {
-            return Err(format!(
-                "a written block cannot be read again: {}",
-                fault.sentence()
-            ));
+            return Err(say!(a_written_block_cannot_be_read_again, fault.sentence()));
         }
         match read {
             Some((block, read)) if block == encoded.block && read == part => {
                 self.check_block(&block, encoded)
             }
-            _ => Err(format!(
-                "a written block reads as {read:?}, not as {:?}",
-                encoded.block
+            _ => Err(say!(
+                a_written_block_reads_as_not_as,
+                format_args!("{read:?}"),
+                format_args!("{:?}", encoded.block)
             )),
         }
     }
 
     fn check_block(&mut self, block: &Block, encoded: &Encoded) -> Result<(), String> {
-        let decoded = decode(block, point_of(encoded.from))
-            .map_err(|fault| format!("{block:?} cannot be decoded: {fault:?}"))?;
+        let decoded = decode(block, point_of(encoded.from)).map_err(|fault| {
+            say!(
+                a_block_cannot_be_decoded,
+                format_args!("{block:?}"),
+                format_args!("{fault:?}")
+            )
+        })?;
         let miss = decoded.end() - point_of(encoded.to);
         let distance = miss.norm();
         if distance > END_TOLERANCE {
-            return Err(format!(
-                "{block:?} ends {distance:.3} µm from its node {:?}",
-                encoded.to
+            return Err(say!(
+                a_block_ends_beside_its_node,
+                format_args!("{block:?}"),
+                distance,
+                format_args!("{:?}", encoded.to)
             ));
         }
         let aside = largest_distance(&decoded, &encoded.piece);
         let middles = (decoded.point_at(0.5) - encoded.piece.point_at(0.5)).norm();
         if aside.max(middles) > ASIDE_TOLERANCE || aside.is_nan() || middles.is_nan() {
-            return Err(format!(
-                "{block:?} runs {:.3} µm beside the path at {:?}",
+            return Err(say!(
+                a_block_runs_beside_the_path,
+                format_args!("{block:?}"),
                 aside.max(middles),
-                encoded.from
+                format_args!("{:?}", encoded.from)
             ));
         }
         self.drift += miss;
@@ -106,13 +112,19 @@ impl Proof {
     /// `first` and `last` are its nodes where the path is closed: they must be the same.
     pub fn finish_contour(&mut self, closed: bool, first: Node, last: Node) -> Result<(), String> {
         if closed && first != last {
-            return Err(format!("the cut begins at {first:?} and ends at {last:?}"));
+            return Err(say!(
+                the_cut_begins_at_and_ends_at,
+                format_args!("{first:?}"),
+                format_args!("{last:?}")
+            ));
         }
         let drift = (self.drift - self.drift_at_start).norm();
         let allowed = tolerance(self.arcs - self.arcs_at_start);
         if drift > allowed {
-            return Err(format!(
-                "a controller that counts J drifts by {drift:.3} µm, {allowed:.0} µm are allowed"
+            return Err(say!(
+                a_controller_that_counts_j_drifts_more_than_allowed,
+                drift,
+                allowed
             ));
         }
         (self.drift_at_start, self.arcs_at_start) = (self.drift, self.arcs);

@@ -12,7 +12,7 @@ use super::words::{Word, Words};
 use crate::finding::Side;
 use crate::geometry::{Segment, Vector, turn};
 use crate::program::grid::point_of;
-use crate::program::write::{NOTHING_TO_WRITE, ProofError, ProvedProgram, Writer, cuts, walk, way};
+use crate::program::write::{ProofError, ProvedProgram, Writer, cuts, nothing_to_write, walk, way};
 use crate::settings::{Effective, Jumps, Layout};
 use crate::toolpath::{Source, WirePath};
 
@@ -103,7 +103,7 @@ impl Writer for Blocks<'_> {
             (part.side, part.direction) = (side, None);
         } else if path.side.is_some() {
             return Err(ProofError::Refused(
-                "a 3B program cannot leave the correction to the controller: set compensation to path, or to none where the contour is the wire's path".into(),
+                say!(a_3b_program_cannot_leave_the_correction_to_the_controller).into(),
             ));
         }
         let Some(from) = from else {
@@ -144,8 +144,10 @@ impl Writer for Blocks<'_> {
             &mut encoded,
         )
         .ok_or_else(|| {
-            ProofError::Mismatch(format!(
-                "no blocks within tolerance lead from {from:?} to {to:?}"
+            ProofError::Mismatch(say!(
+                no_blocks_within_tolerance_lead_from_to,
+                format_args!("{from:?}"),
+                format_args!("{to:?}")
             ))
         })?;
         for block in &encoded {
@@ -214,16 +216,21 @@ impl<'a> Blocks<'a> {
             return Ok(None);
         }
         let decoded = decode(&encoded.block, point_of(encoded.from)).map_err(|fault| {
-            ProofError::Mismatch(format!("{:?} cannot be decoded: {fault:?}", encoded.block))
+            ProofError::Mismatch(say!(
+                a_block_cannot_be_decoded,
+                format_args!("{:?}", encoded.block),
+                format_args!("{fault:?}")
+            ))
         })?;
         if let Some(direction) = part.direction {
             let gap = 2.0
                 * part.correction
                 * (turn(direction, decoded.start_tangent()) / 2.0).sin().abs();
             if gap > WIRE_GAP {
-                return Err(ProofError::Mismatch(format!(
-                    "the wire's path has a gap of {gap:.3} µm at {:?}",
-                    encoded.from
+                return Err(ProofError::Mismatch(say!(
+                    the_path_of_the_wire_has_a_gap,
+                    gap,
+                    format_args!("{:?}", encoded.from)
                 )));
             }
         }
@@ -234,8 +241,8 @@ impl<'a> Blocks<'a> {
         let concave = is_concave(&arc, part.side);
         let radius = arc.radius.round();
         if concave && radius <= part.correction {
-            return Err(ProofError::Refused(format!(
-                "4B cannot have an arc of R {:.3} mm inside of which the wire runs, expected more than the correction {:.3} mm",
+            return Err(ProofError::Refused(say!(
+                n4b_cannot_have_an_arc_inside_of_which_the_wire_runs,
                 radius / 1e3,
                 part.correction / 1e3
             )));
@@ -260,8 +267,9 @@ impl<'a> Blocks<'a> {
         let sound = matches!(read[..], [Item::Word { .. }])
             && word.bytes().all(|byte| byte.is_ascii_alphanumeric());
         if !sound {
-            let sentence = format!(
-                "the word {word:?} between blocks cannot be read again, expected letters and digits"
+            let sentence = say!(
+                the_word_between_blocks_cannot_be_read_again,
+                format_args!("{word:?}")
             );
             return Err(match self.settings.tab_stop.as_deref() {
                 Some(stop) if stop == word => ProofError::Refused(sentence),
@@ -276,11 +284,11 @@ impl<'a> Blocks<'a> {
     /// `cuts` tells that there is more to the paths than places where the wire is threaded.
     fn finish(mut self, cuts: bool) -> Result<ProvedProgram, ProofError> {
         if self.blocks == 0 && cuts {
-            return Err(ProofError::Refused(NOTHING_TO_WRITE.into()));
+            return Err(nothing_to_write());
         }
         self.word(Word::End)?;
         let text = String::from_utf8(self.out)
-            .map_err(|_| ProofError::Mismatch("the program is not text".into()))?;
+            .map_err(|_| ProofError::Mismatch(say!(the_program_is_not_text).into()))?;
         Ok(ProvedProgram {
             text,
             blocks: self.blocks,

@@ -11,17 +11,17 @@ use crate::text::TextEdit;
 
 pub(super) const START_TO_CENTER: Refactoring<Iso> = Refactoring {
     id: "refactor.rewrite.centers.startToCenter",
-    title: |_| "Let I and J lead from the arc's start to its centre".into(),
+    title: |_| say!(let_i_and_j_lead_from_the_start_to_the_centre).into(),
     rewrite: |sheet| converted(sheet, CenterRule::StartToCenter),
 };
 pub(super) const CENTER_TO_START: Refactoring<Iso> = Refactoring {
     id: "refactor.rewrite.centers.centerToStart",
-    title: |_| "Let I and J lead from the arc's centre to its start".into(),
+    title: |_| say!(let_i_and_j_lead_from_the_centre_to_the_start).into(),
     rewrite: |sheet| converted(sheet, CenterRule::CenterToStart),
 };
 pub(super) const ABSOLUTE: Refactoring<Iso> = Refactoring {
     id: "refactor.rewrite.centers.absolute",
-    title: |_| "Let I and J be the centre's own coordinates".into(),
+    title: |_| say!(let_i_and_j_be_coordinates_of_the_centre).into(),
     rewrite: |sheet| converted(sheet, CenterRule::Absolute),
 };
 
@@ -43,10 +43,7 @@ fn converted(sheet: &Sheet<'_, Iso>, rule: CenterRule) -> Result<Vec<TextEdit>, 
         return Ok(Vec::new());
     }
     if rule == CenterRule::Absolute && incremental > 0 {
-        return Err(
-            "under G91 a centre has no coordinates of its own: make the coordinates absolute first"
-                .into(),
-        );
+        return Err(say!(under_g91_a_centre_has_no_coordinates_of_its_own).into());
     }
     let under_g91 = if rule == CenterRule::Absolute {
         old.incremental

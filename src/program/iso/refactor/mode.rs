@@ -16,12 +16,12 @@ use crate::text::TextEdit;
 
 pub(super) const ABSOLUTE: Refactoring<Iso> = Refactoring {
     id: "refactor.rewrite.coordinates.absolute",
-    title: |_| "Make all coordinates absolute (G90)".into(),
+    title: |_| say!(make_all_coordinates_absolute_g90).into(),
     rewrite: |sheet| converted(sheet, false),
 };
 pub(super) const INCREMENTAL: Refactoring<Iso> = Refactoring {
     id: "refactor.rewrite.coordinates.incremental",
-    title: |_| "Let all coordinates count from where the wire stands (G91)".into(),
+    title: |_| say!(let_all_coordinates_count_from_where_the_wire_stands).into(),
     rewrite: |sheet| converted(sheet, true),
 };
 

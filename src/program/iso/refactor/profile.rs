@@ -28,10 +28,7 @@ pub(super) fn proposals(document: &Document, settings: &Effective) -> Vec<Propos
         let paths = known
             .get_or_insert_with(|| paths(document, settings))
             .clone();
-        let title = format!(
-            "Write anew as profile {}: comments and words of the machine are left out",
-            profile.name
-        );
+        let title = say!(write_anew_as_profile, profile.name);
         let edits = paths.and_then(|paths| {
             let settings = Effective {
                 profile: Ok(profile),
@@ -66,20 +63,17 @@ fn paths(
 ) -> Result<Vec<crate::toolpath::WirePath>, String> {
     let cuts = cuts(&program::Document::Iso(Box::new(document.clone())));
     if let Some(line) = cuts.lost.first() {
-        return Err(format!("line {}: the arc leads nowhere", line + 1));
+        return Err(say!(the_arc_of_a_line_leads_nowhere, line + 1));
     }
     refuse_anywhere(document, Words::All)?;
     if let Some(reason) = cuts.refusal(Format::Iso, settings) {
         return Err(reason);
     }
     if let Some(line) = cuts.stops.first() {
-        return Err(format!(
-            "line {}: the stop before the tab would be lost",
-            line + 1
-        ));
+        return Err(say!(the_stop_before_the_tab_would_be_lost, line + 1));
     }
     if cuts.cuts.is_empty() {
-        return Err("the program cuts nothing".into());
+        return Err(say!(the_program_cuts_nothing).into());
     }
     Ok(cuts.paths())
 }

@@ -18,12 +18,10 @@ pub(in crate::program) struct Own {
 /// Reads a program for refactoring. What cannot be read, or is run from somewhere else, is left alone.
 pub(super) fn rows(document: &Document) -> Result<Vec<Row<Iso>>, String> {
     if document.order().is_some() {
-        return Err(
-            "the program runs subprograms: a line of them is run in more than one place".into(),
-        );
+        return Err(say!(the_program_runs_subprograms).into());
     }
     if document.has_corners() {
-        return Err("the control makes corners of its own (R on a straight cut, `,R`, `,C`): its moves are not those of the lines".into());
+        return Err(say!(the_control_makes_corners_of_its_own).into());
     }
     let text = document.text();
     for finding in document.plain_findings() {
@@ -44,7 +42,7 @@ pub(super) fn rows(document: &Document) -> Result<Vec<Row<Iso>>, String> {
             made.course(document.reading()),
             Course::OffRadius { .. } | Course::NoRadius
         ) {
-            fault.get_or_insert_with(|| format!("line {}: the arc leads nowhere", line + 1));
+            fault.get_or_insert_with(|| say!(the_arc_of_a_line_leads_nowhere, line + 1));
         }
         let [from, to] = [made.from, made.to].map(node_of);
         rows.push(Row {
@@ -62,7 +60,7 @@ pub(super) fn rows(document: &Document) -> Result<Vec<Row<Iso>>, String> {
         return Err(fault);
     }
     if rows.is_empty() {
-        return Err("the program moves nothing".into());
+        return Err(say!(the_program_moves_nothing).into());
     }
     Ok(rows)
 }

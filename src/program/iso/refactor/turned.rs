@@ -57,7 +57,7 @@ fn line_words(
             b'I' => (1, 0),
             b'J' => (1, 1),
             b'U' | b'V' => {
-                fault = Some("the way of the upper guide (U, V) is not followed".to_owned());
+                fault = Some(say!(the_way_of_the_upper_guide_is_not_followed).to_owned());
                 return;
             }
             b'G' => {
@@ -65,7 +65,7 @@ fn line_words(
                     (2, 0) => "G03",
                     (3, 0) => "G02",
                     (51 | 52, 0) if transform.mirrors() => {
-                        fault = Some("a taper (G51, G52) is not followed".to_owned());
+                        fault = Some(say!(a_taper_of_g51_or_g52_is_not_followed).to_owned());
                         return;
                     }
                     _ => return,
@@ -81,7 +81,7 @@ fn line_words(
             _ => return,
         };
         if pairs[slot.0][slot.1].is_some() {
-            fault = Some(format!("{} stands twice", letter as char));
+            fault = Some(say!(a_letter_stands_twice, letter as char));
         }
         let digits = line.get(range.start + 1..range.end).unwrap_or_default();
         pairs[slot.0][slot.1] = Some((range, turned(digits, number, transform.sign(slot.1))));
@@ -97,7 +97,7 @@ fn line_words(
         return if is_wait {
             Ok(())
         } else {
-            Err("a word takes the coordinates for a place of the machine".into())
+            Err(say!(a_word_takes_the_coordinates_for_a_place_of_the_machine).into())
         };
     }
     for (pair, names) in pairs.into_iter().zip([["X", "Y"], ["I", "J"]]) {

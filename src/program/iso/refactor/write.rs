@@ -54,7 +54,7 @@ pub(super) fn edits(
             text: edit.text.clone(),
         });
         let here: Vec<TextEdit> = here.collect();
-        let mut bytes = edited(own, &here).ok_or("words lie on each other")?;
+        let mut bytes = edited(own, &here).ok_or(say!(words_lie_on_each_other))?;
         let Some((index, row)) = rows.next_if(|(_, row)| row.line == line) else {
             machine.run(&read_line(&bytes, 1, |_| {}), &reading);
             push_changed(&mut edits, range, own, &bytes)?;

@@ -338,7 +338,7 @@ impl Document {
             let range = self.range_of(at);
             if is_comment {
                 let sentence =
-                    format!("column {column}: this comment holds a block, which is not cut");
+                    say!(this_comment_holds_a_block_which_is_not_cut, column);
                 let is_marked = self.text.bytes().get(range.start) == Some(&b';');
                 let severity = if is_marked {
                     Severity::Information
@@ -366,7 +366,7 @@ impl Document {
             } else {
                 Severity::Warning
             };
-            let sentence = "no block is found, expected B X B Y B J G Z".to_owned();
+            let sentence = say!(no_block_is_found).to_owned();
             let range = 0..self.text.line_range(0).end;
             findings.push(syntax(range, sentence).with(severity));
         }

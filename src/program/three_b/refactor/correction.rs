@@ -23,22 +23,12 @@ use std::collections::BTreeMap;
 
 pub(super) const OPENING: Refactoring<ThreeB> = Refactoring {
     id: "refactor.rewrite.correct.opening",
-    title: |settings| {
-        format!(
-            "Apply the correction of {:.3} mm inside (opening)",
-            settings.correction
-        )
-    },
+    title: |settings| say!(apply_the_correction_inside, settings.correction),
     rewrite: |sheet| corrected(sheet, Role::Opening),
 };
 pub(super) const PUNCH: Refactoring<ThreeB> = Refactoring {
     id: "refactor.rewrite.correct.punch",
-    title: |settings| {
-        format!(
-            "Apply the correction of {:.3} mm outside (punch)",
-            settings.correction
-        )
-    },
+    title: |settings| say!(apply_the_correction_outside, settings.correction),
     rewrite: |sheet| corrected(sheet, Role::Punch),
 };
 
@@ -51,8 +41,8 @@ fn corrected(sheet: &Sheet<'_, ThreeB>, role: Role) -> Result<Vec<TextEdit>, Str
     for contour in content.contours.iter().filter(|contour| !contour.is_way) {
         content.refuse_pause(contour)?;
         if !contour.closed {
-            return Err(format!(
-                "contour {} is open: the side of the wire is not known",
+            return Err(say!(
+                the_contour_is_open_and_the_side_of_the_wire_unknown,
                 contour.ordinal
             ));
         }
@@ -92,9 +82,9 @@ fn corrected(sheet: &Sheet<'_, ThreeB>, role: Role) -> Result<Vec<TextEdit>, Str
     };
     let paths = plan(&drawing, &outlines, &settings, None).map_err(|refusal| match refusal {
         Refusal::Sentence(sentence) => sentence,
-        Refusal::Cancelled => "the path was given up".into(),
+        Refusal::Cancelled => say!(the_path_was_given_up).into(),
         Refusal::Findings(findings) => findings.first().map_or_else(
-            || "no path can be made".into(),
+            || say!(no_path_can_be_made).into(),
             |finding| crate::finding::sentence(finding, 1.0),
         ),
     })?;

@@ -12,17 +12,17 @@ use crate::text::TextEdit;
 
 pub(super) const COMPACT: Refactoring<ThreeB> = Refactoring {
     id: "refactor.rewrite.layout.compact",
-    title: |_| "Convert to the compact layout".into(),
+    title: |_| say!(convert_to_the_compact_layout).into(),
     rewrite: |sheet| laid_out(sheet, Layout::Compact),
 };
 pub(super) const ALIGNED: Refactoring<ThreeB> = Refactoring {
     id: "refactor.rewrite.layout.aligned",
-    title: |_| "Convert to the aligned layout".into(),
+    title: |_| say!(convert_to_the_aligned_layout).into(),
     rewrite: |sheet| laid_out(sheet, Layout::Aligned),
 };
 pub(super) const CHECKING: Refactoring<ThreeB> = Refactoring {
     id: "refactor.rewrite.layout.checking",
-    title: |_| "Convert to the checking layout, with numbers and end points".into(),
+    title: |_| say!(convert_to_the_checking_layout).into(),
     rewrite: |sheet| laid_out(sheet, Layout::Checking),
 };
 

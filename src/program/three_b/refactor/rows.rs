@@ -73,9 +73,7 @@ pub(super) fn rows(
                 blocks += 1;
                 let step = steps.next().filter(|step| step.range.start == own.start);
                 let Some((step, piece)) = step.and_then(|step| Some((step, step.ideal?))) else {
-                    fault.get_or_insert_with(|| {
-                        format!("line {}: the block leads nowhere", line + 1)
-                    });
+                    fault.get_or_insert_with(|| say!(the_block_of_a_line_leads_nowhere, line + 1));
                     return;
                 };
                 let is_spaced = bytes
@@ -104,23 +102,18 @@ pub(super) fn rows(
                 fault.get_or_insert_with(|| format!("line {}: {}", line + 1, found.sentence()));
             }
             Item::Text { .. } if !rows.is_empty() => {
-                fault.get_or_insert_with(|| format!("line {} cannot be read", line + 1));
+                fault.get_or_insert_with(|| say!(that_line_cannot_be_read, line + 1));
             }
             Item::Text { .. } | Item::CommentedBlock { .. } | Item::StartPoint { .. } => {}
             Item::Word { range, .. } => is_over |= end.is_some_and(|end| range.start >= end),
         });
         if blocks > 1 {
-            fault.get_or_insert_with(|| {
-                format!(
-                    "line {} holds {blocks} blocks: format the program first",
-                    line + 1
-                )
-            });
+            fault.get_or_insert_with(|| say!(a_line_holds_several_blocks, line + 1, blocks));
         }
     }
     match fault {
         Some(sentence) => Err(sentence),
-        None if rows.is_empty() => Err("the program has no block".into()),
+        None if rows.is_empty() => Err(say!(the_program_has_no_block).into()),
         None => {
             let ends = nodes(&pieces_of_path, contours)?;
             let placed = rows.into_iter().zip(ends).zip(pieces_of_path);
@@ -142,7 +135,7 @@ type Way = (Point, Point, Segment);
 /// The nodes of each row on the µm grid, from and to. Contours close exactly: what their arcs drift is taken back arc by arc.
 fn nodes(pieces: &[Way], contours: &[Contour]) -> Result<Vec<(Node, Node)>, String> {
     let node = |point: Point| {
-        snap(point).ok_or_else(|| "the path runs too far out for a program".to_owned())
+        snap(point).ok_or_else(|| say!(the_path_runs_too_far_out_for_a_program).to_owned())
     };
     let is_arc = |(_, _, piece): &Way| piece.as_arc().is_some();
     let mut nodes = Vec::with_capacity(pieces.len());

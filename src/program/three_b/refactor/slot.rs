@@ -92,13 +92,13 @@ fn slot(
         }
     }
     if !comment_moves && news.len() > 1 && row.comment.is_some() {
-        return Err(format!(
-            "line {}: a comment stands behind a block that becomes several",
+        return Err(say!(
+            a_comment_stands_behind_a_block_that_becomes_several,
             line + 1
         ));
     }
-    let text = String::from_utf8(out)
-        .map_err(|_| format!("line {}: the comment is in another code page", line + 1))?;
+    let text =
+        String::from_utf8(out).map_err(|_| say!(the_comment_is_in_another_code_page, line + 1))?;
     Ok(TextEdit {
         range: row.range.start..end,
         text,

@@ -11,7 +11,7 @@ use crate::text::TextEdit;
 
 pub(super) const SPLIT: Refactoring<ThreeB> = Refactoring {
     id: "refactor.rewrite.split",
-    title: |settings| format!("Split blocks over {} µm", settings.largest_number()),
+    title: |settings| say!(split_blocks_over, settings.largest_number()),
     rewrite: split,
 };
 
@@ -26,10 +26,7 @@ fn split(sheet: &Sheet<'_, ThreeB>) -> Result<Vec<TextEdit>, String> {
             continue;
         }
         if row.own.part.is_some() {
-            return Err(format!(
-                "line {}: a 4B block cannot be calculated anew",
-                row.line + 1
-            ));
+            return Err(say!(a_4b_block_cannot_be_calculated_anew, row.line + 1));
         }
         let news = encoded(sheet, &row.piece, [row.from, row.to], None, index)?;
         rewrite.rows.insert(index, news);
