@@ -22,7 +22,7 @@ pub(crate) fn read_at_most(file: &File, cap: u64) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     if metadata.is_file() {
         if metadata.len() > cap {
-            return Err(say!(it_has_bytes_expected_at_most, metadata.len(), cap));
+            return Err(say!(it_has_too_many_bytes, metadata.len(), cap));
         }
         bytes.reserve_exact(
             usize::try_from(metadata.len())
@@ -44,7 +44,7 @@ pub(crate) fn read_stream_at_most(
         .read_to_end(&mut bytes)
         .map_err(|error| plain(&error))?;
     if bytes.len() as u64 > cap {
-        return Err(say!(it_holds_more_than_bytes_expected_at_most, cap));
+        return Err(say!(it_holds_too_many_bytes, cap));
     }
     Ok(bytes)
 }
@@ -142,7 +142,7 @@ fn replaced(path: &Path, read: Option<&Seen>, bytes: &[u8]) -> io::Result<u64> {
     {
         return refused(
             ErrorKind::InvalidData,
-            say!(it_is_not_the_file_any_more_that_was_read_nothing),
+            say!(it_is_not_the_file_any_more_that_was_read),
         );
     }
     beside.persist(&path)?;

@@ -102,6 +102,22 @@ fn commands_print_and_end_as_they_say() {
         ("check clean.dxf", 0, &["1 file checked: nothing found"]),
         ("check hole.3b", 0, &["1 file checked: nothing found"]),
         (
+            "--lang en check hole.3b",
+            0,
+            &["1 file checked: nothing found"],
+        ),
+        (
+            "--lang=en check hole.3b",
+            0,
+            &["1 file checked: nothing found"],
+        ),
+        (
+            "check hole.3b --lang en",
+            0,
+            &["1 file checked: nothing found"],
+        ),
+        ("check hole.3b --lang tlh", 2, &["!possible values: en"]),
+        (
             "check tight.dxf",
             1,
             &[

@@ -76,7 +76,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     files.retain(|path| arguments.paths.contains(path) || is_program(path));
     if target.is_one() && (files.len() != 1 || arguments.paths.len() != 1) {
         return Err(Failure(say!(
-            found_expected_one_or_in_place_check_or,
+            several_files_are_found,
             counted(files.len(), "program")
         )));
     }

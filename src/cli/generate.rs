@@ -92,7 +92,7 @@ fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
         .closure
         .map(|drift| (drift * 100.0).round() / 100.0 + 0.0);
     output::say(&say!(
-        written_program,
+        the_program_is_written,
         styled(output::GOOD, "written"),
         target,
         counted(program.blocks, "block"),
@@ -101,9 +101,9 @@ fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
     ));
     let drift = match arguments.format {
         Format::ThreeB | Format::FourB => {
-            say!(a_controller_that_counts_j_drifts_by_um, x, y)
+            say!(a_controller_that_counts_j_drifts, x, y)
         }
         Format::Iso => String::new(),
     };
-    output::say(&say!(decoded_again_at_most_um, program.deviation, drift));
+    output::say(&say!(decoded_again, program.deviation, drift));
 }

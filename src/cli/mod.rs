@@ -27,6 +27,7 @@ mod simulate;
 
 use crate::message::{Asker, Language, is_hidden, readable, speak};
 use clap::{CommandFactory, Parser, Subcommand};
+use std::ffi::OsString;
 use std::fmt::Display;
 use std::path::Path;
 use std::process::ExitCode;
@@ -119,14 +120,27 @@ impl Failure {
     }
 }
 
+/// What the process was called with, with a leading `--lang` behind the command, where it is taken.
+fn words() -> Vec<OsString> {
+    let mut words: Vec<OsString> = std::env::args_os().collect();
+    let leading = match words.get(1).map(|word| word.to_string_lossy()) {
+        Some(word) if word == "--lang" => 2,
+        Some(word) if word.starts_with("--lang=") => 1,
+        _ => 0,
+    };
+    let command = words.get(leading + 1);
+    if command.is_some_and(|command| !command.to_string_lossy().starts_with('-')) {
+        words[1..=leading + 1].rotate_left(leading);
+    }
+    words
+}
+
 /// The language of the environment, or that of `--lang`: before the options are read, which may be refused in it.
-fn choose_language() {
+fn choose_language(words: &[OsString]) {
     if let Some(language) = Language::of_environment(|name| std::env::var(name).ok()) {
         speak(language, Asker::Environment);
     }
-    let words: Vec<String> = std::env::args_os()
-        .map(|word| word.to_string_lossy().into_owned())
-        .collect();
+    let words: Vec<_> = words.iter().map(|word| word.to_string_lossy()).collect();
     let asked = words.windows(2).find_map(|pair| match &*pair[0] {
         "--lang" => Some(&*pair[1]),
         _ => pair[1].strip_prefix("--lang="),
@@ -138,8 +152,9 @@ fn choose_language() {
 
 /// Does what the process was called for.
 pub fn run() -> ExitCode {
-    choose_language();
-    let arguments = CommandLine::try_parse().unwrap_or_else(|error| {
+    let words = words();
+    choose_language(&words);
+    let arguments = CommandLine::try_parse_from(words).unwrap_or_else(|error| {
         // Words that stand in the message may be names of files that a shell has put there.
         if std::env::args_os().any(|word| word.to_string_lossy().contains(is_hidden))
             && error.use_stderr()

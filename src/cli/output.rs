@@ -172,7 +172,7 @@ fn said_of(path: &Path, written: Result<u64, String>) -> Result<(), Failure> {
     match written {
         Ok(0) => {}
         Ok(others) => say(&say!(
-            had_besides_hard_links_what,
+            had_hard_links,
             styled(NOTE, "note:"),
             name(path),
             counted(usize::try_from(others).unwrap_or(usize::MAX), "name")

@@ -86,7 +86,7 @@ fn table(simulation: &Simulation) -> String {
         text,
         "{}",
         say!(
-            ends_um_from_its_start_at_most_um,
+            where_it_ends_and_how_far_beside,
             closure.x,
             closure.y,
             simulation.deviation
@@ -99,7 +99,7 @@ fn table(simulation: &Simulation) -> String {
         let _ = writeln!(
             text,
             "{}",
-            say!(x_mm_from, width, height, corner[0], corner[1])
+            say!(size_and_corner_in_mm, width, height, corner[0], corner[1])
         );
     }
     text

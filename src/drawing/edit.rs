@@ -130,16 +130,8 @@ impl std::fmt::Display for ChangeError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             ChangeError::UnknownEntity => write!(f, "{}", say!(there_is_no_such_entity)),
-            ChangeError::NotEditable => write!(
-                f,
-                "{}",
-                say!(the_entity_is_a_part_of_a_block_or_fitted_to_a_curve_and_cannot)
-            ),
-            ChangeError::OnlyLines => write!(
-                f,
-                "{}",
-                say!(the_entity_is_a_3d_polyline_whose_vertices_have_no)
-            ),
+            ChangeError::NotEditable => write!(f, "{}", say!(the_entity_cannot_be_edited)),
+            ChangeError::OnlyLines => write!(f, "{}", say!(the_entity_is_a_3d_polyline)),
             ChangeError::NotAPolyline => {
                 write!(
                     f,
@@ -147,11 +139,9 @@ impl std::fmt::Display for ChangeError {
                     say!(the_entity_is_not_a_polyline_and_has_no_vertices)
                 )
             }
-            ChangeError::OutOfRange { index, count } => write!(
-                f,
-                "{}",
-                say!(vertex_is_out_of_range_the_polyline_has, index, count)
-            ),
+            ChangeError::OutOfRange { index, count } => {
+                write!(f, "{}", say!(a_vertex_is_out_of_range, index, count))
+            }
             ChangeError::NotFinite => write!(
                 f,
                 "{}",

@@ -132,10 +132,7 @@ impl<'a> Tags<'a> {
                 .map(|bytes| i64::from_le_bytes(bytes).to_string()),
             290..=299 => self.take::<1>().map(|[byte]| byte.to_string()),
             _ => {
-                return Err(say!(
-                    group_code_is_not_known_so_the_length_of_its_value,
-                    code
-                ));
+                return Err(say!(group_code_is_not_known, code));
             }
         };
         text.extend_from_slice(written.ok_or_else(cut)?.as_bytes());

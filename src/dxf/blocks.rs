@@ -202,9 +202,7 @@ impl Blocks {
         states: &mut LayerStates,
     ) -> Result<Drawn, Undrawn> {
         let Some(&block) = self.by_name.get(&insert.block) else {
-            return Err(Undrawn::Damaged(
-                say!(the_block_is_not_in_the_file_nothing).into(),
-            ));
+            return Err(Undrawn::Damaged(say!(the_block_is_not_in_the_file).into()));
         };
         if let Some(why) = self.refused.get(&block) {
             return Err(Undrawn::Damaged(why.clone()));
@@ -263,7 +261,7 @@ impl Blocks {
                 super::fault::quoted(names.get(at).copied().unwrap_or_default().as_bytes())
             };
             return Err(say!(
-                the_block_holds_itself_nothing,
+                the_block_holds_itself,
                 name(names.len().saturating_sub(1))
             ));
         }
@@ -379,9 +377,7 @@ impl Blocks {
                                         .left_out
                                         .entry((
                                             kind,
-                                            say!(
-                                                as_a_part_of_a_block_it_comes_to_no_length_numbers
-                                            ),
+                                            say!(as_a_part_of_a_block_it_comes_to_nothing),
                                         ))
                                         .or_default() += 1
                                 }
@@ -538,5 +534,5 @@ fn are_level(points: &[Vector3]) -> bool {
 }
 
 fn too_deep() -> String {
-    say!(blocks_within_blocks_are_more_than_deep_here, DEEPEST)
+    say!(blocks_within_blocks_are_too_deep, DEEPEST)
 }

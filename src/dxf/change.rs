@@ -42,7 +42,7 @@ impl Document {
     /// angle is written in [0°, 360°).
     pub fn text_edits(&self, edit: &DrawingEdit) -> Result<Vec<TextEdit>, String> {
         if self.is_binary {
-            return Err(say!(the_file_is_binary_dxf_which_is_read_but_not).into());
+            return Err(say!(the_file_is_binary_dxf_and_not_edited).into());
         }
         let mut wanted: BTreeMap<EntityId, Wanted> = BTreeMap::new();
         for change in &edit.changes {
@@ -143,10 +143,7 @@ impl Document {
             self.drawing.is_whole(id)
         };
         if !may {
-            return Err(say!(
-                is_a_part_of_a_block_or_fitted_to_a_curve_and_has_no,
-                name
-            ));
+            return Err(say!(has_no_numbers_of_its_own_in_the_text, name));
         }
         if wanted.removed {
             edits.push(TextEdit {
@@ -325,7 +322,7 @@ impl Document {
             .or(beyond)
         {
             return Err(say!(
-                vertex_of_is_out_of_range_the_polyline_has,
+                a_vertex_of_an_entity_is_out_of_range,
                 index,
                 name,
                 count
@@ -438,7 +435,7 @@ impl Document {
         }
         let behind = index >= count;
         let Some(model) = self.vertex_lines(id, index.min(count.saturating_sub(1))) else {
-            return Err(say!(has_no_vertex_that_a_new_one_could_be_modelled, name));
+            return Err(say!(has_no_vertex_to_model_a_new_one_on, name));
         };
         let is_record = number::code(lines.content(model.start)) == Code::Known(0);
         let tags: Vec<Tag> = vertex_tags(lines, model.clone()).collect();

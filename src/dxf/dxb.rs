@@ -208,7 +208,7 @@ impl Reader<'_> {
                 self.line(self.last, to, text);
             }
             other => {
-                return Err(say!(item_type_is_not_known_so_its_length_is_not, other));
+                return Err(say!(item_type_is_not_known, other));
             }
         }
         Ok(true)

@@ -81,7 +81,7 @@ pub(super) fn new_entity(
         );
     let height = height.or(marked.then_some(0.0));
     if !geometry.is_sound() {
-        return Err(say!(a_coordinate_of_the_new_entity_is_no_finite_number_or).into());
+        return Err(say!(a_number_of_the_new_entity_does_not_fit).into());
     }
     let mut record = Vec::new();
     let begin = |kind: &[u8], class: &[u8], record: &mut Vec<u8>| {

@@ -20,35 +20,26 @@ pub(super) fn program(fault: &Fault) -> String {
     match fault {
         Fault::MissingB => say!(a_b_of_the_block_is_missing_the_controller).into(),
         Fault::BlockNumberAsB { number } => {
-            say!(b_stands_where_the_block_number, number)
+            say!(b_stands_where_the_block_number_was_meant, number)
         }
         Fault::LengthInJ {
             j,
             projection,
             axis,
-        } => say!(
-            j_is_the_length_of_the_line_the_controller_counts_its_projection_on,
-            j,
-            axis.letter(),
-            projection
-        ),
+        } => say!(j_is_the_length_of_the_line, j, axis.letter(), projection),
         Fault::WrongJ {
             j: 0,
             projection,
             axis,
         } => {
-            say!(
-                j_is_0_the_line_projection_on_is_um,
-                axis.letter(),
-                projection
-            )
+            say!(j_is_0_and_the_projection_is_not, axis.letter(), projection)
         }
         Fault::WrongJ {
             j,
             projection,
             axis,
         } => say!(
-            j_is_not_the_line_projection_on_um,
+            j_is_not_the_projection_of_the_line,
             j,
             axis.letter(),
             projection,
@@ -63,7 +54,7 @@ pub(super) fn program(fault: &Fault) -> String {
             keeps_open(&format!("J {j}"), &format!("J {meant}"), *is_sure)
         }
         Fault::JOverTurn { j, turn } => {
-            say!(j_is_more_than_one_turn_counts_um, j, turn)
+            say!(j_is_more_than_one_turn_counts, j, turn)
         }
         Fault::SmallerProjection {
             axis,
@@ -71,7 +62,7 @@ pub(super) fn program(fault: &Fault) -> String {
             larger,
         } => {
             say!(
-                g_counts_the_smaller_projection_of_units,
+                g_counts_the_smaller_projection,
                 axis.letter(),
                 counted,
                 larger,
@@ -79,7 +70,7 @@ pub(super) fn program(fault: &Fault) -> String {
             )
         }
         Fault::ArcEndAxis { axis, x, y } => say!(
-            g_does_not_fit_the_arc_end_at,
+            g_does_not_fit_the_end_of_the_arc,
             axis.letter(),
             x,
             y,
@@ -137,7 +128,7 @@ pub(super) fn program(fault: &Fault) -> String {
             digits,
         } => {
             say!(
-                has_more_than_the_digits_that_the_controller_takes,
+                a_number_has_more_digits_than_the_controller_takes,
                 field,
                 value,
                 digits
@@ -163,17 +154,14 @@ pub(super) fn program(fault: &Fault) -> String {
             say!(the_block_has_no_number_expected_n, expected)
         }
         Fault::PositionMismatch { x, y } => say!(
-            the_coordinates_behind_the_block_are_mm_from,
+            the_coordinates_are_not_where_the_block_ends,
             mm(x.hypot(*y) / 1000.0),
             x / 1000.0,
             y / 1000.0
         ),
-        Fault::PathCrossesItself { at: [x, y], other } => say!(
-            the_wire_crosses_its_own_path_of_line_here_at,
-            other + 1,
-            x,
-            y
-        ),
+        Fault::PathCrossesItself { at: [x, y], other } => {
+            say!(the_wire_crosses_its_own_path, other + 1, x, y)
+        }
         Fault::OffRadius { start, end } => {
             let (near, far) = told_apart(start / 1e3, end / 1e3);
             say!(the_ends_of_the_arc_are_not_on_one_circle, near, far)

@@ -139,11 +139,7 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
             } else {
                 say!(less_than_a_wire_is_thick)
             };
-            say!(
-                the_largest_contour_is_mm_long_or_wide,
-                mm(size * unit_mm),
-                what
-            )
+            say!(the_size_of_the_part_is_absurd, mm(size * unit_mm), what)
         }
         Detail::Program(fault) => program(fault),
         Detail::More { count } => say!(more_findings_are_not_shown, count),
@@ -184,13 +180,18 @@ fn unseen(layer: &str, visibility: Visibility, count: usize) -> String {
     } else {
         (say!(entities, count), say!(are))
     };
-    let of_layer = |what: &str| say!(layer_is_on_it_not_cut_unless, layer, what, entities, are);
+    let of_layer = |what: &str| say!(entities_of_a_layer_are_not_cut, layer, what, entities, are);
     match visibility {
         Visibility::Frozen => of_layer(say!(frozen)),
         Visibility::Off => of_layer(say!(switched_off)),
-        Visibility::Invisible => say!(invisible_group_code_60_not, entities, are),
+        Visibility::Invisible => say!(invisible_entities_are_not_cut, entities, are),
         Visibility::Unplotted | Visibility::Shown => {
-            say!(layer_is_not_plotted_on, layer, entities, are)
+            say!(
+                entities_of_a_layer_that_is_not_plotted_are_cut,
+                layer,
+                entities,
+                are
+            )
         }
     }
 }
@@ -220,27 +221,18 @@ pub fn related(finding: &Finding, handle: &str, segment: Option<usize>) -> Strin
 /// What was left out, and why.
 fn not_judged(what: &NotJudged) -> String {
     match what {
-        NotJudged::Pairs { count } => say!(thousands_of_entities_lie_on_or_across_each, count),
+        NotJudged::Pairs { count } => say!(thousands_of_entities_lie_on_each_other, count),
         NotJudged::Crossings { blocks } => {
-            say!(so_much_of_the_way_of_these_blocks_lies_on, blocks)
+            say!(so_much_of_the_way_lies_on_one_place, blocks)
         }
         NotJudged::Reference {
             copies,
             segments,
             most,
-        } => say!(
-            this_insert_draws_copies_segments_in_all_more,
-            copies,
-            segments,
-            most
-        ),
-        NotJudged::Curve { arcs, most } => say!(this_curve_would_take_arcs_more_than, arcs, most),
+        } => say!(this_insert_draws_too_much, copies, segments, most),
+        NotJudged::Curve { arcs, most } => say!(this_curve_would_take_too_many_arcs, arcs, most),
         NotJudged::Calls { lines, calls } => {
-            say!(
-                the_calls_of_subprograms_come_to_more_than_lines_or,
-                lines,
-                calls
-            )
+            say!(the_calls_of_subprograms_come_to_too_much, lines, calls)
         }
     }
 }

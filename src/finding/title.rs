@@ -17,7 +17,7 @@ pub fn title(kind: &FixKind, unit_mm: f64) -> String {
                 say!(arcs, arcs)
             };
             say!(
-                replace_the_by_one_of_r_mm,
+                replace_arcs_by_one_of_r,
                 what,
                 mm(radius * unit_mm),
                 mm(moved * unit_mm)
@@ -62,7 +62,7 @@ pub fn title(kind: &FixKind, unit_mm: f64) -> String {
         FixKind::ExchangeBlocks => say!(exchange_the_two_blocks).into(),
         FixKind::InsertBlock { length, is_arc } => {
             say!(
-                put_the_lost_of_mm_in,
+                put_the_lost_block_in,
                 if *is_arc { say!(arc) } else { say!(line) },
                 mm(*length)
             )

@@ -39,7 +39,7 @@ impl Spline {
         }
         if knots.len() != points.len() + degree + 1 {
             return Err(say!(
-                has_knots_expected_for_control_points_of_degree,
+                has_the_wrong_number_of_knots,
                 knots.len(),
                 points.len() + degree + 1,
                 points.len(),

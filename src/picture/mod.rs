@@ -45,8 +45,8 @@ pub fn svg(
     let legend_top = details_top + lens::height_of(faults.len());
     let title = match faults.len() {
         0 => say!(contour_and_wire_path).into(),
-        1 => say!(n1_arc_is_tighter_than).into(),
-        count => say!(arcs_are_tighter_than_the, count),
+        1 => say!(n1_arc_is_too_tight).into(),
+        count => say!(arcs_are_too_tight, count),
     };
     let mut sheet = style::opening(legend_top + 48.0, &title);
     sheet.heading(&title, &facts(&subject));

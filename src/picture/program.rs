@@ -31,7 +31,7 @@ pub fn program_svg(trace: &Trace, faults: &[(usize, Severity, String)]) -> Strin
     let mut sheet = style::opening(legend_top + 48.0, &title);
     let (closure, length) = (trace.closure(), trace.length() / 1000.0);
     let facts = say!(
-        blocks_mm_ends_m_from,
+        blocks_and_where_they_end,
         moving.len(),
         length,
         closure.x,
@@ -95,7 +95,7 @@ fn title(faults: &[(usize, Severity, String)]) -> String {
         .count();
     match errors {
         0 => say!(path_of_the_wire).into(),
-        1 => say!(path_of_the_wire_with).into(),
+        1 => say!(path_of_the_wire_with_1_error).into(),
         count => say!(path_of_the_wire_with_errors, count),
     }
 }

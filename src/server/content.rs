@@ -209,7 +209,7 @@ impl Content {
 }
 
 fn no_drawing() -> String {
-    say!(there_is_no_such_drawing).into()
+    say!(there_is_no_such_drawing_open).into()
 }
 
 fn kind_of(document: &Document) -> Kind {
@@ -261,7 +261,7 @@ fn internal_error() -> Diagnostic {
         code: Rule::Syntax.name().into(),
         code_description: None,
         source: "wedm".into(),
-        message: say!(internal_error_the_document_could).into(),
+        message: say!(internal_error_the_document_could_not_be_judged).into(),
         related_information: None,
         data: None,
     }

@@ -248,7 +248,7 @@ impl RequestContext {
             .ok_or_else(|| refused(say!(holds_no_drawing, self.uri)))?;
         match document.drawing() {
             Some(_) => Ok(document),
-            None => Err(refused(say!(is_a_program_expected_a, self.uri))),
+            None => Err(refused(say!(is_a_program_expected_a_drawing, self.uri))),
         }
     }
 

@@ -25,7 +25,7 @@ impl Sent {
         let uri = drawing
             .get("uri")
             .and_then(Value::as_str)
-            .ok_or(say!(drawing_uri_is_missing_or))?;
+            .ok_or(say!(drawing_uri_is_no_string))?;
         let uri: Arc<str> = uri.into();
         let read =
             serde_json::from_value::<protocol::Drawing>(drawing).map_err(|error| error.to_string());
@@ -69,7 +69,7 @@ impl SentChanges {
         let uri = params
             .pointer("/drawing/uri")
             .and_then(Value::as_str)
-            .ok_or(say!(drawing_uri_is_missing_or))?;
+            .ok_or(say!(drawing_uri_is_no_string))?;
         let uri: Arc<str> = uri.into();
         let changes = serde_json::from_value::<protocol::ChangeDrawing>(params);
         let changes = changes
@@ -89,7 +89,7 @@ pub(super) fn change(state: &mut State, sent: SentChanges) {
         Ok((version, changes)) if is_open => {
             state.add_task(&uri, Task::ChangeDrawing { version, changes })
         }
-        Ok(_) => does_not_apply(state, &uri, say!(there_is_no_such_drawing)),
+        Ok(_) => does_not_apply(state, &uri, say!(there_is_no_such_drawing_open)),
         Err(reason) => does_not_apply(state, &uri, &reason),
     }
 }

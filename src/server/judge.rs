@@ -144,7 +144,7 @@ impl Job {
                     changes,
                 } => {
                     if newer < version {
-                        remarks.push(say!(was_changed_to_version_which, uri, newer, version));
+                        remarks.push(say!(was_changed_to_an_older_version, uri, newer, version));
                     }
                     version = version.max(newer);
                     change(&mut content, changes, encoding);

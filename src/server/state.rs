@@ -207,7 +207,7 @@ impl State {
             tracing::error!("{name} panicked: {}", panic_text(&*panic));
             self.client.log(
                 Weight::Warning,
-                say!(internal_error_in_2, name, panic_text(&*panic)),
+                say!(internal_error_in_a_method, name, panic_text(&*panic)),
             );
             if let Some(uri) = about {
                 self.rebuild(&uri);
@@ -305,8 +305,7 @@ impl State {
 
     pub fn log_if_open(&self, uri: &Arc<str>) {
         if self.documents.contains_key(uri) {
-            self.client
-                .log(Weight::Info, say!(was_open_already_the_new, uri));
+            self.client.log(Weight::Info, say!(was_open_already, uri));
         }
     }
 

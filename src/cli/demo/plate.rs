@@ -251,7 +251,7 @@ impl Session<'_> {
         let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
         let drift = |axis: &str| (number(&result["closure"][axis]) * 100.0).round() / 100.0 + 0.0;
         self.narrator.say(&say!(
-            blocks_mm_after_closes,
+            blocks_and_how_far_they_close,
             result["blocks"],
             number(&result["length"]),
             elapsed,

@@ -45,16 +45,8 @@ type Codes = &'static [Row];
 const COMMON: Codes = &[
     (0, said::name_of_the_record_that_begins_here, PLAIN),
     (5, said::handle_of_the_record_hexadecimal, OWN_HANDLE),
-    (
-        100,
-        said::subclass_which_class_the_following_codes_belong_to,
-        PLAIN,
-    ),
-    (
-        102,
-        said::begin_or_end_of_a_group_of_another_program_in_braces,
-        PLAIN,
-    ),
+    (100, said::class_of_the_following_codes, PLAIN),
+    (102, said::group_of_another_program, PLAIN),
     (330, said::handle_of_the_owner, HANDLE),
     (360, said::handle_of_an_owned_record, HANDLE),
     (999, said::a_comment, PLAIN),
@@ -102,11 +94,7 @@ const OF_RECORD: &[(&[&str], Codes)] = &[
         &[
             (2, said::name_of_the_layer, PLAIN),
             (70, said::flags_of_a_layer, PLAIN),
-            (
-                62,
-                said::colour_number_negative_when_the_layer_is_off,
-                PLAIN,
-            ),
+            (62, said::colour_number_of_a_layer, PLAIN),
             (6, said::name_of_the_linetype, PLAIN),
             (290, said::plotted_0_no_1_yes, PLAIN),
             (370, said::line_weight_in_hundredths_of_a_millimetre, PLAIN),
@@ -184,12 +172,8 @@ const OF_RECORD: &[(&[&str], Codes)] = &[
         &[
             (10, said::centre, POINT),
             (40, said::radius, LENGTH),
-            (
-                50,
-                said::start_angle_the_arc_runs_counter_clockwise,
-                DEGREES,
-            ),
-            (51, said::end_angle_the_arc_runs_counter_clockwise, DEGREES),
+            (50, said::start_angle_of_the_arc, DEGREES),
+            (51, said::end_angle_of_the_arc, DEGREES),
         ],
     ),
     (
@@ -203,11 +187,7 @@ const OF_RECORD: &[(&[&str], Codes)] = &[
             (91, said::identifier_of_the_vertex, PLAIN),
             (40, said::width_at_the_start_of_the_segment, LENGTH),
             (41, said::width_at_the_end_of_the_segment, LENGTH),
-            (
-                42,
-                said::bulge_of_the_segment_that_starts_in_this_vertex,
-                BULGE,
-            ),
+            (42, said::bulge_of_the_segment, BULGE),
         ],
     ),
     (
@@ -231,11 +211,7 @@ const OF_RECORD: &[(&[&str], Codes)] = &[
             (10, said::vertex, POINT),
             (40, said::width_at_the_start_of_the_segment, LENGTH),
             (41, said::width_at_the_end_of_the_segment, LENGTH),
-            (
-                42,
-                said::bulge_of_the_segment_that_starts_in_this_vertex,
-                BULGE,
-            ),
+            (42, said::bulge_of_the_segment, BULGE),
             (50, said::direction_of_the_tangent_of_a_curve_fit, DEGREES),
             (70, said::flags_of_a_vertex, PLAIN),
         ],

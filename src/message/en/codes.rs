@@ -3,8 +3,8 @@
 declare! {
     name_of_the_record_that_begins_here => "name of the record that begins here";
     handle_of_the_record_hexadecimal => "handle of the record (hexadecimal)";
-    subclass_which_class_the_following_codes_belong_to => "subclass: which class the following codes belong to";
-    begin_or_end_of_a_group_of_another_program_in_braces => "begin or end of a group of another program, in braces";
+    class_of_the_following_codes => "subclass: which class the following codes belong to";
+    group_of_another_program => "begin or end of a group of another program, in braces";
     handle_of_the_owner => "handle of the owner";
     handle_of_an_owned_record => "handle of an owned record";
     a_comment => "comment";
@@ -30,7 +30,7 @@ declare! {
     handle_of_the_table => "handle of the table";
     largest_number_of_entries => "largest number of entries";
     flags_of_a_layer => "flags: 1 frozen, 2 frozen in new viewports, 4 locked";
-    colour_number_negative_when_the_layer_is_off => "colour number; negative when the layer is off";
+    colour_number_of_a_layer => "colour number; negative when the layer is off";
     plotted_0_no_1_yes => "plotted: 0 no, 1 yes";
     line_weight_in_hundredths_of_a_millimetre => "line weight in hundredths of a millimetre";
     the_description => "description";
@@ -61,8 +61,8 @@ declare! {
     end_point => "end point";
     centre => "centre";
     radius => "radius";
-    start_angle_the_arc_runs_counter_clockwise => "start angle; the arc runs counter-clockwise";
-    end_angle_the_arc_runs_counter_clockwise => "end angle; the arc runs counter-clockwise";
+    start_angle_of_the_arc => "start angle; the arc runs counter-clockwise";
+    end_angle_of_the_arc => "end angle; the arc runs counter-clockwise";
     how_many_vertices => "number of vertices";
     flags_of_an_lwpolyline => "flags: 1 closed, 128 linetype runs through";
     constant_width => "constant width";
@@ -71,7 +71,7 @@ declare! {
     identifier_of_the_vertex => "identifier of the vertex";
     width_at_the_start_of_the_segment => "width at the start of the segment";
     width_at_the_end_of_the_segment => "width at the end of the segment";
-    bulge_of_the_segment_that_starts_in_this_vertex => "bulge of the segment that starts in this vertex: tan(sweep / 4), positive counter-clockwise, 0 is a line";
+    bulge_of_the_segment => "bulge of the segment that starts in this vertex: tan(sweep / 4), positive counter-clockwise, 0 is a line";
     vertices_follow_always_1 => "vertices follow: always 1";
     flags_of_a_polyline => "flags: 1 closed, 2 curve fit, 4 spline fit, 8 in space, 16 mesh, 64 polyface";
     always_0 => "always 0";

@@ -1,12 +1,12 @@
 //! Files that cannot be read or written.
 
 declare! {
-    it_has_bytes_expected_at_most(metadata, cap) => "it has {metadata} bytes, expected at most {cap}";
-    it_holds_more_than_bytes_expected_at_most(cap) => "it holds more than {cap} bytes, expected at most so many";
+    it_has_too_many_bytes(bytes, cap) => "it has {bytes} bytes, expected at most {cap}";
+    it_holds_too_many_bytes(cap) => "it holds more than {cap} bytes, expected at most so many";
     it_is_a_folder => "it is a folder";
     it_is_no_regular_file => "it is no regular file";
     it_is_read_only => "it is read-only";
-    it_is_not_the_file_any_more_that_was_read_nothing => "it is not the file any more that was read, nothing is changed";
+    it_is_not_the_file_any_more_that_was_read => "it is not the file any more that was read, nothing is changed";
     its_owner_user_group_cannot_be_kept(uid, gid, error) => "its owner (user {uid}, group {gid}) cannot be kept: {error}";
     os_error => " (os error";
 }

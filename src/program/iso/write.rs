@@ -103,14 +103,10 @@ impl Writer for Lines<'_> {
         (self.side, self.is_switched_off) = (path.side, false);
         self.fixed(&self.profile.contour_begin, first)?;
         if path.side.is_some() && path.pass > 1 && !self.names_registers() {
-            return Err(self.refused(
-                say!(all_passes_would_have_one_correction),
-            ));
+            return Err(self.refused(say!(all_passes_would_have_one_correction)));
         }
         if path.side.is_some() && self.machine.side != path.side {
-            return Err(self.refused(
-                say!(its_contour_begin_does_not_switch_the_correction_on),
-            ));
+            return Err(self.refused(say!(its_contour_begin_does_not_switch_the_correction_on)));
         }
         Ok(())
     }
@@ -136,7 +132,11 @@ impl Writer for Lines<'_> {
             &mut encoded,
         )
         .ok_or_else(|| {
-            ProofError::Mismatch(say!(no_moves_within_tolerance_lead_from_to, format_args!("{from:?}"), format_args!("{to:?}")))
+            ProofError::Mismatch(say!(
+                no_moves_within_tolerance_lead_from_to,
+                format_args!("{from:?}"),
+                format_args!("{to:?}")
+            ))
         })?;
         for step in &encoded {
             self.step_out(step)?;
@@ -154,7 +154,11 @@ impl Writer for Lines<'_> {
         goes_on: bool,
     ) -> Result<(), ProofError> {
         if closed && first != last {
-            return Err(ProofError::Mismatch(say!(the_cut_begins_at_and_ends_at, format_args!("{first:?}"), format_args!("{last:?}"))));
+            return Err(ProofError::Mismatch(say!(
+                the_cut_begins_at_and_ends_at,
+                format_args!("{first:?}"),
+                format_args!("{last:?}")
+            )));
         }
         self.goes_on = goes_on;
         match goes_on {
@@ -241,8 +245,7 @@ impl<'a> Lines<'a> {
             Jumps::None => {
                 self.fixed(&["G92 X{x} Y{y}".to_owned()], to)?;
                 if self.machine.at != self.place(to) {
-                    return Err(self
-                        .refused(say!(its_pause_has_to_stop_the_machine)));
+                    return Err(self.refused(say!(its_pause_has_to_stop_the_machine)));
                 }
                 Ok(())
             }
@@ -397,12 +400,19 @@ impl<'a> Lines<'a> {
     /// Holds what the control does with the line against the node and the piece of the path; how far it lies from that at most, µm.
     fn check(&self, step: &Encoded, made: Option<Move>) -> Result<f64, ProofError> {
         let Some(made) = made else {
-            return Err(ProofError::Mismatch(say!(a_written_move_does_not_move, format_args!("{:?}", step.to))));
+            return Err(ProofError::Mismatch(say!(
+                a_written_move_does_not_move,
+                format_args!("{:?}", step.to)
+            )));
         };
         let (from, to) = (self.place(step.from), self.place(step.to));
         if made.from != from || made.to != to || made.motion != step.motion {
             // Only the profile can have changed what coordinates count from, or in which unit.
-            let profile = say!(its_lines_lead_elsewhere, format_args!("{to:?}"), format_args!("{:?}", made.to));
+            let profile = say!(
+                its_lines_lead_elsewhere,
+                format_args!("{to:?}"),
+                format_args!("{:?}", made.to)
+            );
             return Err(self.refused(&profile));
         }
         if made.is_cut() && !self.is_switched_off && made.side != self.side {
@@ -412,10 +422,18 @@ impl<'a> Lines<'a> {
             Course::Line => Segment::line(micrometres(made.from), micrometres(made.to)),
             Course::Arc(arc) => Segment::Arc(arc),
             Course::OffRadius { start, end, .. } => {
-                return Err(ProofError::Mismatch(say!(the_ends_of_the_arc_lie_apart_from_its_centre, format_args!("{:?}", step.to), start, end)));
+                return Err(ProofError::Mismatch(say!(
+                    the_ends_of_the_arc_lie_apart_from_its_centre,
+                    format_args!("{:?}", step.to),
+                    start,
+                    end
+                )));
             }
             Course::NoRadius => {
-                return Err(ProofError::Mismatch(say!(the_arc_to_a_place_has_no_radius, format_args!("{:?}", step.to))));
+                return Err(ProofError::Mismatch(say!(
+                    the_arc_to_a_place_has_no_radius,
+                    format_args!("{:?}", step.to)
+                )));
             }
         };
         let piece = scaled(
@@ -425,7 +443,11 @@ impl<'a> Lines<'a> {
         let middles = (decoded.point_at(0.5) - piece.point_at(0.5)).norm();
         let aside = largest_distance(&decoded, &piece);
         if aside.max(middles) > ASIDE_TOLERANCE + 1e-6 || aside.is_nan() || middles.is_nan() {
-            return Err(ProofError::Mismatch(say!(the_move_runs_beside_the_path, format_args!("{:?}", step.to), aside.max(middles))));
+            return Err(ProofError::Mismatch(say!(
+                the_move_runs_beside_the_path,
+                format_args!("{:?}", step.to),
+                aside.max(middles)
+            )));
         }
         Ok(aside)
     }

@@ -78,7 +78,12 @@ pub fn read(text: &[u8], words: &Words<'_>) -> (Vec<Item>, Vec<SyntaxFault>) {
 /// The fault of text between the blocks.
 pub(super) fn unexpected(text: &[u8], range: Range<usize>, column: usize) -> SyntaxFault {
     let found = shown(text.get(range.clone()).unwrap_or_default());
-    let sentence = say!(found_in_a_column, column, found, say!(a_block_or_word_or_comment_of_3b));
+    let sentence = say!(
+        found_in_a_column,
+        column,
+        found,
+        say!(a_block_or_word_or_comment_of_3b)
+    );
     SyntaxFault::new(range, Flaw::Unreadable(sentence))
 }
 
@@ -161,7 +166,13 @@ fn not_plain(line: &[u8], readable: &[u8], words: &Words<'_>) -> Option<SyntaxFa
     };
     let found = shown(&line[first.at..]);
     let expected = say!(a_block_in_plain_letters_and_digits);
-    let sentence = say!(found_letters_of_another_script, first.at + 1, found, expected, script);
+    let sentence = say!(
+        found_letters_of_another_script,
+        first.at + 1,
+        found,
+        expected,
+        script
+    );
     let range = first.at..end.max(first.at + first.length);
     Some(SyntaxFault {
         number,

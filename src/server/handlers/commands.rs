@@ -15,7 +15,7 @@ fn argument<T: DeserializeOwned>(arguments: Vec<Value>, misfit: &str, shape: &st
     let [argument] = <[Value; 1]>::try_from(arguments)
         .map_err(|_| Error::invalid_params(say!(the_command_takes_one_argument, shape)))?;
     serde_json::from_value(argument)
-        .map_err(|error| Error::invalid_params(say!(the_argument, misfit, error)))
+        .map_err(|error| Error::invalid_params(say!(the_argument_misfits, misfit, error)))
 }
 
 /// The argument of `wedm.applyDrawingEdit`.
@@ -60,14 +60,17 @@ pub(in crate::server) fn apply_drawing_edit(
 fn check(state: &mut State, edit: &DrawingEdit) -> Result<()> {
     let open = state.document(&edit.uri)?;
     if !open.is_drawing {
-        return Err(Error::invalid_params(say!(is_a_text_expected_a, edit.uri)));
+        return Err(Error::invalid_params(say!(
+            is_a_text_expected_a_drawing,
+            edit.uri
+        )));
     }
     if open.version != edit.version {
         return Err(moved_on());
     }
     match state.client.abilities.apply_drawing_edit {
         true => Ok(()),
-        false => Err(refused(say!(the_client_did_not_declare))),
+        false => Err(refused(say!(the_client_applies_no_drawing_edits))),
     }
 }
 
@@ -82,7 +85,7 @@ pub(in crate::server) fn scaled(
     params: ScaleProgram,
 ) -> Result<WorkspaceEdit> {
     if !context.abilities.apply_edit {
-        return Err(refused(say!(the_client_did_not_declare_workspace)));
+        return Err(refused(say!(the_client_applies_no_text_edits)));
     }
     let (Some(program), Some(document)) = (context.program(), context.document()) else {
         return Err(refused(say!(is_no_program, context.uri)));

@@ -18,7 +18,7 @@ pub(in crate::server) fn locate(
     let encoding = context.encoding;
     let text = context
         .dxf()
-        .ok_or_else(|| refused(say!(is_no_dxf_text_expected, context.uri)))?;
+        .ok_or_else(|| refused(say!(is_no_dxf_text, context.uri)))?;
     match (params.position, &params.handle) {
         (Some(position), None) => Ok(at_position(text, position, encoding)),
         (None, Some(handle)) => at_segment(text, handle, params.segment, encoding).map(Some),

@@ -28,7 +28,7 @@ pub(in crate::server) fn rename(
     params: RenameParams,
 ) -> Result<Option<WorkspaceEdit>> {
     let Some(program) = context.program() else {
-        return Err(refused(say!(is_no_program_expected_one, context.uri)));
+        return Err(refused(say!(is_no_program_with_block_numbers, context.uri)));
     };
     let text = program.text();
     let offset = context.offset(text, params.text_document_position.position);

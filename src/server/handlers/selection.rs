@@ -15,7 +15,7 @@ pub(in crate::server) fn selection_range(
     let SelectionRangeParams { positions, .. } = params;
     if positions.len() > PLACES {
         return Err(Error::invalid_params(say!(
-            positions_are_asked_for_expected,
+            too_many_positions_are_asked_for,
             positions.len(),
             PLACES
         )));

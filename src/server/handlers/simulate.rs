@@ -10,7 +10,7 @@ pub(in crate::server) fn simulate(
     params: Simulate,
 ) -> Result<Simulation> {
     if let Some(feed) = params.feed.filter(|feed| *feed <= 0.0) {
-        let message = say!(feed_is_expected_mm_min, feed);
+        let message = say!(the_feed_is_not_above_0, feed);
         return Err(Error::invalid_params(message));
     }
     let document = context
@@ -18,6 +18,6 @@ pub(in crate::server) fn simulate(
         .ok_or_else(|| refused(say!(holds_no_program, context.uri)))?;
     let program = document
         .program()
-        .ok_or_else(|| refused(say!(is_a_drawing_expected_a, context.uri)))?;
+        .ok_or_else(|| refused(say!(is_a_drawing_expected_a_program, context.uri)))?;
     Ok(Simulation::of(&program.trace(), params.feed))
 }

@@ -62,7 +62,7 @@ impl<R: Read> Frames<R> {
             Ok(None) => Frame::End,
             Ok(Some(length)) if length > BODY_CAP => {
                 self.skip_body(length);
-                Frame::Broken(say!(a_body_of_bytes_is, length, BODY_CAP))
+                Frame::Broken(say!(a_body_is_over_the_limit, length, BODY_CAP))
             }
             Ok(Some(length)) => self.body(length as usize),
             Err(reason) => Frame::Broken(reason),
@@ -132,7 +132,7 @@ impl<R: Read> Frames<R> {
                         true => Ok(None),
                         false => {
                             self.start = self.buffer.len();
-                            Err(say!(the_stream_ends_within_a).into())
+                            Err(say!(the_stream_ends_within_a_header).into())
                         }
                     };
                 }
@@ -163,7 +163,7 @@ impl<R: Read> Frames<R> {
                 }
                 // Something was printed right before the next header.
                 Some(_) if marker(&self.rest()[at..=end]).is_none() => None,
-                _ => Some(say!(is_no_header_line_expected, shown(line))),
+                _ => Some(say!(is_no_header_line, shown(line))),
             };
             if let Some(fault) = fault {
                 self.skip_to_header(at + 1);
@@ -185,7 +185,7 @@ impl<R: Read> Frames<R> {
             let from = searched.saturating_sub(MARKER_CAP);
             if let Some(at) = marker(&self.rest()[from..have]) {
                 self.start += from + at;
-                return Frame::Broken(say!(the_next_frame_begins_before, length));
+                return Frame::Broken(say!(the_next_frame_begins_within_a_body, length));
             }
             searched = have;
             if have == length {

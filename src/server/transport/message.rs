@@ -24,7 +24,7 @@ pub(super) fn parse(body: &[u8]) -> Result<Incoming, Error> {
     if is_too_heavy(body) {
         return Ok(invalid(
             Id::Null,
-            say!(a_message_of_bytes_holds, body.len(), LIMIT),
+            say!(a_message_holds_too_much, body.len(), LIMIT),
         ));
     }
     let value = parse_json(body).map_err(|reason| Error {
@@ -41,13 +41,16 @@ pub(super) fn parse(body: &[u8]) -> Result<Incoming, Error> {
         Some(Value::Number(number)) if number.as_i64().is_some() => number.as_i64().map(Id::Number),
         Some(Value::Null) => Some(Id::Null),
         Some(_) => {
-            return Ok(invalid(Id::Null, say!(the_id_is_neither_a)));
+            return Ok(invalid(Id::Null, say!(the_id_is_neither_number_nor_string)));
         }
     };
     let method = match message.remove("method") {
         Some(Value::String(method)) => method,
         Some(_) => {
-            return Ok(invalid(id.unwrap_or_default(), say!(the_method_is_not_a)));
+            return Ok(invalid(
+                id.unwrap_or_default(),
+                say!(the_method_is_not_a_string),
+            ));
         }
         None => return Ok(reply(id, message)),
     };

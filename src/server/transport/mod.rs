@@ -181,7 +181,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
                     && is_ours(&method)
                     && matches!(outcome, Ok(Ok(None)));
                 if unread {
-                    self.inbox.note(say!(was_ignored_its_params_are, method));
+                    self.inbox.note(say!(was_ignored_for_its_params, method));
                 }
                 self.finish(&reply, id, outcome);
             }

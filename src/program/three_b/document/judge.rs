@@ -337,8 +337,7 @@ impl Document {
         for (at, column, is_comment) in texts {
             let range = self.range_of(at);
             if is_comment {
-                let sentence =
-                    say!(this_comment_holds_a_block_which_is_not_cut, column);
+                let sentence = say!(this_comment_holds_a_block_which_is_not_cut, column);
                 let is_marked = self.text.bytes().get(range.start) == Some(&b';');
                 let severity = if is_marked {
                     Severity::Information
