@@ -373,7 +373,7 @@ fn held(drawing: &Drawing, settings: &Effective, format: Format) -> Document {
 
 #[test]
 fn a_punch_stands_on_its_tab_until_it_is_cut_off() {
-    let text = "correction = 0.155\n[program]\ntab = 3\n";
+    let text = "correction = 0.155\n[program]\nlead-in = 4\ntab = 3\n";
     let settings = settings(text);
     let drawing = drawing(Role::Punch, &PLATE);
     let found = paths(&drawing, &settings);
@@ -381,6 +381,8 @@ fn a_punch_stands_on_its_tab_until_it_is_cut_off() {
         panic!("{found:?}")
     };
     assert_eq!((cut.cut_off, tab.cut_off, tab.pass), (false, true, 1));
+    // The lead is counted from the wire's path.
+    assert!((cut.thread_hole - Point::new(20.0, -4.155)).norm() < 1e-9);
     assert!((length(tab, is_of_contour) - 3.0).abs() < 1e-9, "{tab:?}");
     let round = 2.0 * (40.0 + 20.0) + 2.0 * std::f64::consts::PI * 0.155;
     let both = length(cut, is_of_contour) + length(tab, is_of_contour);

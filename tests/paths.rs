@@ -326,7 +326,7 @@ fn a_round_opening_is_threaded_in_its_centre() {
     };
     assert_eq!(
         hole_of(circle(0.0, 0.0, 10.0), Role::Opening, lead_in),
-        Point::new(6.0, 0.0)
+        Point::new(5.9, 0.0)
     );
     let entry = Effective {
         entry: Some(PointSetting::One([0.0, 10.0])),

@@ -106,7 +106,8 @@ tables! {
         /// that means it, under `as-picked` the begin of the entity picked first, the point nearest to the thread hole, else the middle of
         /// the longest line, else the point of the longest arc with the largest x.
         entry: PointSetting => point_setting;
-        /// Length of the lead from thread hole to contour where no thread hole is given, mm. Halved until it fits.
+        /// Length of the lead from thread hole to the wire's path where no thread hole is given, mm. Halved until it fits. Not set: the hole
+        /// lies 3 mm from the contour.
         #[serde(alias = "lead-in")]
         lead_in: f64 = 3.0 => number in Range::ABOVE_ZERO;
         /// Length of the contour, mm, that all passes leave standing before the entry, so that a punch does not drop while it is cut: then comes

@@ -16,6 +16,9 @@ use crate::settings::Effective;
 
 use std::f64::consts::TAU;
 
+/// So often a lead is halved.
+const MOST_HALVED: usize = 64;
+
 /// So often what a lead reaches beyond the path is halved, where the last of the longer ones does not fit.
 const HALVED_BEYOND: u32 = 4;
 
@@ -338,7 +341,8 @@ pub(super) fn fault(
 /// The thread hole for a lead to `begin`, the point of the path that belongs to `entry`. `begin` itself where there is no lead.
 ///
 /// A hole that is given must be reached without cutting anything. Where none is given it is `center`, where there is one and the way
-/// from it is clear; else the lead runs on from the entry through `begin`, and its length, counted from the entry, is halved until it fits.
+/// from it is clear; else the lead runs on from the entry through `begin`, and its length, counted from the path where
+/// somebody has set it, else from the entry, is halved until it fits.
 pub(super) fn thread_hole(
     wanted: &Wanted,
     center: Option<Point>,
@@ -383,7 +387,11 @@ pub(super) fn thread_hole(
     // Halved down to the path; then what reaches beyond the path is halved.
     let least = nearest + 1e-6 / unit_mm;
     let full = Some(settings.lead_in / unit_mm).filter(|length| length.is_finite());
+    // What somebody has set is counted from the path.
+    let from = settings.stated_lead_in.map_or(0.0, |_| nearest);
     let halved = std::iter::successors(full, |length| Some(length / 2.0))
+        .map(|length| from + length)
+        .take(MOST_HALVED)
         .take_while(|&length| length > least);
     let shortest = halved.clone().last().unwrap_or(nearest);
     let beyond = (1..=HALVED_BEYOND)

@@ -434,7 +434,7 @@ export interface ProgramSettings {
    */
   entry?: PointSetting;
   /**
-   * Length of the lead from thread hole to contour where no thread hole is given, mm. Halved until it fits.
+   * Length of the lead from thread hole to the wire's path where no thread hole is given, mm. Halved until it fits. Not set: the hole lies 3 mm from the contour.
    */
   leadIn?: number;
   /**
