@@ -7,6 +7,7 @@ use super::evidence::Evidence;
 use super::limits::Limits;
 use super::machine::{Machine, Reading};
 use super::order::{Order, order};
+use super::read::words_of;
 use super::repair::Repairs;
 use super::run::Hears;
 use super::stretch::Stretch;
@@ -147,6 +148,13 @@ impl Document {
             .bytes()
             .get(self.text.line_range(line))
             .unwrap_or_default()
+    }
+
+    /// From the first to the last byte of a line that is no space.
+    pub(super) fn words_of(&self, line: usize) -> Range<usize> {
+        let start = self.text.line_start(line);
+        let (first, end) = words_of(self.line_bytes(line), start);
+        first as usize..end as usize
     }
 
     /// What a line says.

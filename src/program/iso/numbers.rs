@@ -10,7 +10,7 @@ use super::block::{read_line, word_range};
 use super::document::Document;
 use super::layout::is_parted;
 use super::line::with_word;
-use super::order::labels;
+use super::order::{called, labels};
 use crate::text::{SourceText, TextEdit};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
@@ -28,7 +28,7 @@ pub(super) fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, 
     let labels = labels(text);
     let mut renamed: FxHashMap<u32, u32> = FxHashMap::default();
     // A block that got the number of a program which is called, or of one that stands elsewhere, would be called in its place.
-    let taken: Vec<u32> = called(document)
+    let taken: Vec<u32> = called(text)
         .into_iter()
         .filter(|called| {
             labels
@@ -105,7 +105,7 @@ fn is_program(text: &SourceText, line: usize) -> bool {
 pub(super) fn without_numbers(document: &Document) -> Result<Vec<TextEdit>, String> {
     refuse_unknown_calls(document)?;
     let text = document.text();
-    let called: Vec<u32> = called(document);
+    let called = called(text);
     let mut edits = Vec::new();
     for line in 0..text.line_count() {
         let range = text.line_range(line);
@@ -174,12 +174,6 @@ fn calls(document: &Document, renamed: impl Fn(u32) -> Option<u32>) -> Vec<TextE
         }
     }
     edits
-}
-
-fn called(document: &Document) -> Vec<u32> {
-    let text = document.text();
-    let call = |line: usize| read_line(text.bytes().get(text.line_range(line))?, 1, |_| {}).call;
-    (0..text.line_count()).filter_map(call).collect()
 }
 
 fn number_word(line: &[u8], start: usize) -> Option<Range<usize>> {

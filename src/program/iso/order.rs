@@ -69,7 +69,7 @@ pub(super) fn labels(text: &SourceText) -> FxHashMap<u32, usize> {
 }
 
 /// The numbers that are called.
-fn called(text: &SourceText) -> FxHashSet<u32> {
+pub(super) fn called(text: &SourceText) -> FxHashSet<u32> {
     let call = |line: usize| read_line(text.bytes().get(text.line_range(line))?, 1, |_| {}).call;
     (0..text.line_count()).filter_map(call).collect()
 }

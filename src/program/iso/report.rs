@@ -61,8 +61,7 @@ fn suspects(document: &Document, findings: &[Finding]) -> Vec<Finding> {
     let first = |(_, repairs): &(Range<usize>, Vec<Repair>)| repairs.first().cloned();
     let repairs: Vec<Repair> = document.repairs().iter().filter_map(first).collect();
     let suspect = |repair: Repair| {
-        let range = document.text().line_range(repair.line);
-        let words = super::read::words_of(document.text().bytes().get(range.clone())?, range.start);
+        let range = document.words_of(repair.line);
         let fault = Fault::Suspect {
             found: repair.found,
             meant: repair.meant,
@@ -73,13 +72,12 @@ fn suspects(document: &Document, findings: &[Finding]) -> Vec<Finding> {
         } else {
             Severity::Information
         };
-        let range = words.0 as usize..words.1 as usize;
-        Some(Finding::of(fault, range).with(severity))
+        Finding::of(fault, range).with(severity)
     };
     repairs
         .into_iter()
         .filter(|repair| repair.explains && !is_said(repair.line))
-        .filter_map(suspect)
+        .map(suspect)
         .collect()
 }
 

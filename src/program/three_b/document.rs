@@ -3,11 +3,11 @@
 //! The text is cut into runs of lines. What a line says hangs on no other line, so an edit reads again the runs that it touched;
 //! what hangs on the whole program (contours, numbers, the end) is made from a few sums of each run.
 
+mod cuts;
 mod fixes;
 mod judge;
 mod repairs;
 mod report;
-mod sections;
 mod sequence;
 mod walk;
 mod way;
@@ -70,7 +70,7 @@ type PartAt = (usize, usize);
 
 /// Blocks between two words.
 #[derive(Clone, Debug, PartialEq)]
-struct Section {
+struct Cut {
     /// First and last part.
     parts: [PartAt; 2],
     sum: Sum,
@@ -83,14 +83,14 @@ struct Section {
 struct View {
     /// Where the machine stands before each run, µm.
     begins: Vec<Point>,
-    /// The sections that reach over the end of a run, or begin or end the text, in their order. The others are parts of one run.
-    outer: Vec<Section>,
+    /// The cuts that reach over the end of a run, or begin or end the text, in their order. The others are parts of one run.
+    outer: Vec<Cut>,
     /// Where the contours begin that do not close.
     open: Vec<PartAt>,
-    /// Where sections begin that go on with the contour before them, behind the stop at its tab.
+    /// Where cuts begin that go on with the contour before them, behind the stop at its tab.
     tabs: Vec<PartAt>,
     /// The contours that are held by a tab until that is cut off, while they are looked through for crossings.
-    held: Vec<Section>,
+    held: Vec<Cut>,
     /// The word that ends the program.
     end: Option<At>,
     last_block: Option<At>,

@@ -4,7 +4,6 @@ use super::super::block::{read_line, word_range};
 use super::super::document::Table;
 use super::super::evidence::FEW_BARE;
 use super::super::order::MOST_CALLS;
-use super::super::read;
 use super::super::table::value;
 use super::super::word::{Token, words};
 use super::{Report, at};
@@ -75,12 +74,8 @@ impl Report<'_> {
         for placed in self.document.placed() {
             if (placed.stretch.numbers.len() as u32) < placed.stretch.blocks {
                 for (line, expected) in self.document.lacking_numbers(&placed) {
-                    let range = self.text.line_range(line);
-                    let words = read::words_of(&self.text.bytes()[range.clone()], range.start);
-                    self.add(
-                        words.0 as usize..words.1 as usize,
-                        Fault::Unnumbered { expected },
-                    );
+                    let words = self.document.words_of(line);
+                    self.add(words, Fault::Unnumbered { expected });
                 }
             }
         }
@@ -125,7 +120,7 @@ impl Report<'_> {
             self.add(self.text.line_range(line), Fault::NoSubprogram { number });
         }
         for &(line, number) in &order.unreturned {
-            let range = self.words_of(line);
+            let range = self.document.words_of(line);
             self.add(range, Fault::NoReturn { number });
         }
         if let Some(line) = order.endless {
@@ -140,15 +135,6 @@ impl Report<'_> {
             let range = self.text.line_range(line);
             self.push(Rule::NotJudged, range, Detail::NotJudged(what));
         }
-    }
-
-    fn words_of(&self, line: usize) -> Range<usize> {
-        let range = self.text.line_range(line);
-        let words = read::words_of(
-            self.text.bytes().get(range.clone()).unwrap_or_default(),
-            range.start,
-        );
-        words.0 as usize..words.1 as usize
     }
 
     /// Values for the table that hang on places which the program does not fill.
@@ -289,7 +275,7 @@ impl Report<'_> {
         };
         (0..self.text.line_count())
             .find(has_length)
-            .map(|line| self.words_of(line))
+            .map(|line| self.document.words_of(line))
     }
 
     /// The first I or J of the text.

@@ -70,7 +70,7 @@ impl Document {
             .iter()
             .find(is_behind)
             .map(|piece| line.start + piece.range.start..line.start + piece.range.end)?;
-        let section = self.section_of(at)?;
+        let cut = self.cut_of(at)?;
         Some(position_mismatch::fixes(&Mismatched {
             text: self.text.bytes(),
             block: entry.block,
@@ -79,7 +79,7 @@ impl Document {
             before,
             stated,
             goes_on,
-            closes: self.closes(&self.view, &section),
+            closes: self.closes(&self.view, &cut),
             closes_with: &|blocks| self.closes_with(at, entry, blocks),
         }))
     }
@@ -152,7 +152,7 @@ impl Document {
 
     /// Whether the contour of a block closes with other blocks in its place.
     fn closes_with(&self, at: At, entry: &BlockEntry, blocks: &[Block]) -> bool {
-        let Some(section) = self.section_of(at) else {
+        let Some(cut) = self.cut_of(at) else {
             return false;
         };
         let new = blocks
@@ -160,16 +160,16 @@ impl Document {
             .map(travel_of)
             .fold(Move::default(), Move::plus);
         let mut sum = Sum {
-            travel: section.sum.travel.minus(entry.travel).plus(new),
-            ..section.sum
+            travel: cut.sum.travel.minus(entry.travel).plus(new),
+            ..cut.sum
         };
-        if self.blocks_of(&section).next() == Some(at) {
+        if self.blocks_of(&cut).next() == Some(at) {
             sum.first = blocks.first().map(travel_of).or(sum.first);
         }
-        if self.last_block_of(&section) == Some(at) {
+        if self.last_block_of(&cut) == Some(at) {
             sum.last = blocks.last().map(travel_of).or(sum.last);
         }
-        section.sum.blocks >= 3 && sum.ends().close()
+        cut.sum.blocks >= 3 && sum.ends().close()
     }
 
     /// A straight block that closes the contour.
@@ -177,11 +177,10 @@ impl Document {
         let Some((at, _)) = self.block_at(range) else {
             return Vec::new();
         };
-        let Some(section) = self.section_of(at) else {
+        let Some(cut) = self.cut_of(at) else {
             return Vec::new();
         };
-        let Some([x, y]) = gap(&self.way(&section)).map(|gap| gap.map(|um| um.round() as i64))
-        else {
+        let Some([x, y]) = gap(&self.way(&cut)).map(|gap| gap.map(|um| um.round() as i64)) else {
             return Vec::new();
         };
         let largest = self.limits.largest();

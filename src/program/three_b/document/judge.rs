@@ -6,8 +6,8 @@ use super::super::parse::unexpected;
 use super::super::repair::FEWEST_BLAMED;
 use super::super::rules::{self, not_closed};
 use super::super::run::{Sum, may_cross_itself};
-use super::sections::joined;
-use super::{At, Document, PartAt, Section, View};
+use super::cuts::joined;
+use super::{At, Cut, Document, PartAt, View};
 use crate::finding::{Axis, Detail, Fault, Finding, Rule, Severity};
 use crate::program::path::{Known, Lay, Way, gap, is_tab, mixed, tolerance};
 use std::borrow::Cow;
@@ -19,14 +19,14 @@ const PAUSES_WITHIN: usize = 16;
 /// Those of them behind which a tab is looked for.
 const TABS_WITHIN: usize = 4;
 
-/// Sections that belong to one contour.
+/// Cuts that belong to one contour.
 struct GoesOn {
     /// Where those behind the first begin.
     begins: Vec<PartAt>,
     /// What comes behind them.
     behind: PartAt,
     /// All of them, where the last one cuts off the tab.
-    held: Option<Section>,
+    held: Option<Cut>,
 }
 
 impl Document {
@@ -37,7 +37,7 @@ impl Document {
             ..View::default()
         };
         view.end = self.end_word();
-        view.outer = self.outer_sections(view.end);
+        view.outer = self.outer_cuts(view.end);
         view.last_block = self.last_block(view.end);
         self.judge_contours(&mut view);
         self.judge_crossings(&mut view, known, calm);
@@ -50,17 +50,12 @@ impl Document {
 
     /// `not-closed`, and the block that is to blame where it is plain. A contour that stops before its tab goes on behind the stop.
     fn judge_contours(&self, view: &mut View) {
-        let is_open = |section: &Section| !section.is_jump && !self.goes_round(section);
-        let mut candidates: Vec<Section> = self
-            .inner_sections(view.end, |run| &run.open)
+        let is_open = |cut: &Cut| !cut.is_jump && !self.goes_round(cut);
+        let mut candidates: Vec<Cut> = self
+            .inner_cuts(view.end, |run| &run.open)
             .filter(is_open)
             .collect();
-        candidates.extend(
-            view.outer
-                .iter()
-                .filter(|section| is_open(section))
-                .cloned(),
-        );
+        candidates.extend(view.outer.iter().filter(|cut| is_open(cut)).cloned());
         // What would be a way to the next contour between two pauses is none before the end.
         let last = view.end.and_then(|end| {
             Some((
@@ -73,59 +68,59 @@ impl Document {
             ))
         });
         candidates.extend(
-            last.and_then(|last| self.section_of_part(view, last))
+            last.and_then(|last| self.cut_of_part(view, last))
                 .filter(is_open),
         );
-        candidates.sort_by_key(|section| section.parts[0]);
-        candidates.dedup_by_key(|section| section.parts[0]);
+        candidates.sort_by_key(|cut| cut.parts[0]);
+        candidates.dedup_by_key(|cut| cut.parts[0]);
         let mut behind = (0, 0);
-        for section in candidates {
-            if section.parts[0] < behind {
+        for cut in candidates {
+            if cut.parts[0] < behind {
                 continue;
             }
-            match self.goes_on(view, &section) {
+            match self.goes_on(view, &cut) {
                 Some(goes_on) => {
                     view.tabs.extend(goes_on.begins);
                     view.held.extend(goes_on.held);
                     behind = goes_on.behind;
                 }
                 // To and fro on one way.
-                None if self.is_closed(&section) => {}
+                None if self.is_closed(&cut) => {}
                 None => {
-                    view.open.push(section.parts[0]);
-                    self.judge_open(view, &section);
+                    view.open.push(cut.parts[0]);
+                    self.judge_open(view, &cut);
                 }
             }
         }
     }
 
-    fn is_closed(&self, section: &Section) -> bool {
-        let ends = section.sum.ends();
-        ends.closes(self.only_lay(section), || self.way(section))
+    fn is_closed(&self, cut: &Cut) -> bool {
+        let ends = cut.sum.ends();
+        ends.closes(self.only_lay(cut), || self.way(cut))
     }
 
-    fn goes_round(&self, section: &Section) -> bool {
-        let Sum { twice_area, .. } = section.sum;
-        let ends = section.sum.ends();
-        ends.go_round(twice_area, self.only_lay(section), || self.way(section))
+    fn goes_round(&self, cut: &Cut) -> bool {
+        let Sum { twice_area, .. } = cut.sum;
+        let ends = cut.sum.ends();
+        ends.go_round(twice_area, self.only_lay(cut), || self.way(cut))
     }
 
-    /// How a section lies on itself that is one part of a run.
-    fn only_lay(&self, section: &Section) -> Option<&Lay> {
-        let [(run, part), last] = section.parts;
+    /// How a cut lies on itself that is one part of a run.
+    fn only_lay(&self, cut: &Cut) -> Option<&Lay> {
+        let [(run, part), last] = cut.parts;
         let of = self.runs.get(run).filter(|_| (run, part) == last)?;
         of.parts.get(part).map(|part| &part.lay)
     }
 
-    /// What goes on with an open section behind a stop: a tab, or blocks that come back to the start together, in whatever order they
+    /// What goes on with an open cut behind a stop: a tab, or blocks that come back to the start together, in whatever order they
     /// are cut. `None` where there is nothing.
-    fn goes_on(&self, view: &View, section: &Section) -> Option<GoesOn> {
-        let mut whole = section.clone();
+    fn goes_on(&self, view: &View, cut: &Cut) -> Option<GoesOn> {
+        let mut whole = cut.clone();
         let mut begins = Vec::new();
         let mut may_be_tab = true;
         for pause in 0..PAUSES_WITHIN {
             let next = self.part_behind(whole.parts[1]);
-            let more = self.section_from(next, view.end)?;
+            let more = self.cut_from(next, view.end)?;
             let longer = joined(whole.clone(), &more);
             begins.push(next);
             may_be_tab &= pause < TABS_WITHIN;
@@ -149,45 +144,41 @@ impl Document {
     }
 
     /// True for the way back to where the wire was threaded, behind a stop at the end of a closed contour.
-    fn leads_out(&self, view: &View, section: &Section) -> bool {
-        let (run, part) = section.parts[0];
+    fn leads_out(&self, view: &View, cut: &Cut) -> bool {
+        let (run, part) = cut.parts[0];
         let before = part
             .checked_sub(1)
-            .and_then(|part| self.section_of_part(view, (run, part)));
+            .and_then(|part| self.cut_of_part(view, (run, part)));
         before.is_some_and(|before| {
-            let whole = before.sum.then(&section.sum);
+            let whole = before.sum.then(&cut.sum);
             !before.is_jump && whole.travel.is_within(tolerance(whole.arcs))
         })
     }
 
-    fn judge_open(&self, view: &mut View, section: &Section) {
-        let Some(last) = self
-            .last_block_of(section)
-            .filter(|_| section.sum.unread == 0)
-        else {
+    fn judge_open(&self, view: &mut View, cut: &Cut) {
+        let Some(last) = self.last_block_of(cut).filter(|_| cut.sum.unread == 0) else {
             return;
         };
-        let is_fragment = view.end.is_none() || section.sum.blocks <= not_closed::FRAGMENT;
-        if is_fragment && self.leads_out(view, section) {
+        let is_fragment = view.end.is_none() || cut.sum.blocks <= not_closed::FRAGMENT;
+        if is_fragment && self.leads_out(view, cut) {
             return;
         }
-        let Some(gap) = gap(&self.way(section)) else {
+        let Some(gap) = gap(&self.way(cut)) else {
             return;
         };
-        let fault = not_closed::fault(gap, &section.sum);
+        let fault = not_closed::fault(gap, &cut.sum);
         let severity = if is_fragment {
             Severity::Information
         } else {
             fault.rule().default_severity()
         };
         let mut findings = vec![Finding::of(fault, self.range_of(last)).with(severity)];
-        let may_be_one_field = section.sum.errors == 0
-            && section.sum.blocks >= FEWEST_BLAMED
-            && !self.lacks_a_number(section);
+        let may_be_one_field =
+            cut.sum.errors == 0 && cut.sum.blocks >= FEWEST_BLAMED && !self.lacks_a_number(cut);
         if !is_fragment
             && may_be_one_field
-            && let Some((nth, fault)) = self.blamed(section)
-            && let Some(at) = self.blocks_of(section).nth(nth)
+            && let Some((nth, fault)) = self.blamed(cut)
+            && let Some(at) = self.blocks_of(cut).nth(nth)
         {
             let spot = match &fault {
                 Fault::QuadrantKeepsOpen { .. } => rules::Spot::Motion,
@@ -205,10 +196,10 @@ impl Document {
         view.findings.extend(findings);
     }
 
-    /// Whether a number is left out among the numbers of a section: a block is lost then.
-    fn lacks_a_number(&self, section: &Section) -> bool {
+    /// Whether a number is left out among the numbers of a cut: a block is lost then.
+    fn lacks_a_number(&self, cut: &Cut) -> bool {
         let numbers: Vec<u32> = self
-            .blocks_of(section)
+            .blocks_of(cut)
             .filter_map(|at| self.entry(at)?.number())
             .collect();
         let steps = || {
@@ -225,37 +216,37 @@ impl Document {
     /// `path-crosses-itself`. What stands before and behind the stop at a tab is one contour.
     fn judge_crossings(&self, view: &mut View, known: &mut Known, calm: &mut Vec<PartAt>) {
         let held = std::mem::take(&mut view.held);
-        let is_held = |section: &Section| {
-            let behind = held.partition_point(|whole| whole.parts[0] <= section.parts[0]);
+        let is_held = |cut: &Cut| {
+            let behind = held.partition_point(|whole| whole.parts[0] <= cut.parts[0]);
             let whole = behind.checked_sub(1).and_then(|index| held.get(index));
-            whole.is_some_and(|whole| section.parts[1] <= whole.parts[1])
+            whole.is_some_and(|whole| cut.parts[1] <= whole.parts[1])
         };
         known.begin();
         let mut findings = Vec::new();
-        let tangled = self.inner_sections(view.end, |run| &run.tangled);
-        let tangled = tangled.filter(|section| !is_held(section));
-        let outer = view.outer.iter().filter(|section| !is_held(section));
-        let sections = tangled
-            .map(|section| (Cow::Owned(section), Some(true)))
-            .chain(outer.map(|section| (Cow::Borrowed(section), Some(false))))
+        let tangled = self.inner_cuts(view.end, |run| &run.tangled);
+        let tangled = tangled.filter(|cut| !is_held(cut));
+        let outer = view.outer.iter().filter(|cut| !is_held(cut));
+        let cuts = tangled
+            .map(|cut| (Cow::Owned(cut), Some(true)))
+            .chain(outer.map(|cut| (Cow::Borrowed(cut), Some(false))))
             .chain(held.iter().map(|whole| (Cow::Borrowed(whole), None)));
-        // Whether a section lies within one run; what stops before its tab is looked at as a whole.
-        for (section, is_inner) in sections {
-            if section.is_jump || !may_cross_itself(&section.sum) {
+        // Whether a cut lies within one run; what stops before its tab is looked at as a whole.
+        for (cut, is_inner) in cuts {
+            if cut.is_jump || !may_cross_itself(&cut.sum) {
                 continue;
             }
             let stop = if is_inner.is_none() {
-                self.way(&section).stop()
+                self.way(&cut).stop()
             } else {
                 None
             };
-            let mark = mixed(section.sum.mark, stop.map_or(0, |blocks| blocks as u64 + 1));
-            let runs = section.parts[1].0 - section.parts[0].0 + 1;
-            let found = known.crossings(mark, runs, || self.way(&section));
+            let mark = mixed(cut.sum.mark, stop.map_or(0, |blocks| blocks as u64 + 1));
+            let runs = cut.parts[1].0 - cut.parts[0].0 + 1;
+            let found = known.crossings(mark, runs, || self.way(&cut));
             if found.is_clean() {
-                calm.extend((is_inner == Some(true)).then_some(section.parts[0]));
+                calm.extend((is_inner == Some(true)).then_some(cut.parts[0]));
             } else {
-                findings.extend(found.findings(&self.way(&section), &self.text));
+                findings.extend(found.findings(&self.way(&cut), &self.text));
             }
         }
         known.tidy();
@@ -281,19 +272,10 @@ impl Document {
             view.findings.push(finding.with(severity));
             return;
         };
-        let behind = self
-            .runs
-            .iter()
-            .enumerate()
-            .skip(end.run)
-            .flat_map(|(run, of)| (0..of.entries.len()).map(move |entry| At { run, entry }));
-        let is_text = |at: &At| {
-            !matches!(
-                self.entry(*at).map(|entry| &entry.what),
-                Some(What::CommentedBlock { .. })
-            )
-        };
-        if let Some(first) = behind.into_iter().find(|at| *at > end && is_text(at)) {
+        let is_text = |what: &What| !matches!(what, What::CommentedBlock { .. });
+        let behind = self.entries(end.run..self.runs.len());
+        let mut texts = behind.filter(|(at, entry)| *at > end && is_text(&entry.what));
+        if let Some((first, _)) = texts.next() {
             let word = self.range_of(end);
             let word = String::from_utf8_lossy(self.text.bytes().get(word).unwrap_or_default())
                 .into_owned();
@@ -304,18 +286,9 @@ impl Document {
 
     /// Text that is no block is a heading before the first block, a fault between blocks.
     fn judge_texts(&self, view: &mut View) {
-        let first_block = self
-            .runs
-            .iter()
-            .enumerate()
-            .find(|(_, run)| run.blocks > 0)
-            .and_then(|(run, of)| {
-                let entry = of
-                    .entries
-                    .iter()
-                    .position(|entry| entry.block().is_some())?;
-                Some(At { run, entry })
-            });
+        let mut blocks = self.entries(0..self.runs.len());
+        let first_block = blocks.find(|(_, entry)| entry.block().is_some());
+        let first_block = first_block.map(|(at, _)| at);
         let mut findings = Vec::new();
         let texts = self
             .runs

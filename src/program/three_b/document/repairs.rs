@@ -8,7 +8,7 @@ use super::super::repair::{
     BLOCKS, Change, Item, Loose, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs,
 };
 use super::super::rules::{TextFix, axis_of, block_number, motion_name};
-use super::{At, Document, Section};
+use super::{At, Cut, Document};
 use crate::finding::{Axis, Fault, Finding, FixKind, Place, Rule};
 use crate::program::grid::Node;
 use crate::program::repair::offered;
@@ -43,28 +43,27 @@ impl Document {
         let Some(at) = self.entry_at(range) else {
             return Vec::new();
         };
-        let Some(section) = self.section_of(at) else {
+        let Some(cut) = self.cut_of(at) else {
             return Vec::new();
         };
-        let Some((places, pieces)) = self.pieces_of(&section) else {
+        let Some((places, pieces)) = self.pieces_of(&cut) else {
             return Vec::new();
         };
-        let is_closed = self.closes(&self.view, &section) && section.sum.unread == 0;
-        let path = self.path_of(&section, &places, &pieces, is_closed);
+        let is_closed = self.closes(&self.view, &cut) && cut.sum.unread == 0;
+        let path = self.path_of(&cut, &places, &pieces, is_closed);
         let found = repairs(&path, scope);
         let fixes = found.iter().map(|repair| {
-            let (kind, mut edit) =
-                self.edit_of(&repair.change, &places, &pieces, section.is_jump)?;
+            let (kind, mut edit) = self.edit_of(&repair.change, &places, &pieces, cut.is_jump)?;
             edit.sort_by_key(|edit| edit.range.start);
             Some((kind, edit, repair.is_sure))
         });
         offered(fixes)
     }
 
-    /// The block that keeps a contour open, by its number in the section, where no other repair is as likely.
-    pub(super) fn blamed(&self, section: &Section) -> Option<(usize, Fault)> {
-        let (places, pieces) = self.pieces_of(section)?;
-        let path = self.path_of(section, &places, &pieces, false);
+    /// The block that keeps a contour open, by its number in the cut, where no other repair is as likely.
+    pub(super) fn blamed(&self, cut: &Cut) -> Option<(usize, Fault)> {
+        let (places, pieces) = self.pieces_of(cut)?;
+        let path = self.path_of(cut, &places, &pieces, false);
         let found = repairs(&path, Scope::Blocks);
         let (best, others) = found.split_first().filter(|(best, _)| best.is_whole)?;
         let (index, block, slip) = match best.change {
@@ -127,7 +126,7 @@ impl Document {
 
     fn path_of<'a>(
         &'a self,
-        section: &Section,
+        cut: &Cut,
         places: &[At],
         pieces: &'a [Piece],
         is_closed: bool,
@@ -139,7 +138,7 @@ impl Document {
             number: first.and_then(|first| self.number_before(first)),
             step: self.number_step(),
             limits: &self.limits,
-            is_jump: section.is_jump,
+            is_jump: cut.is_jump,
             is_closed,
         }
     }
@@ -185,12 +184,12 @@ impl Document {
     }
 
     /// The blocks of a contour, those that cannot be read among them; `None` where there are too few or too many, or they are 4B.
-    fn pieces_of(&self, section: &Section) -> Option<(Vec<At>, Vec<Piece>)> {
-        if !BLOCKS.contains(&(section.sum.blocks + section.sum.unread)) {
+    fn pieces_of(&self, cut: &Cut) -> Option<(Vec<At>, Vec<Piece>)> {
+        if !BLOCKS.contains(&(cut.sum.blocks + cut.sum.unread)) {
             return None;
         }
         let (mut places, mut pieces) = (Vec::new(), Vec::new());
-        for at in self.entries_of(section) {
+        for at in self.entries_of(cut) {
             let entry = self.entry(at)?;
             let own = self.range_of(at);
             let piece = match &entry.what {

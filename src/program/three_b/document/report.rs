@@ -3,7 +3,7 @@
 use super::super::fields::fields_of;
 use super::super::rules::{self, Counts};
 use super::super::run::Local;
-use super::{Document, Section};
+use super::{Cut, Document};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::settings::{Effective, SideSetting};
 
@@ -81,15 +81,15 @@ impl Document {
         all.filter(|(run, local)| self.counts(*run, local))
     }
 
-    fn section_of_local(&self, run: usize, local: &Local) -> Option<Section> {
-        self.section_of_part(&self.view, (run, local.part))
+    fn cut_of_local(&self, run: usize, local: &Local) -> Option<Cut> {
+        self.cut_of_part(&self.view, (run, local.part))
     }
 
     fn is_unusual_only(&self, run: usize, local: &Local) -> bool {
         local.counts == Counts::MildIfClosed
             && self
-                .section_of_local(run, local)
-                .is_none_or(|section| self.closes(&self.view, &section))
+                .cut_of_local(run, local)
+                .is_none_or(|cut| self.closes(&self.view, &cut))
     }
 
     fn own_severity(&self, run: usize, local: &Local) -> Severity {
@@ -101,12 +101,12 @@ impl Document {
     }
 
     fn counts(&self, run: usize, local: &Local) -> bool {
-        let section = || self.section_of_local(run, local);
+        let cut = || self.cut_of_local(run, local);
         match local.counts {
             Counts::Always | Counts::MildIfClosed => true,
-            Counts::IfOpen => section().is_some_and(|section| !self.closes(&self.view, &section)),
-            Counts::IfInside { turns_left } => section().is_some_and(|section| {
-                let runs_left = section.sum.twice_area > 0.0;
+            Counts::IfOpen => cut().is_some_and(|cut| !self.closes(&self.view, &cut)),
+            Counts::IfInside { turns_left } => cut().is_some_and(|cut| {
+                let runs_left = cut.sum.twice_area > 0.0;
                 let wire_is_inside = self.limits.side == SideSetting::Opening;
                 (runs_left == wire_is_inside) == turns_left
             }),

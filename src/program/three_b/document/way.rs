@@ -1,19 +1,19 @@
-//! The blocks of a section as a way.
+//! The blocks of a cut as a way.
 
 use super::super::decode::meant;
 use super::super::entry::{BlockEntry, Entry, Move};
-use super::{At, Document, Section};
+use super::{At, Cut, Document};
 use crate::geometry::{Point, Segment};
 use crate::program::path::{Blocks, Node, Part, PartedWay, Writing};
 use std::ops::Range;
 
-/// The blocks of a section as its runs hold them.
+/// The blocks of a cut as its runs hold them.
 struct Held<'a> {
     document: &'a Document,
     parts: Vec<HeldPart>,
 }
 
-/// The blocks of a section in one part of a run.
+/// The blocks of a cut in one part of a run.
 struct HeldPart {
     run: usize,
     entries: Range<usize>,
@@ -21,10 +21,10 @@ struct HeldPart {
 }
 
 impl Document {
-    pub(super) fn way(&self, section: &Section) -> PartedWay<'_> {
+    pub(super) fn way(&self, cut: &Cut) -> PartedWay<'_> {
         let (mut held, mut parts) = (Vec::new(), Vec::new());
         let (mut at, mut count, mut stop) = (Move::default(), 0, None);
-        let [(first_run, first_part), (last_run, last_part)] = section.parts;
+        let [(first_run, first_part), (last_run, last_part)] = cut.parts;
         let runs = self.runs.iter().enumerate();
         for (run, of) in runs.take(last_run + 1).skip(first_run) {
             let first = if run == first_run { first_part } else { 0 };
@@ -47,7 +47,7 @@ impl Document {
                     at = at.plus(part.sum.travel);
                     count += part.sum.blocks;
                 }
-                let is_within = part.word.is_some() && (run, index) != section.parts[1];
+                let is_within = part.word.is_some() && (run, index) != cut.parts[1];
                 stop = stop.or(is_within.then_some(count));
             }
         }

@@ -1,0 +1,246 @@
+//! Where a program falls into contours and the ways between them: the blocks from one word to the next.
+
+use super::super::entry::Entry;
+use super::super::run::{Run, Sum, is_jump};
+use super::{At, Cut, Document, PartAt, View};
+use std::ops::Range;
+
+impl Document {
+    /// The word that ends the program: the first of the controller's own, else the last that ends programs elsewhere, else a pause
+    /// with no block behind it.
+    pub(super) fn end_word(&self) -> Option<At> {
+        let place = |run: usize, entry: Option<usize>| entry.map(|entry| At { run, entry });
+        let mut runs = self.runs.iter().enumerate();
+        let own = runs.find_map(|(run, of)| place(run, of.own_end));
+        let back = || self.runs.iter().enumerate().rev();
+        let foreign = || back().find_map(|(run, of)| place(run, of.last_end));
+        let pause = || {
+            let last = back().find_map(|(run, of)| place(run, of.last_word))?;
+            self.last_block(None)
+                .filter(|block| *block < last)
+                .map(|_| last)
+        };
+        own.or_else(foreign).or_else(pause)
+    }
+
+    /// What stands in some runs, in its order.
+    pub(super) fn entries(
+        &self,
+        runs: Range<usize>,
+    ) -> impl DoubleEndedIterator<Item = (At, &Entry)> {
+        let of = |run: usize| self.runs.get(run).map_or(&[][..], |of| &of.entries);
+        runs.flat_map(move |run| {
+            let entries = of(run).iter().enumerate();
+            entries.map(move |(entry, what)| (At { run, entry }, what))
+        })
+    }
+
+    pub(super) fn last_block(&self, end: Option<At>) -> Option<At> {
+        let mut blocks = self
+            .entries(0..self.runs.len())
+            .rev()
+            .filter(|(_, what)| what.block().is_some());
+        let (last, _) = blocks.find(|(at, _)| end.is_none_or(|end| *at < end))?;
+        Some(last)
+    }
+
+    /// The blocks from a part on, up to the next word; `None` behind the end of the program.
+    pub(super) fn cut_from(&self, start: PartAt, end: Option<At>) -> Option<Cut> {
+        let mut cut: Option<Cut> = None;
+        let (mut run, mut index) = start;
+        while let Some(of) = self.runs.get(run) {
+            for (nth, part) in of.parts.iter().enumerate().skip(index) {
+                if end.is_some_and(|end| {
+                    end < At {
+                        run,
+                        entry: part.entries.start,
+                    }
+                }) {
+                    return cut;
+                }
+                let own = cut.get_or_insert(Cut {
+                    parts: [(run, nth); 2],
+                    sum: Sum::default(),
+                    is_jump: false,
+                });
+                own.parts[1] = (run, nth);
+                own.sum = own.sum.then(&part.sum);
+                if part.word.is_some() {
+                    let is_end = end
+                        == Some(At {
+                            run,
+                            entry: part.entries.end,
+                        });
+                    own.is_jump = start != (0, 0)
+                        && self.is_behind_word(start)
+                        && !is_end
+                        && is_jump(&own.sum);
+                    return cut;
+                }
+            }
+            (run, index) = (run + 1, 0);
+        }
+        cut
+    }
+
+    /// Whether a word stands somewhere before a part at which a cut begins.
+    fn is_behind_word(&self, (run, part): PartAt) -> bool {
+        part > 0
+            || self.runs[..run.min(self.runs.len())]
+                .iter()
+                .rev()
+                .any(|run| run.words > 0)
+    }
+
+    /// The part behind another one.
+    pub(super) fn part_behind(&self, (run, part): PartAt) -> PartAt {
+        if self
+            .runs
+            .get(run)
+            .is_some_and(|of| part + 1 < of.parts.len())
+        {
+            (run, part + 1)
+        } else {
+            (run + 1, 0)
+        }
+    }
+
+    /// The cuts that are not parts of one run.
+    pub(super) fn outer_cuts(&self, end: Option<At>) -> Vec<Cut> {
+        let mut cuts = Vec::new();
+        let mut next = Some((0, 0));
+        while let Some(cut) = next.and_then(|start| self.cut_from(start, end)) {
+            let (run, _) = cut.parts[1];
+            let ends_text = self
+                .runs
+                .get(run)
+                .is_none_or(|of| cut.parts[1].1 + 1 >= of.parts.len());
+            next = self
+                .runs
+                .get(run)
+                .filter(|_| !ends_text)
+                .map(|of| (run, of.parts.len() - 1));
+            cuts.push(cut);
+        }
+        cuts
+    }
+
+    /// The contour that a part belongs to, or the way between two: its cut, and those before and behind at its tabs.
+    pub(super) fn cut_of_part(&self, view: &View, part: PartAt) -> Option<Cut> {
+        let mut cut = self.own_cut_of_part(view, part)?;
+        while view.tabs.binary_search(&cut.parts[0]).is_ok() {
+            let (run, part) = cut.parts[0];
+            // Its word stands at the end of the part before.
+            let Some(before) = part
+                .checked_sub(1)
+                .and_then(|part| self.own_cut_of_part(view, (run, part)))
+            else {
+                break;
+            };
+            cut = joined(before, &cut);
+        }
+        loop {
+            let next = self.part_behind(cut.parts[1]);
+            let Some(behind) = view
+                .tabs
+                .binary_search(&next)
+                .ok()
+                .and_then(|_| self.cut_from(next, view.end))
+            else {
+                break;
+            };
+            cut = joined(cut, &behind);
+        }
+        Some(cut)
+    }
+
+    /// The cut that a part belongs to.
+    fn own_cut_of_part(&self, view: &View, (run, part): PartAt) -> Option<Cut> {
+        let of = self.runs.get(run)?;
+        if part > 0 && part + 1 < of.parts.len() {
+            return self.cut_from((run, part), view.end);
+        }
+        let index = view.outer.partition_point(|cut| cut.parts[1] < (run, part));
+        view.outer.get(index).cloned()
+    }
+
+    pub(super) fn is_jump(&self, part: PartAt) -> bool {
+        self.cut_of_part(&self.view, part)
+            .is_some_and(|cut| cut.is_jump)
+    }
+
+    /// Whether what begins with a part goes on with the contour before it.
+    pub(super) fn is_tab(&self, part: PartAt) -> bool {
+        self.view.tabs.binary_search(&part).is_ok()
+    }
+
+    pub(super) fn closes(&self, view: &View, cut: &Cut) -> bool {
+        view.open.binary_search(&cut.parts[0]).is_err()
+    }
+
+    /// Cuts within one run, of those that it names, up to the end of the program.
+    pub(super) fn inner_cuts<'a>(
+        &'a self,
+        end: Option<At>,
+        named: fn(&Run) -> &[usize],
+    ) -> impl Iterator<Item = Cut> + 'a {
+        let up_to = end.map_or(usize::MAX, |end| end.run);
+        let runs = self
+            .runs
+            .iter()
+            .enumerate()
+            .take_while(move |(run, _)| *run <= up_to);
+        runs.flat_map(move |(run, of)| {
+            named(of)
+                .iter()
+                .filter_map(move |part| self.cut_from((run, *part), end))
+        })
+    }
+
+    /// The entries of a cut in their order.
+    pub(super) fn entries_of(&self, cut: &Cut) -> impl DoubleEndedIterator<Item = At> + '_ {
+        let [(first_run, first_part), (last_run, last_part)] = cut.parts;
+        let entries = |(run, part): PartAt| {
+            let parts = self.runs.get(run).and_then(|of| of.parts.get(part));
+            parts.map_or(0..0, |part| part.entries.clone())
+        };
+        let (first, last) = (
+            entries((first_run, first_part)),
+            entries((last_run, last_part)),
+        );
+        let is_within = move |at: &At| {
+            (at.run > first_run || at.entry >= first.start)
+                && (at.run < last_run || at.entry < last.end)
+        };
+        let all = self.entries(first_run..last_run + 1).map(|(at, _)| at);
+        all.filter(is_within)
+    }
+
+    /// The blocks of a cut in their order.
+    pub(super) fn blocks_of(&self, cut: &Cut) -> impl DoubleEndedIterator<Item = At> + '_ {
+        let is_block = |at: &At| self.entry(*at).is_some_and(|entry| entry.block().is_some());
+        self.entries_of(cut).filter(is_block)
+    }
+
+    pub(super) fn last_block_of(&self, cut: &Cut) -> Option<At> {
+        self.blocks_of(cut).next_back()
+    }
+
+    pub(super) fn cut_of(&self, at: At) -> Option<Cut> {
+        let part = self
+            .runs
+            .get(at.run)?
+            .parts
+            .partition_point(|part| part.entries.end <= at.entry);
+        self.cut_of_part(&self.view, (at.run, part))
+    }
+}
+
+/// A cut and the one behind it as one contour.
+pub(super) fn joined(cut: Cut, behind: &Cut) -> Cut {
+    Cut {
+        parts: [cut.parts[0], behind.parts[1]],
+        sum: cut.sum.then(&behind.sum),
+        is_jump: false,
+    }
+}
