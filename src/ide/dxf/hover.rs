@@ -1,6 +1,6 @@
 //! What a group code or value means, and what it comes to in millimetres.
 
-use super::codes::{self, Value};
+use super::codes::{self, About, Value};
 use super::records;
 use super::spot::{Spot, spot, text_of, vertex_at};
 use crate::drawing::{EntityId, Geometry, Unit};
@@ -173,7 +173,7 @@ fn about_handle(document: &Document, handle: &str) -> String {
 }
 
 fn about_flags(record: &str, code: i16, value: f64) -> Option<String> {
-    let names: &[(i64, fn() -> &'static str)] = match (record, code) {
+    let names: &[(i64, About)] = match (record, code) {
         ("LWPOLYLINE", 70) => &[(1, said::closed), (128, said::linetype_runs_through)],
         ("POLYLINE", 70) => &[
             (1, said::closed),
