@@ -80,15 +80,24 @@ impl Analysis {
             return Some((rule.fixes)(&outlook));
         }
         let rule = PAIR_RULES.iter().find(|pair| pair.rule == finding.rule)?;
-        let Place::Segment { entity, segment } = finding.related.first()? else {
-            return None;
-        };
-        let (other_key, other_index) = self.chains.index_of(*entity, *segment)?;
-        let theirs = self.outlook(drawing, other_key)?;
-        Some((rule.fixes)(
-            &Wall::new(&outlook, index)?,
-            &Wall::new(&theirs, other_index)?,
-        ))
+        let mut fixes: Vec<Fix> = Vec::new();
+        for related in &finding.related {
+            let Place::Segment { entity, segment } = related else {
+                return None;
+            };
+            let (other_key, other_index) = self.chains.index_of(*entity, *segment)?;
+            let theirs = self.outlook(drawing, other_key)?;
+            let found = (rule.fixes)(
+                &Wall::new(&outlook, index)?,
+                &Wall::new(&theirs, other_index)?,
+            );
+            // Of several doubles all go at once.
+            match fixes.first_mut().zip(found.first()) {
+                Some((all, more)) => all.edit.changes.extend(more.edit.changes.iter().cloned()),
+                None => fixes.extend(found),
+            }
+        }
+        Some(fixes)
     }
 
     /// One edit that makes every safe fix; `None` where there is none.

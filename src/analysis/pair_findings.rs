@@ -166,6 +166,14 @@ impl Pairs {
             .filter(is_double)
             .map(|(_, ends, _)| (ends.0.0, ends.1.0))
             .collect();
+        // What lies in one place several times is one finding, at the first.
+        let later: FxHashSet<EntityId> = doubles.iter().map(|(_, other)| *other).collect();
+        let mut others: FxHashMap<EntityId, Vec<Place>> = FxHashMap::default();
+        for (_, ends, each) in seen.iter().filter(is_double) {
+            if let Some(place) = outlook(each.other.0).and_then(|it| it.place(each.other.1)) {
+                others.entry(ends.0.0).or_default().push(place);
+            }
+        }
         let merged = merged(
             &seen.iter().map(|(_, _, each)| *each).collect::<Vec<_>>(),
             &|key| outlook(key).map(|it| it.contour.len()),
@@ -195,7 +203,15 @@ impl Pairs {
                     (own.place(each.one.1), theirs.place(each.other.1))
                 && let Some(detail) = (rule.detail)(&one, &other, each.one.0 == each.other.0)
             {
-                report.add(rule.rule, mildest, place, detail, vec![related]);
+                let related = match rule.rule {
+                    Rule::DuplicateEntity if later.contains(&ends.0.0) => continue,
+                    Rule::DuplicateEntity => match others.remove(&ends.0.0) {
+                        Some(all) => all,
+                        None => continue,
+                    },
+                    _ => vec![related],
+                };
+                report.add(rule.rule, mildest, place, detail, related);
             }
         }
     }

@@ -7,6 +7,8 @@ pub struct Tolerances {
     pub join: f64,
     /// A radius this little below the correction is rounding, not a fault.
     pub report: f64,
+    /// What is smaller than this cannot be measured on the part, and warnings say nothing of it.
+    pub resolution: f64,
     /// How far a fitted arc may lie from the curve it stands for.
     pub arc_fit: f64,
     /// Two entities within this of each other lie in the same place.
@@ -30,6 +32,7 @@ impl Default for Tolerances {
         Tolerances {
             join: 0.01,
             report: 1e-6,
+            resolution: 1e-3,
             arc_fit: 1e-3,
             same_place: 0.005,
             short: 0.005,
@@ -48,6 +51,7 @@ impl Tolerances {
         Tolerances {
             join: self.join / unit_mm,
             report: self.report / unit_mm,
+            resolution: self.resolution / unit_mm,
             arc_fit: self.arc_fit / unit_mm,
             same_place: self.same_place / unit_mm,
             touch: self.touch / unit_mm,

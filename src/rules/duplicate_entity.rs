@@ -31,6 +31,14 @@ fn are_doubles(one: &Wall, other: &Wall) -> Option<bool> {
     if a.entity == b.entity || a.segment != 0 {
         return None;
     }
+    let resolution = one.outlook.limits.tolerances.resolution;
+    if [one, other]
+        .into_iter()
+        .all(|wall| wall.geometry().length() < resolution && wall.segment.segment == 0)
+        && one.outlook.drawing.get(a.entity)?.geometry.segment_count() == 1
+    {
+        return None;
+    }
     // A point is cut no times.
     if [a, b]
         .into_iter()

@@ -27,11 +27,17 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
         .take_while(|piece| piece.first() < range.end)
     {
         if distance(outlook, piece.first())
-            .is_some_and(|distance| distance > outlook.limits.tolerances.report)
+            .is_some_and(|distance| distance > least(outlook))
         {
             observations.push(Observation::at(piece.first()));
         }
     }
+}
+
+/// Ends that are no further apart are where they belong.
+fn least(outlook: &Outlook) -> f64 {
+    let tolerances = &outlook.limits.tolerances;
+    tolerances.report.max(tolerances.resolution)
 }
 
 fn distance(outlook: &Outlook, index: usize) -> Option<f64> {
@@ -61,7 +67,7 @@ fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
     };
     let distance = (behind.geometry.start() - before.geometry.end()).norm();
     let change = joined(outlook.drawing, &before, &behind)
-        .filter(|_| distance > outlook.limits.tolerances.report);
+        .filter(|_| distance > least(outlook));
     let fix = |change| Fix::new(FixKind::Snap { distance }, vec![change]);
     change.map(fix).into_iter().collect()
 }

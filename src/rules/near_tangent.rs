@@ -3,6 +3,7 @@
 //! The control takes the joint for a corner: it stops there or turns the offset round it, and the wire leaves a mark.
 //! Fix: the arc at the joint becomes tangent, or two lines that nearly are one become one.
 
+use super::arc_as_chords::{self, are_between_chords};
 use super::sharp_corner::{CLEAR, inner_side};
 use super::small_radius::{Travel, center_side, drawing_edit, made_tangent};
 use super::{LocalRule, Observation, Outlook, other_at_joint};
@@ -14,7 +15,7 @@ use std::ops::Range;
 pub(crate) const RULE: LocalRule = LocalRule {
     rule: Rule::NearTangent,
     check,
-    reach: |_, _| (0, 1),
+    reach: |_, _| (arc_as_chords::REACH, arc_as_chords::REACH),
     related: other_at_joint,
     detail,
     fixes,
@@ -25,11 +26,18 @@ pub(crate) const RULE: LocalRule = LocalRule {
 const LEAST: f64 = 0.02 * std::f64::consts::PI / 180.0;
 
 fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observation>) {
-    for index in range {
+    // Asked only where there is a kink at all.
+    let mut between: Option<Vec<bool>> = None;
+    for index in range.clone() {
         if let Some(turn) = outlook
             .turn_at(index)
             .filter(|turn| turn.abs() > LEAST && turn.abs() < CLEAR)
+            && shows(outlook, index, turn)
         {
+            let between = between.get_or_insert_with(|| are_between_chords(outlook, range.clone()));
+            if between.get(index - range.start) == Some(&true) {
+                continue;
+            }
             // Where the wire runs inside, the larger of them are sharp corners.
             observations.push(Observation {
                 side: inner_side(turn).map(Side::reversed),
@@ -37,6 +45,18 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
             });
         }
     }
+}
+
+/// Whether the kink before the segment at `index` moves anything by what can be measured: the shorter of the two segments leaves the
+/// direction of the other by so much at its middle.
+fn shows(outlook: &Outlook, index: usize, turn: f64) -> bool {
+    let length = |index: isize| {
+        outlook
+            .segment(index)
+            .map_or(0.0, |segment| segment.geometry.length())
+    };
+    let shorter = length(index as isize - 1).min(length(index as isize));
+    shorter / 2.0 * turn.abs() >= outlook.limits.tolerances.resolution
 }
 
 fn detail(outlook: &Outlook, observation: Observation, _count: Option<usize>) -> Option<Detail> {

@@ -26,7 +26,7 @@ pub(crate) const RULE: PairRule = PairRule {
 fn check(one: &Wall, other: &Wall, same_contour: bool) -> Vec<PairObservation> {
     let tolerances = &one.outlook.limits.tolerances;
     let length = shared(one, other);
-    if length <= tolerances.same_place {
+    if length <= tolerances.same_place.max(tolerances.resolution) {
         return Vec::new();
     }
     // Ends that are joined within the tolerance may reach past each other.

@@ -42,6 +42,8 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
     for index in range.clone() {
         if let Some(turn) = outlook.turn_at(index)
             && let Some(side) = inner_side(turn)
+            && own_share(outlook.limits.last_correction, turn)
+                >= outlook.limits.tolerances.resolution
         {
             let mut is_between = || {
                 between
@@ -159,10 +161,14 @@ fn corner_depth(outlook: &Outlook, index: usize, radius: f64) -> Option<f64> {
             .filter_map(|center| depth_of(one, other, center))
             .collect::<Vec<_>>()
     });
-    let own_share = radius * (1.0 / (turned / 2.0).cos() - 1.0);
     let shorter = before.geometry().length().min(behind.geometry().length());
     let least = depths.min_by(f64::total_cmp).unwrap_or(shorter);
-    Some(least.min(own_share))
+    Some(least.min(own_share(radius, turned)))
+}
+
+/// What a wire that leaves `radius` leaves of a corner between long walls.
+fn own_share(radius: f64, turn: f64) -> f64 {
+    radius * (1.0 / (turn / 2.0).cos() - 1.0)
 }
 
 fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {

@@ -19,10 +19,14 @@ pub(crate) const RULE: LocalRule = LocalRule {
 
 fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observation>) {
     for index in range {
-        let short = outlook
-            .segment(index as isize)
-            .is_some_and(|segment| segment.geometry.length() < outlook.limits.tolerances.short);
-        if short {
+        let tolerances = &outlook.limits.tolerances;
+        let is_short = |length: f64| {
+            // What has no length at all is drawn for nothing.
+            length <= tolerances.zero_length
+                || (tolerances.resolution..tolerances.short).contains(&length)
+        };
+        let segment = outlook.segment(index as isize);
+        if segment.is_some_and(|segment| is_short(segment.geometry.length())) {
             observations.push(Observation::at(index));
         }
     }

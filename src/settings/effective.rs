@@ -162,6 +162,7 @@ impl Effective {
             pause: program.pause(),
             tolerances: Tolerances {
                 arc_fit: settings.arc_fit(),
+                resolution: settings.resolution(),
                 ..Tolerances::default()
             },
             budget: Budget::default(),

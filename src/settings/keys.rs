@@ -42,6 +42,9 @@ tables! {
         units: UnitSetting = UnitSetting::Mm => name;
         /// mm added to the correction when a fix chooses its radius.
         margin: f64 = 0.001 => number in Range::FROM_ZERO;
+        /// What is smaller than this, mm, nobody can measure on the part: `gap`, `near-tangent`, `sharp-corner`, `short-segment`,
+        /// `duplicate-entity` and `overlap` say nothing of it. Errors are never silenced by it.
+        resolution: f64 = 0.001 => number in Range::FROM_ZERO;
         /// Several passes.
         passes: Passes => table;
         /// Role of the entities on a layer, by its name. An entity's own `role` comes first. A contour takes the role of its first entity that
