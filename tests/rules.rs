@@ -124,9 +124,15 @@ impl Shape {
     }
 }
 
+/// The rules are tried on all that they see; what is too small to be said has a test of its own.
 fn settings() -> Arc<Effective> {
+    saying_from(0.0)
+}
+
+fn saying_from(resolution: f64) -> Arc<Effective> {
     Arc::new(Effective::of(&Settings {
         correction: Some(0.1),
+        resolution: Some(resolution),
         ..Settings::default()
     }))
 }
@@ -747,6 +753,89 @@ fn contours_that_are_open() {
     }
 }
 
+/// What cannot be measured on the part is not said; an error is.
+#[test]
+fn what_is_below_the_resolution_is_not_said() {
+    let said = |drawing: &Drawing, resolution: f64, rule: Rule| {
+        let mut analysis = Analysis::new(drawing, saying_from(resolution));
+        count(&analysis.findings(drawing, usize::MAX).0, rule)
+    };
+    let corners = [
+        (0.0, 0.0, 0.0),
+        (10.0, 0.0, 0.0),
+        (10.0, 10.0, 0.0),
+        (0.0, 10.0, 0.0),
+    ];
+    let mut gap = Drawing::new(None);
+    for (at, (x, y, _)) in corners.into_iter().enumerate() {
+        let (next_x, next_y, _) = corners[(at + 1) % 4];
+        let short = if at == 0 { 0.0008 } else { 0.0 };
+        let geometry = Geometry::Line {
+            start: Point::new(x, y),
+            end: Point::new(next_x - short, next_y),
+        };
+        gap.push(entity(geometry, None));
+    }
+    let mut stub = corners.to_vec();
+    stub.insert(1, (9.9995, 0.0, 0.0));
+    let mut flat = corners.to_vec();
+    flat.insert(1, (5.0, -0.2, 0.0));
+    // R = c − 0.5 µm.
+    let radius = 0.0995;
+    let tight = [
+        (0.0, 0.0, 0.0),
+        (10.0 - radius, 0.0, (PI / 8.0).tan()),
+        (10.0, radius, 0.0),
+        (10.0, 10.0, 0.0),
+        (0.0, 10.0, 0.0),
+    ];
+    for (drawing, rule, below, above) in [
+        (gap, Rule::Gap, 0.001, 0.0005),
+        (
+            closed(&stub).as_polyline(None),
+            Rule::ShortSegment,
+            0.001,
+            0.0004,
+        ),
+        (
+            closed(&flat).as_polyline(Some(Role::Opening)),
+            Rule::SharpCorner,
+            0.001,
+            0.00005,
+        ),
+    ] {
+        assert!(
+            said(&drawing, above, rule) > said(&drawing, below, rule),
+            "{rule:?}"
+        );
+    }
+    let drawing = closed(&tight).as_polyline(Some(Role::Opening));
+    assert_eq!(said(&drawing, 1.0, Rule::SmallRadius), 1);
+}
+
+/// Three entities in one place are one finding, whose fix leaves the first.
+#[test]
+fn what_lies_in_one_place_is_one_finding() {
+    let circle = Geometry::Circle {
+        center: Point::new(5.0, 5.0),
+        radius: 3.0,
+    };
+    let mut drawing = Drawing::new(None);
+    for _ in 0..3 {
+        drawing.push(entity(circle.clone(), None));
+    }
+    let (analysis, findings) = analysed(&drawing);
+    let doubles: Vec<&Finding> = findings
+        .iter()
+        .filter(|finding| finding.rule == Rule::DuplicateEntity)
+        .collect();
+    assert_eq!(doubles.len(), 1, "{findings:#?}");
+    assert_eq!(doubles[0].related.len(), 2);
+    let fixes = analysis.fixes(&drawing, doubles[0]);
+    drawing.apply(&fixes[0].edit).unwrap();
+    assert_eq!(drawing.len(), 1);
+}
+
 #[test]
 fn ends_that_do_not_meet() {
     let (line, arc) = (
@@ -909,9 +998,14 @@ fn all_fixed(mut drawing: Drawing) -> Drawing {
         let Some(edit) = Analysis::new(&drawing, settings()).fix_all(&drawing) else {
             return drawing;
         };
-        let before = analysed(&drawing).1.len();
+        // An arc in the place of chords, whose kinks were none, may nearly be tangent at its ends.
+        let left = |drawing: &Drawing| {
+            let findings = analysed(drawing).1;
+            findings.len() - count(&findings, Rule::NearTangent)
+        };
+        let before = left(&drawing);
         drawing.apply(&edit).unwrap();
-        assert!(analysed(&drawing).1.len() < before);
+        assert!(left(&drawing) < before);
     }
     panic!("there is no end to the fixes");
 }

@@ -26,9 +26,7 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
         .iter()
         .take_while(|piece| piece.first() < range.end)
     {
-        if distance(outlook, piece.first())
-            .is_some_and(|distance| distance > least(outlook))
-        {
+        if distance(outlook, piece.first()).is_some_and(|distance| distance > least(outlook)) {
             observations.push(Observation::at(piece.first()));
         }
     }
@@ -66,8 +64,7 @@ fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
         return Vec::new();
     };
     let distance = (behind.geometry.start() - before.geometry.end()).norm();
-    let change = joined(outlook.drawing, &before, &behind)
-        .filter(|_| distance > least(outlook));
+    let change = joined(outlook.drawing, &before, &behind).filter(|_| distance > least(outlook));
     let fix = |change| Fix::new(FixKind::Snap { distance }, vec![change]);
     change.map(fix).into_iter().collect()
 }

@@ -4,7 +4,7 @@
 //! Fix: the arc at the joint becomes tangent, or two lines that nearly are one become one.
 
 use super::arc_as_chords::{self, are_between_chords};
-use super::sharp_corner::{CLEAR, inner_side};
+use super::sharp_corner::{CLEAR, inner_side, own_share};
 use super::small_radius::{Travel, center_side, drawing_edit, made_tangent};
 use super::{LocalRule, Observation, Outlook, other_at_joint};
 use crate::drawing::{Change, ContourSegment, DrawingEdit, Geometry};
@@ -38,9 +38,11 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
             if between.get(index - range.start) == Some(&true) {
                 continue;
             }
-            // Where the wire runs inside, the larger of them are sharp corners.
+            // Where the wire runs inside, the larger of them are sharp corners, if these are spoken of.
+            let uncut = own_share(outlook.limits.last_correction, turn);
+            let is_corner = uncut >= outlook.limits.tolerances.resolution;
             observations.push(Observation {
-                side: inner_side(turn).map(Side::reversed),
+                side: inner_side(turn).filter(|_| is_corner).map(Side::reversed),
                 ..Observation::at(index)
             });
         }

@@ -167,7 +167,7 @@ fn corner_depth(outlook: &Outlook, index: usize, radius: f64) -> Option<f64> {
 }
 
 /// What a wire that leaves `radius` leaves of a corner between long walls.
-fn own_share(radius: f64, turn: f64) -> f64 {
+pub(crate) fn own_share(radius: f64, turn: f64) -> f64 {
     radius * (1.0 / (turn / 2.0).cos() - 1.0)
 }
 
