@@ -334,6 +334,10 @@ export interface Settings {
    */
   margin?: number;
   /**
+   * What is smaller than this, mm, nobody can measure on the part: `gap`, `near-tangent`, `sharp-corner`, `short-segment`, `duplicate-entity` and `overlap` say nothing of it. Errors are never silenced by it.
+   */
+  resolution?: number;
+  /**
    * Several passes.
    */
   passes?: Passes;

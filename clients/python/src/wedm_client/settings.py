@@ -83,6 +83,7 @@ class Settings(TypedDict, total=False):
     side: Literal["both", "auto", "opening", "punch"]
     units: Literal["mm", "inch"]
     margin: float
+    resolution: float
     layers: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
     contours: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
     colors: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
