@@ -97,7 +97,8 @@ fn every_rule_has_its_page() {
 fn the_list_of_rules_is_the_table_of_rules() {
     let path = root().join("docs/rules/README.md");
     let committed = read(&path);
-    let (head, _) = committed.split_once("| rule |").expect("a table");
+    let (head, rest) = committed.split_once("| rule |").expect("a table");
+    let (_, reasons) = rest.split_once("\n\n").expect("why a cell stays empty");
     let of = |rule: Rule, subject| {
         if rule.subjects().contains(&subject) {
             "•"
@@ -107,12 +108,7 @@ fn the_list_of_rules_is_the_table_of_rules() {
     };
     let row = |rule: Rule| {
         let name = rule.name();
-        let page = read(&root().join(format!("docs/rules/{name}.md")));
-        let severity = page
-            .split("Default severity: ")
-            .nth(1)
-            .and_then(|rest| rest.split(['.', '\n']).next())
-            .unwrap_or_else(|| panic!("the page of {name} says no severity"));
+        let severity = severity_on_page(rule);
         let default = format!("{:?}", rule.default_severity()).to_lowercase();
         assert!(severity.starts_with(&default), "{name}: {severity}");
         let [drawing, three_b, four_b, iso] = [
@@ -129,8 +125,25 @@ fn the_list_of_rules_is_the_table_of_rules() {
     };
     let rows: String = Rule::ALL.into_iter().map(row).collect();
     let list = format!(
-        "{head}| rule | says | severity | drawing | 3B | 4B | ISO |\n|---|---|---|:-:|:-:|:-:|:-:|\n{rows}"
+        "{head}| rule | says | severity | drawing | 3B | 4B | ISO |\n|---|---|---|:-:|:-:|:-:|:-:|\n{rows}\n{reasons}"
     );
+    for rule in Rule::ALL {
+        let found = rule.subjects();
+        let everywhere = [
+            Subject::Drawing,
+            Subject::ThreeB,
+            Subject::FourB,
+            Subject::Iso,
+        ];
+        let is_everywhere = everywhere.iter().all(|subject| found.contains(subject));
+        let says_why = reasons.contains(&format!("`{}`", rule.name()));
+        let of_settings = rule == Rule::Settings;
+        assert!(
+            is_everywhere || of_settings || says_why,
+            "docs/rules/README.md does not say why {} is not found everywhere",
+            rule.name()
+        );
+    }
     if std::env::var_os("UPDATE_EXPECT").is_some() {
         std::fs::write(&path, &list).unwrap();
     }
@@ -409,6 +422,50 @@ fn the_readme_says_what_each_dependency_is_for() {
     }
 }
 
+/// What stands behind the first word of a page's "Default severity: ".
+fn severity_on_page(rule: Rule) -> String {
+    let name = rule.name();
+    let page = read(&root().join(format!("docs/rules/{name}.md")));
+    let severity = page
+        .split("Default severity: ")
+        .nth(1)
+        .and_then(|rest| rest.split(['.', '\n']).next());
+    severity
+        .unwrap_or_else(|| panic!("the page of {name} says no severity"))
+        .to_owned()
+}
+
+/// The defaults of the rules stand in comments, since a rule that is set is no milder anywhere. Update them with
+/// `UPDATE_EXPECT=1 cargo test --test docs`.
+#[test]
+fn the_readme_shows_the_default_of_every_rule() {
+    let path = root().join("README.md");
+    let readme = read(&path);
+    let (head, rest) = readme.split_once("[rules] ").unwrap();
+    let (first, rest) = rest.split_once('\n').unwrap();
+    let (_, tail) = rest.split_once("```").unwrap();
+    let row = |rule: Rule| {
+        let default = format!("{:?}", rule.default_severity()).to_lowercase();
+        let on_page = severity_on_page(rule);
+        let note = on_page[default.len()..].trim_start_matches([',', ';', ' ']);
+        let row = format!("# {} = \"{default}\"", rule.name());
+        match note {
+            "" => format!("{row}\n"),
+            note => format!("{row:<34} # {note}\n"),
+        }
+    };
+    let of_documents = Rule::ALL.into_iter().filter(|rule| *rule != Rule::Settings);
+    let rows: String = of_documents.map(row).collect();
+    let shown = format!("{head}[rules] {first}\n{rows}```{tail}");
+    if std::env::var_os("UPDATE_EXPECT").is_some() {
+        std::fs::write(&path, &shown).unwrap();
+    }
+    assert!(
+        read(&path) == shown,
+        "README.md is out of date; update it with: UPDATE_EXPECT=1 cargo test --test docs"
+    );
+}
+
 /// The README's `wedm.toml` is read without a fault, and all of it are the defaults.
 #[test]
 fn the_settings_of_the_readme_are_the_defaults() {
@@ -428,27 +485,6 @@ fn the_settings_of_the_readme_are_the_defaults() {
         ..Effective::of(&all)
     };
     assert_eq!(shown, Effective::default());
-    // A rule that is set is no milder anywhere, so the defaults of the rules stand in comments.
-    let (_, rules) = example.split_once("[rules]").unwrap();
-    let shown: Vec<&str> = rules
-        .lines()
-        .filter_map(|line| line.strip_prefix("# ")?.split_once(" ="))
-        .map(|(name, _)| name)
-        .collect();
-    for rule in Rule::ALL.into_iter().filter(|rule| *rule != Rule::Settings) {
-        let severity = format!("{:?}", rule.default_severity()).to_lowercase();
-        let line = format!("# {} = \"{severity}\"", rule.name());
-        assert!(
-            rules.lines().any(|shown| shown.starts_with(&line)),
-            "no {line:?}"
-        );
-        assert_eq!(
-            shown.iter().filter(|name| **name == rule.name()).count(),
-            1,
-            "{}",
-            rule.name()
-        );
-    }
 }
 
 /// The floors of `docs/architecture.md`, from the top down: the names in the first column of its picture.

@@ -2,7 +2,8 @@
 
 use super::report::Report;
 use crate::drawing::{Contour, ContourIndex, Drawing, RUN, Role};
-use crate::finding::{Severity, Side};
+use crate::finding::{Finding, Severity, Side};
+use crate::rules::lost_pocket::Lost;
 use crate::rules::{LOCAL_RULES, Limits, Observation, Outlook};
 use crate::settings::Effective;
 use std::iter::once;
@@ -149,4 +150,14 @@ impl Known {
             }
         }
     }
+}
+
+/// What the offset of a contour loses.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// What was asked: the side, and whether there is a neck.
+    pub asked: (Side, bool),
+    pub lost: Vec<Lost>,
+    /// What stands against a path, where nothing is lost; `None` while that has not been asked.
+    pub misfit: Option<Option<Box<Finding>>>,
 }

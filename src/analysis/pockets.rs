@@ -1,6 +1,7 @@
 //! What the offsets of contours lose, and where no path of the wire would hold its proof.
 
 use super::Analysis;
+use super::known::Answer;
 use super::report::Report;
 use crate::drawing::{ContourKey, Drawing, Outline, Role};
 use crate::finding::{Detail, Finding, Place, Rule, Side};
@@ -8,16 +9,6 @@ use crate::geometry::Point;
 use crate::rules::lost_pocket::{self, Lost};
 use crate::settings::Compensation;
 use crate::toolpath;
-
-/// What the offset of a contour loses.
-#[derive(Clone, Debug)]
-pub(super) struct Answer {
-    /// What was asked: the side, and whether there is a neck.
-    asked: (Side, bool),
-    lost: Vec<Lost>,
-    /// What stands against a path, where nothing is lost; `None` while that has not been asked.
-    misfit: Option<Option<Box<Finding>>>,
-}
 
 impl Analysis {
     /// What the offsets of contours with a known wire side lose.

@@ -105,6 +105,7 @@ pub enum Fault {
     /// The block stands twice: without it the contour closes.
     TwinKeepsOpen,
     ZeroBlock,
+    /// An arc whose centre is one of its ends, or is not said.
     ArcWithoutRadius,
     /// `field` holds more than `digits` digits.
     TooManyDigits {
@@ -112,11 +113,10 @@ pub enum Fault {
         value: i64,
         digits: u32,
     },
-    /// The contour ends beside its beginning.
+    /// A cut ends so far beside its beginning.
     NotClosed {
         x: f64,
         y: f64,
-        blocks: usize,
     },
     MissingEnd {
         word: String,
@@ -150,8 +150,6 @@ pub enum Fault {
         start: f64,
         end: f64,
     },
-    /// An arc without I, J and R, or whose centre is one of its ends.
-    NoRadius,
     /// Compensation goes on or off with a move that is an arc, or else a rapid.
     Switch {
         on: bool,
@@ -166,11 +164,6 @@ pub enum Fault {
     EntrySide {
         side: Side,
     },
-    /// The ends of a cut are `distance` apart.
-    CutOpen {
-        distance: f64,
-    },
-    BehindEnd,
     /// `word` stands `count` times.
     Foreign {
         word: String,
@@ -230,6 +223,10 @@ pub enum Fault {
     LooksLikeInches {
         size: f64,
     },
+    /// mm: no wire cuts a part of such a size.
+    AbsurdSize {
+        size: f64,
+    },
     /// A place of the table that hangs on one which the program does not fill.
     UnknownValue {
         word: String,
@@ -275,10 +272,7 @@ impl Fault {
             Fault::ZeroBlock => Rule::ZeroBlock,
             Fault::ArcWithoutRadius => Rule::ArcWithoutRadius,
             Fault::TooManyDigits { .. } => Rule::TooManyDigits,
-            Fault::NotClosed { .. }
-            | Fault::NumberKeepsOpen { .. }
-            | Fault::ExchangedKeepsOpen
-            | Fault::TwinKeepsOpen => Rule::NotClosed,
+            Fault::NotClosed { .. } => Rule::NotClosed,
             Fault::MissingEnd { .. } => Rule::MissingEnd,
             Fault::TextAfterEnd { .. } => Rule::TextAfterEnd,
             Fault::DoubledNumber { .. }
@@ -287,11 +281,8 @@ impl Fault {
             Fault::PositionMismatch { .. } => Rule::PositionMismatch,
             Fault::PathCrossesItself { .. } => Rule::PathCrossesItself,
             Fault::OffRadius { .. } => Rule::ArcOffRadius,
-            Fault::NoRadius => Rule::ArcWithoutRadius,
             Fault::Switch { .. } => Rule::CompensationSwitch,
             Fault::RoleSide { .. } | Fault::EntrySide { .. } => Rule::WrongSide,
-            Fault::CutOpen { .. } => Rule::NotClosed,
-            Fault::BehindEnd => Rule::TextAfterEnd,
             Fault::Foreign { .. }
             | Fault::NoSubprogram { .. }
             | Fault::EndlessCalls
@@ -301,15 +292,17 @@ impl Fault {
             Fault::WordTwice { .. } => Rule::WordTwice,
             Fault::ReversedArc { .. } => Rule::ReversedArc,
             Fault::Spur { .. } => Rule::Spur,
-            Fault::DoubledBlock { .. } => Rule::DoubledBlock,
+            Fault::DoubledBlock { .. } | Fault::TwinKeepsOpen => Rule::DoubledBlock,
             Fault::NoOffset { .. } => Rule::MissingOffset,
             Fault::SideChange { .. } => Rule::SideChange,
             Fault::StillOn => Rule::MissingCancel,
             Fault::NoReturn { .. } => Rule::MissingReturn,
             Fault::NoCorner => Rule::CornerWord,
             Fault::Bare { .. } | Fault::Pointed { .. } | Fault::Places { .. } => Rule::MixedNumbers,
-            Fault::LooksLikeInches { .. } => Rule::Units,
-            Fault::Suspect { .. } => Rule::SuspectBlock,
+            Fault::LooksLikeInches { .. } | Fault::AbsurdSize { .. } => Rule::Units,
+            Fault::Suspect { .. } | Fault::NumberKeepsOpen { .. } | Fault::ExchangedKeepsOpen => {
+                Rule::SuspectBlock
+            }
         }
     }
 

@@ -1,6 +1,6 @@
 //! What is said of a fault in a program.
 
-use super::lengths::{mm, told_apart};
+use super::lengths::{absurd, mm, told_apart};
 use super::{Fault, Side};
 
 /// A field that keeps a contour open, as far as can be known from the contour alone.
@@ -134,8 +134,8 @@ pub(super) fn program(fault: &Fault) -> String {
                 digits
             )
         }
-        Fault::NotClosed { x, y, .. } => say!(
-            the_contour_does_not_close,
+        Fault::NotClosed { x, y } => say!(
+            the_cut_does_not_close,
             mm(x.hypot(*y) / 1000.0),
             x / 1000.0,
             y / 1000.0
@@ -166,7 +166,6 @@ pub(super) fn program(fault: &Fault) -> String {
             let (near, far) = told_apart(start / 1e3, end / 1e3);
             say!(the_ends_of_the_arc_are_not_on_one_circle, near, far)
         }
-        Fault::NoRadius => say!(arc_without_a_radius_i).into(),
         Fault::Switch {
             on: true,
             arc: true,
@@ -195,10 +194,6 @@ pub(super) fn program(fault: &Fault) -> String {
                 side_word(side)
             )
         }
-        Fault::CutOpen { distance } => {
-            say!(the_cut_does_not_close, mm(distance / 1e3))
-        }
-        Fault::BehindEnd => say!(text_behind_the_end_of_the_program).into(),
         Fault::Foreign { word, count: 1 } => {
             say!(is_a_matter_of_the_machine_it_is_kept_not, word)
         }
@@ -238,6 +233,9 @@ pub(super) fn program(fault: &Fault) -> String {
             say!(has_not_decimals_as_all_other_numbers, word, usual)
         }
         Fault::LooksLikeInches { size } => say!(the_program_does_not_say_its_unit, mm(*size)),
+        Fault::AbsurdSize { size } => {
+            say!(the_program_is_mm_long_or_wide, mm(*size), absurd(*size))
+        }
         Fault::UnknownValue { word } => {
             say!(
                 hangs_on_a_place_of_the_control_table_that_the_program_does,

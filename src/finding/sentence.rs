@@ -1,6 +1,6 @@
 //! What a finding says to a person: its numbers in the units that people read, handed to the sentences of [`crate::message`].
 
-use super::lengths::{mm, told_apart};
+use super::lengths::{absurd, mm, told_apart};
 use super::program_sentence::program;
 use super::{Detail, Finding, NoFix, NotJudged, SmallRadius, Unwritable};
 use crate::drawing::Visibility;
@@ -134,11 +134,7 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
             )
         }
         Detail::Size { size } => {
-            let what = if size * unit_mm > 1.0 {
-                say!(more_than_any_machine_travels)
-            } else {
-                say!(less_than_a_wire_is_thick)
-            };
+            let what = absurd(size * unit_mm);
             say!(the_size_of_the_part_is_absurd, mm(size * unit_mm), what)
         }
         Detail::Program(fault) => program(fault),

@@ -199,8 +199,9 @@ impl FindingData {
                 self.length = Some(mm(counted));
                 self.required = Some(mm(larger));
             }
+            Fault::AbsurdSize { size } => self.length = Some(size),
             Fault::TooManyDigits { value, .. } => self.length = Some(mm(value)),
-            Fault::NotClosed { x, y, .. } | Fault::PositionMismatch { x, y } => {
+            Fault::NotClosed { x, y } | Fault::PositionMismatch { x, y } => {
                 self.distance = Some(x.hypot(y) / 1000.0);
             }
             Fault::PathCrossesItself { at, .. } => {
@@ -210,7 +211,6 @@ impl FindingData {
                 self.radius = Some(start / 1e3);
                 self.distance = Some((start - end).abs() / 1e3);
             }
-            Fault::CutOpen { distance } => self.distance = Some(distance / 1e3),
             Fault::Foreign { ref word, count } => {
                 self.kind = Some(word.clone());
                 self.count = Some(count);

@@ -111,9 +111,8 @@ declare! {
     x_and_y_stand_for_each_other => "X and Y stand for each other: exchanged, the contour closes";
     the_block_stands_twice_without => "the block stands twice: without it the contour closes";
     the_block_moves_nothing_its_j => "the block moves nothing: its J is 0";
-    the_arc_has_no_radius => "the arc has no radius: X and Y are 0, its start is its centre";
+    the_arc_has_no_radius => "the arc has no radius: its centre is one of its ends, or is not said";
     a_number_has_more_digits_than_the_controller_takes(field, value, digits) => "{field} {value} has more than the {digits} digits that the controller takes: it cuts digits off, or stops";
-    the_contour_does_not_close(distance, x, y) => "the contour does not close: it ends {distance} mm beside its beginning (X {x:+.3}, Y {y:+.3})";
     // words of ISO that cannot be read
     word_without_number(column, letter) => "column {column}: {letter} has no number";
     word_is_no_number(column, letter, shown) => "column {column}: {letter} is `{shown}`, expected a number with one decimal point";
@@ -138,7 +137,6 @@ declare! {
     g41_lets_the_wire_run_on_the_left => "G41 lets the wire run on the left";
     g42_lets_the_wire_run_on_the_right => "G42 lets the wire run on the right";
     the_ends_of_the_arc_are_not_on_one_circle(near, far) => "the ends of the arc are not on one circle: the start is {near} mm from the centre, the end {far} mm; the control stops here, or cuts another arc";
-    arc_without_a_radius_i => "arc without a radius: I, J or R are missing, or the centre is one of its ends";
     the_correction_is_switched_on_by_an_arc => "the correction is switched on by an arc: controls refuse that, expected a straight cut (G01) to the contour";
     the_correction_is_switched_off_by_an_arc => "the correction is switched off by an arc: controls refuse that, expected a straight cut (G01) off the contour";
     the_correction_is_switched_on_by_a_rapid => "the correction is switched on by a rapid: expected a straight cut (G01) to the contour";
@@ -148,16 +146,15 @@ declare! {
     punch => "punch";
     which_is_this_contour_the_settings(side, is, wanted) => "{side}, which is {is} this contour: the settings say {wanted}, the wire cuts into the part";
     of_this_contour_but_it_comes_to_it_from_the_other_side(side) => "{side} of this contour, but it comes to it from the other side: it crosses the part's edge";
-    the_cut_does_not_close(distance) => "the cut does not close: it ends {distance} mm from where it began";
-    text_behind_the_end_of_the_program => "text behind the end of the program: the machine does not run it";
+    the_cut_does_not_close(hypot, x, y) => "the cut does not close: it ends {hypot} mm beside its beginning (X {x:+.3}, Y {y:+.3})";
     is_a_matter_of_the_machine_it_is_kept_not(word) => "{word} is a matter of the machine: it is kept, not followed";
     times_is_a_matter_of_the_machine_it_is_kept(word, count) => "{word} ({count} times) is a matter of the machine: it is kept, not followed";
     subprogram_does_not_stand_in_this_text(number) => "subprogram {number} does not stand in this text: it is not followed";
     the_subprograms_call_each_other_without_end_or => "the subprograms call each other without end, or too deep: they are not followed further";
     i_and_j_stand_beside_a_straight_cut => "I and J stand beside a straight cut: the control leaves them out, or stops; an arc (G02, G03) may be meant";
     stands_twice_in_this_line(letter) => "{letter} stands twice in this line: the control takes the last one, or stops";
-    the_arc_runs_the_wrong_way_round => "the arc runs the wrong way round: the wire turns back on itself here, and with G02 and G03 exchanged it runs on without a corner";
-    the_arc_may_run_the_wrong_way_round => "the arc may run the wrong way round: with G02 and G03 exchanged it goes on without a corner at both ends";
+    the_arc_runs_the_wrong_way_round => "the arc runs the wrong way round: the wire turns back on itself here, and the other way round it runs on without a corner";
+    the_arc_may_run_the_wrong_way_round => "the arc may run the wrong way round: the other way round it goes on without a corner at both ends";
     the_wire_goes_out_mm_and_back_on_the_same(length) => "the wire goes out {length} mm and back on the same way";
     the_block_stands_twice_the_wire => "the block stands twice: the wire goes round a whole circle";
     the_block_stands_twice_the_wire_is_there => "the block stands twice: the wire is there already";
@@ -171,6 +168,7 @@ declare! {
     has_a_decimal_point_the_other_numbers_have_none(word) => "{word} has a decimal point, the other numbers have none: it is read in whole units, they in the finest steps";
     has_not_decimals_as_all_other_numbers(word, usual) => "{word} has not {usual} decimals as all other numbers have: a digit may be lost, or one too many";
     the_program_does_not_say_its_unit(size) => "the program does not say its unit (G20, G21) and is read in mm: then the part is {size} mm long or wide, which speaks for inches (program.units)";
+    the_program_is_mm_long_or_wide(size, what) => "the program is {size} mm long or wide, {what}: its numbers are meant in another unit";
     hangs_on_a_place_of_the_control_table_that_the_program_does(word) => "{word} hangs on a place of the control's table that the program does not fill: it is not followed";
     the_cut_does_not_close_and_it_would => "the cut does not close, and it would";
     the_cut_would_be_sound => "the cut would be sound";

@@ -18,14 +18,14 @@ declare! {
     the_lead_in_is_too_short_or_crosses_a_contour => "The lead-in is too short or crosses a contour";
     the_corrections_of_the_passes_do_not_fall_or_no_wire_is_so_thin => "The corrections of the passes do not fall, or no wire is so thin";
     something_in_the_drawing_is_not_cut => "Something in the drawing is not cut";
-    the_drawing_s_unit_is_missing_or_absurd => "The drawing's unit is missing or absurd";
+    the_unit_is_missing_or_absurd => "The unit is missing, or the size speaks for another one";
     the_ends_of_an_arc_are_not_on_one_circle_about_its_centre => "The ends of an arc are not on one circle about its centre";
     an_arc_whose_centre_is_its_start => "An arc whose centre is its start";
     the_correction_is_switched_by_an_arc_or_a_rapid => "The correction is switched by an arc or a rapid";
     the_correction_sends_the_wire_to_the_side_of_the_part => "The correction sends the wire to the side of the part";
     i_or_j_beside_a_straight_cut => "I or J beside a straight cut";
     a_word_stands_twice_in_a_line => "A word stands twice in a line";
-    g02_where_g03_is_meant_or_the_other_way_round => "G02 where G03 is meant, or the other way round";
+    an_arc_that_runs_the_wrong_way_round => "An arc that runs the wrong way round";
     a_cut_that_goes_out_and_back_on_the_same_way => "A cut that goes out and back on the same way";
     a_block_that_stands_twice => "A block that stands twice";
     g41_or_g42_without_the_place_of_its_correction => "G41 or G42 without the place of its correction";

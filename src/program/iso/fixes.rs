@@ -95,7 +95,7 @@ fn plain_fix(document: &Document, fault: &Fault, range: &Range<usize>) -> Option
         }
         Fault::DoubledBlock { .. } => (FixKind::DeleteBlock, true, whole_line(document, line)),
         Fault::Spur { .. } => return spur_fix(document, line),
-        Fault::CutOpen { .. } => return closing_fix(document, range),
+        Fault::NotClosed { .. } => return closing_fix(document, range),
         Fault::NoOffset { .. } => {
             let offset = document.only_offset()?;
             let (found, meant) = (
@@ -137,7 +137,7 @@ fn plain_fix(document: &Document, fault: &Fault, range: &Range<usize>) -> Option
             let edit = TextEdit::new(rapid_word(document, range)?, "G01");
             (FixKind::CutRapid, false, edit)
         }
-        Fault::BehindEnd => {
+        Fault::TextAfterEnd { .. } => {
             let edit = TextEdit::new(range.start..text.len(), "");
             (FixKind::DeleteBehindEnd, false, edit)
         }

@@ -4,11 +4,11 @@ use super::block::{Block, Motion, Note, Stop, read_line};
 use super::corner::{self, Turned, turned};
 use super::machine::{Course, Machine, Move, Reading, Trail};
 use super::run::{Hears, Run, SEVERAL, Tight, Ways};
-use super::shape;
+use super::shape::Shape;
 use super::stretch::{Definition, Foreign, Pathless, Stretch};
 use crate::finding::{Fault, Finding};
 use crate::geometry::Side;
-use crate::program::path::mixed;
+use crate::program::path::{joint, mixed};
 use std::ops::Range;
 
 /// Arcs of a larger radius than this are not kept: no correction comes near, nm.
@@ -332,7 +332,7 @@ impl Stretch {
                 Course::OffRadius { start, end, .. } => {
                     self.fault(Fault::OffRadius { start, end }, range);
                 }
-                Course::NoRadius => self.fault(Fault::NoRadius, range),
+                Course::NoRadius => self.fault(Fault::ArcWithoutRadius, range),
                 Course::Line => {}
             }
         }
@@ -357,13 +357,23 @@ impl Stretch {
 
     /// Whether the way turns back on itself at the beginning of a move.
     fn examine<'a>(&mut self, made: &Move, range: (u32, u32), ahead: &Ahead<'_, impl Lines<'a>>) {
-        let Some(joint) = shape::joint(&self.after.trail, made, &self.reading) else {
+        let reading = self.reading;
+        let shape = |made: Move| Shape {
+            made,
+            reading: &reading,
+        };
+        let [Some(before), came] = self.after.trail.last else {
             return;
         };
-        let (next, looked_at) = corner::next_move(self.after, ahead.lines(), &self.reading);
+        let made = shape(made.at_origin());
+        let Some(joint) = joint(came.map(shape), &shape(before), made) else {
+            return;
+        };
+        let (next, looked_at) = corner::next_move(self.after, ahead.lines(), &reading);
         self.ahead = self.ahead.max(ahead.beyond(looked_at));
         self.fixed |= next.is_some_and(|next| !next.incremental);
-        if let Some(fault) = joint.fault(next.as_ref(), &self.reading) {
+        let next = next.map(|next| shape(next.at_origin()));
+        if let Some(fault) = joint.fault(next.as_ref()) {
             self.fault(fault, range);
         }
     }

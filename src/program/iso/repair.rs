@@ -127,7 +127,8 @@ pub fn is_trouble(finding: &Finding) -> bool {
         Rule::Syntax | Rule::NotClosed | Rule::MixedNumbers => {
             finding.severity <= Severity::Warning
         }
-        Rule::ArcOffRadius
+        Rule::TooManyDigits
+        | Rule::ArcOffRadius
         | Rule::ArcWithoutRadius
         | Rule::PathCrossesItself
         | Rule::ReversedArc

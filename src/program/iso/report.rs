@@ -12,7 +12,7 @@ use super::run::{Run, RunSide, Tight};
 use super::stretch::Stretch;
 use crate::finding::{Detail, Fault, Finding, NoFix, Place, Rule, Severity, Side, SmallRadius};
 use crate::geometry::cross;
-use crate::program::path::{UM_IN_MM, is_tight, tolerance};
+use crate::program::path::{UM_IN_MM, is_tight, not_closed, tolerance};
 use crate::settings::{Compensation, SideSetting};
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -23,6 +23,12 @@ const FEWEST_MOVES: u32 = 3;
 
 /// How many lines before its cut the word that switches the correction is looked for.
 const SWITCH_REACH: usize = 1_000;
+
+/// Of more spurs it is not asked whether they are ways out and in again.
+const MOST_SPURS: usize = 32;
+
+/// Places this near each other are one, nm.
+const MET: f64 = 2_000.0;
 
 impl Document {
     /// What is wrong in the program, in the order of the text.
@@ -106,9 +112,11 @@ fn plain_findings(document: &Document) -> Vec<Finding> {
         if let Some(behind) = stretch.behind_end
             && !std::mem::replace(&mut report.is_behind_end_said, true)
         {
-            report.add(at(offset, behind), Fault::BehindEnd);
+            let word = report.end_before(at(offset, behind).start);
+            report.add(at(offset, behind), Fault::TextAfterEnd { word });
         }
     }
+    report.spurs();
     for cut in document.contours() {
         report.judge(cut);
     }
@@ -213,6 +221,22 @@ impl<'a> Report<'a> {
         }
     }
 
+    /// A way out and in again between two passes is no spur: its tip is where the cut begins.
+    fn spurs(&mut self) {
+        let spurs =
+            |findings: &[Finding]| findings.iter().filter(|one| one.rule == Rule::Spur).count();
+        if (1..=MOST_SPURS).contains(&spurs(&self.findings)) {
+            let document = self.document;
+            let is_lead = |finding: &Finding| {
+                let line = line_of(document, finding)?;
+                let tip = document.machine_before(line)?.at;
+                Some(distance(document.begun_cut_with(line)?.from, tip) <= MET)
+            };
+            self.findings
+                .retain(|finding| finding.rule != Rule::Spur || is_lead(finding) != Some(true));
+        }
+    }
+
     /// Adds up what concerns the program as a whole.
     fn note(&mut self, stretch: &Stretch, offset: usize) {
         self.moves = self.moves.saturating_add(stretch.moves);
@@ -290,22 +314,19 @@ impl<'a> Report<'a> {
             // What is cut short says nothing of the whole.
             return;
         }
-        let closed = self.closed(cut);
-        if let (Err(distance), true) = (closed, run.whole) {
+        let closes = cut.closes(self.document);
+        if let (false, true, Some(fault)) = (closes, run.whole, not_closed(&cut.way(self.document)))
+        {
             let fragment = run.moves < FEWEST_MOVES;
             let severity = if fragment {
                 Severity::Information
             } else {
                 Rule::NotClosed.default_severity()
             };
-            self.add_as(
-                severity,
-                cut.last_range.clone(),
-                Fault::CutOpen { distance },
-            );
+            self.add_as(severity, cut.last_range.clone(), fault);
         }
         // Contours that are only a line there and back have no inside.
-        let orientation = if closed.is_ok() && run.twice_area.unsigned_abs() > 2_000_000 {
+        let orientation = if closes && run.twice_area.unsigned_abs() > 2_000_000 {
             run.twice_area.signum()
         } else {
             0
@@ -361,23 +382,6 @@ impl<'a> Report<'a> {
             Side::Left
         };
         self.add(range, Fault::SideChange { side });
-    }
-
-    /// Whether a cut closes; else by how much it misses, µm.
-    fn closed(&self, cut: &Cut) -> Result<(), f64> {
-        if cut.closes(self.document) {
-            return Ok(());
-        }
-        let run = &cut.run;
-        let begins: [Spot; 2] = [run.first[0].from, run.first[0].to];
-        let ends: [Spot; 2] = [run.last[1].to, run.last[0].to];
-        let pairs = begins
-            .iter()
-            .flat_map(|&begin| ends.iter().map(move |&end| distance(begin, end) / 1e3));
-        // The end of the way in and that of the way out are the same place in a cut of two moves.
-        Err(pairs
-            .take(if run.moves > 2 { 4 } else { 1 })
-            .fold(f64::INFINITY, f64::min))
     }
 
     /// The side of the contour from which the way in comes, told by the contour's directions where it begins and ends; `None` where they

@@ -5,10 +5,11 @@
 
 use super::block::{Code, Offset};
 use super::evidence::Evidence;
-use super::machine::{Machine, Place, Reading, added};
+use super::machine::{Machine, Place, Reading, added, micrometres};
 use super::run::{Run, Tight, Tightest, Ways};
 use super::word::Term;
 use crate::finding::Finding;
+use crate::geometry::Bounds;
 use crate::program::path::Lay;
 use crate::program::steps::Sum;
 use std::ops::Range;
@@ -32,6 +33,9 @@ impl Pathless {
             .into_iter()
             .map(|ways| ways.lay(&stretch.reading))
             .collect();
+        let own = stretch.runs.iter().zip(&stretch.lays);
+        let placed = own.map(|(run, lay)| lay.bounds.moved(micrometres(run.start()).coords));
+        stretch.bounds = placed.reduce(|one, other| one.merged(&other));
         stretch
     }
 }
@@ -71,6 +75,8 @@ pub struct Stretch {
     pub moved: Place,
     /// Of each run, how it lies on itself.
     pub lays: Vec<Lay>,
+    /// About all of them, µm, where they lay before the stretch was moved.
+    pub bounds: Option<Bounds>,
     /// The runs that begin and end here are known to have nothing wrong with them as a whole.
     pub is_quiet: bool,
     pub foreign: Vec<Foreign>,

@@ -162,7 +162,11 @@ impl WordFault {
             WordFault::OpenComment => Severity::Warning,
             _ => Rule::Syntax.default_severity(),
         };
-        Finding::in_text(Rule::Syntax, range, Detail::Syntax(sentence)).with(severity)
+        let rule = match self {
+            WordFault::TooManyDigits { .. } => Rule::TooManyDigits,
+            _ => Rule::Syntax,
+        };
+        Finding::in_text(rule, range, Detail::Syntax(sentence)).with(severity)
     }
 }
 

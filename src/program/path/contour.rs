@@ -5,6 +5,7 @@
 //! to close or meet the contour, belongs to the contour: it holds the part while its tab is cut.
 
 use super::way::{Node, Way};
+use crate::finding::Fault;
 use crate::geometry::Vector;
 
 /// Blocks in the ways in and out together among which an answer is looked for before the whole way is gone through.
@@ -250,20 +251,16 @@ fn is_mirrored(way: &dyn Way, tolerance: f64) -> Option<bool> {
     Some(count >= 3 && ((first - last).norm() <= tolerance || (first + last).norm() <= tolerance))
 }
 
-/// From where a way ends to the nearer of its start and the end of a way in of one block, µm.
-pub fn gap(way: &dyn Way) -> Option<[f64; 2]> {
+/// How far a way that does not close ends beside its start, or the end of a way in of one block, whichever is nearer; `None` where that
+/// hangs on blocks that are not held.
+pub fn not_closed(way: &dyn Way) -> Option<Fault> {
     let count = way.count();
     let end = way.node(count)?.meant;
-    let to = |index: usize| Some(way.node(index)?.meant - end);
-    let to_start = to(0)?;
-    let nearer = if count >= 3 {
-        [to_start, to(1)?]
-            .into_iter()
-            .min_by(|a, b| a.norm().total_cmp(&b.norm()))?
-    } else {
-        to_start
-    };
-    Some([nearer.x, nearer.y])
+    let beside = |index: usize| Some(end - way.node(index)?.meant);
+    let (start, lead_in) = (beside(0)?, if count >= 3 { beside(1) } else { None });
+    let nearer = lead_in.filter(|lead_in| lead_in.norm() < start.norm());
+    let by = nearer.unwrap_or(start);
+    Some(Fault::NotClosed { x: by.x, y: by.y })
 }
 
 /// Whether a way that goes on behind a stop belongs to the contour before it, which is open: it closes the contour or comes to meet it.

@@ -147,8 +147,7 @@ fn alike(findings: &[Finding], finding: &Finding) -> [usize; 2] {
 fn gap_of(finding: &Finding) -> Option<f64> {
     match &finding.detail {
         Detail::Program(fault) => match **fault {
-            Fault::NotClosed { x, y, .. } => Some(x.hypot(y)),
-            Fault::CutOpen { distance } => Some(distance),
+            Fault::NotClosed { x, y } => Some(x.hypot(y)),
             _ => None,
         },
         _ => None,

@@ -5,6 +5,7 @@
 
 mod cuts;
 mod fixes;
+mod joints;
 mod judge;
 mod repairs;
 mod report;
@@ -87,6 +88,8 @@ struct View {
     outer: Vec<Cut>,
     /// Where the contours begin that do not close.
     open: Vec<PartAt>,
+    /// The parts in which an odd joint about the end of a run is told.
+    odd: Vec<PartAt>,
     /// Where cuts begin that go on with the contour before them, behind the stop at its tab.
     tabs: Vec<PartAt>,
     /// The contours that are held by a tab until that is cut off, while they are looked through for crossings.
@@ -248,7 +251,10 @@ mod tests {
 
     const PROGRAM: &str = "(((N[0-9] )?B[0-9]{1,4}B[0-9]{1,4}B[0-9]{1,5}G[XY](L|SR|NR)[1-4]( ; [0-9]\\.[0-9]{3} , 1\\.0)?|BxB|[;DN1 ]|DD|D|E|text|Start Point = 1 , 2)(\r\n|\n|\r)){0,40}";
     /// Closed ones, one that crosses itself, and the way between two.
-    const CONTOURS: [&str; 4] = [
+    /// One with a spur, one with an arc that runs the wrong way round.
+    const CONTOURS: [&str; 6] = [
+        "B0B500B500GYL2\nB1000B0B1000GXL1\nB0B500B500GYL2\nB300B0B300GXL1\nB300B0B300GXL3\nB0B500B500GYL2\nB2000B0B2000GXL3\nB0B1000B1000GYL4\nB1000B0B1000GXL1\nB0B500B500GYL4\nD\n",
+        "B0B500B500GYL2\nB500B0B500GXL1\nB0B500B1000GXNR4\nB1000B0B1000GXL3\nB0B500B1000GXSR1\nB500B0B500GXL1\nB0B500B500GYL4\nD\n",
         "B9000B0B9000GXL1\nB0B9000B9000GYL2\nB9000B0B9000GXL3\nB0B9000B9000GYL4\nD\n",
         "B9900B0B9900GXL1\nB9900B0B39600GYNR1\nB9900B0B9900GXL3\nD\n",
         "B900B0B900GXL1\nB900B900B900GYL1\nB900B0B900GXL3\nB900B900B900GXL4\nB900B0B900GXL3\nB0B50B50GYL2\nB0B50B50GYL4\nD\n",

@@ -12,8 +12,10 @@ use super::rules::position_mismatch::mismatch;
 use super::rules::{self, Counts, Limits, Spot};
 use super::words::{Word, Words};
 use crate::finding::{Detail, Fault, Rule};
-use crate::geometry::{Point, Segment, Vector};
-use crate::program::path::{Ends, HeldWay, Lay, Node, Writing, mixed, tolerance};
+use crate::geometry::{Bounds, Point, Segment, Vector};
+use crate::program::path::{
+    Ends, HeldWay, Lay, Node, Writing, may_be_odd, mixed, odd_joint, tolerance,
+};
 use std::ops::Range;
 
 /// Something found at bytes of the run.
@@ -147,12 +149,36 @@ pub(super) struct Part {
     pub lay: Lay,
 }
 
+/// What a block means, from the origin on; nowhere where nobody knows.
+pub(super) fn shape(block: &Block) -> Segment {
+    meant(block, Point::origin()).unwrap_or_else(nowhere)
+}
+
+fn nowhere() -> Segment {
+    Segment::line(Point::origin(), Point::origin())
+}
+
+/// How a run begins or ends, as far as the joint with the next one tells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Edge {
+    /// The outermost block, from the origin on.
+    pub block: Segment,
+    /// Its joint with the other blocks of the run may be odd.
+    pub is_odd: bool,
+}
+
 /// A part under way.
 struct Open {
     /// Its first entry.
     first: usize,
     sum: Sum,
     way: HeldWay,
+    /// The last three blocks, the last one first, each from the origin on.
+    trail: [Option<Segment>; 3],
+    /// Its two ends.
+    edges: [Option<Edge>; 2],
+    /// Blocks that begin at an odd joint, by their number in the part.
+    odd: Vec<(usize, Fault)>,
 }
 
 impl Open {
@@ -161,11 +187,15 @@ impl Open {
             first,
             sum: Sum::default(),
             way: HeldWay::from(Node::at(Point::origin()), Writing::default()),
+            trail: [None; 3],
+            edges: [None; 2],
+            odd: Vec::new(),
         }
     }
 
     fn push(&mut self, entry: &BlockEntry) {
         let segment = meant(&entry.block, Point::origin());
+        self.join(segment.unwrap_or_else(nowhere));
         let [x, y] = self.sum.travel.meant_um();
         let (start, by) = (Point::new(x, y), Vector::new(x, y));
         let way = segment
@@ -173,6 +203,27 @@ impl Open {
             .map_or(Segment::line(start, start), |segment| segment.moved(by));
         self.sum.push(entry, segment.as_ref());
         self.way.push(way, !entry.is_line(), self.sum.travel.node());
+    }
+
+    /// Looks at the joint at which the last block begins, now that it is known what follows.
+    fn join(&mut self, next: Segment) {
+        let [made, before, came] = self.trail;
+        let is_odd = made.is_some_and(|made| may_be_odd(&made, &next));
+        if let (Some(made), Some(before)) = (made, before) {
+            let fault = odd_joint(came, before, made, &next);
+            let nth = self.sum.blocks - 1;
+            self.odd.extend(fault.map(|fault| (nth, fault)));
+        }
+        if let (Some(first), 1) = (&mut self.edges[0], self.sum.blocks) {
+            first.is_odd = is_odd;
+        }
+        let block = next;
+        self.edges[0].get_or_insert(Edge {
+            block,
+            is_odd: false,
+        });
+        self.edges[1] = Some(Edge { block, is_odd });
+        self.trail = [Some(next), made, before];
     }
 
     /// The part up to an entry, with the word that stands there.
@@ -201,6 +252,8 @@ pub(super) struct Run {
     pub numbering: Numbering,
     pub positions: Positions,
     pub travel: Move,
+    /// Of its way, µm from where it begins.
+    pub bounds: Option<Bounds>,
     pub words: usize,
     /// Entries: the controller's own first end word, the last end word of any, the last word.
     pub own_end: Option<usize>,
@@ -210,6 +263,8 @@ pub(super) struct Run {
     /// that they do not cross.
     pub open: Vec<usize>,
     pub tangled: Vec<usize>,
+    /// How its first part begins, and how its last one ends; `None` where there is no block in it.
+    pub edges: [Option<Edge>; 2],
 }
 
 /// How the blocks of a run are numbered.
@@ -345,14 +400,44 @@ impl Run {
             });
         }
         let end = run.entries.len();
-        run.parts.push(open.closed(end, None));
+        run.close(open, end, None);
         run.sum_up();
         run
+    }
+
+    /// Ends a part: what is odd in it counts once its contour is known.
+    fn close(&mut self, mut open: Open, end: usize, word: Option<(Word, bool)>) {
+        if self.parts.is_empty() {
+            self.edges[0] = open.edges[0];
+        }
+        self.edges[1] = open.edges[1];
+        let odd = std::mem::take(&mut open.odd);
+        let part = open.closed(end, word);
+        let own = self.entries.get(part.entries.clone()).unwrap_or_default();
+        let blocks = || own.iter().filter(|entry| entry.block().is_some());
+        for (nth, fault) in odd {
+            let range = blocks().nth(nth).map_or(0..0, Entry::range);
+            self.faults.push(Local {
+                range,
+                rule: fault.rule(),
+                detail: Detail::Program(Box::new(fault)),
+                spot: Spot::Block,
+                counts: Counts::IfAlone,
+                part: self.parts.len(),
+            });
+        }
+        self.parts.push(part);
     }
 
     fn sum_up(&mut self) {
         let last = self.parts.len().saturating_sub(1);
         for (index, part) in self.parts.iter().enumerate() {
+            if part.sum.blocks > 0 {
+                let [x, y] = self.travel.meant_um();
+                let placed = part.lay.bounds.moved(Vector::new(x, y));
+                let known = self.bounds.get_or_insert(placed);
+                known.merge(&placed);
+            }
             self.travel = self.travel.plus(part.sum.travel);
             self.arcs += part.sum.arcs;
             if let Some((word, is_own)) = part.word {
@@ -417,7 +502,7 @@ impl Run {
                 let end = self.entries.len();
                 self.push(local(range), line, number, What::Word { word, is_own });
                 let before = std::mem::replace(open, Open::at(end + 1));
-                self.parts.push(before.closed(end, Some((word, is_own))));
+                self.close(before, end, Some((word, is_own)));
             }
             Item::StartPoint { at, range } => {
                 self.positions.anchor = Some(Some(StatedPoint { at, decimals: 3 }));

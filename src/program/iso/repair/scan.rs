@@ -4,7 +4,8 @@ use crate::geometry::Vector;
 use crate::program::iso::block::{Block, Motion, Note, Stop, read_line};
 use crate::program::iso::document::Document;
 use crate::program::iso::machine::{Bend, Course, Machine, Move, Place, Reading, distance};
-use crate::program::iso::shape::{directions, turn};
+use crate::program::iso::shape::directions;
+use crate::program::path::turn;
 
 /// Ends within this, and what arcs add, have met, nm.
 const CLOSED: f64 = 2_000.0;

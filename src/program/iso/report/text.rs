@@ -1,13 +1,15 @@
 //! What is wrong with the words and numbers of a program as a whole.
 
-use super::super::block::{read_line, word_range};
+use super::super::block::{Stop, read_line, word_range};
 use super::super::document::Table;
 use super::super::evidence::FEW_BARE;
+use super::super::machine::micrometres;
 use super::super::order::MOST_CALLS;
 use super::super::table::value;
 use super::super::word::{Token, words};
-use super::{Report, at};
+use super::{Report, SWITCH_REACH, at};
 use crate::finding::{Detail, Fault, NotJudged, Rule, Severity};
+use crate::program::path::{absurd_size, size_of};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
@@ -137,6 +139,20 @@ impl Report<'_> {
         }
     }
 
+    /// The word that ends the program, where text stands behind it.
+    pub(super) fn end_before(&self, behind: usize) -> String {
+        let lines = (0..self.text.line_of(behind)).rev();
+        let ends = |line: &usize| self.document.block(*line).stop == Some(Stop::End);
+        let word = lines.take(SWITCH_REACH).find(ends).and_then(|line| {
+            let range = self.text.line_range(line);
+            let bytes = self.text.bytes().get(range.clone())?;
+            word_range(bytes, range.start, |letter, number| {
+                letter == b'M' && matches!(number.whole(), Some(2 | 30))
+            })
+        });
+        word.map_or_else(|| self.limits.end.clone(), |word| self.shown(&word))
+    }
+
     /// Values for the table that hang on places which the program does not fill.
     pub(super) fn definitions(&mut self) {
         let mut table = Table::default();
@@ -233,22 +249,41 @@ impl Report<'_> {
         }
     }
 
-    /// A program that does not say its unit, and whose size or numbers speak for inches.
+    /// A program that does not say its unit, and whose size or numbers speak for inches; else a size that no wire cuts.
     pub(super) fn unit(&mut self) {
+        let placed = self.document.stretches().iter().filter_map(|stretch| {
+            let by = micrometres(stretch.moved).coords;
+            Some(stretch.bounds?.moved(by))
+        });
+        let Some(bounds) = placed.reduce(|one, other| one.merged(&other)) else {
+            return;
+        };
+        let size = size_of(&bounds);
+        let is_endless = || {
+            self.document
+                .order()
+                .is_some_and(|order| order.endless.is_some())
+        };
+        let fault = if self.speaks_for_inches(size) {
+            Some(Fault::LooksLikeInches { size })
+        } else if self.is_whole() && !is_endless() {
+            absurd_size(&bounds, self.moves as usize)
+        } else {
+            None
+        };
+        if let Some(fault) = fault
+            && let Some(range) = self.first_length()
+        {
+            self.add(range, fault);
+        }
+    }
+
+    /// `size` in mm.
+    fn speaks_for_inches(&self, size: f64) -> bool {
         let evidence = self.document.evidence();
         if evidence.says_unit || evidence.with_point == 0 || self.limits.has_unit {
-            return;
+            return false;
         }
-        let sizes = self
-            .document
-            .stretches()
-            .iter()
-            .flat_map(|stretch| &stretch.lays)
-            .map(|lay| lay.bounds);
-        let size = sizes
-            .filter(|bounds| !bounds.is_empty())
-            .map(|bounds| (bounds.max - bounds.min).amax() / 1e3)
-            .fold(0.0, f64::max);
         // No wire is as thin as the corrections that the program fills in, or its numbers are as fine as those in inches are.
         let has_thin_wire = self
             .definitions
@@ -256,12 +291,7 @@ impl Report<'_> {
             .any(|value| (1..THINNEST).contains(&value.abs()));
         let has_fine_numbers = evidence.fine * 4 >= evidence.with_point;
         let is_small = size < SMALLEST_PART || (has_fine_numbers && size < SMALL_PART);
-        if size > 0.0
-            && (is_small || (has_thin_wire && size < LARGE_PART))
-            && let Some(range) = self.first_length()
-        {
-            self.add(range, Fault::LooksLikeInches { size });
-        }
+        size > 0.0 && (is_small || (has_thin_wire && size < LARGE_PART))
     }
 
     /// The first line with a length.

@@ -227,12 +227,16 @@ impl Document {
     }
 
     pub(super) fn cut_of(&self, at: At) -> Option<Cut> {
-        let part = self
-            .runs
-            .get(at.run)?
-            .parts
-            .partition_point(|part| part.entries.end <= at.entry);
-        self.cut_of_part(&self.view, (at.run, part))
+        self.runs.get(at.run)?;
+        self.cut_of_part(&self.view, (at.run, self.part_of(at)))
+    }
+
+    /// The part of its run that an entry lies in.
+    pub(super) fn part_of(&self, at: At) -> usize {
+        self.runs.get(at.run).map_or(0, |of| {
+            of.parts
+                .partition_point(|part| part.entries.end <= at.entry)
+        })
     }
 }
 

@@ -15,7 +15,7 @@ use super::super::run::Sum;
 use super::{At, Document};
 use crate::finding::{Detail, Fault, Finding, FixKind, Place};
 use crate::program::alike::{Alike, alike};
-use crate::program::path::gap;
+use crate::program::path::not_closed;
 use crate::program::repair::merged;
 use crate::settings::Layout;
 use crate::text::{TextEdit, WIDEST_COLUMN};
@@ -47,6 +47,7 @@ impl Document {
             | Fault::NumberOutOfOrder { .. }
             | Fault::Unnumbered { .. } => self.number_fixes(range),
             Fault::PositionMismatch { .. } => self.position_fixes(range).unwrap_or_default(),
+            Fault::Spur { .. } => self.spur_fixes(range).unwrap_or_default(),
             fault => self.block_fixes(range, fault),
         }
     }
@@ -180,9 +181,10 @@ impl Document {
         let Some(cut) = self.cut_of(at) else {
             return Vec::new();
         };
-        let Some([x, y]) = gap(&self.way(&cut)).map(|gap| gap.map(|um| um.round() as i64)) else {
+        let Some(Fault::NotClosed { x, y }) = not_closed(&self.way(&cut)) else {
             return Vec::new();
         };
+        let [x, y] = [-x, -y].map(|um| um.round() as i64);
         let largest = self.limits.largest();
         if x.abs().max(y.abs()) > largest || (x, y) == (0, 0) {
             return Vec::new();

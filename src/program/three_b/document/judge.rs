@@ -4,12 +4,13 @@ use super::super::entry::What;
 use super::super::fields::fields_of;
 use super::super::parse::unexpected;
 use super::super::repair::FEWEST_BLAMED;
-use super::super::rules::{self, not_closed};
+use super::super::rules::{self, not_closed::FRAGMENT};
 use super::super::run::{Sum, may_cross_itself};
 use super::cuts::joined;
 use super::{At, Cut, Document, PartAt, View};
 use crate::finding::{Axis, Detail, Fault, Finding, Rule, Severity};
-use crate::program::path::{Known, Lay, Way, gap, is_tab, mixed, tolerance};
+use crate::geometry::Bounds;
+use crate::program::path::{Known, Lay, Way, absurd_size, is_tab, mixed, not_closed, tolerance};
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -40,12 +41,39 @@ impl Document {
         view.outer = self.outer_cuts(view.end);
         view.last_block = self.last_block(view.end);
         self.judge_contours(&mut view);
+        self.judge_joints(&mut view);
         self.judge_crossings(&mut view, known, calm);
         self.judge_end(&mut view);
         self.judge_texts(&mut view);
         self.judge_numbers(&mut view);
         self.judge_positions(&mut view);
+        self.judge_size(&mut view);
         view
+    }
+
+    /// `units`: a whole program of a size that no wire cuts.
+    fn judge_size(&self, view: &mut View) {
+        let (mut bounds, mut blocks) = (Bounds::EMPTY, 0);
+        for (of, begin) in self.runs.iter().zip(&view.begins) {
+            if let Some(own) = of.bounds {
+                bounds.merge(&own.moved(begin.coords));
+            }
+            blocks += of.blocks;
+        }
+        let first = || {
+            Some(
+                self.range_of(
+                    self.from(At { run: 0, entry: 0 })
+                        .find_map(|(at, entry)| entry.block().map(|_| at))?,
+                ),
+            )
+        };
+        if view.end.is_some()
+            && let Some(fault) = absurd_size(&bounds, blocks)
+            && let Some(range) = first()
+        {
+            view.findings.push(Finding::of(fault, range));
+        }
     }
 
     /// `not-closed`, and the block that is to blame where it is plain. A contour that stops before its tab goes on behind the stop.
@@ -159,14 +187,13 @@ impl Document {
         let Some(last) = self.last_block_of(cut).filter(|_| cut.sum.unread == 0) else {
             return;
         };
-        let is_fragment = view.end.is_none() || cut.sum.blocks <= not_closed::FRAGMENT;
+        let is_fragment = view.end.is_none() || cut.sum.blocks <= FRAGMENT;
         if is_fragment && self.leads_out(view, cut) {
             return;
         }
-        let Some(gap) = gap(&self.way(cut)) else {
+        let Some(fault) = not_closed(&self.way(cut)) else {
             return;
         };
-        let fault = not_closed::fault(gap, &cut.sum);
         let severity = if is_fragment {
             Severity::Information
         } else {
@@ -245,7 +272,7 @@ impl Document {
             let found = known.crossings(mark, runs, || self.way(&cut));
             if found.is_clean() {
                 calm.extend((is_inner == Some(true)).then_some(cut.parts[0]));
-            } else {
+            } else if !self.is_odd(view, &cut) {
                 findings.extend(found.findings(&self.way(&cut), &self.text));
             }
         }

@@ -26,6 +26,10 @@ impl Document {
         let scope = match finding.rule {
             Rule::NotClosed
             | Rule::PathCrossesItself
+            | Rule::Spur
+            | Rule::ReversedArc
+            | Rule::DoubledBlock
+            | Rule::SuspectBlock
             | Rule::BlockNumber
             | Rule::PositionMismatch => Scope::All,
             Rule::WrongJ
@@ -173,7 +177,7 @@ impl Document {
     }
 
     /// The entry that a range lies in or before.
-    fn entry_at(&self, range: &Range<usize>) -> Option<At> {
+    pub(super) fn entry_at(&self, range: &Range<usize>) -> Option<At> {
         let run = self.runs.at(range.start);
         let of = self.runs.get(run)?;
         let local = range.start.checked_sub(self.runs.byte(run))?;

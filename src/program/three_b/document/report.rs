@@ -28,7 +28,7 @@ impl Document {
     /// At most `limit` findings under the settings' severities, errors first, then in the order of the text; and how many there are.
     pub fn findings_under(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
         let severity = |rule: Rule, own: Severity| settings.severity_over(rule, own);
-        let mut order: Vec<(Severity, usize, Kept)> = Vec::new();
+        let mut order: Vec<(Severity, usize, Rule, Kept)> = Vec::new();
         for (run, of) in self
             .runs
             .iter()
@@ -45,6 +45,7 @@ impl Document {
                     order.push((
                         severity,
                         local.range.start + self.runs.byte(run),
+                        local.rule,
                         Kept::InBlock { run, index },
                     ));
                 }
@@ -54,13 +55,13 @@ impl Document {
             if let (Some(severity), Place::Text { range }) =
                 (severity(finding.rule, finding.severity), &finding.place)
             {
-                order.push((severity, range.start, Kept::OnWhole { index }));
+                order.push((severity, range.start, finding.rule, Kept::OnWhole { index }));
             }
         }
-        order.sort_by_key(|(severity, start, _)| (*severity, *start));
+        order.sort_by_key(|(severity, start, rule, _)| (*severity, *start, *rule));
         let count = order.len();
         order.truncate(limit);
-        let made = order.into_iter().filter_map(|(severity, _, which)| {
+        let made = order.into_iter().filter_map(|(severity, _, _, which)| {
             let finding = match which {
                 Kept::InBlock { run, index } => {
                     self.materialized(run, self.runs.get(run)?.faults.get(index)?)
@@ -104,6 +105,7 @@ impl Document {
         let cut = || self.cut_of_local(run, local);
         match local.counts {
             Counts::Always | Counts::MildIfClosed => true,
+            Counts::IfAlone => self.is_local_told(&self.view, run, local),
             Counts::IfOpen => cut().is_some_and(|cut| !self.closes(&self.view, &cut)),
             Counts::IfInside { turns_left } => cut().is_some_and(|cut| {
                 let runs_left = cut.sum.twice_area > 0.0;

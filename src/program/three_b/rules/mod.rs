@@ -9,6 +9,7 @@ mod j_over_turn;
 mod length_in_j;
 mod missing_b;
 mod projection;
+mod reversed_arc;
 mod small_radius;
 mod too_many_digits;
 mod wrong_counting_axis;
@@ -107,6 +108,8 @@ pub(super) enum Counts {
     IfOpen,
     /// Where the contour closes, the block is what was meant in an unusual way: it is told as that.
     MildIfClosed,
+    /// Only where no block of the contour is wrong for itself.
+    IfAlone,
     /// Only where the wire runs on the arc's centre side; the arc turns left or not.
     IfInside {
         turns_left: bool,
@@ -270,6 +273,7 @@ pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
         Rule::JOverTurn => j_over_turn::fixes(site),
         Rule::WrongCountingAxis => wrong_counting_axis::fixes(site, fault),
         Rule::WrongQuadrant => wrong_quadrant::fixes(site, fault),
+        Rule::ReversedArc => reversed_arc::fixes(site),
         Rule::ZeroBlock => zero_block::fixes(site),
         Rule::ArcWithoutRadius => arc_without_radius::fixes(site),
         Rule::TooManyDigits => too_many_digits::fixes(site),

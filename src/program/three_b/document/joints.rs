@@ -1,0 +1,194 @@
+//! `spur` and `reversed-arc`: what is odd at the joints of blocks. Within a part that is known since its lines were read; here are the
+//! joints between runs of lines, and which of all of them count.
+
+use super::super::entry::{Entry, What};
+use super::super::rules::{Counts, TextFix};
+use super::super::run::{Edge, Local, shape};
+use super::{At, Cut, Document, View};
+use crate::finding::{Detail, Fault, Finding, FixKind};
+use crate::geometry::{Point, Segment, Vector};
+use crate::program::path::{may_be_odd, odd_joint, tolerance};
+use crate::text::TextEdit;
+use std::ops::Range;
+
+/// Blocks on either side of the end of a run that tell its joints.
+const REACH: usize = 3;
+
+/// A spur whose two blocks lead this near to where it began goes without a trace, µm.
+const CLOSED: f64 = 2.0;
+
+impl Document {
+    /// The joints about the ends of runs.
+    pub(super) fn judge_joints(&self, view: &mut View) {
+        let mut odd: Vec<(At, Fault)> = Vec::new();
+        let mut before: Option<&Edge> = None;
+        for (run, of) in self.runs.iter().enumerate() {
+            if of.blocks == 0 && of.words == 0 {
+                continue;
+            }
+            if let (Some(last), Some(first)) = (before, &of.edges[0]) {
+                if last.is_odd || first.is_odd || may_be_odd(&last.block, &first.block) {
+                    odd.extend(self.odd_about(run));
+                }
+            }
+            before = of.edges[1].as_ref();
+        }
+        // One joint may lie near the ends of several runs.
+        odd.sort_by_key(|(at, _)| *at);
+        odd.dedup_by_key(|(at, _)| *at);
+        for (at, fault) in odd {
+            let part = (at.run, self.part_of(at));
+            let cut = self.cut_of_part(view, part);
+            if cut.is_some_and(|cut| self.is_told(view, &cut, at, &fault)) {
+                view.odd.push(part);
+                view.findings.push(Finding::of(fault, self.range_of(at)));
+            }
+        }
+    }
+
+    /// The odd joints whose blocks lie on both sides of the beginning of a run.
+    fn odd_about(&self, run: usize) -> Vec<(At, Fault)> {
+        let entries = self.runs.get(run).map_or(&[][..], |of| &of.entries);
+        let Some(entry) = entries.iter().position(|entry| entry.block().is_some()) else {
+            return Vec::new();
+        };
+        let first = At { run, entry };
+        let placed = |(at, entry): (At, &Entry)| Some((at, shape(&entry.block()?.block)));
+        let is_word = |entry: &Entry| matches!(entry.what, What::Word { .. });
+        let before = self.before(first).take_while(|(_, entry)| !is_word(entry));
+        let mut blocks: Vec<(At, Segment)> = before.filter_map(placed).take(REACH).collect();
+        blocks.reverse();
+        let own = blocks.len();
+        let behind = self.from(first).take_while(|(_, entry)| !is_word(entry));
+        blocks.extend(behind.filter_map(placed).take(REACH));
+        let odd = (1..blocks.len().saturating_sub(1)).filter_map(|index| {
+            let piece = |index: usize| blocks.get(index).map(|(_, piece)| *piece);
+            let came = index.checked_sub(2).and_then(piece);
+            let fault = odd_joint(came, piece(index - 1)?, piece(index)?, &piece(index + 1)?)?;
+            let reach = if let Fault::Spur { .. } = fault { 2 } else { 1 };
+            let is_here = index < own + reach && index + 1 >= own;
+            is_here.then_some((blocks.get(index)?.0, fault))
+        });
+        odd.collect()
+    }
+
+    /// The entries from one on.
+    pub(super) fn from(&self, at: At) -> impl Iterator<Item = (At, &Entry)> {
+        (at.run..self.runs.len()).flat_map(move |run| {
+            let from = if run == at.run { at.entry } else { 0 };
+            let entries = self.runs.get(run).map_or(&[][..], |of| &of.entries);
+            let own = entries.iter().enumerate().skip(from);
+            own.map(move |(entry, of)| (At { run, entry }, of))
+        })
+    }
+
+    /// Whether an odd joint is told: nothing else is wrong with the contour, and a spur is no way out and in again between two passes.
+    pub(super) fn is_told(&self, view: &View, cut: &Cut, at: At, fault: &Fault) -> bool {
+        let tip = || self.stands_before(view, at);
+        let begin = || Some(self.stands_before(view, self.blocks_of(cut).next()?));
+        let is_lead =
+            || begin().is_some_and(|begin| (begin - tip()).norm() <= tolerance(cut.sum.arcs));
+        cut.sum.errors == 0 && !(matches!(fault, Fault::Spur { .. }) && is_lead())
+    }
+
+    /// The same of what was seen within a run.
+    pub(super) fn is_local_told(&self, view: &View, run: usize, local: &Local) -> bool {
+        let (Some(cut), Some(at)) = (
+            self.cut_of_part(view, (run, local.part)),
+            self.entry_of(run, local),
+        ) else {
+            return false;
+        };
+        matches!(&local.detail, Detail::Program(fault) if self.is_told(view, &cut, at, fault))
+    }
+
+    fn entry_of(&self, run: usize, local: &Local) -> Option<At> {
+        let entries = &self.runs.get(run)?.entries;
+        let entry = entries.partition_point(|entry| entry.range().start < local.range.start);
+        Some(At { run, entry })
+    }
+
+    /// Where the machine stands before an entry, µm.
+    fn stands_before(&self, view: &View, at: At) -> Point {
+        let entries = self.runs.get(at.run).map_or(&[][..], |of| &of.entries);
+        let travels = entries.iter().take(at.entry).filter_map(Entry::block);
+        let by = travels.map(|block| block.travel.machine);
+        let begin = view.begins.get(at.run).copied().unwrap_or_default();
+        by.fold(begin, |at, [x, y]| at + Vector::new(x as f64, y as f64))
+    }
+
+    /// Whether an odd joint of a cut is told.
+    pub(super) fn is_odd(&self, view: &View, cut: &Cut) -> bool {
+        let [(first_run, first), (last_run, last)] = cut.parts;
+        let of_run = |run: usize| {
+            let faults = self.runs.get(run).map_or(&[][..], |of| &of.faults);
+            faults.iter().any(|local| {
+                local.counts == Counts::IfAlone
+                    && (first_run, first) <= (run, local.part)
+                    && (run, local.part) <= (last_run, last)
+                    && self.is_local_told(view, run, local)
+            })
+        };
+        let first_odd = view.odd.partition_point(|part| *part < cut.parts[0]);
+        let is_between = view
+            .odd
+            .get(first_odd)
+            .is_some_and(|part| *part <= cut.parts[1]);
+        is_between || (first_run..=last_run).any(of_run)
+    }
+
+    /// Out and back go, where they lead back to where they began.
+    pub(super) fn spur_fixes(&self, range: &Range<usize>) -> Option<Vec<TextFix>> {
+        let back = self.entry_at(range)?;
+        let (out, before) = self
+            .before(back)
+            .find(|(_, entry)| entry.block().is_some())?;
+        let both = before
+            .block()?
+            .travel
+            .plus(self.entry(back)?.block()?.travel);
+        let (mut edit, mut found) = (Vec::new(), Vec::new());
+        for at in [out, back] {
+            let line = self.text.line_of(self.range_of(at).start);
+            let own = self.text.line_start(line)..self.text.line_start(line + 1);
+            let number = self.entry(at)?.line;
+            let entries = self.runs.get(at.run)?.entries.iter();
+            if entries.filter(|entry| entry.line == number).count() > 1 {
+                return None;
+            }
+            let own_text = self.text.bytes().get(self.range_of(at))?;
+            found.push(String::from_utf8_lossy(own_text).into_owned());
+            edit.push(TextEdit::new(own, ""));
+        }
+        let kind = FixKind::Rewrite {
+            found: found.join(" and "),
+            meant: String::new(),
+        };
+        both.is_within(CLOSED)
+            .then(|| vec![TextFix::text(kind, false, edit)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Document;
+
+    const SPUR: &str = "B0B500B500GYL2\nB1000B0B1000GXL1\nB0B500B500GYL2\nB300B0B300GXL1\nB300B0B300GXL3\nB0B500B500GYL2\nB2000B0B2000GXL3\nB0B1000B1000GYL4\nB1000B0B1000GXL1\nB0B500B500GYL4\nDD\n";
+    const REVERSED: &str = "B0B500B500GYL2\nB500B0B500GXL1\nB0B500B1000GXNR4\nB1000B0B1000GXL3\nB0B500B1000GXSR1\nB500B0B500GXL1\nB0B500B500GYL4\nDD\n";
+
+    /// Lines are read in runs: a joint is found once wherever one of them ends, and where each block is a run away from the next.
+    #[test]
+    fn an_odd_joint_is_found_wherever_runs_end() {
+        for (text, odd) in [(SPUR, "spur"), (REVERSED, "reversed-arc")] {
+            let apart = text.replace('\n', &"\n".repeat(100));
+            let texts = (0..100)
+                .map(|lines| "\n".repeat(lines) + text)
+                .chain([apart]);
+            for text in texts {
+                let found = Document::read(text.clone().into_bytes()).findings();
+                let found: Vec<_> = found.iter().map(|finding| finding.rule.name()).collect();
+                assert_eq!(found, [odd], "{text}");
+            }
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! `reversed-arc`: what can be done about an arc that runs the wrong way round. That it does is told by its joints
+//! ([`crate::program::path`]).
+
+use super::{Site, TextFix, motion_name, one_edit};
+use crate::finding::FixKind;
+use crate::geometry::{Arc, Point, Segment};
+use crate::program::three_b::block::{Block, Motion, Quadrant};
+use crate::program::three_b::decode::meant;
+use crate::program::three_b::encode::counted;
+use std::f64::consts::TAU;
+
+/// The arc about the same centre between the same ends, the other way round.
+pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
+    let Some(other) = exchanged(&site.block) else {
+        return Vec::new();
+    };
+    let is_safe = (site.closes_with)(&[other]);
+    let name = motion_name(other.motion);
+    let mut edit = vec![site.set_motion(name)];
+    if other.j != site.block.j {
+        edit.insert(0, site.set_j(other.j));
+    }
+    vec![one_edit(
+        FixKind::SetMotion { name },
+        edit,
+        is_safe,
+        is_safe,
+    )]
+}
+
+fn exchanged(block: &Block) -> Option<Block> {
+    let Segment::Arc(arc) = meant(block, Point::origin())? else {
+        return None;
+    };
+    let other = Arc {
+        sweep: arc.sweep - TAU.copysign(arc.sweep),
+        ..arc
+    };
+    let start = arc.start - arc.center;
+    let [x, y] = [start.x, start.y].map(|um| um.round() as i64);
+    let motion = match block.motion {
+        Motion::Clockwise(_) => Motion::CounterClockwise(Quadrant::counter_clockwise(x, y)),
+        Motion::CounterClockwise(_) => Motion::Clockwise(Quadrant::clockwise(x, y)),
+        Motion::Line(_) => return None,
+    };
+    let j = counted(&other, block.axis).round() as i64;
+    Some(Block {
+        j,
+        motion,
+        ..*block
+    })
+}
