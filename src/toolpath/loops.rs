@@ -86,6 +86,13 @@ pub(super) fn find(proof: &Proof, goes_on: &dyn Fn() -> bool) -> Found {
                 .find(|&point| clear(point));
         }
     }
+    let middle = |stretch: &Stretch| {
+        let ends = [nodes.points[stretch.from], nodes.points[stretch.to]];
+        between(&proof.raw.elements[stretch.raw].geometry, ends[0], ends[1]).point_at(0.5)
+    };
+    once(&mut stretches, |a, b| {
+        (middle(a) - middle(b)).norm() <= proof.rounding
+    });
     prune(&mut stretches, nodes.points.len());
     match (followed(proof, &stretches, &nodes), stand) {
         (Err(raw), _) => Found::Torn(raw),
@@ -93,6 +100,19 @@ pub(super) fn find(proof: &Proof, goes_on: &dyn Fn() -> bool) -> Found {
         (_, Some(point)) => Found::Point(point),
         _ => Found::Nothing,
     }
+}
+
+/// Leaves one of the stretches between two nodes that lie on each other, as two raw elements do where they nearly touch in a joint.
+fn once(stretches: &mut Vec<Stretch>, on_each_other: impl Fn(&Stretch, &Stretch) -> bool) {
+    let mut known: FxHashMap<(usize, usize), Vec<Stretch>> = FxHashMap::default();
+    stretches.retain(|stretch| {
+        let same = known.entry((stretch.from, stretch.to)).or_default();
+        let is_new = !same.iter().any(|other| on_each_other(other, stretch));
+        if is_new {
+            same.push(*stretch);
+        }
+        is_new
+    });
 }
 
 /// Takes out what nothing leads to or from: stretches that are clear only by what counts as rounding.

@@ -232,6 +232,41 @@ proptest! {
         prop_assert_eq!(wrong(&plain, role, &settings), None);
     }
 
+    /// A rounded corner whose arc is off its neighbours' direction by next to nothing, either way, on the inside and on the outside.
+    #[test]
+    fn joints_that_nearly_touch_are_passed(radius in 0.3_f64..4.0, power in -10.0_f64..-1.5, more: bool, inner: bool, turned in 0.0..TAU, punch: bool) {
+        let off = 10.0_f64.powf(power) * if more { 1.0 } else { -1.0 };
+        let bulge = (PI / 8.0 + off).tan();
+        let corners = if inner {
+            vec![[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 5.0, 0.0], [5.0 + radius, 5.0, -bulge], [5.0, 5.0 + radius, 0.0], [5.0, 10.0, 0.0], [0.0, 10.0, 0.0]]
+        } else {
+            vec![[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 10.0 - radius, bulge], [10.0 - radius, 10.0, 0.0], [0.0, 10.0, 0.0]]
+        };
+        let (sin, cos) = turned.sin_cos();
+        let outline: Vec<[f64; 3]> = corners.into_iter().map(|[x, y, b]| [x * cos - y * sin, x * sin + y * cos, b]).collect();
+        let role = if punch { Role::Punch } else { Role::Opening };
+        prop_assert_eq!(wrong(&outline, role, &unled(&outline, Direction::AsDrawn)), None);
+    }
+
+    /// The same beside a notch into whose tip the wire does not get, so that all crossings count: next to the joint both offsets
+    /// lie on each other.
+    #[test]
+    fn joints_that_nearly_touch_beside_a_notch_are_passed(off in -2e-4_f64..2e-4, turned in 0.0..TAU) {
+        let (sin, cos) = turned.sin_cos();
+        let outline: Vec<[f64; 3]> = [
+            [-0.8890813864363118, -0.45774915433290053, 0.0],
+            [-0.196450477534886, -0.9805137479282559, 0.0],
+            [0.6441116478097527, -0.7649314904982047, 0.0],
+            [1.8380440480729217, 0.04901927502813446, -0.28350578293478984 + off],
+            [0.6484677033644372, 0.8591797919699827, 0.0],
+            [-1.3872465532243294, 5.408918735038367, 0.0],
+            [-1.3784630700380769, 5.688810968789279, 0.0],
+            [-4.045149036909149, 1.8168260423725493, 0.0],
+        ].into_iter().map(|[x, y, b]| [x * cos - y * sin, x * sin + y * cos, b]).collect();
+        let found = wrong(&outline, Role::Opening, &unled(&outline, Direction::AsDrawn));
+        prop_assert!(found.is_none(), "{}", found.unwrap_or_default());
+    }
+
     /// Slots of just twice the correction, anywhere on the plane: the wire goes in and comes back on one line.
     #[test]
     fn slots_of_just_the_wire_are_cut(x in -50.0_f64..50.0, turned in 0.0..TAU, depth in 0.5_f64..8.0, round: bool) {
