@@ -29,7 +29,7 @@ const HEAD: usize = 1024;
 const FEW: usize = 64;
 
 /// From so many bytes on an edit leaves the text in two pieces. Tests know no small text.
-const LARGE: usize = if cfg!(test) { 0 } else { 64 * 1024 };
+const LARGE: usize = if cfg!(test) { 1 } else { 64 * 1024 };
 
 /// A vertex that an edit lies in: its lines before the edit, and what must stay as it is.
 pub(super) struct VertexZone {
