@@ -4,7 +4,7 @@
 //! here. Nothing here reads or writes a file, or knows who asked.
 
 use crate::document::{Document, Snapshot, Source};
-use crate::drawing::{Drawing, DrawingEdit};
+use crate::drawing::{Drawing, DrawingEdit, Entity};
 use crate::dxf;
 use crate::finding::{Detail, Edit, Finding, Place, Severity};
 use crate::program::convert::{self, Cuts};
@@ -13,6 +13,7 @@ use crate::rule::Rule;
 use crate::settings::Effective;
 use crate::text::{Patch, TextEdit, edited};
 use crate::toolpath::{self, Finished, Planned, WirePath, entities_of, plan_while};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Whoever waits: whether it still does, and what it is told on the way.
@@ -199,8 +200,47 @@ pub struct Wanted<'a> {
     pub format: Format,
     /// Only the contours that hold one of these entities.
     pub handles: Option<&'a [String]>,
+    /// Only the contours that have an entity on one of these layers; beside `handles` those of both.
+    pub layers: Option<&'a [String]>,
     /// Although errors stand in the drawing.
     pub force: bool,
+}
+
+impl Wanted<'_> {
+    /// The handles that choose what is cut, `None` for all: those that are named, then of each contour on one of the layers its first
+    /// entity, in the order of the drawing.
+    fn chosen(&self, snapshot: &Snapshot) -> Result<Option<Vec<String>>, Refusal> {
+        let mut chosen = self.handles.map(<[String]>::to_vec);
+        let Some(layers) = self.layers else {
+            return Ok(chosen);
+        };
+        let mut unmet: BTreeSet<&str> = layers.iter().map(String::as_str).collect();
+        let handles = chosen.get_or_insert_default();
+        for outline in snapshot.outlines.iter() {
+            let pieces = outline.contour.pieces.iter();
+            let entities: Vec<&Entity> = pieces
+                .filter_map(|piece| snapshot.drawing.get(piece.entity))
+                .collect();
+            let on = |layer: &&String| entities.iter().any(|entity| *entity.layer == ***layer);
+            let met: Vec<&String> = layers.iter().filter(on).collect();
+            if let Some(first) = entities.first()
+                && !met.is_empty()
+                && outline.contour.double_of.is_none()
+            {
+                met.into_iter().for_each(|layer| {
+                    unmet.remove(layer.as_str());
+                });
+                handles.push(first.handle.to_string());
+            }
+        }
+        match unmet.pop_first() {
+            Some(layer) => Err(Refusal::Sentence(say!(
+                no_contour_that_is_cut_is_on_the_layer,
+                layer
+            ))),
+            None => Ok(chosen),
+        }
+    }
 }
 
 /// The program of a drawing.
@@ -226,7 +266,8 @@ pub fn generate(
     }
     let is_error = |finding: &Finding| finding.severity == Severity::Error;
     let any_errors = findings.iter().any(is_error);
-    let entities = entities_of(&snapshot.drawing, &snapshot.outlines, wanted.handles);
+    let chosen = wanted.chosen(snapshot)?;
+    let entities = entities_of(&snapshot.drawing, &snapshot.outlines, chosen.as_deref());
     findings.retain(|finding| finding.concerns(entities.as_ref()));
     let errors: Vec<Finding> = findings
         .iter()
@@ -238,7 +279,8 @@ pub fn generate(
     }
     watch.at(say!(laying_the_path), None);
     let of_format = wanted.format.settings(settings);
-    let Planned { paths, finished } = planned(snapshot, &of_format, wanted.handles, true, watch)?;
+    let Planned { paths, finished } =
+        planned(snapshot, &of_format, chosen.as_deref(), true, watch)?;
     let mut go_on = |done, all| {
         watch.at(say!(writing_and_proving), Some((done, all)));
         watch.is_wanted()

@@ -1091,6 +1091,33 @@ fn only_what_is_cut_refuses_a_program() {
         0,
         &["DD", "!1 contour"],
     );
+    let on_layers = String::from_utf8(desk.read("holes.dxf")).unwrap();
+    let on_layers = on_layers.replace("2A\n8\n0\n", "2A\n8\nFINE\n");
+    desk.write("layers.dxf", on_layers);
+    check(
+        &desk,
+        "generate layers.dxf --side opening --layer FINE",
+        0,
+        &["DD", "!1 contour"],
+    );
+    check(
+        &desk,
+        "generate layers.dxf --side opening --layer FINE --handle 2C",
+        0,
+        &["D\n", "!2 contours"],
+    );
+    check(
+        &desk,
+        "generate layers.dxf --side opening --layer 0",
+        1,
+        &["!error[small-radius]"],
+    );
+    check(
+        &desk,
+        "generate layers.dxf --side opening --layer FIN",
+        1,
+        &["!no contour that is cut has an entity on the layer \"FIN\""],
+    );
     check(
         &desk,
         "generate holes.dxf --side opening --handle 2C --handle 2A",

@@ -33,6 +33,9 @@ pub struct Arguments {
     /// Only the contour that holds this entity; may be given several times, in the order of the cuts
     #[arg(long, value_name = "HANDLE")]
     handle: Vec<String>,
+    /// Only the contours that have an entity on this layer; may be given several times, and beside --handle
+    #[arg(long, value_name = "LAYER")]
+    layer: Vec<String>,
     /// Write it although the drawing has errors
     #[arg(long)]
     force: bool,
@@ -54,6 +57,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let wanted = Wanted {
         format: arguments.format,
         handles: (!arguments.handle.is_empty()).then_some(&arguments.handle),
+        layers: (!arguments.layer.is_empty()).then_some(&arguments.layer),
         force: arguments.force,
     };
     let findings = document.all_findings().to_vec();

@@ -18,6 +18,9 @@ pub struct Generate {
     /// Only the contours that hold one of these entities.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub handles: Option<Vec<String>>,
+    /// Only the contours that have an entity on one of these layers; beside `handles` those of both.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub layers: Option<Vec<String>>,
     /// Laid over every other level of settings for this request.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub options: Option<Settings>,

@@ -36,6 +36,31 @@ fn only_what_is_cut_refuses_a_program() {
             "2A"
         );
     }
+    let on_a_layer = |handle: &str, layer: &str| {
+        let mut plate = if handle == "2A" {
+            tight_plate(handle)
+        } else {
+            wide_plate(handle)
+        };
+        plate["layer"] = layer.into();
+        plate
+    };
+    client.open_drawing(
+        "cad:///layers",
+        json!([on_a_layer("2A", "ROUGH"), on_a_layer("2B", "FINE")]),
+    );
+    let mut generate = |layers: Value| {
+        let params = json!({ "uri": "cad:///layers", "format": "3b", "layers": layers, "options": { "side": "opening" } });
+        client.request("wedm/generate", params)
+    };
+    assert_eq!(generate(json!(["FINE"])).unwrap()["warnings"], json!([]));
+    let error = generate(json!(["FINE", "ROUGH"])).unwrap_err();
+    assert_eq!(error["data"]["diagnostics"][0]["data"]["handle"], "2A");
+    let error = generate(json!(["NONE"])).unwrap_err();
+    assert!(
+        error["message"].as_str().unwrap().contains("\"NONE\""),
+        "{error}"
+    );
     client.shut_down();
 }
 

@@ -1,6 +1,7 @@
 //! What is made of a document, and why it is not.
 
 declare! {
+    no_contour_that_is_cut_is_on_the_layer(layer) => "no contour that is cut has an entity on the layer \"{layer}\"";
     an_error_stands_in_the_drawing => "an error stands in the drawing";
     the_path_was_given_up => "the path was given up";
     laying_the_path => "laying the wire's path";

@@ -17,6 +17,7 @@ use tower_lsp::jsonrpc::{Error, Result};
 pub(in crate::server) struct Params {
     format: String,
     handles: Option<Vec<String>>,
+    layers: Option<Vec<String>>,
     force: Option<bool>,
 }
 
@@ -31,6 +32,7 @@ pub(in crate::server) fn generate(context: &RequestContext, params: Params) -> R
     let wanted = Wanted {
         format,
         handles: params.handles.as_deref(),
+        layers: params.layers.as_deref(),
         force: params.force.unwrap_or(false),
     };
     let made = job::generate(&task.snapshot, findings(&task), &wanted, context);

@@ -325,6 +325,7 @@ fn params(script: &mut Script, method: &str, uri: &str) -> Value {
         "newName": "N7",
         "handle": handle,
         "handles": handles,
+        "layers": if script.byte().is_multiple_of(8) { json!(["0"]) } else { Value::Null },
         "segment": script.byte() % 4,
         "format": format,
         "force": script.byte().is_multiple_of(2),

@@ -269,12 +269,14 @@ class Server:
         format: str = "3b",
         *,
         handles: Sequence[str] | None = None,
+        layers: Sequence[str] | None = None,
         options: Settings | None = None,
         force: bool = False,
     ) -> Program:
         """The program for the machine.
 
         :param handles: only the contours that hold one of these entities.
+        :param layers: only the contours that have an entity on one of these layers; beside ``handles`` those of both.
         :param options: settings for this request only.
         :param force: also with errors in the drawing.
         :raises Refused: errors stand in the drawing (its ``diagnostics``), or no path can be made.
@@ -283,6 +285,8 @@ class Server:
         params["format"] = format
         if handles is not None:
             params["handles"] = list(handles)
+        if layers is not None:
+            params["layers"] = list(layers)
         if force:
             params["force"] = True
         return from_json(self._ask(document, "wedm/generate", params), Program)
