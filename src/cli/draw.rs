@@ -6,7 +6,6 @@ use super::{Failure, Verdict, files};
 use crate::document::{Document, Snapshot};
 use crate::drawing::{Drawing, Entity, Geometry};
 use crate::finding::{self, Finding, Severity};
-use crate::geometry::Segment;
 use crate::job;
 use crate::message::readable;
 use crate::toolpath::WirePath;
@@ -119,43 +118,8 @@ fn with_paths(snapshot: &Snapshot, paths: &[WirePath]) -> Drawing {
             .map(move |segment| (segment, layer.clone()))
     });
     for (segment, layer) in pieces {
-        let (kind, geometry) = match segment.geometry {
-            Segment::Line(line) => (
-                crate::drawing::Kind::Line,
-                Geometry::Line {
-                    start: line.start,
-                    end: line.end,
-                },
-            ),
-            Segment::Arc(arc) if arc.is_full_turn() => (
-                crate::drawing::Kind::Circle,
-                Geometry::Circle {
-                    center: arc.center,
-                    radius: arc.radius,
-                },
-            ),
-            Segment::Arc(arc) => {
-                // A DXF arc runs counter-clockwise, whichever way the wire goes.
-                let arc = if arc.sweep < 0.0 { arc.reversed() } else { arc };
-                let (start_angle, end_angle) = (arc.start_angle, arc.start_angle + arc.sweep);
-                (
-                    crate::drawing::Kind::Arc,
-                    Geometry::Arc {
-                        center: arc.center,
-                        radius: arc.radius,
-                        start_angle,
-                        end_angle,
-                    },
-                )
-            }
-        };
-        drawing.push(Entity {
-            handle: WIRE.into(),
-            layer: layer.into(),
-            role: None,
-            kind,
-            geometry,
-        });
+        let geometry = Geometry::of_segment(&segment.geometry);
+        drawing.push(Entity::new(WIRE, layer, geometry));
     }
     drawing
 }

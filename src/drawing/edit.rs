@@ -1,8 +1,7 @@
 //! Edits to a drawing, as rules make them and as CAD programs send them, and what they touched.
 
-use super::{Drawing, Entity, EntityId, Geometry, Kind, Vertex};
-use crate::geometry::Point;
-use rustc_hash::{FxHashMap, FxHashSet};
+use super::{Drawing, Entity, EntityId, Geometry, Vertex};
+use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 
 /// A vertex that comes in before the one at an index, or with `None` the one at that index, which goes.
@@ -21,18 +20,10 @@ pub enum Change {
         entity: EntityId,
         index: usize,
     },
-    SetLine {
+    /// A line becomes another line, an arc another arc.
+    Reshape {
         entity: EntityId,
-        start: Point,
-        end: Point,
-    },
-    /// Angles in radians, counter-clockwise from start to end.
-    SetArc {
-        entity: EntityId,
-        center: Point,
-        radius: f64,
-        start_angle: f64,
-        end_angle: f64,
+        geometry: Geometry,
     },
     RemoveEntity {
         entity: EntityId,
@@ -59,8 +50,7 @@ impl Change {
         match self {
             Change::SetVertex { entity, .. }
             | Change::RemoveVertex { entity, .. }
-            | Change::SetLine { entity, .. }
-            | Change::SetArc { entity, .. }
+            | Change::Reshape { entity, .. }
             | Change::RemoveEntity { entity }
             | Change::InsertVertex { entity, .. }
             | Change::SetClosed { entity, .. }
@@ -128,26 +118,19 @@ pub enum ChangeError {
 
 impl std::fmt::Display for ChangeError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            ChangeError::UnknownEntity => write!(f, "{}", say!(there_is_no_such_entity)),
-            ChangeError::NotEditable => write!(f, "{}", say!(the_entity_cannot_be_edited)),
-            ChangeError::OnlyLines => write!(f, "{}", say!(the_entity_is_a_3d_polyline)),
-            ChangeError::NotAPolyline => {
-                write!(
-                    f,
-                    "{}",
-                    say!(the_entity_is_not_a_polyline_and_has_no_vertices)
-                )
+        let sentence = match self {
+            ChangeError::UnknownEntity => say!(there_is_no_such_entity),
+            ChangeError::NotEditable => {
+                say!(the_entity_is_a_part_of_a_block_or_fitted_to_a_curve_and_cannot)
             }
+            ChangeError::OnlyLines => say!(the_entity_is_a_3d_polyline_whose_vertices_have_no),
+            ChangeError::NotAPolyline => say!(the_entity_is_not_a_polyline_and_has_no_vertices),
+            ChangeError::NotFinite => say!(a_coordinate_radius_or_bulge_is_not_a_finite_number),
             ChangeError::OutOfRange { index, count } => {
-                write!(f, "{}", say!(a_vertex_is_out_of_range, index, count))
+                &say!(vertex_is_out_of_range_the_polyline_has, index, count)
             }
-            ChangeError::NotFinite => write!(
-                f,
-                "{}",
-                say!(a_coordinate_radius_or_bulge_is_not_a_finite_number)
-            ),
-        }
+        };
+        f.write_str(sentence)
     }
 }
 
@@ -163,11 +146,7 @@ impl Drawing {
         delete_count: usize,
         insert: &[Vertex],
     ) -> Result<Touched, ChangeError> {
-        let count = match self.get(entity).map(|entity| &entity.geometry) {
-            None => return Err(ChangeError::UnknownEntity),
-            Some(Geometry::Polyline { vertices, .. }) => vertices.len(),
-            Some(_) => return Err(ChangeError::NotAPolyline),
-        };
+        let count = self.vertex_count(entity)?;
         let end = start
             .checked_add(delete_count)
             .filter(|&end| end <= count)
@@ -192,100 +171,60 @@ impl Drawing {
         })
     }
 
+    fn vertex_count(&self, entity: EntityId) -> Result<usize, ChangeError> {
+        match self.get(entity).map(|entity| &entity.geometry) {
+            None => Err(ChangeError::UnknownEntity),
+            Some(Geometry::Polyline { vertices, .. }) => Ok(vertices.len()),
+            Some(_) => Err(ChangeError::NotAPolyline),
+        }
+    }
+
     /// Applies a whole edit: all of it, or nothing and the first error. What is not editable refuses every change.
     pub fn apply(&mut self, edit: &DrawingEdit) -> Result<Delta, ChangeError> {
         let mut result = self.clone();
         let mut delta = Delta::default();
         // Vertices that come and go, with the index before the edit; those that stay are changed first.
         let mut moving: BTreeMap<EntityId, Vec<Moving>> = BTreeMap::new();
+        let (mut gone, mut added) = (Vec::new(), Vec::new());
         for change in &edit.changes {
             let id = change.entity();
             let old = result.get(id).ok_or(ChangeError::UnknownEntity)?;
             result.accepts(change)?;
-            match *change {
-                Change::SetVertex {
-                    entity,
-                    index,
-                    vertex,
-                } => delta
-                    .touched
-                    .push(result.splice(entity, index, 1, &[vertex])?),
-                Change::RemoveVertex { entity, index } => {
-                    moving.entry(entity).or_default().push((index, None))
+            match change {
+                Change::SetVertex { index, vertex, .. } => {
+                    let touched = result.splice(id, *index, 1, &[*vertex])?;
+                    delta.touched.push(touched);
                 }
-                Change::InsertVertex {
-                    entity,
-                    index,
-                    vertex,
-                } => moving
-                    .entry(entity)
-                    .or_default()
-                    .push((index, Some(vertex))),
-                Change::SetLine { start, end, .. } => {
-                    let entity = Entity {
-                        geometry: Geometry::Line { start, end },
-                        ..old.clone()
-                    };
-                    result.replace_checked(id, entity, &mut delta)?;
+                Change::RemoveVertex { index, .. } => {
+                    moving.entry(id).or_default().push((*index, None))
                 }
-                Change::SetArc {
-                    center,
-                    radius,
-                    start_angle,
-                    end_angle,
-                    ..
-                } => {
-                    let entity = Entity {
-                        geometry: Geometry::Arc {
-                            center,
-                            radius,
-                            start_angle,
-                            end_angle,
-                        },
-                        ..old.clone()
-                    };
-                    result.replace_checked(id, entity, &mut delta)?;
+                Change::InsertVertex { index, vertex, .. } => {
+                    moving.entry(id).or_default().push((*index, Some(*vertex)))
+                }
+                Change::Reshape { geometry, .. } => {
+                    delta.touched.push(result.reshape(id, geometry.clone())?)
                 }
                 Change::SetClosed { closed, .. } => {
                     let Geometry::Polyline { vertices, .. } = &old.geometry else {
                         return Err(ChangeError::NotAPolyline);
                     };
-                    let entity = Entity {
-                        geometry: Geometry::Polyline {
-                            closed,
-                            vertices: vertices.clone(),
-                        },
-                        ..old.clone()
+                    let geometry = Geometry::Polyline {
+                        closed: *closed,
+                        vertices: vertices.clone(),
                     };
-                    result.replace_checked(id, entity, &mut delta)?;
+                    delta.touched.push(result.reshape(id, geometry)?);
                 }
-                Change::RemoveEntity { .. } | Change::AddEntity { .. } => {}
+                Change::RemoveEntity { .. } => gone.push(id),
+                Change::AddEntity { geometry, .. } => added.push((id, geometry)),
             }
         }
         for (entity, moving) in moving {
             delta.touched.push(result.move_vertices(entity, moving)?);
         }
-        let added = edit.changes.iter().filter_map(|change| match change {
-            Change::AddEntity { after, geometry } => Some((*after, geometry)),
-            _ => None,
-        });
         result.add_all_next_to(added, &mut delta)?;
-        let gone: FxHashSet<EntityId> = edit
-            .changes
-            .iter()
-            .filter_map(|change| match change {
-                Change::RemoveEntity { entity } => Some(*entity),
-                _ => None,
-            })
-            .collect();
-        result.remove_all(&gone);
-        let removed = edit
-            .changes
-            .iter()
-            .filter(|change| matches!(change, Change::RemoveEntity { .. }));
-        delta.touched.extend(removed.map(|change| Touched::Removed {
-            entity: change.entity(),
-        }));
+        result.remove_all(&gone.iter().copied().collect());
+        let removed = gone.into_iter().map(|entity| Touched::Removed { entity });
+        delta.touched.extend(removed);
         *self = result;
         Ok(delta)
     }
@@ -296,22 +235,18 @@ impl Drawing {
             Change::SetVertex { vertex, .. } | Change::InsertVertex { vertex, .. } => vertex.bulge,
             _ => 0.0,
         };
-        match change.entity() {
-            entity
-                if matches!(
-                    change,
-                    Change::RemoveEntity { .. } | Change::AddEntity { .. }
-                ) =>
-            {
-                if self.is_whole(entity) {
-                    Ok(())
-                } else {
-                    Err(ChangeError::NotEditable)
-                }
-            }
-            entity if !self.is_editable(entity) => Err(ChangeError::NotEditable),
-            entity if bulge != 0.0 && self.is_straight(entity) => Err(ChangeError::OnlyLines),
-            _ => Ok(()),
+        let entity = change.entity();
+        let of_whole = matches!(
+            change,
+            Change::RemoveEntity { .. } | Change::AddEntity { .. }
+        );
+        match of_whole {
+            true if self.is_whole(entity) => Ok(()),
+            false if self.is_editable(entity) => match bulge != 0.0 && self.is_straight(entity) {
+                true => Err(ChangeError::OnlyLines),
+                false => Ok(()),
+            },
+            _ => Err(ChangeError::NotEditable),
         }
     }
 
@@ -322,11 +257,7 @@ impl Drawing {
         entity: EntityId,
         mut moving: Vec<Moving>,
     ) -> Result<Touched, ChangeError> {
-        let count = match self.get(entity).map(|entity| &entity.geometry) {
-            None => return Err(ChangeError::UnknownEntity),
-            Some(Geometry::Polyline { vertices, .. }) => vertices.len(),
-            Some(_) => return Err(ChangeError::NotAPolyline),
-        };
+        let count = self.vertex_count(entity)?;
         for &(index, vertex) in &moving {
             let behind = index.saturating_add(usize::from(vertex.is_none()));
             if behind > count {
@@ -375,7 +306,7 @@ impl Drawing {
     /// with its role, under a handle made from its own.
     fn add_all_next_to<'a>(
         &mut self,
-        added: impl Iterator<Item = (EntityId, &'a Geometry)>,
+        added: Vec<(EntityId, &'a Geometry)>,
         delta: &mut Delta,
     ) -> Result<(), ChangeError> {
         let mut behind: FxHashMap<EntityId, Vec<EntityId>> = FxHashMap::default();
@@ -384,17 +315,10 @@ impl Drawing {
                 return Err(ChangeError::NotFinite);
             }
             let model = self.get(after).ok_or(ChangeError::UnknownEntity)?.clone();
-            let kind = match geometry {
-                Geometry::Polyline { .. } => Kind::LightPolyline,
-                Geometry::Line { .. } => Kind::Line,
-                Geometry::Arc { .. } => Kind::Arc,
-                Geometry::Circle { .. } => Kind::Circle,
-                Geometry::Text { .. } => Kind::Text,
-            };
             // At the end for now: a place in the middle costs the length of the order, for each.
             let entity = self.push(Entity {
                 geometry: geometry.clone(),
-                kind,
+                kind: geometry.kind(),
                 ..model
             });
             behind.entry(after).or_default().push(entity);
@@ -415,17 +339,12 @@ impl Drawing {
         Ok(())
     }
 
-    fn replace_checked(
-        &mut self,
-        id: EntityId,
-        entity: Entity,
-        delta: &mut Delta,
-    ) -> Result<(), ChangeError> {
-        if !entity.geometry.is_sound() {
+    fn reshape(&mut self, id: EntityId, geometry: Geometry) -> Result<Touched, ChangeError> {
+        if !geometry.is_sound() {
             return Err(ChangeError::NotFinite);
         }
-        self.replace(id, entity);
-        delta.touched.push(Touched::Entity { entity: id });
-        Ok(())
+        let old = self.get(id).ok_or(ChangeError::UnknownEntity)?.clone();
+        self.replace(id, Entity { geometry, ..old });
+        Ok(Touched::Entity { entity: id })
     }
 }

@@ -1,7 +1,11 @@
 //! One entity of a drawing.
 
 use super::{Handle, Kind};
-use crate::geometry::{Arc, Bounds, Point, Segment, Tolerances};
+use crate::geometry::{
+    Arc, Bounds, Point, Segment, Tolerances, Xy, positive_angle, serialize_degrees,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::sync::Arc as Shared;
 
@@ -27,17 +31,7 @@ impl Vertex {
 }
 
 /// What an outline is of: decides on which side of it the wire runs.
-#[derive(
-    Clone,
-    Copy,
-    Debug,
-    PartialEq,
-    Eq,
-    Hash,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Role {
     /// A die opening: the wire runs inside.
@@ -50,30 +44,46 @@ pub enum Role {
     Ignore,
 }
 
-#[derive(Clone, Debug, PartialEq)]
+/// What an entity is. Messages have it with angles in degrees.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(
+    tag = "type",
+    rename_all = "lowercase",
+    rename_all_fields = "camelCase"
+)]
 pub enum Geometry {
     /// Segment i runs from vertex i to vertex i + 1; the last vertex of a closed polyline starts the closing segment.
-    Polyline {
-        closed: bool,
-        vertices: Vec<Vertex>,
-    },
+    Polyline { closed: bool, vertices: Vec<Vertex> },
     Line {
+        #[serde(serialize_with = "Xy::serialize_point")]
+        #[schemars(with = "Xy")]
         start: Point,
+        #[serde(serialize_with = "Xy::serialize_point")]
+        #[schemars(with = "Xy")]
         end: Point,
     },
     /// Counter-clockwise from `start_angle` to `end_angle`, radians.
+    #[schemars(description = "Angles in degrees, counter-clockwise, as in DXF.")]
     Arc {
+        #[serde(serialize_with = "Xy::serialize_point")]
+        #[schemars(with = "Xy")]
         center: Point,
         radius: f64,
+        #[serde(serialize_with = "serialize_degrees")]
         start_angle: f64,
+        #[serde(serialize_with = "serialize_degrees")]
         end_angle: f64,
     },
     Circle {
+        #[serde(serialize_with = "Xy::serialize_point")]
+        #[schemars(with = "Xy")]
         center: Point,
         radius: f64,
     },
     /// "O" marks a starting point; without a word it is a point that is not cut.
     Text {
+        #[serde(serialize_with = "Xy::serialize_point")]
+        #[schemars(with = "Xy")]
         at: Point,
         text: String,
     },
@@ -85,6 +95,43 @@ impl Geometry {
         Geometry::Text {
             at,
             text: String::new(),
+        }
+    }
+
+    /// A line, an arc or a circle as it lies in the drawing, which says of an arc not which way it goes.
+    pub(crate) fn of_segment(segment: &Segment) -> Geometry {
+        match segment {
+            Segment::Line(line) => Geometry::Line {
+                start: line.start,
+                end: line.end,
+            },
+            Segment::Arc(arc) if arc.is_full_turn() => Geometry::Circle {
+                center: arc.center,
+                radius: arc.radius,
+            },
+            Segment::Arc(arc) if arc.sweep < 0.0 => Geometry::of_arc(&arc.reversed()),
+            Segment::Arc(arc) => Geometry::of_arc(arc),
+        }
+    }
+
+    /// An arc that runs counter-clockwise, its angles from 0 to below a full turn.
+    pub(crate) fn of_arc(arc: &Arc) -> Geometry {
+        Geometry::Arc {
+            center: arc.center,
+            radius: arc.radius,
+            start_angle: positive_angle(arc.start_angle),
+            end_angle: positive_angle(arc.start_angle + arc.sweep),
+        }
+    }
+
+    /// The kind of an entity that is nothing more than this.
+    pub(crate) fn kind(&self) -> Kind {
+        match self {
+            Geometry::Polyline { .. } => Kind::LightPolyline,
+            Geometry::Line { .. } => Kind::Line,
+            Geometry::Arc { .. } => Kind::Arc,
+            Geometry::Circle { .. } => Kind::Circle,
+            Geometry::Text { .. } => Kind::Text,
         }
     }
 
@@ -127,7 +174,7 @@ impl Geometry {
                 start_angle,
                 end_angle,
             } => {
-                let forward = crate::geometry::positive_angle(end_angle - start_angle);
+                let forward = positive_angle(end_angle - start_angle);
                 let sweep = if forward == 0.0 { TAU } else { forward };
                 Some(
                     Segment::Arc(Arc::from_center(*center, *radius, *start_angle, sweep))
@@ -231,6 +278,21 @@ pub struct Entity {
 }
 
 impl Entity {
+    /// An entity that states no role and is no more than its geometry.
+    pub fn new(
+        handle: impl Into<Handle>,
+        layer: impl Into<Shared<str>>,
+        geometry: Geometry,
+    ) -> Entity {
+        Entity {
+            handle: handle.into(),
+            layer: layer.into(),
+            role: None,
+            kind: geometry.kind(),
+            geometry,
+        }
+    }
+
     /// The place of an arc whose radius is 0: it is drawn and has no segment.
     pub(crate) fn point_of_arc(&self) -> Option<Point> {
         match (self.kind, &self.geometry) {

@@ -10,7 +10,7 @@ use crate::text::{SourceText, WIDEST_COLUMN};
 use std::ops::Range;
 
 /// Decimals of lengths and of angles in degrees.
-const DECIMALS: usize = 12;
+pub(super) const DECIMALS: usize = 12;
 
 /// Tags that an entity hands on to one that is made after it: owner, layout, layer, line type, colour, line weight.
 const HANDED_ON: [i16; 9] = [330, 410, 8, 6, 62, 420, 440, 370, 48];

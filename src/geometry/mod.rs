@@ -15,6 +15,7 @@ mod segment;
 mod side;
 mod spline;
 mod tolerances;
+mod xy;
 
 pub(crate) use approach::{curvature, facing, foot_inside, meetings, reached, shared_length};
 pub use arc::Arc;
@@ -28,6 +29,8 @@ pub use segment::{Line, Segment};
 pub use side::Side;
 pub use spline::{Spline, SplineCurve};
 pub use tolerances::Tolerances;
+pub use xy::Xy;
+pub(crate) use xy::serialize_degrees;
 
 /// A point of the plane, in drawing units.
 pub type Point = nalgebra::Point2<f64>;

@@ -294,13 +294,7 @@ impl Cuts {
                 .iter()
                 .for_each(|lead| push_lead(&mut drawing, lead));
             if let Some(geometry) = polyline(cut.contour(), cut.closed) {
-                drawing.push(Entity {
-                    handle: CUT.into(),
-                    layer: CUT.into(),
-                    role: None,
-                    kind: crate::drawing::Kind::LightPolyline,
-                    geometry,
-                });
+                drawing.push(Entity::new(CUT, CUT, geometry));
             }
             cut.segments[way_out..]
                 .iter()
@@ -353,14 +347,7 @@ fn push_lead(drawing: &mut Drawing, lead: &Segment) {
         return push_line(drawing, LEAD, [lead.start(), lead.end()]);
     }
     if let Some(geometry) = polyline(&[*lead], false) {
-        let kind = crate::drawing::Kind::LightPolyline;
-        drawing.push(Entity {
-            handle: LEAD.into(),
-            layer: LEAD.into(),
-            role: None,
-            kind,
-            geometry,
-        });
+        drawing.push(Entity::new(LEAD, LEAD, geometry));
     }
 }
 
@@ -369,13 +356,7 @@ fn push_line(drawing: &mut Drawing, layer: &str, [start, end]: [Point; 2]) {
         start: start / 1e3,
         end: end / 1e3,
     };
-    drawing.push(Entity {
-        handle: layer.into(),
-        layer: layer.into(),
-        role: None,
-        kind: crate::drawing::Kind::Line,
-        geometry,
-    });
+    drawing.push(Entity::new(layer, layer, geometry));
 }
 
 /// The segments as a polyline in mm; arcs near a full turn, which no bulge holds well, in two halves.

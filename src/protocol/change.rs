@@ -1,7 +1,7 @@
 //! Changes of a drawing: as a CAD program sends them, and as a fix asks for them.
 
-use super::drawing::{Entity, Geometry, Vertex};
-use crate::drawing::{self as core, Change, Delta, EntityId, Touched};
+use super::drawing::Entity;
+use crate::drawing::{self as core, Change, Delta, EntityId, Geometry, Touched, Vertex};
 use rustc_hash::FxHashMap;
 use schemars::JsonSchema;
 use serde::de::Error as _;
@@ -83,7 +83,7 @@ impl Standing {
             .map(|entity| &entity.geometry)
         {
             None => Standing::Nothing,
-            Some(core::Geometry::Polyline { vertices, .. }) => Standing::Polyline(vertices.len()),
+            Some(Geometry::Polyline { vertices, .. }) => Standing::Polyline(vertices.len()),
             Some(_) => Standing::Other,
         }
     }
@@ -187,8 +187,12 @@ fn apply_one(
     match change {
         DrawingChange::Vertices { handle, vertices } => {
             let id = found(drawing, &handle)?;
-            let insert: Vec<_> = vertices.insert.into_iter().map(Into::into).collect();
-            let touched = drawing.splice(id, vertices.start, vertices.delete_count, &insert);
+            let Splice {
+                start,
+                delete_count,
+                insert,
+            } = vertices;
+            let touched = drawing.splice(id, start, delete_count, &insert);
             delta
                 .touched
                 .push(touched.map_err(|error| error.to_string())?);
@@ -246,42 +250,27 @@ pub fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> Vec<Draw
             let old = old.clone();
             Some(core::Entity { geometry, ..old })
         };
-        match *change {
+        match change {
             Change::SetVertex { index, vertex, .. } => {
-                let at = at(&mut vertices, id, index);
-                at.own = at.own.or(Some(Some(vertex)));
+                let at = at(&mut vertices, id, *index);
+                at.own = at.own.or(Some(Some(*vertex)));
             }
-            Change::RemoveVertex { index, .. } => at(&mut vertices, id, index).own = Some(None),
+            Change::RemoveVertex { index, .. } => at(&mut vertices, id, *index).own = Some(None),
             Change::InsertVertex { index, vertex, .. } => {
-                at(&mut vertices, id, index).before.push(vertex)
+                at(&mut vertices, id, *index).before.push(*vertex)
             }
             Change::SetClosed { closed, .. } => {
-                if let core::Geometry::Polyline { vertices, .. } = &old.geometry {
-                    let geometry = core::Geometry::Polyline {
-                        closed,
+                if let Geometry::Polyline { vertices, .. } = &old.geometry {
+                    let geometry = Geometry::Polyline {
+                        closed: *closed,
                         vertices: vertices.clone(),
                     };
                     entities.insert(id, with(geometry));
                 }
             }
-            Change::AddEntity { after, .. } => added.push((after, change)),
-            Change::SetLine { start, end, .. } => {
-                entities.insert(id, with(core::Geometry::Line { start, end }));
-            }
-            Change::SetArc {
-                center,
-                radius,
-                start_angle,
-                end_angle,
-                ..
-            } => {
-                let geometry = core::Geometry::Arc {
-                    center,
-                    radius,
-                    start_angle,
-                    end_angle,
-                };
-                entities.insert(id, with(geometry));
+            Change::AddEntity { .. } => added.push((id, change)),
+            Change::Reshape { geometry, .. } => {
+                entities.insert(id, with(geometry.clone()));
             }
             Change::RemoveEntity { .. } => {
                 entities.insert(id, None);
@@ -342,9 +331,9 @@ pub fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> Vec<Draw
 /// What becomes of one vertex, and what comes before it.
 #[derive(Default)]
 struct AtVertex {
-    before: Vec<core::Vertex>,
+    before: Vec<Vertex>,
     /// `Some(None)` removes it, `None` leaves it.
-    own: Option<Option<core::Vertex>>,
+    own: Option<Option<Vertex>>,
 }
 
 type AtVertices = BTreeMap<EntityId, BTreeMap<usize, AtVertex>>;
@@ -361,12 +350,7 @@ fn at(vertices: &mut AtVertices, entity: EntityId, index: usize) -> &mut AtVerte
 fn splices(by_index: &BTreeMap<usize, AtVertex>) -> Vec<Splice> {
     let mut splices: Vec<Splice> = Vec::new();
     for (&index, at) in by_index {
-        let insert = at
-            .before
-            .iter()
-            .copied()
-            .chain(at.own.flatten())
-            .map(Vertex::from);
+        let insert = at.before.iter().copied().chain(at.own.flatten());
         let delete_count = usize::from(at.own.is_some());
         match splices.last_mut() {
             Some(last) if last.start + last.delete_count == index => {

@@ -1,8 +1,8 @@
 //! The `data` of a diagnostic: a finding's numbers, the same object in text documents, drawings and `--output json`.
 
-use super::drawing::Point;
 use crate::drawing::Drawing;
 use crate::finding::{Detail, Fault, Finding, NoFix, NotJudged, Place, Side, SmallRadius};
+use crate::geometry::Xy as Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

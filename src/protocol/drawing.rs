@@ -1,63 +1,26 @@
 //! A drawing as a CAD program sends it, and the way to and from the core's drawing.
 
 use super::number::Number;
-use crate::drawing::{self as core, Role, Unit};
-use crate::geometry::radians;
+use crate::drawing::{self as core, Geometry, Role, Unit, Vertex};
+use crate::geometry::{Point, Xy, radians};
 use schemars::JsonSchema;
 use serde::de::{Error as _, SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A point `[x, y]` in drawing units.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Point(pub f64, pub f64);
-
-impl From<crate::geometry::Point> for Point {
-    fn from(point: crate::geometry::Point) -> Point {
-        Point(point.x, point.y)
-    }
-}
-
-impl From<Point> for crate::geometry::Point {
-    fn from(point: Point) -> Self {
-        crate::geometry::Point::new(point.0, point.1)
-    }
-}
-
-impl Point {
-    fn is_finite(self) -> bool {
-        self.0.is_finite() && self.1.is_finite()
-    }
-}
-
-impl<'de> Deserialize<'de> for Point {
+impl<'de> Deserialize<'de> for Xy {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let Number2(x, y) = Number2::deserialize(deserializer)?;
-        Ok(Point(x.0, y.0))
+        Ok(Xy(x.0, y.0))
     }
 }
 
 #[derive(Deserialize)]
 struct Number2(Number, Number);
 
-/// A vertex `[x, y, bulge]` of a polyline; the bulge may be left out and is 0 then.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Vertex(pub f64, pub f64, pub f64);
-
-impl From<core::Vertex> for Vertex {
-    fn from(vertex: core::Vertex) -> Vertex {
-        Vertex(vertex.point.x, vertex.point.y, vertex.bulge)
-    }
-}
-
-impl From<Vertex> for core::Vertex {
-    fn from(vertex: Vertex) -> core::Vertex {
-        core::Vertex::new(vertex.0, vertex.1, vertex.2)
-    }
-}
-
-impl Vertex {
-    pub(super) fn is_finite(self) -> bool {
-        self.0.is_finite() && self.1.is_finite() && self.2.is_finite()
+/// A vertex is `[x, y, bulge]`; the bulge may be left out and is 0 then.
+impl Serialize for Vertex {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        (self.point.x, self.point.y, self.bulge).serialize(to)
     }
 }
 
@@ -78,7 +41,7 @@ impl<'de> Deserialize<'de> for Vertex {
                         .or(missing)
                         .ok_or_else(|| A::Error::invalid_length(1, &"[x, y] or [x, y, bulge]"))
                 };
-                let vertex = Vertex(next(None)?, next(None)?, next(Some(0.0))?);
+                let vertex = Vertex::new(next(None)?, next(None)?, next(Some(0.0))?);
                 match numbers.next_element::<Number>()? {
                     None => Ok(vertex),
                     Some(_) => Err(A::Error::invalid_length(4, &"[x, y] or [x, y, bulge]")),
@@ -144,39 +107,6 @@ pub struct Entity {
     pub geometry: Geometry,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-#[serde(
-    tag = "type",
-    rename_all = "lowercase",
-    rename_all_fields = "camelCase"
-)]
-pub enum Geometry {
-    Polyline {
-        closed: bool,
-        vertices: Vec<Vertex>,
-    },
-    Line {
-        start: Point,
-        end: Point,
-    },
-    /// Angles in degrees, counter-clockwise, as in DXF.
-    Arc {
-        center: Point,
-        radius: f64,
-        start_angle: f64,
-        end_angle: f64,
-    },
-    Circle {
-        center: Point,
-        radius: f64,
-    },
-    /// "O" marks a starting point.
-    Text {
-        at: Point,
-        text: String,
-    },
-}
-
 /// Every key an entity may have. Read as one flat struct: a tagged enum would hold a million vertices twice.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
@@ -187,16 +117,16 @@ struct Keys {
     r#type: String,
     closed: Option<bool>,
     vertices: Option<Vec<Vertex>>,
-    start: Option<Point>,
-    end: Option<Point>,
-    center: Option<Point>,
+    start: Option<Xy>,
+    end: Option<Xy>,
+    center: Option<Xy>,
     #[serde(default, deserialize_with = "given")]
     radius: Option<f64>,
     #[serde(default, deserialize_with = "given")]
     start_angle: Option<f64>,
     #[serde(default, deserialize_with = "given")]
     end_angle: Option<f64>,
-    at: Option<Point>,
+    at: Option<Xy>,
     text: Option<String>,
 }
 
@@ -210,27 +140,31 @@ impl<'de> Deserialize<'de> for Entity {
         let kind = keys.r#type;
         let name = keys.handle.clone();
         let missing = |key: &str| D::Error::custom(format!("entity {name}: a {kind} needs {key}"));
+        let point =
+            |key: &str, point: Option<Xy>| point.map(Point::from).ok_or_else(|| missing(key));
+        let angle =
+            |key: &str, degrees: Option<f64>| degrees.map(radians).ok_or_else(|| missing(key));
         let geometry = match kind.as_str() {
             "polyline" => Geometry::Polyline {
                 closed: keys.closed.ok_or_else(|| missing("closed"))?,
                 vertices: keys.vertices.ok_or_else(|| missing("vertices"))?,
             },
             "line" => Geometry::Line {
-                start: keys.start.ok_or_else(|| missing("start"))?,
-                end: keys.end.ok_or_else(|| missing("end"))?,
+                start: point("start", keys.start)?,
+                end: point("end", keys.end)?,
             },
             "arc" => Geometry::Arc {
-                center: keys.center.ok_or_else(|| missing("center"))?,
+                center: point("center", keys.center)?,
                 radius: keys.radius.ok_or_else(|| missing("radius"))?,
-                start_angle: keys.start_angle.ok_or_else(|| missing("startAngle"))?,
-                end_angle: keys.end_angle.ok_or_else(|| missing("endAngle"))?,
+                start_angle: angle("startAngle", keys.start_angle)?,
+                end_angle: angle("endAngle", keys.end_angle)?,
             },
             "circle" => Geometry::Circle {
-                center: keys.center.ok_or_else(|| missing("center"))?,
+                center: point("center", keys.center)?,
                 radius: keys.radius.ok_or_else(|| missing("radius"))?,
             },
             "text" => Geometry::Text {
-                at: keys.at.ok_or_else(|| missing("at"))?,
+                at: point("at", keys.at)?,
                 text: keys.text.ok_or_else(|| missing("text"))?,
             },
             _ => {
@@ -266,67 +200,17 @@ impl Entity {
     /// The core's entity. Errors: a number that is none, a radius that is not above 0.
     pub fn into_core(self) -> Result<core::Entity, String> {
         self.check()?;
-        let (kind, geometry) = match self.geometry {
-            Geometry::Polyline { closed, vertices } => {
-                let vertices = vertices.into_iter().map(core::Vertex::from).collect();
-                (
-                    core::Kind::LightPolyline,
-                    core::Geometry::Polyline { closed, vertices },
-                )
-            }
-            Geometry::Line { start, end } => (
-                core::Kind::Line,
-                core::Geometry::Line {
-                    start: start.into(),
-                    end: end.into(),
-                },
-            ),
-            Geometry::Arc {
-                center,
-                radius,
-                start_angle,
-                end_angle,
-            } => {
-                let (start_angle, end_angle) = (radians(start_angle), radians(end_angle));
-                (
-                    core::Kind::Arc,
-                    core::Geometry::Arc {
-                        center: center.into(),
-                        radius,
-                        start_angle,
-                        end_angle,
-                    },
-                )
-            }
-            Geometry::Circle { center, radius } => (
-                core::Kind::Circle,
-                core::Geometry::Circle {
-                    center: center.into(),
-                    radius,
-                },
-            ),
-            Geometry::Text { at, text } => (
-                core::Kind::Text,
-                core::Geometry::Text {
-                    at: at.into(),
-                    text,
-                },
-            ),
-        };
-        let layer = self.layer.unwrap_or_else(|| "0".into());
+        let layer = self.layer.as_deref().unwrap_or("0");
         Ok(core::Entity {
-            handle: self.handle.into(),
-            layer: layer.into(),
             role: self.role,
-            kind,
-            geometry,
+            ..core::Entity::new(self.handle, layer, self.geometry)
         })
     }
 
     /// Says which number of the entity is none.
     pub fn check(&self) -> Result<(), String> {
         let name = &self.handle;
-        let point = |key: &str, point: Point| match point.is_finite() {
+        let point = |key: &str, at: &Point| match at.x.is_finite() && at.y.is_finite() {
             true => Ok(()),
             false => Err(say!(entity_is_not_two_finite, name, key)),
         };
@@ -345,61 +229,32 @@ impl Entity {
                     None => Ok(()),
                 }
             }
-            Geometry::Line { start, end } => point("start", *start).and(point("end", *end)),
+            Geometry::Line { start, end } => point("start", start).and(point("end", end)),
             Geometry::Arc {
                 center,
                 radius,
                 start_angle,
                 end_angle,
             } => {
-                point("center", *center)?;
+                point("center", center)?;
                 radius_is_sound(*radius)?;
                 angle("startAngle", *start_angle).and(angle("endAngle", *end_angle))
             }
             Geometry::Circle { center, radius } => {
-                point("center", *center).and(radius_is_sound(*radius))
+                point("center", center).and(radius_is_sound(*radius))
             }
-            Geometry::Text { at, .. } => point("at", *at),
+            Geometry::Text { at, .. } => point("at", at),
         }
     }
 }
 
 impl From<&core::Entity> for Entity {
     fn from(entity: &core::Entity) -> Entity {
-        let geometry = match &entity.geometry {
-            core::Geometry::Polyline { closed, vertices } => Geometry::Polyline {
-                closed: *closed,
-                vertices: vertices.iter().map(|&vertex| vertex.into()).collect(),
-            },
-            core::Geometry::Line { start, end } => Geometry::Line {
-                start: (*start).into(),
-                end: (*end).into(),
-            },
-            core::Geometry::Arc {
-                center,
-                radius,
-                start_angle,
-                end_angle,
-            } => Geometry::Arc {
-                center: (*center).into(),
-                radius: *radius,
-                start_angle: start_angle.to_degrees(),
-                end_angle: end_angle.to_degrees(),
-            },
-            core::Geometry::Circle { center, radius } => Geometry::Circle {
-                center: (*center).into(),
-                radius: *radius,
-            },
-            core::Geometry::Text { at, text } => Geometry::Text {
-                at: (*at).into(),
-                text: text.clone(),
-            },
-        };
         Entity {
             handle: entity.handle.to_string(),
             layer: Some(entity.layer.to_string()),
             role: entity.role,
-            geometry,
+            geometry: entity.geometry.clone(),
         }
     }
 }

@@ -25,7 +25,7 @@ pub use data::{FindingData, RelatedPlace, SideName};
 pub use diagnostic::{
     CodeDescription, Diagnostic, Location, Position, Range, RelatedInformation, severity_number,
 };
-pub use drawing::{Drawing, Entity, Geometry, Point, Units, Vertex};
+pub use drawing::{Drawing, Entity, Units};
 pub use generate::{Closure, Generate, Program, Refused};
 pub use in_force::{CorrectionSource, SettingsInForce};
 pub use inspection::{InspectedEntity, InspectedSegment, Inspection};

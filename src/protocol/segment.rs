@@ -1,6 +1,6 @@
 //! A line, arc or circle in a reply: the same keys in the radius list, in contours and in wire paths.
 
-use super::drawing::Point;
+use crate::geometry::Xy as Point;
 use crate::geometry::{Arc, Segment};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,7 @@
 //! The reply of `wedm/simulate`: where the machine goes, block by block.
 
-use super::drawing::Point;
 use super::generate::Closure;
+use crate::geometry::Xy as Point;
 use crate::geometry::{Point as CorePoint, Segment};
 use crate::program::path::{Kind, Step, Trace};
 use schemars::JsonSchema;

@@ -1,9 +1,9 @@
 //! The reply of `wedm/toolpath`: the path of the wire's centre.
 
 use super::contours::Direction;
-use super::drawing::Point;
 use super::segment::SegmentShape;
 use crate::drawing::Drawing;
+use crate::geometry::Xy as Point;
 use crate::toolpath::{Source, WirePath};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

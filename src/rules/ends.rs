@@ -1,7 +1,7 @@
 //! Moving one end of an entity, the other end staying where it is.
 
 use crate::drawing::{Change, ContourSegment, Drawing, Geometry, Vertex};
-use crate::geometry::{Arc, Point, Segment, positive_angle};
+use crate::geometry::{Arc, Point, Segment};
 use std::f64::consts::PI;
 
 /// The change that puts the end (or, with `at_end` false, the start) of a contour's segment to `to`. A line swings about its
@@ -17,16 +17,11 @@ pub(crate) fn end_moved(
     let own_end = at_end != place.reversed;
     let geometry = &drawing.get(entity)?.geometry;
     match geometry {
-        Geometry::Line { start, .. } if own_end => Some(Change::SetLine {
-            entity,
-            start: *start,
-            end: to,
-        }),
-        Geometry::Line { end, .. } => Some(Change::SetLine {
-            entity,
-            start: to,
-            end: *end,
-        }),
+        Geometry::Line { start, end } => {
+            let (start, end) = if own_end { (*start, to) } else { (to, *end) };
+            let geometry = Geometry::Line { start, end };
+            Some(Change::Reshape { entity, geometry })
+        }
         Geometry::Arc { .. } => {
             let Segment::Arc(own) = drawing.segment(entity, 0)? else {
                 return None;
@@ -39,17 +34,8 @@ pub(crate) fn end_moved(
             let moved = (own.sweep < 1.9 * PI)
                 .then(|| Arc::from_bulge(start, end, own.bulge()))
                 .flatten()?;
-            let (start_angle, end_angle) = (
-                positive_angle(moved.start_angle),
-                positive_angle(moved.start_angle + moved.sweep),
-            );
-            Some(Change::SetArc {
-                entity,
-                center: moved.center,
-                radius: moved.radius,
-                start_angle,
-                end_angle,
-            })
+            let geometry = Geometry::of_arc(&moved);
+            Some(Change::Reshape { entity, geometry })
         }
         Geometry::Polyline {
             closed: false,

@@ -147,8 +147,8 @@ proptest! {
                         edit.changes.push(Change::SetVertex { entity, index, vertex: Vertex::new(x, y, z / 100.0) });
                     }
                 }
-                Geometry::Line { .. } => edit.changes.push(Change::SetLine { entity, start: Point::new(x, y), end: Point::new(z, u) }),
-                _ => edit.changes.push(Change::SetArc { entity, center: Point::new(x, y), radius: z.abs() + 0.1, start_angle: u, end_angle: v }),
+                Geometry::Line { .. } => edit.changes.push(Change::Reshape { entity, geometry: Geometry::Line { start: Point::new(x, y), end: Point::new(z, u) } }),
+                _ => edit.changes.push(Change::Reshape { entity, geometry: Geometry::Arc { center: Point::new(x, y), radius: z.abs() + 0.1, start_angle: u, end_angle: v } }),
             }
         }
         let mut expected = Drawing::clone(drawing);
@@ -376,10 +376,12 @@ fn lines_neither_come_nor_go_where_the_text_is_damaged() {
         refusal,
         "lines would come or go near line 25, which is damaged: mend that first"
     );
-    let shift = Change::SetLine {
+    let shift = Change::Reshape {
         entity,
-        start: Point::new(0.0, 0.0),
-        end: Point::new(3.0, 4.0),
+        geometry: Geometry::Line {
+            start: Point::new(0.0, 0.0),
+            end: Point::new(3.0, 4.0),
+        },
     };
     assert_eq!(
         document

@@ -145,12 +145,7 @@ pub fn fillet(travel: &Travel, before: isize, limits: &Limits) -> Option<Drawing
     } else {
         other.entity
     };
-    let geometry = Geometry::Arc {
-        center: arc.center,
-        radius: arc.radius,
-        start_angle: positive_angle(arc.start_angle),
-        end_angle: positive_angle(arc.start_angle + arc.sweep),
-    };
+    let geometry = Geometry::of_arc(&arc);
     changes.push(Change::AddEntity { after, geometry });
     Some(DrawingEdit { changes })
 }
@@ -270,10 +265,12 @@ fn entity_changes(
             Fate::Kept(Segment::Line(line)) if (line.start, line.end) == (*start, *end) => {
                 Some(Vec::new())
             }
-            Fate::Kept(Segment::Line(line)) => Some(vec![Change::SetLine {
+            Fate::Kept(Segment::Line(line)) => Some(vec![Change::Reshape {
                 entity: id,
-                start: line.start,
-                end: line.end,
+                geometry: Geometry::Line {
+                    start: line.start,
+                    end: line.end,
+                },
             }]),
             _ => None,
         },
@@ -312,13 +309,13 @@ fn set_arc(
     let (start, end) = kept.unwrap_or((None, None));
     let start_angle = start.unwrap_or_else(|| positive_angle(arc.start_angle));
     let end_angle = end.unwrap_or_else(|| positive_angle(arc.start_angle + arc.sweep));
-    Change::SetArc {
-        entity,
+    let geometry = Geometry::Arc {
         center: arc.center,
         radius,
         start_angle,
         end_angle,
-    }
+    };
+    Change::Reshape { entity, geometry }
 }
 
 fn polyline_changes(
