@@ -2,7 +2,7 @@
 //!
 //! Work is bounded before it begins: the size of a block is counted once, without drawing it.
 
-use super::entity::{Insert, Look, Outcome, Paint};
+use super::entity::{Appearance, Insert, Outcome, Paint};
 use super::insert::block_key;
 use super::layer_table::LayerStates;
 use super::lexer::Lexer;
@@ -28,7 +28,7 @@ const REFERS_TO_A_FILE: i64 = 4 | 8;
 enum Content {
     Shape {
         layer: Arc<str>,
-        look: Look,
+        appearance: Appearance,
         kind: Kind,
         shape: Shape,
         lies: Lies,
@@ -183,7 +183,7 @@ impl Blocks {
             Outcome::Entity(read) => {
                 block.contents.push(Content::Shape {
                     layer: read.layer,
-                    look: read.look,
+                    appearance: read.appearance,
                     kind: read.kind,
                     shape: read.shape,
                     lies: read.lies,
@@ -347,7 +347,7 @@ impl Blocks {
                         Content::Shape {
                             kind,
                             shape,
-                            look,
+                            appearance,
                             lies,
                             ..
                         } => {
@@ -358,7 +358,8 @@ impl Blocks {
                                     .or_default() += 1;
                                 continue;
                             };
-                            let (visibility, color) = inherited.hand_on(*look, layer, pen.states);
+                            let (visibility, color) =
+                                inherited.hand_on(*appearance, layer, pen.states);
                             shape.placed(&map, *kind, &mut |kind, shape| match shape
                                 .drawn(pen.tolerance)
                             {
@@ -442,11 +443,11 @@ impl Inherited {
     ) -> Inherited {
         let around_hidden = around.and_then(|around| around.hidden.clone());
         let own = match states.of(layer) {
-            _ if insert.look.invisible => Some((Visibility::Invisible, layer.clone())),
+            _ if insert.appearance.invisible => Some((Visibility::Invisible, layer.clone())),
             Visibility::Frozen => Some((Visibility::Frozen, layer.clone())),
             _ => None,
         };
-        let color = match insert.look.paint {
+        let color = match insert.appearance.paint {
             Paint::Own(color) => Some(color),
             Paint::ByBlock => around.and_then(|around| around.color),
             Paint::ByLayer => None,
@@ -458,19 +459,19 @@ impl Inherited {
         }
     }
 
-    /// Whether a part with its own look is seen, with the layer that decides it; and its colour.
+    /// Whether a part with its own appearance is seen, with the layer that decides it; and its colour.
     fn hand_on(
         &self,
-        look: Look,
+        appearance: Appearance,
         layer: &Arc<str>,
         states: &mut LayerStates,
     ) -> ((Visibility, Arc<str>), Option<Color>) {
         let visibility = match &self.hidden {
             Some(hidden) => hidden.clone(),
-            None if look.invisible => (Visibility::Invisible, layer.clone()),
+            None if appearance.invisible => (Visibility::Invisible, layer.clone()),
             None => (states.of(layer), layer.clone()),
         };
-        let color = match look.paint {
+        let color = match appearance.paint {
             Paint::Own(color) => Some(color),
             Paint::ByBlock => self.color,
             Paint::ByLayer => None,

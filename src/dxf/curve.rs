@@ -1,26 +1,18 @@
 //! ELLIPSE and SPLINE: their records to curves. Their points are world coordinates.
 
 use super::entity::{Common, Numbers, Outcome, Plane, missing, tag_of_record};
-use super::fault::{damage, oddity};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::shape::{Shape, ellipse};
 use super::space::{FLAT, Lies, Space, Vector3, in_space};
 use crate::drawing::Kind;
-use crate::finding::Finding;
 use crate::geometry::{Point, Spline, Vector};
 use std::f64::consts::TAU;
 
-pub(super) fn read_ellipse(
-    start: Tag,
-    lexer: &mut Lexer,
-    layers: &mut Layers,
-    findings: &mut Vec<Finding>,
-) -> Outcome {
+pub(super) fn read_ellipse(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
     let mut numbers = Numbers::new([10, 20, 11, 21, 40, 31, 41, 42, 30]);
-    let common = numbers.gather(lexer, findings, |_, _| {});
-    let Some([x, y, major_x, major_y, ratio]) = numbers.required(start, lexer, &common, findings)
-    else {
+    let common = numbers.gather(lexer, |_, _| {});
+    let Some([x, y, major_x, major_y, ratio]) = numbers.required(start, lexer, &common) else {
         return Outcome::Damaged;
     };
     if common.paper_space {
@@ -64,11 +56,7 @@ pub(super) fn read_ellipse(
     };
     if !arc.is_sound() {
         let sentence = say!(ellipse_has_no_width_or_no_length).to_owned();
-        damage(
-            findings,
-            lexer.lines.trimmed_range(start.value_line()),
-            sentence,
-        );
+        lexer.damage(start.value_line(), sentence);
         return Outcome::Damaged;
     }
     common.finish(
@@ -77,7 +65,6 @@ pub(super) fn read_ellipse(
         Kind::Ellipse,
         (Shape::Ellipse(arc), lies),
         None,
-        findings,
     )
 }
 
@@ -131,26 +118,21 @@ impl Points {
     }
 }
 
-pub(super) fn read_spline(
-    start: Tag,
-    lexer: &mut Lexer,
-    layers: &mut Layers,
-    findings: &mut Vec<Finding>,
-) -> Outcome {
+pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
     const CLOSED: i64 = 1;
     let mut common = Common::default();
     let (mut controls, mut through) = (Points::default(), Points::default());
     let (mut knots, mut weights) = (Vec::new(), Vec::new());
     let (mut degree, mut flags) = (None, 0);
     let mut tangents: [[Option<f64>; 3]; 2] = [[None; 3]; 2];
-    while let Some(tag) = tag_of_record(lexer, findings) {
-        if common.take(lexer, tag, findings) {
+    while let Some(tag) = tag_of_record(lexer) {
+        if common.take(lexer, tag) {
             continue;
         }
         match tag.code {
             10..=13 | 20..=23 | 30..=33 | 40 | 41 => {
                 // A number that is none has its finding.
-                let Some(value) = common.coordinate(lexer, tag, findings) else {
+                let Some(value) = common.coordinate(lexer, tag) else {
                     continue;
                 };
                 match tag.code {
@@ -170,8 +152,8 @@ pub(super) fn read_spline(
                     _ => weights.push(value),
                 }
             }
-            70 => flags = common.flags(lexer, tag, findings),
-            71 => degree = Some(common.flags(lexer, tag, findings)),
+            70 => flags = common.flags(lexer, tag),
+            71 => degree = Some(common.flags(lexer, tag)),
             _ => {}
         }
     }
@@ -182,7 +164,7 @@ pub(super) fn read_spline(
         return Outcome::Unsupported("SPLINE".into(), say!(it_lies_in_paper_space));
     }
     if controls.points.is_empty() && through.points.is_empty() {
-        missing(start, lexer, &[(10, false), (20, false)], findings);
+        missing(start, lexer, &[(10, false), (20, false)]);
         return Outcome::Damaged;
     }
     let used = if controls.points.is_empty() {
@@ -192,11 +174,7 @@ pub(super) fn read_spline(
     };
     if used.is_bad() {
         let sentence = say!(spline_has_a_point_that_lacks_x_or_y).to_owned();
-        damage(
-            findings,
-            lexer.lines.trimmed_range(start.value_line()),
-            sentence,
-        );
+        lexer.damage(start.value_line(), sentence);
         return Outcome::Damaged;
     }
     let mut lies = Lies::Level(used.heights.first().copied().unwrap_or(0.0));
@@ -239,9 +217,8 @@ pub(super) fn read_spline(
                 false => Spline::new(degree, knots, controls.points, weights),
             })
     };
-    let name = lexer.lines.trimmed_range(start.value_line());
     if lacks_knots && spline.is_ok() {
-        oddity(findings, name.clone(), say!(spline_has_no_knots).to_owned());
+        lexer.oddity(start.value_line(), say!(spline_has_no_knots).to_owned());
     }
     match spline {
         Ok(spline) => common.finish(
@@ -250,7 +227,6 @@ pub(super) fn read_spline(
             Kind::Spline,
             (Shape::Spline(Box::new(spline)), lies),
             None,
-            findings,
         ),
         // What is not cut anyway is told once.
         Err(_) if matches!(lies, Lies::Aslant(..)) => {
@@ -258,8 +234,12 @@ pub(super) fn read_spline(
         }
         Err(why) => {
             // One through less than two points has no length; of any other a part of the outline is missing.
-            let say = if is_through { oddity } else { damage };
-            say(findings, name, say!(spline_it_is_not_drawn, why));
+            let say = if is_through {
+                Lexer::oddity
+            } else {
+                Lexer::damage
+            };
+            say(lexer, start.value_line(), say!(spline_it_is_not_drawn, why));
             Outcome::Damaged
         }
     }

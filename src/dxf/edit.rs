@@ -12,9 +12,9 @@ use super::lexer::{LOOKAHEAD, Lexer};
 use super::lines::Lines;
 use super::number::{self, Code, Number};
 use super::reader::{ReadItem, Said, range_key, read_item};
+use super::reading::{is_fitted, set_appearance};
 use super::shape::{MOST_CURVE_ARCS, Shape, curve_arcs};
 use super::table::{Became, Context, Item, NO_ITEM, Named};
-use super::{is_fitted, set_look};
 use crate::drawing::{Delta, Drawing, Entity, EntityId, Handle, Touched, Vertex};
 use crate::finding::{Finding, Place, Rule};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -58,7 +58,7 @@ impl Document {
         let end = range.end.min(self.text.len());
         let range = range.start.min(end)..end;
         let vertex = self.vertex_zone(&range);
-        let sleeper = self.sleeper_about(&range);
+        let suspended = self.suspended_about(&range);
         let zone = self
             .item_zone(&range)
             .filter(|zone| !self.holds_frame(zone));
@@ -72,14 +72,14 @@ impl Document {
         let bytes = self.text.len() as i64 - old_length as i64;
         if range.start >= HEAD || foreign::recognise(self.head()).is_none() {
             if let Some(delta) =
-                sleeper.and_then(|sleeper| self.wake(sleeper, &range, lines, bytes))
+                suspended.and_then(|suspended| self.resume(suspended, &range, lines, bytes))
             {
                 return delta;
             }
             if let Some(zone) = vertex
                 && let Some(delta) = self
                     .reread_vertex(&zone, &range, lines, bytes)
-                    .or_else(|| self.put_to_sleep(&zone, &range, lines, bytes))
+                    .or_else(|| self.suspend(&zone, &range, lines, bytes))
             {
                 return delta;
             }
@@ -214,8 +214,7 @@ impl Document {
     /// Reads the items from the zone's first on until one begins where one began before.
     fn reread_items(&mut self, zone: &ItemZone, lines: i64, bytes: i64) -> Option<Delta> {
         let first = zone.first;
-        let mut findings = Vec::new();
-        let (read, next) = self.read_until_known(zone, lines, &mut findings)?;
+        let (read, next, findings) = self.read_until_known(zone, lines)?;
         let plan = self.plan(first, next, &read)?;
         let old_end = self.table.lines.get(next).map(|&line| {
             // The end of the zone as it was before the edit.
@@ -232,8 +231,7 @@ impl Document {
         &mut self,
         zone: &ItemZone,
         lines: i64,
-        findings: &mut Vec<Finding>,
-    ) -> Option<(Vec<ReadItem>, usize)> {
+    ) -> Option<(Vec<ReadItem>, usize, Vec<Finding>)> {
         let start = *self.table.lines.get(zone.first)? as usize;
         let mut context = self.table.items.get(zone.first)?.context;
         let mut lexer = Lexer::new(Lines::new(&self.text), start);
@@ -261,16 +259,15 @@ impl Document {
                     .get(next)
                     .is_some_and(|item| item.context == context)
             {
-                return Some((read, next));
+                return Some((read, next, lexer.findings));
             }
             let Some(mut item) = read_item(
                 &mut lexer,
                 context,
                 self.table.fit_tolerance,
                 &mut self.layers,
-                findings,
             ) else {
-                return Some((read, self.table.items.len()));
+                return Some((read, self.table.items.len(), lexer.findings));
             };
             context = item.after;
             if let Said::Entity(outcome) = item.said {
@@ -522,7 +519,7 @@ impl Document {
                     table.by_ordinal += usize::from(item.named == Named::ByOrdinal);
                     let Read {
                         layer,
-                        look,
+                        appearance,
                         kind,
                         shape: Shape::Plain(geometry),
                         vertices,
@@ -533,15 +530,13 @@ impl Document {
                     };
                     let on_layer = layer.clone();
                     let entity = Entity {
-                        handle,
-                        layer,
-                        role: None,
                         kind,
-                        geometry,
+                        ..Entity::new(handle, layer, geometry)
                     };
                     let id = put(drawing, id, position, entity, &mut delta);
                     drawing.set_fitted(id, is_fitted(kind));
-                    let looks_new = set_look(drawing, id, look, &on_layer, &mut table.states);
+                    let looks_new =
+                        set_appearance(drawing, id, appearance, &on_layer, &mut table.states);
                     if looks_new && delta.touched.last() != Some(&Touched::Entity { entity: id }) {
                         delta.touched.push(Touched::Entity { entity: id });
                     }

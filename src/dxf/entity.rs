@@ -3,14 +3,13 @@
 //! Knows nothing of the records around it. A coordinate that is missing or is no number is never replaced:
 //! the entity has no geometry then.
 
-use super::fault::{damage, meaning, oddity, quoted};
+use super::fault::{meaning, quoted};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::number::{self, Code, Number};
 use super::shape::Shape;
 use super::space::{FLAT, Lies, Space, Vector3};
 use crate::drawing::{Color, Handle, Kind};
-use crate::finding::Finding;
 use std::sync::Arc;
 
 /// What was read of one entity of the modelspace.
@@ -19,7 +18,7 @@ pub(super) struct Read {
     /// The handle, and the line it stands on.
     pub(super) handle: Option<(Handle, usize)>,
     pub(super) layer: Arc<str>,
-    pub(super) look: Look,
+    pub(super) appearance: Appearance,
     pub(super) kind: Kind,
     pub(super) shape: Shape,
     pub(super) lies: Lies,
@@ -30,7 +29,7 @@ pub(super) struct Read {
 
 /// What an entity says of how it looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Look {
+pub(super) struct Appearance {
     pub(super) paint: Paint,
     pub(super) invisible: bool,
 }
@@ -72,7 +71,7 @@ pub(super) struct Insert {
     /// The handle, and the line it stands on.
     pub(super) handle: Option<(Handle, usize)>,
     pub(super) layer: Arc<str>,
-    pub(super) look: Look,
+    pub(super) appearance: Appearance,
     /// The block's name as `insert::block_key` has it.
     pub(super) block: String,
     /// The line of the block's name.
@@ -120,12 +119,7 @@ pub(super) struct Common {
 impl Common {
     /// Takes the tags that all entities share, and those that belong to none of its fields. True when taken.
     #[inline]
-    pub(super) fn take(
-        &mut self,
-        lexer: &mut Lexer,
-        tag: Tag,
-        findings: &mut Vec<Finding>,
-    ) -> bool {
+    pub(super) fn take(&mut self, lexer: &mut Lexer, tag: Tag) -> bool {
         if self.foreign {
             return true;
         }
@@ -141,7 +135,7 @@ impl Common {
             420 => self.rgb = Some(tag),
             67 => self.paper_space = lexer.lines.trimmed(tag.value_line()) == b"1",
             210 | 220 | 230 => {
-                let value = self.coordinate(lexer, tag, findings);
+                let value = self.coordinate(lexer, tag);
                 self.extrusion[usize::from(tag.code.unsigned_abs() / 10 - 21)] = value;
             }
             _ => return false,
@@ -160,42 +154,31 @@ impl Common {
 
     /// The number behind a tag; `None` with a finding where it is none.
     #[inline]
-    pub(super) fn coordinate(
-        &mut self,
-        lexer: &mut Lexer,
-        tag: Tag,
-        findings: &mut Vec<Finding>,
-    ) -> Option<f64> {
+    pub(super) fn coordinate(&mut self, lexer: &mut Lexer, tag: Tag) -> Option<f64> {
         match number::number(lexer.lines.content(tag.value_line())) {
             Number::Exact(value) => Some(value),
-            other => self.blemished(lexer, tag, other, findings),
+            other => self.blemished(lexer, tag, other),
         }
     }
 
     #[cold]
-    fn blemished(
-        &mut self,
-        lexer: &mut Lexer,
-        tag: Tag,
-        number: Number,
-        findings: &mut Vec<Finding>,
-    ) -> Option<f64> {
+    fn blemished(&mut self, lexer: &mut Lexer, tag: Tag, number: Number) -> Option<f64> {
         let (code, line) = (tag.code, tag.value_line());
         let found = quoted(lexer.lines.trimmed(line));
         if let Number::Blemished(value, blemish) = number {
             let sentence = say!(
-                group_code_is_read_otherwise,
+                group_code_is_which_is_read,
                 code,
                 meaning(code),
                 found,
                 blemish,
                 value
             );
-            oddity(findings, lexer.lines.trimmed_range(line), sentence);
+            lexer.oddity(line, sentence);
             return Some(value);
         }
         self.bad = true;
-        if !lexer.back_in_step(tag, findings) {
+        if !lexer.back_in_step(tag) {
             let hint = if found.contains(',') {
                 say!(with_a_decimal_point)
             } else {
@@ -208,7 +191,7 @@ impl Common {
                 found,
                 hint
             );
-            damage(findings, lexer.lines.trimmed_range(line), sentence);
+            lexer.damage(line, sentence);
         }
         None
     }
@@ -222,22 +205,13 @@ impl Common {
     }
 
     /// Flags; a value that is no whole number is a fault.
-    pub(super) fn flags(
-        &mut self,
-        lexer: &mut Lexer,
-        tag: Tag,
-        findings: &mut Vec<Finding>,
-    ) -> i64 {
+    pub(super) fn flags(&mut self, lexer: &mut Lexer, tag: Tag) -> i64 {
         let Some(flags) = Self::whole(lexer, tag) else {
             self.bad = true;
-            if !lexer.back_in_step(tag, findings) {
+            if !lexer.back_in_step(tag) {
                 let found = quoted(lexer.lines.trimmed(tag.value_line()));
                 let sentence = say!(group_code_is_expected_a_whole_number, tag.code, found);
-                damage(
-                    findings,
-                    lexer.lines.trimmed_range(tag.value_line()),
-                    sentence,
-                );
+                lexer.damage(tag.value_line(), sentence);
             }
             return 0;
         };
@@ -281,18 +255,14 @@ impl Common {
         }
     }
 
-    pub(super) fn handle(
-        &self,
-        lexer: &Lexer,
-        findings: &mut Vec<Finding>,
-    ) -> Option<(Handle, usize)> {
+    pub(super) fn handle(&self, lexer: &mut Lexer) -> Option<(Handle, usize)> {
         let line = self.handle?.value_line();
         let value = lexer.lines.trimmed(line);
         let hexadecimal =
             !value.is_empty() && value.len() <= 16 && value.iter().all(u8::is_ascii_hexdigit);
         if !hexadecimal || value.iter().all(|&digit| digit == b'0') {
-            let sentence = say!(the_handle_is_no_hexadecimal_number, quoted(value));
-            oddity(findings, lexer.lines.range(line), sentence);
+            let sentence = say!(group_code_5_handle, quoted(value));
+            lexer.oddity_in(lexer.lines.range(line), sentence);
         }
         if value.is_empty() || value.iter().all(|&digit| digit == b'0') {
             return None;
@@ -307,7 +277,7 @@ impl Common {
         )
     }
 
-    pub(super) fn look(&self, lexer: &Lexer) -> Look {
+    pub(super) fn appearance(&self, lexer: &Lexer) -> Appearance {
         let rgb = self
             .rgb
             .and_then(|tag| Self::whole(lexer, tag))
@@ -320,7 +290,7 @@ impl Common {
             }
             (None, None) => Paint::ByLayer,
         };
-        Look {
+        Appearance {
             paint,
             invisible: self.invisible,
         }
@@ -329,19 +299,18 @@ impl Common {
     /// Reads the handle and the layer, and puts the parts together.
     pub(super) fn finish(
         self,
-        lexer: &Lexer,
+        lexer: &mut Lexer,
         layers: &mut Layers,
         kind: Kind,
         (shape, lies): (Shape, Lies),
         vertices: Option<VertexLines>,
-        findings: &mut Vec<Finding>,
     ) -> Outcome {
-        let look = self.look(lexer);
-        let (handle, layer) = (self.handle(lexer, findings), self.layer(lexer, layers));
+        let appearance = self.appearance(lexer);
+        let (handle, layer) = (self.handle(lexer), self.layer(lexer, layers));
         Outcome::Entity(Read {
             handle,
             layer,
-            look,
+            appearance,
             kind,
             shape,
             lies,
@@ -353,8 +322,8 @@ impl Common {
 
 /// The next tag of the record; the tag that begins the next record is left to the lexer.
 #[inline]
-pub(super) fn tag_of_record(lexer: &mut Lexer, findings: &mut Vec<Finding>) -> Option<Tag> {
-    let tag = lexer.next(findings)?;
+pub(super) fn tag_of_record(lexer: &mut Lexer) -> Option<Tag> {
+    let tag = lexer.next()?;
     if tag.code == 0 {
         lexer.back_to(tag);
         return None;
@@ -363,35 +332,30 @@ pub(super) fn tag_of_record(lexer: &mut Lexer, findings: &mut Vec<Finding>) -> O
 }
 
 /// Passes over the rest of the record. True when it says that it lies in paper space.
-pub(super) fn pass_over(lexer: &mut Lexer, findings: &mut Vec<Finding>) -> bool {
+pub(super) fn pass_over(lexer: &mut Lexer) -> bool {
     let mut paper_space = false;
-    while let Some(tag) = tag_of_record(lexer, findings) {
+    while let Some(tag) = tag_of_record(lexer) {
         paper_space |= tag.code == 67 && lexer.lines.trimmed(tag.value_line()) == b"1";
     }
     paper_space
 }
 
 /// Passes over the records behind a record that are a part of it, up to and with its SEQEND.
-pub(super) fn pass_over_followers(lexer: &mut Lexer, findings: &mut Vec<Finding>, names: &[&[u8]]) {
+pub(super) fn pass_over_followers(lexer: &mut Lexer, names: &[&[u8]]) {
     while let Some(tag) = lexer.peek_record() {
         let name = lexer.lines.trimmed(tag.value_line());
         if !names.contains(&name) {
             return;
         }
-        lexer.next(findings);
-        pass_over(lexer, findings);
+        lexer.next();
+        pass_over(lexer);
         if name == b"SEQEND" {
             return;
         }
     }
 }
 
-pub(super) fn missing(
-    start: Tag,
-    lexer: &Lexer,
-    codes: &[(i16, bool)],
-    findings: &mut Vec<Finding>,
-) {
+pub(super) fn missing(start: Tag, lexer: &mut Lexer, codes: &[(i16, bool)]) {
     let mut lacking: Vec<String> = codes
         .iter()
         .filter(|(_, there)| !there)
@@ -401,13 +365,9 @@ pub(super) fn missing(
     let last = lacking.pop().unwrap_or_default();
     let sentence = match lacking.is_empty() {
         true => say!(lacks_group_code, kind, last),
-        false => say!(lacks_group_codes, kind, lacking.join(", "), last),
+        false => say!(lacks_the_group_codes_and, kind, lacking.join(", "), last),
     };
-    damage(
-        findings,
-        lexer.lines.trimmed_range(start.value_line()),
-        sentence,
-    );
+    lexer.damage(start.value_line(), sentence);
 }
 
 /// The numbers of an entity that has each of them once.
@@ -428,16 +388,15 @@ impl<const N: usize> Numbers<N> {
     pub(super) fn gather(
         &mut self,
         lexer: &mut Lexer,
-        findings: &mut Vec<Finding>,
         mut other: impl FnMut(&Lexer, Tag),
     ) -> Common {
         let mut common = Common::default();
-        while let Some(tag) = tag_of_record(lexer, findings) {
-            if common.take(lexer, tag, findings) {
+        while let Some(tag) = tag_of_record(lexer) {
+            if common.take(lexer, tag) {
                 continue;
             }
             match self.codes.iter().position(|&code| code == tag.code) {
-                Some(index) => self.values[index] = common.coordinate(lexer, tag, findings),
+                Some(index) => self.values[index] = common.coordinate(lexer, tag),
                 None => other(lexer, tag),
             }
         }
@@ -449,9 +408,8 @@ impl<const N: usize> Numbers<N> {
     pub(super) fn required<const M: usize>(
         &self,
         start: Tag,
-        lexer: &Lexer,
+        lexer: &mut Lexer,
         common: &Common,
-        findings: &mut Vec<Finding>,
     ) -> Option<[f64; M]> {
         if common.bad {
             return None;
@@ -466,7 +424,7 @@ impl<const N: usize> Numbers<N> {
             .zip(first)
             .map(|(&code, value)| (code, value.is_some()))
             .collect();
-        missing(start, lexer, &there, findings);
+        missing(start, lexer, &there);
         None
     }
 }

@@ -3,11 +3,10 @@
 use super::entity::{
     Common, Insert, Numbers, Outcome, Plane, missing, pass_over_followers, value_line_of,
 };
-use super::fault::{damage, oddity, quoted};
+use super::fault::quoted;
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::space::{Space, Vector3, in_space};
-use crate::finding::Finding;
 use crate::geometry::{Vector, direction, left_normal};
 
 /// Block names are the same in upper and in lower case.
@@ -21,24 +20,16 @@ pub(super) fn block_key(name: &[u8]) -> String {
     }
 }
 
-pub(super) fn read(
-    start: Tag,
-    lexer: &mut Lexer,
-    layers: &mut Layers,
-    findings: &mut Vec<Finding>,
-) -> Outcome {
+pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
     let mut numbers = Numbers::new([10, 20, 41, 42, 50, 44, 45, 30, 43]);
     let (mut name, mut columns, mut rows) = (None, None, None);
-    let mut common = numbers.gather(lexer, findings, |_, tag| match tag.code {
+    let mut common = numbers.gather(lexer, |_, tag| match tag.code {
         2 => name = Some(tag),
         70 => columns = Some(tag),
         71 => rows = Some(tag),
         _ => {}
     });
-    let count = |tag: Option<Tag>,
-                 common: &mut Common,
-                 lexer: &mut Lexer,
-                 findings: &mut Vec<Finding>| match tag {
+    let count = |tag: Option<Tag>, common: &mut Common, lexer: &mut Lexer| match tag {
         Some(tag) if Common::whole(lexer, tag).is_none() => {
             common.bad = true;
             let found = quoted(lexer.lines.trimmed(tag.value_line()));
@@ -47,11 +38,7 @@ pub(super) fn read(
                 tag.code,
                 found
             );
-            damage(
-                findings,
-                lexer.lines.trimmed_range(tag.value_line()),
-                sentence,
-            );
+            lexer.damage(tag.value_line(), sentence);
             1
         }
         Some(tag) => Common::whole(lexer, tag)
@@ -63,19 +50,19 @@ pub(super) fn read(
     let columns = if lexer.out_of_step {
         1
     } else {
-        count(columns, &mut common, lexer, findings)
+        count(columns, &mut common, lexer)
     };
     let rows = if lexer.out_of_step {
         1
     } else {
-        count(rows, &mut common, lexer, findings)
+        count(rows, &mut common, lexer)
     };
-    pass_over_followers(lexer, findings, &[b"ATTRIB", b"SEQEND"]);
-    let Some([x, y]) = numbers.required(start, lexer, &common, findings) else {
+    pass_over_followers(lexer, &[b"ATTRIB", b"SEQEND"]);
+    let Some([x, y]) = numbers.required(start, lexer, &common) else {
         return Outcome::Damaged;
     };
     let Some(name) = name else {
-        missing(start, lexer, &[(2, false)], findings);
+        missing(start, lexer, &[(2, false)]);
         return Outcome::Damaged;
     };
     if common.paper_space {
@@ -109,7 +96,7 @@ pub(super) fn read(
         if value == Some(0.0) {
             let place = lexer.lines.trimmed_range(value_line_of(start, lexer, code));
             let sentence = say!(group_code_scale_of_insert_is_0, code, axis);
-            oddity(findings, place, sentence);
+            lexer.oddity_in(place, sentence);
         }
     }
     let scale = |value: Option<f64>| value.filter(|&value| value != 0.0).unwrap_or(1.0);
@@ -128,8 +115,8 @@ pub(super) fn read(
         map,
         columns: (columns, seen(along * column_step.unwrap_or(0.0))),
         rows: (rows, seen(across * row_step.unwrap_or(0.0))),
-        handle: common.handle(lexer, findings),
-        look: common.look(lexer),
+        handle: common.handle(lexer),
+        appearance: common.appearance(lexer),
         layer: common.layer(lexer, layers),
     };
     Outcome::Insert(Box::new(insert))

@@ -2,10 +2,11 @@
 //!
 //! Whether the text is out of step is decided by what follows: never by more than [`LOOKAHEAD`] lines of it.
 
-use super::fault::{damage, oddity, quoted};
+use super::fault::{self, quoted};
 use super::lines::Lines;
 use super::number::{self, Code, Number};
 use crate::finding::Finding;
+use std::ops::Range;
 
 /// No decision of the lexer looks further ahead than this many lines.
 pub(crate) const LOOKAHEAD: usize = 2 * (WINDOW + SETTLING) + 4;
@@ -38,6 +39,8 @@ pub(crate) struct Lexer<'a> {
     pub(crate) out_of_step: bool,
     /// A code line at the end of the text that has no value.
     pub(crate) dangling: Option<usize>,
+    /// What was wrong so far, here and with what was read of the tags.
+    pub(crate) findings: Vec<Finding>,
 }
 
 impl<'a> Lexer<'a> {
@@ -48,7 +51,26 @@ impl<'a> Lexer<'a> {
             consumed: at + 1,
             out_of_step: false,
             dangling: None,
+            findings: Vec::new(),
         }
+    }
+
+    /// A fault on a line that makes text unreadable.
+    pub(super) fn damage(&mut self, line: usize, sentence: String) {
+        self.damage_in(self.lines.trimmed_range(line), sentence);
+    }
+
+    pub(super) fn damage_in(&mut self, range: Range<usize>, sentence: String) {
+        fault::damage(&mut self.findings, range, sentence);
+    }
+
+    /// Something odd on a line that was read all the same.
+    pub(super) fn oddity(&mut self, line: usize, sentence: String) {
+        self.oddity_in(self.lines.trimmed_range(line), sentence);
+    }
+
+    pub(super) fn oddity_in(&mut self, range: Range<usize>, sentence: String) {
+        fault::oddity(&mut self.findings, range, sentence);
     }
 
     /// The line of the next tag.
@@ -89,7 +111,7 @@ impl<'a> Lexer<'a> {
     }
 
     /// The next tag; `None` at the end of the text. What is no tag is passed over with one finding.
-    pub(crate) fn next(&mut self, findings: &mut Vec<Finding>) -> Option<Tag> {
+    pub(crate) fn next(&mut self) -> Option<Tag> {
         loop {
             let line = self.at;
             if line + 1 >= self.lines.count() {
@@ -100,25 +122,22 @@ impl<'a> Lexer<'a> {
                 return None;
             }
             match number::code(self.lines.content(line)) {
-                Code::Known(0) if !is_name(self.lines.content(line + 1)) => {
-                    self.recover(line, findings)
-                }
+                Code::Known(0) if !is_name(self.lines.content(line + 1)) => self.recover(line),
                 Code::Known(code) => {
                     self.at = line + 2;
                     return Some(Tag { code, line });
                 }
                 Code::OutOfRange if self.score(line + 2) == FULL => {
                     let code = quoted(self.lines.trimmed(line));
-                    damage(
-                        findings,
-                        self.lines.trimmed_range(line),
+                    self.damage(
+                        line,
                         say!(group_code_is_out_of_range_expected_5_to_1071, code),
                     );
                     self.at = line + 2;
                 }
                 Code::OutOfRange | Code::NotANumber => match self.behind_empty_lines(line) {
-                    Some(record) => self.pass_over_empty_lines(line, record, findings),
-                    None => self.recover(line, findings),
+                    Some(record) => self.pass_over_empty_lines(line, record),
+                    None => self.recover(line),
                 },
             }
         }
@@ -137,19 +156,19 @@ impl<'a> Lexer<'a> {
     }
 
     /// Empty lines between two records take nothing from either.
-    fn pass_over_empty_lines(&mut self, line: usize, record: usize, findings: &mut Vec<Finding>) {
+    fn pass_over_empty_lines(&mut self, line: usize, record: usize) {
         let sentence = match record - line {
-            1 => say!(an_empty_line_stands_for_a_group_code).to_owned(),
-            count => say!(empty_lines_stand_for_a_group_code, count),
+            1 => say!(an_empty_line_stands_where).to_owned(),
+            count => say!(empty_lines_stand_where, count),
         };
-        oddity(findings, self.lines.range(line), sentence);
+        self.oddity_in(self.lines.range(line), sentence);
         self.at = record;
         self.consumed = record;
     }
 
     /// True when the value of `tag`, which does not fit its code, is the next code: a line is missing or extra.
     /// The finding is made and the lexer goes on in step.
-    pub(crate) fn back_in_step(&mut self, tag: Tag, findings: &mut Vec<Finding>) -> bool {
+    pub(crate) fn back_in_step(&mut self, tag: Tag) -> bool {
         let line = tag.value_line();
         let kept = self.score(line + 1);
         if kept == FULL || self.score(line) <= kept {
@@ -159,17 +178,17 @@ impl<'a> Lexer<'a> {
         self.at = self.settled(line);
         self.consumed = self.at;
         if self.at == line {
-            self.lost_value(tag.line, findings);
+            self.lost_value(tag.line);
         } else {
             let found = quoted(self.lines.trimmed(line));
-            let sentence = say!(stands_where_a_value_is_expected, found, tag.code);
-            damage(findings, self.lines.range(line), sentence);
+            let sentence = say!(stands_where_the_value_of_group_code, found, tag.code);
+            self.damage_in(self.lines.range(line), sentence);
         }
         true
     }
 
     /// Finds the next line that starts a tag after `line` failed to.
-    fn recover(&mut self, line: usize, findings: &mut Vec<Finding>) {
+    fn recover(&mut self, line: usize) {
         self.out_of_step = true;
         let in_step = self.score(line + 2);
         let extra = self.score(line + 1);
@@ -194,7 +213,7 @@ impl<'a> Lexer<'a> {
         self.at = next;
         self.consumed = self.consumed.max(line.min(next));
         if next < line {
-            return self.lost_value(line - 2, findings);
+            return self.lost_value(line - 2);
         }
         let found = quoted(self.lines.trimmed(line));
         if next == line + 1 {
@@ -203,7 +222,7 @@ impl<'a> Lexer<'a> {
         let sentence =
             if next == line + 2 && number::code(self.lines.content(line)) == Code::Known(0) {
                 say!(
-                    group_code_0_is_followed_by_no_name,
+                    group_code_0_is_followed_by_expected_the_name,
                     quoted(self.lines.trimmed(line + 1))
                 )
             } else if next == line + 2 {
@@ -224,15 +243,15 @@ impl<'a> Lexer<'a> {
         } else {
             self.lines.range(line)
         };
-        damage(findings, whole, sentence);
+        self.damage_in(whole, sentence);
     }
 
     /// The line behind the code line is not its value but the next code. The place is the code line: what follows may
     /// be another record.
-    fn lost_value(&self, code_line: usize, findings: &mut Vec<Finding>) {
+    fn lost_value(&mut self, code_line: usize) {
         let code = quoted(self.lines.trimmed(code_line));
         let sentence = say!(group_code_is_not_followed_by_its_value, code);
-        damage(findings, self.lines.range(code_line), sentence);
+        self.damage_in(self.lines.range(code_line), sentence);
     }
 
     /// The first sound tag from `line` on, which is in step.

@@ -2,7 +2,7 @@
 //!
 //! What is found here is what [`super::entities::read`] would find; anything that it would say a word about is left to it.
 
-use super::entity::{Look, Paint, Read};
+use super::entity::{Appearance, Paint, Read};
 use super::layers::Layers;
 use super::lines::Lines;
 use super::number;
@@ -14,7 +14,7 @@ use crate::geometry::{Point, radians};
 /// Numbers by their place in the record: x, y, z; the second x, y, z; radius; first and last angle.
 const CODES: [i16; 9] = [10, 20, 30, 11, 21, 31, 40, 50, 51];
 
-/// The entity whose record begins at `line`, and the line of the next record. `None` where it needs a closer look.
+/// The entity whose record begins at `line`, and the line of the next record. `None` where it needs a closer appearance.
 pub(super) fn read(lines: Lines, line: usize, layers: &mut Layers) -> Option<(Read, usize)> {
     let at = lines.range(line + 1).start;
     let (bytes, begin) = lines.piece_at(at);
@@ -82,7 +82,7 @@ pub(super) fn read(lines: Lines, line: usize, layers: &mut Layers) -> Option<(Re
     let read = Read {
         handle,
         layer: layers.name(layer),
-        look: Look {
+        appearance: Appearance {
             paint,
             invisible: false,
         },
@@ -217,12 +217,11 @@ mod tests {
             let lines = Lines::new(&text);
             let Some((read, next)) = super::read(lines, 0, &mut Layers::default()) else { return Ok(()) };
             let mut lexer = Lexer::new(lines, 0);
-            let mut findings = Vec::new();
             let start = lexer.peek_record().expect("a record begins");
             lexer.pass(start);
-            let looked = entities::read_closely(start, &mut lexer, &mut Layers::default(), &mut findings);
-            let Outcome::Entity(looked) = looked else { panic!("{looked:?} {findings:?}") };
-            prop_assert!(findings.is_empty(), "{findings:?}");
+            let looked = entities::read_closely(start, &mut lexer, &mut Layers::default());
+            let Outcome::Entity(looked) = looked else { panic!("{looked:?} {:?}", lexer.findings) };
+            prop_assert!(lexer.findings.is_empty(), "{:?}", lexer.findings);
             prop_assert_eq!((format!("{read:?}"), next), (format!("{looked:?}"), lexer.at()));
         }
     }

@@ -2,7 +2,7 @@
 
 use super::entities;
 use super::entity::{self, Outcome};
-use super::fault::{self, damage, oddity, quoted};
+use super::fault::{self, quoted};
 use super::layer_table::{self, LayerEntry};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
@@ -32,6 +32,12 @@ pub(super) enum Said {
 }
 
 impl Said {
+    /// A section ends, or one begins that states nothing.
+    const END: Said = Said::Structure {
+        entities: false,
+        unit: None,
+    };
+
     pub(super) fn structure(&self) -> Option<Became> {
         match *self {
             Said::Structure { entities, unit } => Some(Became::Structure { entities, unit }),
@@ -62,17 +68,16 @@ pub(super) fn read_item(
     context: Context,
     tolerance: f64,
     layers: &mut Layers,
-    findings: &mut Vec<Finding>,
 ) -> Option<ReadItem> {
     let line = lexer.at();
     if lexer.at_end() {
         return None;
     }
     lexer.begin_item(line);
-    let already = findings.len();
+    let already = lexer.findings.len();
     if line == 0 && lexer.lines.has_byte_order_mark() {
         fault::push(
-            findings,
+            &mut lexer.findings,
             0..BYTE_ORDER_MARK.len(),
             Severity::Hint,
             say!(the_text_begins_with_a_byte_order_mark).into(),
@@ -86,8 +91,8 @@ pub(super) fn read_item(
     };
     let Some(start) = lexer.peek_record() else {
         // Only at the beginning of the text, before its first record.
-        entity::pass_over(lexer, findings);
-        close(None, already, lexer, context, findings);
+        entity::pass_over(lexer);
+        close(None, already, lexer, context);
         return Some(item(Said::Nothing, context));
     };
     lexer.pass(start);
@@ -95,48 +100,34 @@ pub(super) fn read_item(
     let mut read = match (context, name) {
         (_, b"SECTION") => {
             if context != Context::Outside {
-                oddity(
-                    findings,
-                    lexer.lines.trimmed_range(start.value_line()),
+                lexer.oddity(
+                    start.value_line(),
                     say!(section_begins_before_endsec_of_the_one_before).into(),
                 );
             }
-            let (said, after) = section(start, lexer, findings);
+            let (said, after) = section(start, lexer);
             item(said, after)
         }
         (_, b"ENDSEC") => {
-            entity::pass_over(lexer, findings);
-            item(
-                Said::Structure {
-                    entities: false,
-                    unit: None,
-                },
-                Context::Outside,
-            )
+            entity::pass_over(lexer);
+            item(Said::END, Context::Outside)
         }
         (_, b"EOF") => {
             if context != Context::Outside {
-                oddity(
-                    findings,
-                    lexer.lines.trimmed_range(start.value_line()),
+                lexer.oddity(
+                    start.value_line(),
                     say!(eof_stands_before_endsec_of_the_last_section).into(),
                 );
             }
-            pass_over_what_follows(lexer, findings);
-            item(
-                Said::Structure {
-                    entities: false,
-                    unit: None,
-                },
-                Context::Outside,
-            )
+            pass_over_what_follows(lexer);
+            item(Said::END, Context::Outside)
         }
         (Context::Blocks, b"BLOCK") => {
-            entity::pass_over(lexer, findings);
+            entity::pass_over(lexer);
             item(Said::Block, context)
         }
         (Context::Blocks, b"ENDBLK") => {
-            entity::pass_over(lexer, findings);
+            entity::pass_over(lexer);
             item(Said::Nothing, context)
         }
         (Context::Entities | Context::Blocks, b"VERTEX" | b"SEQEND" | b"ATTRIB") => {
@@ -144,37 +135,30 @@ pub(super) fn read_item(
                 does_not_follow_an_entity_that_it_is_a_part,
                 String::from_utf8_lossy(name)
             );
-            oddity(
-                findings,
-                lexer.lines.trimmed_range(start.value_line()),
-                sentence,
-            );
-            entity::pass_over(lexer, findings);
+            lexer.oddity(start.value_line(), sentence);
+            entity::pass_over(lexer);
             item(Said::Nothing, context)
         }
-        (Context::Blocks, _) => item(
-            Said::Entity(entities::read(start, lexer, layers, findings)),
-            context,
-        ),
+        (Context::Blocks, _) => item(Said::Entity(entities::read(start, lexer, layers)), context),
         (Context::Entities, _) => {
-            let outcome = entities::read(start, lexer, layers, findings);
+            let outcome = entities::read(start, lexer, layers);
             item(
-                Said::Entity(drawn(outcome, start, lexer, tolerance, findings)),
+                Said::Entity(drawn(outcome, start, lexer, tolerance)),
                 context,
             )
         }
         (Context::Other, b"LAYER") => {
-            entity::pass_over(lexer, findings);
+            entity::pass_over(lexer);
             let entry = layer_table::read(lexer.lines, line..lexer.at(), |name| layers.name(name));
             item(entry.map_or(Said::Nothing, Said::Layer), context)
         }
         (Context::Other, _) => {
-            entity::pass_over(lexer, findings);
+            entity::pass_over(lexer);
             item(Said::Nothing, context)
         }
         (Context::Outside, _) => {
             let kind = String::from_utf8_lossy(&name[..name.len().min(64)]).into_owned();
-            entity::pass_over(lexer, findings);
+            entity::pass_over(lexer);
             item(
                 Said::Entity(Outcome::Unsupported(
                     kind,
@@ -184,7 +168,7 @@ pub(super) fn read_item(
             )
         }
     };
-    let cut = close(Some((start, &read)), already, lexer, read.after, findings);
+    let cut = close(Some((start, &read)), already, lexer, read.after);
     if cut {
         read.said = Said::Entity(Outcome::Damaged);
     }
@@ -192,13 +176,7 @@ pub(super) fn read_item(
 }
 
 /// The entity with its geometry as it lies in the modelspace; a fault where its curve has none.
-fn drawn(
-    outcome: Outcome,
-    start: Tag,
-    lexer: &Lexer,
-    tolerance: f64,
-    findings: &mut Vec<Finding>,
-) -> Outcome {
+fn drawn(outcome: Outcome, start: Tag, lexer: &mut Lexer, tolerance: f64) -> Outcome {
     let Outcome::Entity(read) = outcome else {
         return outcome;
     };
@@ -213,11 +191,7 @@ fn drawn(
             if times > 1.0 {
                 let kind = read.kind;
                 let sentence = say!(takes_too_many_arcs_for_its_size, kind, times);
-                oddity(
-                    findings,
-                    lexer.lines.trimmed_range(start.value_line()),
-                    sentence,
-                );
+                lexer.oddity(start.value_line(), sentence);
             }
             Outcome::Entity(entity::Read {
                 shape: Shape::Plain(geometry),
@@ -231,18 +205,14 @@ fn drawn(
                     say!(takes_more_than_arcs_which_is_beyond_all, read.kind, most)
                 }
             };
-            damage(
-                findings,
-                lexer.lines.trimmed_range(start.value_line()),
-                sentence,
-            );
+            lexer.damage(start.value_line(), sentence);
             Outcome::Damaged
         }
     }
 }
 
 /// Behind EOF nothing is read; what is there is named, but for the end mark of old systems (^Z).
-fn pass_over_what_follows(lexer: &mut Lexer, findings: &mut Vec<Finding>) {
+fn pass_over_what_follows(lexer: &mut Lexer) {
     let blank = |line: &usize| {
         lexer
             .lines
@@ -251,11 +221,7 @@ fn pass_over_what_follows(lexer: &mut Lexer, findings: &mut Vec<Finding>) {
             .all(|byte| byte.is_ascii_whitespace() || *byte == 0x1a)
     };
     if let Some(line) = (lexer.at()..lexer.lines.count()).find(|line| !blank(line)) {
-        oddity(
-            findings,
-            lexer.lines.trimmed_range(line),
-            say!(what_stands_behind_eof_is_not_read).into(),
-        );
+        lexer.oddity(line, say!(what_stands_behind_eof_is_not_read).into());
     }
     lexer.begin_item(lexer.lines.count());
 }
@@ -272,9 +238,8 @@ pub(super) fn range_key(finding: &Finding) -> (usize, usize) {
 fn close(
     read: Option<(Tag, &ReadItem)>,
     already: usize,
-    lexer: &Lexer,
+    lexer: &mut Lexer,
     after: Context,
-    findings: &mut Vec<Finding>,
 ) -> bool {
     if !lexer.at_end() {
         return false;
@@ -297,26 +262,24 @@ fn close(
         let name = lexer.lines.trimmed_range(start.value_line());
         let is_of_name = |finding: &Finding| range_key(finding) == (name.start, name.end);
         // Without a half of a tag, an entity that lacks something and has no other fault was cut between two of them.
-        let lacks =
-            matches!(outcome, Outcome::Damaged) && findings.iter().skip(already).all(is_of_name);
+        let lacks = matches!(outcome, Outcome::Damaged)
+            && lexer.findings.iter().skip(already).all(is_of_name);
         if !cut && !lacks {
-            return end_of_section(already, lexer, after, findings);
+            return end_of_section(already, lexer, after);
         }
         // What the entity lacks is beyond the end: one fault, one finding.
-        findings.truncate(already);
+        lexer.findings.truncate(already);
         let kind = quoted(lexer.lines.trimmed(start.value_line()));
-        damage(
-            findings,
+        lexer.damage_in(
             name,
             say!(the_text_ends_inside_this, kind.trim_matches('"')),
         );
         return true;
     }
     if let Some(last) = lexer.dangling {
-        findings.truncate(already);
+        lexer.findings.truncate(already);
         let code = quoted(lexer.lines.trimmed(last));
-        damage(
-            findings,
+        lexer.damage_in(
             lexer.lines.range(last),
             say!(the_text_ends_after_group_code_expected_its_value, code),
         );
@@ -324,26 +287,20 @@ fn close(
     }
     match read {
         Some((start, _)) if lexer.lines.trimmed(start.value_line()) == b"EOF" => false,
-        _ => end_of_section(already, lexer, after, findings),
+        _ => end_of_section(already, lexer, after),
     }
 }
 
 /// Says that the text ends too early, unless that has been said of its last item. False: nothing in that is cut.
-fn end_of_section(
-    already: usize,
-    lexer: &Lexer,
-    after: Context,
-    findings: &mut Vec<Finding>,
-) -> bool {
-    if findings.len() == already {
+fn end_of_section(already: usize, lexer: &mut Lexer, after: Context) -> bool {
+    if lexer.findings.len() == already {
         let sentence = match after {
             Context::Entities | Context::Blocks | Context::Other => {
                 say!(the_text_ends_inside_a_section_expected_endsec)
             }
             Context::Outside => say!(the_text_ends_without_eof),
         };
-        oddity(
-            findings,
+        lexer.oddity_in(
             lexer.lines.range(lexer.lines.count().saturating_sub(1)),
             sentence.into(),
         );
@@ -352,10 +309,10 @@ fn end_of_section(
 }
 
 /// SECTION, its name and, in HEADER, its variables.
-fn section(start: Tag, lexer: &mut Lexer, findings: &mut Vec<Finding>) -> (Said, Context) {
+fn section(start: Tag, lexer: &mut Lexer) -> (Said, Context) {
     let mut name: Option<&[u8]> = None;
     let (mut variable, mut unit): (&[u8], _) = (b"", None);
-    while let Some(tag) = lexer.next(findings) {
+    while let Some(tag) = lexer.next() {
         let value = lexer.lines.trimmed(tag.value_line());
         match tag.code {
             0 => {
@@ -374,7 +331,7 @@ fn section(start: Tag, lexer: &mut Lexer, findings: &mut Vec<Finding>) -> (Said,
                             group_code_70_of_insunits_is_expected_a_whole_number,
                             quoted(value)
                         );
-                        damage(findings, lexer.lines.range(tag.value_line()), sentence);
+                        lexer.damage_in(lexer.lines.range(tag.value_line()), sentence);
                     }
                 }
             }
@@ -389,13 +346,7 @@ fn section(start: Tag, lexer: &mut Lexer, findings: &mut Vec<Finding>) -> (Said,
             },
             Context::Entities,
         ),
-        Some(b"BLOCKS") => (
-            Said::Structure {
-                entities: false,
-                unit: None,
-            },
-            Context::Blocks,
-        ),
+        Some(b"BLOCKS") => (Said::END, Context::Blocks),
         Some(_) => (
             Said::Structure {
                 entities: false,
@@ -406,19 +357,9 @@ fn section(start: Tag, lexer: &mut Lexer, findings: &mut Vec<Finding>) -> (Said,
         None => {
             let sentence = say!(section_lacks_group_code_2).to_owned();
             if !lexer.out_of_step {
-                damage(
-                    findings,
-                    lexer.lines.trimmed_range(start.value_line()),
-                    sentence,
-                );
+                lexer.damage(start.value_line(), sentence);
             }
-            (
-                Said::Structure {
-                    entities: false,
-                    unit: None,
-                },
-                Context::Other,
-            )
+            (Said::END, Context::Other)
         }
     }
 }

@@ -2,48 +2,36 @@
 
 use crate::drawing::{Geometry, Kind};
 use crate::dxf::entity::{Numbers, Outcome, Plane, value_line_of};
-use crate::dxf::fault::{damage, oddity, quoted};
+use crate::dxf::fault::quoted;
 use crate::dxf::layers::Layers;
 use crate::dxf::lexer::{Lexer, Tag};
 use crate::dxf::shape::Shape;
-use crate::finding::Finding;
 use crate::geometry::{Point, radians};
 
 /// The radius, when it is positive; else a finding.
-fn radius_of(
-    value: f64,
-    kind: &str,
-    start: Tag,
-    lexer: &Lexer,
-    findings: &mut Vec<Finding>,
-) -> Option<f64> {
+fn radius_of(value: f64, kind: &str, start: Tag, lexer: &mut Lexer) -> Option<f64> {
     if value > 0.0 {
         return Some(value);
     }
     let radius_line = value_line_of(start, lexer, 40);
     let found = quoted(lexer.lines.trimmed(radius_line));
     let sentence = say!(group_code_40_radius, kind, found);
-    damage(findings, lexer.lines.trimmed_range(radius_line), sentence);
+    lexer.damage(radius_line, sentence);
     None
 }
 
-pub(super) fn arc(
-    start: Tag,
-    lexer: &mut Lexer,
-    layers: &mut Layers,
-    findings: &mut Vec<Finding>,
-) -> Outcome {
+pub(super) fn arc(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
     let mut numbers = Numbers::new([10, 20, 40, 50, 51, 30]);
-    let common = numbers.gather(lexer, findings, |_, _| {});
-    let Some([x, y, radius, from, to]) = numbers.required(start, lexer, &common, findings) else {
+    let common = numbers.gather(lexer, |_, _| {});
+    let Some([x, y, radius, from, to]) = numbers.required(start, lexer, &common) else {
         return Outcome::Damaged;
     };
     // A point begins and ends in the same direction: what a fillet of no radius leaves behind. Else the radius is damaged.
     let is_point = radius == 0.0 && (to - from) % 360.0 == 0.0;
     if is_point {
         let place = lexer.lines.trimmed_range(value_line_of(start, lexer, 40));
-        oddity(findings, place, say!(arc_has_the_radius_0).into());
-    } else if radius_of(radius, "ARC", start, lexer, findings).is_none() {
+        lexer.oddity_in(place, say!(arc_has_the_radius_0).into());
+    } else if radius_of(radius, "ARC", start, lexer).is_none() {
         return Outcome::Damaged;
     }
     let (from, to) = (radians(from), radians(to));
@@ -73,7 +61,6 @@ pub(super) fn arc(
         Kind::Arc,
         (Shape::Plain(geometry), lies),
         None,
-        findings,
     )
 }
 
@@ -82,18 +69,13 @@ pub(in crate::dxf) fn mirrored_angles(start: f64, end: f64) -> (f64, f64) {
     (std::f64::consts::PI - end, std::f64::consts::PI - start)
 }
 
-pub(super) fn circle(
-    start: Tag,
-    lexer: &mut Lexer,
-    layers: &mut Layers,
-    findings: &mut Vec<Finding>,
-) -> Outcome {
+pub(super) fn circle(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
     let mut numbers = Numbers::new([10, 20, 40, 30]);
-    let common = numbers.gather(lexer, findings, |_, _| {});
-    let Some([x, y, radius]) = numbers.required(start, lexer, &common, findings) else {
+    let common = numbers.gather(lexer, |_, _| {});
+    let Some([x, y, radius]) = numbers.required(start, lexer, &common) else {
         return Outcome::Damaged;
     };
-    let Some(radius) = radius_of(radius, "CIRCLE", start, lexer, findings) else {
+    let Some(radius) = radius_of(radius, "CIRCLE", start, lexer) else {
         return Outcome::Damaged;
     };
     let Some(lies) = common.lies(numbers.values[3].unwrap_or(0.0)) else {
@@ -110,5 +92,5 @@ pub(super) fn circle(
         center: Point::new(x, y),
         radius,
     });
-    common.finish(lexer, layers, Kind::Circle, (shape, lies), None, findings)
+    common.finish(lexer, layers, Kind::Circle, (shape, lies), None)
 }

@@ -2,23 +2,16 @@
 
 use crate::drawing::{Geometry, Kind};
 use crate::dxf::entity::{Numbers, Outcome};
-use crate::dxf::fault::oddity;
 use crate::dxf::layers::Layers;
 use crate::dxf::lexer::{Lexer, Tag};
 use crate::dxf::shape::Shape;
 use crate::dxf::space::{Lies, Vector3};
-use crate::finding::Finding;
 use crate::geometry::Point;
 
-pub(super) fn line(
-    start: Tag,
-    lexer: &mut Lexer,
-    layers: &mut Layers,
-    findings: &mut Vec<Finding>,
-) -> Outcome {
+pub(super) fn line(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
     let mut numbers = Numbers::new([10, 20, 11, 21, 30, 31]);
-    let common = numbers.gather(lexer, findings, |_, _| {});
-    let Some([x, y, end_x, end_y]) = numbers.required(start, lexer, &common, findings) else {
+    let common = numbers.gather(lexer, |_, _| {});
+    let Some([x, y, end_x, end_y]) = numbers.required(start, lexer, &common) else {
         return Outcome::Damaged;
     };
     // The ends of a LINE are world coordinates: its extrusion only gives the direction of its thickness.
@@ -31,11 +24,7 @@ pub(super) fn line(
     );
     if low != high {
         let sentence = say!(the_ends_of_this_line_differ_in_z).to_owned();
-        oddity(
-            findings,
-            lexer.lines.trimmed_range(start.value_line()),
-            sentence,
-        );
+        lexer.oddity(start.value_line(), sentence);
     }
     let geometry = Geometry::Line {
         start: Point::new(x, y),
@@ -54,6 +43,5 @@ pub(super) fn line(
         Kind::Line,
         (Shape::Plain(geometry), lies),
         None,
-        findings,
     )
 }

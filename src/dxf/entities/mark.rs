@@ -8,20 +8,13 @@ use crate::dxf::lexer::{Lexer, Tag};
 use crate::dxf::shape::Shape;
 use crate::dxf::space::{Lies, Space, Vector3};
 use crate::dxf::strings::{words_of_mtext, words_of_text};
-use crate::finding::Finding;
 use crate::geometry::Point;
 
-pub(super) fn text(
-    kind: Kind,
-    start: Tag,
-    lexer: &mut Lexer,
-    layers: &mut Layers,
-    findings: &mut Vec<Finding>,
-) -> Outcome {
+pub(super) fn text(kind: Kind, start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
     let mut content = Vec::new();
     let mut numbers = Numbers::new([10, 20, 11, 21, 30]);
     let mut is_aligned = false;
-    let common = numbers.gather(lexer, findings, |lexer, tag| match tag.code {
+    let common = numbers.gather(lexer, |lexer, tag| match tag.code {
         1 | 3 => content.extend_from_slice(lexer.lines.content(tag.value_line())),
         // To the right, to the middle, above a line: then the point that somebody has set is the second one.
         72 if kind == Kind::Text => {
@@ -32,7 +25,7 @@ pub(super) fn text(
         }
         _ => {}
     });
-    let Some([x, y]) = numbers.required(start, lexer, &common, findings) else {
+    let Some([x, y]) = numbers.required(start, lexer, &common) else {
         return Outcome::Damaged;
     };
     let [_, _, set_x, set_y, height] = numbers.values;
@@ -86,29 +79,17 @@ pub(super) fn text(
     } else {
         Vec::new()
     };
-    match common.finish(
-        lexer,
-        layers,
-        kind,
-        (Shape::Plain(geometry), lies),
-        None,
-        findings,
-    ) {
+    match common.finish(lexer, layers, kind, (Shape::Plain(geometry), lies), None) {
         Outcome::Entity(read) => Outcome::Entity(Read { frames, ..read }),
         other => other,
     }
 }
 
 /// A POINT marks a start as a text "O" does. Its place is in world coordinates.
-pub(super) fn point(
-    start: Tag,
-    lexer: &mut Lexer,
-    layers: &mut Layers,
-    findings: &mut Vec<Finding>,
-) -> Outcome {
+pub(super) fn point(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
     let mut numbers = Numbers::new([10, 20, 30]);
-    let common = numbers.gather(lexer, findings, |_, _| {});
-    let Some([x, y]) = numbers.required(start, lexer, &common, findings) else {
+    let common = numbers.gather(lexer, |_, _| {});
+    let Some([x, y]) = numbers.required(start, lexer, &common) else {
         return Outcome::Damaged;
     };
     if common.paper_space {
@@ -125,6 +106,5 @@ pub(super) fn point(
         Kind::Point,
         (Shape::Plain(geometry), lies),
         None,
-        findings,
     )
 }

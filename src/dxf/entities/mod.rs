@@ -13,46 +13,35 @@ use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::{curve, insert, plain};
 use crate::drawing::Kind;
-use crate::finding::Finding;
 
 /// Reads the entity whose record begins at `start`; the lexer stands behind its name.
-pub(in crate::dxf) fn read(
-    start: Tag,
-    lexer: &mut Lexer,
-    layers: &mut Layers,
-    findings: &mut Vec<Finding>,
-) -> Outcome {
+pub(in crate::dxf) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
     match plain::read(lexer.lines, start.line, layers) {
         Some((read, next)) => {
             lexer.begin_item(next);
             Outcome::Entity(read)
         }
-        None => read_closely(start, lexer, layers, findings),
+        None => read_closely(start, lexer, layers),
     }
 }
 
 /// Reads any entity, sound or not.
-pub(in crate::dxf) fn read_closely(
-    start: Tag,
-    lexer: &mut Lexer,
-    layers: &mut Layers,
-    findings: &mut Vec<Finding>,
-) -> Outcome {
+pub(in crate::dxf) fn read_closely(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
     match lexer.lines.trimmed(start.value_line()) {
-        b"LWPOLYLINE" => polyline::light_polyline(start, lexer, layers, findings),
-        b"LINE" => line::line(start, lexer, layers, findings),
-        b"ARC" => circle::arc(start, lexer, layers, findings),
-        b"CIRCLE" => circle::circle(start, lexer, layers, findings),
-        b"TEXT" => mark::text(Kind::Text, start, lexer, layers, findings),
-        b"MTEXT" => mark::text(Kind::LongText, start, lexer, layers, findings),
-        b"POLYLINE" => polyline::polyline(start, lexer, layers, findings),
-        b"ELLIPSE" => curve::read_ellipse(start, lexer, layers, findings),
-        b"SPLINE" => curve::read_spline(start, lexer, layers, findings),
-        b"INSERT" => insert::read(start, lexer, layers, findings),
-        b"POINT" => mark::point(start, lexer, layers, findings),
+        b"LWPOLYLINE" => polyline::light_polyline(start, lexer, layers),
+        b"LINE" => line::line(start, lexer, layers),
+        b"ARC" => circle::arc(start, lexer, layers),
+        b"CIRCLE" => circle::circle(start, lexer, layers),
+        b"TEXT" => mark::text(Kind::Text, start, lexer, layers),
+        b"MTEXT" => mark::text(Kind::LongText, start, lexer, layers),
+        b"POLYLINE" => polyline::polyline(start, lexer, layers),
+        b"ELLIPSE" => curve::read_ellipse(start, lexer, layers),
+        b"SPLINE" => curve::read_spline(start, lexer, layers),
+        b"INSERT" => insert::read(start, lexer, layers),
+        b"POINT" => mark::point(start, lexer, layers),
         name => {
             let kind = String::from_utf8_lossy(&name[..name.len().min(64)]).into_owned();
-            let why = if pass_over(lexer, findings) {
+            let why = if pass_over(lexer) {
                 say!(it_lies_in_paper_space)
             } else {
                 say!(this_kind_is_not_cut)

@@ -4,12 +4,11 @@ use crate::drawing::{Geometry, Kind, Vertex};
 use crate::dxf::entity::{
     Common, Outcome, Plane, VertexLines, missing, pass_over, pass_over_followers, tag_of_record,
 };
-use crate::dxf::fault::{damage, meaning, oddity, quoted};
+use crate::dxf::fault::{meaning, quoted};
 use crate::dxf::layers::Layers;
 use crate::dxf::lexer::{Lexer, Tag};
 use crate::dxf::shape::Shape;
 use crate::dxf::space::{Lies, Space, Vector3, in_space as at_height};
-use crate::finding::Finding;
 
 /// Vertices as they come: x opens one, y closes it.
 #[derive(Default)]
@@ -31,20 +30,15 @@ impl Vertices {
     }
 }
 
-pub(super) fn light_polyline(
-    start: Tag,
-    lexer: &mut Lexer,
-    layers: &mut Layers,
-    findings: &mut Vec<Finding>,
-) -> Outcome {
+pub(super) fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
     let mut common = Common::default();
     let mut read = Vertices::default();
     let (mut closed, mut count, mut height) = (false, None, 0.0);
-    while let Some(tag) = tag_of_record(lexer, findings) {
+    while let Some(tag) = tag_of_record(lexer) {
         match tag.code {
             10 | 20 | 42 if !common.foreign && !common.group => {
                 // A number that is none has its finding; a stand-in keeps the vertices after it in step.
-                let value = common.coordinate(lexer, tag, findings).unwrap_or_default();
+                let value = common.coordinate(lexer, tag).unwrap_or_default();
                 match (tag.code, read.vertices.last_mut()) {
                     (10, _) => {
                         read.close();
@@ -64,15 +58,15 @@ pub(super) fn light_polyline(
                                 code,
                                 meaning(code)
                             );
-                            damage(findings, lexer.lines.trimmed_range(tag.line), sentence);
+                            lexer.damage(tag.line, sentence);
                         }
                         common.bad = true;
                     }
                 }
             }
-            _ if common.take(lexer, tag, findings) => {}
-            70 => closed = common.flags(lexer, tag, findings) & 1 != 0,
-            38 => height = common.coordinate(lexer, tag, findings).unwrap_or_default(),
+            _ if common.take(lexer, tag) => {}
+            70 => closed = common.flags(lexer, tag) & 1 != 0,
+            38 => height = common.coordinate(lexer, tag).unwrap_or_default(),
             90 => count = Some(tag),
             _ => {}
         }
@@ -84,7 +78,7 @@ pub(super) fn light_polyline(
     if let Some(index) = read.without_y {
         let line = start.line + read.lines.get(index).map_or(0, |&line| line as usize);
         let sentence = say!(vertex_lacks_group_code_20, index + 1);
-        damage(findings, lexer.lines.trimmed_range(line + 1), sentence);
+        lexer.damage(line + 1, sentence);
         return Outcome::Damaged;
     }
     if common.paper_space {
@@ -101,7 +95,7 @@ pub(super) fn light_polyline(
     {
         let stated = quoted(lexer.lines.trimmed(tag.value_line()));
         let sentence = say!(group_code_90_number, stated, found);
-        oddity(findings, lexer.lines.range(tag.value_line()), sentence);
+        lexer.oddity_in(lexer.lines.range(tag.value_line()), sentence);
     }
     polyline_of(
         Kind::LightPolyline,
@@ -112,7 +106,6 @@ pub(super) fn light_polyline(
         (mirrored, false, lies),
         lexer,
         layers,
-        findings,
     )
 }
 
@@ -127,17 +120,12 @@ fn polyline_of(
     closed: bool,
     mut read: Vertices,
     (mirrored, in_space, lies): (bool, bool, Lies),
-    lexer: &Lexer,
+    lexer: &mut Lexer,
     layers: &mut Layers,
-    findings: &mut Vec<Finding>,
 ) -> Outcome {
     if read.vertices.len() < 2 {
         let sentence = say!(has_vertices_expected_at_least_2, kind, read.vertices.len());
-        oddity(
-            findings,
-            lexer.lines.trimmed_range(start.value_line()),
-            sentence,
-        );
+        lexer.oddity(start.value_line(), sentence);
         return Outcome::Damaged;
     }
     if mirrored {
@@ -160,7 +148,6 @@ fn polyline_of(
         kind,
         (Shape::Plain(geometry), lies),
         Some(vertices),
-        findings,
     )
 }
 
@@ -171,30 +158,25 @@ pub(in crate::dxf) fn mirror(vertex: &mut Vertex) {
 }
 
 /// POLYLINE with its VERTEX records, up to and with SEQEND.
-pub(super) fn polyline(
-    start: Tag,
-    lexer: &mut Lexer,
-    layers: &mut Layers,
-    findings: &mut Vec<Finding>,
-) -> Outcome {
+pub(super) fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
     const CLOSED: i64 = 1;
     const IN_SPACE: i64 = 8;
     const MESHES: i64 = 16 | 64;
     const CONTROL_POINT: i64 = 16;
     let (mut flags, mut height) = (0, 0.0);
     let mut common = Common::default();
-    while let Some(tag) = tag_of_record(lexer, findings) {
-        if common.take(lexer, tag, findings) {
+    while let Some(tag) = tag_of_record(lexer) {
+        if common.take(lexer, tag) {
             continue;
         }
         match tag.code {
-            70 => flags = common.flags(lexer, tag, findings),
-            30 => height = common.coordinate(lexer, tag, findings).unwrap_or_default(),
+            70 => flags = common.flags(lexer, tag),
+            30 => height = common.coordinate(lexer, tag).unwrap_or_default(),
             _ => {}
         }
     }
     if flags & MESHES != 0 {
-        pass_over_followers(lexer, findings, &[b"VERTEX", b"SEQEND"]);
+        pass_over_followers(lexer, &[b"VERTEX", b"SEQEND"]);
         return Outcome::Unsupported(
             "POLYLINE".into(),
             if common.paper_space {
@@ -211,24 +193,24 @@ pub(super) fn polyline(
         if !matches!(name, b"VERTEX" | b"SEQEND") {
             break;
         }
-        lexer.next(findings);
+        lexer.next();
         if name == b"SEQEND" {
-            pass_over(lexer, findings);
+            pass_over(lexer);
             ended = true;
             break;
         }
         let mut of_vertex = Common::default();
         let (mut numbers, mut vertex_flags) = ([None; 4], 0);
-        while let Some(tag) = tag_of_record(lexer, findings) {
-            if of_vertex.take(lexer, tag, findings) {
+        while let Some(tag) = tag_of_record(lexer) {
+            if of_vertex.take(lexer, tag) {
                 continue;
             }
             match tag.code {
-                10 => numbers[0] = of_vertex.coordinate(lexer, tag, findings),
-                20 => numbers[1] = of_vertex.coordinate(lexer, tag, findings),
-                30 => numbers[2] = of_vertex.coordinate(lexer, tag, findings),
-                42 => numbers[3] = of_vertex.coordinate(lexer, tag, findings),
-                70 => vertex_flags = of_vertex.flags(lexer, tag, findings),
+                10 => numbers[0] = of_vertex.coordinate(lexer, tag),
+                20 => numbers[1] = of_vertex.coordinate(lexer, tag),
+                30 => numbers[2] = of_vertex.coordinate(lexer, tag),
+                42 => numbers[3] = of_vertex.coordinate(lexer, tag),
+                70 => vertex_flags = of_vertex.flags(lexer, tag),
                 _ => {}
             }
         }
@@ -242,7 +224,6 @@ pub(super) fn polyline(
                 next,
                 lexer,
                 &[(10, numbers[0].is_some()), (20, numbers[1].is_some())],
-                findings,
             );
             common.bad = true;
             continue;
@@ -266,9 +247,8 @@ pub(super) fn polyline(
         return Outcome::Damaged;
     }
     if !ended && !lexer.at_end() && read.vertices.len() > 1 {
-        oddity(
-            findings,
-            lexer.lines.trimmed_range(start.value_line()),
+        lexer.oddity(
+            start.value_line(),
             say!(polyline_does_not_end_with_seqend).into(),
         );
     }
@@ -319,6 +299,5 @@ pub(super) fn polyline(
         (mirrored, in_space, lies),
         lexer,
         layers,
-        findings,
     )
 }

@@ -8,10 +8,10 @@ use crate::text::SourceText;
 
 /// Calls `visit` for each tag of the text; false when it was stopped.
 pub(super) fn walk(lines: Lines<'_>, stop: Stop<'_>, mut visit: impl FnMut(Tag)) -> bool {
-    let (mut lexer, mut unheard) = (Lexer::new(lines, 0), Vec::new());
+    let mut lexer = Lexer::new(lines, 0);
     let mut until_asked = 0;
-    while let Some(tag) = lexer.next(&mut unheard) {
-        unheard.clear();
+    while let Some(tag) = lexer.next() {
+        lexer.findings.clear();
         until_asked += 1;
         if until_asked == 4096 {
             until_asked = 0;

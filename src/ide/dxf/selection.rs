@@ -51,17 +51,17 @@ pub fn selections(document: &Document, offset: usize) -> Vec<Range<usize>> {
 /// One past the last line of the record that begins at `record`.
 fn end_of_record(document: &Document, record: usize, limit: usize) -> usize {
     let lines = crate::dxf::lines::Lines::new(document.text());
-    let (mut lexer, mut unheard) = (Lexer::new(lines, record), Vec::new());
-    lexer.next(&mut unheard);
+    let mut lexer = Lexer::new(lines, record);
+    lexer.next();
     while lexer.at() < limit {
         let at = lexer.at();
         if lexer.peek_record().is_some() {
             return at;
         }
-        if lexer.next(&mut unheard).is_none() {
+        if lexer.next().is_none() {
             break;
         }
-        unheard.clear();
+        lexer.findings.clear();
     }
     limit
 }

@@ -47,12 +47,12 @@ pub(super) fn spot(document: &Document, line: usize) -> Option<Spot<'_>> {
         before: None,
         in_step: from,
     };
-    let (mut lexer, mut unheard) = (Lexer::new(lines, from), Vec::new());
+    let mut lexer = Lexer::new(lines, from);
     let mut last = None;
     while lexer.at() <= line
-        && let Some(tag) = lexer.next(&mut unheard)
+        && let Some(tag) = lexer.next()
     {
-        unheard.clear();
+        lexer.findings.clear();
         if tag.line > line {
             break;
         }

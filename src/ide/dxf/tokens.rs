@@ -66,12 +66,12 @@ fn collect(
     mut take: impl FnMut(Token) -> Next,
 ) -> bool {
     let lines = Lines::new(text);
-    let (mut lexer, mut unheard) = (Lexer::new(lines, from), Vec::new());
+    let mut lexer = Lexer::new(lines, from);
     let mut is_style = record == b"DIMSTYLE";
     // Where a line is missing the lexer takes a value for the next code: it has been told of by then.
     let mut told = from;
-    while let Some(tag) = lexer.next(&mut unheard) {
-        unheard.clear();
+    while let Some(tag) = lexer.next() {
+        lexer.findings.clear();
         let value = lines.trimmed(tag.value_line());
         if tag.code == 0 {
             is_style = value == b"DIMSTYLE";

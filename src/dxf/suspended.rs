@@ -18,7 +18,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 #[derive(Clone, Debug)]
-pub(super) struct Sleeper {
+pub(super) struct Suspended {
     item: usize,
     id: EntityId,
     entity: Arc<Entity>,
@@ -30,16 +30,16 @@ pub(super) struct Sleeper {
 }
 
 impl Document {
-    /// The sleeper, when the edit leaves the first and the last byte of its vertex alone.
-    pub(super) fn sleeper_about(&mut self, range: &Range<usize>) -> Option<Sleeper> {
-        let sleeper = self.sleeper.take()?;
-        let inside = range.start > self.text.line_start(sleeper.lines.start)
-            && range.end < self.text.line_start(sleeper.lines.end);
-        inside.then_some(*sleeper)
+    /// The polyline that is suspended, when the edit leaves the first and the last byte of its vertex alone.
+    pub(super) fn suspended_about(&mut self, range: &Range<usize>) -> Option<Suspended> {
+        let suspended = self.suspended.take()?;
+        let inside = range.start > self.text.line_start(suspended.lines.start)
+            && range.end < self.text.line_start(suspended.lines.end);
+        inside.then_some(*suspended)
     }
 
     /// Puts the polyline aside in one of whose numbers the edit has left no number. `None` where more than that came of it.
-    pub(super) fn put_to_sleep(
+    pub(super) fn suspend(
         &mut self,
         zone: &VertexZone,
         range: &Range<usize>,
@@ -81,7 +81,7 @@ impl Document {
         self.table.items[item].became = Became::Damaged;
         self.shift_findings(range.end, bytes);
         self.findings.insert(first, fault);
-        self.sleeper = Some(Box::new(Sleeper {
+        self.suspended = Some(Box::new(Suspended {
             item,
             id,
             entity,
@@ -95,11 +95,11 @@ impl Document {
         })
     }
 
-    /// Brings the polyline back when its number is one again, and lets it sleep while it is none. `None` where the edit did
+    /// Brings the polyline back when its number is one again, and leaves it suspended while it is none. `None` where the edit did
     /// more than that.
-    pub(super) fn wake(
+    pub(super) fn resume(
         &mut self,
-        mut sleeper: Sleeper,
+        mut suspended: Suspended,
         range: &Range<usize>,
         lines: i64,
         bytes: i64,
@@ -107,7 +107,7 @@ impl Document {
         if lines != 0 {
             return None;
         }
-        let start = self.text.line_start(sleeper.lines.start);
+        let start = self.text.line_start(suspended.lines.start);
         let first = self
             .findings
             .partition_point(|finding| range_key(finding).0 < start);
@@ -116,33 +116,33 @@ impl Document {
         };
         self.findings.get(first).filter(|finding| own(finding))?;
         let Some((mut vertex, others)) =
-            plain_vertex(Lines::new(&self.text), sleeper.lines.clone())
+            plain_vertex(Lines::new(&self.text), suspended.lines.clone())
         else {
-            let fault = fault_in(Lines::new(&self.text), sleeper.lines.clone())?;
+            let fault = fault_in(Lines::new(&self.text), suspended.lines.clone())?;
             self.shift_findings(range.end, bytes);
             self.findings[first] = fault;
-            self.sleeper = Some(Box::new(sleeper));
+            self.suspended = Some(Box::new(suspended));
             return Some(Delta::default());
         };
-        if others != sleeper.others {
+        if others != suspended.others {
             return None;
         }
-        if sleeper.vertices.mirrored {
+        if suspended.vertices.mirrored {
             mirror(&mut vertex);
         }
         let drawing = Arc::make_mut(&mut self.drawing);
-        if !drawing.put_back(sleeper.id, sleeper.entity) {
+        if !drawing.put_back(suspended.id, suspended.entity) {
             return None;
         }
         let touched = drawing
-            .splice(sleeper.id, sleeper.index, 1, &[vertex])
+            .splice(suspended.id, suspended.index, 1, &[vertex])
             .ok()?;
         self.findings.remove(first);
         self.shift_findings(range.end, bytes);
-        self.table.items[sleeper.item].became = Became::Entity(sleeper.id);
-        self.table.set_item_of(sleeper.id, sleeper.item as u32);
-        shift(&mut sleeper.vertices.lines[sleeper.index + 1..], lines);
-        self.table.vertices.insert(sleeper.id, sleeper.vertices);
+        self.table.items[suspended.item].became = Became::Entity(suspended.id);
+        self.table.set_item_of(suspended.id, suspended.item as u32);
+        shift(&mut suspended.vertices.lines[suspended.index + 1..], lines);
+        self.table.vertices.insert(suspended.id, suspended.vertices);
         Some(Delta {
             touched: vec![touched],
         })
@@ -167,11 +167,11 @@ fn fault_in(lines: Lines, range: Range<usize>) -> Option<Finding> {
         }
     }
     let tag = fault?;
-    let (mut lexer, mut findings) = (Lexer::new(lines, tag.line), Vec::new());
-    lexer.next(&mut findings)?;
-    Common::default().coordinate(&mut lexer, tag, &mut findings);
-    if lexer.out_of_step || findings.len() != 1 {
+    let mut lexer = Lexer::new(lines, tag.line);
+    lexer.next()?;
+    Common::default().coordinate(&mut lexer, tag);
+    if lexer.out_of_step || lexer.findings.len() != 1 {
         return None;
     }
-    findings.pop()
+    lexer.findings.pop()
 }

@@ -1,0 +1,47 @@
+//! The unit that a drawing states, and how near arcs lie to curves in it.
+
+use crate::drawing::Unit;
+use crate::geometry::Tolerances;
+
+/// The setting for fitted arcs in drawing units. A drawing that does not say its unit may be taken for inches.
+pub(super) fn fit_tolerance(arc_fit: Option<f64>, unit: Option<Unit>) -> f64 {
+    arc_fit.unwrap_or(Tolerances::default().arc_fit) / unit.unwrap_or(Unit::INCH).mm
+}
+
+/// The unit that a value of `$INSUNITS` stands for (DXF reference, HEADER section); `None` where it is no length.
+pub(crate) fn unit_of(insunits: i32) -> Option<Unit> {
+    let mm = match insunits {
+        1 => 25.4,
+        2 => 304.8,
+        3 => 1_609_344.0,
+        4 => 1.0,
+        5 => 10.0,
+        6 => 1000.0,
+        7 => 1e6,
+        8 => 25.4e-6,
+        9 => 0.0254,
+        10 => 914.4,
+        11 => 1e-7,
+        12 => 1e-6,
+        13 => 1e-3,
+        14 => 100.0,
+        15 => 1e4,
+        16 => 1e5,
+        17 => 1e12,
+        21 => 1200.0 / 3937.0 * 1000.0,
+        _ => return None,
+    };
+    Some(Unit { mm })
+}
+
+pub(super) fn about_unit(insunits: Option<i32>) -> Option<String> {
+    match insunits {
+        None => Some(say!(the_drawing_does_not_say_its_unit).into()),
+        Some(0) => Some(say!(the_drawing_says_that_it_has_no_unit).into()),
+        Some(other) if unit_of(other).is_none() => Some(say!(
+            insunits_is_which_is_no_unit_of_length_that_is_known_here,
+            other
+        )),
+        Some(_) => None,
+    }
+}
