@@ -105,15 +105,6 @@ impl Chains {
         self.contours.get(&key).map(|chain| chain.first)
     }
 
-    /// Number of contours.
-    pub fn len(&self) -> usize {
-        self.contours.len()
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.contours.is_empty()
-    }
-
     /// The contour that holds an entity.
     pub fn contour_of(&self, entity: EntityId) -> Option<Key> {
         self.contour_of
