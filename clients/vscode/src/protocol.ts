@@ -826,6 +826,10 @@ export interface Generate {
    */
   handles?: string[];
   /**
+   * Only the contours that have an entity on one of these layers; beside `handles` those of both.
+   */
+  layers?: string[];
+  /**
    * Laid over every other level of settings for this request.
    */
   options?: Settings;
