@@ -1,7 +1,7 @@
 //! `wedm/generate`: a program for the machine.
 
 use super::diagnostic::Diagnostic;
-use super::drawing::Point;
+use crate::geometry::Xy as Point;
 use crate::program::ProvedProgram;
 use crate::settings::Settings;
 use crate::toolpath::Finished;
