@@ -431,3 +431,21 @@ fn the_python_client_has_every_key() {
         &text,
     );
 }
+
+/// What a stranger who adds a profile would forget.
+#[test]
+fn a_profile_that_ships_is_named_wherever_profiles_are_listed() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let places = [
+        "docs/programs.md",
+        "src/settings/keys.rs",
+        "src/cli/options.rs",
+        "clients/vscode/src/commands/profiles.ts",
+    ];
+    for place in places {
+        let text = std::fs::read_to_string(root.join(place)).unwrap();
+        for name in wedm::settings::shipped_profiles() {
+            assert!(text.contains(name), "{place} does not name {name}");
+        }
+    }
+}

@@ -9,6 +9,10 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::sync::Arc as Shared;
 
+/// The place of an entity in its drawing: stays the same until the entity is removed, and is not used again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct EntityId(pub u32);
+
 /// A vertex of a polyline with the bulge of the segment that starts in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {

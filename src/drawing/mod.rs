@@ -28,7 +28,7 @@ pub use chain::{Chains, Key as ContourKey, Rechained};
 pub use contour::{Contour, ContourSegment, Piece};
 pub(crate) use doubles::run_together;
 pub use edit::{Change, ChangeError, Delta, DrawingEdit, Touched};
-pub use entity::{Entity, Geometry, Role, Vertex};
+pub use entity::{Entity, EntityId, Geometry, Role, Vertex};
 pub use handle::Handle;
 pub use index::ContourIndex;
 pub(crate) use index::RUN;
@@ -45,10 +45,6 @@ use names::Names;
 use rustc_hash::{FxHashMap, FxHashSet};
 use slots::Slots;
 use std::sync::Arc;
-
-/// The place of an entity in its drawing: stays the same until the entity is removed, and is not used again.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct EntityId(pub u32);
 
 /// The unit of a drawing's coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,19 +2,18 @@
 //!
 //! Work is bounded before it begins: the size of a block is counted once, without drawing it.
 
-use super::entity::{Appearance, Insert, Outcome, Paint};
+use super::entity::{Appearance, Insert, Outcome};
+use super::inherited::{Inherited, level};
 use super::insert::block_key;
 use super::layer_table::LayerStates;
 use super::lexer::Lexer;
 use super::number::{self, Number};
 use super::place;
-use super::shape::{Affine, Shape};
-use super::space::{FLAT, Lies, Space, Vector3, in_space};
+use super::shape::Shape;
+use super::space::{Lies, Space, Vector3};
 use crate::drawing::{Color, Geometry, Kind, Visibility};
 use crate::finding::NotJudged;
-use crate::geometry::Point;
 use rustc_hash::FxHashMap;
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -421,117 +420,6 @@ struct Pen<'a> {
     tolerance: f64,
     states: &'a mut LayerStates,
     drawn: &'a mut Drawn,
-}
-
-/// What a reference hands on to what it draws.
-struct Inherited {
-    /// The layer of what lies on layer 0.
-    layer: Arc<str>,
-    /// The colour of what has that of its block.
-    color: Option<Color>,
-    /// Where nothing of it is seen: a frozen layer, or a reference that is invisible. One that is switched off hides only what lies on
-    /// it.
-    hidden: Option<(Visibility, Arc<str>)>,
-}
-
-impl Inherited {
-    fn from(
-        insert: &Insert,
-        layer: &Arc<str>,
-        around: Option<&Inherited>,
-        states: &mut LayerStates,
-    ) -> Inherited {
-        let around_hidden = around.and_then(|around| around.hidden.clone());
-        let own = match states.of(layer) {
-            _ if insert.appearance.invisible => Some((Visibility::Invisible, layer.clone())),
-            Visibility::Frozen => Some((Visibility::Frozen, layer.clone())),
-            _ => None,
-        };
-        let color = match insert.appearance.paint {
-            Paint::Own(color) => Some(color),
-            Paint::ByBlock => around.and_then(|around| around.color),
-            Paint::ByLayer => None,
-        };
-        Inherited {
-            layer: layer.clone(),
-            color,
-            hidden: around_hidden.or(own),
-        }
-    }
-
-    /// Whether a part with its own appearance is seen, with the layer that decides it; and its colour.
-    fn hand_on(
-        &self,
-        appearance: Appearance,
-        layer: &Arc<str>,
-        states: &mut LayerStates,
-    ) -> ((Visibility, Arc<str>), Option<Color>) {
-        let visibility = match &self.hidden {
-            Some(hidden) => hidden.clone(),
-            None if appearance.invisible => (Visibility::Invisible, layer.clone()),
-            None => (states.of(layer), layer.clone()),
-        };
-        let color = match appearance.paint {
-            Paint::Own(color) => Some(color),
-            Paint::ByBlock => self.color,
-            Paint::ByLayer => None,
-        };
-        (visibility, color)
-    }
-}
-
-/// A shape in its plane, and the way from there to the drawing; `None` where it does not end level with it.
-fn level<'a>(
-    map: &Space,
-    shape: &'a Shape,
-    lies: &Lies,
-    kind: Kind,
-) -> Option<(Cow<'a, Shape>, Affine)> {
-    let placed = match lies {
-        Lies::Level(height) => map.after(&Space {
-            origin: Vector3::new(0.0, 0.0, *height),
-            ..Space::IDENTITY
-        }),
-        Lies::Aslant(plane, _) => map.after(plane),
-        Lies::Rising(ends) => {
-            let ends = ends.map(|end| map.point(end));
-            let line = Geometry::Line {
-                start: ends[0].xy().into(),
-                end: ends[1].xy().into(),
-            };
-            // As in the modelspace, a line is cut as it looks from above where the block itself is not tilted.
-            return (map.is_flat() || are_level(&ends))
-                .then_some((Cow::Owned(Shape::Plain(line)), Affine::IDENTITY));
-        }
-    };
-    // Points on one line, and a single one, have no plane of their own.
-    let point = |at: Point| placed.point(in_space(at.coords, 0.0));
-    let is_level = placed.is_flat()
-        || match shape {
-            Shape::Plain(Geometry::Line { start, end }) => are_level(&[point(*start), point(*end)]),
-            Shape::Plain(Geometry::Polyline { vertices, .. })
-                if vertices.iter().all(|vertex| vertex.bulge == 0.0) =>
-            {
-                are_level(
-                    &vertices
-                        .iter()
-                        .map(|vertex| point(vertex.point))
-                        .collect::<Vec<_>>(),
-                )
-            }
-            _ => kind == Kind::Point,
-        };
-    is_level.then(|| (Cow::Borrowed(shape), placed.seen_from_above()))
-}
-
-fn are_level(points: &[Vector3]) -> bool {
-    let spread = points
-        .iter()
-        .map(|point| (point - points[0]).norm())
-        .fold(0.0, f64::max);
-    points
-        .iter()
-        .all(|point| (point.z - points[0].z).abs() <= FLAT * spread)
 }
 
 fn too_deep() -> String {

@@ -5,19 +5,15 @@
 
 use super::Document;
 use super::entities::mirror;
-use super::entity::{Outcome, Read};
 use super::foreign;
 use super::frame;
-use super::lexer::{LOOKAHEAD, Lexer};
+use super::lexer::LOOKAHEAD;
 use super::lines::Lines;
 use super::number::{self, Code, Number};
-use super::reader::{ReadItem, Said, range_key, read_item};
-use super::reading::{is_fitted, set_appearance};
-use super::shape::{MOST_CURVE_ARCS, Shape, curve_arcs};
-use super::table::{Became, Context, Item, NO_ITEM, Named};
-use crate::drawing::{Delta, Drawing, Entity, EntityId, Handle, Touched, Vertex};
+use super::reader::range_key;
+use super::table::Became;
+use crate::drawing::{Delta, Entity, EntityId, Vertex};
 use crate::finding::{Finding, Place, Rule};
-use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -26,7 +22,7 @@ const LOOKBACK: usize = LOOKAHEAD + 4;
 /// An edit in the first bytes may change what the text is taken for.
 const HEAD: usize = 1024;
 /// Each entity that comes or goes costs the length of the drawing; of more than these, all are read again.
-const FEW: usize = 64;
+pub(super) const FEW: usize = 64;
 
 /// From so many bytes on an edit leaves the text in two pieces. Tests know no small text.
 const LARGE: usize = if cfg!(test) { 1 } else { 64 * 1024 };
@@ -44,10 +40,10 @@ pub(super) struct VertexZone {
 pub(super) type Others = (bool, [Option<f64>; 2]);
 
 /// What was known before the edit, of all that it can have touched.
-struct ItemZone {
-    first: usize,
+pub(super) struct ItemZone {
+    pub(super) first: usize,
     /// The last line, before the edit, that the edit touches.
-    end_line: usize,
+    pub(super) end_line: usize,
 }
 
 impl Document {
@@ -210,401 +206,6 @@ impl Document {
         };
         !self.table.frames.is_empty() && frame::is_named_in(lines, range())
     }
-
-    /// Reads the items from the zone's first on until one begins where one began before.
-    fn reread_items(&mut self, zone: &ItemZone, lines: i64, bytes: i64) -> Option<Delta> {
-        let first = zone.first;
-        let (read, next, findings) = self.read_until_known(zone, lines)?;
-        let plan = self.plan(first, next, &read)?;
-        let old_end = self.table.lines.get(next).map(|&line| {
-            // The end of the zone as it was before the edit.
-            let new_start = self.text.line_start((i64::from(line) + lines) as usize);
-            new_start as i64 - bytes
-        });
-        self.replace_findings(first, old_end.map(|end| end as usize), bytes, findings);
-        let delta = self.replace_items(first..next, read, plan, lines);
-        self.name_unsupported();
-        Some(delta)
-    }
-
-    fn read_until_known(
-        &mut self,
-        zone: &ItemZone,
-        lines: i64,
-    ) -> Option<(Vec<ReadItem>, usize, Vec<Finding>)> {
-        let start = *self.table.lines.get(zone.first)? as usize;
-        let mut context = self.table.items.get(zone.first)?.context;
-        let mut lexer = Lexer::new(Lines::new(&self.text), start);
-        let mut read = Vec::new();
-        let mut next = zone.first + 1;
-        loop {
-            let at = lexer.at() as i64;
-            while self
-                .table
-                .lines
-                .get(next)
-                .is_some_and(|&line| i64::from(line) + lines < at || line as usize <= zone.end_line)
-            {
-                next += 1;
-            }
-            let known = self
-                .table
-                .lines
-                .get(next)
-                .is_some_and(|&line| i64::from(line) + lines == at);
-            if known
-                && self
-                    .table
-                    .items
-                    .get(next)
-                    .is_some_and(|item| item.context == context)
-            {
-                return Some((read, next, lexer.findings));
-            }
-            let Some(mut item) = read_item(
-                &mut lexer,
-                context,
-                self.table.fit_tolerance,
-                &mut self.layers,
-            ) else {
-                return Some((read, self.table.items.len(), lexer.findings));
-            };
-            context = item.after;
-            if let Said::Entity(outcome) = item.said {
-                item.said = Said::Entity(frame::without_frames(outcome, &self.table.frames));
-            }
-            read.push(item);
-        }
-    }
-
-    /// Which entity of before each entity read is. `None` where the edit reaches beyond the zone.
-    fn plan(&self, first: usize, next: usize, read: &[ReadItem]) -> Option<Plan> {
-        let old = &self.table.items[first..next];
-        let structure =
-            |became: &Became| matches!(became, Became::Structure { .. }).then_some(*became);
-        let before: Vec<Became> = old
-            .iter()
-            .filter_map(|item| structure(&item.became))
-            .collect();
-        let after: Vec<Became> = read
-            .iter()
-            .filter_map(|item| item.said.structure())
-            .collect();
-        let second_section = before.contains(&Became::Structure {
-            entities: true,
-            unit: None,
-        }) && self.table.sections > 1;
-        // What a layer says holds for all that lies on it.
-        let layers_before = old.iter().filter_map(|item| match item.became {
-            Became::Layer(index) => self.table.layers.get(index as usize),
-            _ => None,
-        });
-        let layers_after = read.iter().filter_map(|item| match &item.said {
-            Said::Layer(entry) => Some(entry),
-            _ => None,
-        });
-        if !layers_before.eq(layers_after) {
-            return None;
-        }
-        if before != after || second_section || self.table.items.len() - old.len() + read.len() < 3
-        {
-            return None;
-        }
-        let counted = |context: Context| context == Context::Entities;
-        let entities_before = old
-            .iter()
-            .filter(|item| item.is_entity() && counted(item.context))
-            .count();
-        let entities_after = read
-            .iter()
-            .filter(|item| matches!(item.said, Said::Entity(_)) && counted(item.context))
-            .count();
-        let unnamed = read
-            .iter()
-            .any(|item| item.said.entity().is_some_and(|read| read.handle.is_none()));
-        if entities_before != entities_after && (unnamed || self.table.by_ordinal > 0) {
-            return None;
-        }
-        if old.iter().any(|item| item.named == Named::Anew) {
-            return None;
-        }
-        // What a block holds, and what a reference draws, reaches beyond the zone.
-        let of_block = |item: &ReadItem| {
-            item.context == Context::Blocks || matches!(item.said, Said::Entity(Outcome::Insert(_)))
-        };
-        let was_of_block = |item: &Item| {
-            item.context == Context::Blocks || matches!(item.became, Became::Parts { .. })
-        };
-        let names_frame = |item: &ReadItem| {
-            item.said
-                .entity()
-                .is_some_and(|read| !read.frames.is_empty())
-        };
-        if read.iter().any(of_block) || old.iter().any(was_of_block) || read.iter().any(names_frame)
-        {
-            return None;
-        }
-        // Which curves are drawn where all are too many hangs on all of them.
-        let arcs_before: u64 = old
-            .iter()
-            .filter_map(|item| self.drawing.get(item.entity()?))
-            .map(|entity| curve_arcs(entity.kind, &entity.geometry))
-            .sum();
-        let arcs_after: u64 = read
-            .iter()
-            .filter_map(|item| match item.said.entity()? {
-                Read {
-                    kind,
-                    shape: Shape::Plain(geometry),
-                    ..
-                } => Some(curve_arcs(*kind, geometry)),
-                _ => None,
-            })
-            .sum();
-        let all_arcs = self.table.curve_arcs - arcs_before + arcs_after;
-        if arcs_before + arcs_after > 0 && (self.table.lacks_curves || all_arcs > MOST_CURVE_ARCS) {
-            return None;
-        }
-        let mut ordinal = match unnamed {
-            true => self.table.items[..first]
-                .iter()
-                .filter(|item| item.is_entity() && counted(item.context))
-                .count(),
-            false => 0,
-        };
-        let ids: Vec<EntityId> = old.iter().filter_map(Item::entity).collect();
-        let position: FxHashMap<&str, usize> = ids
-            .iter()
-            .enumerate()
-            .filter_map(|(at, &id)| Some((&*self.drawing.get(id)?.handle, at)))
-            .collect();
-        let (mut entities, mut handles, mut matched) = (Vec::new(), FxHashSet::default(), 0);
-        let mut last = None;
-        for item in read {
-            ordinal += usize::from(matches!(item.said, Said::Entity(_)) && counted(item.context));
-            let Some(entity) = item.said.entity() else {
-                continue;
-            };
-            let handle: Handle = entity.handle.as_ref().map_or_else(
-                || format!("#{ordinal}").into(),
-                |(handle, _)| handle.clone(),
-            );
-            let at = position.get(&*handle).copied();
-            // Taken by an entity elsewhere, doubled here, or moved past another one.
-            let taken = at.is_none() && self.drawing.find(&handle).is_some();
-            if taken || !handles.insert(handle.clone()) || (at.is_some() && at < last) {
-                return None;
-            }
-            last = at.or(last);
-            matched += usize::from(at.is_some());
-            entities.push((handle, at.and_then(|at| ids.get(at).copied())));
-        }
-        let (gone, come) = (ids.len() - matched, entities.len() - matched);
-        // An entity that was named anew may get its own handle back, or another one lose it.
-        if gone + come > FEW || (self.table.named_anew > 0 && gone + come > 0) {
-            return None;
-        }
-        Some(Plan {
-            entities,
-            gone: gone > 0,
-            come: come > 0,
-            curve_arcs: all_arcs,
-        })
-    }
-
-    /// Puts the findings of the items read in the place of those of the items before.
-    fn replace_findings(
-        &mut self,
-        first: usize,
-        old_end: Option<usize>,
-        bytes: i64,
-        mut fresh: Vec<Finding>,
-    ) {
-        let start = self
-            .text
-            .line_start(self.table.lines.get(first).map_or(0, |&line| line as usize));
-        let of_document = self
-            .findings
-            .iter()
-            .take_while(|finding| finding.place == Place::Document)
-            .count();
-        let from = self
-            .findings
-            .partition_point(|finding| range_key(finding).0 < start)
-            .max(of_document);
-        let to = old_end
-            .map_or(self.findings.len(), |end| {
-                self.findings
-                    .partition_point(|finding| range_key(finding).0 < end)
-            })
-            .max(from);
-        for finding in &mut self.findings[to..] {
-            shift_place(finding, bytes);
-        }
-        fresh.sort_by_key(range_key);
-        self.findings.splice(from..to, fresh);
-    }
-
-    fn replace_items(
-        &mut self,
-        old: Range<usize>,
-        read: Vec<ReadItem>,
-        plan: Plan,
-        lines: i64,
-    ) -> Delta {
-        let drawing = Arc::make_mut(&mut self.drawing);
-        let table = &mut self.table;
-        let mut delta = Delta::default();
-        table.curve_arcs = plan.curve_arcs;
-        if plan.gone {
-            let kept: FxHashSet<EntityId> =
-                plan.entities.iter().filter_map(|&(_, id)| id).collect();
-            let gone: Vec<EntityId> = table.items[old.clone()]
-                .iter()
-                .filter_map(Item::entity)
-                .filter(|id| !kept.contains(id))
-                .collect();
-            for entity in gone {
-                drawing.remove(entity);
-                table.vertices.remove(&entity);
-                table.set_item_of(entity, NO_ITEM);
-                delta.touched.push(Touched::Removed { entity });
-            }
-        }
-        table.by_ordinal -= table.items[old.clone()]
-            .iter()
-            .filter(|item| item.entity().is_some() && item.named == Named::ByOrdinal)
-            .count();
-        let mut position = if plan.come {
-            table.items[..old.start]
-                .iter()
-                .map(|item| item.entities().count())
-                .sum()
-        } else {
-            0
-        };
-        let mut planned = plan.entities.into_iter();
-        let layers: Vec<Became> = table.items[old.clone()]
-            .iter()
-            .map(|item| item.became)
-            .filter(|became| matches!(became, Became::Layer(_)))
-            .collect();
-        let mut layers = layers.into_iter();
-        let (mut starts, mut items) = (
-            Vec::with_capacity(read.len()),
-            Vec::with_capacity(read.len()),
-        );
-        for ReadItem {
-            line,
-            context,
-            said,
-            ..
-        } in read
-        {
-            let mut item = Item {
-                context,
-                became: Became::Nothing,
-                named: Named::ByText,
-            };
-            match said {
-                Said::Entity(Outcome::Entity(read)) => {
-                    let Some((handle, id)) = planned.next() else {
-                        continue;
-                    };
-                    item.named = if read.handle.is_some() {
-                        Named::ByText
-                    } else {
-                        Named::ByOrdinal
-                    };
-                    table.by_ordinal += usize::from(item.named == Named::ByOrdinal);
-                    let Read {
-                        layer,
-                        appearance,
-                        kind,
-                        shape: Shape::Plain(geometry),
-                        vertices,
-                        ..
-                    } = read
-                    else {
-                        continue;
-                    };
-                    let on_layer = layer.clone();
-                    let entity = Entity {
-                        kind,
-                        ..Entity::new(handle, layer, geometry)
-                    };
-                    let id = put(drawing, id, position, entity, &mut delta);
-                    drawing.set_fitted(id, is_fitted(kind));
-                    let looks_new =
-                        set_appearance(drawing, id, appearance, &on_layer, &mut table.states);
-                    if looks_new && delta.touched.last() != Some(&Touched::Entity { entity: id }) {
-                        delta.touched.push(Touched::Entity { entity: id });
-                    }
-                    drawing.set_straight(
-                        id,
-                        vertices.as_ref().is_some_and(|vertices| vertices.in_space),
-                    );
-                    position += 1;
-                    item.became = Became::Entity(id);
-                    table.set_item_of(id, (old.start + items.len()) as u32);
-                    match vertices {
-                        Some(vertices) => table.vertices.insert(id, vertices),
-                        None => table.vertices.remove(&id),
-                    };
-                }
-                Said::Entity(Outcome::Damaged) => item.became = Became::Damaged,
-                Said::Entity(Outcome::Unsupported(kind, why)) => {
-                    item.became = Became::Unsupported(table.kinds.index(kind, why))
-                }
-                Said::Layer(_) => item.became = layers.next().unwrap_or(Became::Nothing),
-                other => item.became = other.structure().unwrap_or(Became::Nothing),
-            }
-            starts.push(line as u32);
-            items.push(item);
-        }
-        let grown = items.len() != old.len();
-        let end = old.start + items.len();
-        table.lines.splice(old.clone(), starts);
-        table.items.splice(old, items);
-        shift(&mut table.lines[end..], lines);
-        if grown {
-            for index in end..table.items.len() {
-                for entity in table.items[index].entities() {
-                    table.set_item_of(entity, index as u32);
-                }
-            }
-        }
-        delta
-    }
-}
-
-/// The entities read, by handle, with the id of the same entity before.
-struct Plan {
-    entities: Vec<(Handle, Option<EntityId>)>,
-    gone: bool,
-    come: bool,
-    /// Of the whole table.
-    curve_arcs: u64,
-}
-
-/// Puts an entity into the drawing: in the place of what it was before, or at `position` of the machining order.
-fn put(
-    drawing: &mut Drawing,
-    id: Option<EntityId>,
-    position: usize,
-    entity: Entity,
-    delta: &mut Delta,
-) -> EntityId {
-    let Some(id) = id else {
-        let entity = drawing.insert_at(position, entity);
-        delta.touched.push(Touched::Entity { entity });
-        return entity;
-    };
-    if drawing.get(id) != Some(&entity) {
-        drawing.replace(id, entity);
-        delta.touched.push(Touched::Entity { entity: id });
-    }
-    id
 }
 
 /// A vertex whose lines hold nothing but its own, sound tags: as it stands in the text, and what else is there.
@@ -659,7 +260,7 @@ pub(super) fn shift(lines: &mut [u32], by: i64) {
     }
 }
 
-fn shift_place(finding: &mut Finding, bytes: i64) {
+pub(super) fn shift_place(finding: &mut Finding, bytes: i64) {
     if let Place::Text { range } = &mut finding.place {
         range.start = (range.start as i64 + bytes) as usize;
         range.end = (range.end as i64 + bytes) as usize;

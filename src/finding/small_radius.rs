@@ -1,10 +1,12 @@
 //! An arc that is too tight to cut, in numbers.
 
 use crate::geometry::{Arc, Point, Side};
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Why no fix is offered for an arc that is too tight.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum NoFix {
     /// A slot, hole or pocket narrower than twice the correction: no arc of the required radius fits (`narrow-slot`).
     NarrowSlot,

@@ -1,7 +1,12 @@
 //! Left and right of a direction of travel.
 
-/// A side of a direction of travel: that on which the wire runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Side of the entity's own direction on which the wire runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "SideName")]
 pub enum Side {
     Left,
     Right,

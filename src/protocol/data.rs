@@ -6,14 +6,6 @@ use crate::geometry::Xy as Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Side of the entity's own direction on which the wire runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum SideName {
-    Left,
-    Right,
-}
-
 /// Another place that a finding concerns.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
@@ -48,7 +40,7 @@ pub struct FindingData {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sweep: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub side: Option<SideName>,
+    pub side: Option<Side>,
     /// What an untrimmed offset cuts beyond the wire's contour.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub overcut: Option<f64>,
@@ -60,7 +52,8 @@ pub struct FindingData {
     pub pass: Option<usize>,
     /// Why no fix is offered: `narrow-slot`, `seals-contour`, `short-segment`, `spoils`, `no-neighbour`, `not-editable` or `program`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub no_fix: Option<String>,
+    #[schemars(with = "Option<String>")]
+    pub no_fix: Option<NoFix>,
     /// Degrees by which the contour turns at a corner, positive counter-clockwise in the entity's own direction.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turn: Option<f64>,
@@ -226,14 +219,11 @@ impl FindingData {
         self.start = Some(detail.start.into());
         self.end = Some(detail.end.into());
         self.sweep = Some(detail.sweep.to_degrees());
-        self.side = Some(match detail.side {
-            Side::Left => SideName::Left,
-            Side::Right => SideName::Right,
-        });
+        self.side = Some(detail.side);
         self.overcut = Some(detail.overcut);
         self.stock_left = Some(detail.stock_left).filter(|stock| stock.is_finite());
         self.pass = detail.pass;
-        self.no_fix = detail.no_fix.map(|reason| no_fix_name(reason).into());
+        self.no_fix = detail.no_fix;
     }
 
     pub fn is_empty(&self) -> bool {
@@ -248,17 +238,5 @@ fn left_out(what: &NotJudged) -> Option<usize> {
         NotJudged::Reference { copies, .. } => usize::try_from(copies).ok(),
         NotJudged::Curve { arcs, .. } => Some(arcs),
         NotJudged::Calls { .. } => None,
-    }
-}
-
-fn no_fix_name(reason: NoFix) -> &'static str {
-    match reason {
-        NoFix::NarrowSlot => "narrow-slot",
-        NoFix::SealsContour => "seals-contour",
-        NoFix::NoNeighbour => "no-neighbour",
-        NoFix::NotEditable => "not-editable",
-        NoFix::ShortSegment => "short-segment",
-        NoFix::Spoils => "spoils",
-        NoFix::Program => "program",
     }
 }

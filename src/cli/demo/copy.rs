@@ -1,6 +1,9 @@
 //! The client's own copy of the DXF text: where a vertex stands in it, and the changes that are made to it.
 
 use super::super::Failure;
+use crate::drawing::{Change, DrawingEdit, Geometry, Vertex};
+use crate::dxf;
+use crate::geometry::Point;
 use serde_json::{Value, json};
 use std::ops::Range;
 
@@ -8,12 +11,6 @@ pub struct Copy {
     pub uri: String,
     pub text: String,
     pub version: i64,
-}
-
-/// Where the numbers of one vertex of an LWPOLYLINE stand.
-struct Vertex {
-    x: Range<usize>,
-    y: Range<usize>,
 }
 
 impl Copy {
@@ -31,19 +28,32 @@ impl Copy {
         handle: &str,
         moves: &[(usize, f64, f64)],
     ) -> Result<Value, Failure> {
+        let drawn = dxf::Document::read(self.text.clone().into_bytes());
+        let lacks = |index: usize| Failure(say!(the_plate_has_no_vertex, index, handle));
+        let entity = drawn.drawing().find(handle).ok_or_else(|| lacks(0))?;
         let mut changes = Vec::new();
         for &(index, x, y) in moves {
-            for (is_x, value) in [(true, x), (false, y)] {
-                let vertex = self
-                    .vertex(handle, index)
-                    .ok_or_else(|| Failure(say!(the_plate_has_no_vertex, index, handle)))?;
-                let range = if is_x { vertex.x } else { vertex.y };
-                let text = shortest(value);
-                if self.text.get(range.clone()) != Some(text.as_str()) {
-                    changes.push(self.replace(range, &text)?);
-                }
-            }
+            let known = match drawn.drawing().get(entity).map(|entity| &entity.geometry) {
+                Some(Geometry::Polyline { vertices, .. }) => vertices.get(index),
+                _ => None,
+            };
+            let vertex = Vertex {
+                point: Point::new(x, y),
+                ..*known.ok_or_else(|| lacks(index))?
+            };
+            changes.push(Change::SetVertex {
+                entity,
+                index,
+                vertex,
+            });
         }
+        let edits = drawn
+            .text_edits(&DrawingEdit { changes })
+            .map_err(Failure)?;
+        // From the last to the first, so that the places of the others stay true.
+        let edits = edits.into_iter().rev();
+        let changes = edits.map(|edit| self.replace(edit.range, &edit.text));
+        let changes = changes.collect::<Result<_, _>>()?;
         Ok(self.changed(changes))
     }
 
@@ -107,48 +117,6 @@ impl Copy {
         Ok(change)
     }
 
-    /// Tags of the entity with this handle, from its name to the next entity; the value's bytes with each code.
-    fn vertex(&self, handle: &str, index: usize) -> Option<Vertex> {
-        let mut in_entity = false;
-        let (mut x, mut y) = (Vec::new(), Vec::new());
-        for (code, value) in self.tags() {
-            match (code, self.text.get(value.clone())?) {
-                (0, _) => in_entity = false,
-                (5, found) => in_entity = found == handle,
-                (10, _) if in_entity => x.push(value),
-                (20, _) if in_entity => y.push(value),
-                _ => {}
-            }
-        }
-        Some(Vertex {
-            x: x.get(index)?.clone(),
-            y: y.get(index)?.clone(),
-        })
-    }
-
-    fn tags(&self) -> impl Iterator<Item = (i32, Range<usize>)> + '_ {
-        let mut at = 0;
-        let lines: Vec<Range<usize>> = self
-            .text
-            .split_inclusive('\n')
-            .map(|line| {
-                let start = at;
-                at += line.len();
-                start..start + line.trim_end().len()
-            })
-            .collect();
-        let tags: Vec<(i32, Range<usize>)> = lines
-            .chunks_exact(2)
-            .filter_map(|pair| {
-                Some((
-                    self.text.get(pair[0].clone())?.trim().parse().ok()?,
-                    pair[1].clone(),
-                ))
-            })
-            .collect();
-        tags.into_iter()
-    }
-
     /// The plate is ASCII: a byte is a character in every encoding.
     fn position(&self, offset: usize) -> Value {
         let before = self.text.get(..offset).unwrap_or_default();
@@ -171,31 +139,18 @@ impl Copy {
     }
 }
 
-/// A number as a designer's program writes it.
-fn shortest(value: f64) -> String {
-    let text = format!("{value:.6}");
-    let short = text.trim_end_matches('0');
-    if short.ends_with('.') {
-        format!("{short}0")
-    } else {
-        short.into()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const TEXT: &str =
-        "  0\nLWPOLYLINE\n  5\n2A\n 10\n1.5\n 20\n2.0\n 10\n3.0\n 20\n4.0\n  0\nEOF\n";
+    const TEXT: &str = "  0\nSECTION\n  2\nENTITIES\n  0\nLWPOLYLINE\n  5\n2A\n 10\n1.5\n 20\n2.0\n 10\n3.0\n 20\n4.0\n  0\nENDSEC\n  0\nEOF\n";
 
     #[test]
     fn a_moved_vertex_changes_its_numbers_only() {
         let mut copy = Copy::new("untitled:x", TEXT);
         let params = copy.move_vertices("2A", &[(1, 3.25, 4.0)]).unwrap();
         assert_eq!(copy.text, TEXT.replace("3.0", "3.25"));
-        let range =
-            json!({ "start": { "line": 9, "character": 0 }, "end": { "line": 9, "character": 3 } });
+        let range = json!({ "start": { "line": 13, "character": 0 }, "end": { "line": 13, "character": 3 } });
         assert_eq!(
             params["contentChanges"],
             json!([{ "range": range, "text": "3.25" }])
