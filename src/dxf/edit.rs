@@ -12,7 +12,7 @@ use super::lines::Lines;
 use super::number::{self, Code, Number};
 use super::reader::range_key;
 use super::table::Became;
-use crate::drawing::{Delta, Entity, EntityId, Vertex};
+use crate::drawing::{Delta, EntityId, Vertex};
 use crate::finding::{Finding, Place, Rule};
 use std::ops::Range;
 use std::sync::Arc;
