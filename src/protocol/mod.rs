@@ -19,7 +19,6 @@ mod segment;
 mod simulate;
 mod toolpath;
 
-pub use crate::program::path::Kind as StepKind;
 pub use change::{DrawingChange, Splice, apply, changes_of};
 pub use contours::{ContourPiece, Contours, ContoursContour, Direction, Gap};
 pub use data::{FindingData, RelatedPlace};
@@ -38,7 +37,7 @@ pub use requests::{
 };
 pub use schema::{schema, settings_schema};
 pub use segment::{SegmentKind, SegmentShape};
-pub use simulate::{Simulate, SimulatedBlock, SimulatedBounds, Simulation};
+pub use simulate::{Simulate, SimulatedBlock, SimulatedBounds, Simulation, StepKind};
 pub use toolpath::{PathPiece, PathSource, Toolpath, ToolpathPath};
 
 /// Version of the `wedm/` name space that the handshake states.

@@ -16,6 +16,18 @@ pub struct Simulate {
     pub feed: Option<f64>,
 }
 
+/// What a step of the program does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum StepKind {
+    Line,
+    Arc,
+    /// A way without a cut.
+    Rapid,
+    Pause,
+    End,
+}
+
 /// A block or word and what it makes the machine do; points in µm, in the program's own frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
@@ -25,7 +37,7 @@ pub struct SimulatedBlock {
     /// Number that the block carries.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub number: Option<u32>,
-    pub kind: Kind,
+    pub kind: StepKind,
     pub start: Point,
     /// Where the machine stops.
     pub end: Point,
@@ -104,7 +116,13 @@ impl SimulatedBlock {
         SimulatedBlock {
             line: step.line,
             number: step.number,
-            kind: step.kind,
+            kind: match step.kind {
+                Kind::Line => StepKind::Line,
+                Kind::Arc => StepKind::Arc,
+                Kind::Rapid => StepKind::Rapid,
+                Kind::Pause => StepKind::Pause,
+                Kind::End => StepKind::End,
+            },
             start: step.start.into(),
             end: step.end.into(),
             ideal_end: step.ideal.as_ref().map(|ideal| tidy(ideal.end()).into()),

@@ -6,15 +6,11 @@
 use super::way::{Node, Way, Writing};
 use crate::finding::Side;
 use crate::geometry::{Bounds, Point, Segment, Vector};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// What a step of the program does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-#[schemars(rename = "StepKind")]
+/// What one step does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Cuts along a straight line.
     Line,
