@@ -67,6 +67,7 @@ fn generated(drawing: &Drawing, settings: &Effective, format: Format) -> job::Ge
     let wanted = Wanted {
         format,
         handles: None,
+        layers: None,
         force: false,
     };
     match job::generate(&snapshot, findings, &wanted, &()) {
