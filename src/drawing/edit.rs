@@ -121,13 +121,13 @@ impl std::fmt::Display for ChangeError {
         let sentence = match self {
             ChangeError::UnknownEntity => say!(there_is_no_such_entity),
             ChangeError::NotEditable => {
-                say!(the_entity_is_a_part_of_a_block_or_fitted_to_a_curve_and_cannot)
+                say!(the_entity_cannot_be_edited)
             }
-            ChangeError::OnlyLines => say!(the_entity_is_a_3d_polyline_whose_vertices_have_no),
+            ChangeError::OnlyLines => say!(the_entity_is_a_3d_polyline),
             ChangeError::NotAPolyline => say!(the_entity_is_not_a_polyline_and_has_no_vertices),
             ChangeError::NotFinite => say!(a_coordinate_radius_or_bulge_is_not_a_finite_number),
             ChangeError::OutOfRange { index, count } => {
-                &say!(vertex_is_out_of_range_the_polyline_has, index, count)
+                &say!(a_vertex_is_out_of_range, index, count)
             }
         };
         f.write_str(sentence)

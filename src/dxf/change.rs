@@ -59,7 +59,7 @@ impl Document {
     /// angle is written in [0°, 360°).
     pub fn text_edits(&self, edit: &DrawingEdit) -> Result<Vec<TextEdit>, String> {
         if self.is_binary {
-            return Err(say!(the_file_is_binary_dxf_which_is_read_but_not).into());
+            return Err(say!(the_file_is_binary_dxf_and_not_edited).into());
         }
         let mut wanted: BTreeMap<EntityId, Wanted> = BTreeMap::new();
         for change in &edit.changes {
@@ -133,10 +133,7 @@ impl Document {
             self.drawing.is_whole(id)
         };
         if !may {
-            return Err(say!(
-                is_a_part_of_a_block_or_fitted_to_a_curve_and_has_no,
-                pen.name
-            ));
+            return Err(say!(has_no_numbers_of_its_own_in_the_text, pen.name));
         }
         if wanted.removed {
             pen.remove(of_entity);

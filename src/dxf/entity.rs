@@ -167,7 +167,7 @@ impl Common {
         let found = quoted(lexer.lines.trimmed(line));
         if let Number::Blemished(value, blemish) = number {
             let sentence = say!(
-                group_code_is_which_is_read,
+                group_code_is_read_otherwise,
                 code,
                 meaning(code),
                 found,
@@ -261,7 +261,7 @@ impl Common {
         let hexadecimal =
             !value.is_empty() && value.len() <= 16 && value.iter().all(u8::is_ascii_hexdigit);
         if !hexadecimal || value.iter().all(|&digit| digit == b'0') {
-            let sentence = say!(group_code_5_handle, quoted(value));
+            let sentence = say!(the_handle_is_no_hexadecimal_number, quoted(value));
             lexer.oddity_in(lexer.lines.range(line), sentence);
         }
         if value.is_empty() || value.iter().all(|&digit| digit == b'0') {
@@ -365,7 +365,7 @@ pub(super) fn missing(start: Tag, lexer: &mut Lexer, codes: &[(i16, bool)]) {
     let last = lacking.pop().unwrap_or_default();
     let sentence = match lacking.is_empty() {
         true => say!(lacks_group_code, kind, last),
-        false => say!(lacks_the_group_codes_and, kind, lacking.join(", "), last),
+        false => say!(lacks_group_codes, kind, lacking.join(", "), last),
     };
     lexer.damage(start.value_line(), sentence);
 }

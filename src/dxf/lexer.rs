@@ -158,8 +158,8 @@ impl<'a> Lexer<'a> {
     /// Empty lines between two records take nothing from either.
     fn pass_over_empty_lines(&mut self, line: usize, record: usize) {
         let sentence = match record - line {
-            1 => say!(an_empty_line_stands_where).to_owned(),
-            count => say!(empty_lines_stand_where, count),
+            1 => say!(an_empty_line_stands_for_a_group_code).to_owned(),
+            count => say!(empty_lines_stand_for_a_group_code, count),
         };
         self.oddity_in(self.lines.range(line), sentence);
         self.at = record;
@@ -181,7 +181,7 @@ impl<'a> Lexer<'a> {
             self.lost_value(tag.line);
         } else {
             let found = quoted(self.lines.trimmed(line));
-            let sentence = say!(stands_where_the_value_of_group_code, found, tag.code);
+            let sentence = say!(stands_where_a_value_is_expected, found, tag.code);
             self.damage_in(self.lines.range(line), sentence);
         }
         true
@@ -222,7 +222,7 @@ impl<'a> Lexer<'a> {
         let sentence =
             if next == line + 2 && number::code(self.lines.content(line)) == Code::Known(0) {
                 say!(
-                    group_code_0_is_followed_by_expected_the_name,
+                    group_code_0_is_followed_by_no_name,
                     quoted(self.lines.trimmed(line + 1))
                 )
             } else if next == line + 2 {

@@ -38,10 +38,9 @@ pub(super) fn about_unit(insunits: Option<i32>) -> Option<String> {
     match insunits {
         None => Some(say!(the_drawing_does_not_say_its_unit).into()),
         Some(0) => Some(say!(the_drawing_says_that_it_has_no_unit).into()),
-        Some(other) if unit_of(other).is_none() => Some(say!(
-            insunits_is_which_is_no_unit_of_length_that_is_known_here,
-            other
-        )),
+        Some(other) if unit_of(other).is_none() => {
+            Some(say!(insunits_is_no_unit_that_is_known, other))
+        }
         Some(_) => None,
     }
 }

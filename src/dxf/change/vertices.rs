@@ -75,7 +75,7 @@ impl Document {
             .or_else(|| inserted_beyond.find(|&index| index > count))
         {
             return Err(say!(
-                vertex_of_is_out_of_range_the_polyline_has,
+                a_vertex_of_an_entity_is_out_of_range,
                 index,
                 pen.name,
                 count
@@ -161,10 +161,7 @@ fn insert_vertex(
         ));
     }
     let Some(model) = model else {
-        return Err(say!(
-            has_no_vertex_that_a_new_one_could_be_modelled,
-            pen.name
-        ));
+        return Err(say!(has_no_vertex_to_model_a_new_one_on, pen.name));
     };
     let lines = pen.lines;
     let tags: Vec<Tag> = vertex_tags(lines, model.clone()).collect();
