@@ -478,7 +478,11 @@ fn the_settings_of_the_readme_are_the_defaults() {
     let (all, errors) = wedm::settings::from_toml(example);
     assert!(errors.is_empty(), "{errors:?}");
     // That a key is set counts, whichever value it has.
+    let (set, default) = (Effective::of(&all).passes, Effective::default().passes);
+    assert_eq!(set.sequence(), default.sequence());
+    assert_eq!(set.skim_corner(), default.skim_corner());
     let shown = Effective {
+        passes: default,
         stated_layout: None,
         stated_direction: None,
         stated_lead_in: None,

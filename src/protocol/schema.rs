@@ -118,6 +118,7 @@ fn declare(definitions: &mut Map<String, Value>, row: &Row) {
     let (of, key) = match row.key.rsplit_once('.') {
         Some(("passes", key)) => ("Passes", key),
         Some(("program", key)) => ("ProgramSettings", key),
+        Some(("job", key)) => ("JobSettings", key),
         Some((_, key)) => ("ProfileSettings", key),
         None => ("Settings", row.key.as_str()),
     };
@@ -158,6 +159,7 @@ mod tests {
             let (of, key) = match row.key.rsplit_once('.') {
                 Some(("passes", key)) => ("Passes", key),
                 Some(("program", key)) => ("ProgramSettings", key),
+                Some(("job", key)) => ("JobSettings", key),
                 Some((_, key)) => ("ProfileSettings", key),
                 None => ("Settings", row.key.as_str()),
             };

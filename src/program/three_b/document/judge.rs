@@ -1,6 +1,6 @@
 //! What is wrong with a program as a whole: contours that do not close or cross themselves, its end, texts, numbers, places.
 
-use super::super::entry::What;
+use super::super::entry::{Move, What};
 use super::super::fields::fields_of;
 use super::super::parse::unexpected;
 use super::super::repair::FEWEST_BLAMED;
@@ -9,7 +9,7 @@ use super::super::run::{Sum, may_cross_itself};
 use super::cuts::joined;
 use super::{At, Cut, Document, PartAt, View};
 use crate::finding::{Axis, Detail, Fault, Finding, Rule, Severity};
-use crate::geometry::Bounds;
+use crate::geometry::{Bounds, Vector};
 use crate::program::path::{Known, Lay, Way, absurd_size, is_tab, mixed, not_closed, tolerance};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -53,12 +53,15 @@ impl Document {
 
     /// `units`: a whole program of a size that no wire cuts.
     fn judge_size(&self, view: &mut View) {
-        let (mut bounds, mut blocks) = (Bounds::EMPTY, 0);
-        for (of, begin) in self.runs.iter().zip(&view.begins) {
+        // Runs are laid behind each other as their parts are, by what blocks mean: where a run ends tells nothing.
+        let (mut bounds, mut blocks, mut before) = (Bounds::EMPTY, 0, Move::default());
+        for of in self.runs.iter() {
             if let Some(own) = of.bounds {
-                bounds.merge(&own.moved(begin.coords));
+                let [x, y] = before.meant_um();
+                bounds.merge(&own.moved(Vector::new(x, y)));
             }
             blocks += of.blocks;
+            before = before.plus(of.travel);
         }
         let first = || {
             Some(
