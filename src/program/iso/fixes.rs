@@ -274,36 +274,18 @@ fn way_out(document: &Document, end: usize) -> Option<usize> {
 
 /// A number without its point, as one of whole units and as one of the finest steps.
 fn bare_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
-    let found = String::from_utf8_lossy(
-        document
-            .text()
-            .bytes()
-            .get(range.clone())
-            .unwrap_or_default(),
-    )
-    .into_owned();
+    let bytes = document.text().bytes().get(range.clone());
+    let found = String::from_utf8_lossy(bytes.unwrap_or_default()).into_owned();
     let Some(at) = found.find(|character: char| character.is_ascii_digit()) else {
         return Vec::new();
     };
-    let digits = &found[at..];
-    let padded = format!("{digits:0>4}");
-    let fine = format!(
-        "{}{}.{}",
-        &found[..at],
-        &padded[..padded.len() - 3],
-        &padded[padded.len() - 3..]
-    );
+    let padded = format!("{:0>4}", &found[at..]);
+    let (whole, thousandths) = padded.split_at(padded.len() - 3);
+    let fine = format!("{}{whole}.{thousandths}", &found[..at]);
     let fix = |meant: String| {
         let edit = TextEdit::new(range.clone(), meant.clone());
-        TextFix::text(
-            FixKind::Rewrite {
-                found: found.clone(),
-                meant,
-            },
-            false,
-            edit,
-        )
-        .preferred_if(false)
+        let found = found.clone();
+        TextFix::text(FixKind::Rewrite { found, meant }, false, edit).preferred_if(false)
     };
     vec![fix(fine), fix(format!("{found}."))]
 }

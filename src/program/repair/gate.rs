@@ -20,7 +20,7 @@ const ONE_BY_ONE: usize = 32;
 const ONE_BY_ONE_OF_LONG: usize = 4;
 
 /// What a program comes to, as far as a repair must not make it worse.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Standing {
     findings: BTreeMap<&'static str, usize>,
     errors: usize,
@@ -37,18 +37,9 @@ impl Standing {
     }
 
     fn with(program: &Document, findings: &[Finding]) -> Standing {
-        let mut standing = Standing {
-            findings: BTreeMap::new(),
-            errors: 0,
-            open: 0,
-            gap: 0.0,
-            full_turns: 0,
-            moves: Vec::new(),
-        };
-        for finding in findings
-            .iter()
-            .filter(|finding| finding.severity <= Severity::Information)
-        {
+        let mut standing = Standing::default();
+        let is_said = |finding: &&Finding| finding.severity <= Severity::Information;
+        for finding in findings.iter().filter(is_said) {
             standing.errors += usize::from(finding.severity == Severity::Error);
             *standing.findings.entry(finding.rule.name()).or_default() += 1;
             if let Some(gap) = gap_of(finding) {
@@ -57,21 +48,11 @@ impl Standing {
             }
         }
         for step in program.trace().steps.iter().filter(|step| step.moves()) {
-            let sweep = step
-                .ideal
-                .as_ref()
-                .and_then(Segment::as_arc)
-                .map_or(0.0, |arc| arc.sweep);
-            let by = step.meant();
-            standing.full_turns += usize::from(
-                step.ideal
-                    .as_ref()
-                    .and_then(Segment::as_arc)
-                    .is_some_and(Arc::is_full_turn),
-            );
-            standing
-                .moves
-                .push((step.kind, step.contour, [by.x, by.y, sweep]));
+            let (arc, by) = (step.ideal.as_ref().and_then(Segment::as_arc), step.meant());
+            standing.full_turns += usize::from(arc.is_some_and(Arc::is_full_turn));
+            let sweep = arc.map_or(0.0, |arc| arc.sweep);
+            let made = (step.kind, step.contour, [by.x, by.y, sweep]);
+            standing.moves.push(made);
         }
         standing
     }
@@ -201,15 +182,8 @@ fn edited(program: &Document, edits: &[TextEdit]) -> Document {
 }
 
 fn is_by_a_slip(program: &Document, edits: &[TextEdit]) -> bool {
-    let found = |edit: &TextEdit| {
-        program
-            .text()
-            .bytes()
-            .get(edit.range.clone())
-            .unwrap_or_default()
-            .to_vec()
-    };
-    matches!(edits, [edit] if is_slip(&found(edit), edit.text.as_bytes()))
+    let found = |edit: &TextEdit| program.text().bytes().get(edit.range.clone());
+    matches!(edits, [edit] if is_slip(found(edit).unwrap_or_default(), edit.text.as_bytes()))
 }
 
 /// The repairs of a finding for which it goes, those that pass the gate before those that do not, which are neither preferred nor made without asking.
@@ -234,19 +208,17 @@ pub(in crate::program) fn gated(
         if after.still_says(&before, finding.rule) || (brings_error && invents(&fix.kind)) {
             continue;
         }
-        let passes = before.standing.allows(
-            &after.standing,
+        let (for_itself, by_a_slip) = (
             speaks_for_itself(finding.rule),
             is_by_a_slip(program, &fix.edit),
         );
+        let passes = before
+            .standing
+            .allows(&after.standing, for_itself, by_a_slip);
         if !passes || invents(&fix.kind) {
             refuse(&mut fix);
         }
-        if passes {
-            good.push(fix);
-        } else {
-            bad.push(fix);
-        }
+        if passes { &mut good } else { &mut bad }.push(fix);
     }
     good.append(&mut bad);
     good
@@ -280,20 +252,16 @@ pub(in crate::program) fn together(
         return all;
     }
     let (mut kept, mut present) = (Taken::default(), before);
-    let most = if program.text().len() > TRIED {
-        ONE_BY_ONE_OF_LONG
-    } else {
-        ONE_BY_ONE
+    let most = match program.text().len() > TRIED {
+        true => ONE_BY_ONE_OF_LONG,
+        false => ONE_BY_ONE,
     };
     for (rule, fix) in fixes.into_iter().take(most) {
         let mut more = kept.clone();
         more.take(program, &fix.edit);
         let after = Standing::of(&edited(program, &more.clone().edits()));
-        if present.allows(
-            &after,
-            speaks_for_itself(rule),
-            is_by_a_slip(program, &fix.edit),
-        ) {
+        let by_a_slip = is_by_a_slip(program, &fix.edit);
+        if present.allows(&after, speaks_for_itself(rule), by_a_slip) {
             (kept, present) = (more, after);
         }
     }

@@ -259,3 +259,117 @@ fn is_sure<C: Contour>(kept: &[Judged<C>], outside: Option<Verdict>) -> bool {
     let mut rivals = rival.into_iter().chain(outside.filter(|_| !is_twin));
     best.may_be_sure && rivals.all(is_clear)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What may have been meant, by where it leads (its first letter), what it leaves and what it asks for; `?` is not handed out, and
+    /// `x` crosses itself.
+    struct Toy {
+        meant: Vec<(&'static str, usize, f64)>,
+        twin: Option<f64>,
+    }
+
+    impl Contour for Toy {
+        type Meant = (&'static str, usize);
+        type Lead = Option<u8>;
+        const CLEARLY: f64 = 1.0;
+        const FINALISTS: usize = 10;
+
+        fn order(&self) -> Vec<usize> {
+            vec![0]
+        }
+        fn meant(&self, _: usize) -> Vec<(Self::Meant, f64)> {
+            let all = self.meant.iter();
+            all.map(|(name, left, cost)| ((*name, *left), *cost))
+                .collect()
+        }
+        fn deleted(&self, _: usize) -> Option<f64> {
+            self.twin
+        }
+        fn exchanged(&self, _: usize) -> Option<f64> {
+            None
+        }
+        fn gaps(&self, _: usize) -> Vec<Vector> {
+            [4.0, 500.0].map(|x| Vector::new(x, 0.0)).to_vec()
+        }
+        fn headings(&self, _: usize) -> Option<[Vector; 2]> {
+            None
+        }
+        fn filling(&self, _: usize, way: &Segment) -> Option<(Self::Meant, f64)> {
+            assert!(way.length() > SHORTEST);
+            self.twin.map(|_| (("lost", 0), 0.5))
+        }
+        fn judged(&self, change: &Change<Self::Meant>, cost: f64) -> (Option<Verdict>, usize) {
+            let left = match change {
+                Change::Replace { meant, .. } | Change::Insert { meant, .. } => meant.1,
+                _ => 0,
+            };
+            let verdict = Verdict {
+                left,
+                cost,
+                may_be_sure: true,
+            };
+            (Some(verdict), 1)
+        }
+        fn lead(&self, change: &Change<Self::Meant>) -> Option<u8> {
+            match change {
+                Change::Replace { meant, .. } | Change::Insert { meant, .. } => {
+                    meant.0.bytes().next()
+                }
+                _ => None,
+            }
+        }
+        fn is_alike(one: &Option<u8>, other: &Option<u8>) -> bool {
+            one == other
+        }
+        fn holds(&self, change: &Change<Self::Meant>) -> bool {
+            self.lead(change) != Some(b'?')
+        }
+        fn crosses(&self, change: Option<&Change<Self::Meant>>) -> bool {
+            change.is_none_or(|change| self.lead(change) == Some(b'x'))
+        }
+    }
+
+    fn check(meant: &[(&'static str, usize, f64)], twin: Option<f64>, expected: &str) {
+        let meant = meant.to_vec();
+        let found = search(&Toy { meant, twin }, &mut 100);
+        let shown = |repair: &Repair<(&'static str, usize)>| {
+            let name = match &repair.change {
+                Change::Replace { meant, .. } | Change::Insert { meant, .. } => meant.0,
+                _ => "twin",
+            };
+            format!("{name}{}", if repair.is_sure { "!" } else { "" })
+        };
+        let found: Vec<String> = found.iter().map(shown).collect();
+        assert_eq!(found.join(" "), expected);
+    }
+
+    #[test]
+    fn the_least_that_leaves_the_least_is_sure_where_nothing_else_does_as_well() {
+        check(&[("b", 0, 3.0), ("a", 0, 1.0), ("c", 1, 0.0)], None, "a! b");
+        check(&[("b", 0, 1.5), ("a", 0, 1.0)], None, "a b");
+        // What leads the same way is no rival, and the plainest of it is kept.
+        check(&[("a2", 0, 1.5), ("a", 0, 1.0)], None, "a!");
+        // What is not handed out speaks against it all the same.
+        check(&[("a", 0, 1.0), ("?", 0, 1.2)], None, "a");
+        // What crosses itself is offered where nothing else is, and never sure.
+        check(&[("a", 0, 1.0), ("x", 0, 0.5)], None, "a!");
+        check(&[("x", 0, 0.5)], None, "x");
+    }
+
+    #[test]
+    fn a_block_that_stands_twice_says_more_than_one_that_may_be_lost() {
+        check(&[], Some(0.2), "twin! lost");
+        check(&[("a", 0, 0.7)], Some(0.2), "twin lost a");
+    }
+
+    #[test]
+    fn no_more_is_run_than_may_be() {
+        let meant = vec![("a", 0, 1.0), ("b", 0, 2.0), ("c", 0, 3.0)];
+        let mut left = 2;
+        let found = search(&Toy { meant, twin: None }, &mut left);
+        assert_eq!((found.len(), left), (2, 0));
+    }
+}

@@ -58,14 +58,10 @@ impl Pool {
         };
         let length = |number: Number| document.reading().length(number, false).abs();
         for Line { block, .. } in lines {
-            for (group, numbers) in [[block.x, block.y], [block.i, block.j]]
-                .into_iter()
-                .enumerate()
-            {
-                numbers
-                    .into_iter()
-                    .flatten()
-                    .for_each(|number| *pool.counts[group].entry(length(number)).or_default() += 1);
+            for (group, numbers) in [(0, [block.x, block.y]), (1, [block.i, block.j])] {
+                for number in numbers.into_iter().flatten() {
+                    *pool.counts[group].entry(length(number)).or_default() += 1;
+                }
             }
             for (axis, number) in [block.x, block.y].into_iter().enumerate() {
                 if let Some(number) = number
@@ -85,17 +81,9 @@ impl Pool {
         let count = |length: i64| counts.get(&length.abs()).copied().unwrap_or(0);
         let others = count(meant)
             - u32::from(found.is_some_and(|found| found.abs() == meant.abs()) && count(meant) > 0);
-        let known = if others > 0 && meant != 0 {
-            -prior::KNOWN
-        } else {
-            0.0
-        };
-        let alone = if found.is_some_and(|found| count(found) <= 1) {
-            -prior::ALONE
-        } else {
-            0.0
-        };
-        known + alone
+        let is_alone = found.is_some_and(|found| count(found) <= 1);
+        let speaks = |speaks: bool, prior: f64| if speaks { -prior } else { 0.0 };
+        speaks(others > 0 && meant != 0, prior::KNOWN) + speaks(is_alone, prior::ALONE)
     }
 }
 
@@ -385,19 +373,16 @@ impl Words<'_> {
             return;
         }
         let order = |letter: u8| b"NGXYIJ".iter().position(|its| *its == letter);
-        let behind = places
-            .iter()
-            .filter(|(its, ..)| order(*its) < order(letter))
-            .map(|(.., range)| range.end)
-            .max();
-        let at = behind.unwrap_or(0);
-        let text = if self.pool.is_parted && at > 0 {
-            format!(" {meant}")
+        let is_before = |(its, ..): &&(u8, Number, Range<usize>)| order(*its) < order(letter);
+        let behind = places.iter().filter(is_before).map(|(.., range)| range.end);
+        let at = behind.max().unwrap_or(0);
+        let space = if self.pool.is_parted && at > 0 {
+            " "
         } else {
-            meant.clone()
+            ""
         };
         let prior = prior::LOST + self.pool.prior(letter, None, length);
-        self.push(at..at, &text, prior, "", &meant);
+        self.push(at..at, &format!("{space}{meant}"), prior, "", &meant);
     }
 
     /// Coordinates that close the cut, or that others have.
