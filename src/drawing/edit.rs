@@ -304,9 +304,9 @@ impl Drawing {
 
     /// Adds entities, each behind another in machining order (of several behind one the last comes first), on its layer and
     /// with its role, under a handle made from its own.
-    fn add_all_next_to<'a>(
+    fn add_all_next_to(
         &mut self,
-        added: Vec<(EntityId, &'a Geometry)>,
+        added: Vec<(EntityId, &Geometry)>,
         delta: &mut Delta,
     ) -> Result<(), ChangeError> {
         let mut behind: FxHashMap<EntityId, Vec<EntityId>> = FxHashMap::default();

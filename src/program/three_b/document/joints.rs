@@ -26,10 +26,10 @@ impl Document {
             if of.blocks == 0 && of.words == 0 {
                 continue;
             }
-            if let (Some(last), Some(first)) = (before, &of.edges[0]) {
-                if last.is_odd || first.is_odd || may_be_odd(&last.block, &first.block) {
-                    odd.extend(self.odd_about(run));
-                }
+            if let (Some(last), Some(first)) = (before, &of.edges[0])
+                && (last.is_odd || first.is_odd || may_be_odd(&last.block, &first.block))
+            {
+                odd.extend(self.odd_about(run));
             }
             before = of.edges[1].as_ref();
         }
