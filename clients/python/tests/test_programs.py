@@ -120,6 +120,7 @@ CALLS: dict[str, Callable[[Server, dict[str, Any]], Any]] = {
     "wedm/locate": lambda server, open: server.locate(open["text"], 1),
     "wedm/settings": lambda server, open: server.settings(open["drawing"]),
     "wedm/generate": lambda server, open: server.generate(open["drawing"]),
+    "wedm/rulePage": lambda server, open: server.rule_page("small-radius"),
     "wedm/didOpenDrawing": lambda server, open: server.open([Polyline(ROUND, handle="2A")]),
     "wedm/didChangeDrawing": lambda server, open: server.change(open["drawing"], Put(Polyline(TIGHT, handle="2B", role="ignore"))),
     "wedm/didCloseDrawing": lambda server, open: server.close_document(open["drawing"]),
@@ -154,6 +155,12 @@ def test_the_call_sends_the_method(server: Server, data: Path, monkeypatch: pyte
         monkeypatch.setattr(connection, name, spy)
     CALLS[method](server, documents)
     assert sent == [method]
+
+
+def test_the_page_of_a_rule(server: Server) -> None:
+    assert server.rule_page("sharp-corner").startswith("# sharp-corner")
+    with pytest.raises(RequestFailed):
+        server.rule_page("no-such-rule")
 
 
 def test_an_edit_of_the_server_for_an_older_text_is_refused(server: Server, hole: TextDocument) -> None:

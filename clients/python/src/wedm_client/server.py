@@ -330,6 +330,13 @@ class Server:
         """The correction that holds for the document, and which level of settings it comes from."""
         return from_json(self._ask(document, "wedm/settings", {"uri": document.uri}), SettingsInForce)
 
+    def rule_page(self, rule: str) -> str:
+        """The page of a rule, as ``Diagnostic.rule`` names it, in Markdown without pictures; ``wedm explain`` shows the same.
+
+        :raises RequestFailed: there is no such rule.
+        """
+        return str(self._ask(None, "wedm/rulePage", {"rule": rule})["text"])
+
     def convert(
         self,
         program: TextDocument,
@@ -500,10 +507,11 @@ class Server:
         if self._documents.get(document.uri) is not document:
             raise NotOpen(f"{document.uri} is not open in this server")
 
-    def _ask(self, document: Document, method: str, params: Any, is_done: Callable[[], bool] = lambda: False) -> Any:
+    def _ask(self, document: Document | None, method: str, params: Any, is_done: Callable[[], bool] = lambda: False) -> Any:
         """Sends a request until a living server has answered it, or it is done without an answer."""
-        with self._state:
-            self._check_open(document)
+        if document is not None:
+            with self._state:
+                self._check_open(document)
         while True:
             connection = self._live()
             try:
