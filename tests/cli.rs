@@ -493,6 +493,7 @@ fn a_settings_file_is_begun() {
     for line in [
         "wire-diameter = 0.25",
         "corrections = [0.2150, 0.1700, 0.1400]",
+        "gaps = [0.0300, 0.0150, 0.0150]",
         "profile = \"robofil\"",
         "# margin = 0.001",
     ] {
@@ -501,6 +502,16 @@ fn a_settings_file_is_begun() {
     check(&desk, begin, 2, &["!it is there already"]);
     desk.write("work/clean.dxf", desk.read("clean.dxf"));
     check(&desk, "check work", 0, &["nothing found"]);
+    // The table leaves the part as it is drawn: the finished part says nothing is cut beyond.
+    let written = desk.run("generate work/clean.dxf --side punch --format iso");
+    assert!(
+        written
+            .stderr
+            .contains("finished part: at most 0.0000 mm stay uncut")
+            && written.stderr.contains("; 0.0000 mm cut beyond"),
+        "{}",
+        written.stderr
+    );
 }
 
 #[test]

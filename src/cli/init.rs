@@ -97,8 +97,13 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     ];
     if passes > 1 {
         let fine_gap = arguments.fine_gap.unwrap_or(gap / 2.0);
-        let list = corrections(wire / 2.0, gap, fine_gap, arguments.stock, passes);
-        set.push(("passes.corrections", list));
+        let skims = usize::from(passes - 1);
+        let corrections =
+            settings::passes_table(wire / 2.0, [gap, fine_gap], arguments.stock, skims);
+        set.push(("passes.corrections", list(&corrections)));
+        let gaps = |pass: usize| if pass == 0 { gap } else { fine_gap };
+        let gaps: Vec<f64> = (0..=skims).map(gaps).collect();
+        set.push(("passes.gaps", list(&gaps)));
     }
     if machine != "3b" {
         set.push(("program.profile", format!("\"{machine}\"")));
@@ -108,12 +113,9 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     Ok(Verdict::Clean)
 }
 
-/// The correction of each pass, as a list of TOML, mm.
-fn corrections(radius: f64, gap: f64, fine_gap: f64, stock: f64, passes: u8) -> String {
-    let skims = f64::from(passes - 1);
-    let skim = |number| radius + fine_gap + stock * (skims - f64::from(number)) / skims;
-    let all = std::iter::once(radius + gap + stock).chain((1..passes).map(skim));
-    let numbers: Vec<String> = all.map(|number| format!("{number:.4}")).collect();
+/// Lengths as a list of TOML, mm.
+fn list(lengths: &[f64]) -> String {
+    let numbers: Vec<String> = lengths.iter().map(|mm| format!("{mm:.4}")).collect();
     format!("[{}]", numbers.join(", "))
 }
 
@@ -172,19 +174,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn passes_are_those_of_the_formula() {
-        let list = corrections(0.125, 0.03, 0.015, 0.06, 3);
-        assert_eq!(list, "[0.2150, 0.1700, 0.1400]");
-    }
-
-    #[test]
     fn what_is_written_is_read_without_a_complaint() {
         for set in [
             vec![],
             vec![
                 ("wire-diameter", "0.25".to_owned()),
                 ("gap", "0.03".to_owned()),
-                ("passes.corrections", "[0.2150, 0.1700, 0.1400]".to_owned()),
+                ("passes.corrections", list(&[0.215, 0.17, 0.14])),
+                ("passes.gaps", list(&[0.03, 0.015, 0.015])),
                 ("program.profile", "\"robofil\"".to_owned()),
             ],
         ] {
