@@ -495,8 +495,7 @@ export interface JobSettings {
    */
   thickness?: number;
   /**
-   * Mass of a slug in g above which an opening keeps a tab of the length `program.tab`. It needs `thickness`: 7.85 g/cm³ × area ×
-   * thickness.
+   * Mass of a slug in g above which an opening keeps a tab of the length `program.tab`. It needs `thickness`: 7.85 g/cm³ × area × thickness.
    */
   slugLimit?: number;
 }
