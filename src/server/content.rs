@@ -2,7 +2,7 @@
 
 use super::convert;
 use super::kind::Kind;
-use super::shown::Shown;
+use super::shown::{self, Shown};
 use super::transport::{Written, panic_text};
 use crate::document::{Document, Source};
 use crate::drawing::Drawing;
@@ -188,7 +188,7 @@ impl Content {
         match self {
             Content::Read(document) => {
                 let found = catch_unwind(AssertUnwindSafe(|| {
-                    convert::publish_of(Arc::make_mut(document), encoding, related_of, shown)
+                    shown::publish_of(Arc::make_mut(document), encoding, related_of, shown)
                 }));
                 found.unwrap_or_else(|panic| {
                     report(&*panic);

@@ -1,12 +1,10 @@
 //! The one place where the core's findings, places and edits become the protocol's, and back.
 
-use super::shown::Shown;
 use super::transport::Written;
 use crate::document::Document;
 use crate::drawing::Entity;
 use crate::finding;
 use crate::finding::{Finding, Place, Rule};
-use crate::job;
 use crate::protocol::{
     CodeDescription, Diagnostic, FindingData, Location, Position, Range, RelatedInformation,
     severity_number,
@@ -18,21 +16,6 @@ use serde::Serialize;
 
 /// A publish holds at most this many findings.
 pub(super) const PUBLISH_LIMIT: usize = 500;
-
-/// The findings of one publish: at most [`PUBLISH_LIMIT`], errors first, then one that counts the others. And how many
-/// there are in all.
-///
-/// With the document's `uri`, for a client that shows them, the other places of a finding are told, too.
-pub(super) fn publish_of(
-    document: &mut Document,
-    encoding: Encoding,
-    uri: Option<&str>,
-    shown: &mut Shown,
-) -> (Written, usize) {
-    let (findings, count) = job::check(document, PUBLISH_LIMIT);
-    let told = shown.render(document, findings, encoding, uri);
-    (told, count)
-}
 
 pub(super) fn diagnostics(
     document: &Document,

@@ -1,10 +1,11 @@
 //! What a client is shown of a document, kept as JSON: a finding that says what it said before is copied with the range that it
 //! has now, and only what is new or has changed is rendered.
 
-use super::convert::{diagnostic, ranges_of, written};
+use super::convert::{PUBLISH_LIMIT, diagnostic, ranges_of, written};
 use super::transport::Written;
 use crate::document::Document;
 use crate::finding::{Finding, Place};
+use crate::job;
 use crate::protocol::{FindingData, Range};
 use crate::settings::Effective;
 use crate::text::Encoding;
@@ -12,6 +13,21 @@ use memchr::memmem::find_iter;
 use rustc_hash::FxHasher;
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
+
+/// The findings of one publish: at most [`PUBLISH_LIMIT`], errors first, then one that counts the others. And how many
+/// there are in all.
+///
+/// With the document's `uri`, for a client that shows them, the other places of a finding are told, too.
+pub(super) fn publish_of(
+    document: &mut Document,
+    encoding: Encoding,
+    uri: Option<&str>,
+    shown: &mut Shown,
+) -> (Written, usize) {
+    let (findings, count) = job::check(document, PUBLISH_LIMIT);
+    let told = shown.render(document, findings, encoding, uri);
+    (told, count)
+}
 
 /// The findings of the last publish.
 #[derive(Default)]
@@ -168,7 +184,6 @@ mod tests {
     use crate::document::Source;
     use crate::dxf;
     use crate::program;
-    use crate::server::convert::publish_of;
     use proptest::prelude::*;
     use std::fmt::Write as _;
 

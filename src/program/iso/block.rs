@@ -1,6 +1,7 @@
 //! What one line says to the machine: its modal words, coordinates and marks, typed. Lengths stay as they are written.
 
-use super::word::{Number, Term, Token, Value, WordFault, words};
+use super::plain::words;
+use super::word::{Number, Term, Token, Value, WordFault};
 use std::ops::Range;
 
 /// G00 to G03.

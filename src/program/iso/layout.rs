@@ -2,7 +2,8 @@
 //!
 //! No number is rewritten: whether it has a decimal point, and how many digits, means something to a control.
 
-use super::word::{Token, words};
+use super::plain::words;
+use super::word::Token;
 use crate::program::edits::{self, AT_ONCE, LineEdits};
 use crate::settings::Layout;
 use crate::text::{SourceText, TextEdit};

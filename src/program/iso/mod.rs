@@ -19,6 +19,7 @@ mod line;
 pub(crate) mod machine;
 mod numbers;
 mod order;
+pub(crate) mod plain;
 mod read;
 pub(in crate::program) mod refactor;
 mod repair;
@@ -42,5 +43,6 @@ pub(crate) use numbers::renamed;
 pub(in crate::program) use taper::{Words as TaperWords, refuse_anywhere as refuse_taper};
 
 pub use machine::{CenterRule, Course, Machine, Move, Reading};
-pub use word::{Number, Term, Token, Value, WordFault, words};
+pub use plain::words;
+pub use word::{Number, Term, Token, Value, WordFault};
 pub use write::{write, write_with};

@@ -11,7 +11,7 @@ use super::block::{Block, word_range};
 use super::document::Document;
 use super::line::push_changed;
 use super::machine::{Machine, Move, distance};
-use super::word::plain;
+use super::plain::plain;
 use crate::finding::{Detail, Fault, Finding, FixKind, Place, Rule, Severity};
 use crate::geometry::{Segment, Vector};
 use crate::program::repair::search::{self, Contour, Verdict, search};

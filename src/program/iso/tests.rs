@@ -4,7 +4,8 @@ mod writing;
 
 use super::document::Document;
 use super::machine::CenterRule;
-use super::word::{Number, Token, WordFault, words};
+use super::plain::words;
+use super::word::{Number, Token, WordFault};
 use crate::finding;
 use crate::program::path::Kind;
 use crate::settings::{Effective, SideSetting};

@@ -2,9 +2,7 @@
 //!
 //! Nothing here knows what a word means, and nothing that one line says hangs on another.
 
-use super::cursor::scan;
 use crate::finding::{Detail, Finding, Rule, Severity};
-use crate::program::alike::{Alike, alike};
 use std::ops::Range;
 
 /// A number as it is written: `mantissa · 10^−decimals`. Whether it had a decimal point tells millimetres from micrometres.
@@ -181,87 +179,4 @@ impl WordFault {
                 | WordFault::Lookalike
         )
     }
-}
-
-/// Hands each token of a line, which is without its line end, to `each`. Ranges are counted from `offset`.
-pub fn words(line: &[u8], offset: usize, mut each: impl FnMut(Token)) {
-    if !line.is_ascii()
-        && let Some(plain) = Plain::of(line)
-    {
-        each(Token::Fault {
-            fault: WordFault::Lookalike,
-            range: offset + plain.first.start..offset + plain.first.end,
-        });
-        scan(&plain.bytes, 0, offset == 0, |token| {
-            each(plain.placed(token, offset))
-        });
-        return;
-    }
-    scan(line, offset, offset == 0, each);
-}
-
-/// A line in which characters stand as those that they look like, each with its place in the text.
-struct Plain {
-    bytes: Vec<u8>,
-    /// Of each byte, and of the end, where it stands in the line.
-    places: Vec<usize>,
-    /// The first characters that are others.
-    first: Range<usize>,
-}
-
-impl Plain {
-    /// `None` where no word of the line is written in other characters.
-    fn of(line: &[u8]) -> Option<Plain> {
-        let mut plain = Plain {
-            bytes: Vec::with_capacity(line.len()),
-            places: Vec::with_capacity(line.len() + 1),
-            first: 0..0,
-        };
-        // A byte order mark is none of them.
-        let is_mark = |found: &Alike| line[found.at..].starts_with(b"\xef\xbb\xbf");
-        let mut others = alike(line)
-            .into_iter()
-            .filter(|found| !is_mark(found))
-            .peekable();
-        let (mut at, mut depth, mut is_wide) = (0, 0_usize, false);
-        while at < line.len() {
-            let other = others.next_if(|found| found.at == at);
-            let other =
-                other.filter(|found| depth == 0 || (is_wide && found.likeness.ascii() == b')'));
-            let length = other.map_or(1, |found| found.length);
-            let byte = other.map_or(line[at], |found| found.likeness.ascii());
-            if other.is_some() {
-                if plain.first.is_empty() {
-                    plain.first = at..at + length;
-                } else if plain.first.end == at {
-                    plain.first.end = at + length;
-                }
-            }
-            match byte {
-                b'(' if depth == 0 => (depth, is_wide) = (1, other.is_some()),
-                b'(' if !is_wide => depth += 1,
-                b')' => depth = depth.saturating_sub(1),
-                b';' if depth == 0 => depth = usize::MAX / 2,
-                _ => {}
-            }
-            plain.bytes.push(byte);
-            plain.places.push(at);
-            at += length;
-        }
-        plain.places.push(line.len());
-        (!plain.first.is_empty()).then_some(plain)
-    }
-
-    fn placed(&self, token: Token, offset: usize) -> Token {
-        let place = |range: Range<usize>| {
-            let at = |at: usize| self.places.get(at).copied().unwrap_or_default();
-            offset + at(range.start)..offset + at(range.end)
-        };
-        token.moved(place)
-    }
-}
-
-/// A line with the characters of its words as those that they look like; `None` where none is another.
-pub fn plain(line: &[u8]) -> Option<Vec<u8>> {
-    Plain::of(line).map(|plain| plain.bytes)
 }

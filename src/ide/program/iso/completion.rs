@@ -7,9 +7,10 @@ use crate::ide::{Completion, CompletionKind};
 use crate::program::iso::block::{Block, Compensation, Motion, read_line};
 use crate::program::iso::document::Document;
 use crate::program::iso::machine::{Machine, Move};
+use crate::program::iso::plain::words;
 use crate::program::iso::steps::Begun;
 use crate::program::iso::style::Style;
-use crate::program::iso::word::{Number, Token, WordFault, words};
+use crate::program::iso::word::{Number, Token, WordFault};
 use std::borrow::Cow;
 use std::ops::Range;
 

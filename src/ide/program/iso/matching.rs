@@ -2,7 +2,8 @@
 
 use crate::program::iso::block::{Compensation, read_line, word_range};
 use crate::program::iso::document::Document;
-use crate::program::iso::word::{Token, words};
+use crate::program::iso::plain::words;
+use crate::program::iso::word::Token;
 use std::ops::Range;
 
 /// The word at a byte and the one that belongs to it; `None` where none does.

@@ -4,7 +4,8 @@ use super::vocabulary::{known, usual};
 use crate::program::iso::block::{Block, Offset, read_line};
 use crate::program::iso::document::Document;
 use crate::program::iso::machine::{CenterRule, Machine};
-use crate::program::iso::word::{Number, Token, words};
+use crate::program::iso::plain::words;
+use crate::program::iso::word::{Number, Token};
 use std::ops::Range;
 
 /// What the word at a range of bytes says in its line, in Markdown; `None` for what means nothing.

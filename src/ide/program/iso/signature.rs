@@ -5,7 +5,8 @@ use crate::ide::Signature;
 use crate::program::iso::block::{Block, Compensation, Motion, read_line};
 use crate::program::iso::document::Document;
 use crate::program::iso::machine::{CenterRule, Machine};
-use crate::program::iso::word::{Token, WordFault, words};
+use crate::program::iso::plain::words;
+use crate::program::iso::word::{Token, WordFault};
 
 /// The form of the block that is written at a byte; `None` where none is.
 pub fn signature(document: &Document, offset: usize) -> Option<Signature> {

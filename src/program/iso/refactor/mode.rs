@@ -9,8 +9,9 @@
 use super::Iso;
 use crate::program::iso::block::read_line;
 use crate::program::iso::machine::{CenterRule, Reading};
+use crate::program::iso::plain::words;
 use crate::program::iso::taper::{Words, refuse_anywhere};
-use crate::program::iso::word::{Token, words};
+use crate::program::iso::word::Token;
 use crate::program::refactor::{Refactoring, Rewrite, Sheet};
 use crate::text::TextEdit;
 

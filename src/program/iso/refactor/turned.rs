@@ -2,7 +2,8 @@
 
 use super::{Iso, swapped_sides};
 use crate::program::iso::block::{read_line, word_range};
-use crate::program::iso::word::{Number, Token, words};
+use crate::program::iso::plain::words;
+use crate::program::iso::word::{Number, Token};
 use crate::program::refactor::{Rewrite, Sheet, Transform};
 use crate::text::TextEdit;
 use std::ops::Range;
