@@ -139,7 +139,8 @@ fn saying_from(resolution: f64) -> Arc<Effective> {
 
 fn analysed(drawing: &Drawing) -> (Analysis, Vec<Finding>) {
     let mut analysis = Analysis::new(drawing, settings());
-    let findings = analysis.findings(drawing, usize::MAX).0;
+    let (findings, count) = analysis.findings(drawing, usize::MAX);
+    assert_eq!(findings.len(), count, "what is counted is told");
     (analysis, findings)
 }
 

@@ -178,10 +178,14 @@ impl Pairs {
             &seen.iter().map(|(_, _, each)| *each).collect::<Vec<_>>(),
             &|key| outlook(key).map(|it| it.contour.len()),
         );
+        let mut told: FxHashSet<EntityId> = FxHashSet::default();
         for (at, (rule, ends, each)) in seen.iter().enumerate() {
             let rule = &PAIR_RULES[*rule];
+            let is_told = rule.rule == Rule::DuplicateEntity
+                && (later.contains(&ends.0.0) || !told.insert(ends.0.0));
             if rule.silent_for_doubles && doubles.contains(&(ends.0.0, ends.1.0))
                 || merged.contains(&at)
+                || is_told
             {
                 continue;
             }
@@ -203,14 +207,10 @@ impl Pairs {
                     (own.place(each.one.1), theirs.place(each.other.1))
                 && let Some(detail) = (rule.detail)(&one, &other, each.one.0 == each.other.0)
             {
-                let related = match rule.rule {
-                    Rule::DuplicateEntity if later.contains(&ends.0.0) => continue,
-                    Rule::DuplicateEntity => match others.remove(&ends.0.0) {
-                        Some(all) => all,
-                        None => continue,
-                    },
-                    _ => vec![related],
-                };
+                let all = (rule.rule == Rule::DuplicateEntity)
+                    .then(|| others.remove(&ends.0.0))
+                    .flatten();
+                let related = all.unwrap_or_else(|| vec![related]);
                 report.add(rule.rule, mildest, place, detail, related);
             }
         }
