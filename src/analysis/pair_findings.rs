@@ -178,17 +178,21 @@ impl Pairs {
             &seen.iter().map(|(_, _, each)| *each).collect::<Vec<_>>(),
             &|key| outlook(key).map(|it| it.contour.len()),
         );
-        let mut told: FxHashSet<EntityId> = FxHashSet::default();
         for (at, (rule, ends, each)) in seen.iter().enumerate() {
             let rule = &PAIR_RULES[*rule];
-            let is_told = rule.rule == Rule::DuplicateEntity
-                && (later.contains(&ends.0.0) || !told.insert(ends.0.0));
             if rule.silent_for_doubles && doubles.contains(&(ends.0.0, ends.1.0))
                 || merged.contains(&at)
-                || is_told
             {
                 continue;
             }
+            let others = match rule.rule {
+                Rule::DuplicateEntity if later.contains(&ends.0.0) => continue,
+                Rule::DuplicateEntity => match others.remove(&ends.0.0) {
+                    Some(others) => Some(others),
+                    None => continue,
+                },
+                _ => None,
+            };
             let unknown = rule.warning_when_side_unknown
                 && (wire_side(each.one.0).is_none() || wire_side(each.other.0).is_none());
             // Where the contour is the wire's own path it may well touch and cross itself: leads do.
@@ -207,10 +211,7 @@ impl Pairs {
                     (own.place(each.one.1), theirs.place(each.other.1))
                 && let Some(detail) = (rule.detail)(&one, &other, each.one.0 == each.other.0)
             {
-                let all = (rule.rule == Rule::DuplicateEntity)
-                    .then(|| others.remove(&ends.0.0))
-                    .flatten();
-                let related = all.unwrap_or_else(|| vec![related]);
+                let related = others.unwrap_or_else(|| vec![related]);
                 report.add(rule.rule, mildest, place, detail, related);
             }
         }

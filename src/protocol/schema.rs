@@ -113,15 +113,20 @@ fn hyphened(key: &str) -> String {
     out
 }
 
-/// Puts into the type of a level of settings what the row of a key says beside the type: the range, and the meaning as plain text.
-fn declare(definitions: &mut Map<String, Value>, row: &Row) {
-    let (of, key) = match row.key.rsplit_once('.') {
+/// The type that holds the key of a row, and its name in there.
+fn place_of(row: &Row) -> (&'static str, &str) {
+    match row.key.rsplit_once('.') {
         Some(("passes", key)) => ("Passes", key),
         Some(("program", key)) => ("ProgramSettings", key),
         Some(("job", key)) => ("JobSettings", key),
         Some((_, key)) => ("ProfileSettings", key),
         None => ("Settings", row.key.as_str()),
-    };
+    }
+}
+
+/// Puts into the type of a level of settings what the row of a key says beside the type: the range, and the meaning as plain text.
+fn declare(definitions: &mut Map<String, Value>, row: &Row) {
+    let (of, key) = place_of(row);
     let Some(schema) = definitions
         .get_mut(of)
         .and_then(|table| table["properties"].get_mut(camel_case(key)))
@@ -156,13 +161,7 @@ mod tests {
     fn the_schema_of_the_file_has_the_keys_of_the_file() {
         let schema = super::settings_schema();
         for row in super::settings::rows() {
-            let (of, key) = match row.key.rsplit_once('.') {
-                Some(("passes", key)) => ("Passes", key),
-                Some(("program", key)) => ("ProgramSettings", key),
-                Some(("job", key)) => ("JobSettings", key),
-                Some((_, key)) => ("ProfileSettings", key),
-                None => ("Settings", row.key.as_str()),
-            };
+            let (of, key) = super::place_of(&row);
             assert!(
                 schema["$defs"][of]["properties"].get(key).is_some(),
                 "{of} {key}"

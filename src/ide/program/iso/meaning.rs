@@ -15,8 +15,8 @@ pub fn meaning(document: &Document, word: Range<usize>) -> Option<String> {
     let range = text.line_range(line);
     let bytes = text.bytes().get(range.clone())?;
     let mut found = None;
-    words(bytes, range.start, |token| {
-        if range_of(&token).start == word.start {
+    words(bytes, range.start, |mut token| {
+        if token.range_mut().start == word.start {
             found = Some(token);
         }
     });
@@ -65,20 +65,6 @@ pub fn meaning(document: &Document, word: Range<usize>) -> Option<String> {
         Token::Skip { .. } => say!(block_that_may_be_left_out).into(),
         Token::Comment { .. } | Token::Fault { .. } => return None,
     })
-}
-
-fn range_of(token: &Token) -> Range<usize> {
-    match token {
-        Token::Word { range, .. }
-        | Token::Definition { range, .. }
-        | Token::Sum { range, .. }
-        | Token::Corner { range, .. }
-        | Token::Foreign { range }
-        | Token::Comment { range }
-        | Token::Tape { range }
-        | Token::Skip { range }
-        | Token::Fault { range, .. } => range.clone(),
-    }
 }
 
 /// A place of the control's table; `None` where the number is none.
