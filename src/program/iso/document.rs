@@ -2,15 +2,15 @@
 
 use super::block::{Block, Offset, read_line};
 use super::control::{Control, lines_from};
-use super::cuts::{self, Cut};
+use super::cut::Cut;
 use super::evidence::Evidence;
 use super::limits::Limits;
 use super::machine::{Machine, Reading};
 use super::order::{Order, order};
 use super::read::words_of;
-use super::repair::Repairs;
+use super::repair::found::Repairs;
 use super::run::Hears;
-use super::stretch::Stretch;
+use super::stretch::{Placed, StopAt, Stretch};
 use crate::program::chunks::{Chunks, Language};
 use crate::program::path::{Found, Known};
 use crate::settings::Effective;
@@ -46,9 +46,6 @@ pub struct Document {
     pub(super) repairs: OnceLock<Arc<Repairs>>,
 }
 
-/// A stop: the index of its stretch, and its byte counted from there.
-pub(super) type StopAt = (usize, u32);
-
 /// The stretches of a cut, and its runs in there.
 type Places = Vec<(usize, usize)>;
 
@@ -62,14 +59,6 @@ pub(super) struct Crossings {
 
 /// The last value of each place of the control's table, nm.
 pub(super) type Table = FxHashMap<Offset, i64>;
-
-/// A stretch and where it stands.
-pub(super) struct Placed<'a> {
-    pub stretch: &'a Stretch,
-    pub lines: Range<usize>,
-    /// Byte of the text from which the stretch's places count.
-    pub offset: usize,
-}
 
 impl Document {
     /// Reads program text. Never fails: what is damaged is in [`Document::findings`].
@@ -312,9 +301,7 @@ impl Document {
             *self.table = table;
             self.look_at_all();
         }
-        let cuts = cuts::cuts(self);
-        self.tabs = cuts::tabs(self, &cuts);
-        self.contours = cuts::contours(cuts, &self.tabs);
+        (self.contours, self.tabs) = self.find_contours();
         let mut crossings = std::mem::take(&mut self.crossings);
         crossings.look(self);
         self.crossings = crossings;

@@ -1,7 +1,8 @@
 //! Block numbers about a line, and the subprograms that are called by them.
 
 use super::block::Stop;
-use super::document::{Document, Placed};
+use super::document::Document;
+use super::stretch::Placed;
 use std::collections::BTreeMap;
 use std::ops::Range;
 

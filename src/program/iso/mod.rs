@@ -7,6 +7,7 @@ mod control;
 mod corner;
 mod crossings;
 mod cursor;
+mod cut;
 mod cuts;
 pub(crate) mod document;
 mod encode;

@@ -3,6 +3,7 @@
 //! A cut in trouble is taken as the lines between two stops. A change of one block is run from there on until the machine stands again as
 //! it did, so that most cost a few lines; all is bounded by counted lines, so that what is found hangs on the text alone.
 
+pub(super) mod found;
 mod lost;
 mod scan;
 mod words;
@@ -16,6 +17,7 @@ use crate::finding::{Detail, Fault, Finding, FixKind, Place, Rule, Severity};
 use crate::geometry::{Segment, Vector};
 use crate::program::repair::search::{self, Contour, Verdict, search};
 use crate::text::TextEdit;
+use found::{Repair, Repairs};
 use scan::{Against, Line, Way};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -42,27 +44,6 @@ const MOST_TROUBLES: usize = 6;
 
 /// Lines that are run for all of them.
 const MOST_RUNS: usize = 40_000;
-
-/// A change that makes a cut sound, or sounder.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Repair {
-    pub kind: FixKind,
-    pub edits: Vec<TextEdit>,
-    /// The line that it changes first.
-    pub line: usize,
-    /// What is written, and what is meant.
-    pub found: String,
-    pub meant: String,
-    /// The cut does not close without it.
-    pub closes: bool,
-    /// Nothing is wrong any more, and no other change does as well.
-    pub is_sure: bool,
-    /// What is wrong speaks for it: a cut that only crosses itself may be meant to run elsewhere altogether.
-    pub explains: bool,
-}
-
-/// Repairs by the lines of the cuts that they belong to.
-pub type Repairs = Vec<(Range<usize>, Vec<Repair>)>;
 
 impl Document {
     /// The slips that may be behind what is wrong, by the lines of the cuts that they stand in.

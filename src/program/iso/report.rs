@@ -3,13 +3,14 @@
 mod text;
 
 use super::block::{Code, Motion, word_range};
-use super::cuts::Cut;
-use super::document::{Document, Placed, Table};
+use super::cut::Cut;
+use super::document::{Document, Table};
 use super::limits::Limits;
 use super::machine::{Course, Move, Place as Spot, Reading, apart, distance, micrometres};
-use super::repair::{Repair, is_trouble, line_of};
+use super::repair::found::Repair;
+use super::repair::{is_trouble, line_of};
 use super::run::{Run, RunSide, Tight};
-use super::stretch::Stretch;
+use super::stretch::{Placed, Stretch};
 use crate::finding::{Detail, Fault, Finding, NoFix, Place, Rule, Severity, Side, SmallRadius};
 use crate::geometry::cross;
 use crate::program::path::{UM_IN_MM, is_tight, not_closed, tolerance};

@@ -116,6 +116,17 @@ pub struct Stretch {
     pub fixed: bool,
 }
 
+/// A stretch and where it stands.
+pub struct Placed<'a> {
+    pub stretch: &'a Stretch,
+    pub lines: Range<usize>,
+    /// Byte of the text from which the stretch's places count.
+    pub offset: usize,
+}
+
+/// A stop: the index of its stretch, and its byte counted from there.
+pub type StopAt = (usize, u32);
+
 impl Stretch {
     /// True when these lines do the same wherever the wire stands before them.
     pub fn is_loose(&self) -> bool {

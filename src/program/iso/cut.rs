@@ -1,0 +1,96 @@
+//! Consecutive moves of an ISO program without a rapid or a stop between, put together from the stretches that they run through.
+
+use super::machine::Place;
+use super::run::{Run, SEVERAL, changes_side};
+use super::stretch::{Placed, StopAt};
+use std::ops::Range;
+
+/// The share of a cut in one stretch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Part {
+    /// Indices of the stretch, and of the run in there.
+    pub stretch: usize,
+    pub run: usize,
+    /// Byte of the text from which the stretch's places count.
+    pub offset: usize,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Cut {
+    pub parts: Vec<Part>,
+    pub run: Run,
+    /// The line that begins it, and the one that ends it, in the text.
+    pub range: Range<usize>,
+    pub last_range: Range<usize>,
+    /// The stop that ended it, where it is a single one.
+    stop: Option<StopAt>,
+    stops: usize,
+    /// Moves before the stop at its tab.
+    pub before_tab: Option<u32>,
+    /// Where the wire was sent to the other side first, and the line that did so.
+    pub flip: Option<(Place, Range<usize>)>,
+}
+
+impl Cut {
+    pub fn of(placed: &Placed<'_>, stretch: usize, run: usize) -> Option<Cut> {
+        let (offset, its) = (placed.offset, placed.stretch.run_at(run)?);
+        let place = |(start, end): (u32, u32)| offset + start as usize..offset + end as usize;
+        let mut cut = Cut {
+            parts: vec![Part {
+                stretch,
+                run,
+                offset,
+            }],
+            flip: its.flip.map(|(at, line)| (at, place(line))),
+            range: place(its.range),
+            last_range: place(its.last_range),
+            run: its,
+            stop: None,
+            stops: 0,
+            before_tab: None,
+        };
+        cut.stopped(its.stop, stretch);
+        Some(cut)
+    }
+
+    pub fn stopped(&mut self, stop: Option<u32>, stretch: usize) {
+        match stop {
+            None => {}
+            Some(SEVERAL) => self.stops += 2,
+            Some(at) => {
+                self.stops += 1;
+                self.stop = Some((stretch, at));
+            }
+        }
+    }
+
+    /// This cut and then the next, which goes on from where it ends: behind the stop at its tab, where there was one.
+    pub fn append(&mut self, next: Cut) {
+        if self.stops > 0 {
+            self.before_tab.get_or_insert(self.run.moves);
+        }
+        let flips = self.stops == 0 && changes_side(&self.run.last[1], &next.run.first[0]);
+        let flip = flips.then(|| (next.run.start(), next.range.clone()));
+        self.flip = self.flip.take().or(flip).or(next.flip);
+        self.run.append(&next.run);
+        self.last_range = next.last_range;
+        self.parts.extend(next.parts);
+        (self.stop, self.stops) = (next.stop, next.stops);
+    }
+
+    pub fn single_stop(&self) -> Option<StopAt> {
+        self.stop.filter(|_| self.stops == 1)
+    }
+
+    /// Indices of its stretches and of its runs in there.
+    pub fn places(&self) -> Vec<(usize, usize)> {
+        let place = |part: &Part| (part.stretch, part.run);
+        self.parts.iter().map(place).collect()
+    }
+
+    /// The stretch that holds all of it, and its run in there.
+    pub fn only_place(&self) -> Option<(usize, usize)> {
+        let [part] = self.parts[..] else { return None };
+        Some((part.stretch, part.run))
+    }
+}
