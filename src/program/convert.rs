@@ -18,6 +18,9 @@ const CUT: &str = "CUT";
 const LEAD: &str = "LEAD";
 const WAY: &str = "WAY";
 
+/// Arcs that turn by more, nearly full circles, are not held well by a bulge, rad.
+const MOST_BY_BULGE: f64 = TAU * 0.75;
+
 /// Consecutive cuts, µm.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cut {
@@ -273,6 +276,11 @@ impl Cuts {
         segments[index] = match segments[index] {
             Segment::Line(line) => Segment::line(line.start, end),
             Segment::Arc(arc) if arc.is_full_turn() => Segment::Arc(arc),
+            // By its bulge, an arc runs through both its ends: about its old centre it would lie beside the new one, by all that
+            // the contour did not close.
+            Segment::Arc(arc) if arc.sweep.abs() <= MOST_BY_BULGE => {
+                Segment::from_bulge(arc.start, end, arc.bulge())
+            }
             Segment::Arc(arc) => {
                 let made = Arc::about(arc.center, arc.start, end, arc.sweep > 0.0);
                 let sweep = if (made.sweep - arc.sweep).abs() > PI {
@@ -371,7 +379,7 @@ fn polyline(segments: &[Segment], closed: bool) -> Option<Geometry> {
     };
     for segment in segments {
         match segment {
-            Segment::Arc(arc) if arc.sweep.abs() > TAU * 0.75 => {
+            Segment::Arc(arc) if arc.sweep.abs() > MOST_BY_BULGE => {
                 let bulge = (arc.sweep / 8.0).tan();
                 push(arc.start, bulge);
                 push(arc.point_at(0.5), bulge);
