@@ -224,7 +224,7 @@ fn sync(folder: &Path) {
 /// The system's reason without its number.
 pub(crate) fn plain(error: &io::Error) -> String {
     let text = error.to_string();
-    let short = text.split(say!(os_error)).next().unwrap_or(&text);
+    let short = text.split(" (os error").next().unwrap_or(&text);
     let mut characters = short.chars();
     characters.next().map_or_else(String::new, |first| {
         first.to_lowercase().chain(characters).collect()

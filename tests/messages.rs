@@ -20,14 +20,15 @@ const NOT_FOR_PEOPLE: [&str; 13] = [
 ];
 
 /// What looks like a sentence and is a word of a format: what serde and diff say, classes of SVG, shapes of JSON, descriptions in the
-/// schema. The examples under the help of the command line stand with the rest of it, which `clap` takes from comments.
-const WORDS_OF_FORMATS: [&str; 10] = [
+/// schema, what the standard library puts behind a reason. The examples under the help of the command line stand with the rest of it, which `clap` takes from comments.
+const WORDS_OF_FORMATS: [&str; 11] = [
     "one of ",
     "\\\\ No newline at end of file\\n",
     "wire fault",
     "wire other",
     "{ uri, version, changes }",
     "{ uri, factor }",
+    " (os error",
     "wedm protocol",
     "Every message of the wedm/ name space, protocol {PROTOCOL}.",
     "A vertex [x, y, bulge] of a polyline; the bulge may be left out and is 0 then.",
@@ -185,4 +186,140 @@ fn a_stray_sentence_is_seen() {
     );
     check("f(\"not cut, as it seems\")", &["not cut, as it seems"]);
     check("say!(no_such_layer, layer)", &[]);
+}
+
+/// A row of a language: its name, what it takes, and its wordings.
+#[derive(Debug)]
+struct Row {
+    name: String,
+    takes: String,
+    wordings: Vec<String>,
+}
+
+/// The rows of a language, file by file, in their order.
+fn rows(language: &str) -> Vec<(String, Vec<Row>)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/message");
+    let files = walkdir::WalkDir::new(folder.join(language)).sort_by_file_name();
+    let files = files.into_iter().map(|entry| entry.unwrap().into_path());
+    let files = files.filter(|path| path.extension().is_some_and(|ending| ending == "rs"));
+    files
+        .map(|path| {
+            let text = std::fs::read_to_string(&path).unwrap();
+            let mut rows: Vec<Row> = Vec::new();
+            for line in text.lines() {
+                let head = line
+                    .strip_prefix("    ")
+                    .filter(|head| head.starts_with(|first: char| first.is_ascii_alphanumeric()));
+                if let Some((head, wording)) = head.and_then(|head| head.split_once(" => ")) {
+                    let (name, takes) = head.split_once('(').unwrap_or((head, ""));
+                    rows.push(Row {
+                        name: name.to_owned(),
+                        takes: takes.to_owned(),
+                        wordings: literals(wording),
+                    });
+                } else if let Some(row) = rows.last_mut() {
+                    row.wordings.extend(literals(line));
+                }
+            }
+            (
+                path.file_name().unwrap().to_string_lossy().into_owned(),
+                rows,
+            )
+        })
+        .collect()
+}
+
+/// What stands in braces, sorted: `{layer:?}`, `{x:.3}`, `{{x}}`.
+fn placeholders(wording: &str) -> Vec<&str> {
+    let ends = wording.match_indices('{').filter_map(|(from, _)| {
+        let end = wording[from..].find('}')?;
+        Some(&wording[from..=from + end])
+    });
+    let mut found: Vec<&str> = ends.collect();
+    found.sort_unstable();
+    found
+}
+
+/// Rows that a function words, with a plural where the language has one: their wordings are counted by no test.
+fn is_function(row: &Row) -> bool {
+    row.takes.contains(':')
+}
+
+#[test]
+fn every_sentence_has_its_twin_which_speaks_of_the_same() {
+    let (english, chinese) = (rows("en"), rows("zh"));
+    let files = |of: &[(String, Vec<Row>)]| -> Vec<String> {
+        of.iter().map(|(name, _)| name.clone()).collect()
+    };
+    assert_eq!(files(&english), files(&chinese));
+    let mut wrong: Vec<String> = Vec::new();
+    for ((file, ours), (_, theirs)) in english.iter().zip(&chinese) {
+        let names = |rows: &[Row]| -> Vec<String> {
+            let of = rows.iter().map(|row| format!("{}({}", row.name, row.takes));
+            of.collect()
+        };
+        assert_eq!(names(ours), names(theirs), "{file}: rows in the same order");
+        for (one, other) in ours.iter().zip(theirs).filter(|(one, _)| !is_function(one)) {
+            let (said, twin) = (&one.wordings[0], &other.wordings[0]);
+            if placeholders(said) != placeholders(twin) {
+                wrong.push(format!("{file}: {}: {said:?} and {twin:?}", one.name));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn chinese_rows_are_chinese() {
+    let is_han = |letter: char| matches!(letter, '\u{4e00}'..='\u{9fff}');
+    // Code words, and words that Chinese does without.
+    const WITHOUT: [&str; 3] = ["wedm demo", "{heading} wedm fix {file} --in-place", ""];
+    let mut wrong: Vec<String> = Vec::new();
+    for (file, rows) in rows("zh") {
+        for (name, wording) in rows.iter().flat_map(|row| {
+            let name = &row.name;
+            row.wordings.iter().map(move |wording| (name, wording))
+        }) {
+            if WITHOUT.contains(&&**wording) {
+                continue;
+            }
+            let speaks = wording.chars().any(is_han);
+            let words = unbraced(wording);
+            // Units and letters of a program are no words.
+            let is_of_words = words
+                .split(|letter: char| !letter.is_ascii_alphabetic())
+                .any(|word| word.len() > 2);
+            let plain = |mark: char| {
+                // A half-width mark right beside Chinese letters, which have their own.
+                let letters: Vec<char> = wording.chars().collect();
+                letters
+                    .windows(2)
+                    .any(|pair| is_han(pair[0]) && pair[1] == mark)
+            };
+            if (is_of_words && !speaks)
+                || is_sentence(&words.replace("wedm ", "wedm-"))
+                || [',', ':', ';', '!', '?'].into_iter().any(plain)
+            {
+                wrong.push(format!("{file}: {name}: {wording:?}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// The wording without its placeholders and code words.
+fn unbraced(wording: &str) -> String {
+    let mut text = String::new();
+    let mut depth = 0;
+    let mut is_code = false;
+    for letter in wording.chars() {
+        match letter {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            '`' => is_code = !is_code,
+            _ if depth == 0 && !is_code => text.push(letter),
+            _ => {}
+        }
+    }
+    text
 }

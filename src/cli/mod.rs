@@ -26,6 +26,7 @@ mod serve;
 mod simulate;
 
 use crate::message::{Asker, Language, is_hidden, readable, speak};
+use clap::builder::PossibleValue;
 use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
 use std::fmt::Display;
@@ -44,8 +45,17 @@ struct CommandLine {
     #[command(flatten)]
     server: serve::Arguments,
     /// Language of all that is said [default: that of LC_ALL, LC_MESSAGES or LANG, else en]
-    #[arg(long, global = true, value_name = "LANGUAGE", value_parser = Language::ALL.map(Language::tag))]
+    #[arg(long, global = true, value_name = "LANGUAGE", value_parser = Language::ALL.map(tag))]
     lang: Option<String>,
+}
+
+/// The tag of a language, and what editors and environments call it besides.
+fn tag(language: Language) -> PossibleValue {
+    let others: &[&str] = match language {
+        Language::English => &["en-US", "en_US", "en-GB", "en_GB"],
+        Language::Chinese => &["zh-CN", "zh_CN", "zh-cn", "zh-Hans", "zh_CN.UTF-8"],
+    };
+    PossibleValue::new(language.tag()).aliases(others)
 }
 
 const EXAMPLES: &str = "\

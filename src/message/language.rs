@@ -8,16 +8,19 @@ use std::sync::atomic::{AtomicU16, Ordering};
 pub enum Language {
     #[default]
     English,
+    /// Simplified, also for those who asked for Chinese of any other kind.
+    Chinese,
 }
 
 impl Language {
     /// Every language, in the order of their numbers.
-    pub const ALL: [Language; 1] = [Language::English];
+    pub const ALL: [Language; 2] = [Language::English, Language::Chinese];
 
     /// As `--lang` and the settings of editors name it.
     pub fn tag(self) -> &'static str {
         match self {
             Language::English => "en",
+            Language::Chinese => "zh",
         }
     }
 
@@ -88,6 +91,17 @@ mod tests {
         ] {
             assert_eq!(Language::of(tag), Some(Language::English), "{tag}");
         }
+        for tag in [
+            "zh",
+            "zh-CN",
+            "zh-cn",
+            "zh-Hans",
+            "zh_CN.UTF-8",
+            "zh_CN.GB18030",
+            "zh-TW",
+        ] {
+            assert_eq!(Language::of(tag), Some(Language::Chinese), "{tag}");
+        }
         for tag in ["", "tlh", "english", "_en"] {
             assert_eq!(Language::of(tag), None, "{tag}");
         }
@@ -109,6 +123,10 @@ mod tests {
             of(&[("LC_ALL", ""), ("LANG", "en")]),
             Some(Language::English)
         );
-        assert_eq!(of(&[("LC_ALL", "tlh"), ("LANG", "en")]), None);
+        assert_eq!(
+            of(&[("LC_MESSAGES", "zh_CN.UTF-8"), ("LANG", "en")]),
+            Some(Language::Chinese)
+        );
+        assert_eq!(of(&[("LC_ALL", "tlh"), ("LANG", "zh_CN")]), None);
     }
 }

@@ -24,6 +24,7 @@ mod table;
 mod en;
 mod language;
 mod readable;
+mod zh;
 
 pub(crate) use en::said;
 pub use language::{Asker, Language, speak, spoken};

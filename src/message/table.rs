@@ -15,6 +15,7 @@ macro_rules! in_spoken {
     ($($call:tt)*) => {
         match $crate::message::spoken() {
             $crate::message::Language::English => $crate::message::en::$($call)*,
+            $crate::message::Language::Chinese => $crate::message::zh::$($call)*,
         }
     };
 }

@@ -8,5 +8,4 @@ declare! {
     it_is_read_only => "it is read-only";
     it_is_not_the_file_any_more_that_was_read => "it is not the file any more that was read, nothing is changed";
     its_owner_user_group_cannot_be_kept(uid, gid, error) => "its owner (user {uid}, group {gid}) cannot be kept: {error}";
-    os_error => " (os error";
 }

@@ -1,0 +1,19 @@
+//! Simplified Chinese, in the words of `docs/zh/glossary.md`: the same rows as in English.
+
+mod cli;
+mod codes;
+mod drawing;
+mod files;
+mod findings;
+mod ide;
+mod job;
+mod program;
+mod rules;
+mod server;
+mod settings;
+mod toolpath;
+
+pub(super) use {
+    cli::*, codes::*, drawing::*, files::*, findings::*, ide::*, job::*, program::*, rules::*,
+    server::*, settings::*, toolpath::*,
+};

@@ -1,0 +1,27 @@
+//! Paths of the wire, and why there is none.
+
+translate! {
+    the_lead_in_cuts_through_contour(x, y, x1, y1, crossed) => "从穿丝孔 ({x:.3}, {y:.3}) 到 ({x1:.3}, {y1:.3}) 的引入线切穿轮廓 {crossed}";
+    the_way_cuts_into_contour(x, y, x1, y1, contour) => "从 ({x:.3}, {y:.3}) 到 ({x1:.3}, {y1:.3}) 的空走会切入轮廓 {contour}：profile 的暂停码不停机，电极丝没有拆下";
+    contour_has_no_length(handle) => "轮廓 {handle} 没有长度";
+    contour_is_open_and_cannot_be_entered_at(handle, x, y) => "轮廓 {handle} 不封闭，不能从 ({x}, {y}) 切入，应从它的一个端点切入";
+    contour_is_open_the_side_of_the_wire_is_not_known(handle) => "轮廓 {handle} 不封闭：不知道电极丝在哪一侧；请封闭轮廓，或把 compensation 设为 none 按图线切割";
+    side_of_contour_is_not_known(handle) => "不知道轮廓 {handle} 的补偿方向：请说明 opening（型孔）或 punch（凸模）";
+    the_thread_hole_comes_nearer_to_the_contour(x, y, correction, x1, y1) => "穿丝孔 ({x:.3}, {y:.3}) 到轮廓的距离小于补偿量 {correction:.3} mm：电极丝只能停在 ({x1:.3}, {y1:.3})";
+    there_is_no_entity_with_the_handle(handle) => "没有句柄为 {handle} 的图元";
+    entity_belongs_to_no_contour_that_is_cut(handle) => "图元 {handle} 不属于要切割的轮廓";
+    there_is_no_contour_to_cut => "没有要切割的轮廓";
+    crosses_the_contour_or_comes_nearer(correction) => "与轮廓相交，或到轮廓的距离小于补偿量 {correction:.3} mm";
+    cuts_into_contour_or_comes_nearer(contour, correction) => "切入轮廓 {contour}，或到它的距离小于补偿量 {correction:.3} mm";
+    runs_into_the_cut_along_contour(contour) => "切入轮廓 {contour} 的切缝";
+    the_tab_is_longer_than_contour(tab, handle, length) => "暂留段长 {tab:.3} mm，而轮廓 {handle} 只长 {length:.3} mm，没有可切的了：请缩短暂留段";
+    the_overlap_is_longer_than_contour(overlap, handle, length) => "重叠段长 {overlap:.3} mm，绕满了只长 {length:.3} mm 的轮廓 {handle}：请缩短重叠段";
+    passes_one_way_leave_no_tab => "每次切割方向相同，留不出暂留段：请设 passes.sequence 为 alternate，或 program.tab 为 0";
+    no_tab_fits_at(tab, x, y) => "({x:.3}, {y:.3}) 处留不出 {tab:.3} mm 的暂留段：电极丝到不了那里";
+    the_lead_in_does(x, y, x1, y1, does) => "从穿丝孔 ({x:.3}, {y:.3}) 到 ({x1:.3}, {y1:.3}) 的引入线{does}";
+    no_lead_in_fits_at(length, correction, x, y, why) => "({x:.3}, {y:.3}) 处放不下长 {length:.3} mm 直至等于补偿量 {correction:.3} mm 的引入线{why}：请给出穿丝孔，或换一个切入点";
+    because_it(does) => "（它{does}）";
+    the_entry_lies_from_contour(x, y, distance, handle) => "切入点 ({x}, {y}) 离轮廓 {handle} 有 {distance:.3} mm，应在轮廓上";
+    one_is_given_for_several_contours(what, count) => "一个{what}对应 {count} 个轮廓：请用句柄选一个轮廓，或按句柄列表给出";
+    entry => "切入点";
+}
