@@ -2,7 +2,7 @@
 
 use super::inspect::Format;
 use super::options::Common;
-use super::output::{self, counted, styled};
+use super::output::{self, styled};
 use super::{Failure, Verdict, files};
 use crate::drawing::Role;
 use crate::message::readable;
@@ -60,9 +60,9 @@ fn list(contours: &Contours) -> String {
                 ""
             };
             let range = if run.len() == 1 {
-                format!("segment {}", first.segment)
+                say!(segment_by_number, first.segment)
             } else {
-                format!("segments {} to {}", first.segment, last.segment)
+                say!(segments_from_to, first.segment, last.segment)
             };
             let _ = writeln!(text, "  {:<12} {range}{against}", readable(&first.handle));
         }
@@ -79,35 +79,34 @@ fn list(contours: &Contours) -> String {
         }
         text.push('\n');
     }
-    let _ = writeln!(text, "{}", counted(contours.contours.len(), "contour"));
+    let _ = writeln!(text, "{}", say!(contours, contours.contours.len()));
     text
 }
 
 fn heading(index: usize, contour: &ContoursContour, unit_mm: f64) -> String {
     let shape = match (contour.closed, contour.direction) {
-        (false, _) => "open",
+        (false, _) => say!(open),
         (true, Some(Direction::Ccw)) => say!(closed_counter_clockwise),
         (true, Some(Direction::Cw)) => say!(closed_clockwise),
         (true, None) => say!(closed_without_area),
     };
     let role = match contour.role {
-        Role::Opening => "opening",
-        Role::Punch => "punch",
+        Role::Opening => say!(opening),
+        Role::Punch => say!(punch),
         Role::Both => say!(both_sides),
         Role::Ignore => say!(not_cut),
     };
     let length = contour.length * unit_mm;
-    let area = contour.area.map_or_else(String::new, |area| {
-        format!(", area {:.3} mm²", area * unit_mm * unit_mm)
-    });
+    let area = contour
+        .area
+        .map_or_else(String::new, |area| say!(area_of, area * unit_mm * unit_mm));
     let order = contour
         .order
         .map_or_else(String::new, |order| say!(cut_number, order + 1));
     let mark = contour
         .mark
         .map_or_else(String::new, |[x, y]| say!(start_mark_at, x, y));
-    format!(
-        "contour {index}: {shape}, {role}, {}, length {length:.3} mm{area}{order}{mark}",
-        counted(contour.segments.len(), "segment")
-    )
+    let segments = say!(segments, contour.segments.len());
+    let what = say!(contour_and_what_it_is, index, shape, role, segments, length);
+    format!("{what}{area}{order}{mark}")
 }

@@ -1,7 +1,7 @@
 //! `wedm convert`: a program as a drawing, or in another language.
 
 use super::options::{Common, Program};
-use super::output::{self, counted, styled};
+use super::output::{self, styled};
 use super::{Failure, Verdict, files, report};
 use crate::job::{self, Converted, Target};
 use clap::Args;
@@ -83,9 +83,9 @@ fn target(arguments: &Arguments) -> Result<Target, Failure> {
 
 fn summarise(arguments: &Arguments, target: Target, made: &Converted) {
     let cuts = &made.cuts;
-    let contours = counted(cuts.cuts.len(), "contour");
+    let contours = say!(contours, cuts.cuts.len());
     let what = match made.blocks {
-        Some(blocks) => format!("{}, {contours}", counted(blocks, "block")),
+        Some(blocks) => format!("{}{}{contours}", say!(blocks, blocks), say!(comma)),
         None => contours,
     };
     let written = output::target_name(arguments.output.as_deref());

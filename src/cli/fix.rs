@@ -2,14 +2,14 @@
 
 use super::changes::print_diff;
 use super::options::Common;
-use super::output::{self, counted, styled};
+use super::output::{self, styled};
 use super::report::{self, Row};
 use super::{Failure, Verdict, files};
 use crate::disk::Seen;
 use crate::document::{Document, Source};
 use crate::finding::{Edit, Finding, Rule, Severity};
 use crate::job::{self, Repairs};
-use crate::message::readable;
+use crate::message::{readable, said};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -49,14 +49,14 @@ struct Target {
 }
 
 /// The rules whose findings are repaired without asking, and what one of them is called.
-fn repaired_rules() -> [(Rule, &'static str); 6] {
+fn repaired_rules() -> [(Rule, fn(&usize) -> String); 6] {
     [
-        (Rule::SmallRadius, "arc"),
-        (Rule::DuplicateEntity, "double"),
-        (Rule::Overlap, "overlap"),
-        (Rule::ShortSegment, say!(short_segment)),
-        (Rule::Gap, "gap"),
-        (Rule::ArcAsChords, say!(chorded_arc)),
+        (Rule::SmallRadius, said::arcs),
+        (Rule::DuplicateEntity, said::doubles),
+        (Rule::Overlap, said::overlaps),
+        (Rule::ShortSegment, said::short_segments),
+        (Rule::Gap, said::gaps),
+        (Rule::ArcAsChords, said::chorded_arcs),
     ]
 }
 
@@ -195,24 +195,24 @@ fn deliver(arguments: &Arguments, repair: &Repair, seen: &Seen) -> Result<(), Fa
 /// What was repaired, and what is left and why, to stderr: stdout may be the drawing.
 fn summarise(path: &Path, repair: &Repair) {
     let of_rule = |rows: &[Row], rule: Rule| rows.iter().filter(|row| row.rule == rule).count();
-    let repaired = repaired_rules().into_iter().filter_map(|(rule, noun)| {
+    let repaired = repaired_rules().into_iter().filter_map(|(rule, counted)| {
         let count = of_rule(&repair.before, rule).saturating_sub(of_rule(&repair.after, rule));
-        (count > 0).then(|| counted(count, noun))
+        (count > 0).then(|| counted(&count))
     });
-    let repaired = repaired.collect::<Vec<_>>().join(", ");
+    let repaired = repaired.collect::<Vec<_>>().join(say!(comma));
     let is_sound = repaired_rules()
         .iter()
         .all(|&(rule, _)| of_rule(&repair.before, rule) == 0);
     let name = output::name(path);
     if !repaired.is_empty() {
         let rounds = if repair.rounds > 1 {
-            format!(" in {} rounds", repair.rounds)
+            say!(in_rounds, repair.rounds)
         } else {
             String::new()
         };
         output::say(&format!(
             "{name}: {}{rounds}",
-            styled(output::GOOD, format!("{repaired} repaired"))
+            styled(output::GOOD, say!(repaired, repaired))
         ));
     } else if repair.is_changed() {
         let count = |rows: &[Row]| {
@@ -223,10 +223,7 @@ fn summarise(path: &Path, repair: &Repair) {
         let gone = count(&repair.before).saturating_sub(count(&repair.after));
         output::say(&format!(
             "{name}: {}",
-            styled(
-                output::GOOD,
-                format!("{} repaired", counted(gone, "finding"))
-            )
+            styled(output::GOOD, say!(repaired, say!(findings, gone)))
         ));
     } else if is_sound {
         output::say(&say!(nothing_to_repair, name));
@@ -256,8 +253,8 @@ fn summarise(path: &Path, repair: &Repair) {
             .chunk_by(|one, other| one == other)
             .map(|same| format!("{} {}", same.len(), same[0].name()))
             .collect::<Vec<_>>()
-            .join(", ");
-        let heading = styled(output::WARNING, "left:");
+            .join(say!(comma));
+        let heading = styled(output::WARNING, say!(left));
         output::say(&say!(left_in_all, heading, counts, name));
         return;
     }
@@ -271,7 +268,7 @@ fn summarise(path: &Path, repair: &Repair) {
         let place = format!("{name}:{}:{}", row.line, row.column);
         output::say(&format!(
             "{} {place}: {}{reason}",
-            styled(output::WARNING, "left:"),
+            styled(output::WARNING, say!(left)),
             row.message
         ));
     }

@@ -2,7 +2,7 @@
 
 use super::changes::print_diff;
 use super::options::{Common, words};
-use super::output::{self, STRONG, counted, styled};
+use super::output::{self, STRONG, styled};
 use super::{Failure, Verdict, files};
 use crate::finding::Rule;
 use crate::program::{self, Language};
@@ -77,7 +77,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if target.is_one() && (files.len() != 1 || arguments.paths.len() != 1) {
         return Err(Failure(say!(
             several_files_are_found,
-            counted(files.len(), "program")
+            say!(programs, files.len())
         )));
     }
     if let (Some(out), [file]) = (&target.output, &files[..]) {
@@ -100,15 +100,12 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         }
     }
     if !target.is_one() {
-        let verb = if target.in_place {
-            "formatted"
+        let programs = say!(programs, changed);
+        output::say(&if target.in_place {
+            say!(programs_formatted, programs, unchanged)
         } else {
-            say!(would_be_formatted)
-        };
-        output::say(&format!(
-            "{} {verb}, {unchanged} unchanged",
-            counted(changed, "program")
-        ));
+            say!(programs_would_be_formatted, programs, unchanged)
+        });
     }
     let differs = changed > 0 && (target.check || target.diff);
     Ok(verdict.max(Verdict::of_errors(differs)))
@@ -176,7 +173,7 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
         output::say(&say!(
             left_as_they_stand,
             output::name(path),
-            counted(damaged, "line")
+            say!(lines, damaged)
         ));
     }
     Ok(is_changed)

@@ -1,7 +1,7 @@
 //! `wedm generate`: a program for the machine.
 
 use super::options::{Common, Program};
-use super::output::{self, counted, styled};
+use super::output::{self, styled};
 use super::{Failure, Verdict, files, report};
 use crate::finding::{Detail, Finding};
 use crate::job::{self, Wanted};
@@ -99,8 +99,8 @@ fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
         the_program_is_written,
         styled(output::GOOD, "written"),
         target,
-        counted(program.blocks, "block"),
-        counted(contours, "contour"),
+        say!(blocks, program.blocks),
+        say!(contours, contours),
         program.length
     ));
     let drift = match arguments.format {

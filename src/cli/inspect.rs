@@ -2,7 +2,7 @@
 
 use super::files::{self, Opened};
 use super::options::Common;
-use super::output::{self, counted, styled};
+use super::output::{self, flush_left, flush_right, styled};
 use super::report::{self, Row};
 use super::{Failure, Verdict};
 use crate::finding::Severity;
@@ -125,10 +125,8 @@ fn table(printed: &Printed) -> String {
         0 => styled(output::GOOD, say!(all_of_them_can_be_cut)),
         count => styled(output::ERROR, say!(not_ok, count)),
     };
-    let entities = match printed.inspection.entities.len() {
-        1 => "1 entity".into(),
-        count => format!("{count} entities"),
-    };
+    let entities = say!(entities, printed.inspection.entities.len());
+    let segments = say!(segments, segments);
     let units = if unit == 1.0 {
         "mm".into()
     } else {
@@ -136,14 +134,18 @@ fn table(printed: &Printed) -> String {
     };
     let _ = writeln!(
         text,
-        "{entities}, {} in {units}: {result}",
-        counted(segments, "segment")
+        "{}",
+        say!(all_in_units, entities, segments, units, result)
     );
     text
 }
 
 fn heading(entity: &InspectedEntity) -> String {
-    let closed = if entity.closed { "closed" } else { "open" };
+    let closed = if entity.closed {
+        say!(closed)
+    } else {
+        say!(open)
+    };
     let cut = if entity.cut { "" } else { say!(and_not_cut) };
     say!(
         on_layer,
@@ -157,17 +159,23 @@ fn heading(entity: &InspectedEntity) -> String {
 
 fn columns() -> String {
     format!(
-        "{:>7} {:>13} {:>13}  {:<7} {:>10} {:>9}  verdict",
-        "vertex", "x", "y", "segment", "radius", "sweep °"
+        "{} {:>13} {:>13}  {} {} {}  {}",
+        flush_right(say!(vertex), 7),
+        "x",
+        "y",
+        flush_left(say!(column_of_segments), 7),
+        flush_right(say!(radius), 10),
+        flush_right(say!(column_of_sweeps), 9),
+        say!(column_of_verdicts)
     )
 }
 
 fn line(segment: &InspectedSegment, unit_mm: f64) -> String {
     let shape = &segment.shape;
     let kind = match shape.kind {
-        SegmentKind::Line => "line",
-        SegmentKind::Arc => "arc",
-        SegmentKind::Circle => "circle",
+        SegmentKind::Line => say!(line),
+        SegmentKind::Arc => say!(arc),
+        SegmentKind::Circle => say!(circle),
     };
     let radius = shape
         .radius
@@ -175,8 +183,9 @@ fn line(segment: &InspectedSegment, unit_mm: f64) -> String {
     let sweep = shape
         .sweep
         .map_or_else(String::new, |sweep| format!("{sweep:.2}"));
+    let kind = flush_left(kind, 7);
     let row = format!(
-        "{:>7} {:>13.4} {:>13.4}  {kind:<7} {radius:>10} {sweep:>9}  ",
+        "{:>7} {:>13.4} {:>13.4}  {kind} {radius:>10} {sweep:>9}  ",
         segment.index, shape.start.0, shape.start.1
     );
     let style = if segment.verdict == "ok" {

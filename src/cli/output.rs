@@ -2,7 +2,7 @@
 
 use super::Failure;
 use crate::disk;
-use crate::message::{is_hidden, readable};
+use crate::message::{columns, is_hidden, readable};
 use anstyle::{AnsiColor, Style};
 use serde::Serialize;
 use std::borrow::Cow;
@@ -78,11 +78,7 @@ pub fn say(text: &str) {
 
 /// What went wrong, to stderr.
 pub fn complain(sentence: &str) {
-    say(&format!(
-        "{}: {}",
-        styled(ERROR, "error"),
-        readable(sentence)
-    ));
+    say(&say!(says, styled(ERROR, say!(error)), readable(sentence)));
 }
 
 /// Text of several lines with our own colours, nothing else of which a terminal obeys: what was forgotten before is caught here.
@@ -173,9 +169,9 @@ fn said_of(path: &Path, written: Result<u64, String>) -> Result<(), Failure> {
         Ok(0) => {}
         Ok(others) => say(&say!(
             had_hard_links,
-            styled(NOTE, "note:"),
+            styled(NOTE, say!(note)),
             name(path),
-            counted(usize::try_from(others).unwrap_or(usize::MAX), "name")
+            say!(names, usize::try_from(others).unwrap_or(usize::MAX))
         )),
         Err(reason) => {
             return Err(Failure(say!(
@@ -215,12 +211,14 @@ pub fn refuse_input(target: &Path, input: &Path) -> Result<(), Failure> {
 }
 
 /// "1 error", "3 errors".
-pub fn counted(count: usize, noun: &str) -> String {
-    if count == 1 {
-        format!("1 {noun}")
-    } else {
-        format!("{count} {noun}s")
-    }
+/// The text at the left of so many columns of a terminal, where a Chinese character takes two.
+pub fn flush_left(text: &str, width: usize) -> String {
+    format!("{text}{}", " ".repeat(width.saturating_sub(columns(text))))
+}
+
+/// The same at the right.
+pub fn flush_right(text: &str, width: usize) -> String {
+    format!("{}{text}", " ".repeat(width.saturating_sub(columns(text))))
 }
 
 #[cfg(test)]

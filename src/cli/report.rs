@@ -1,6 +1,6 @@
 //! Findings as rows: a file, a place in it, a rule, a sentence; and each row as text with its excerpt, or as JSON.
 
-use super::output::{complain, counted};
+use super::output::complain;
 use super::{Failure, Verdict, output};
 use crate::document::Document;
 use crate::finding;
@@ -98,7 +98,7 @@ pub fn refuse(
         }
         Refusal::Errors(errors) => {
             say(path, document, errors);
-            let errors = counted(errors.len().min(MOST), "error");
+            let errors = say!(errors, errors.len().min(MOST));
             complain(&advice(errors));
         }
         Refusal::Findings(findings) => {
@@ -188,10 +188,10 @@ impl Row {
     /// The row as a person reads it: rule, sentence, place, and the lines at fault; with colours, which a stream may strip.
     pub fn rendered(&self) -> String {
         let level = match self.severity {
-            Severity::Error => Level::ERROR,
-            Severity::Warning => Level::WARNING,
-            Severity::Information => Level::INFO.with_name("information"),
-            Severity::Hint => Level::NOTE.with_name("hint"),
+            Severity::Error => Level::ERROR.with_name(say!(error)),
+            Severity::Warning => Level::WARNING.with_name(say!(warning)),
+            Severity::Information => Level::INFO.with_name(say!(information)),
+            Severity::Hint => Level::NOTE.with_name(say!(hint)),
         };
         let title = level
             .primary_title(self.message.as_str())
@@ -228,7 +228,7 @@ impl Row {
         let data = &self.data;
         let mut place = readable(data.handle.as_ref()?).into_owned();
         if let Some(segment) = data.segment {
-            place.push_str(&format!(", segment {segment}"));
+            place = say!(segment, place, segment);
         }
         if let Some(point) = data.at.or(data.start).or(data.center) {
             place.push_str(&say!(at_point, point.0, point.1));

@@ -2,7 +2,7 @@
 
 use super::inspect::Format;
 use super::options::Common;
-use super::output::{self, FAINT, WARNING, styled};
+use super::output::{self, FAINT, WARNING, flush_left, flush_right, styled};
 use super::{Failure, Verdict, files};
 use crate::protocol::{SimulatedBlock, Simulation, StepKind};
 use clap::Args;
@@ -63,8 +63,12 @@ fn table(simulation: &Simulation) -> String {
         styled(
             FAINT,
             format!(
-                "{:>6} {:>6}  {:<6} {:>12} {:>12}",
-                "line", "N", "", "end X", "end Y"
+                "{} {:>6}  {:<6} {} {}",
+                flush_right(say!(column_of_lines), 6),
+                "N",
+                "",
+                flush_right(say!(column_of_end_x), 12),
+                flush_right(say!(column_of_end_y), 12)
             )
         )
     );
@@ -78,9 +82,9 @@ fn table(simulation: &Simulation) -> String {
         .iter()
         .filter(|block| !matches!(block.kind, StepKind::Pause | StepKind::End))
         .count();
-    let _ = write!(text, "{moving} blocks, {:.3} mm", simulation.length);
+    text += &say!(length_of_blocks, say!(blocks, moving), simulation.length);
     if let Some(minutes) = simulation.minutes {
-        let _ = write!(text, ", {minutes:.1} min");
+        text += &say!(takes_minutes, minutes);
     }
     let _ = writeln!(
         text,
@@ -110,16 +114,17 @@ fn row(text: &mut String, block: &SimulatedBlock) {
         .number
         .map_or_else(String::new, |number| number.to_string());
     let kind = match block.kind {
-        StepKind::Line => "line",
-        StepKind::Arc => "arc",
-        StepKind::Rapid => "way",
-        StepKind::Pause => "pause",
-        StepKind::End => "end",
+        StepKind::Line => say!(line),
+        StepKind::Arc => say!(arc),
+        StepKind::Rapid => say!(a_way),
+        StepKind::Pause => say!(pause),
+        StepKind::End => say!(end),
     };
+    let kind = flush_left(kind, 6);
     let mm = |um: f64| um / 1000.0;
     let _ = write!(
         text,
-        "{:>6} {number:>6}  {kind:<6} {:>12.3} {:>12.3}",
+        "{:>6} {number:>6}  {kind} {:>12.3} {:>12.3}",
         block.line + 1,
         mm(block.end.0),
         mm(block.end.1)
@@ -128,12 +133,8 @@ fn row(text: &mut String, block: &SimulatedBlock) {
         let _ = write!(text, "  R {:.3} mm, {sweep:+.3}°", mm(radius));
     }
     if let Some(ideal) = block.ideal_end.filter(|_| block.deviation > SHOWN) {
-        let meant = format!(
-            "  meant {:.4}, {:.4}: {:.2} µm beside",
-            mm(ideal.0),
-            mm(ideal.1),
-            block.deviation
-        );
+        let meant = say!(meant_elsewhere, mm(ideal.0), mm(ideal.1), block.deviation);
+        let meant = format!("  {meant}");
         let _ = write!(
             text,
             "{}",

@@ -45,7 +45,7 @@ pub(super) fn to_text(bytes: &[u8]) -> (Vec<u8>, Option<String>) {
         text.push(b'\n');
         if let Err(sentence) = tags.value(code, &mut text) {
             text.truncate(mark);
-            return (text, Some(format!("byte {begins_at}: {sentence}")));
+            return (text, Some(say!(in_byte, begins_at, sentence)));
         }
         let is_end = code == 0 && text[mark..].ends_with(b"\nEOF");
         text.push(b'\n');

@@ -37,7 +37,7 @@ pub(super) fn to_text(bytes: &[u8]) -> (Vec<u8>, Option<String>) {
             Ok(false) => break None,
             Err(sentence) => {
                 text.truncate(mark);
-                break Some(format!("byte {begins_at}: {sentence}"));
+                break Some(say!(in_byte, begins_at, sentence));
             }
         }
     };

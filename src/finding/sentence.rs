@@ -171,11 +171,8 @@ fn unwritable(what: &Unwritable) -> String {
 }
 
 fn unseen(layer: &str, visibility: Visibility, count: usize) -> String {
-    let (entities, are) = if count == 1 {
-        (say!(n1_entity).to_string(), say!(is))
-    } else {
-        (say!(entities, count), say!(are))
-    };
+    let entities = say!(entities, count);
+    let are = if count == 1 { say!(is) } else { say!(are) };
     let of_layer = |what: &str| say!(entities_of_a_layer_are_not_cut, layer, what, entities, are);
     match visibility {
         Visibility::Frozen => of_layer(say!(frozen)),

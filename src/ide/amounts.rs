@@ -44,10 +44,3 @@ pub(super) fn turn(amount: f64) -> &'static str {
 pub(super) fn closing(closed: bool) -> &'static str {
     if closed { say!(closed) } else { say!(open) }
 }
-
-pub(super) fn segments(count: usize) -> String {
-    match count {
-        1 => say!(n1_segment).into(),
-        count => say!(segments, count),
-    }
-}

@@ -28,7 +28,7 @@ mod zh;
 
 pub(crate) use en::said;
 pub use language::{Asker, Language, speak, spoken};
-pub use readable::{is_hidden, readable};
+pub use readable::{columns, is_hidden, readable};
 
 use std::fmt::{Debug, Display};
 

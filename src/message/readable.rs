@@ -31,6 +31,11 @@ pub fn readable(text: &str) -> Cow<'_, str> {
     )
 }
 
+/// How many columns of a terminal a text takes: a Chinese character takes two.
+pub fn columns(text: &str) -> usize {
+    unicode_width::UnicodeWidthStr::width(text)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

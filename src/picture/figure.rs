@@ -123,23 +123,26 @@ fn contours(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
             sheet.path(
                 &format!(r#"class="contour" data-handle="{}""#, escaped(handle)),
                 &data_of(frame, subject, entity),
-                &format!("{kind} {handle} · {} segments", piece.count()),
+                &format!("{kind} {handle} · {}", say!(segments, piece.count())),
             );
             continue;
         }
         let segments = entity.geometry.segments_of(subject.drawing.flat());
         for (index, segment) in segments.enumerate() {
             let what = match segment {
-                Segment::Line(line) => format!("line, {:.3} mm", subject.mm(line.length())),
+                Segment::Line(line) => say!(line_mm, subject.mm(line.length())),
                 Segment::Arc(arc) => {
                     let (radius, sweep) = (subject.mm(arc.radius), arc.sweep.to_degrees());
-                    format!("arc R {radius:.3} mm, {sweep:.1}°")
+                    say!(arc_r_mm, radius, format!("{sweep:.1}"))
                 }
             };
             sheet.path(
                 &named("contour", handle, index),
                 &path_data(frame, [segment], false),
-                &format!("{kind} {handle} · segment {index} · {what}"),
+                &format!(
+                    "{kind} {handle} · {} · {what}",
+                    say!(segment_by_number, index)
+                ),
             );
         }
     }
@@ -159,7 +162,7 @@ fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
             .chunk_by(|a, b| is_lead(&a.source) == is_lead(&b.source))
         {
             let (class, label) = match run.first() {
-                Some(first) if is_lead(&first.source) => ("lead", "lead-in and lead-out"),
+                Some(first) if is_lead(&first.source) => ("lead", say!(lead_in_and_lead_out)),
                 _ => ("wire", label.as_str()),
             };
             let data = path_data(frame, run.iter().map(|segment| segment.geometry), false);
@@ -217,7 +220,7 @@ fn other_fault(
         _ => None,
     };
     let (handle, rule) = (&entity.handle, finding.rule.name());
-    let label = format!("{handle} · segment {segment} · {rule}");
+    let label = format!("{handle} · {} · {rule}", say!(segment_by_number, segment));
     if let Some(point) = point {
         let attributes = named("dot", handle, segment);
         sheet.circle(&attributes, frame.local(point), DOT, &label);

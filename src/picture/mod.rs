@@ -75,12 +75,9 @@ fn facts(subject: &Subject) -> String {
     let correction = first.map(|fault| fault.detail.required).or_else(of_path);
     let mut facts = Vec::new();
     if let Some(correction) = correction {
-        facts.push(format!("correction {:.3} mm", subject.mm(correction)));
+        facts.push(say!(correction_mm, subject.mm(correction)));
     }
-    facts.push(match subject.outlines.len() {
-        1 => "1 contour".into(),
-        count => format!("{count} contours"),
-    });
+    facts.push(say!(contours, subject.outlines.len()));
     if !subject.paths.is_empty() {
         let segments = subject.paths.iter().flat_map(|path| &path.segments);
         let length: f64 = segments.map(|segment| segment.geometry.length()).sum();

@@ -47,13 +47,13 @@ pub fn program_svg(trace: &Trace, faults: &[(usize, Severity, String)]) -> Strin
     }
     thread_holes(&mut sheet, &frame, &moving);
     sheet.line(format_args!("</g>"));
-    let mut entries = vec![(WIRE, "wire"), (THREAD, say!(start_of_a_contour))];
+    let mut entries = vec![(WIRE, say!(the_wire)), (THREAD, say!(start_of_a_contour))];
     if moving.iter().any(|step| step.kind == Kind::Rapid) {
         entries.push((LEAD, say!(way_without_a_cut)));
     }
     if moving.iter().any(|step| by_line.contains_key(&step.line)) {
-        entries.push((r#"<path class="fault" d="M0 0h24"/>"#, "error"));
-        entries.push((r#"<path class="other" d="M0 0h24"/>"#, "warning"));
+        entries.push((r#"<path class="fault" d="M0 0h24"/>"#, say!(error)));
+        entries.push((r#"<path class="other" d="M0 0h24"/>"#, say!(warning)));
     }
     sheet.line(format_args!(r#"<g class="chrome">"#));
     style::legend(&mut sheet, legend_top + 12.0, &entries);
@@ -135,22 +135,17 @@ fn label(step: &Step) -> String {
         .number
         .map_or_else(String::new, |number| format!("N{number} · "));
     let what = match (&step.ideal, step.kind) {
-        (Some(Segment::Arc(arc)), _) => format!(
-            "arc R {:.3} mm, {:+.1}°",
+        (Some(Segment::Arc(arc)), _) => say!(
+            arc_r_mm,
             arc.radius / 1000.0,
-            arc.sweep.to_degrees()
+            format!("{:+.1}", arc.sweep.to_degrees())
         ),
         (Some(line), Kind::Rapid) => say!(way_without_a_cut_mm, line.length() / 1000.0),
-        (Some(line), _) => format!("line, {:.3} mm", line.length() / 1000.0),
+        (Some(line), _) => say!(line_mm, line.length() / 1000.0),
         (None, _) => say!(leads_nowhere).into(),
     };
     let end = mm(step.end);
-    format!(
-        "{number}line {} · {what} · to {:.3}, {:.3}",
-        step.line + 1,
-        end.x,
-        end.y
-    )
+    say!(step_in_line, number, step.line + 1, what, end.x, end.y)
 }
 
 /// Where each contour begins, once each place.

@@ -95,7 +95,7 @@ pub fn apply(drawing: &mut core::Drawing, changes: Vec<DrawingChange>) -> Result
     let mut standing: FxHashMap<&str, Standing> = FxHashMap::default();
     for (index, change) in changes.iter().enumerate() {
         try_change(drawing, &mut standing, change)
-            .map_err(|reason| format!("change {index}: {reason}"))?;
+            .map_err(|reason| say!(change_by_number, index, reason))?;
     }
     let mut delta = Delta::default();
     for change in changes {

@@ -139,7 +139,7 @@ impl<'de> Deserialize<'de> for Entity {
         let keys = Keys::deserialize(deserializer)?;
         let kind = keys.r#type;
         let name = keys.handle.clone();
-        let missing = |key: &str| D::Error::custom(format!("entity {name}: a {kind} needs {key}"));
+        let missing = |key: &str| D::Error::custom(say!(an_entity_needs, name, kind, key));
         let point =
             |key: &str, point: Option<Xy>| point.map(Point::from).ok_or_else(|| missing(key));
         let angle =

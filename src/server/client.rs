@@ -144,7 +144,7 @@ impl<S: 'static> Client<S> {
                 .get("message")
                 .and_then(Value::as_str)
                 .unwrap_or(say!(no_reason_given));
-            format!("{method} failed: {reason}")
+            say!(failed_for, method, reason)
         });
         Some(Box::new(move |state| then(state, result)))
     }

@@ -39,7 +39,7 @@ pub fn from_toml(text: &str) -> (Settings, Vec<SettingsError>) {
         .map(|fault| {
             SettingsError::new(
                 "",
-                format!("not TOML: {}", fault.message().replace('\n', ", ")),
+                say!(not_toml, fault.message().replace('\n', ", ")),
                 fault.span(),
             )
         })

@@ -1,7 +1,7 @@
 //! The findings as a person reads them, and what they come to.
 
 use super::Survey;
-use crate::cli::output::{self, counted, styled};
+use crate::cli::output::{self, styled};
 use crate::cli::report::{Row, SHARE};
 use crate::finding::Severity;
 use rayon::prelude::*;
@@ -33,20 +33,21 @@ pub(super) fn summary(survey: &Survey) -> String {
     let notes = survey.rows.len() - errors - warnings;
     let mut parts = Vec::new();
     if errors > 0 {
-        parts.push(styled(output::ERROR, counted(errors, "error")));
+        parts.push(styled(output::ERROR, say!(errors, errors)));
     }
     if warnings > 0 {
-        parts.push(styled(output::WARNING, counted(warnings, "warning")));
+        parts.push(styled(output::WARNING, say!(warnings, warnings)));
     }
     if notes > 0 {
-        parts.push(counted(notes, "note"));
+        parts.push(say!(notes, notes));
     }
     let result = if parts.is_empty() {
         styled(output::GOOD, say!(nothing_found))
     } else {
-        parts.join(", ")
+        parts.join(say!(comma))
     };
-    let _ = writeln!(text, "{} checked: {result}", counted(survey.files, "file"));
+    let files = say!(files, survey.files);
+    let _ = writeln!(text, "{}", say!(checked, files, result));
     if let [only] = survey.fixable.as_slice() {
         let _ = writeln!(
             text,
@@ -60,10 +61,7 @@ pub(super) fn summary(survey: &Survey) -> String {
     } else if let Some(first) = survey.fixable.first() {
         let heading = styled(
             output::NOTE,
-            say!(
-                can_be_repaired_such_as,
-                counted(survey.fixable.len(), "file")
-            ),
+            say!(can_be_repaired_such_as, say!(files, survey.fixable.len())),
         );
         let _ = writeln!(
             text,

@@ -70,7 +70,7 @@ impl Client {
         self.reply_or_error(id)?.map_err(|error| {
             Failure(say!(
                 the_server_refuses,
-                error["message"].as_str().unwrap_or("without a reason")
+                error["message"].as_str().unwrap_or(say!(no_reason_given))
             ))
         })
     }

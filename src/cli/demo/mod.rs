@@ -185,15 +185,13 @@ fn segment_of(diagnostic: &Value) -> (String, u64) {
 fn preferred(narrator: &mut Narrator, actions: &Value) -> Result<Value, Failure> {
     let actions = actions.as_array().map_or(&[][..], Vec::as_slice);
     for action in actions {
-        let mark = if action["isPreferred"] == true {
-            "preferred: "
+        let title = action["title"].as_str();
+        let title = title.unwrap_or(say!(action_without_a_title));
+        narrator.item(&if action["isPreferred"] == true {
+            say!(the_preferred_action, title)
         } else {
-            "or: "
-        };
-        narrator.item(&format!(
-            "{mark}{}",
-            action["title"].as_str().unwrap_or("without a title")
-        ));
+            say!(another_action, title)
+        });
     }
     let preferred = actions
         .iter()

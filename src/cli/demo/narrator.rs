@@ -1,6 +1,7 @@
 //! What the demonstration says: numbered steps, in 80 columns, coloured on a terminal.
 
 use super::super::output::{self, styled};
+use crate::message::columns;
 use anstyle::Style;
 use serde_json::Value;
 use std::time::Duration;
@@ -47,13 +48,10 @@ impl Narrator {
     pub fn diagnostic(&mut self, diagnostic: &Value, behind: Behind) {
         let (handle, segment) = super::segment_of(diagnostic);
         let line = match behind {
-            Behind::Text => format!(
-                "line {}, ",
-                diagnostic["range"]["start"]["line"]
-                    .as_u64()
-                    .unwrap_or_default()
-                    + 1
-            ),
+            Behind::Text => {
+                let line = diagnostic["range"]["start"]["line"].as_u64();
+                say!(line_number, line.unwrap_or_default() + 1) + say!(comma)
+            }
             Behind::Nothing => String::new(),
         };
         let at = &diagnostic["data"]["start"];
@@ -75,7 +73,8 @@ impl Narrator {
         );
     }
 
-    /// Text in lines of at most 80 columns, the first behind `lead`, the others indented. A word is never broken.
+    /// Text in lines of at most 80 columns, the first behind `lead`, the others indented. A word is never broken; Chinese is, between
+    /// any two of its letters.
     fn print(&mut self, style: Style, indent: usize, lead: &str, text: &str) {
         for (index, line) in wrapped(text, COLUMNS - indent).into_iter().enumerate() {
             let margin = if index == 0 {
@@ -93,22 +92,39 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     let mut length = 0;
     for word in text.split(' ') {
-        let word_length = word.chars().count();
-        if length > 0 && length + 1 + word_length > width {
-            lines.push(String::new());
-            length = 0;
+        let mut space = " ";
+        for piece in pieces(word) {
+            if length == 0 {
+                space = "";
+            } else if length + space.len() + columns(piece) > width {
+                lines.push(String::new());
+                (length, space) = (0, "");
+            }
+            let Some(line) = lines.last_mut() else {
+                return lines;
+            };
+            line.push_str(space);
+            line.push_str(piece);
+            length += space.len() + columns(piece);
+            space = "";
         }
-        let Some(line) = lines.last_mut() else {
-            return lines;
-        };
-        if length > 0 {
-            line.push(' ');
-            length += 1;
-        }
-        line.push_str(word);
-        length += word_length;
     }
     lines
+}
+
+/// A word, cut where a line may end: beside each wide letter, but not before a mark that closes, nor behind one that opens.
+fn pieces(word: &str) -> Vec<&str> {
+    let is_wide = |letter: char| columns(letter.encode_utf8(&mut [0; 4])) > 1;
+    let (mut found, mut from) = (Vec::new(), 0);
+    for ((_, before), (at, letter)) in word.char_indices().zip(word.char_indices().skip(1)) {
+        let is_joined = "（“".contains(before) || "，。：；、）”…".contains(letter);
+        if (is_wide(before) || is_wide(letter)) && !is_joined {
+            found.push(&word[from..at]);
+            from = at;
+        }
+    }
+    found.push(&word[from..]);
+    found
 }
 
 /// Milliseconds as a person reads them.
@@ -128,6 +144,10 @@ mod tests {
     #[test]
     fn lines_break_between_words() {
         assert_eq!(wrapped("one two three", 7), ["one two", "three"]);
+        assert_eq!(
+            wrapped("切割路线，长 5 mm（丝）", 8),
+            ["切割路", "线，长 5", "mm（丝）"]
+        );
         assert_eq!(wrapped("unbreakable", 3), ["unbreakable"]);
         assert_eq!(wrapped("", 3), [""]);
     }

@@ -4,7 +4,6 @@ use super::client::Client;
 use super::copy::Copy;
 use super::narrator::{Behind, Narrator, duration};
 use super::{Failure, holds, preferred, proof, segment_of};
-use crate::cli::output::counted;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::time::Instant;
@@ -77,7 +76,7 @@ impl Session<'_> {
         self.narrator.step(&say!(and_opens_it_again_to_r, wide));
         self.fillet_by_the_tab(wide)?;
         let still_there = self.has_segment(2);
-        holds(!still_there, || format!("R {wide:.3} gets a diagnostic"))?;
+        holds(!still_there, || say!(r_gets_a_diagnostic, wide))?;
 
         let tight = 0.9 * correction;
         self.narrator
@@ -111,7 +110,7 @@ impl Session<'_> {
         let elapsed = duration(begun.elapsed());
         let before: BTreeSet<(String, u64)> = self.diagnostics.iter().map(segment_of).collect();
         let after: BTreeSet<(String, u64)> = diagnostics.iter().map(segment_of).collect();
-        let count = counted(diagnostics.len(), "diagnostic");
+        let count = say!(diagnostics, diagnostics.len());
         self.narrator.say(&say!(
             version_after_it_was_sent,
             self.copy.version,
@@ -125,8 +124,7 @@ impl Session<'_> {
             self.narrator.diagnostic(diagnostic, Behind::Text);
         }
         for (handle, segment) in before.difference(&after) {
-            self.narrator
-                .good(&format!("gone: {handle} segment {segment}"));
+            self.narrator.good(&say!(gone, handle, segment));
         }
         self.diagnostics = diagnostics;
         Ok(())
@@ -176,7 +174,7 @@ impl Session<'_> {
             .map_or(0, Vec::len);
         self.narrator.say(&say!(
             the_preferred_one_is_applied_in_the_text,
-            counted(edits, say!(new_number))
+            say!(new_numbers, edits)
         ));
         let before = self.diagnostics.len();
         let params = self.copy.apply(&action["edit"])?;
@@ -221,7 +219,7 @@ impl Session<'_> {
         )?;
         self.narrator.good(&say!(
             the_drawing_is_clean_of_all_ok,
-            counted(segments.len(), "segment"),
+            say!(segments, segments.len()),
             DIE
         ));
         self.narrator.say(&say!(
@@ -278,7 +276,7 @@ impl Session<'_> {
         let proof = proof::of(faulty, &self.copy.text, program, &toolpath, correction)?;
         self.narrator.say(&say!(
             decoded_one_from_the_end_of_the_other,
-            counted(proof.blocks, "block"),
+            say!(blocks, proof.blocks),
             proof.from_path_um,
             proof.open_um
         ));

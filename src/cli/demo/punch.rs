@@ -3,7 +3,6 @@
 use super::client::Client;
 use super::narrator::{Behind, Narrator, duration};
 use super::{Failure, holds, preferred};
-use crate::cli::output::counted;
 use serde_json::{Value, json};
 use std::time::Instant;
 
@@ -35,7 +34,7 @@ pub fn session(
     let drawing = json!({ "uri": URI, "version": 1, "units": "mm", "entities": [punch] });
     client.notify("wedm/didOpenDrawing", json!({ "drawing": drawing }))?;
     let first = client.diagnostics(URI, 1)?.len();
-    narrator.say(&format!("version 1: {}", counted(first, "diagnostic")));
+    narrator.say(&say!(version_with, 1, say!(diagnostics, first)));
 
     let tight = 0.5 * correction;
     narrator.say(&say!(two_of_its_10_vertices_are_spliced, tight));
@@ -45,7 +44,7 @@ pub fn session(
     let diagnostics = client.diagnostics(URI, 2)?;
     narrator.say(&say!(
         version_2_after_the_splice,
-        counted(diagnostics.len(), "diagnostic"),
+        say!(diagnostics, diagnostics.len()),
         duration(begun.elapsed())
     ));
     let found = diagnostics
@@ -62,7 +61,7 @@ pub fn session(
     holds(left == first, || {
         say!(diagnostics_are_left_in_the_punch, left)
     })?;
-    narrator.good(&format!("version 3: {}", counted(left, "diagnostic")));
+    narrator.good(&say!(version_with, 3, say!(diagnostics, left)));
     client.notify("wedm/didCloseDrawing", json!({ "drawing": { "uri": URI } }))
 }
 

@@ -8,7 +8,7 @@ use crate::dxf::Document;
 use crate::dxf::number::{self, Number};
 use crate::geometry::Segment;
 use crate::ide::Hover;
-use crate::ide::amounts::{rounded as rounded_to, segments, turn};
+use crate::ide::amounts::{rounded as rounded_to, turn};
 use crate::message::said;
 
 /// What stands at a byte; `None` where no tag is.
@@ -79,7 +79,7 @@ fn about_record(document: &Document, spot: &Spot<'_>, record: &str) -> String {
         .and_then(|id| document.drawing().get(id));
     match entity {
         Some(entity) => {
-            let segments = segments(entity.geometry.segment_count());
+            let segments = say!(segments, entity.geometry.segment_count());
             let about = say!(entity_on_layer, entity.handle, entity.layer, segments);
             format!("{text}\n\n{about}")
         }

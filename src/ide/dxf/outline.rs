@@ -210,10 +210,11 @@ impl Builder<'_> {
             .end
             .max(node.selection.end);
         if matches!(&*node.record, "LWPOLYLINE" | "POLYLINE") {
-            node.detail = match self.vertices {
-                1 => say!(on_layer_1_vertex, node.detail),
-                count => say!(on_layer_vertices, node.detail, count),
-            };
+            node.detail = say!(
+                on_layer_vertices,
+                node.detail,
+                say!(vertices, self.vertices)
+            );
         }
         node
     }

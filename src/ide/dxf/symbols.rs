@@ -2,7 +2,7 @@
 
 use crate::document::Snapshot;
 use crate::drawing::{Handle, Outline, Piece};
-use crate::ide::amounts::{closing, segments};
+use crate::ide::amounts::closing;
 use crate::ide::{Symbol, SymbolKind};
 use std::collections::HashMap;
 
@@ -150,7 +150,7 @@ fn contours_of(tree: &[Symbol], contours: &[ContourNote]) -> Vec<Symbol> {
             name: say!(contour_by_number, index + 1),
             detail: [
                 closing(contour.closed),
-                &segments(contour.segments),
+                &say!(segments, contour.segments),
                 &entities(&contour.handles),
             ]
             .join(", "),

@@ -131,10 +131,7 @@ impl Tree<'_> {
 fn detail(cut: &Cut, contour: &[Step]) -> String {
     let ideals = || contour.iter().filter_map(|step| step.ideal.as_ref());
     let length: f64 = ideals().map(Segment::length).sum();
-    let blocks = match contour.len() {
-        1 => say!(n1_block).into(),
-        count => say!(blocks, count),
-    };
+    let blocks = say!(blocks, contour.len());
     let detail = say!(
         closing_blocks_and_length,
         closing(cut.closed),

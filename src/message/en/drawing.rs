@@ -126,4 +126,10 @@ declare! {
     has_knots_that_do_not_rise => "has knots that do not rise";
     has_weights_for_control_points(weights, points) => "has {weights} weights for {points} control points";
     has_a_weight_that_is_not_above_0 => "has a weight that is not above 0";
+    end_x => " (end x)";
+    end_y => " (end y)";
+    end_z => " (end z)";
+    the_bulge => " (bulge)";
+    the_extrusion => " (extrusion)";
+    in_byte(byte, sentence) => "byte {byte}: {sentence}";
 }

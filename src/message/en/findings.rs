@@ -29,9 +29,7 @@ declare! {
     less_than_a_wire_is_thick => "less than a wire is thick";
     the_size_of_the_part_is_absurd(size, what) => "the largest contour is {size} mm long or wide, {what}: the unit is another one, or the drawing is no part";
     more_findings_are_not_shown(count) => "{count} more findings are not shown";
-    n1_entity => "1 entity";
     is => "is";
-    entities(count) => "{count} entities";
     are => "are";
     entities_of_a_layer_are_not_cut(layer, what, entities, are) => "layer {layer} is {what}: {entities} on it {are} not cut, unless the layer has a role ([layers])";
     frozen => "frozen";
@@ -49,7 +47,6 @@ declare! {
     meets_this_one(place) => "meets this one: {place}";
     the_other_one(place) => "the other one: {place}";
     arc => "arc";
-    arcs(arcs) => "{arcs} arcs";
     replace_arcs_by_one_of_r(what, radius, moved) => "Replace the {what} by one of R {radius} mm (moves the contour by {moved} mm)";
     keep_the_end_points_change_only_the_bulge_to_r(radius, kink) => "Keep the end points, change only the bulge to R {radius} mm (kinks the contour by {kink:.1}° at each end, does not reduce the overcut)";
     round_the_corner_with_r_mm(radius) => "Round the corner with R {radius} mm";

@@ -6,8 +6,6 @@ declare! {
     open => "open";
     clockwise => "clockwise";
     counter_clockwise => "counter-clockwise";
-    n1_segment => "1 segment";
-    segments(count) => "{count} segments";
     unnamed => "unnamed";
     word_in_bold(word, about) => "**{word}** {about}";
     // of DXF
@@ -44,8 +42,6 @@ declare! {
     block_of_the_drawing => "block of the drawing";
     layer_of_the_drawing => "layer of the drawing";
     on_layer_block(layer, block) => "{layer}, block {block}";
-    on_layer_1_vertex(layer) => "{layer}, 1 vertex";
-    on_layer_vertices(layer, count) => "{layer}, {count} vertices";
     contours_as_a_title => "Contours";
     so_many_of_them(count) => "{count} of them";
     a_contour => "contour";
@@ -63,8 +59,6 @@ declare! {
     line_to(place) => "line to {place}";
     circle_r(radius) => "circle R {radius}";
     arc_r_to(radius, place) => "arc R {radius} to {place}";
-    n1_block => "1 block";
-    blocks(count) => "{count} blocks";
     closing_blocks_and_length(closing, blocks, mm) => "{closing}, {blocks}, {mm} mm";
     lead_in => "lead-in";
     lead_out => "lead-out";
@@ -246,4 +240,5 @@ declare! {
     radius_and_turn_of_the_arc(radius, degrees, about) => "R {radius:.3}, {degrees:.1}°{about}";
     the_arc_that_r_means => ", the arc that R means";
     leaves_the_block_before_without_a_corner => ", leaves the block before without a corner";
+    on_layer_vertices(layer, vertices) => "{layer}, {vertices}";
 }

@@ -1,5 +1,6 @@
 //! English, which says which sentences there are: one file for each room that they are of.
 
+mod amounts;
 mod cli;
 mod codes;
 mod drawing;
@@ -14,15 +15,15 @@ mod settings;
 mod toolpath;
 
 pub(super) use {
-    cli::*, codes::*, drawing::*, files::*, findings::*, ide::*, job::*, program::*, rules::*,
-    server::*, settings::*, toolpath::*,
+    amounts::*, cli::*, codes::*, drawing::*, files::*, findings::*, ide::*, job::*, program::*,
+    rules::*, server::*, settings::*, toolpath::*,
 };
 
 /// Every sentence, in the language that is spoken.
 pub(crate) mod said {
     pub(crate) use super::{
-        cli::said::*, codes::said::*, drawing::said::*, files::said::*, findings::said::*,
-        ide::said::*, job::said::*, program::said::*, rules::said::*, server::said::*,
-        settings::said::*, toolpath::said::*,
+        amounts::said::*, cli::said::*, codes::said::*, drawing::said::*, files::said::*,
+        findings::said::*, ide::said::*, job::said::*, program::said::*, rules::said::*,
+        server::said::*, settings::said::*, toolpath::said::*,
     };
 }

@@ -139,4 +139,8 @@ declare! {
     the_line_ends => "the line ends";
     expected_in_a_column(column, found, expected) => "column {column}: {found}, expected {expected}";
     found_something(found) => "found `{found}`";
+    x_or_y_after_g => "X or Y after G";
+    r_of_sr => "R of SR";
+    r_of_nr => "R of NR";
+    of_profile(name, why) => "profile {name}: {why}";
 }

@@ -104,4 +104,12 @@ declare! {
     convert_to_dxf => "Convert to DXF";
     and_more_marked_in_the_drawing(count) => "and {count} more, marked in the drawing";
     thread_hole_at_mm(x, y) => "thread hole at {x:.3}, {y:.3} mm";
+    change_by_number(index, reason) => "change {index}: {reason}";
+    an_entity_needs(name, kind, key) => "entity {name}: a {kind} needs {key}";
+    failed_for(method, reason) => "{method} failed: {reason}";
+    invalid_json(reason) => "invalid JSON: {reason}";
+    lead_in_and_lead_out => "lead-in and lead-out";
+    correction_mm(correction) => "correction {correction:.3} mm";
+    the_wire => "wire";
+    step_in_line(number, line, what, x, y) => "{number}line {line} · {what} · to {x:.3}, {y:.3}";
 }

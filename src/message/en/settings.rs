@@ -29,4 +29,5 @@ declare! {
     is_of_passes_expected_one_for_each(key, count, passes) => "{key} is a list of {count}, expected one for each of the {passes} passes";
     is_expected_at_least_the_wire_radius(pass, correction, radius) => "{pass} is {correction}, expected at least the wire's radius {radius}: the wire would cut into the part";
     the_file_has_bytes_expected_at_most(bytes, most) => "the file has {bytes} bytes, expected at most {most}: none of it holds";
+    not_toml(reason) => "not TOML: {reason}";
 }

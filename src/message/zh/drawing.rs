@@ -126,4 +126,10 @@ translate! {
     has_knots_that_do_not_rise => "的节点不递增";
     has_weights_for_control_points(weights, points) => "有 {weights} 个权，对应 {points} 个控制点";
     has_a_weight_that_is_not_above_0 => "的权不大于 0";
+    end_x => "（端点 X）";
+    end_y => "（端点 Y）";
+    end_z => "（端点 Z）";
+    the_bulge => "（凸度）";
+    the_extrusion => "（拉伸方向）";
+    in_byte(byte, sentence) => "字节 {byte}：{sentence}";
 }

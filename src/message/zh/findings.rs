@@ -29,9 +29,7 @@ translate! {
     less_than_a_wire_is_thick => "比电极丝还小";
     the_size_of_the_part_is_absurd(size, what) => "最大的轮廓长或宽 {size} mm，{what}：单位不对，或图形不是工件";
     more_findings_are_not_shown(count) => "另有 {count} 个问题未列出";
-    n1_entity => "1 个图元";
     is => "";
-    entities(count) => "{count} 个图元";
     are => "都";
     entities_of_a_layer_are_not_cut(layer, what, entities, are) => "图层 {layer} {what}：其上 {entities}{are}不切割，除非给图层指定用途（[layers]）";
     frozen => "已冻结";
@@ -49,8 +47,7 @@ translate! {
     meets_this_one(place) => "与此段相接：{place}";
     the_other_one(place) => "另一处：{place}";
     arc => "圆弧";
-    arcs(arcs) => "{arcs} 段圆弧";
-    replace_arcs_by_one_of_r(what, radius, moved) => "把这{what}换成一段 R {radius} mm 的圆弧（轮廓移动 {moved} mm）";
+    replace_arcs_by_one_of_r(what, radius, moved) => "{what}换成一段 R {radius} mm 的圆弧（轮廓移动 {moved} mm）";
     keep_the_end_points_change_only_the_bulge_to_r(radius, kink) => "端点不动，只把凸度改为 R {radius} mm（两端各折 {kink:.1}°，过切不减）";
     round_the_corner_with_r_mm(radius) => "拐角倒圆 R {radius} mm";
     close_the_contour => "封闭轮廓";

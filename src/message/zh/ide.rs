@@ -6,8 +6,6 @@ translate! {
     open => "不封闭";
     clockwise => "顺时针";
     counter_clockwise => "逆时针";
-    n1_segment => "1 段";
-    segments(count) => "{count} 段";
     unnamed => "未命名";
     word_in_bold(word, about) => "**{word}** {about}";
     // of DXF
@@ -44,8 +42,6 @@ translate! {
     block_of_the_drawing => "图形中的块";
     layer_of_the_drawing => "图形中的图层";
     on_layer_block(layer, block) => "{layer}，块 {block}";
-    on_layer_1_vertex(layer) => "{layer}，1 个顶点";
-    on_layer_vertices(layer, count) => "{layer}，{count} 个顶点";
     contours_as_a_title => "轮廓";
     so_many_of_them(count) => "共 {count} 个";
     a_contour => "轮廓";
@@ -63,8 +59,6 @@ translate! {
     line_to(place) => "直线到 {place}";
     circle_r(radius) => "整圆 R {radius}";
     arc_r_to(radius, place) => "圆弧 R {radius} 到 {place}";
-    n1_block => "1 个程序段";
-    blocks(count) => "{count} 个程序段";
     closing_blocks_and_length(closing, blocks, mm) => "{closing}，{blocks}，{mm} mm";
     lead_in => "引入线";
     lead_out => "引出线";
@@ -246,4 +240,5 @@ translate! {
     radius_and_turn_of_the_arc(radius, degrees, about) => "R {radius:.3}，{degrees:.1}°{about}";
     the_arc_that_r_means => "，即 R 所指的圆弧";
     leaves_the_block_before_without_a_corner => "，与前一段平顺相接";
+    on_layer_vertices(layer, vertices) => "{layer}，{vertices}";
 }

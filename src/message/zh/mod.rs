@@ -1,5 +1,6 @@
 //! Simplified Chinese, in the words of `docs/zh/glossary.md`: the same rows as in English.
 
+mod amounts;
 mod cli;
 mod codes;
 mod drawing;
@@ -14,6 +15,6 @@ mod settings;
 mod toolpath;
 
 pub(super) use {
-    cli::*, codes::*, drawing::*, files::*, findings::*, ide::*, job::*, program::*, rules::*,
-    server::*, settings::*, toolpath::*,
+    amounts::*, cli::*, codes::*, drawing::*, files::*, findings::*, ide::*, job::*, program::*,
+    rules::*, server::*, settings::*, toolpath::*,
 };

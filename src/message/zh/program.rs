@@ -139,4 +139,8 @@ translate! {
     the_line_ends => "行结束";
     expected_in_a_column(column, found, expected) => "第 {column} 列：{found}，应为：{expected}";
     found_something(found) => "是 `{found}`";
+    x_or_y_after_g => "G 后的 X 或 Y";
+    r_of_sr => "SR 的 R";
+    r_of_nr => "NR 的 R";
+    of_profile(name, why) => "profile {name}：{why}";
 }

@@ -104,4 +104,12 @@ translate! {
     convert_to_dxf => "转换为 DXF";
     and_more_marked_in_the_drawing(count) => "另有 {count} 个，已在图中标出";
     thread_hole_at_mm(x, y) => "穿丝孔位于 {x:.3}, {y:.3} mm";
+    change_by_number(index, reason) => "修改 {index}：{reason}";
+    an_entity_needs(name, kind, key) => "图元 {name}：{kind} 要有 {key}";
+    failed_for(method, reason) => "{method} 失败：{reason}";
+    invalid_json(reason) => "JSON 无效：{reason}";
+    lead_in_and_lead_out => "引入线和引出线";
+    correction_mm(correction) => "补偿量 {correction:.3} mm";
+    the_wire => "电极丝";
+    step_in_line(number, line, what, x, y) => "{number}第 {line} 行 · {what} · 到 {x:.3}, {y:.3}";
 }

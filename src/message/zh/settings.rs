@@ -29,4 +29,5 @@ translate! {
     is_of_passes_expected_one_for_each(key, count, passes) => "{key} 列出 {count} 个，应与切割次数一致，共 {passes} 个";
     is_expected_at_least_the_wire_radius(pass, correction, radius) => "{pass} 是 {correction}，不得小于电极丝半径 {radius}：否则丝会切入工件";
     the_file_has_bytes_expected_at_most(bytes, most) => "文件有 {bytes} 字节，最多允许 {most}：整个文件无效";
+    not_toml(reason) => "不是 TOML：{reason}";
 }

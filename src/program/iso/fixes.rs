@@ -242,7 +242,7 @@ fn spur_fix(document: &Document, back: usize) -> Option<TextFix> {
             .trim()
             .to_owned()
     };
-    let found = format!("{} and {}", shown(out), shown(back));
+    let found = shown(out) + say!(and) + &shown(back);
     let edit = vec![whole_line(document, out), whole_line(document, back)];
     Some(TextFix::text(
         FixKind::Rewrite {

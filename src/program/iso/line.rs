@@ -133,7 +133,7 @@ pub(super) fn prove(
     target: &Target,
     reading: &Reading,
 ) -> Result<(), String> {
-    let fault = |what: &str| Err(format!("line {}: {what}", line + 1));
+    let fault = |what: &str| Err(say!(line_by_number, line + 1, what));
     let Some(made) = made else {
         return fault(say!(the_new_line_does_not_move));
     };

@@ -20,7 +20,7 @@ pub(in crate::program) fn refuse(
     wanted: Words,
 ) -> Result<(), String> {
     match lines.find_map(|line| reason(document, line, wanted).map(|reason| (line, reason))) {
-        Some((line, reason)) => Err(format!("line {}: {reason}", line + 1)),
+        Some((line, reason)) => Err(say!(line_by_number, line + 1, reason)),
         None => Ok(()),
     }
 }

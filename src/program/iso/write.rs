@@ -214,7 +214,7 @@ impl<'a> Lines<'a> {
     }
 
     fn refused(&self, why: &str) -> ProofError {
-        ProofError::Refused(format!("profile {}: {why}", self.profile.name))
+        ProofError::Refused(say!(of_profile, self.profile.name, why))
     }
 
     /// From one contour to the next: the wire is taken out, the table moves, the wire is threaded.

@@ -25,7 +25,7 @@ pub(super) fn prove<N: Notation>(
         return Err(say!(the_new_program_reads_otherwise_than_it_was_meant).into());
     }
     for (row, meant) in now.rows.iter().zip(&meant) {
-        N::agree(after, row, meant).map_err(|what| format!("line {}: {what}", row.line + 1))?;
+        N::agree(after, row, meant).map_err(|what| say!(line_by_number, row.line + 1, what))?;
     }
     let pauses = |trace: &Trace| {
         let is_pause = |step: &&crate::program::path::Step| step.kind == Kind::Pause;

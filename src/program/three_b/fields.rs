@@ -334,7 +334,7 @@ fn axis_of(reader: &mut Reader<'_>, numbers: usize) -> Result<CountingAxis, Expe
     match (reader.take(b'X'), reader.take(b'Y')) {
         (true, _) => Ok(CountingAxis::X),
         (false, true) => Ok(CountingAxis::Y),
-        (false, false) => Err((reader.at, "X or Y after G")),
+        (false, false) => Err((reader.at, say!(x_or_y_after_g))),
     }
 }
 
@@ -343,12 +343,12 @@ fn motion_of(reader: &mut Reader<'_>) -> Result<Motion, Expected> {
         Motion::Line
     } else if reader.take(b'S') {
         if !reader.take(b'R') {
-            return Err((reader.at, "R of SR"));
+            return Err((reader.at, say!(r_of_sr)));
         }
         Motion::Clockwise
     } else if reader.take(b'N') {
         if !reader.take(b'R') {
-            return Err((reader.at, "R of NR"));
+            return Err((reader.at, say!(r_of_nr)));
         }
         Motion::CounterClockwise
     } else {

@@ -29,7 +29,7 @@ pub(super) fn parse(body: &[u8]) -> Result<Incoming, Error> {
     }
     let value = parse_json(body).map_err(|reason| Error {
         code: ErrorCode::ParseError,
-        message: Cow::Owned(format!("invalid JSON: {reason}")),
+        message: Cow::Owned(say!(invalid_json, reason)),
         data: None,
     })?;
     let Value::Object(mut message) = value else {

@@ -28,9 +28,10 @@ pub(super) fn rows(document: &Document) -> Result<Vec<Row<Iso>>, String> {
         if let (Detail::Syntax(sentence), Severity::Error, Where::Text { range }) =
             (&finding.detail, finding.severity, &finding.place)
         {
-            return Err(format!(
-                "line {}: {sentence}",
-                text.line_of(range.start) + 1
+            return Err(say!(
+                line_by_number,
+                text.line_of(range.start) + 1,
+                sentence
             ));
         }
     }

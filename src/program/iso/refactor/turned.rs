@@ -23,7 +23,7 @@ pub(super) fn turn_words(
         let range = text.line_range(line);
         let bytes = text.bytes().get(range.clone()).unwrap_or_default();
         line_words(bytes, range.start, transform, edits)
-            .map_err(|reason| format!("line {}: {reason}", line + 1))?;
+            .map_err(|reason| say!(line_by_number, line + 1, reason))?;
     }
     Ok(())
 }

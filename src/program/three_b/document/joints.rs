@@ -161,7 +161,7 @@ impl Document {
             edit.push(TextEdit::new(own, ""));
         }
         let kind = FixKind::Rewrite {
-            found: found.join(" and "),
+            found: found.join(say!(and)),
             meant: String::new(),
         };
         both.is_within(CLOSED)

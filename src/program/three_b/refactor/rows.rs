@@ -99,7 +99,7 @@ pub(super) fn rows(
                 rows.push((line, own));
             }
             Item::Fault(found) => {
-                fault.get_or_insert_with(|| format!("line {}: {}", line + 1, found.sentence()));
+                fault.get_or_insert_with(|| say!(line_by_number, line + 1, found.sentence()));
             }
             Item::Text { .. } if !rows.is_empty() => {
                 fault.get_or_insert_with(|| say!(that_line_cannot_be_read, line + 1));
