@@ -56,7 +56,7 @@ pub(crate) fn read_path_at_most(path: &Path, cap: u64) -> Result<Vec<u8>, String
 
 impl Seen {
     /// What `file` is, whose bytes these are.
-    pub fn of(file: &File, bytes: &[u8]) -> Result<Seen, String> {
+    pub(crate) fn of(file: &File, bytes: &[u8]) -> Result<Seen, String> {
         let metadata = file.metadata().map_err(|error| plain(&error))?;
         let mut hasher = DefaultHasher::new();
         hasher.write(bytes);

@@ -71,7 +71,7 @@ impl Document {
     }
 
     /// Looks at everything again under other settings.
-    pub fn set_settings(&mut self, settings: Arc<Effective>) {
+    pub(crate) fn set_settings(&mut self, settings: Arc<Effective>) {
         if *self.analysis.settings() != settings {
             self.asked = Asked::default();
             if let Source::Dxf(text) = &mut self.source {
@@ -104,7 +104,7 @@ impl Document {
     }
 
     /// mm of the unit in which findings have their lengths: the drawing's; a program's own are in mm.
-    pub fn unit_mm(&self) -> f64 {
+    pub(crate) fn unit_mm(&self) -> f64 {
         self.drawing()
             .map_or(1.0, |drawing| self.settings().unit_of(drawing).mm)
     }
@@ -173,7 +173,7 @@ impl Document {
     }
 
     /// True when an error stands in the document: programs are refused then.
-    pub fn has_errors(&mut self) -> bool {
+    pub(crate) fn has_errors(&mut self) -> bool {
         let (findings, _) = self.findings(1);
         findings
             .first()
@@ -220,7 +220,7 @@ impl Document {
     }
 
     /// Whether there is anything for [`Document::fix_all`] to make; not worked out whole for it.
-    pub fn can_be_fixed(&self) -> bool {
+    pub(crate) fn can_be_fixed(&self) -> bool {
         match &self.source {
             Source::Dxf(text) => {
                 let can = |edit: &DrawingEdit| text.text_edits(edit).is_ok();
@@ -233,7 +233,7 @@ impl Document {
 
     /// Other bytes in place of these, such as a repair has made them: a document of the same kind under the same settings. A drawing
     /// without text is none.
-    pub fn reread(&self, bytes: Vec<u8>) -> Document {
+    pub(crate) fn reread(&self, bytes: Vec<u8>) -> Document {
         let settings = self.settings().clone();
         let source = match &self.source {
             Source::Program(program) => {
@@ -266,7 +266,7 @@ impl Document {
     }
 
     /// Segments whose text overlaps a range of bytes; empty where there is no text.
-    pub fn segments_at(&self, range: Range<usize>) -> Vec<(EntityId, usize)> {
+    pub(crate) fn segments_at(&self, range: Range<usize>) -> Vec<(EntityId, usize)> {
         match &self.source {
             Source::Dxf(document) => document.segments_at(range),
             _ => Vec::new(),

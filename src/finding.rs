@@ -12,13 +12,16 @@ mod small_radius;
 mod title;
 mod unwritable;
 
-pub use fault::{Axis, Fault};
-pub use fix::{CenterFix, Edit, Fix, FixKind, TextFix};
-pub use not_judged::NotJudged;
-pub use sentence::{related, sentence};
-pub use small_radius::{NoFix, SmallRadius};
-pub use title::title;
-pub use unwritable::Unwritable;
+pub(crate) use fault::{Axis, Fault};
+pub(crate) use fix::{CenterFix, TextFix};
+pub use fix::{Edit, Fix, FixKind};
+pub(crate) use not_judged::NotJudged;
+pub(crate) use sentence::related;
+pub use sentence::sentence;
+pub use small_radius::NoFix;
+pub(crate) use small_radius::SmallRadius;
+pub(crate) use title::title;
+pub(crate) use unwritable::Unwritable;
 
 pub use crate::geometry::Side;
 pub use crate::rule::{Rule, Severity};
@@ -45,7 +48,7 @@ impl Place {
 
 impl Finding {
     /// True for what is said of one of the `entities`, of all where there are none named, and of the document as a whole or its text.
-    pub fn concerns(&self, entities: Option<&FxHashSet<EntityId>>) -> bool {
+    pub(crate) fn concerns(&self, entities: Option<&FxHashSet<EntityId>>) -> bool {
         let of_entities = |entities| {
             self.place.is_of(entities) || self.related.iter().any(|place| place.is_of(entities))
         };

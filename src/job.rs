@@ -47,7 +47,7 @@ pub enum Refusal {
 
 impl Refusal {
     /// The refusal for a person; `unit_mm` is that of the lengths in findings.
-    pub fn sentence(&self, unit_mm: f64) -> String {
+    pub(crate) fn sentence(&self, unit_mm: f64) -> String {
         match self {
             Refusal::Sentence(sentence)
             | Refusal::Unproved(sentence, _)
@@ -65,7 +65,7 @@ impl Refusal {
     }
 
     /// What is wrong at its places.
-    pub fn findings(&self) -> &[Finding] {
+    pub(crate) fn findings(&self) -> &[Finding] {
         match self {
             Refusal::Errors(findings)
             | Refusal::Findings(findings)
@@ -105,7 +105,7 @@ impl From<toolpath::Refusal> for Refusal {
 }
 
 /// At most `limit` findings, errors first, then one that says how many more there are; and how many there are in all.
-pub fn check(document: &mut Document, limit: usize) -> (Vec<Finding>, usize) {
+pub(crate) fn check(document: &mut Document, limit: usize) -> (Vec<Finding>, usize) {
     let (mut findings, count) = document.findings(limit);
     let more = count - findings.len();
     if more > 0
@@ -124,7 +124,7 @@ pub fn check(document: &mut Document, limit: usize) -> (Vec<Finding>, usize) {
 
 /// Repairs that are made one after another, since one makes room for another.
 #[derive(Debug)]
-pub enum Repairs {
+pub(crate) enum Repairs {
     /// Of a text, as one edit of it as it stands; and the document behind them.
     OfText {
         edits: Vec<TextEdit>,
@@ -139,7 +139,7 @@ pub enum Repairs {
 pub const ROUNDS: usize = 12;
 
 /// Every safe fix, asked for again until none is left.
-pub fn fix_all(document: &Document) -> Option<Repairs> {
+pub(crate) fn fix_all(document: &Document) -> Option<Repairs> {
     if let Source::Cad(_) = document.source() {
         let mut present = document.clone();
         let mut rounds = Vec::new();
@@ -173,7 +173,7 @@ pub fn fix_all(document: &Document) -> Option<Repairs> {
 }
 
 /// The wire's path of the contours that hold one of `handles`, or of all.
-pub fn paths(
+pub(crate) fn paths(
     snapshot: &Snapshot,
     settings: &Effective,
     handles: Option<&[String]>,
@@ -312,14 +312,14 @@ pub fn generate(
 
 /// What a program becomes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Target {
+pub(crate) enum Target {
     Drawing,
     Program(Format),
 }
 
 impl Target {
     /// What a name, or the ending of a file's name, stands for. The error says which there are.
-    pub fn of(name: &str) -> Result<Target, String> {
+    pub(crate) fn of(name: &str) -> Result<Target, String> {
         match name.to_ascii_lowercase().as_str() {
             "dxf" => Ok(Target::Drawing),
             "nc" => Ok(Target::Program(Format::Iso)),
@@ -332,15 +332,19 @@ impl Target {
 }
 
 /// A program as a drawing, or in another language.
-pub struct Converted {
-    pub bytes: Vec<u8>,
+pub(crate) struct Converted {
+    pub(crate) bytes: Vec<u8>,
     /// Blocks of the program that was written.
-    pub blocks: Option<usize>,
-    pub cuts: Cuts,
+    pub(crate) blocks: Option<usize>,
+    pub(crate) cuts: Cuts,
 }
 
 /// Turns a program into a drawing, or into one of another language, which is proved.
-pub fn convert(document: &Document, target: Target, force: bool) -> Result<Converted, Refusal> {
+pub(crate) fn convert(
+    document: &Document,
+    target: Target,
+    force: bool,
+) -> Result<Converted, Refusal> {
     let Some(program) = document.program() else {
         return Err(Refusal::Sentence(say!(a_drawing_is_no_program).into()));
     };

@@ -21,7 +21,7 @@ pub mod picture;
 pub mod program;
 pub mod protocol;
 pub mod rule;
-pub mod rules;
+pub(crate) mod rules;
 pub mod server;
 pub mod settings;
 pub mod text;

@@ -3,7 +3,7 @@
 
 mod page;
 
-pub use page::Line;
+pub(crate) use page::Line;
 
 /// How bad a finding is; the order is from worst to mildest.
 #[derive(

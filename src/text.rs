@@ -7,7 +7,7 @@ mod line_starts;
 mod patch;
 
 pub(crate) use line_starts::LineStarts;
-pub use patch::Patch;
+pub(crate) use patch::Patch;
 
 use gap::Bytes;
 use std::borrow::Cow;
@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 /// How a client counts characters within a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Encoding {
+pub(crate) enum Encoding {
     Utf8,
     #[default]
     Utf16,
@@ -33,7 +33,7 @@ pub struct TextEdit {
 }
 
 impl TextEdit {
-    pub fn new(range: Range<usize>, text: impl Into<String>) -> TextEdit {
+    pub(crate) fn new(range: Range<usize>, text: impl Into<String>) -> TextEdit {
         let text = text.into();
         TextEdit { range, text }
     }
@@ -100,7 +100,7 @@ impl SourceText {
         self.bytes.whole()
     }
 
-    pub fn into_bytes(self) -> Vec<u8> {
+    pub(crate) fn into_bytes(self) -> Vec<u8> {
         Arc::unwrap_or_clone(self.bytes).into_whole()
     }
 
@@ -150,7 +150,7 @@ impl SourceText {
         self.bytes.len()
     }
 
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.bytes.len() == 0
     }
 
@@ -205,7 +205,7 @@ impl SourceText {
 
     /// Replaces a range of bytes, which is clamped to the text. Costs a move of the tail; where lines come or
     /// go, also a step for each line behind it.
-    pub fn replace(&mut self, range: Range<usize>, replacement: &str) {
+    pub(crate) fn replace(&mut self, range: Range<usize>, replacement: &str) {
         self.replaced(range, replacement, |bytes, range, _| {
             bytes.replace(range, replacement.as_bytes());
         });
@@ -253,7 +253,7 @@ impl SourceText {
 
     /// The byte at `character` of `line`, clamped: past the end of a line its end, past the last line the end of the text.
     /// A position within a character is its first byte.
-    pub fn offset_of(&self, line: usize, character: usize, encoding: Encoding) -> usize {
+    pub(crate) fn offset_of(&self, line: usize, character: usize, encoding: Encoding) -> usize {
         if line >= self.line_count() {
             return self.bytes.len();
         }
@@ -272,7 +272,7 @@ impl SourceText {
 
     /// Line and character of a byte, clamped to the text; a byte within a character stands for its first, one within a
     /// line end for the end of its line.
-    pub fn position_of(&self, offset: usize, encoding: Encoding) -> (usize, usize) {
+    pub(crate) fn position_of(&self, offset: usize, encoding: Encoding) -> (usize, usize) {
         let line = self.line_of(offset);
         let Range { start, end } = self.line_range(line);
         (line, self.counted(start, offset.min(end), encoding).1)
@@ -280,7 +280,7 @@ impl SourceText {
 
     /// Characters from the byte `from` on to the byte `to` of the same line, and where the last of them ends: before `to` where that lies
     /// within a character.
-    pub fn counted(&self, from: usize, to: usize, encoding: Encoding) -> (usize, usize) {
+    pub(crate) fn counted(&self, from: usize, to: usize, encoding: Encoding) -> (usize, usize) {
         let Some(bytes) = self.slice(from..to) else {
             return (from, 0);
         };

@@ -9,27 +9,27 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 
 /// A run of segments of one contour.
-pub type RunId = (ContourKey, u32);
+pub(crate) type RunId = (ContourKey, u32);
 
 /// A segment by its contour and its index in there.
-pub type SegmentId = (ContourKey, usize);
+pub(crate) type SegmentId = (ContourKey, usize);
 
 /// A contour's outlook by key.
-pub type Outlooks<'a, 'b> = &'a (dyn Fn(ContourKey) -> Option<Outlook<'b>> + Sync);
+pub(crate) type Outlooks<'a, 'b> = &'a (dyn Fn(ContourKey) -> Option<Outlook<'b>> + Sync);
 
 /// What a pair rule has seen between two segments.
 #[derive(Clone, Copy, Debug)]
-pub struct Observed {
+pub(crate) struct Observed {
     /// Index into [`PAIR_RULES`].
-    pub rule: usize,
-    pub one: SegmentId,
-    pub other: SegmentId,
-    pub sides: (Option<Side>, Option<Side>),
-    pub mildest: Option<Severity>,
+    pub(crate) rule: usize,
+    pub(crate) one: SegmentId,
+    pub(crate) other: SegmentId,
+    pub(crate) sides: (Option<Side>, Option<Side>),
+    pub(crate) mildest: Option<Severity>,
     /// A disc that must be empty, of the contour's own segments or of all, and whether something reaches into it.
-    pub disc: Option<(Point, f64)>,
-    pub own_disc: bool,
-    pub blocked: bool,
+    pub(crate) disc: Option<(Point, f64)>,
+    pub(crate) own_disc: bool,
+    pub(crate) blocked: bool,
 }
 
 /// What the rules take for two segments that come near each other, in looks.
@@ -42,7 +42,7 @@ const GROUP: usize = 8;
 const KEPT: usize = 1 << 14;
 
 /// False when the line or circle of a segment passes a box at more than `reach`.
-pub fn passes(segment: &Segment, bounds: &Bounds, reach: f64) -> bool {
+pub(crate) fn passes(segment: &Segment, bounds: &Bounds, reach: f64) -> bool {
     let center = bounds.min + (bounds.max - bounds.min) * 0.5;
     match segment {
         Segment::Line(line) => {
@@ -58,8 +58,8 @@ pub fn passes(segment: &Segment, bounds: &Bounds, reach: f64) -> bool {
 }
 
 /// The walls of some runs, which are met again and again by those about them.
-pub struct Kept<'a, 'b> {
-    pub outlook: Outlooks<'a, 'b>,
+pub(crate) struct Kept<'a, 'b> {
+    pub(crate) outlook: Outlooks<'a, 'b>,
     walls: FxHashMap<RunId, Rc<Walls<'b>>>,
     /// The runs that are kept, the oldest first, and how many segments they have.
     order: VecDeque<RunId>,
@@ -95,11 +95,11 @@ impl<'a, 'b> Kept<'a, 'b> {
 }
 
 /// The segments of a run with their boxes.
-pub struct Walls<'a> {
-    pub each: Vec<(Wall<'a>, Bounds)>,
+pub(crate) struct Walls<'a> {
+    pub(crate) each: Vec<(Wall<'a>, Bounds)>,
     /// The box of each [`GROUP`] of them, and that of all.
-    pub groups: Vec<Bounds>,
-    pub all: Bounds,
+    pub(crate) groups: Vec<Bounds>,
+    pub(crate) all: Bounds,
 }
 
 impl<'a> Walls<'a> {
@@ -149,16 +149,16 @@ impl<'a> Walls<'a> {
 }
 
 /// One look at the pairs that two runs form.
-pub struct Comparison<'a> {
+pub(crate) struct Comparison<'a> {
     /// Indices into [`PAIR_RULES`], and how far each reaches.
-    pub rules: &'a [(usize, f64)],
-    pub reach: f64,
-    pub keys: (ContourKey, ContourKey),
+    pub(crate) rules: &'a [(usize, f64)],
+    pub(crate) reach: f64,
+    pub(crate) keys: (ContourKey, ContourKey),
 }
 
 impl Comparison<'_> {
     /// The pairs within one run. Gives back how many looks it took, as [`Comparison::between`] does.
-    pub fn within(&self, walls: &Walls, found: &mut Vec<Observed>) -> u64 {
+    pub(crate) fn within(&self, walls: &Walls, found: &mut Vec<Observed>) -> u64 {
         let mut looks = (walls.each.len() * walls.groups.len()) as u64;
         for (at, one) in walls.each.iter().enumerate() {
             let area = one.1.grown(self.reach);
@@ -186,7 +186,7 @@ impl Comparison<'_> {
         looks
     }
 
-    pub fn between(&self, walls: &Walls, others: &Walls, found: &mut Vec<Observed>) -> u64 {
+    pub(crate) fn between(&self, walls: &Walls, others: &Walls, found: &mut Vec<Observed>) -> u64 {
         let mut looks = (walls.each.len() + others.each.len()) as u64;
         for one in &walls.each {
             let area = one.1.grown(self.reach);

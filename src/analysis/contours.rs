@@ -122,7 +122,7 @@ pub(super) fn role_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> 
 
 /// True when an entity is part of a contour: it has segments, its role is not `ignore`, and it is seen, or somebody has given it
 /// or its layer a role. A colour or a handle alone does not bring back what is frozen.
-pub fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> bool {
+pub(crate) fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> bool {
     let Some(entity) = drawing
         .get(id)
         .filter(|entity| entity.geometry.segment_count() > 0)

@@ -14,7 +14,7 @@ type Told = (ContourKey, [usize; 2], Left);
 
 /// What is left beyond the dead ends of all contours.
 #[derive(Debug, Default)]
-pub struct DeadEnds {
+pub(crate) struct DeadEnds {
     /// By the rank of the entity and the segment that the wire stays farthest from.
     left: BTreeMap<(u64, usize, bool), Told>,
 }

@@ -10,10 +10,10 @@ use std::iter::once;
 use std::ops::Range;
 
 #[derive(Clone, Debug)]
-pub struct Known {
-    pub index: ContourIndex,
+pub(crate) struct Known {
+    pub(crate) index: ContourIndex,
     /// The role that an entity or a layer states.
-    pub stated: Option<Role>,
+    pub(crate) stated: Option<Role>,
     /// For each local rule, for each run of the index, what it has seen; nothing at all where it has seen nothing, as in
     /// most contours.
     observations: Vec<Vec<Vec<Observation>>>,
@@ -22,7 +22,7 @@ pub struct Known {
 }
 
 impl Known {
-    pub fn new(index: ContourIndex, stated: Option<Role>) -> Known {
+    pub(crate) fn new(index: ContourIndex, stated: Option<Role>) -> Known {
         Known {
             index,
             stated,
@@ -33,7 +33,7 @@ impl Known {
 
     /// Lets every local rule look again at the segments of `changed` and as far about as it reaches; at all behind when
     /// the number of segments has changed.
-    pub fn check(
+    pub(crate) fn check(
         &mut self,
         drawing: &Drawing,
         contour: &Contour,
@@ -99,7 +99,7 @@ impl Known {
     }
 
     /// Adds the findings of the local rules in this contour, rule by rule, in order of travel.
-    pub fn report(&self, outlook: &Outlook, wire_side: Option<Side>, report: &mut Report) {
+    pub(crate) fn report(&self, outlook: &Outlook, wire_side: Option<Side>, report: &mut Report) {
         for (rule, observations) in LOCAL_RULES.iter().zip(&self.observations) {
             let concerned = |observation: &&Observation| {
                 let of_side = match wire_side {
@@ -154,10 +154,10 @@ impl Known {
 
 /// What the offset of a contour loses.
 #[derive(Clone, Debug)]
-pub struct Answer {
+pub(crate) struct Answer {
     /// What was asked: the side, and whether there is a neck.
-    pub asked: (Side, bool),
-    pub lost: Vec<Lost>,
+    pub(crate) asked: (Side, bool),
+    pub(crate) lost: Vec<Lost>,
     /// What stands against a path, where nothing is lost; `None` while that has not been asked.
-    pub misfit: Option<Option<Box<Finding>>>,
+    pub(crate) misfit: Option<Option<Box<Finding>>>,
 }

@@ -14,7 +14,7 @@ mod pockets;
 mod repair;
 mod report;
 
-pub use contours::is_cut;
+pub(crate) use contours::is_cut;
 
 use crate::drawing::{
     Chains, Contour, ContourKey, Delta, Drawing, EntityId, Outline, RUN, Touched,
@@ -222,7 +222,7 @@ impl Analysis {
     }
 
     /// The settings that the findings hold under.
-    pub fn settings(&self) -> &Arc<Effective> {
+    pub(crate) fn settings(&self) -> &Arc<Effective> {
         &self.settings
     }
 

@@ -10,10 +10,10 @@ use crate::rules::{PAIR_RULES, Wall};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Two segments of a contour that form a slot, and the disc between them.
-pub type Slot = ([usize; 2], Option<(Point, f64)>);
+pub(crate) type Slot = ([usize; 2], Option<(Point, f64)>);
 
 /// Two segments of a contour that form a slot, and the side of travel that it lies on, `None` where any.
-pub type FacingWalls = ([usize; 2], Option<Side>);
+pub(crate) type FacingWalls = ([usize; 2], Option<Side>);
 
 impl Pairs {
     /// Contours that have something of `rule` between two of their own segments.
@@ -46,7 +46,7 @@ impl Pairs {
     }
 
     /// The walls that `narrow-slot` has seen face each other in one contour, with their side of travel, by contour.
-    pub fn slots(&self) -> FxHashMap<ContourKey, Vec<FacingWalls>> {
+    pub(crate) fn slots(&self) -> FxHashMap<ContourKey, Vec<FacingWalls>> {
         let mut slots: FxHashMap<ContourKey, Vec<FacingWalls>> = FxHashMap::default();
         for each in self.seen.values().flatten() {
             if PAIR_RULES[each.rule].rule == Rule::NarrowSlot
@@ -64,7 +64,9 @@ impl Pairs {
 
     /// What `lost-pocket` has seen between two segments of one contour: the contour, the two, the side of the wire, and the centre of the
     /// disc that touches them. In no order.
-    pub fn dead_ends(&self) -> impl Iterator<Item = (ContourKey, [usize; 2], Side, Point)> + '_ {
+    pub(crate) fn dead_ends(
+        &self,
+    ) -> impl Iterator<Item = (ContourKey, [usize; 2], Side, Point)> + '_ {
         let of_rule =
             |each: &&Observed| PAIR_RULES[each.rule].rule == Rule::LostPocket && !each.blocked;
         let told = |each: &Observed| {
@@ -83,7 +85,7 @@ impl Pairs {
     }
 
     /// Entities that lie in the same place as another.
-    pub fn doubled(&self, outlook: Outlooks) -> FxHashSet<EntityId> {
+    pub(crate) fn doubled(&self, outlook: Outlooks) -> FxHashSet<EntityId> {
         let mut doubled = FxHashSet::default();
         for seen in self
             .seen
@@ -129,7 +131,7 @@ impl Pairs {
     }
 
     /// Adds the findings, in the machining order of their entities.
-    pub fn report(
+    pub(crate) fn report(
         &self,
         drawing: &Drawing,
         outlook: Outlooks,

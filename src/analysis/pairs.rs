@@ -21,7 +21,7 @@ const SHARE: usize = 64;
 
 /// The runs of all contours by place, and what has been seen between them.
 #[derive(Clone, Debug, Default)]
-pub struct Pairs {
+pub(crate) struct Pairs {
     grid: Grid<RunId>,
     pub(super) seen: FxHashMap<(RunId, RunId), Vec<Observed>>,
     partners: FxHashMap<RunId, Vec<RunId>>,
@@ -43,7 +43,7 @@ pub struct Pairs {
 
 impl Pairs {
     /// Nothing seen yet, and what a look at a drawing of so many segments may take, with all that is edited in it afterwards.
-    pub fn new(budget: &Budget, segments: usize) -> Pairs {
+    pub(crate) fn new(budget: &Budget, segments: usize) -> Pairs {
         let granted = budget
             .looks
             .saturating_add(budget.looks_of_a_segment.saturating_mul(segments as u64));
@@ -104,7 +104,7 @@ impl Pairs {
     }
 
     /// Contours of which something has been seen beside this one.
-    pub fn beside(&self, key: ContourKey, runs: usize) -> FxHashSet<ContourKey> {
+    pub(crate) fn beside(&self, key: ContourKey, runs: usize) -> FxHashSet<ContourKey> {
         let partners = (0..runs).filter_map(|run| self.partners.get(&(key, run as u32)));
         partners
             .flatten()
@@ -127,7 +127,7 @@ impl Pairs {
     }
 
     /// Looks at new runs, with each other and with all that come near them.
-    pub fn check(
+    pub(crate) fn check(
         &mut self,
         outlook: Outlooks,
         limits: &Limits,

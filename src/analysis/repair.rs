@@ -24,9 +24,9 @@ pub(super) type Can<'a> = Option<&'a dyn Fn(&DrawingEdit) -> bool>;
 /// Which of the safe repairs are wanted.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Wanted<'a> {
-    pub can: Can<'a>,
+    pub(crate) can: Can<'a>,
     /// Whether there is one is all that is asked.
-    pub first_will_do: bool,
+    pub(crate) first_will_do: bool,
 }
 
 impl Analysis {

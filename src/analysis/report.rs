@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 /// Gathers findings. What comes first within its severity is kept.
 #[derive(Debug)]
-pub struct Report {
+pub(crate) struct Report {
     settings: Arc<Effective>,
     limit: usize,
     kept: BTreeMap<Severity, Vec<Finding>>,
@@ -17,12 +17,12 @@ pub struct Report {
 
 /// How many findings there are, by severity and by rule.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Tally {
-    pub errors: usize,
-    pub warnings: usize,
-    pub of_rule: BTreeMap<Rule, usize>,
+pub(crate) struct Tally {
+    pub(crate) errors: usize,
+    pub(crate) warnings: usize,
+    pub(crate) of_rule: BTreeMap<Rule, usize>,
     /// Runs of segments that have not been compared with everything near them.
-    pub unseen: usize,
+    pub(crate) unseen: usize,
 }
 
 /// Rules that have more to say where a contour becomes plainer: corners that were hidden in a short segment or beside a gap.
@@ -41,7 +41,7 @@ const LINES_IN_THE_WAY: [Rule; 5] = [
 ];
 
 impl Tally {
-    pub fn of(&self, rule: Rule) -> usize {
+    pub(crate) fn of(&self, rule: Rule) -> usize {
         self.of_rule.get(&rule).copied().unwrap_or(0)
     }
 
@@ -85,7 +85,7 @@ impl Tally {
 }
 
 impl Report {
-    pub fn new(settings: Arc<Effective>, limit: usize) -> Report {
+    pub(crate) fn new(settings: Arc<Effective>, limit: usize) -> Report {
         Report {
             settings,
             limit,
@@ -113,13 +113,13 @@ impl Report {
     }
 
     /// Counts a finding. True when it should be worked out and added.
-    pub fn counts(&mut self, rule: Rule, mildest: Option<Severity>) -> bool {
+    pub(crate) fn counts(&mut self, rule: Rule, mildest: Option<Severity>) -> bool {
         self.count(rule, mildest, 1);
         !self.is_full(rule, mildest)
     }
 
     /// Counts so many findings, which are not added.
-    pub fn count(&mut self, rule: Rule, mildest: Option<Severity>, count: usize) {
+    pub(crate) fn count(&mut self, rule: Rule, mildest: Option<Severity>, count: usize) {
         let Some(severity) = self.severity(rule, mildest).filter(|_| count > 0) else {
             return;
         };
@@ -140,7 +140,7 @@ impl Report {
     }
 
     /// Adds a finding that has been counted.
-    pub fn add(
+    pub(crate) fn add(
         &mut self,
         rule: Rule,
         mildest: Option<Severity>,
@@ -159,12 +159,12 @@ impl Report {
         }
     }
 
-    pub fn tally(self) -> Tally {
+    pub(crate) fn tally(self) -> Tally {
         self.tally
     }
 
     /// The findings, the worst first, and how many there are in all.
-    pub fn finish(self) -> (Vec<Finding>, usize) {
+    pub(crate) fn finish(self) -> (Vec<Finding>, usize) {
         let mut findings: Vec<Finding> = self.kept.into_values().flatten().collect();
         findings.truncate(self.limit);
         (findings, self.count)

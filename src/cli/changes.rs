@@ -7,7 +7,7 @@ use similar::{Algorithm, ChangeTag, capture_diff_slices, group_diff_ops};
 use std::path::Path;
 
 /// A unified diff with three lines of context: for people with colours and readable, else in the file's own bytes.
-pub fn print_diff(path: &Path, before: &[u8], after: &[u8]) -> Result<(), Failure> {
+pub(crate) fn print_diff(path: &Path, before: &[u8], after: &[u8]) -> Result<(), Failure> {
     let for_people = output::is_for_people();
     let diff = diff(path, before, after, for_people);
     if for_people {

@@ -10,12 +10,12 @@ use clap_complete::Shell;
 Examples:
   wedm completions bash > ~/.local/share/bash-completion/completions/wedm
   wedm completions fish > ~/.config/fish/completions/wedm.fish")]
-pub struct Arguments {
+pub(crate) struct Arguments {
     #[arg(value_enum)]
     shell: Shell,
 }
 
-pub fn run(arguments: &Arguments, command: &mut clap::Command) -> Result<Verdict, Failure> {
+pub(crate) fn run(arguments: &Arguments, command: &mut clap::Command) -> Result<Verdict, Failure> {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, command, "wedm", &mut script);
     output::write(None, &script)?;

@@ -9,7 +9,7 @@ use clap::{Args, Subcommand};
 #[command(after_help = "\
 Examples:
   wedm config schema > wedm.schema.json    completion and checks in editors that take a schema for TOML")]
-pub struct Arguments {
+pub(crate) struct Arguments {
     #[command(subcommand)]
     what: What,
 }
@@ -20,7 +20,7 @@ enum What {
     Schema,
 }
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     match arguments.what {
         What::Schema => {
             output::print_json_text(&format!("{:#}\n", protocol::settings_schema()))?;

@@ -17,7 +17,7 @@ use std::path::PathBuf;
 Examples:
   wedm contours plate.dxf
   wedm contours plate.dxf --side auto --output json")]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// The drawing
     #[arg(value_name = "PATH")]
     path: PathBuf,
@@ -28,7 +28,7 @@ pub struct Arguments {
     common: Common,
 }
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let common = &arguments.common;
     let snapshot = files::open_to_use(&arguments.path, common, &common.settings())?.snapshot()?;
     let contours = Contours::new(&snapshot.drawing, &snapshot.outlines, &snapshot.settings);

@@ -18,7 +18,7 @@ Examples:
   wedm convert plate.3b -o plate.dxf
   wedm convert plate.3b -o plate.iso --profile fast-wire
   wedm convert plate.iso -o plate.3b --layout checking")]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// The program: .3b, .4b, .iso or .nc
     #[arg(value_name = "PROG")]
     path: PathBuf,
@@ -37,7 +37,7 @@ pub struct Arguments {
     common: Common,
 }
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = &arguments.path;
     let target = target(arguments)?;
     if let Some(out) = &arguments.output {

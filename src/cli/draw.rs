@@ -21,7 +21,7 @@ Examples:
   wedm draw plate.3b -o plate.svg                      the path that the blocks lead along
   wedm draw plate.dxf --side opening -o plate.svg      with the path of the wire
   wedm draw plate.dxf --side opening -o path.dxf       contours, and the path on the layer WIRE")]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// The drawing or program
     #[arg(value_name = "PATH")]
     path: PathBuf,
@@ -34,7 +34,7 @@ pub struct Arguments {
     common: Common,
 }
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if let Some(target) = &arguments.output {
         refuse_other_formats(target)?;
         output::refuse_input(target, &arguments.path)?;

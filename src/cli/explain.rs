@@ -14,19 +14,19 @@ use std::fmt::Write;
 Examples:
   wedm explain
   wedm explain small-radius")]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// Name of the rule, as it stands in brackets behind a finding's severity
     #[arg(value_name = "RULE", value_parser = rule_name(), hide_possible_values = true)]
     rule: Option<Rule>,
 }
 
 /// The name of a rule, which is mended where it is nearly one.
-pub fn rule_name() -> impl TypedValueParser<Value = Rule> {
+pub(crate) fn rule_name() -> impl TypedValueParser<Value = Rule> {
     PossibleValuesParser::new(Rule::ALL.map(Rule::name))
         .try_map(|name| Rule::named(&name).ok_or(""))
 }
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let mut text = String::new();
     match arguments.rule {
         None => {

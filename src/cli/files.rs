@@ -20,13 +20,13 @@ use std::sync::Arc;
 const ENDINGS: [&str; 6] = ["dxf", "dxb", "3b", "4b", "iso", "nc"];
 
 /// A file that has been read.
-pub struct Opened {
-    pub path: PathBuf,
-    pub document: Document,
+pub(crate) struct Opened {
+    pub(crate) path: PathBuf,
+    pub(crate) document: Document,
     /// The file as it was: only over this one may be written.
-    pub seen: Seen,
+    pub(crate) seen: Seen,
     /// Values in settings files that do not fit; the settings without them hold.
-    pub settings_rows: Vec<Row>,
+    pub(crate) settings_rows: Vec<Row>,
 }
 
 enum Kind {
@@ -35,7 +35,7 @@ enum Kind {
 }
 
 /// Reads one file with the settings that hold for it: `wedm.toml` upwards from it, `--config`, then the options.
-pub fn open(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
+pub(crate) fn open(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
     let kind = kind_of(path)?;
     let (settings, settings_rows) = settings_for(path, common, last)?;
     let (bytes, seen) = read(path).map_err(|reason| Failure::of(path, reason))?;
@@ -48,7 +48,7 @@ pub fn open(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Fai
 }
 
 /// What stands on stdin, read as if it were the file of that name, and what is wrong with the settings that hold for it.
-pub fn open_stdin(
+pub(crate) fn open_stdin(
     name: &Path,
     common: &Common,
     last: &Settings,
@@ -74,7 +74,11 @@ fn read(path: &Path) -> Result<(Vec<u8>, Seen), String> {
 }
 
 /// The same for a command that makes something of the file. Nothing is made with settings that may not be those that were meant.
-pub fn open_to_use(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
+pub(crate) fn open_to_use(
+    path: &Path,
+    common: &Common,
+    last: &Settings,
+) -> Result<Opened, Failure> {
     let opened = open(path, common, last)?;
     let faults = &opened.settings_rows;
     faults.iter().for_each(|row| output::say(&row.rendered()));
@@ -86,13 +90,13 @@ pub fn open_to_use(path: &Path, common: &Common, last: &Settings) -> Result<Open
 
 impl Opened {
     /// What is drawn; an error where the file is a program.
-    pub fn snapshot(&self) -> Result<Snapshot, Failure> {
+    pub(crate) fn snapshot(&self) -> Result<Snapshot, Failure> {
         let snapshot = self.document.snapshot();
         snapshot.ok_or_else(|| Failure::of(&self.path, say!(a_program_is_no_drawing)))
     }
 
     /// The program; an error where the file is a drawing.
-    pub fn program(&self) -> Result<&program::Document, Failure> {
+    pub(crate) fn program(&self) -> Result<&program::Document, Failure> {
         let program = self.document.program();
         program.ok_or_else(|| Failure::of(&self.path, say!(a_drawing_is_no_program)))
     }
@@ -210,23 +214,23 @@ fn project_file(path: &Path) -> Option<PathBuf> {
 
 /// What a search for files came to.
 #[derive(Default)]
-pub struct Found {
-    pub files: Vec<PathBuf>,
+pub(crate) struct Found {
+    pub(crate) files: Vec<PathBuf>,
     /// Folders that could not be read, and paths that are not there.
-    pub failures: Vec<Failure>,
+    pub(crate) failures: Vec<Failure>,
 }
 
 /// What a search passes over.
 #[derive(Default)]
-pub struct Search<'a> {
+pub(crate) struct Search<'a> {
     /// Patterns as .gitignore has them.
-    pub exclude: &'a [String],
+    pub(crate) exclude: &'a [String],
     /// Hidden files, too, and what .gitignore and its like name.
-    pub all: bool,
+    pub(crate) all: bool,
 }
 
 /// The files that `paths` name: files as they are, folders searched, in the order of their names. None stands twice. `-` is taken as it stands.
-pub fn search(paths: &[PathBuf], search: &Search) -> Found {
+pub(crate) fn search(paths: &[PathBuf], search: &Search) -> Found {
     let mut found = Found::default();
     let mut seen = std::collections::HashSet::new();
     for path in paths {

@@ -24,7 +24,7 @@ Examples:
   wedm fix plate.dxf --diff                what would change
   wedm fix plate.dxf -o fixed.dxf
   wedm fix plate.dxf --in-place --correction 0.12")]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// The drawing or program
     #[arg(value_name = "PATH")]
     path: PathBuf,
@@ -66,7 +66,7 @@ const LISTED: usize = 100;
 /// More findings that are left are counted by rule.
 const LEFT: usize = 8;
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = &arguments.path;
     if let Some(target) = &arguments.target.output {
         output::refuse_input(target, path)?;

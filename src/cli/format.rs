@@ -22,7 +22,7 @@ Examples:
   wedm format plate.3b                     the formatted program, to stdout
   wedm format --check programs/            which ones are not in their layout
   wedm format --in-place --layout compact plate.3b")]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// Programs, and folders that are searched for them
     #[arg(value_name = "PATH", required = true)]
     paths: Vec<PathBuf>,
@@ -66,7 +66,7 @@ impl Target {
     }
 }
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let target = &arguments.target;
     let files::Found {
         mut files,

@@ -20,7 +20,7 @@ Examples:
   wedm generate plate.dxf --side opening --format iso --profile robofil --compensation controller -o plate.iso
   wedm generate plate.dxf --handle 2A --thread -115,-10 --layout checking
   wedm generate plate.dxf --side punch --correction 0.12 --corner intersection --direction cw")]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// The drawing
     #[arg(value_name = "PATH")]
     path: PathBuf,
@@ -45,7 +45,7 @@ pub struct Arguments {
     common: Common,
 }
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = &arguments.path;
     if let Some(target) = &arguments.output {
         output::refuse_input(target, path)?;

@@ -17,7 +17,7 @@ Examples:
   wedm init
   wedm init --wire 0.18 --gap 0.01 --machine 3b
   wedm init --wire 0.25 --gap 0.03 --passes 3 --machine robofil drawings")]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// Folder that the file is written to
     #[arg(value_name = "DIR", default_value = ".")]
     folder: PathBuf,
@@ -52,7 +52,7 @@ fn machines() -> clap::builder::PossibleValuesParser {
         .into()
 }
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = arguments.folder.join(FILE_NAME);
     if path.exists() && !arguments.force {
         return Err(Failure::of(&path, say!(it_is_there_already)));

@@ -22,7 +22,7 @@ Examples:
   wedm inspect plate.dxf
   wedm inspect plate.dxf --handle 2A --correction 0.12
   wedm inspect plate.dxf --output json | jq '.entities[].segments[] | select(.verdict != \"ok\")'")]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// The drawing
     #[arg(value_name = "PATH")]
     path: PathBuf,
@@ -37,7 +37,7 @@ pub struct Arguments {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-pub enum Format {
+pub(crate) enum Format {
     Text,
     Json,
 }
@@ -62,7 +62,7 @@ impl Printed {
     }
 }
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let common = &arguments.common;
     let opened = files::open(&arguments.path, common, &common.settings())
         .and_then(|opened| opened.snapshot().map(|_| opened));

@@ -10,13 +10,13 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Examples:
   wedm man ~/.local/share/man/man1")]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// Folder that the pages are written to
     #[arg(value_name = "DIR")]
     folder: PathBuf,
 }
 
-pub fn run(arguments: &Arguments, command: clap::Command) -> Result<Verdict, Failure> {
+pub(crate) fn run(arguments: &Arguments, command: clap::Command) -> Result<Verdict, Failure> {
     let folder = &arguments.folder;
     std::fs::create_dir_all(folder)
         .map_err(|error| Failure(say!(could_not_be_made, folder.display(), error)))?;

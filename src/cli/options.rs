@@ -12,69 +12,69 @@ use std::path::PathBuf;
 /// What every command that looks at a drawing takes.
 #[derive(Args, Clone, Debug, Default)]
 #[command(next_help_heading = "Settings")]
-pub struct Common {
+pub(crate) struct Common {
     /// Wire radius + spark gap in mm: how far the wire's centre runs from the contour
     #[arg(long, value_name = "MM", value_parser = positive, allow_hyphen_values = true)]
-    pub correction: Option<f64>,
+    pub(crate) correction: Option<f64>,
     /// Correction of each pass in mm, from rough to finish, in place of --correction
     #[arg(long, value_name = "MM,MM", value_delimiter = ',', value_parser = positive)]
-    pub passes: Vec<f64>,
+    pub(crate) passes: Vec<f64>,
     /// Side on which the wire runs, where neither entity nor layer says
     #[arg(long, value_parser = words::<SideSetting>())]
-    pub side: Option<SideSetting>,
+    pub(crate) side: Option<SideSetting>,
     /// Settings file, laid over the `wedm.toml` found upwards from the input
     #[arg(long, value_name = "FILE")]
-    pub config: Option<PathBuf>,
+    pub(crate) config: Option<PathBuf>,
 }
 
 /// How a program is written.
 #[derive(Args, Clone, Debug, Default)]
 #[command(next_help_heading = "Program")]
-pub struct Program {
+pub(crate) struct Program {
     /// Direction in which closed contours are cut
     #[arg(long, value_parser = words::<Direction>())]
-    pub direction: Option<Direction>,
+    pub(crate) direction: Option<Direction>,
     /// How the wire goes round convex corners
     #[arg(long, value_parser = words::<Corner>())]
-    pub corner: Option<Corner>,
+    pub(crate) corner: Option<Corner>,
     /// Thread hole, in drawing units [default: the "O" mark, else found from the entry]
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
-    pub thread: Option<[f64; 2]>,
+    pub(crate) thread: Option<[f64; 2]>,
     /// Point of the contour where the cut begins, in drawing units
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
-    pub entry: Option<[f64; 2]>,
+    pub(crate) entry: Option<[f64; 2]>,
     /// Length of the lead-in in mm, where no thread hole is given
     #[arg(long, value_name = "MM", value_parser = positive, allow_hyphen_values = true)]
-    pub lead_in: Option<f64>,
+    pub(crate) lead_in: Option<f64>,
     /// Length of a punch's contour in mm that stands until all passes are cut, then is cut off
     #[arg(long, value_name = "MM", value_parser = positive)]
-    pub tab: Option<f64>,
+    pub(crate) tab: Option<f64>,
     /// Order of the contours; what lies within one always comes before it [default: inside-first]
     #[arg(long, value_parser = words::<Order>())]
-    pub order: Option<Order>,
+    pub(crate) order: Option<Order>,
     /// Form of the blocks
     #[arg(long, value_parser = words::<Layout>())]
-    pub layout: Option<Layout>,
+    pub(crate) layout: Option<Layout>,
     /// Where the correction is applied
     #[arg(long, value_parser = words::<Compensation>())]
-    pub compensation: Option<Compensation>,
+    pub(crate) compensation: Option<Compensation>,
     /// Digits of the controller's numbers in 3B: longer blocks are split [default: 6]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(4..=9))]
-    pub digits: Option<u8>,
+    pub(crate) digits: Option<u8>,
     /// How an ISO program is written: fast-wire, robofil, generic, or one of the settings' [profiles]
     #[arg(long, value_name = "NAME")]
-    pub profile: Option<String>,
+    pub(crate) profile: Option<String>,
     /// Word that ends the program [default: DD]
     #[arg(long, value_name = "WORD")]
-    pub end: Option<String>,
+    pub(crate) end: Option<String>,
     /// Word that pauses it, to thread the wire [default: D]
     #[arg(long, value_name = "WORD")]
-    pub pause: Option<String>,
+    pub(crate) pause: Option<String>,
 }
 
 impl Common {
     /// The last level of settings: what the command line says.
-    pub fn settings(&self) -> Settings {
+    pub(crate) fn settings(&self) -> Settings {
         Settings {
             correction: self.correction,
             side: self.side,
@@ -89,7 +89,7 @@ impl Common {
 
 impl Common {
     /// The same with what the command line says of the program.
-    pub fn settings_with(&self, program: &Program) -> Settings {
+    pub(crate) fn settings_with(&self, program: &Program) -> Settings {
         Settings {
             program: Some(program.settings()),
             ..self.settings()
@@ -119,7 +119,7 @@ impl Program {
 }
 
 /// Words that a setting may have, read as the setting's own type reads them.
-pub fn words<T>() -> impl TypedValueParser<Value = T>
+pub(crate) fn words<T>() -> impl TypedValueParser<Value = T>
 where
     T: DeserializeOwned + Clone + Send + Sync + 'static,
 {
@@ -128,7 +128,7 @@ where
     PossibleValuesParser::new(words).try_map(|word| serde_json::from_value::<T>(word.into()))
 }
 
-pub fn positive(text: &str) -> Result<f64, String> {
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(length) if length.is_finite() && length > 0.0 => Ok(length),
         _ => Err(say!(expected_a_length_in_mm_above_0).into()),
@@ -136,7 +136,7 @@ pub fn positive(text: &str) -> Result<f64, String> {
 }
 
 /// `X,Y`, both finite; either may be negative.
-pub fn point(text: &str) -> Result<[f64; 2], String> {
+pub(crate) fn point(text: &str) -> Result<[f64; 2], String> {
     let number = |text: &str| {
         text.trim()
             .parse::<f64>()

@@ -9,25 +9,25 @@ use std::borrow::Cow;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;
 
-pub const ERROR: Style = AnsiColor::Red.on_default().bold();
-pub const WARNING: Style = AnsiColor::Yellow.on_default().bold();
-pub const NOTE: Style = AnsiColor::Cyan.on_default();
-pub const GOOD: Style = AnsiColor::Green.on_default();
-pub const FAINT: Style = Style::new().dimmed();
-pub const STRONG: Style = Style::new().bold();
+pub(crate) const ERROR: Style = AnsiColor::Red.on_default().bold();
+pub(crate) const WARNING: Style = AnsiColor::Yellow.on_default().bold();
+pub(crate) const NOTE: Style = AnsiColor::Cyan.on_default();
+pub(crate) const GOOD: Style = AnsiColor::Green.on_default();
+pub(crate) const FAINT: Style = Style::new().dimmed();
+pub(crate) const STRONG: Style = Style::new().bold();
 
 /// `text` in a style; the streams of this module leave the style out where no terminal reads it.
-pub fn styled(style: Style, text: impl std::fmt::Display) -> String {
+pub(crate) fn styled(style: Style, text: impl std::fmt::Display) -> String {
     format!("{style}{text}{style:#}")
 }
 
 /// The name of a file as people may read it.
-pub fn name(path: &Path) -> String {
+pub(crate) fn name(path: &Path) -> String {
     readable(&path.to_string_lossy()).into_owned()
 }
 
 /// Text to stdout. A reader that has gone away has seen enough: no error.
-pub fn print(text: impl AsRef<str>) -> Result<(), Failure> {
+pub(crate) fn print(text: impl AsRef<str>) -> Result<(), Failure> {
     let mut stdout = anstream::stdout().lock();
     accepted(
         stdout
@@ -38,23 +38,23 @@ pub fn print(text: impl AsRef<str>) -> Result<(), Failure> {
 }
 
 /// JSON to stdout: what a terminal would obey is escaped, which changes nothing that is said.
-pub fn print_json(value: &impl Serialize) -> Result<(), Failure> {
+pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
     let json = serde_json::to_string(value).map_err(|error| Failure(error.to_string()))?;
     print_json_text(&(json + "\n"))
 }
 
 /// The same of JSON that is text already.
-pub fn print_json_text(json: &str) -> Result<(), Failure> {
+pub(crate) fn print_json_text(json: &str) -> Result<(), Failure> {
     print(escaped(json))
 }
 
 /// What `-o` names, or stdout, for people.
-pub fn target_name(target: Option<&Path>) -> String {
+pub(crate) fn target_name(target: Option<&Path>) -> String {
     target.map_or_else(|| "stdout".into(), name)
 }
 
 /// Bytes to stdout: to a pipe or a file as they are, to a terminal as a person may read them.
-pub fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
+pub(crate) fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
     if io::stdout().is_terminal() {
         return print(String::from_utf8_lossy(bytes));
     }
@@ -66,18 +66,18 @@ pub fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
 }
 
 /// True where a person reads stdout: it is a terminal, or shows colours.
-pub fn is_for_people() -> bool {
+pub(crate) fn is_for_people() -> bool {
     let stdout = io::stdout();
     stdout.is_terminal() || anstream::AutoStream::choice(&stdout) != anstream::ColorChoice::Never
 }
 
 /// A line to stderr. Nobody can be told when that fails.
-pub fn say(text: &str) {
+pub(crate) fn say(text: &str) {
     let _ = writeln!(anstream::stderr().lock(), "{}", shown(text));
 }
 
 /// What went wrong, to stderr.
-pub fn complain(sentence: &str) {
+pub(crate) fn complain(sentence: &str) {
     say(&say!(says, styled(ERROR, say!(error)), readable(sentence)));
 }
 
@@ -150,7 +150,7 @@ fn accepted(written: io::Result<()>, target: &str) -> Result<(), Failure> {
 
 /// Bytes to a file, or to stdout for none and for `-`. A file is [replaced](disk::replace), what is no regular file (a device, a pipe)
 /// is written directly.
-pub fn write(target: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
+pub(crate) fn write(target: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
     match target {
         None => print_bytes(bytes),
         Some(path) if path == Path::new("-") => print_bytes(bytes),
@@ -159,7 +159,7 @@ pub fn write(target: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
 }
 
 /// Bytes over the file that was read; an error, and nothing written, where it is not that file any more.
-pub fn write_over(path: &Path, read: &disk::Seen, bytes: &[u8]) -> Result<(), Failure> {
+pub(crate) fn write_over(path: &Path, read: &disk::Seen, bytes: &[u8]) -> Result<(), Failure> {
     said_of(path, disk::replace(path, Some(read), bytes))
 }
 
@@ -185,7 +185,7 @@ fn said_of(path: &Path, written: Result<u64, String>) -> Result<(), Failure> {
 }
 
 /// An error where `path` is no regular file: nothing else can be changed in its place.
-pub fn refuse_irregular(path: &Path) -> Result<(), Failure> {
+pub(crate) fn refuse_irregular(path: &Path) -> Result<(), Failure> {
     match std::fs::metadata(path) {
         Ok(metadata) if !metadata.is_file() => Err(Failure(say!(
             it_is_no_regular_file_expected_one_to_be_changed_in_its_place,
@@ -196,7 +196,7 @@ pub fn refuse_irregular(path: &Path) -> Result<(), Failure> {
 }
 
 /// An error where `target` is the file that was read: an input changes only when `--in-place` says so.
-pub fn refuse_input(target: &Path, input: &Path) -> Result<(), Failure> {
+pub(crate) fn refuse_input(target: &Path, input: &Path) -> Result<(), Failure> {
     let same = match (target.canonicalize(), input.canonicalize()) {
         (Ok(target), Ok(input)) => target == input,
         _ => false,
@@ -212,12 +212,12 @@ pub fn refuse_input(target: &Path, input: &Path) -> Result<(), Failure> {
 
 /// "1 error", "3 errors".
 /// The text at the left of so many columns of a terminal, where a Chinese character takes two.
-pub fn flush_left(text: &str, width: usize) -> String {
+pub(crate) fn flush_left(text: &str, width: usize) -> String {
     format!("{text}{}", " ".repeat(width.saturating_sub(columns(text))))
 }
 
 /// The same at the right.
-pub fn flush_right(text: &str, width: usize) -> String {
+pub(crate) fn flush_right(text: &str, width: usize) -> String {
     format!("{}{text}", " ".repeat(width.saturating_sub(columns(text))))
 }
 

@@ -18,20 +18,20 @@ use std::path::Path;
 /// One finding of one file. Lines and columns count from 1, columns in characters.
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Row {
-    pub path: String,
-    pub line: usize,
-    pub column: usize,
-    pub end_line: usize,
-    pub end_column: usize,
+pub(crate) struct Row {
+    pub(crate) path: String,
+    pub(crate) line: usize,
+    pub(crate) column: usize,
+    pub(crate) end_line: usize,
+    pub(crate) end_column: usize,
     #[serde(serialize_with = "rule_name")]
-    pub rule: Rule,
-    pub severity: Severity,
-    pub message: String,
-    pub data: FindingData,
+    pub(crate) rule: Rule,
+    pub(crate) severity: Severity,
+    pub(crate) message: String,
+    pub(crate) data: FindingData,
     /// The other places that the finding concerns.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub related: Vec<RelatedRow>,
+    pub(crate) related: Vec<RelatedRow>,
     #[serde(skip)]
     excerpt: Option<Excerpt>,
 }
@@ -39,12 +39,12 @@ pub struct Row {
 /// Another place of a finding, in the same file.
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct RelatedRow {
-    pub line: usize,
-    pub column: usize,
-    pub end_line: usize,
-    pub end_column: usize,
-    pub message: String,
+pub(crate) struct RelatedRow {
+    pub(crate) line: usize,
+    pub(crate) column: usize,
+    pub(crate) end_line: usize,
+    pub(crate) end_column: usize,
+    pub(crate) message: String,
 }
 
 /// The lines that a reader needs to see the fault in its place.
@@ -64,20 +64,20 @@ fn rule_name<S: serde::Serializer>(rule: &Rule, serializer: S) -> Result<S::Ok, 
 }
 
 /// More findings of one file are counted: a drawing of millions of faults would take gigabytes to tell of, and nobody reads them.
-pub const MOST: usize = 100_000;
+pub(crate) const MOST: usize = 100_000;
 
 /// So many findings at least are worth another thread.
-pub const SHARE: usize = 256;
+pub(crate) const SHARE: usize = 256;
 
 /// The findings of a document, errors first; behind [`MOST`] of them one that says how many more there are.
-pub fn rows(path: &Path, document: &mut Document) -> Vec<Row> {
+pub(crate) fn rows(path: &Path, document: &mut Document) -> Vec<Row> {
     let (findings, _) = job::check(document, MOST);
     let (document, rows) = (&*document, findings.par_iter().with_min_len(SHARE));
     rows.map(|finding| row(path, document, finding)).collect()
 }
 
 /// Findings to stderr.
-pub fn say(path: &Path, document: &Document, findings: &[Finding]) {
+pub(crate) fn say(path: &Path, document: &Document, findings: &[Finding]) {
     for finding in findings.iter().take(MOST) {
         let row = row(path, document, finding).rendered();
         output::say(&format!("{row}\n"));
@@ -85,7 +85,7 @@ pub fn say(path: &Path, document: &Document, findings: &[Finding]) {
 }
 
 /// Why nothing is made, to stderr, with what is wrong; `advice` says what can be done where that is errors, of which it gets the number.
-pub fn refuse(
+pub(crate) fn refuse(
     path: &Path,
     document: &Document,
     refusal: &Refusal,
@@ -113,7 +113,7 @@ pub fn refuse(
 }
 
 /// One finding of a document.
-pub fn row(path: &Path, document: &Document, finding: &Finding) -> Row {
+pub(crate) fn row(path: &Path, document: &Document, finding: &Finding) -> Row {
     let drawing = document.drawing();
     let data = FindingData::of(drawing.map(|drawing| &**drawing), finding);
     let range = document.range_of(&finding.place).unwrap_or(0..0);
@@ -155,7 +155,7 @@ fn related(document: &Document, finding: &Finding, other: &Place) -> Option<Rela
 
 impl Row {
     /// A row whose place is a range of bytes of `text`.
-    pub fn new(
+    pub(crate) fn new(
         path: &Path,
         text: Option<&SourceText>,
         range: Range<usize>,
@@ -186,7 +186,7 @@ impl Row {
     }
 
     /// The row as a person reads it: rule, sentence, place, and the lines at fault; with colours, which a stream may strip.
-    pub fn rendered(&self) -> String {
+    pub(crate) fn rendered(&self) -> String {
         let level = match self.severity {
             Severity::Error => Level::ERROR.with_name(say!(error)),
             Severity::Warning => Level::WARNING.with_name(say!(warning)),
@@ -224,7 +224,7 @@ impl Row {
     }
 
     /// Which entity, which segment of it, and where that begins, in drawing units.
-    pub fn whereabouts(&self) -> Option<String> {
+    pub(crate) fn whereabouts(&self) -> Option<String> {
         let data = &self.data;
         let mut place = readable(data.handle.as_ref()?).into_owned();
         if let Some(segment) = data.segment {

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 /// Speak the language server protocol on stdin and stdout (what happens without a command)
 #[derive(Args, Debug, Default)]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// Accepted for editors that pass it; there is no other way
     #[arg(long)]
     stdio: bool,
@@ -18,13 +18,13 @@ pub struct Arguments {
 
 impl Arguments {
     /// True where no client can be meant: a person sits at the terminal and has asked for nothing.
-    pub fn is_asked_by_nobody(&self) -> bool {
+    pub(crate) fn is_asked_by_nobody(&self) -> bool {
         let terminals = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
         terminals && !self.stdio && !self.no_parent_watch
     }
 }
 
-pub fn run(arguments: &Arguments) -> ExitCode {
+pub(crate) fn run(arguments: &Arguments) -> ExitCode {
     server::run_stdio(Options {
         watch_parent: !arguments.no_parent_watch,
     })

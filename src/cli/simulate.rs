@@ -20,7 +20,7 @@ Examples:
   wedm simulate plate.3b
   wedm simulate plate.3b --feed 2.5            with the time at 2.5 mm/min
   wedm simulate plate.3b --output json | jq '.closure'")]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// The program
     #[arg(value_name = "PROG")]
     path: PathBuf,
@@ -41,7 +41,7 @@ fn feed(text: &str) -> Result<f64, String> {
         .ok_or_else(|| say!(expected_a_number_above_0).into())
 }
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let common = &arguments.common;
     let opened = files::open(&arguments.path, common, &common.settings())?;
     let simulation = Simulation::of(&opened.program()?.trace(), arguments.feed);

@@ -51,7 +51,7 @@ impl Color {
     }
 
     /// A colour by the name that people write: `red` to `white`, `1` to `255`, or `#ff8000`. `None` for anything else.
-    pub fn named(name: &str) -> Option<Color> {
+    pub(crate) fn named(name: &str) -> Option<Color> {
         if let Some((_, index)) = NAMED
             .iter()
             .zip(1..)

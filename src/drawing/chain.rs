@@ -22,7 +22,7 @@ const FEW: usize = 16;
 const BULK: usize = 8;
 
 /// Names a contour (or a group of several) of one [`Chains`]; not used again once it is gone.
-pub type Key = u32;
+pub(crate) type Key = u32;
 
 /// Names nothing.
 const NO_KEY: Key = 0;
@@ -60,7 +60,7 @@ struct Chain {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rechained {
     pub gone: Vec<Key>,
-    pub new: Vec<Key>,
+    pub(crate) new: Vec<Key>,
 }
 
 impl Chains {
@@ -140,7 +140,7 @@ impl Chains {
     }
 
     /// Keys of all contours, in no order.
-    pub fn keys(&self) -> impl Iterator<Item = Key> + '_ {
+    pub(crate) fn keys(&self) -> impl Iterator<Item = Key> + '_ {
         self.contours.keys().copied()
     }
 

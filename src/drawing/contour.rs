@@ -9,24 +9,24 @@ use std::ops::Range;
 pub struct Piece {
     pub entity: EntityId,
     /// Travelled against the entity's own direction.
-    pub reversed: bool,
+    pub(crate) reversed: bool,
     first: u32,
     count: u32,
 }
 
 impl Piece {
     /// Number of segments of the contour before this piece.
-    pub fn first(&self) -> usize {
+    pub(crate) fn first(&self) -> usize {
         self.first as usize
     }
 
     /// Number of segments of the piece.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.count as usize
     }
 
     /// The segments of the contour that the piece is.
-    pub fn range(&self) -> Range<usize> {
+    pub(crate) fn range(&self) -> Range<usize> {
         self.first()..self.first() + self.count()
     }
 
@@ -48,7 +48,7 @@ pub struct Contour {
     pub pieces: Vec<Piece>,
     pub closed: bool,
     /// Set aside when the ends were joined, since this entity lies in the same place and is cut.
-    pub double_of: Option<EntityId>,
+    pub(crate) double_of: Option<EntityId>,
 }
 
 /// A segment of a contour and where it comes from.
@@ -57,7 +57,7 @@ pub struct ContourSegment {
     pub entity: EntityId,
     /// Index within the entity, in the entity's own direction.
     pub segment: usize,
-    pub reversed: bool,
+    pub(crate) reversed: bool,
     /// In the contour's direction of travel.
     pub geometry: Segment,
 }
@@ -94,11 +94,11 @@ impl Contour {
     }
 
     /// Number of segments.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.pieces.last().map_or(0, |piece| piece.range().end)
     }
 
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.pieces.is_empty()
     }
 
@@ -109,7 +109,7 @@ impl Contour {
     }
 
     /// Segment `index` in the direction of travel, `None` past the end.
-    pub fn segment(&self, drawing: &Drawing, index: usize) -> Option<ContourSegment> {
+    pub(crate) fn segment(&self, drawing: &Drawing, index: usize) -> Option<ContourSegment> {
         let piece = self.pieces.get(
             self.pieces
                 .partition_point(|piece| piece.range().end <= index),
@@ -162,7 +162,7 @@ impl Contour {
             .sum()
     }
 
-    pub fn bounds(&self, drawing: &Drawing) -> Bounds {
+    pub(crate) fn bounds(&self, drawing: &Drawing) -> Bounds {
         let mut bounds = Bounds::EMPTY;
         self.segments(drawing)
             .for_each(|segment| bounds.merge(&segment.geometry.bounds()));
@@ -170,7 +170,7 @@ impl Contour {
     }
 
     /// The same contour travelled the other way.
-    pub fn reversed(&self) -> Contour {
+    pub(crate) fn reversed(&self) -> Contour {
         let mut first = 0;
         let pieces = self.pieces.iter().rev().map(|piece| {
             let turned = Piece {

@@ -46,7 +46,7 @@ pub enum Change {
 }
 
 impl Change {
-    pub fn entity(&self) -> EntityId {
+    pub(crate) fn entity(&self) -> EntityId {
         match self {
             Change::SetVertex { entity, .. }
             | Change::RemoveVertex { entity, .. }
@@ -93,7 +93,7 @@ pub struct Delta {
 }
 
 impl Delta {
-    pub fn all() -> Delta {
+    pub(crate) fn all() -> Delta {
         Delta {
             touched: vec![Touched::All],
         }

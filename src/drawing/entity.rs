@@ -29,7 +29,7 @@ impl Vertex {
         }
     }
 
-    pub fn is_finite(&self) -> bool {
+    pub(crate) fn is_finite(&self) -> bool {
         self.point.x.is_finite() && self.point.y.is_finite() && self.bulge.is_finite()
     }
 }
@@ -95,7 +95,7 @@ pub enum Geometry {
 
 impl Geometry {
     /// What there is to see of an arc without a radius: nothing that is cut.
-    pub fn point(at: Point) -> Geometry {
+    pub(crate) fn point(at: Point) -> Geometry {
         Geometry::Text {
             at,
             text: String::new(),
@@ -153,7 +153,7 @@ impl Geometry {
     }
 
     /// Segment `index` as `Geometry::segment_of` tells it of a drawing in millimetres.
-    pub fn segment(&self, index: usize) -> Option<Segment> {
+    pub(crate) fn segment(&self, index: usize) -> Option<Segment> {
         self.segment_of(index, Tolerances::default().flat)
     }
 
@@ -215,7 +215,7 @@ impl Geometry {
     }
 
     /// The two free ends, start first; `None` for closed geometry and for what has no segment.
-    pub fn ends(&self) -> Option<(Point, Point)> {
+    pub(crate) fn ends(&self) -> Option<(Point, Point)> {
         match self {
             Geometry::Line { start, end } => Some((*start, *end)),
             Geometry::Circle { .. }
@@ -234,7 +234,7 @@ impl Geometry {
     }
 
     /// The box of all segments, see `Geometry::segment_of`, or of a text's place.
-    pub fn bounds(&self, flat: f64) -> Bounds {
+    pub(crate) fn bounds(&self, flat: f64) -> Bounds {
         let mut bounds = Bounds::EMPTY;
         self.segments_of(flat)
             .for_each(|segment| bounds.merge(&segment.bounds()));
@@ -283,7 +283,7 @@ pub struct Entity {
 
 impl Entity {
     /// An entity that states no role and is no more than its geometry.
-    pub fn new(
+    pub(crate) fn new(
         handle: impl Into<Handle>,
         layer: impl Into<Shared<str>>,
         geometry: Geometry,

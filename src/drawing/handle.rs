@@ -18,7 +18,7 @@ enum Held {
 }
 
 impl Handle {
-    pub fn new(text: &str) -> Handle {
+    pub(crate) fn new(text: &str) -> Handle {
         let mut bytes = [0; SHORT];
         match (bytes.get_mut(..text.len()), u8::try_from(text.len())) {
             (Some(place), Ok(length)) => {

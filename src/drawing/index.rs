@@ -20,7 +20,7 @@ struct Run {
 
 /// Boxes, area and tight arcs of one contour.
 #[derive(Clone, Debug)]
-pub struct ContourIndex {
+pub(crate) struct ContourIndex {
     runs: Vec<Run>,
     /// Indices within the contour of arcs with a radius below the threshold, rising.
     tight: Vec<u32>,
@@ -32,7 +32,7 @@ pub struct ContourIndex {
 
 impl ContourIndex {
     /// Looks at every segment once; arcs with a radius below `threshold` are remembered as tight.
-    pub fn new(drawing: &Drawing, contour: &Contour, threshold: f64) -> ContourIndex {
+    pub(crate) fn new(drawing: &Drawing, contour: &Contour, threshold: f64) -> ContourIndex {
         let segments = contour.len();
         let origin = contour
             .segment(drawing, 0)
@@ -49,7 +49,7 @@ impl ContourIndex {
     }
 
     /// Looks again at the segments of `changed`; everything behind its start when the count has changed too.
-    pub fn update(&mut self, drawing: &Drawing, contour: &Contour, changed: Range<usize>) {
+    pub(crate) fn update(&mut self, drawing: &Drawing, contour: &Contour, changed: Range<usize>) {
         let first = changed.start / RUN;
         if contour.len() != self.segments {
             self.runs.truncate(first);
@@ -72,11 +72,11 @@ impl ContourIndex {
             .partition_point(|&tight| (tight as usize) < index)
     }
 
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.segments
     }
 
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.segments == 0
     }
 
@@ -110,13 +110,13 @@ impl ContourIndex {
     }
 
     /// Segments of a run.
-    pub fn range_of(&self, run: usize) -> Range<usize> {
+    pub(crate) fn range_of(&self, run: usize) -> Range<usize> {
         run * RUN..((run + 1) * RUN).min(self.segments)
     }
 
     /// Twice the signed area, positive counter-clockwise; meaningful for a closed contour. Zero for one that goes back on itself, whose
     /// area is what rounding leaves of it.
-    pub fn twice_area(&self) -> f64 {
+    pub(crate) fn twice_area(&self) -> f64 {
         let twice_area: f64 = self.runs.iter().map(|run| run.twice_area).sum();
         let bounds = self.bounds();
         let least = ROUNDING * (bounds.width() + bounds.height()).powi(2);
@@ -137,7 +137,7 @@ impl ContourIndex {
         self.runs.get(run).map_or(Bounds::EMPTY, |run| run.bounds)
     }
 
-    pub fn bounds(&self) -> Bounds {
+    pub(crate) fn bounds(&self) -> Bounds {
         self.bounds_about(0..self.segments)
     }
 
@@ -154,12 +154,12 @@ impl ContourIndex {
     }
 
     /// Indices of the tight arcs, rising.
-    pub fn tight(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn tight(&self) -> impl Iterator<Item = usize> + '_ {
         self.tight.iter().map(|&index| index as usize)
     }
 
     /// Ranges of segments of which some may come near `area`.
-    pub fn near<'a>(&'a self, area: &'a Bounds) -> impl Iterator<Item = Range<usize>> + 'a {
+    pub(crate) fn near<'a>(&'a self, area: &'a Bounds) -> impl Iterator<Item = Range<usize>> + 'a {
         self.runs
             .iter()
             .enumerate()

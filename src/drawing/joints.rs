@@ -33,16 +33,16 @@ pub(super) struct Joints<'a> {
     dense: Option<Dense>,
     /// By end: what it can be joined to.
     met: Vec<u32>,
-    pub doubles: Doubles,
+    pub(crate) doubles: Doubles,
 }
 
 /// What became of entities that lie on each other, by number.
 #[derive(Debug, Default)]
 pub(super) struct Doubles {
     /// Not chained, with the one in the same place that is.
-    pub aside: FxHashMap<u32, u32>,
+    pub(crate) aside: FxHashMap<u32, u32>,
     /// Chained, with a double that is not.
-    pub kept: Vec<u32>,
+    pub(crate) kept: Vec<u32>,
 }
 
 struct Dense {
@@ -55,7 +55,7 @@ struct Dense {
 
 impl<'a> Joints<'a> {
     /// Of `entities` with the ends that `ends_of` holds by id. Doubles are set aside: they have no joints.
-    pub fn new(
+    pub(crate) fn new(
         drawing: &'a Drawing,
         cells: Cells,
         entities: &'a [EntityId],
@@ -103,21 +103,21 @@ impl<'a> Joints<'a> {
         self.places.len()
     }
 
-    pub fn place(&self, end: End) -> Point {
+    pub(crate) fn place(&self, end: End) -> Point {
         self.places[end.index()]
     }
 
     /// The distance of two ends; 0 where they lie in one point.
-    pub fn distance(&self, one: End, other: End) -> f64 {
+    pub(crate) fn distance(&self, one: End, other: End) -> f64 {
         self.cells.distance(self.place(one), self.place(other))
     }
 
-    pub fn join(&self) -> f64 {
+    pub(crate) fn join(&self) -> f64 {
         self.cells.join
     }
 
     /// The one end that an end can be joined to, where that one can be joined to no other either.
-    pub fn partner(&self, end: End) -> Option<End> {
+    pub(crate) fn partner(&self, end: End) -> Option<End> {
         let met = *self.met.get(end.index())?;
         let is_mutual = self
             .met
@@ -137,7 +137,7 @@ impl<'a> Joints<'a> {
     }
 
     /// All ends, those of doubles too, in lists: of a cell all in one, with those of others.
-    pub fn lists(&self) -> impl Iterator<Item = impl Iterator<Item = End> + '_> + '_ {
+    pub(crate) fn lists(&self) -> impl Iterator<Item = impl Iterator<Item = End> + '_> + '_ {
         (0..self.all.len()).map(|list| self.all.of_list(list))
     }
 
@@ -260,7 +260,7 @@ impl<'a> Joints<'a> {
     }
 
     /// The direction in which an entity leaves one of its ends, radians from −π to π.
-    pub fn heading(&self, end: End) -> f64 {
+    pub(crate) fn heading(&self, end: End) -> f64 {
         let Some(geometry) = self
             .drawing
             .get(self.entities[end.entity() as usize])

@@ -18,18 +18,18 @@ const ROUNDING: f64 = 0.1;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Strand {
     /// Where it begins and where it ends.
-    pub ends: [End; 2],
+    pub(crate) ends: [End; 2],
     /// Number of its entities.
-    pub count: usize,
+    pub(crate) count: usize,
     /// All of it lies within the join tolerance, and it does not lead round by itself.
-    pub is_crumb: bool,
+    pub(crate) is_crumb: bool,
 }
 
 /// Strands that were joined, in order of travel, and whether each is travelled against its own direction.
 #[derive(Clone, Debug)]
 pub(super) struct Joined {
-    pub strands: Vec<(usize, bool)>,
-    pub closed: bool,
+    pub(crate) strands: Vec<(usize, bool)>,
+    pub(crate) closed: bool,
 }
 
 /// One end of a strand: the number of the strand, doubled; odd where it ends.

@@ -8,24 +8,24 @@ use std::ops::Range;
 
 /// A contour among the pieces of all.
 pub(super) struct Way {
-    pub range: Range<usize>,
-    pub closed: bool,
+    pub(crate) range: Range<usize>,
+    pub(crate) closed: bool,
     /// The first of its entities in machining order, by number.
-    pub first: u32,
-    pub by_ends: bool,
+    pub(crate) first: u32,
+    pub(crate) by_ends: bool,
     /// The entity in the same place that is chained, by number.
-    pub double_of: Option<u32>,
+    pub(crate) double_of: Option<u32>,
 }
 
 /// What is joined to what: entities by number, in order of travel, and whether each is travelled against its own direction.
 #[derive(Default)]
 pub(super) struct Linked {
-    pub pieces: Vec<(u32, bool)>,
-    pub ways: Vec<Way>,
+    pub(crate) pieces: Vec<(u32, bool)>,
+    pub(crate) ways: Vec<Way>,
 }
 
 impl Linked {
-    pub fn new(
+    pub(crate) fn new(
         drawing: &Drawing,
         entities: &[EntityId],
         ends_of: &[Ends],

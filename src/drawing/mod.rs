@@ -22,19 +22,22 @@ mod orientation;
 mod outline;
 mod slots;
 
-pub use appearance::{Color, Visibility};
+pub(crate) use appearance::{Color, Visibility};
+pub use chain::Chains;
 pub(crate) use chain::stated_role;
-pub use chain::{Chains, Key as ContourKey, Rechained};
-pub use contour::{Contour, ContourSegment, Piece};
+pub(crate) use chain::{Key as ContourKey, Rechained};
+pub use contour::Contour;
+pub(crate) use contour::{ContourSegment, Piece};
 pub(crate) use doubles::run_together;
-pub use edit::{Change, ChangeError, Delta, DrawingEdit, Touched};
+pub(crate) use edit::ChangeError;
+pub use edit::{Change, Delta, DrawingEdit, Touched};
 pub use entity::{Entity, EntityId, Geometry, Role, Vertex};
-pub use handle::Handle;
-pub use index::ContourIndex;
+pub(crate) use handle::Handle;
+pub(crate) use index::ContourIndex;
 pub(crate) use index::RUN;
 pub use kind::Kind;
 pub(crate) use nesting::{nesting_depths, winding, winding_of};
-pub use orientation::{
+pub(crate) use orientation::{
     Orientation, orientation, orientation_by_extreme_point, orientation_by_turns,
 };
 pub use outline::Outline;
@@ -111,13 +114,13 @@ impl Drawing {
     /// [`Tolerances::flat`] in drawing units: what rises less than this above its chord is a line.
     ///
     /// [`Tolerances::flat`]: crate::geometry::Tolerances::flat
-    pub fn flat(&self) -> f64 {
+    pub(crate) fn flat(&self) -> f64 {
         let unit = self.unit.or(self.assumed_unit).unwrap_or(Unit::MILLIMETRE);
         Tolerances::default().flat / unit.mm
     }
 
     /// Segment `index` of an entity in its own direction.
-    pub fn segment(&self, id: EntityId, index: usize) -> Option<Segment> {
+    pub(crate) fn segment(&self, id: EntityId, index: usize) -> Option<Segment> {
         self.get(id)?.geometry.segment_of(index, self.flat())
     }
 
@@ -126,7 +129,7 @@ impl Drawing {
         self.slots.get(id)
     }
 
-    pub fn find(&self, handle: &str) -> Option<EntityId> {
+    pub(crate) fn find(&self, handle: &str) -> Option<EntityId> {
         self.by_handle
             .find(handle, |id| Some(&self.slots.get(id)?.handle))
     }
@@ -293,7 +296,7 @@ impl Drawing {
     }
 
     /// True for a polyline that cannot take an arc: the source has no place for a bulge.
-    pub fn is_straight(&self, id: EntityId) -> bool {
+    pub(crate) fn is_straight(&self, id: EntityId) -> bool {
         self.straight.contains(&id)
     }
 

@@ -7,7 +7,7 @@ use crate::geometry::{Point, Segment, cross};
 
 /// A way round.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Orientation {
+pub(crate) enum Orientation {
     CounterClockwise,
     Clockwise,
 }
@@ -24,7 +24,7 @@ impl Orientation {
 }
 
 /// The way round by the signed area, `Σ (x₀ y₁ − x₁ y₀) + Σ r² (sweep − sin sweep)`; `None` for an outline without area.
-pub fn orientation(segments: &[Segment]) -> Option<Orientation> {
+pub(crate) fn orientation(segments: &[Segment]) -> Option<Orientation> {
     let origin = segments.first()?.start();
     Orientation::of_sign(
         segments
@@ -38,7 +38,7 @@ pub fn orientation(segments: &[Segment]) -> Option<Orientation> {
 ///
 /// Right for every polygon of at most five vertices. A polygon of six may tie (three corners out, three in), one of seven may have
 /// more turns against its direction than with it. With arcs or with collinear vertices no count is safe.
-pub fn orientation_by_turns(segments: &[Segment]) -> Option<Orientation> {
+pub(crate) fn orientation_by_turns(segments: &[Segment]) -> Option<Orientation> {
     let turns = around(segments).map(|[before, at, behind]| cross(at - before, behind - at));
     let balance: i64 = turns
         .map(|turn| {
@@ -59,7 +59,7 @@ pub fn orientation_by_turns(segments: &[Segment]) -> Option<Orientation> {
 ///
 /// The lowest vertex of a polygon is convex, so its turn tells the direction. It tells nothing where the vertex is doubled or lies
 /// between collinear neighbours, and the wrong thing where an arc runs round the outside of its chord's polygon.
-pub fn orientation_by_extreme_point(segments: &[Segment]) -> Option<Orientation> {
+pub(crate) fn orientation_by_extreme_point(segments: &[Segment]) -> Option<Orientation> {
     let [before, at, behind] =
         around(segments).min_by(|[_, a, _], [_, b, _]| a.y.total_cmp(&b.y))?;
     Orientation::of_sign(cross(at - before, behind - at))

@@ -144,7 +144,7 @@ impl Document {
 
     /// Says how near the arcs must lie to the ellipses and splines that they stand for, in mm. Where there are some and it is
     /// something new, the text is read again: ids of entities may change.
-    pub fn set_arc_fit(&mut self, mm: f64) {
+    pub(crate) fn set_arc_fit(&mut self, mm: f64) {
         if self.arc_fit.unwrap_or(Tolerances::default().arc_fit) == mm {
             return;
         }
@@ -160,12 +160,12 @@ impl Document {
     }
 
     /// True where [`Document::text`] is not the file's own bytes, but what a binary DXF or DXB file says. It cannot be edited.
-    pub fn is_binary(&self) -> bool {
+    pub(crate) fn is_binary(&self) -> bool {
         self.is_binary
     }
 
     /// Says which unit the drawing has where it states none.
-    pub fn assume_unit(&mut self, unit: Unit) {
+    pub(crate) fn assume_unit(&mut self, unit: Unit) {
         self.assumed_unit = Some(unit);
         if self.drawing.assumes_another(unit) {
             Arc::make_mut(&mut self.drawing).assume_unit(unit);

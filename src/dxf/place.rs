@@ -134,7 +134,7 @@ impl Document {
     }
 
     /// The entity with geometry in whose record a byte lies, the first where a block's reference gives several.
-    pub fn entity_at(&self, offset: usize) -> Option<EntityId> {
+    pub(crate) fn entity_at(&self, offset: usize) -> Option<EntityId> {
         let item = self
             .table
             .items

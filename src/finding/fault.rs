@@ -10,14 +10,14 @@ pub enum Axis {
 }
 
 impl Axis {
-    pub fn letter(self) -> char {
+    pub(crate) fn letter(self) -> char {
         match self {
             Axis::X => 'X',
             Axis::Y => 'Y',
         }
     }
 
-    pub fn other(self) -> Axis {
+    pub(crate) fn other(self) -> Axis {
         match self {
             Axis::X => Axis::Y,
             Axis::Y => Axis::X,
@@ -241,7 +241,7 @@ pub enum Fault {
 
 impl Fault {
     /// The same where what it says is only unusual.
-    pub fn as_unusual(&self) -> Fault {
+    pub(crate) fn as_unusual(&self) -> Fault {
         match *self {
             Fault::AxisQuadrant {
                 found,
@@ -256,7 +256,7 @@ impl Fault {
         }
     }
 
-    pub fn rule(&self) -> Rule {
+    pub(crate) fn rule(&self) -> Rule {
         match self {
             Fault::MissingB => Rule::MissingB,
             Fault::BlockNumberAsB { .. } => Rule::BlockNumberAsB,
@@ -307,7 +307,7 @@ impl Fault {
     }
 
     /// That of its rule, but where it is more or less than usual.
-    pub fn severity(&self) -> Severity {
+    pub(crate) fn severity(&self) -> Severity {
         match self {
             Fault::DoubledBlock { arc: true } => Severity::Error,
             Fault::ReversedArc { is_sure: false }

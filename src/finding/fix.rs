@@ -37,7 +37,7 @@ pub enum Edit {
 }
 
 /// A repair of a program.
-pub type TextFix = Fix<Vec<TextEdit>>;
+pub(crate) type TextFix = Fix<Vec<TextEdit>>;
 
 impl TextFix {
     /// The repair that a user most likely wants.
@@ -69,7 +69,7 @@ impl Fix {
 
 impl<E> Fix<E> {
     /// The same repair with its edit in another form.
-    pub fn map<F>(self, form: impl FnOnce(E) -> F) -> Fix<F> {
+    pub(crate) fn map<F>(self, form: impl FnOnce(E) -> F) -> Fix<F> {
         Fix {
             kind: self.kind,
             preferred: self.preferred,

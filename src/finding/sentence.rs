@@ -190,7 +190,7 @@ fn unseen(layer: &str, visibility: Visibility, count: usize) -> String {
 }
 
 /// What the other place of a finding is, for a person.
-pub fn related(finding: &Finding, handle: &str, segment: Option<usize>) -> String {
+pub(crate) fn related(finding: &Finding, handle: &str, segment: Option<usize>) -> String {
     let handle = readable(handle);
     let place = segment.map_or_else(
         || handle.to_string(),

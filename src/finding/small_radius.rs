@@ -29,22 +29,22 @@ pub enum NoFix {
 pub struct SmallRadius {
     pub radius: f64,
     /// The correction that the radius is held against.
-    pub required: f64,
+    pub(crate) required: f64,
     pub center: Point,
-    pub start: Point,
-    pub end: Point,
+    pub(crate) start: Point,
+    pub(crate) end: Point,
     /// Signed sweep in the entity's own direction, radians.
-    pub sweep: f64,
+    pub(crate) sweep: f64,
     /// Wire side in the entity's own direction.
-    pub side: Side,
+    pub(crate) side: Side,
     /// What an untrimmed offset cuts beyond the wire's contour: `(c − r)(1 − cos θ)`, at most `2 (c − r)`.
-    pub overcut: f64,
+    pub(crate) overcut: f64,
     /// What stays when the control trims: `(c − r)(1 / cos(θ/2) − 1)`; infinite at a half turn and beyond.
-    pub stock_left: f64,
+    pub(crate) stock_left: f64,
     /// The pass (1-based) whose correction is the largest, where several passes are set.
-    pub pass: Option<usize>,
+    pub(crate) pass: Option<usize>,
     /// A later pass can follow the arc: what this one leaves of it is that pass's stock.
-    pub taken_by_skims: bool,
+    pub(crate) taken_by_skims: bool,
     /// Why no fix is offered; `None` where one is.
     pub no_fix: Option<NoFix>,
 }

@@ -4,7 +4,7 @@ use super::lengths::mm;
 use super::{CenterFix, FixKind};
 
 /// What a fix does, as the title of its code action.
-pub fn title(kind: &FixKind, unit_mm: f64) -> String {
+pub(crate) fn title(kind: &FixKind, unit_mm: f64) -> String {
     match kind {
         FixKind::Refillet {
             radius,

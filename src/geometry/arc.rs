@@ -29,7 +29,7 @@ impl Arc {
     /// Radius `L (1 + b²) / (4 |b|)`, centre `midpoint + (1 − b²) / (4 b) · left normal of the chord`, which
     /// also holds past a half turn (|b| > 1), where the centre changes sides.
     /// `None` where there is no arc: a bulge of zero, a chord of length zero, or numbers that overflow.
-    pub fn from_bulge(start: Point, end: Point, bulge: f64) -> Option<Arc> {
+    pub(crate) fn from_bulge(start: Point, end: Point, bulge: f64) -> Option<Arc> {
         let chord = end - start;
         let length = chord.norm();
         if bulge == 0.0 || length == 0.0 {
@@ -96,12 +96,12 @@ impl Arc {
     }
 
     /// `tan(sweep / 4)`; a full turn has no finite bulge and gives ±infinity or a huge number.
-    pub fn bulge(&self) -> f64 {
+    pub(crate) fn bulge(&self) -> f64 {
         (self.sweep / 4.0).tan()
     }
 
     /// Length along the arc.
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         self.radius * self.sweep.abs()
     }
 
@@ -141,7 +141,7 @@ impl Arc {
     }
 
     /// Unit tangent in the direction of travel at `share` (0 … 1) of the sweep.
-    pub fn tangent_at(&self, share: f64) -> Vector {
+    pub(crate) fn tangent_at(&self, share: f64) -> Vector {
         let radial = direction(self.start_angle + self.sweep * share);
         left_normal(radial) * self.sweep.signum()
     }
@@ -169,7 +169,7 @@ impl Arc {
     }
 
     /// Smallest distance from `point` to the arc.
-    pub fn distance_to(&self, point: Point) -> f64 {
+    pub(crate) fn distance_to(&self, point: Point) -> f64 {
         let share = self.share_of(point);
         let to_center = (point - self.center).norm();
         if (0.0..=1.0).contains(&share) || to_center == 0.0 {
@@ -189,7 +189,7 @@ impl Arc {
         to_center - self.radius
     }
 
-    pub fn bounds(&self) -> Bounds {
+    pub(crate) fn bounds(&self) -> Bounds {
         let mut bounds = Bounds::of_points(&[self.start, self.end]);
         if self.is_shallow() {
             return bounds.grown(self.sagitta());

@@ -6,7 +6,7 @@
 use super::{Arc, Point, Segment, Vector, turn};
 
 /// A curve in smooth pieces, each with a parameter of its own.
-pub trait Curve {
+pub(crate) trait Curve {
     /// Parameter ranges of the pieces, in the order of travel; the curve is smooth within each.
     fn pieces(&self) -> Vec<(f64, f64)>;
 
@@ -18,11 +18,11 @@ pub trait Curve {
 }
 
 /// A fitted chain: where each segment starts and its bulge. The last point has the bulge 0.
-pub type Chain = Vec<(Point, f64)>;
+pub(crate) type Chain = Vec<(Point, f64)>;
 
 /// Why a curve has no chain of arcs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unfit {
+pub(crate) enum Unfit {
     /// It has no length, or numbers that are not finite.
     NoCurve,
     /// It would take more than so many arcs.
@@ -51,7 +51,7 @@ const FINEST: f64 = 1e-9;
 /// is more). Parts that are exactly lines or circular arcs become one segment of at most a half turn.
 ///
 /// Errors: a curve without length or with numbers that are not finite, and one that would take arcs beyond all measure.
-pub fn fit(curve: &impl Curve, tolerance: f64) -> Result<Chain, Unfit> {
+pub(crate) fn fit(curve: &impl Curve, tolerance: f64) -> Result<Chain, Unfit> {
     let extent = curve.extent();
     if !extent.is_finite() || extent <= 0.0 {
         return Err(Unfit::NoCurve);

@@ -5,9 +5,9 @@ use super::Vector;
 
 /// A closed axis-parallel box. The empty box has `min` above `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
-    pub min: Point,
-    pub max: Point,
+pub(crate) struct Bounds {
+    pub(crate) min: Point,
+    pub(crate) max: Point,
 }
 
 impl Bounds {
@@ -31,7 +31,7 @@ impl Bounds {
         }
     }
 
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.min.x > self.max.x
     }
 
@@ -40,7 +40,7 @@ impl Bounds {
         self.max = self.max.sup(&point);
     }
 
-    pub fn merge(&mut self, other: &Bounds) {
+    pub(crate) fn merge(&mut self, other: &Bounds) {
         self.min = self.min.inf(&other.min);
         self.max = self.max.sup(&other.max);
     }
@@ -54,7 +54,7 @@ impl Bounds {
     }
 
     /// True when the two boxes share a point.
-    pub fn touches(&self, other: &Bounds) -> bool {
+    pub(crate) fn touches(&self, other: &Bounds) -> bool {
         self.min.x <= other.max.x
             && other.min.x <= self.max.x
             && self.min.y <= other.max.y
@@ -63,25 +63,25 @@ impl Bounds {
 
     /// The box grown by `margin` on every side.
     /// The box elsewhere.
-    pub fn moved(&self, by: Vector) -> Bounds {
+    pub(crate) fn moved(&self, by: Vector) -> Bounds {
         Bounds {
             min: self.min + by,
             max: self.max + by,
         }
     }
 
-    pub fn grown(&self, margin: f64) -> Bounds {
+    pub(crate) fn grown(&self, margin: f64) -> Bounds {
         Bounds {
             min: self.min.map(|c| c - margin),
             max: self.max.map(|c| c + margin),
         }
     }
 
-    pub fn width(&self) -> f64 {
+    pub(crate) fn width(&self) -> f64 {
         (self.max.x - self.min.x).max(0.0)
     }
 
-    pub fn height(&self) -> f64 {
+    pub(crate) fn height(&self) -> f64 {
         (self.max.y - self.min.y).max(0.0)
     }
 }

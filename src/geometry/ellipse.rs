@@ -6,24 +6,24 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// `center + u cos t + v sin t` for `t` from `start` through `sweep` radians; a full turn is closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EllipticArc {
-    pub center: Point,
+pub(crate) struct EllipticArc {
+    pub(crate) center: Point,
     /// From the centre to the point at parameter 0.
-    pub u: Vector,
+    pub(crate) u: Vector,
     /// From the centre to the point at parameter π / 2.
-    pub v: Vector,
-    pub start: f64,
+    pub(crate) v: Vector,
+    pub(crate) start: f64,
     /// Parameter that is travelled, |sweep| ≤ 2π.
-    pub sweep: f64,
+    pub(crate) sweep: f64,
 }
 
 impl EllipticArc {
-    pub fn is_full_turn(&self) -> bool {
+    pub(crate) fn is_full_turn(&self) -> bool {
         self.sweep.abs() >= TAU - 1e-9
     }
 
     /// True when numbers are finite and the two half diameters span a plane.
-    pub fn is_sound(&self) -> bool {
+    pub(crate) fn is_sound(&self) -> bool {
         let area = super::cross(self.u, self.v);
         let numbers = [
             self.center.x,

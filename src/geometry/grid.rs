@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 /// reaches into the next column and row at most; a question looks into a few cells of each level in use. Adding, removing and
 /// asking cost what is found, whatever else the grid holds, as long as boxes of one size do not lie in heaps.
 #[derive(Clone, Debug)]
-pub struct Grid<K> {
+pub(crate) struct Grid<K> {
     /// By level in use the first box of each cell that holds any.
     levels: FxHashMap<i16, FxHashMap<Cell, u32>>,
     boxes: Vec<Boxed<K>>,
@@ -45,7 +45,7 @@ impl<K: Copy + PartialEq> Grid<K> {
     }
 
     /// Adds a box; an empty one is never found.
-    pub fn insert(&mut self, key: K, bounds: Bounds) {
+    pub(crate) fn insert(&mut self, key: K, bounds: Bounds) {
         if bounds.is_empty() {
             return;
         }
@@ -75,7 +75,7 @@ impl<K: Copy + PartialEq> Grid<K> {
     }
 
     /// Removes a box that was added with these bounds.
-    pub fn remove(&mut self, key: K, bounds: &Bounds) {
+    pub(crate) fn remove(&mut self, key: K, bounds: &Bounds) {
         if bounds.is_empty() {
             return;
         }
@@ -106,7 +106,7 @@ impl<K: Copy + PartialEq> Grid<K> {
     }
 
     /// Calls `found` for each box that touches `area`, once each, in no order. Gives back how many boxes and cells were looked at.
-    pub fn near(&self, area: &Bounds, mut found: impl FnMut(K)) -> u64 {
+    pub(crate) fn near(&self, area: &Bounds, mut found: impl FnMut(K)) -> u64 {
         let mut work = 0;
         if area.is_empty() {
             return work;

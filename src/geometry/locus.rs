@@ -11,7 +11,12 @@ pub(crate) enum Locus {
 impl Locus {
     /// Of discs of `radius` that touch what carries a segment, on its left where `side` is +1, on its right where it is −1. `None` for
     /// a line no longer than `zero_length`, and inside an arc that is no larger than the disc.
-    pub fn beside(segment: &Segment, side: f64, radius: f64, zero_length: f64) -> Option<Locus> {
+    pub(crate) fn beside(
+        segment: &Segment,
+        side: f64,
+        radius: f64,
+        zero_length: f64,
+    ) -> Option<Locus> {
         match segment {
             Segment::Line(line) => {
                 let direction = line.direction();
@@ -32,7 +37,7 @@ impl Locus {
     }
 
     /// Of discs of `radius` with `point` on their edge.
-    pub fn about(point: Point, radius: f64) -> Locus {
+    pub(crate) fn about(point: Point, radius: f64) -> Locus {
         Locus::Circle {
             center: point,
             radius,
@@ -40,7 +45,7 @@ impl Locus {
     }
 
     /// The centres that lie on both.
-    pub fn meet(&self, other: &Locus) -> Vec<Point> {
+    pub(crate) fn meet(&self, other: &Locus) -> Vec<Point> {
         match (self, other) {
             (
                 Locus::Line {

@@ -19,17 +19,18 @@ mod xy;
 
 pub(crate) use approach::{curvature, facing, foot_inside, meetings, reached, shared_length};
 pub use arc::Arc;
-pub use biarc::{Chain, Curve, Unfit, fit};
-pub use bounds::Bounds;
-pub use ellipse::EllipticArc;
-pub use grid::Grid;
+pub(crate) use biarc::{Chain, Curve, Unfit, fit};
+pub(crate) use bounds::Bounds;
+pub(crate) use ellipse::EllipticArc;
+pub(crate) use grid::Grid;
 pub(crate) use intersection::{circle_circle, line_circle, line_line};
 pub(crate) use locus::Locus;
-pub use segment::{Line, Segment};
+pub(crate) use segment::Line;
+pub use segment::Segment;
 pub use side::Side;
-pub use spline::{Spline, SplineCurve};
-pub use tolerances::Tolerances;
-pub use xy::Xy;
+pub(crate) use spline::{Spline, SplineCurve};
+pub(crate) use tolerances::Tolerances;
+pub(crate) use xy::Xy;
 pub(crate) use xy::serialize_degrees;
 
 /// A point of the plane, in drawing units.
@@ -38,7 +39,7 @@ pub type Point = nalgebra::Point2<f64>;
 pub type Vector = nalgebra::Vector2<f64>;
 
 /// `a × b`, the z component of the cross product: positive when `b` lies to the left of `a`.
-pub fn cross(a: Vector, b: Vector) -> f64 {
+pub(crate) fn cross(a: Vector, b: Vector) -> f64 {
     a.x * b.y - a.y * b.x
 }
 

@@ -10,19 +10,19 @@ pub struct Line {
 }
 
 impl Line {
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         (self.end - self.start).norm()
     }
 
     /// Unit direction of travel; zero for a line without length.
-    pub fn direction(&self) -> Vector {
+    pub(crate) fn direction(&self) -> Vector {
         (self.end - self.start)
             .try_normalize(0.0)
             .unwrap_or_else(Vector::zeros)
     }
 
     /// Share (0 … 1, unclamped) of the foot of the perpendicular from `point`; 0 for a line without length.
-    pub fn share_of(&self, point: Point) -> f64 {
+    pub(crate) fn share_of(&self, point: Point) -> f64 {
         let along = self.end - self.start;
         let squared = along.norm_squared();
         if squared == 0.0 {
@@ -32,7 +32,7 @@ impl Line {
         }
     }
 
-    pub fn distance_to(&self, point: Point) -> f64 {
+    pub(crate) fn distance_to(&self, point: Point) -> f64 {
         let share = self.share_of(point).clamp(0.0, 1.0);
         (point - (self.start + (self.end - self.start) * share)).norm()
     }
@@ -105,7 +105,7 @@ impl Segment {
         self.as_arc().map_or(0.0, Arc::bulge)
     }
 
-    pub fn reversed(&self) -> Segment {
+    pub(crate) fn reversed(&self) -> Segment {
         match self {
             Segment::Line(line) => Segment::line(line.end, line.start),
             Segment::Arc(arc) => Segment::Arc(arc.reversed()),
@@ -165,7 +165,7 @@ impl Segment {
         }
     }
 
-    pub fn bounds(&self) -> Bounds {
+    pub(crate) fn bounds(&self) -> Bounds {
         match self {
             Segment::Line(line) => Bounds::of_points(&[line.start, line.end]),
             Segment::Arc(arc) => arc.bounds(),

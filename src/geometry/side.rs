@@ -21,7 +21,7 @@ impl Side {
         }
     }
 
-    pub fn reversed(self) -> Side {
+    pub(crate) fn reversed(self) -> Side {
         match self {
             Side::Left => Side::Right,
             Side::Right => Side::Left,

@@ -8,7 +8,7 @@ pub(crate) const MAX_DEGREE: usize = 24;
 
 /// A (rational) B-spline. Made by `Spline::new`, so that its numbers fit each other.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Spline {
+pub(crate) struct Spline {
     degree: usize,
     knots: Vec<f64>,
     points: Vec<Point>,
@@ -21,7 +21,7 @@ impl Spline {
     ///
     /// The curve runs over the knots from number `degree` to number `points.len()`, as DXF has it, so unclamped and
     /// periodic knots hold too.
-    pub fn new(
+    pub(crate) fn new(
         degree: usize,
         knots: Vec<f64>,
         points: Vec<Point>,
@@ -87,7 +87,11 @@ impl Spline {
 
     /// The cubic spline through `points` with continuous curvature, its parameter the length of the chords. An end
     /// with a tangent leaves in that direction, one without is straight at its end. `None` for less than two different points.
-    pub fn through(points: &[Point], start: Option<Vector>, end: Option<Vector>) -> Option<Spline> {
+    pub(crate) fn through(
+        points: &[Point],
+        start: Option<Vector>,
+        end: Option<Vector>,
+    ) -> Option<Spline> {
         let mut through: Vec<Point> = points.to_vec();
         through.dedup();
         let lengths: Vec<f64> = through
@@ -145,7 +149,7 @@ impl Spline {
 
     /// The closed cubic spline through `points`: as [`Spline::through`], but its curvature is continuous also where it begins.
     /// The first point need not be repeated. `None` for less than three different points.
-    pub fn round(points: &[Point]) -> Option<Spline> {
+    pub(crate) fn round(points: &[Point]) -> Option<Spline> {
         let mut round: Vec<Point> = points.to_vec();
         round.dedup();
         while round.len() > 1 && round.first() == round.last() {
@@ -242,7 +246,7 @@ impl Spline {
 }
 
 /// A spline with the spans that it is made of looked up.
-pub struct SplineCurve<'a> {
+pub(crate) struct SplineCurve<'a> {
     spline: &'a Spline,
     spans: Vec<usize>,
     extent: f64,

@@ -6,25 +6,25 @@ pub struct Tolerances {
     /// Two end points closer than this belong together when entities are chained.
     pub join: f64,
     /// A radius this little below the correction is rounding, not a fault.
-    pub report: f64,
+    pub(crate) report: f64,
     /// What is smaller than this cannot be measured on the part, and warnings say nothing of it.
-    pub resolution: f64,
+    pub(crate) resolution: f64,
     /// How far a fitted arc may lie from the curve it stands for.
-    pub arc_fit: f64,
+    pub(crate) arc_fit: f64,
     /// Two entities within this of each other lie in the same place.
-    pub same_place: f64,
+    pub(crate) same_place: f64,
     /// Two outlines this near each other touch.
-    pub touch: f64,
+    pub(crate) touch: f64,
     /// A segment shorter than this is one that controllers stumble over.
-    pub short: f64,
+    pub(crate) short: f64,
     /// Chords whose corners lie this near to one circle stand for an arc.
-    pub chords: f64,
+    pub(crate) chords: f64,
     /// A segment shorter than this has no direction.
-    pub zero_length: f64,
+    pub(crate) zero_length: f64,
     /// How deep a new arc's disc may dip into a neighbour before the arc counts as cutting it.
-    pub clearance: f64,
+    pub(crate) clearance: f64,
     /// An arc that rises less than this above its chord is a line: its bulge is rounding, and its radius means nothing.
-    pub flat: f64,
+    pub(crate) flat: f64,
 }
 
 impl Default for Tolerances {

@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 /// A point `[x, y]` in drawing units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(rename = "Point")]
-pub struct Xy(pub f64, pub f64);
+pub(crate) struct Xy(pub f64, pub f64);
 
 impl From<Point> for Xy {
     fn from(point: Point) -> Xy {

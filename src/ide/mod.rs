@@ -5,12 +5,13 @@
 
 mod amounts;
 pub mod dxf;
-pub mod program;
+pub(crate) mod program;
 mod symbol;
 mod whole;
 
-pub use symbol::{Symbol, SymbolKind};
-pub use whole::{Occurrence, Question, Role, Stop, Stopped, Whole};
+pub use symbol::Symbol;
+pub(crate) use symbol::SymbolKind;
+pub(crate) use whole::{Occurrence, Question, Role, Stop, Stopped, Whole};
 
 use crate::document::{Document, Source};
 use crate::drawing::Unit;
@@ -18,20 +19,20 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 /// Lines of the text that one question for hints looks at; what lies behind them gets none.
-pub const HINT_LINES: usize = 5_000;
+pub(crate) const HINT_LINES: usize = 5_000;
 
 /// Sentences in Markdown, and the bytes that they are about.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Hover {
-    pub range: Range<usize>,
-    pub text: String,
+pub(crate) struct Hover {
+    pub(crate) range: Range<usize>,
+    pub(crate) text: String,
 }
 
 /// Words behind a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Hint {
-    pub offset: usize,
-    pub text: String,
+pub(crate) struct Hint {
+    pub(crate) offset: usize,
+    pub(crate) text: String,
 }
 
 /// Lines that fold behind their first, both ends included.
@@ -39,11 +40,11 @@ pub struct Hint {
 pub struct Fold {
     pub first: usize,
     pub last: usize,
-    pub kind: FoldKind,
+    pub(crate) kind: FoldKind,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum FoldKind {
+pub(crate) enum FoldKind {
     /// A record of a drawing, and what stands for it when it is folded.
     Record(String),
     Contour,
@@ -52,7 +53,7 @@ pub enum FoldKind {
 
 /// What a piece of a text is, as themes have colours for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TokenKind {
+pub(crate) enum TokenKind {
     Code,
     Record,
     Handle,
@@ -68,7 +69,7 @@ pub enum TokenKind {
 
 impl TokenKind {
     /// All kinds; the position of each is its number.
-    pub const ALL: [TokenKind; 9] = [
+    pub(crate) const ALL: [TokenKind; 9] = [
         TokenKind::Code,
         TokenKind::Record,
         TokenKind::Handle,
@@ -88,12 +89,12 @@ pub struct Token {
     /// Bytes from the beginning of the line as the text has it.
     pub start: usize,
     pub length: usize,
-    pub kind: TokenKind,
+    pub(crate) kind: TokenKind,
 }
 
 /// What is offered to be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CompletionKind {
+pub(crate) enum CompletionKind {
     /// A group code.
     Code,
     /// The name of a record.
@@ -108,13 +109,13 @@ pub enum CompletionKind {
 
 /// Something that can be written at a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Completion {
-    pub label: String,
-    pub about: Cow<'static, str>,
-    pub text: String,
+pub(crate) struct Completion {
+    pub(crate) label: String,
+    pub(crate) about: Cow<'static, str>,
+    pub(crate) text: String,
     /// What the text takes the place of.
-    pub range: Range<usize>,
-    pub kind: CompletionKind,
+    pub(crate) range: Range<usize>,
+    pub(crate) kind: CompletionKind,
 }
 
 impl Completion {
@@ -145,12 +146,12 @@ impl Completion {
 
 /// The form of what is written at a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Signature {
-    pub label: &'static str,
+pub(crate) struct Signature {
+    pub(crate) label: &'static str,
     /// Each part of the form, as it stands in the label, and what it means, in Markdown.
-    pub parameters: Vec<(&'static str, &'static str)>,
+    pub(crate) parameters: Vec<(&'static str, &'static str)>,
     /// Index of the part that the cursor is in.
-    pub active: usize,
+    pub(crate) active: usize,
 }
 
 /// Asks a document with text by its kind.
@@ -171,32 +172,32 @@ fn unit_of(document: &Document) -> Unit {
 }
 
 /// What stands at a byte; `None` where nothing does.
-pub fn hover(document: &Document, offset: usize) -> Option<Hover> {
+pub(crate) fn hover(document: &Document, offset: usize) -> Option<Hover> {
     ask!(document, hover(offset), unit_of(document))
 }
 
 /// Hints for what stands in a range of bytes, in the order of the text.
-pub fn hints(document: &Document, range: Range<usize>) -> Vec<Hint> {
+pub(crate) fn hints(document: &Document, range: Range<usize>) -> Vec<Hint> {
     ask!(document, hints(range), unit_of(document))
 }
 
 /// Ranges of bytes around a byte, each within the next.
-pub fn selections(document: &Document, offset: usize) -> Vec<Range<usize>> {
+pub(crate) fn selections(document: &Document, offset: usize) -> Vec<Range<usize>> {
     ask!(document, selections(offset))
 }
 
 /// What can stand at a byte, what is most likely first.
-pub fn completions(document: &Document, offset: usize) -> Vec<Completion> {
+pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion> {
     ask!(document, completions(offset))
 }
 
 /// The tokens of some lines.
-pub fn tokens_in(document: &Document, lines: Range<usize>) -> Vec<Token> {
+pub(crate) fn tokens_in(document: &Document, lines: Range<usize>) -> Vec<Token> {
     ask!(document, tokens_in(lines))
 }
 
 /// The form of what is written at a byte; `None` where none is.
-pub fn signature(document: &Document, offset: usize) -> Option<Signature> {
+pub(crate) fn signature(document: &Document, offset: usize) -> Option<Signature> {
     program::signature(document.program()?, offset)
 }
 

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SymbolKind {
+pub(crate) enum SymbolKind {
     Section,
     Table,
     /// Entry of a table.
@@ -31,24 +31,24 @@ pub enum SymbolKind {
 /// A part of a text; ranges are bytes and lie within those of the part that holds it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Symbol {
-    pub kind: SymbolKind,
+    pub(crate) kind: SymbolKind,
     /// Name of the record in DXF, as `LWPOLYLINE`; empty where it is none.
-    pub record: Box<str>,
+    pub(crate) record: Box<str>,
     /// Of a section, table, entry or block; the handle of an entity; what a part of a program is.
-    pub name: String,
-    pub detail: String,
+    pub(crate) name: String,
+    pub(crate) detail: String,
     /// Bytes of all of it.
     pub range: Range<usize>,
     /// Bytes of its name.
     pub selection: Range<usize>,
     /// First line and one past the last.
-    pub lines: Range<usize>,
+    pub(crate) lines: Range<usize>,
     pub children: Vec<Symbol>,
 }
 
 impl Symbol {
     /// As it is listed: never empty, which editors refuse.
-    pub fn title(&self) -> String {
+    pub(crate) fn title(&self) -> String {
         let title = match self.kind {
             SymbolKind::Section => self.name.clone(),
             _ => format!("{} {}", self.record, self.name).trim().to_owned(),

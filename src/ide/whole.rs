@@ -11,15 +11,15 @@ use std::ops::Range;
 const PLACES: usize = 10_000;
 
 /// Asked now and then: true when nobody wants the result any more.
-pub type Stop<'a> = &'a dyn Fn() -> bool;
+pub(crate) type Stop<'a> = &'a dyn Fn() -> bool;
 
 /// Nobody wanted the result any more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Stopped;
+pub(crate) struct Stopped;
 
 /// A text, as far as such a question holds it.
 #[derive(Clone, Copy)]
-pub enum Whole<'a> {
+pub(crate) enum Whole<'a> {
     Program(&'a Document),
     /// Of DXF the text alone; what is named at the place that is asked about; drawing and contours, for those who list them.
     Dxf {
@@ -31,7 +31,7 @@ pub enum Whole<'a> {
 
 /// What is asked about a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Question {
+pub(crate) enum Question {
     Definition,
     References { with_definition: bool },
     Highlights,
@@ -39,7 +39,7 @@ pub enum Question {
 
 /// What an occurrence is to what is asked about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
+pub(crate) enum Role {
     Defines,
     Uses,
     /// It belongs to it.
@@ -47,13 +47,13 @@ pub enum Role {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Occurrence {
-    pub range: Range<usize>,
-    pub role: Role,
+pub(crate) struct Occurrence {
+    pub(crate) range: Range<usize>,
+    pub(crate) role: Role,
 }
 
 impl<'a> Whole<'a> {
-    pub fn text(&self) -> &'a SourceText {
+    pub(crate) fn text(&self) -> &'a SourceText {
         match self {
             Whole::Program(program) => program.text(),
             Whole::Dxf { text, .. } => text,
@@ -61,7 +61,7 @@ impl<'a> Whole<'a> {
     }
 
     /// What can be folded, at most `limit`: where there is more, what holds others.
-    pub fn folds(&self, limit: usize, stop: Stop<'_>) -> Result<Vec<Fold>, Stopped> {
+    pub(crate) fn folds(&self, limit: usize, stop: Stop<'_>) -> Result<Vec<Fold>, Stopped> {
         match self {
             Whole::Program(program) => Ok(program::folds(program, limit)),
             Whole::Dxf { text, .. } => {
@@ -72,7 +72,7 @@ impl<'a> Whole<'a> {
     }
 
     /// The tree of what has a name.
-    pub fn symbols(&self, stop: Stop<'_>) -> Result<Vec<Symbol>, Stopped> {
+    pub(crate) fn symbols(&self, stop: Stop<'_>) -> Result<Vec<Symbol>, Stopped> {
         match self {
             Whole::Program(program) => Ok(program::symbols(program)),
             Whole::Dxf { text, snapshot, .. } => {
@@ -84,7 +84,7 @@ impl<'a> Whole<'a> {
     }
 
     /// The pieces of the text, at most `limit`.
-    pub fn tokens(&self, limit: usize, stop: Stop<'_>) -> Result<Vec<Token>, Stopped> {
+    pub(crate) fn tokens(&self, limit: usize, stop: Stop<'_>) -> Result<Vec<Token>, Stopped> {
         match self {
             Whole::Program(program) => Ok(program::tokens(program, limit)),
             Whole::Dxf { text, .. } => dxf::tokens(text, limit, stop).ok_or(Stopped),
@@ -92,7 +92,7 @@ impl<'a> Whole<'a> {
     }
 
     /// Where what stands at a byte stands elsewhere; `None` where DXF names nothing there.
-    pub fn occurrences(
+    pub(crate) fn occurrences(
         &self,
         offset: usize,
         question: Question,

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU16, Ordering};
 /// The languages in which sentences are made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
-pub enum Language {
+pub(crate) enum Language {
     #[default]
     English,
     /// Simplified, also for those who asked for Chinese of any other kind.
@@ -14,10 +14,10 @@ pub enum Language {
 
 impl Language {
     /// Every language, in the order of their numbers.
-    pub const ALL: [Language; 2] = [Language::English, Language::Chinese];
+    pub(crate) const ALL: [Language; 2] = [Language::English, Language::Chinese];
 
     /// As `--lang` and the settings of editors name it.
-    pub fn tag(self) -> &'static str {
+    pub(crate) fn tag(self) -> &'static str {
         match self {
             Language::English => "en",
             Language::Chinese => "zh",
@@ -26,7 +26,7 @@ impl Language {
 
     /// The language of a tag, whatever its region and encoding: `en`, `en-GB` of a client, `en_US.UTF-8` of an environment; `C` and
     /// `POSIX` are English. `None` for one that is not spoken here.
-    pub fn of(tag: &str) -> Option<Language> {
+    pub(crate) fn of(tag: &str) -> Option<Language> {
         let name = tag.split(['-', '_', '.', '@']).next().unwrap_or_default();
         if matches!(name, "C" | "POSIX") {
             return Some(Language::English);
@@ -37,7 +37,7 @@ impl Language {
     }
 
     /// The language of the environment, as POSIX orders its variables: the first that is there and not empty says it.
-    pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Option<Language> {
+    pub(crate) fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Option<Language> {
         let tag = ["LC_ALL", "LC_MESSAGES", "LANG"]
             .into_iter()
             .find_map(|name| variable(name).filter(|tag| !tag.is_empty()))?;
@@ -48,7 +48,7 @@ impl Language {
 /// Who asks for a language: each is obeyed before those above it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
-pub enum Asker {
+pub(crate) enum Asker {
     Environment,
     /// `locale` of the client.
     Client,
@@ -60,7 +60,7 @@ pub enum Asker {
 static SPOKEN: AtomicU16 = AtomicU16::new(0);
 
 /// From now on sentences are made in this language, unless somebody has asked who is obeyed before.
-pub fn speak(language: Language, asker: Asker) {
+pub(crate) fn speak(language: Language, asker: Asker) {
     let asked = u16::from(asker as u8) << 8 | u16::from(language as u8);
     let _ = SPOKEN.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |before| {
         (before >> 8 <= asked >> 8).then_some(asked)
@@ -68,7 +68,7 @@ pub fn speak(language: Language, asker: Asker) {
 }
 
 /// The language in which sentences are made.
-pub fn spoken() -> Language {
+pub(crate) fn spoken() -> Language {
     let index = usize::from(SPOKEN.load(Ordering::Relaxed) & 0xff);
     Language::ALL.get(index).copied().unwrap_or_default()
 }

@@ -27,8 +27,8 @@ mod readable;
 mod zh;
 
 pub(crate) use en::said;
-pub use language::{Asker, Language, speak, spoken};
-pub use readable::{columns, is_hidden, readable};
+pub(crate) use language::{Asker, Language, speak, spoken};
+pub(crate) use readable::{columns, is_hidden, readable};
 
 use std::fmt::{Debug, Display};
 

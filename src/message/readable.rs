@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 /// True for what a terminal or a label would obey and not show: control characters (ESC, C0 but for the tab, C1, DEL), marks that turn
 /// the direction of what follows, and the separators of lines and paragraphs.
-pub fn is_hidden(character: char) -> bool {
+pub(crate) fn is_hidden(character: char) -> bool {
     (character.is_control() && character != '\t')
         || matches!(
             character,
@@ -13,7 +13,7 @@ pub fn is_hidden(character: char) -> bool {
 }
 
 /// The text with `U+FFFD` in the place of every character that [`is_hidden`]. Line ends are among them: a name stands in one line.
-pub fn readable(text: &str) -> Cow<'_, str> {
+pub(crate) fn readable(text: &str) -> Cow<'_, str> {
     let is_plain = |byte: u8| (b' '..0x7f).contains(&byte);
     if text.bytes().all(is_plain) || !text.contains(is_hidden) {
         return Cow::Borrowed(text);

@@ -15,7 +15,7 @@ mod sheet;
 mod style;
 mod subject;
 
-pub use program::program_svg;
+pub(crate) use program::program_svg;
 
 use crate::drawing::{Drawing, Outline};
 use crate::finding::Finding;

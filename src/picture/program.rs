@@ -15,7 +15,7 @@ use std::fmt::Write;
 const MOST_BLOCKS: usize = 20_000;
 
 /// The picture of a program. `faults` are the lines (from 0) with what is wrong there, worst first.
-pub fn program_svg(trace: &Trace, faults: &[(usize, Severity, String)]) -> String {
+pub(crate) fn program_svg(trace: &Trace, faults: &[(usize, Severity, String)]) -> String {
     let Some(bounds) = trace.bounds().map(|bounds| Bounds {
         min: mm(bounds.min),
         max: mm(bounds.max),

@@ -18,12 +18,12 @@ pub(super) struct Sheet(pub String);
 
 impl Sheet {
     /// A line of SVG.
-    pub fn line(&mut self, svg: Arguments) {
+    pub(crate) fn line(&mut self, svg: Arguments) {
         let _ = writeln!(self.0, "{svg}");
     }
 
     /// A path, with a tooltip where `title` is not empty.
-    pub fn path(&mut self, attributes: &str, data: &str, title: &str) {
+    pub(crate) fn path(&mut self, attributes: &str, data: &str, title: &str) {
         match title {
             "" => self.line(format_args!(r#"<path {attributes} d="{data}"/>"#)),
             title => self.line(format_args!(
@@ -33,7 +33,13 @@ impl Sheet {
         }
     }
 
-    pub fn circle(&mut self, attributes: &str, middle: (f64, f64), radius: f64, title: &str) {
+    pub(crate) fn circle(
+        &mut self,
+        attributes: &str,
+        middle: (f64, f64),
+        radius: f64,
+        title: &str,
+    ) {
         let [x, y, r] = [middle.0, middle.1, radius].map(number);
         match title {
             "" => self.line(format_args!(
@@ -47,7 +53,7 @@ impl Sheet {
     }
 
     /// What stands at the head of the picture.
-    pub fn heading(&mut self, title: &str, facts: &str) {
+    pub(crate) fn heading(&mut self, title: &str, facts: &str) {
         self.line(format_args!(
             r#"<g class="chrome"><text class="heading" x="{MARGIN}" y="34">{}</text>"#,
             escaped(title)
@@ -63,16 +69,16 @@ impl Sheet {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
     /// The point of the drawing at (`left`, `bottom`) of the sheet.
-    pub origin: Point,
+    pub(crate) origin: Point,
     /// Sheet units in one drawing unit.
-    pub scale: f64,
-    pub left: f64,
-    pub bottom: f64,
+    pub(crate) scale: f64,
+    pub(crate) left: f64,
+    pub(crate) bottom: f64,
 }
 
 impl Frame {
     /// What lies in `bounds` in the middle of the sheet, as large as there is room for.
-    pub fn fitting(bounds: &Bounds) -> Frame {
+    pub(crate) fn fitting(bounds: &Bounds) -> Frame {
         let scale = (FIGURE_WIDTH / bounds.width()).min(FIGURE_HEIGHT / bounds.height());
         // A single point has no extent to fit.
         let scale = if scale.is_finite() && scale > 0.0 {
@@ -89,14 +95,14 @@ impl Frame {
     }
 
     /// Opens the group in which y points up and [`Frame::local`] coordinates hold.
-    pub fn opening(&self) -> String {
+    pub(crate) fn opening(&self) -> String {
         let [left, bottom] = [self.left, self.bottom].map(number);
         format!(r#"<g transform="matrix(1 0 0 -1 {left} {bottom})">"#)
     }
 
     /// The same for the drawing itself, with what turns coordinates within the group into the drawing's:
     /// `data-origin` + local / `data-scale`, of which one is `data-unit-mm` millimetres.
-    pub fn opening_of_drawing(&self, unit_mm: f64) -> String {
+    pub(crate) fn opening_of_drawing(&self, unit_mm: f64) -> String {
         let [left, bottom] = [self.left, self.bottom].map(number);
         let (origin, scale) = (self.origin, self.scale);
         format!(
@@ -106,13 +112,13 @@ impl Frame {
     }
 
     /// Coordinates within the group, y up.
-    pub fn local(&self, point: Point) -> (f64, f64) {
+    pub(crate) fn local(&self, point: Point) -> (f64, f64) {
         let shifted = (point - self.origin) * self.scale;
         (shifted.x, shifted.y)
     }
 
     /// Coordinates on the sheet, y down, where text is written.
-    pub fn on_sheet(&self, point: Point) -> (f64, f64) {
+    pub(crate) fn on_sheet(&self, point: Point) -> (f64, f64) {
         let (x, y) = self.local(point);
         (self.left + x, self.bottom - y)
     }

@@ -76,9 +76,9 @@ pub(super) fn empty(why: &str) -> String {
 
 /// What occurs in a picture.
 pub(super) struct Shown {
-    pub faults: bool,
-    pub others: bool,
-    pub paths: bool,
+    pub(crate) faults: bool,
+    pub(crate) others: bool,
+    pub(crate) paths: bool,
 }
 
 /// A sample of what is drawn, and what it means.

@@ -8,29 +8,29 @@ use rustc_hash::FxHashSet;
 
 /// All that is shown.
 pub(super) struct Subject<'a> {
-    pub drawing: &'a Drawing,
+    pub(crate) drawing: &'a Drawing,
     /// The box of all of it, drawing units.
-    pub bounds: Bounds,
-    pub outlines: &'a [Outline],
+    pub(crate) bounds: Bounds,
+    pub(crate) outlines: &'a [Outline],
     /// The entities of the outlines.
-    pub cut: FxHashSet<EntityId>,
-    pub findings: &'a [Finding],
-    pub faults: Vec<Fault<'a>>,
-    pub paths: &'a [WirePath],
-    pub unit_mm: f64,
+    pub(crate) cut: FxHashSet<EntityId>,
+    pub(crate) findings: &'a [Finding],
+    pub(crate) faults: Vec<Fault<'a>>,
+    pub(crate) paths: &'a [WirePath],
+    pub(crate) unit_mm: f64,
 }
 
 /// An arc that is too tight, and what its segment is called.
 pub(super) struct Fault<'a> {
-    pub detail: &'a SmallRadius,
-    pub handle: String,
-    pub segment: usize,
-    pub entity: Option<EntityId>,
+    pub(crate) detail: &'a SmallRadius,
+    pub(crate) handle: String,
+    pub(crate) segment: usize,
+    pub(crate) entity: Option<EntityId>,
 }
 
 impl<'a> Subject<'a> {
     /// `None` where nothing finite is drawn.
-    pub fn new(
+    pub(crate) fn new(
         drawing: &'a Drawing,
         outlines: &'a [Outline],
         findings: &'a [Finding],
@@ -50,14 +50,14 @@ impl<'a> Subject<'a> {
         })
     }
 
-    pub fn mm(&self, length: f64) -> f64 {
+    pub(crate) fn mm(&self, length: f64) -> f64 {
         length * self.unit_mm
     }
 }
 
 impl Fault<'_> {
     /// The arc as it was found, which may differ from the drawing's present one.
-    pub fn arc(&self) -> Arc {
+    pub(crate) fn arc(&self) -> Arc {
         let detail = self.detail;
         let from = detail.start - detail.center;
         Arc {
@@ -73,7 +73,7 @@ impl Fault<'_> {
     /// Centre of the circle of the correction as it would have to lie: touching both neighbours of a fillet.
     ///
     /// From a half turn on no circle touches both; it is then shown about the arc's own centre.
-    pub fn correction_disc(&self) -> Point {
+    pub(crate) fn correction_disc(&self) -> Point {
         let arc = self.arc();
         let opening = (arc.sweep.abs() / 2.0).cos();
         let inward = (arc.center - arc.point_at(0.5)).try_normalize(0.0);

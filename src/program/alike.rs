@@ -11,7 +11,7 @@ pub(in crate::program) enum Likeness {
 }
 
 impl Likeness {
-    pub fn ascii(self) -> u8 {
+    pub(crate) fn ascii(self) -> u8 {
         match self {
             Likeness::FullWidth(byte) | Likeness::Foreign(byte) => byte,
             Likeness::Space => b' ',
@@ -19,7 +19,7 @@ impl Likeness {
     }
 
     /// Letters and digits; the others are marks and spaces.
-    pub fn is_letter(self) -> bool {
+    pub(crate) fn is_letter(self) -> bool {
         self.ascii().is_ascii_alphanumeric()
     }
 }
@@ -27,9 +27,9 @@ impl Likeness {
 /// A character by its place in a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::program) struct Alike {
-    pub at: usize,
-    pub length: usize,
-    pub likeness: Likeness,
+    pub(crate) at: usize,
+    pub(crate) length: usize,
+    pub(crate) likeness: Likeness,
 }
 
 /// The characters of a line that look like others, in their order.

@@ -54,9 +54,9 @@ pub(in crate::program) trait Language: Sync {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::program) struct Lines {
     /// Lines of the text, from 0.
-    pub lines: Range<usize>,
+    pub(crate) lines: Range<usize>,
     /// Byte of the text at which they begin.
-    pub byte: usize,
+    pub(crate) byte: usize,
 }
 
 impl Lines {
@@ -100,7 +100,7 @@ impl<C> DerefMut for Chunks<C> {
 
 impl<C: Send> Chunks<C> {
     /// Reads some lines of a text as if they were the first ones.
-    pub fn read<L: Language<Chunk = C>>(
+    pub(crate) fn read<L: Language<Chunk = C>>(
         language: &L,
         text: &SourceText,
         lines: Range<usize>,
@@ -110,7 +110,7 @@ impl<C: Send> Chunks<C> {
     }
 
     /// Reads lines in another order than that of the text, perhaps more than once: a chunk for each range. Such a list cannot be edited.
-    pub fn read_in_order<L: Language<Chunk = C>>(
+    pub(crate) fn read_in_order<L: Language<Chunk = C>>(
         language: &L,
         text: &SourceText,
         order: &[Range<usize>],
@@ -120,7 +120,7 @@ impl<C: Send> Chunks<C> {
     }
 
     /// Replaces a range of bytes of the text and reads again what that touched.
-    pub fn edit<L: Language<Chunk = C>>(
+    pub(crate) fn edit<L: Language<Chunk = C>>(
         &mut self,
         language: &L,
         text: &mut SourceText,
@@ -176,24 +176,26 @@ impl<C: Send> Chunks<C> {
 
 impl<C> Chunks<C> {
     /// Where a chunk stands; nowhere behind the last.
-    pub fn place(&self, chunk: usize) -> Lines {
+    pub(crate) fn place(&self, chunk: usize) -> Lines {
         self.places.get(chunk).cloned().unwrap_or_default()
     }
 
     /// Byte of the text from which the places of a chunk count.
-    pub fn byte(&self, chunk: usize) -> usize {
+    pub(crate) fn byte(&self, chunk: usize) -> usize {
         self.places.get(chunk).map_or(0, |place| place.byte)
     }
 
     /// The chunk that holds a byte of a text that runs as it stands; the last one for bytes past the end.
-    pub fn at(&self, byte: usize) -> usize {
+    pub(crate) fn at(&self, byte: usize) -> usize {
         self.places
             .partition_point(|place| place.byte <= byte)
             .saturating_sub(1)
     }
 
     /// The chunks and where they stand.
-    pub fn placed(&self) -> impl DoubleEndedIterator<Item = (&C, &Lines)> + ExactSizeIterator {
+    pub(crate) fn placed(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = (&C, &Lines)> + ExactSizeIterator {
         self.list.iter().zip(&self.places)
     }
 }

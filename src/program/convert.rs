@@ -25,7 +25,7 @@ const MOST_BY_BULGE: f64 = TAU * 0.75;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cut {
     /// Each begins where the one before ended.
-    pub segments: Vec<Segment>,
+    pub(crate) segments: Vec<Segment>,
     /// Segments at the beginning that lead to a contour, which others go round.
     pub lead_in: usize,
     /// Segments at the end that lead away from it.
@@ -33,9 +33,9 @@ pub struct Cut {
     /// The contour comes back to where it began.
     pub closed: bool,
     /// The side of travel on which the control lets the wire run.
-    pub side: Option<Side>,
+    pub(crate) side: Option<Side>,
     /// The line in which that changes within the contour, from 0.
-    pub switched: Option<usize>,
+    pub(crate) switched: Option<usize>,
 }
 
 impl Cut {
@@ -56,15 +56,15 @@ pub struct Cuts {
     /// Lines of blocks that lead nowhere, from 0.
     pub lost: Vec<usize>,
     /// The line of the first 4B block, from 0: the contours are those of the part, and the controller adds its correction.
-    pub four_b: Option<usize>,
+    pub(crate) four_b: Option<usize>,
     /// The corrections that the program itself states, by their names, mm.
-    pub corrections: Vec<(String, f64)>,
+    pub(crate) corrections: Vec<(String, f64)>,
     /// What says that the upper guide goes another way.
-    pub taper: Option<String>,
+    pub(crate) taper: Option<String>,
     /// Lines of the stops within contours, before their tabs, from 0: no cut holds them.
-    pub stops: Vec<usize>,
+    pub(crate) stops: Vec<usize>,
     /// By how much contours did not close before their ends were made one, the most of it, µm.
-    pub closure: f64,
+    pub(crate) closure: f64,
 }
 
 /// The cuts of a program, in the order of the machine, one for each of its contours.
@@ -172,7 +172,7 @@ fn between(ideal: &Segment, step: &Step, from: Point, to: Point) -> Segment {
 
 impl Cuts {
     /// Why the cuts cannot become a program of a language without losing the correction: lower-case, no final dot.
-    pub fn refusal(&self, format: Format, settings: &Effective) -> Option<String> {
+    pub(crate) fn refusal(&self, format: Format, settings: &Effective) -> Option<String> {
         if let Some(line) = self.four_b {
             return Some(say!(a_4b_program_holds_the_contour_of_the_part, line + 1));
         }
@@ -198,7 +198,7 @@ impl Cuts {
     }
 
     /// What a program of another language does not hold of this one, in sentences.
-    pub fn losses(&self) -> Vec<String> {
+    pub(crate) fn losses(&self) -> Vec<String> {
         let mut losses = Vec::new();
         if self.cuts.iter().any(|cut| cut.side.is_some()) && !self.corrections.is_empty() {
             let own: Vec<String> = self

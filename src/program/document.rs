@@ -20,10 +20,10 @@ pub enum Language {
 }
 
 impl Language {
-    pub const ALL: [Language; 2] = [Language::ThreeB, Language::Iso];
+    pub(crate) const ALL: [Language; 2] = [Language::ThreeB, Language::Iso];
 
     /// `languageId` in the protocol.
-    pub fn id(self) -> &'static str {
+    pub(crate) fn id(self) -> &'static str {
         match self {
             Language::ThreeB => "3b",
             Language::Iso => "wire-iso",
@@ -31,14 +31,14 @@ impl Language {
     }
 
     /// Endings of file names, lower-case, the usual one first.
-    pub fn endings(self) -> &'static [&'static str] {
+    pub(crate) fn endings(self) -> &'static [&'static str] {
         match self {
             Language::ThreeB => &["3b", "4b"],
             Language::Iso => &["iso", "nc"],
         }
     }
 
-    pub fn of_id(id: &str) -> Option<Language> {
+    pub(crate) fn of_id(id: &str) -> Option<Language> {
         Language::ALL
             .into_iter()
             .find(|language| language.id() == id)
@@ -69,7 +69,7 @@ impl Document {
         }
     }
 
-    pub fn language(&self) -> Language {
+    pub(crate) fn language(&self) -> Language {
         match self {
             Document::ThreeB(_) => Language::ThreeB,
             Document::Iso(_) => Language::Iso,
@@ -92,7 +92,7 @@ impl Document {
     }
 
     /// Reads again where the settings change what a text means or what is a fault of it; costs nothing where they do not.
-    pub fn set_settings(&mut self, settings: &Effective) {
+    pub(crate) fn set_settings(&mut self, settings: &Effective) {
         match self {
             Document::ThreeB(document) => document.set_settings(settings),
             Document::Iso(document) => document.set_settings(settings),
@@ -121,7 +121,7 @@ impl Document {
 
     /// The fixes of one finding as edits of the text, the preferred one first. What would spoil the program is neither preferred nor
     /// made without asking.
-    pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
+    pub(crate) fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
         gate::gated(self, finding, self.offered(finding))
     }
 
@@ -134,7 +134,7 @@ impl Document {
     }
 
     /// The safe fixes of all findings that are not switched off, as one sorted list of disjoint edits; `None` where there is none.
-    pub fn fix_all(&self, settings: &Effective) -> Option<Vec<TextEdit>> {
+    pub(crate) fn fix_all(&self, settings: &Effective) -> Option<Vec<TextEdit>> {
         let (mut findings, _) = self.findings(settings, usize::MAX);
         findings.retain(|finding| finding.severity <= Severity::Information);
         let safe = |finding: &Finding| {
@@ -162,17 +162,17 @@ impl Document {
 
     /// The moves between two stops of which one touches a byte, by their ends, and the number of that one among them. Of two that
     /// touch it, the one that begins there.
-    pub fn chain_at(&self, offset: usize) -> Option<(Chain<'static>, usize)> {
+    pub(crate) fn chain_at(&self, offset: usize) -> Option<(Chain<'static>, usize)> {
         steps::chain_at(self.program(), offset, Chain::ENDS)
     }
 
     /// The same with every step of the chain.
-    pub fn whole_chain_at(&self, offset: usize) -> Option<(Chain<'static>, usize)> {
+    pub(crate) fn whole_chain_at(&self, offset: usize) -> Option<(Chain<'static>, usize)> {
         steps::chain_at(self.program(), offset, usize::MAX)
     }
 
     /// The chain of moves that touches a byte, what it comes to, and the number of the touching one.
-    pub fn cut_at(&self, offset: usize) -> Option<(Chain<'static>, Cut, usize)> {
+    pub(crate) fn cut_at(&self, offset: usize) -> Option<(Chain<'static>, Cut, usize)> {
         let (mut chain, mut nth) = self.chain_at(offset)?;
         let cut = match cut_of(&chain) {
             Some(cut) => cut,
@@ -185,27 +185,27 @@ impl Document {
     }
 
     /// The moves from the last stop on that stand before a byte, by their ends.
-    pub fn chain_before(&self, offset: usize) -> Option<Chain<'static>> {
+    pub(crate) fn chain_before(&self, offset: usize) -> Option<Chain<'static>> {
         steps::chain_before(self.program(), offset)
     }
 
     /// The first stop behind a byte.
-    pub fn stop_behind(&self, offset: usize) -> Option<Range<usize>> {
+    pub(crate) fn stop_behind(&self, offset: usize) -> Option<Range<usize>> {
         steps::stop_behind(self.program(), offset)
     }
 
     /// The first block that moves.
-    pub fn first_move(&self) -> Option<Range<usize>> {
+    pub(crate) fn first_move(&self) -> Option<Range<usize>> {
         steps::first_move(self.program())
     }
 
     /// Where the program begins, µm: the origin where it does not say.
-    pub fn start(&self) -> Point {
+    pub(crate) fn start(&self) -> Point {
         self.program().begin().0
     }
 
     /// The steps whose text overlaps or touches a range of bytes. Costs the range, not the program.
-    pub fn steps_in(&self, range: Range<usize>) -> Vec<Step> {
+    pub(crate) fn steps_in(&self, range: Range<usize>) -> Vec<Step> {
         steps::steps_in(self.program(), range)
     }
 }

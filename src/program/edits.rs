@@ -46,7 +46,7 @@ pub(in crate::program) const AT_ONCE: usize = 2048;
 pub(in crate::program) struct LineEdits(Vec<(Range<usize>, TextEdit)>);
 
 impl LineEdits {
-    pub fn push(&mut self, text: &SourceText, lines: Range<usize>, edit: TextEdit) {
+    pub(crate) fn push(&mut self, text: &SourceText, lines: Range<usize>, edit: TextEdit) {
         let goes_on = |before: &Range<usize>| {
             !before.is_empty() && !lines.is_empty() && before.end == lines.start
         };

@@ -15,9 +15,9 @@ pub enum Format {
 }
 
 impl Format {
-    pub const ALL: [Format; 3] = [Format::ThreeB, Format::FourB, Format::Iso];
+    pub(crate) const ALL: [Format; 3] = [Format::ThreeB, Format::FourB, Format::Iso];
 
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Format::ThreeB => "3b",
             Format::FourB => "4b",
@@ -26,7 +26,7 @@ impl Format {
     }
 
     /// The format of a name, in either letter case. The error names those that there are.
-    pub fn of(name: &str) -> Result<Format, String> {
+    pub(crate) fn of(name: &str) -> Result<Format, String> {
         let found = Format::ALL
             .into_iter()
             .find(|format| format.name().eq_ignore_ascii_case(name));
@@ -37,7 +37,7 @@ impl Format {
     }
 
     /// The settings under which paths for this format are laid: 4B holds the part's contour, whatever is set for the others.
-    pub fn settings<'a>(self, settings: &'a Effective) -> Cow<'a, Effective> {
+    pub(crate) fn settings<'a>(self, settings: &'a Effective) -> Cow<'a, Effective> {
         match (self, settings.compensation) {
             (Format::FourB, Compensation::Path) => Cow::Owned(Effective {
                 compensation: Compensation::Controller,

@@ -6,12 +6,12 @@ use std::f64::consts::PI;
 /// A node of a program on its grid, in absolute coordinates. A step is 1 µm but for ISO profiles with more decimals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Node {
-    pub x: i64,
-    pub y: i64,
+    pub(crate) x: i64,
+    pub(crate) y: i64,
 }
 
 /// The grid point nearest to a point in steps; `None` beyond what a program can address exactly.
-pub fn snap(point: Point) -> Option<Node> {
+pub(crate) fn snap(point: Point) -> Option<Node> {
     const FAR: f64 = 1e12;
     let fits = |value: f64| value.abs() <= FAR;
     (fits(point.x) && fits(point.y)).then(|| Node {
@@ -20,14 +20,14 @@ pub fn snap(point: Point) -> Option<Node> {
     })
 }
 
-pub fn point_of(node: Node) -> Point {
+pub(crate) fn point_of(node: Node) -> Point {
     Point::new(node.x as f64, node.y as f64)
 }
 
 /// A grid point that may stand for an arc's centre.
 #[derive(Clone, Copy)]
-pub struct GridCenter {
-    pub node: Node,
+pub(crate) struct GridCenter {
+    pub(crate) node: Node,
     /// How far the arc about it lies from the true one at most, or its end from where it is meant to; in hundredths of a step.
     cost: i64,
     /// From the true centre.
@@ -36,7 +36,7 @@ pub struct GridCenter {
 
 /// The nine grid points around the true centre, the best first: the one about which the arc stays nearest to the true one over its whole
 /// length and ends nearest to its node. Of those that are equally good the one nearest to the true centre.
-pub fn grid_centers(arc: &Arc, from: Node, to: Node) -> [GridCenter; 9] {
+pub(crate) fn grid_centers(arc: &Arc, from: Node, to: Node) -> [GridCenter; 9] {
     let nearest = Node {
         x: arc.center.x.round() as i64,
         y: arc.center.y.round() as i64,
@@ -58,7 +58,7 @@ pub fn grid_centers(arc: &Arc, from: Node, to: Node) -> [GridCenter; 9] {
 }
 
 /// The best of [`grid_centers`].
-pub fn best_center(arc: &Arc, from: Node, to: Node) -> Node {
+pub(crate) fn best_center(arc: &Arc, from: Node, to: Node) -> Node {
     grid_centers(arc, from, to)[0].node
 }
 
@@ -82,7 +82,7 @@ fn cost_of(arc: &Arc, center: Node, from: Node, to: Node) -> f64 {
 }
 
 /// The largest distance of a written line or arc from the piece of the path that it stands for, over its whole length.
-pub fn largest_distance(written: &Segment, piece: &Segment) -> f64 {
+pub(crate) fn largest_distance(written: &Segment, piece: &Segment) -> f64 {
     let look = |share: f64| {
         (0.0..=1.0)
             .contains(&share)
@@ -123,7 +123,7 @@ fn distance(a: Node, b: Node) -> f64 {
 }
 
 /// Cuts `whole` into `count` pieces of equal length with snapped nodes between them; pieces without length are left out.
-pub fn in_pieces(
+pub(crate) fn in_pieces(
     whole: &Segment,
     from: Node,
     to: Node,
@@ -150,12 +150,12 @@ pub fn in_pieces(
 }
 
 /// How far the middle of an arc lies from that of its chord.
-pub fn sagitta(arc: &Arc) -> f64 {
+pub(crate) fn sagitta(arc: &Arc) -> f64 {
     arc.radius * (1.0 - (arc.sweep.abs() / 2.0).min(PI).cos())
 }
 
 /// The number of chords of an arc that each stay within `sagitta` of it; `None` for more than a program can hold.
-pub fn chord_count(arc: &Arc, sagitta: f64) -> Option<i64> {
+pub(crate) fn chord_count(arc: &Arc, sagitta: f64) -> Option<i64> {
     let half_step = (1.0 - (sagitta / arc.radius).min(1.0)).acos();
     // Where the radius is so large that the step vanishes in rounding, s = l² / 8r gives it.
     let step = if half_step > 1e-6 {

@@ -30,16 +30,16 @@ pub(crate) trait Program {
 /// What the steps of a chunk come to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Sum {
-    pub moves: usize,
-    pub arcs: usize,
+    pub(crate) moves: usize,
+    pub(crate) arcs: usize,
     /// Moves without the wire; told only where there are no stops.
-    pub rapids: usize,
+    pub(crate) rapids: usize,
     /// Pauses and ends.
-    pub stops: usize,
+    pub(crate) stops: usize,
     /// Pauses but for those before a tab.
-    pub contours: usize,
+    pub(crate) contours: usize,
     /// From the beginning of its way to the end as its blocks mean it, nm.
-    pub travel: [i64; 2],
+    pub(crate) travel: [i64; 2],
 }
 
 impl Sum {

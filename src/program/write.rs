@@ -16,11 +16,11 @@ pub struct ProvedProgram {
     /// Number of blocks.
     pub blocks: usize,
     /// Length of the path in mm, jumps included.
-    pub length: f64,
+    pub(crate) length: f64,
     /// Drift in µm that a controller which only counts J accumulates on the way round; 0 where ends are written.
-    pub closure: [f64; 2],
+    pub(crate) closure: [f64; 2],
     /// Largest distance in µm of the decoded blocks from the path, over their whole length.
-    pub deviation: f64,
+    pub(crate) deviation: f64,
 }
 
 /// Why no program came out.
@@ -66,7 +66,7 @@ pub(super) fn too_far_out(point: Point) -> ProofError {
 const GAP: f64 = 1.5;
 
 /// Puts pieces of a path into the text of one language and proves them. Nodes and pieces are in steps of the language's grid.
-pub trait Writer {
+pub(crate) trait Writer {
     /// A path begins at `first`. `from` is where the program stands, `None` before the first path: the wire has to be taken there.
     fn begin(&mut self, from: Option<Node>, first: Node, path: &WirePath)
     -> Result<(), ProofError>;
@@ -91,7 +91,7 @@ pub trait Writer {
 
 /// Walks along the paths. `step_mm` is the drawing's unit in steps of the grid. `go_on` hears every few thousand segments how many are
 /// done and how many there are, and ends the work with `false`.
-pub fn walk(
+pub(crate) fn walk(
     paths: &[WirePath],
     steps: f64,
     step_um: f64,
@@ -141,7 +141,7 @@ pub fn walk(
 }
 
 /// True where there is anything to cut: not where the wire only stands in each hole.
-pub fn cuts(paths: &[WirePath]) -> bool {
+pub(crate) fn cuts(paths: &[WirePath]) -> bool {
     paths.is_empty() || paths.iter().any(|path| !path.segments.is_empty())
 }
 
@@ -150,12 +150,12 @@ fn node_of(point: Point) -> Result<Node, ProofError> {
 }
 
 /// The way between two paths.
-pub fn way(from: Node, to: Node) -> Segment {
+pub(crate) fn way(from: Node, to: Node) -> Segment {
     Segment::line(point_of(from), point_of(to))
 }
 
 /// The same segment in other units.
-pub fn scaled(segment: &Segment, scale: f64) -> Segment {
+pub(crate) fn scaled(segment: &Segment, scale: f64) -> Segment {
     match segment {
         Segment::Line(line) => Segment::line(line.start * scale, line.end * scale),
         Segment::Arc(arc) => Segment::Arc(Arc {

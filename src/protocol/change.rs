@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 /// One change to a drawing.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
-pub enum DrawingChange {
+pub(crate) enum DrawingChange {
     /// Vertices of one polyline give way to others.
     Vertices { handle: String, vertices: Splice },
     /// The entity is added or replaced; null deletes it.
@@ -27,10 +27,10 @@ pub enum DrawingChange {
 /// `delete_count` vertices from `start` on give way to `insert`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub struct Splice {
-    pub start: usize,
-    pub delete_count: usize,
-    pub insert: Vec<Vertex>,
+pub(crate) struct Splice {
+    pub(crate) start: usize,
+    pub(crate) delete_count: usize,
+    pub(crate) insert: Vec<Vertex>,
 }
 
 #[derive(Deserialize)]
@@ -90,7 +90,10 @@ impl Standing {
 }
 
 /// Applies changes one after another: all of them, or none and the reason, which names the change by its index.
-pub fn apply(drawing: &mut core::Drawing, changes: Vec<DrawingChange>) -> Result<Delta, String> {
+pub(crate) fn apply(
+    drawing: &mut core::Drawing,
+    changes: Vec<DrawingChange>,
+) -> Result<Delta, String> {
     // All are tried on what the handles stand for first: undoing half of them would need new ids for what was removed.
     let mut standing: FxHashMap<&str, Standing> = FxHashMap::default();
     for (index, change) in changes.iter().enumerate() {
@@ -239,7 +242,7 @@ fn apply_one(
 
 /// A fix as changes that are valid one after another and touch nothing that stays: neighbouring vertices of one polyline
 /// are one splice, lines and arcs are replaced whole.
-pub fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> Vec<DrawingChange> {
+pub(crate) fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> Vec<DrawingChange> {
     let mut vertices = AtVertices::new();
     let mut entities: BTreeMap<EntityId, Option<core::Entity>> = BTreeMap::new();
     let mut added = Vec::new();

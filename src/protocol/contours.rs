@@ -13,61 +13,61 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "camelCase")]
 pub struct Contours {
     /// Millimetres in one drawing unit.
-    pub units_to_mm: f64,
-    pub contours: Vec<ContoursContour>,
+    pub(crate) units_to_mm: f64,
+    pub(crate) contours: Vec<ContoursContour>,
 }
 
 /// Direction in which a closed contour is travelled as it was drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum Direction {
+pub(crate) enum Direction {
     Ccw,
     Cw,
 }
 
 /// A contour; `area` and `direction` are those of a closed one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ContoursContour {
-    pub closed: bool,
+pub(crate) struct ContoursContour {
+    pub(crate) closed: bool,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub direction: Option<Direction>,
-    pub role: Role,
+    pub(crate) direction: Option<Direction>,
+    pub(crate) role: Role,
     /// Square drawing units, arcs counted in.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub area: Option<f64>,
+    pub(crate) area: Option<f64>,
     /// Drawing units, along the segments.
-    pub length: f64,
+    pub(crate) length: f64,
     /// Its place among the cuts, from 0: as drawn, but what lies within another contour before it. Missing for what is not cut, and in
     /// a drawing of more than 20,000 contours.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub order: Option<usize>,
+    pub(crate) order: Option<usize>,
     /// The start mark beside it: a TEXT or MTEXT "O", or a POINT.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub mark: Option<[f64; 2]>,
+    pub(crate) mark: Option<[f64; 2]>,
     /// In the direction of travel.
-    pub segments: Vec<ContourPiece>,
+    pub(crate) segments: Vec<ContourPiece>,
     /// Ends that lay apart within the join tolerance and were taken as one.
-    pub gaps: Vec<Gap>,
+    pub(crate) gaps: Vec<Gap>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ContourPiece {
-    pub handle: String,
+pub(crate) struct ContourPiece {
+    pub(crate) handle: String,
     /// Index within the entity.
-    pub segment: usize,
+    pub(crate) segment: usize,
     /// Travelled against the entity's own direction.
-    pub reversed: bool,
+    pub(crate) reversed: bool,
     #[serde(flatten)]
-    pub shape: SegmentShape,
+    pub(crate) shape: SegmentShape,
 }
 
 /// A gap that chaining closed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Gap {
+pub(crate) struct Gap {
     /// Index in the contour's `segments` of the one that ends here.
-    pub after: usize,
+    pub(crate) after: usize,
     /// Drawing units.
-    pub distance: f64,
+    pub(crate) distance: f64,
 }
 
 impl Contours {

@@ -9,80 +9,80 @@ use serde::{Deserialize, Serialize};
 /// Another place that a finding concerns.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub struct RelatedPlace {
-    pub handle: String,
+pub(crate) struct RelatedPlace {
+    pub(crate) handle: String,
     /// Index of the segment within its entity; not there where the entity as a whole is meant.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub segment: Option<usize>,
+    pub(crate) segment: Option<usize>,
 }
 
 /// What a finding is about, in drawing units and degrees. Only what the finding has is there.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase", default)]
-pub struct FindingData {
+pub(crate) struct FindingData {
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub handle: Option<String>,
+    pub(crate) handle: Option<String>,
     /// Index of the segment within its entity: that of the vertex it starts in.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub segment: Option<usize>,
+    pub(crate) segment: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub radius: Option<f64>,
+    pub(crate) radius: Option<f64>,
     /// The correction that the radius is held against.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub required: Option<f64>,
+    pub(crate) required: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub center: Option<Point>,
+    pub(crate) center: Option<Point>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub start: Option<Point>,
+    pub(crate) start: Option<Point>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub end: Option<Point>,
+    pub(crate) end: Option<Point>,
     /// Degrees, positive counter-clockwise.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub sweep: Option<f64>,
+    pub(crate) sweep: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub side: Option<Side>,
+    pub(crate) side: Option<Side>,
     /// What an untrimmed offset cuts beyond the wire's contour.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub overcut: Option<f64>,
+    pub(crate) overcut: Option<f64>,
     /// What stays when the control trims; left out where it is without bound.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub stock_left: Option<f64>,
+    pub(crate) stock_left: Option<f64>,
     /// 1-based number of the pass with the largest correction, where several are set.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub pass: Option<usize>,
+    pub(crate) pass: Option<usize>,
     /// Why no fix is offered: `narrow-slot`, `seals-contour`, `short-segment`, `spoils`, `no-neighbour`, `not-editable` or `program`.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Option<String>")]
-    pub no_fix: Option<NoFix>,
+    pub(crate) no_fix: Option<NoFix>,
     /// Degrees by which the contour turns at a corner, positive counter-clockwise in the entity's own direction.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub turn: Option<f64>,
+    pub(crate) turn: Option<f64>,
     /// How much the wire leaves standing in a corner, or of a part that it does not reach: the distance of the farthest point from
     /// what is cut.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub uncut: Option<f64>,
+    pub(crate) uncut: Option<f64>,
     /// The point where two segments meet, or near which a part is lost.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub at: Option<Point>,
+    pub(crate) at: Option<Point>,
     /// Width of a slot, distance of two ends, or deviation of chords from their circle.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub distance: Option<f64>,
+    pub(crate) distance: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub length: Option<f64>,
+    pub(crate) length: Option<f64>,
     /// Kind of entity that is not cut.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub kind: Option<String>,
+    pub(crate) kind: Option<String>,
     /// How many the finding stands for.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub count: Option<usize>,
+    pub(crate) count: Option<usize>,
     /// The other segment or entity, where two are concerned.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub related: Vec<RelatedPlace>,
+    pub(crate) related: Vec<RelatedPlace>,
 }
 
 impl FindingData {
     /// The data of one finding; `drawing` is where its place lies, `None` for a program or a settings file.
-    pub fn of(drawing: Option<&Drawing>, finding: &Finding) -> FindingData {
+    pub(crate) fn of(drawing: Option<&Drawing>, finding: &Finding) -> FindingData {
         let mut data = FindingData::default();
         if let (Place::Segment { entity, .. } | Place::Entity { entity }, Some(drawing)) =
             (&finding.place, drawing)
@@ -226,7 +226,7 @@ impl FindingData {
         self.no_fix = detail.no_fix;
     }
 
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         *self == FindingData::default()
     }
 }

@@ -9,20 +9,20 @@ use serde::{Deserialize, Serialize};
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
 )]
-pub struct Position {
-    pub line: u32,
-    pub character: u32,
+pub(crate) struct Position {
+    pub(crate) line: u32,
+    pub(crate) character: u32,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct Range {
-    pub start: Position,
-    pub end: Position,
+pub(crate) struct Range {
+    pub(crate) start: Position,
+    pub(crate) end: Position,
 }
 
 impl Range {
     /// The place of a drawing's finding: the line is the segment's index within its entity.
-    pub fn of_segment(segment: usize) -> Range {
+    pub(crate) fn of_segment(segment: usize) -> Range {
         let position = Position {
             line: segment.try_into().unwrap_or(u32::MAX),
             character: 0,
@@ -35,47 +35,47 @@ impl Range {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct CodeDescription {
+pub(crate) struct CodeDescription {
     /// The rule's page of documentation.
-    pub href: String,
+    pub(crate) href: String,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct Location {
-    pub uri: String,
-    pub range: Range,
+pub(crate) struct Location {
+    pub(crate) uri: String,
+    pub(crate) range: Range,
 }
 
 /// Another place that a finding concerns, and what is there.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct RelatedInformation {
-    pub location: Location,
-    pub message: String,
+pub(crate) struct RelatedInformation {
+    pub(crate) location: Location,
+    pub(crate) message: String,
 }
 
 /// One finding. In a drawing's diagnostics the line is the segment's index within its entity.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub struct Diagnostic {
-    pub range: Range,
+pub(crate) struct Diagnostic {
+    pub(crate) range: Range,
     /// 1 error, 2 warning, 3 information, 4 hint.
-    pub severity: u8,
+    pub(crate) severity: u8,
     /// Name of the rule.
-    pub code: String,
+    pub(crate) code: String,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub code_description: Option<CodeDescription>,
+    pub(crate) code_description: Option<CodeDescription>,
     /// Always `wedm`.
-    pub source: String,
-    pub message: String,
+    pub(crate) source: String,
+    pub(crate) message: String,
     /// Sent to clients that can show it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub related_information: Option<Vec<RelatedInformation>>,
+    pub(crate) related_information: Option<Vec<RelatedInformation>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub data: Option<FindingData>,
+    pub(crate) data: Option<FindingData>,
 }
 
 /// The number that LSP has for a severity.
-pub fn severity_number(severity: Severity) -> u8 {
+pub(crate) fn severity_number(severity: Severity) -> u8 {
     match severity {
         Severity::Error => 1,
         Severity::Warning => 2,

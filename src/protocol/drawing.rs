@@ -71,7 +71,7 @@ impl JsonSchema for Vertex {
 /// The unit of a drawing's coordinates; the settings decide where it is left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum Units {
+pub(crate) enum Units {
     Mm,
     Inch,
 }
@@ -87,17 +87,17 @@ impl From<Units> for Unit {
 
 /// A drawing without text behind it, entities in machining order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Drawing {
-    pub uri: String,
-    pub version: i64,
+pub(crate) struct Drawing {
+    pub(crate) uri: String,
+    pub(crate) version: i64,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub units: Option<Units>,
-    pub entities: Vec<Entity>,
+    pub(crate) units: Option<Units>,
+    pub(crate) entities: Vec<Entity>,
 }
 
 /// One entity: what it is called, where it belongs, what it is.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Entity {
+pub(crate) struct Entity {
     pub handle: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub layer: Option<String>,
@@ -183,7 +183,7 @@ impl<'de> Deserialize<'de> for Entity {
 
 impl Drawing {
     /// The core's drawing. Errors: a handle that stands twice, a number that is none, a radius that is not above 0.
-    pub fn into_core(self) -> Result<core::Drawing, String> {
+    pub(crate) fn into_core(self) -> Result<core::Drawing, String> {
         let mut drawing = core::Drawing::new(self.units.map(Unit::from));
         for entity in self.entities {
             let entity = entity.into_core()?;
@@ -198,7 +198,7 @@ impl Drawing {
 
 impl Entity {
     /// The core's entity. Errors: a number that is none, a radius that is not above 0.
-    pub fn into_core(self) -> Result<core::Entity, String> {
+    pub(crate) fn into_core(self) -> Result<core::Entity, String> {
         self.check()?;
         let layer = self.layer.as_deref().unwrap_or("0");
         Ok(core::Entity {
@@ -208,7 +208,7 @@ impl Entity {
     }
 
     /// Says which number of the entity is none.
-    pub fn check(&self) -> Result<(), String> {
+    pub(crate) fn check(&self) -> Result<(), String> {
         let name = &self.handle;
         let point = |key: &str, at: &Point| match at.x.is_finite() && at.y.is_finite() {
             true => Ok(()),

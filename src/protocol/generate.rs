@@ -11,61 +11,61 @@ use serde::{Deserialize, Serialize};
 /// Params of `wedm/generate`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub struct Generate {
-    pub uri: String,
+pub(crate) struct Generate {
+    pub(crate) uri: String,
     /// Language of the program: `3b`, `4b` or `iso`.
-    pub format: String,
+    pub(crate) format: String,
     /// Only the contours that hold one of these entities.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub handles: Option<Vec<String>>,
+    pub(crate) handles: Option<Vec<String>>,
     /// Only the contours that have an entity on one of these layers; beside `handles` those of both.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub layers: Option<Vec<String>>,
+    pub(crate) layers: Option<Vec<String>>,
     /// Laid over every other level of settings for this request.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub options: Option<Settings>,
+    pub(crate) options: Option<Settings>,
     /// Make the program although errors stand in the drawing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub force: Option<bool>,
+    pub(crate) force: Option<bool>,
 }
 
 /// Drift that a controller which only counts J accumulates on the way round, µm.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Closure {
-    pub x: f64,
-    pub y: f64,
+pub(crate) struct Closure {
+    pub(crate) x: f64,
+    pub(crate) y: f64,
 }
 
 /// Result of `wedm/generate`: a program that has been decoded again and held against its path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Program {
-    pub program: String,
+pub(crate) struct Program {
+    pub(crate) program: String,
     /// Number of blocks.
-    pub blocks: usize,
+    pub(crate) blocks: usize,
     /// Length of the path in mm.
-    pub length: f64,
-    pub closure: Closure,
+    pub(crate) length: f64,
+    pub(crate) closure: Closure,
     /// Largest distance in µm of the decoded blocks from the path, over their whole length.
-    pub deviation: f64,
+    pub(crate) deviation: f64,
     /// What all passes leave of the contours, where several are cut.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub finished: Option<FinishedPart>,
-    pub warnings: Vec<Diagnostic>,
+    pub(crate) finished: Option<FinishedPart>,
+    pub(crate) warnings: Vec<Diagnostic>,
 }
 
 /// The largest deviations of the part that all passes leave from its drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct FinishedPart {
+pub(crate) struct FinishedPart {
     /// What stays beyond the contour where it stays thickest, mm.
-    pub uncut: f64,
+    pub(crate) uncut: f64,
     /// Where that is, drawing units.
-    pub at: Point,
+    pub(crate) at: Point,
     /// How far the wire cuts beyond the contour, mm.
-    pub overcut: f64,
+    pub(crate) overcut: f64,
 }
 
 impl Program {
-    pub fn new(
+    pub(crate) fn new(
         proved: ProvedProgram,
         finished: Option<Finished>,
         warnings: Vec<Diagnostic>,
@@ -91,6 +91,6 @@ impl Program {
 
 /// `data` of the error −32803: what stands in the way.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Refused {
-    pub diagnostics: Vec<Diagnostic>,
+pub(crate) struct Refused {
+    pub(crate) diagnostics: Vec<Diagnostic>,
 }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// The level that has the last word on the correction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum CorrectionSource {
+pub(crate) enum CorrectionSource {
     /// Nobody has set one.
     Default,
     /// `initializationOptions`, `workspace/didChangeConfiguration` or `workspace/configuration`.
@@ -19,14 +19,14 @@ pub enum CorrectionSource {
 /// Result of `wedm/settings`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub struct SettingsInForce {
+pub(crate) struct SettingsInForce {
     /// mm; what radii are held against: the largest of `corrections`.
-    pub correction: f64,
+    pub(crate) correction: f64,
     /// mm; that of each pass.
-    pub corrections: Vec<f64>,
-    pub correction_from: CorrectionSource,
-    pub side: SideSetting,
+    pub(crate) corrections: Vec<f64>,
+    pub(crate) correction_from: CorrectionSource,
+    pub(crate) side: SideSetting,
     /// URI of the `wedm.toml` that holds for the document, where there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub file: Option<String>,
+    pub(crate) file: Option<String>,
 }

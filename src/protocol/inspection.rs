@@ -13,30 +13,30 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "camelCase")]
 pub struct Inspection {
     /// Millimetres in one drawing unit.
-    pub units_to_mm: f64,
+    pub(crate) units_to_mm: f64,
     pub entities: Vec<InspectedEntity>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct InspectedEntity {
-    pub handle: String,
+    pub(crate) handle: String,
     /// The DXF name: LINE, ARC, CIRCLE, LWPOLYLINE, POLYLINE.
-    pub r#type: String,
-    pub layer: String,
-    pub closed: bool,
+    pub(crate) r#type: String,
+    pub(crate) layer: String,
+    pub(crate) closed: bool,
     /// False where it is no part of a contour: its layer is frozen or switched off, its role is `ignore`, or it is a point.
-    pub cut: bool,
-    pub segments: Vec<InspectedSegment>,
+    pub(crate) cut: bool,
+    pub(crate) segments: Vec<InspectedSegment>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct InspectedSegment {
+pub(crate) struct InspectedSegment {
     /// Index within the entity: that of the vertex it starts in.
-    pub index: usize,
+    pub(crate) index: usize,
     #[serde(flatten)]
-    pub shape: SegmentShape,
+    pub(crate) shape: SegmentShape,
     /// `ok`, or the names of the rules of which an error or a warning lies here, with a comma between.
-    pub verdict: String,
+    pub(crate) verdict: String,
 }
 
 impl Inspection {
@@ -59,7 +59,7 @@ impl Inspection {
 
     /// The list of all of `drawing`, or of the entity `handle`. `findings` are all of the drawing's; a segment shorter
     /// than `zero_length` (drawing units) is left out, its neighbours keep their index.
-    pub fn new(
+    pub(crate) fn new(
         drawing: &Drawing,
         unit_mm: f64,
         zero_length: f64,

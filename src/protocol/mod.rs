@@ -19,48 +19,51 @@ mod segment;
 mod simulate;
 mod toolpath;
 
-pub use change::{DrawingChange, Splice, apply, changes_of};
-pub use contours::{ContourPiece, Contours, ContoursContour, Direction, Gap};
-pub use data::{FindingData, RelatedPlace};
-pub use diagnostic::{
+pub(crate) use change::{DrawingChange, Splice, apply, changes_of};
+pub use contours::Contours;
+pub(crate) use contours::{ContourPiece, ContoursContour, Direction, Gap};
+pub(crate) use data::{FindingData, RelatedPlace};
+pub(crate) use diagnostic::{
     CodeDescription, Diagnostic, Location, Position, Range, RelatedInformation, severity_number,
 };
-pub use drawing::{Drawing, Entity, Units};
-pub use generate::{Closure, Generate, Program, Refused};
-pub use in_force::{CorrectionSource, SettingsInForce};
-pub use inspection::{InspectedEntity, InspectedSegment, Inspection};
-pub use locate::{Locate, Located};
-pub use requests::{
+pub(crate) use drawing::{Drawing, Entity, Units};
+pub(crate) use generate::{Closure, Generate, Program, Refused};
+pub(crate) use in_force::{CorrectionSource, SettingsInForce};
+pub use inspection::Inspection;
+pub(crate) use inspection::{InspectedEntity, InspectedSegment};
+pub(crate) use locate::{Locate, Located};
+pub(crate) use requests::{
     Applied, ApplyDrawingEdit, ChangeDrawing, CloseDrawing, DrawingEdit, DrawingName,
     DrawingVersion, Inspect, OpenDrawing, OptionsOf, Picture, ResendDrawing, Resent, RulePage,
     RulePageText, ScaleProgram,
 };
-pub use schema::{schema, settings_schema};
-pub use segment::{SegmentKind, SegmentShape};
-pub use simulate::{Simulate, SimulatedBlock, SimulatedBounds, Simulation, StepKind};
-pub use toolpath::{PathPiece, PathSource, Toolpath, ToolpathPath};
+pub use schema::schema;
+pub(crate) use schema::settings_schema;
+pub(crate) use segment::{SegmentKind, SegmentShape};
+pub(crate) use simulate::{Simulate, SimulatedBlock, SimulatedBounds, Simulation, StepKind};
+pub(crate) use toolpath::{PathPiece, PathSource, Toolpath, ToolpathPath};
 
 /// Version of the `wedm/` name space that the handshake states.
-pub const PROTOCOL: u32 = 1;
+pub(crate) const PROTOCOL: u32 = 1;
 
 /// Names of the methods, notifications and commands.
-pub mod method {
-    pub const DID_OPEN_DRAWING: &str = "wedm/didOpenDrawing";
-    pub const DID_CHANGE_DRAWING: &str = "wedm/didChangeDrawing";
-    pub const DID_CLOSE_DRAWING: &str = "wedm/didCloseDrawing";
-    pub const RESEND_DRAWING: &str = "wedm/resendDrawing";
-    pub const APPLY_DRAWING_EDIT: &str = "wedm/applyDrawingEdit";
-    pub const GENERATE: &str = "wedm/generate";
-    pub const INSPECT: &str = "wedm/inspect";
-    pub const CONTOURS: &str = "wedm/contours";
-    pub const TOOLPATH: &str = "wedm/toolpath";
-    pub const PICTURE: &str = "wedm/picture";
-    pub const SIMULATE: &str = "wedm/simulate";
-    pub const LOCATE: &str = "wedm/locate";
-    pub const SETTINGS: &str = "wedm/settings";
-    pub const RULE_PAGE: &str = "wedm/rulePage";
+pub(crate) mod method {
+    pub(crate) const DID_OPEN_DRAWING: &str = "wedm/didOpenDrawing";
+    pub(crate) const DID_CHANGE_DRAWING: &str = "wedm/didChangeDrawing";
+    pub(crate) const DID_CLOSE_DRAWING: &str = "wedm/didCloseDrawing";
+    pub(crate) const RESEND_DRAWING: &str = "wedm/resendDrawing";
+    pub(crate) const APPLY_DRAWING_EDIT: &str = "wedm/applyDrawingEdit";
+    pub(crate) const GENERATE: &str = "wedm/generate";
+    pub(crate) const INSPECT: &str = "wedm/inspect";
+    pub(crate) const CONTOURS: &str = "wedm/contours";
+    pub(crate) const TOOLPATH: &str = "wedm/toolpath";
+    pub(crate) const PICTURE: &str = "wedm/picture";
+    pub(crate) const SIMULATE: &str = "wedm/simulate";
+    pub(crate) const LOCATE: &str = "wedm/locate";
+    pub(crate) const SETTINGS: &str = "wedm/settings";
+    pub(crate) const RULE_PAGE: &str = "wedm/rulePage";
     /// The command that a drawing's code actions hold.
-    pub const APPLY_DRAWING_EDIT_COMMAND: &str = "wedm.applyDrawingEdit";
+    pub(crate) const APPLY_DRAWING_EDIT_COMMAND: &str = "wedm.applyDrawingEdit";
     /// The server's command that scales a program; its argument is `{ uri, factor }`.
-    pub const SCALE_COMMAND: &str = "wedm.scale";
+    pub(crate) const SCALE_COMMAND: &str = "wedm.scale";
 }

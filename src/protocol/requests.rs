@@ -8,112 +8,112 @@ use serde::{Deserialize, Serialize};
 
 /// Params of `wedm/didOpenDrawing`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct OpenDrawing {
-    pub drawing: Drawing,
+pub(crate) struct OpenDrawing {
+    pub(crate) drawing: Drawing,
 }
 
 /// Which drawing, and the version that it has after the change.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct DrawingVersion {
-    pub uri: String,
-    pub version: i64,
+pub(crate) struct DrawingVersion {
+    pub(crate) uri: String,
+    pub(crate) version: i64,
 }
 
 /// Params of `wedm/didChangeDrawing`: changes apply one after another, all or none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ChangeDrawing {
-    pub drawing: DrawingVersion,
-    pub changes: Vec<DrawingChange>,
+pub(crate) struct ChangeDrawing {
+    pub(crate) drawing: DrawingVersion,
+    pub(crate) changes: Vec<DrawingChange>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct DrawingName {
-    pub uri: String,
+pub(crate) struct DrawingName {
+    pub(crate) uri: String,
 }
 
 /// Params of `wedm/didCloseDrawing`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct CloseDrawing {
-    pub drawing: DrawingName,
+pub(crate) struct CloseDrawing {
+    pub(crate) drawing: DrawingName,
 }
 
 /// Params of the server's request `wedm/resendDrawing`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct ResendDrawing {
-    pub uri: String,
+pub(crate) struct ResendDrawing {
+    pub(crate) uri: String,
 }
 
 /// Result of `wedm/resendDrawing`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Resent {
-    pub drawing: Drawing,
+pub(crate) struct Resent {
+    pub(crate) drawing: Drawing,
 }
 
 /// The only argument of the command `wedm.applyDrawingEdit`: changes of one version of a drawing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct DrawingEdit {
-    pub uri: String,
-    pub version: i64,
+pub(crate) struct DrawingEdit {
+    pub(crate) uri: String,
+    pub(crate) version: i64,
     pub changes: Vec<DrawingChange>,
 }
 
 /// The only argument of the command `wedm.scale`: a program, and the factor by which all its lengths grow.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct ScaleProgram {
-    pub uri: String,
-    pub factor: f64,
+pub(crate) struct ScaleProgram {
+    pub(crate) uri: String,
+    pub(crate) factor: f64,
 }
 
 /// Params of the server's request `wedm/applyDrawingEdit`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ApplyDrawingEdit {
-    pub edit: DrawingEdit,
+pub(crate) struct ApplyDrawingEdit {
+    pub(crate) edit: DrawingEdit,
 }
 
 /// Result of `wedm/applyDrawingEdit`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub struct Applied {
-    pub applied: bool,
+pub(crate) struct Applied {
+    pub(crate) applied: bool,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub failure_reason: Option<String>,
+    pub(crate) failure_reason: Option<String>,
 }
 
 /// Params of `wedm/inspect`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct Inspect {
-    pub uri: String,
+pub(crate) struct Inspect {
+    pub(crate) uri: String,
     /// Only this entity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub handle: Option<String>,
+    pub(crate) handle: Option<String>,
 }
 
 /// Params of `wedm/toolpath` and `wedm/picture`; `wedm/contours` takes the `uri` alone.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct OptionsOf {
-    pub uri: String,
+pub(crate) struct OptionsOf {
+    pub(crate) uri: String,
     /// Laid over every other level of settings for this request.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub options: Option<Settings>,
+    pub(crate) options: Option<Settings>,
 }
 
 /// Result of `wedm/picture`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct Picture {
-    pub svg: String,
+pub(crate) struct Picture {
+    pub(crate) svg: String,
 }
 
 /// Params of `wedm/rulePage`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct RulePage {
+pub(crate) struct RulePage {
     /// Name of the rule, which is the `code` of its findings.
-    pub rule: String,
+    pub(crate) rule: String,
 }
 
 /// Result of `wedm/rulePage`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct RulePageText {
+pub(crate) struct RulePageText {
     /// Markdown without pictures. Links lead to pages of other rules only, as `NAME.md`.
-    pub text: String,
+    pub(crate) text: String,
 }

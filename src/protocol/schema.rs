@@ -63,7 +63,7 @@ pub fn schema() -> Value {
 }
 
 /// The JSON Schema of `wedm.toml`.
-pub fn settings_schema() -> Value {
+pub(crate) fn settings_schema() -> Value {
     let whole = schema();
     let mut definitions = Map::new();
     gather(&whole["settings"], &whole["$defs"], &mut definitions);

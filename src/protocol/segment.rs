@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum SegmentKind {
+pub(crate) enum SegmentKind {
     Line,
     Arc,
     Circle,
@@ -15,21 +15,21 @@ pub enum SegmentKind {
 
 /// Geometry of one segment in drawing units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SegmentShape {
-    pub kind: SegmentKind,
-    pub start: Point,
-    pub end: Point,
-    pub length: f64,
+pub(crate) struct SegmentShape {
+    pub(crate) kind: SegmentKind,
+    pub(crate) start: Point,
+    pub(crate) end: Point,
+    pub(crate) length: f64,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub center: Option<Point>,
+    pub(crate) center: Option<Point>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub radius: Option<f64>,
+    pub(crate) radius: Option<f64>,
     /// Degrees, positive counter-clockwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub sweep: Option<f64>,
+    pub(crate) sweep: Option<f64>,
     /// `tan(sweep / 4)`; left out for lines and for a full turn, which has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub bulge: Option<f64>,
+    pub(crate) bulge: Option<f64>,
 }
 
 impl SegmentShape {

@@ -9,17 +9,17 @@ use serde::{Deserialize, Serialize};
 
 /// Params of `wedm/simulate`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Simulate {
-    pub uri: String,
+pub(crate) struct Simulate {
+    pub(crate) uri: String,
     /// mm/min: with it the reply says how many minutes the way takes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub feed: Option<f64>,
+    pub(crate) feed: Option<f64>,
 }
 
 /// What a step of the program does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum StepKind {
+pub(crate) enum StepKind {
     Line,
     Arc,
     /// A way without a cut.
@@ -31,63 +31,63 @@ pub enum StepKind {
 /// A block or word and what it makes the machine do; points in µm, in the program's own frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub struct SimulatedBlock {
+pub(crate) struct SimulatedBlock {
     /// Line of the text, from 0.
-    pub line: usize,
+    pub(crate) line: usize,
     /// Number that the block carries.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub number: Option<u32>,
-    pub kind: StepKind,
-    pub start: Point,
+    pub(crate) number: Option<u32>,
+    pub(crate) kind: StepKind,
+    pub(crate) start: Point,
     /// Where the machine stops.
-    pub end: Point,
+    pub(crate) end: Point,
     /// Where the line or arc ends that the block means; not there where it means none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub ideal_end: Option<Point>,
+    pub(crate) ideal_end: Option<Point>,
     /// From the ideal end to the machine's, µm.
-    pub deviation: f64,
+    pub(crate) deviation: f64,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub center: Option<Point>,
+    pub(crate) center: Option<Point>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub radius: Option<f64>,
+    pub(crate) radius: Option<f64>,
     /// Degrees, positive counter-clockwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub sweep: Option<f64>,
+    pub(crate) sweep: Option<f64>,
     /// Index of the contour; a pause is between two of them.
-    pub contour: usize,
+    pub(crate) contour: usize,
 }
 
 /// A box, µm.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SimulatedBounds {
-    pub min: Point,
-    pub max: Point,
+pub(crate) struct SimulatedBounds {
+    pub(crate) min: Point,
+    pub(crate) max: Point,
 }
 
 /// Result of `wedm/simulate`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub struct Simulation {
-    pub blocks: Vec<SimulatedBlock>,
+pub(crate) struct Simulation {
+    pub(crate) blocks: Vec<SimulatedBlock>,
     /// From the program's start to where the machine ends, µm.
-    pub closure: Closure,
+    pub(crate) closure: Closure,
     /// mm, along the lines and arcs; ways without a cut are counted in.
-    pub length: f64,
+    pub(crate) length: f64,
     /// The largest deviation of a block, µm.
-    pub deviation: f64,
+    pub(crate) deviation: f64,
     /// The text says where the program begins; else that is the origin.
-    pub start_is_known: bool,
+    pub(crate) start_is_known: bool,
     /// Not there where nothing moves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub bounds: Option<SimulatedBounds>,
+    pub(crate) bounds: Option<SimulatedBounds>,
     /// At the feed that was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub minutes: Option<f64>,
+    pub(crate) minutes: Option<f64>,
 }
 
 impl Simulation {
     /// `feed` in mm/min; one that is not above 0 says no time.
-    pub fn of(trace: &Trace, feed: Option<f64>) -> Simulation {
+    pub(crate) fn of(trace: &Trace, feed: Option<f64>) -> Simulation {
         let closure = trace.closure();
         let length = trace.length() / 1000.0;
         Simulation {

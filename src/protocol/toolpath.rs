@@ -11,35 +11,35 @@ use serde::{Deserialize, Serialize};
 /// Wire paths in machining order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub struct Toolpath {
+pub(crate) struct Toolpath {
     /// Millimetres in one drawing unit.
-    pub units_to_mm: f64,
-    pub paths: Vec<ToolpathPath>,
+    pub(crate) units_to_mm: f64,
+    pub(crate) paths: Vec<ToolpathPath>,
 }
 
 /// The path for one contour in one pass.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub struct ToolpathPath {
+pub(crate) struct ToolpathPath {
     /// Index of the contour in the reply of `wedm/contours`.
-    pub contour: usize,
+    pub(crate) contour: usize,
     /// 1-based number of the pass.
-    pub pass: usize,
+    pub(crate) pass: usize,
     /// Which way a closed contour is gone round in this pass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub direction: Option<Direction>,
+    pub(crate) direction: Option<Direction>,
     /// How far the path lies from the contour, drawing units.
-    pub correction: f64,
-    pub thread_hole: Point,
+    pub(crate) correction: f64,
+    pub(crate) thread_hole: Point,
     /// Drawing units, leads included.
-    pub length: f64,
-    pub segments: Vec<PathPiece>,
+    pub(crate) length: f64,
+    pub(crate) segments: Vec<PathPiece>,
 }
 
 /// What a piece of the path follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum PathSource {
+pub(crate) enum PathSource {
     Segment,
     /// The way round the convex corner at the end of a segment.
     Corner,
@@ -54,20 +54,20 @@ pub enum PathSource {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct PathPiece {
-    pub source: PathSource,
+pub(crate) struct PathPiece {
+    pub(crate) source: PathSource,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub handle: Option<String>,
+    pub(crate) handle: Option<String>,
     /// Index within the entity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub segment: Option<usize>,
+    pub(crate) segment: Option<usize>,
     #[serde(flatten)]
-    pub shape: SegmentShape,
+    pub(crate) shape: SegmentShape,
 }
 
 impl Toolpath {
     /// `unit_mm` is the drawing's unit in mm.
-    pub fn new(drawing: &Drawing, paths: &[WirePath], unit_mm: f64) -> Toolpath {
+    pub(crate) fn new(drawing: &Drawing, paths: &[WirePath], unit_mm: f64) -> Toolpath {
         Toolpath {
             units_to_mm: unit_mm,
             paths: paths.iter().map(|path| one_path(drawing, path)).collect(),

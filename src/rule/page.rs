@@ -4,7 +4,7 @@ use super::Rule;
 
 impl Rule {
     /// The page of documentation, without pictures; of its links those to other rules are left, as `NAME.md`.
-    pub fn page(self) -> String {
+    pub(crate) fn page(self) -> String {
         let is_picture = |line: &&str| line.starts_with("![");
         let lines: Vec<&str> = self
             .written()
@@ -23,7 +23,7 @@ impl Rule {
     }
 
     /// The page as plain text for a terminal, line by line, each with what it is.
-    pub fn lines(self) -> Vec<(Line, String)> {
+    pub(crate) fn lines(self) -> Vec<(Line, String)> {
         let mut is_code = false;
         let mut lines = Vec::new();
         for line in unlinked(&self.page(), |_| false).lines() {
@@ -44,14 +44,14 @@ impl Rule {
     }
 
     /// The rule of a name.
-    pub fn named(name: &str) -> Option<Rule> {
+    pub(crate) fn named(name: &str) -> Option<Rule> {
         Rule::ALL.into_iter().find(|rule| rule.name() == name)
     }
 }
 
 /// What a line of a page is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Line {
+pub(crate) enum Line {
     Heading,
     Text,
     Code,

@@ -31,8 +31,8 @@ const FACING: f64 = FRAC_PI_2 + 1e-3;
 
 /// A disc of the correction that touches two walls of a contour, with what lies beyond it.
 #[derive(Clone, Copy, Debug)]
-pub struct DeadEnd {
-    pub center: Point,
+pub(crate) struct DeadEnd {
+    pub(crate) center: Point,
     radius: f64,
     side: Side,
     /// In the direction of travel, what lies beyond the disc goes from the one to the other.
@@ -44,12 +44,12 @@ pub struct DeadEnd {
 
 /// What the wire leaves beyond a dead end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Left {
+pub(crate) struct Left {
     /// How far the farthest point of the contour lies from what is cut.
-    pub depth: f64,
-    pub near: Point,
+    pub(crate) depth: f64,
+    pub(crate) near: Point,
     /// The segment that the wire stays farthest from.
-    pub index: usize,
+    pub(crate) index: usize,
 }
 
 /// The disc that the wire's centre carries: an arc of the correction, and a slot twice as wide, it still follows.
@@ -133,7 +133,7 @@ fn run_on(one: &Wall, other: &Wall, radius: f64) -> bool {
 impl DeadEnd {
     /// The end that a disc about `center` makes between two walls of a contour. `None` where it does not touch both, where it may
     /// go on, and for a single corner that is as deep as any of its kind.
-    pub fn between(one: &Wall, other: &Wall, side: Side, center: Point) -> Option<DeadEnd> {
+    pub(crate) fn between(one: &Wall, other: &Wall, side: Side, center: Point) -> Option<DeadEnd> {
         let (outlook, limits) = (&one.outlook, one.outlook.limits);
         let radius = radius(limits);
         let (first, second) = (
@@ -192,7 +192,7 @@ impl DeadEnd {
     }
 
     /// True when two segments of the contour, by their indices, both lie in what is beyond the disc, or touch it.
-    pub fn holds(&self, count: usize, segments: [usize; 2]) -> bool {
+    pub(crate) fn holds(&self, count: usize, segments: [usize; 2]) -> bool {
         let along = |index: usize| (index + count - self.from.index) % count.max(1);
         segments.into_iter().all(|index| along(index) <= self.steps)
     }
@@ -229,12 +229,12 @@ impl DeadEnd {
         (point - self.center).norm() - self.radius
     }
 
-    pub fn side(&self) -> Side {
+    pub(crate) fn side(&self) -> Side {
         self.side
     }
 
     /// The two segments that the disc touches.
-    pub fn walls(&self) -> [usize; 2] {
+    pub(crate) fn walls(&self) -> [usize; 2] {
         [self.from.index, self.to.index]
     }
 
@@ -257,7 +257,7 @@ impl DeadEnd {
     }
 
     /// What is left beyond the disc, where that is more than `sharp-corner` and `small-radius` tell of.
-    pub fn left(&self, outlook: &Outlook) -> Option<Left> {
+    pub(crate) fn left(&self, outlook: &Outlook) -> Option<Left> {
         if !self.is_more_than_a_corner(outlook, true) {
             return None;
         }

@@ -12,10 +12,10 @@ const SMOOTH: f64 = 1e-6;
 /// A wall that a disc touches: at a place of it, or at the vertex that it starts in.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Touch {
-    pub index: usize,
-    pub at_vertex: bool,
+    pub(crate) index: usize,
+    pub(crate) at_vertex: bool,
     /// From the place towards the disc's centre.
-    pub normal: Vector,
+    pub(crate) normal: Vector,
 }
 
 /// How far a wall may reach into a disc by rounding.

@@ -67,7 +67,7 @@ pub(crate) fn end_moved(
 
 /// The change that brings two ends together which should meet: the start of the segment behind goes to the end of the one
 /// before. Where only the one before is straight, it is that one which moves: a line bears it better than an arc.
-pub fn joined(
+pub(crate) fn joined(
     drawing: &Drawing,
     before: &ContourSegment,
     behind: &ContourSegment,

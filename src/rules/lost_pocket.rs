@@ -19,7 +19,7 @@ pub(crate) const MOST_SEGMENTS: usize = 5_000;
 
 /// What the offset of a contour loses.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Lost {
+pub(crate) enum Lost {
     /// Nothing is left of it.
     All,
     /// A part, by the point of its loop that lies deepest in it and the index of the segment beside that.
@@ -28,7 +28,7 @@ pub enum Lost {
 
 /// What the offset to `side` of a contour loses. `has_neck` tells that two of its walls form a narrow slot: without one,
 /// it can lose nothing but all.
-pub fn check(outlook: &Outlook, side: Side, has_neck: bool) -> Vec<Lost> {
+pub(crate) fn check(outlook: &Outlook, side: Side, has_neck: bool) -> Vec<Lost> {
     let contour = outlook.contour;
     if !contour.closed || contour.len() > MOST_SEGMENTS {
         return Vec::new();

@@ -4,12 +4,12 @@
 //! It knows nothing of text, of protocols, or of how a sentence about it reads.
 
 mod arc_as_chords;
-pub mod dead_end;
+pub(crate) mod dead_end;
 mod disc;
 mod duplicate_entity;
 mod ends;
 mod gap;
-pub mod lost_pocket;
+pub(crate) mod lost_pocket;
 mod narrow_slot;
 mod near_tangent;
 mod open_contour;
@@ -17,11 +17,11 @@ mod overlap;
 mod self_intersection;
 mod sharp_corner;
 mod short_segment;
-pub mod small_radius;
-pub mod units;
+pub(crate) mod small_radius;
+pub(crate) mod units;
 mod wall;
 
-pub use wall::Wall;
+pub(crate) use wall::Wall;
 
 use crate::drawing::{Contour, ContourIndex, ContourSegment, Drawing};
 use crate::finding::{Detail, Fix, Place, Rule, Severity, Side};
@@ -31,27 +31,27 @@ use std::ops::Range;
 
 /// What the rules measure against, in the units of one drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
+pub(crate) struct Limits {
     /// The largest correction of all passes.
-    pub correction: f64,
+    pub(crate) correction: f64,
     /// The smallest correction of all passes: what the last pass takes, the earlier ones need not leave.
-    pub last_correction: f64,
+    pub(crate) last_correction: f64,
     /// What the last pass leaves in a sharp corner.
-    pub corner_radius: f64,
+    pub(crate) corner_radius: f64,
     /// Each pass runs its own way: the control does not offset what is drawn.
     passes_are_drawn: bool,
     /// Radius that a fix gives: correction + margin.
-    pub fix_radius: f64,
+    pub(crate) fix_radius: f64,
     /// 1-based number of the pass with the largest correction, where several are set.
-    pub pass: Option<usize>,
-    pub tolerances: Tolerances,
+    pub(crate) pass: Option<usize>,
+    pub(crate) tolerances: Tolerances,
     /// Millimetres in one unit of the drawing.
-    pub unit_mm: f64,
+    pub(crate) unit_mm: f64,
 }
 
 impl Limits {
     /// The limits of `settings` in a drawing whose unit is `unit_mm` millimetres.
-    pub fn new(settings: &Effective, unit_mm: f64) -> Limits {
+    pub(crate) fn new(settings: &Effective, unit_mm: f64) -> Limits {
         Limits {
             correction: settings.correction / unit_mm,
             last_correction: settings.last_correction() / unit_mm,
@@ -65,7 +65,7 @@ impl Limits {
     }
 
     /// An arc below the correction that a later pass can follow.
-    pub fn is_for_skims(&self, radius: f64) -> bool {
+    pub(crate) fn is_for_skims(&self, radius: f64) -> bool {
         self.passes_are_drawn
             && self.last_correction < self.correction
             && radius >= self.last_correction - self.tolerances.report
@@ -74,16 +74,16 @@ impl Limits {
 
 /// One contour as a rule sees it.
 #[derive(Clone, Copy, Debug)]
-pub struct Outlook<'a> {
-    pub drawing: &'a Drawing,
-    pub contour: &'a Contour,
-    pub index: &'a ContourIndex,
-    pub limits: &'a Limits,
+pub(crate) struct Outlook<'a> {
+    pub(crate) drawing: &'a Drawing,
+    pub(crate) contour: &'a Contour,
+    pub(crate) index: &'a ContourIndex,
+    pub(crate) limits: &'a Limits,
 }
 
 impl Outlook<'_> {
     /// Segment at `index`, which goes round and round on a closed contour; `None` past the ends of an open one.
-    pub fn segment(&self, index: isize) -> Option<ContourSegment> {
+    pub(crate) fn segment(&self, index: isize) -> Option<ContourSegment> {
         let count = self.contour.len() as isize;
         if count == 0 || (!self.contour.closed && !(0..count).contains(&index)) {
             return None;
@@ -93,7 +93,7 @@ impl Outlook<'_> {
     }
 
     /// The place of the segment at `index`.
-    pub fn place(&self, index: usize) -> Option<Place> {
+    pub(crate) fn place(&self, index: usize) -> Option<Place> {
         Some(Place::from(&self.segment(index as isize)?))
     }
 
@@ -113,18 +113,18 @@ impl Outlook<'_> {
 /// Something that a rule has seen at one segment of a contour. Small, since a contour may have one at every segment;
 /// its numbers are worked out when it is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Observation {
+pub(crate) struct Observation {
     /// Index of the segment within the contour.
-    pub index: u32,
+    pub(crate) index: u32,
     /// The side of travel that it concerns, `None` where it holds whichever side the wire runs on.
-    pub side: Option<Side>,
+    pub(crate) side: Option<Side>,
     /// Says nothing where the wire side is not known.
-    pub needs_side: bool,
+    pub(crate) needs_side: bool,
 }
 
 impl Observation {
     /// At the segment with this index, whichever side the wire runs on.
-    pub fn at(index: usize) -> Observation {
+    pub(crate) fn at(index: usize) -> Observation {
         Observation {
             index: index as u32,
             side: None,
@@ -134,23 +134,23 @@ impl Observation {
 }
 
 /// A rule on a segment and its near neighbours. All of them stand in `LOCAL_RULES`.
-pub struct LocalRule {
-    pub rule: Rule,
+pub(crate) struct LocalRule {
+    pub(crate) rule: Rule,
     /// Looks at the segments `range` of a contour and adds what it sees there. What it sees at a segment may depend only on
     /// that segment and those within `reach` of it.
-    pub check: fn(&Outlook, Range<usize>, &mut Vec<Observation>),
+    pub(crate) check: fn(&Outlook, Range<usize>, &mut Vec<Observation>),
     /// How many segments before and behind a changed one must be looked at again.
-    pub reach: fn(&Outlook, Range<usize>) -> (usize, usize),
+    pub(crate) reach: fn(&Outlook, Range<usize>) -> (usize, usize),
     /// Whether what was seen at the first segment of a closed contour stands, where that depends on the whole round.
-    pub holds: fn(&Outlook, Observation) -> bool,
+    pub(crate) holds: fn(&Outlook, Observation) -> bool,
     /// The other places that are concerned.
-    pub related: fn(&Outlook, Observation) -> Vec<Place>,
+    pub(crate) related: fn(&Outlook, Observation) -> Vec<Place>,
     /// The numbers of a observation. With a count, the wire side is not known and one finding stands for so many observations.
-    pub detail: fn(&Outlook, Observation, Option<usize>) -> Option<Detail>,
+    pub(crate) detail: fn(&Outlook, Observation, Option<usize>) -> Option<Detail>,
     /// Repairs, the preferred one first.
-    pub fixes: fn(&Outlook, Observation) -> Vec<Fix>,
+    pub(crate) fixes: fn(&Outlook, Observation) -> Vec<Fix>,
     /// Where the wire side is not known: one hint for each contour in place of a finding for each observation.
-    pub one_hint_when_side_unknown: bool,
+    pub(crate) one_hint_when_side_unknown: bool,
 }
 
 impl LocalRule {
@@ -187,19 +187,19 @@ pub(crate) const LOCAL_RULES: &[LocalRule] = &[
 ];
 
 /// A place, and the other places that are concerned.
-pub type Places = (Place, Vec<Place>);
+pub(crate) type Places = (Place, Vec<Place>);
 
 /// A rule on a contour as a whole, cheap enough to be asked at every report. All of them stand in `CONTOUR_RULES`.
-pub struct ContourRule {
-    pub rule: Rule,
-    pub holds: fn(&Outlook) -> bool,
+pub(crate) struct ContourRule {
+    pub(crate) rule: Rule,
+    pub(crate) holds: fn(&Outlook) -> bool,
     /// The severity that it has at most under some settings, unless the user has set the rule.
-    pub mildest: fn(&Effective) -> Option<Severity>,
+    pub(crate) mildest: fn(&Effective) -> Option<Severity>,
     /// The place, and the other places that are concerned.
-    pub places: fn(&Outlook) -> Option<Places>,
-    pub detail: fn(&Outlook) -> Option<Detail>,
+    pub(crate) places: fn(&Outlook) -> Option<Places>,
+    pub(crate) detail: fn(&Outlook) -> Option<Detail>,
     /// Repairs, the preferred one first.
-    pub fixes: fn(&Outlook) -> Vec<Fix>,
+    pub(crate) fixes: fn(&Outlook) -> Vec<Fix>,
 }
 
 /// Every rule on whole contours.
@@ -207,35 +207,35 @@ pub(crate) const CONTOUR_RULES: &[ContourRule] = &[open_contour::RULE];
 
 /// What a pair rule has seen between two segments.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PairObservation {
+pub(crate) struct PairObservation {
     /// Sides of travel that it concerns, of the first and of the second segment; `None` where any.
-    pub sides: (Option<Side>, Option<Side>),
+    pub(crate) sides: (Option<Side>, Option<Side>),
     /// A disc (centre, radius) that no segment of the drawing may reach into, else there is nothing to see.
-    pub disc: Option<(Point, f64)>,
+    pub(crate) disc: Option<(Point, f64)>,
     /// Only the contour's own segments count there.
-    pub own_disc: bool,
+    pub(crate) own_disc: bool,
     /// Where the case is milder than the rule.
-    pub mildest: Option<Severity>,
+    pub(crate) mildest: Option<Severity>,
 }
 
 /// A rule on segments that come near each other. All of them stand in `PAIR_RULES`.
-pub struct PairRule {
-    pub rule: Rule,
+pub(crate) struct PairRule {
+    pub(crate) rule: Rule,
     /// How near two segments must come to be looked at together. A disc that must be empty lies within this of both.
-    pub reach: fn(&Limits) -> f64,
+    pub(crate) reach: fn(&Limits) -> f64,
     /// Looks at two segments, the one of the earlier entity first; the flag tells that they are of one contour.
     /// What it sees may depend only on the two and on the `NEIGHBOURS` that follow and precede each in its contour.
-    pub check: fn(&Wall, &Wall, bool) -> Vec<PairObservation>,
-    pub detail: fn(&Wall, &Wall, bool) -> Option<Detail>,
-    pub fixes: fn(&Wall, &Wall) -> Vec<Fix>,
+    pub(crate) check: fn(&Wall, &Wall, bool) -> Vec<PairObservation>,
+    pub(crate) detail: fn(&Wall, &Wall, bool) -> Option<Detail>,
+    pub(crate) fixes: fn(&Wall, &Wall) -> Vec<Fix>,
     /// What neighbouring pairs see is one thing: the narrowest stands for all.
-    pub one_per_place: bool,
+    pub(crate) one_per_place: bool,
     /// Not said of two entities that are doubles of each other as a whole.
-    pub silent_for_doubles: bool,
+    pub(crate) silent_for_doubles: bool,
     /// At most a warning where the wire side is not known.
-    pub warning_when_side_unknown: bool,
+    pub(crate) warning_when_side_unknown: bool,
     /// Each pair that sees something is a finding; else whoever asks for what was seen makes the findings of it.
-    pub pair_by_pair: bool,
+    pub(crate) pair_by_pair: bool,
 }
 
 impl PairRule {

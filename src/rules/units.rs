@@ -10,7 +10,7 @@ const LARGEST_MM: f64 = 5000.0;
 const SMALLEST_MM: f64 = 0.05;
 
 /// The larger side of a contour's box, drawing units.
-pub fn size(bounds: &Bounds) -> f64 {
+pub(crate) fn size(bounds: &Bounds) -> f64 {
     bounds.width().max(bounds.height())
 }
 

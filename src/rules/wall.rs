@@ -8,24 +8,24 @@ use std::f64::consts::PI;
 
 /// A segment of a contour in the contour's direction of travel.
 #[derive(Clone, Copy, Debug)]
-pub struct Wall<'a> {
-    pub outlook: Outlook<'a>,
-    pub index: usize,
-    pub segment: ContourSegment,
+pub(crate) struct Wall<'a> {
+    pub(crate) outlook: Outlook<'a>,
+    pub(crate) index: usize,
+    pub(crate) segment: ContourSegment,
     /// The segment before it.
-    pub before: Option<Segment>,
+    pub(crate) before: Option<Segment>,
 }
 
 /// A vertex of a contour: where one segment ends and the next begins. One of the two is missing at the end of an open contour.
 #[derive(Clone, Copy, Debug)]
-pub struct Corner {
-    pub at: Point,
-    pub incoming: Option<Segment>,
-    pub outgoing: Option<Segment>,
+pub(crate) struct Corner {
+    pub(crate) at: Point,
+    pub(crate) incoming: Option<Segment>,
+    pub(crate) outgoing: Option<Segment>,
 }
 
 impl<'a> Wall<'a> {
-    pub fn new(outlook: &Outlook<'a>, index: usize) -> Option<Wall<'a>> {
+    pub(crate) fn new(outlook: &Outlook<'a>, index: usize) -> Option<Wall<'a>> {
         Some(Wall {
             outlook: *outlook,
             index,
@@ -36,12 +36,12 @@ impl<'a> Wall<'a> {
         })
     }
 
-    pub fn geometry(&self) -> &Segment {
+    pub(crate) fn geometry(&self) -> &Segment {
         &self.segment.geometry
     }
 
     /// The segment `steps` further in the direction of travel.
-    pub fn beside(&self, steps: isize) -> Option<Segment> {
+    pub(crate) fn beside(&self, steps: isize) -> Option<Segment> {
         self.outlook
             .segment(self.index as isize + steps)
             .map(|segment| segment.geometry)
@@ -49,7 +49,7 @@ impl<'a> Wall<'a> {
 
     /// The vertex that the segment starts in; and the one it ends in where no other segment starts there. So each vertex
     /// belongs to one segment.
-    pub fn corners(&self) -> impl Iterator<Item = Corner> + use<> {
+    pub(crate) fn corners(&self) -> impl Iterator<Item = Corner> + use<> {
         let geometry = *self.geometry();
         let start = Corner {
             at: geometry.start(),
@@ -79,16 +79,16 @@ impl<'a> Wall<'a> {
 
 /// How two segments of one contour hang together.
 #[derive(Clone, Debug, Default)]
-pub struct Joints {
+pub(crate) struct Joints {
     /// The ends of the two that are one joint, or have only short segments between them.
-    pub points: Vec<Point>,
+    pub(crate) points: Vec<Point>,
     /// One follows the other at once, at one end only.
-    pub neighbours: bool,
+    pub(crate) neighbours: bool,
 }
 
 impl Joints {
     /// The joints of two segments; what lies between them counts as part of a joint where it is no longer than `short`.
-    pub fn of(one: &Wall, other: &Wall, same_contour: bool, short: f64) -> Joints {
+    pub(crate) fn of(one: &Wall, other: &Wall, same_contour: bool, short: f64) -> Joints {
         let mut joints = Joints::default();
         if !same_contour {
             return joints;
@@ -151,7 +151,7 @@ impl Corner {
     }
 
     /// Side of travel on which `direction` leaves the vertex; `None` at an open end and at the tip of a spike.
-    pub fn side(&self, direction: Vector) -> Option<Side> {
+    pub(crate) fn side(&self, direction: Vector) -> Option<Side> {
         let along = self.incoming?.end_tangent() + self.outgoing?.start_tangent();
         (along.norm() > 1e-6).then(|| side_of(along, direction))
     }

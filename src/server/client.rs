@@ -25,33 +25,33 @@ struct Asked<S> {
 /// What the client said it can do, as far as it matters here.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Abilities {
-    pub apply_drawing_edit: bool,
-    pub resend_drawing: bool,
-    pub document_changes: bool,
-    pub configuration: bool,
-    pub register_configuration: bool,
-    pub register_watched_files: bool,
-    pub related_information: bool,
-    pub apply_edit: bool,
+    pub(crate) apply_drawing_edit: bool,
+    pub(crate) resend_drawing: bool,
+    pub(crate) document_changes: bool,
+    pub(crate) configuration: bool,
+    pub(crate) register_configuration: bool,
+    pub(crate) register_watched_files: bool,
+    pub(crate) related_information: bool,
+    pub(crate) apply_edit: bool,
     /// Code actions may say why they cannot be done.
-    pub disabled_actions: bool,
+    pub(crate) disabled_actions: bool,
     /// The client has the commands that lenses name.
-    pub code_lens: bool,
+    pub(crate) code_lens: bool,
     /// The client opens pages of rules, which it asks for.
-    pub rule_pages: bool,
+    pub(crate) rule_pages: bool,
     /// Completions may be snippets.
-    pub snippets: bool,
+    pub(crate) snippets: bool,
     /// Symbols may be a tree.
-    pub hierarchical_symbols: bool,
+    pub(crate) hierarchical_symbols: bool,
     /// Asks for what has changed of the semantic tokens.
-    pub token_deltas: bool,
+    pub(crate) token_deltas: bool,
     /// Folds that the client takes at most.
-    pub folding_limit: Option<usize>,
+    pub(crate) folding_limit: Option<usize>,
 }
 
 /// The other end of the wire, as the state thread sees it. `S` is the state on which answers act.
 pub(super) struct Client<S> {
-    pub abilities: Arc<Abilities>,
+    pub(crate) abilities: Arc<Abilities>,
     writer: Writer,
     next_id: u64,
     asked: FxHashMap<String, Asked<S>>,
@@ -73,7 +73,7 @@ pub(super) enum Weight {
 }
 
 impl<S: 'static> Client<S> {
-    pub fn new(writer: Writer) -> Client<S> {
+    pub(crate) fn new(writer: Writer) -> Client<S> {
         Client {
             abilities: Arc::default(),
             writer,
@@ -82,12 +82,12 @@ impl<S: 'static> Client<S> {
         }
     }
 
-    pub fn writer(&self) -> &Writer {
+    pub(crate) fn writer(&self) -> &Writer {
         &self.writer
     }
 
     /// Sends a request; `then` runs on the state thread when the answer, an error or the time-out comes.
-    pub fn ask(
+    pub(crate) fn ask(
         &mut self,
         method: &'static str,
         params: impl Serialize,
@@ -112,12 +112,12 @@ impl<S: 'static> Client<S> {
     }
 
     /// A line for the client's log.
-    pub fn log(&self, weight: Weight, message: impl Into<String>) {
+    pub(crate) fn log(&self, weight: Weight, message: impl Into<String>) {
         self.say("window/logMessage", weight, message.into());
     }
 
     /// A message that the client puts before its user.
-    pub fn show(&self, weight: Weight, message: impl Into<String>) {
+    pub(crate) fn show(&self, weight: Weight, message: impl Into<String>) {
         self.say("window/showMessage", weight, message.into());
     }
 
@@ -129,12 +129,16 @@ impl<S: 'static> Client<S> {
     }
 
     /// When the next request is given up.
-    pub fn next_deadline(&self) -> Option<Instant> {
+    pub(crate) fn next_deadline(&self) -> Option<Instant> {
         self.asked.values().map(|asked| asked.deadline).min()
     }
 
     /// The client answered: what its answer sets off.
-    pub fn answered(&mut self, id: &str, result: Result<Value, Value>) -> Option<Answered<S>> {
+    pub(crate) fn answered(
+        &mut self,
+        id: &str,
+        result: Result<Value, Value>,
+    ) -> Option<Answered<S>> {
         let Some(Asked { then, method, .. }) = self.asked.remove(id) else {
             self.log(Weight::Info, say!(an_answer_to_came_late, id));
             return None;
@@ -150,7 +154,7 @@ impl<S: 'static> Client<S> {
     }
 
     /// Gives up one request that has waited too long: what that sets off.
-    pub fn expired(&mut self) -> Option<Answered<S>> {
+    pub(crate) fn expired(&mut self) -> Option<Answered<S>> {
         let now = Instant::now();
         let (id, _) = self.asked.iter().find(|(_, asked)| asked.deadline <= now)?;
         let id = id.clone();

@@ -15,10 +15,10 @@ use std::sync::Arc;
 
 /// A project's file as it was found.
 pub(super) struct ProjectFile {
-    pub path: PathBuf,
-    pub text: SourceText,
-    pub settings: Settings,
-    pub errors: Vec<SettingsError>,
+    pub(crate) path: PathBuf,
+    pub(crate) text: SourceText,
+    pub(crate) settings: Settings,
+    pub(crate) errors: Vec<SettingsError>,
 }
 
 /// The address of a rule's page, for clients that open such addresses by `wedm/rulePage`.
@@ -27,7 +27,7 @@ const PAGE_OF_CLIENT: &str = "wedm-rule:/{rule}.md";
 #[derive(Default)]
 pub(super) struct Config {
     /// The client opens pages of rules itself.
-    pub rule_pages: bool,
+    pub(crate) rule_pages: bool,
     initialization: Settings,
     /// `workspace/didChangeConfiguration` with the settings in it.
     pushed: Settings,
@@ -57,17 +57,17 @@ impl Level {
 }
 
 impl Config {
-    pub fn set_folders(&mut self, folders: Vec<PathBuf>) {
+    pub(crate) fn set_folders(&mut self, folders: Vec<PathBuf>) {
         self.folders = folders;
     }
 
-    pub fn change_folders(&mut self, removed: &[PathBuf], added: Vec<PathBuf>) {
+    pub(crate) fn change_folders(&mut self, removed: &[PathBuf], added: Vec<PathBuf>) {
         self.folders.retain(|folder| !removed.contains(folder));
         self.folders.extend(added);
     }
 
     /// Takes one level anew. Returns the misfits that the user has not been told of yet, as sentences.
-    pub fn set_level(&mut self, level: Level, json: &Value) -> Vec<String> {
+    pub(crate) fn set_level(&mut self, level: Level, json: &Value) -> Vec<String> {
         let (settings, mut errors) = from_json(json);
         match level {
             Level::Initialization => self.initialization = settings,
@@ -93,7 +93,7 @@ impl Config {
     }
 
     /// The settings for a document, before a request's own options; `file` is what [`Config::file_for`] found.
-    pub fn settings_for(&self, file: Option<&ProjectFile>) -> Settings {
+    pub(crate) fn settings_for(&self, file: Option<&ProjectFile>) -> Settings {
         let levels = self
             .initialization
             .overlaid(&self.pushed)
@@ -108,12 +108,12 @@ impl Config {
         settings
     }
 
-    pub fn effective_for(&self, file: Option<&ProjectFile>) -> Arc<Effective> {
+    pub(crate) fn effective_for(&self, file: Option<&ProjectFile>) -> Arc<Effective> {
         Arc::new(Effective::of(&self.settings_for(file)))
     }
 
     /// The project's file that holds for a document: upwards from it, or from the workspace folder where it is no file.
-    pub fn file_for(
+    pub(crate) fn file_for(
         &self,
         uri: &str,
         search: &mut Search,
@@ -128,7 +128,7 @@ impl Config {
     }
 
     /// What is wrong in a project's file whose text is `text`, by itself and beside what the client says.
-    pub fn errors_in(&self, text: &str) -> Vec<SettingsError> {
+    pub(crate) fn errors_in(&self, text: &str) -> Vec<SettingsError> {
         let (settings, mut errors) = from_toml(text);
         errors.retain(|error| error.rule == Rule::Settings);
         let all = self.settings_for(None).overlaid(&settings);

@@ -43,7 +43,7 @@ const MULTIPLIERS_IN_ISO: [&[u8]; 2] = [b"98", b"L"];
 
 impl Content {
     /// True where it is little, whatever it says: it may be looked at without holding anybody up.
-    pub fn is_small(&self) -> bool {
+    pub(crate) fn is_small(&self) -> bool {
         match self {
             Content::Read(document) => match document.source() {
                 Source::Cad(drawing) => is_small_drawing(drawing),
@@ -58,7 +58,7 @@ impl Content {
         }
     }
 
-    pub fn kind(&self) -> Kind {
+    pub(crate) fn kind(&self) -> Kind {
         match self {
             Content::Read(document) => kind_of(document),
             Content::Unread(Remains::Text { kind, .. }) => *kind,
@@ -66,7 +66,7 @@ impl Content {
         }
     }
 
-    pub fn source_text(&self) -> Option<&SourceText> {
+    pub(crate) fn source_text(&self) -> Option<&SourceText> {
         match self {
             Content::Read(document) => document.text(),
             Content::Settings(text) | Content::Unread(Remains::Text { text, .. }) => Some(text),
@@ -75,7 +75,7 @@ impl Content {
     }
 
     /// Replaces bytes of the text. One that has not been read is not read for it.
-    pub fn edit_text(&mut self, range: std::ops::Range<usize>, replacement: &str) {
+    pub(crate) fn edit_text(&mut self, range: std::ops::Range<usize>, replacement: &str) {
         match self {
             Content::Settings(text) | Content::Unread(Remains::Text { text, .. }) => {
                 text.replace(range, replacement)
@@ -106,7 +106,7 @@ impl Content {
 
     /// Makes changes of a drawing. An error says why nothing was changed, and whether it was a panic: then the drawing may hold half of
     /// them, and only the client knows the whole.
-    pub fn change_drawing(&mut self, changes: Vec<DrawingChange>) -> Result<(), String> {
+    pub(crate) fn change_drawing(&mut self, changes: Vec<DrawingChange>) -> Result<(), String> {
         let changed = catch_unwind(AssertUnwindSafe(|| match &mut *self {
             Content::Read(document) => Arc::make_mut(document)
                 .edit_drawing(|drawing| protocol::apply(drawing, changes))
@@ -123,7 +123,7 @@ impl Content {
         })
     }
 
-    pub fn set_settings(&mut self, settings: &Arc<Effective>) {
+    pub(crate) fn set_settings(&mut self, settings: &Arc<Effective>) {
         if let Content::Read(document) = self
             && document.settings() != settings
             && let Err(panic) = catch_unwind(AssertUnwindSafe(|| {
@@ -136,7 +136,7 @@ impl Content {
     }
 
     /// Drops everything that was derived from the text or drawing.
-    pub fn forget(&mut self) {
+    pub(crate) fn forget(&mut self) {
         if let Content::Read(document) = self {
             let remains = match document.source() {
                 Source::Cad(drawing) => Remains::Drawing(drawing.clone()),
@@ -150,7 +150,7 @@ impl Content {
     }
 
     /// Reads what has not been read.
-    pub fn read(&mut self, settings: &Arc<Effective>) {
+    pub(crate) fn read(&mut self, settings: &Arc<Effective>) {
         let Content::Unread(remains) = self else {
             return;
         };
@@ -178,7 +178,7 @@ impl Content {
     }
 
     /// What the client is shown now, and how many findings there are in all.
-    pub fn diagnostics(
+    pub(crate) fn diagnostics(
         &mut self,
         encoding: Encoding,
         related_of: Option<&str>,

@@ -42,22 +42,22 @@ pub(super) enum Reach {
 /// What the params of a request say about its document.
 #[derive(Default)]
 pub(super) struct About {
-    pub uri: Arc<str>,
-    pub position: Option<Position>,
+    pub(crate) uri: Arc<str>,
+    pub(crate) position: Option<Position>,
     /// Settings for this request alone.
-    pub options: Option<Value>,
+    pub(crate) options: Option<Value>,
     /// Where progress is told.
-    pub token: Option<Value>,
+    pub(crate) token: Option<Value>,
 }
 
 /// A request on its way: its name for the log, and for the user where progress is told.
 pub(super) struct Asked {
-    pub name: &'static str,
-    pub title: &'static str,
-    pub reach: Reach,
-    pub about: About,
+    pub(crate) name: &'static str,
+    pub(crate) title: &'static str,
+    pub(crate) reach: Reach,
+    pub(crate) about: About,
     /// Gone when the client has cancelled the request.
-    pub client: Weak<()>,
+    pub(crate) client: Weak<()>,
 }
 
 /// More findings than this are worth a worker.
@@ -65,15 +65,15 @@ const FEW_FINDINGS: usize = 2_000;
 
 /// What a handler is given: the document as it stood when the request's turn came.
 pub(super) struct RequestContext {
-    pub uri: Arc<str>,
-    pub version: i64,
+    pub(crate) uri: Arc<str>,
+    pub(crate) version: i64,
     /// Differs after every change.
-    pub stamp: u64,
-    pub encoding: Encoding,
-    pub abilities: Arc<Abilities>,
-    pub progress: Progress,
+    pub(crate) stamp: u64,
+    pub(crate) encoding: Encoding,
+    pub(crate) abilities: Arc<Abilities>,
+    pub(crate) progress: Progress,
     /// The semantic tokens that the client holds.
-    pub tokens: Arc<TokenMemory>,
+    pub(crate) tokens: Arc<TokenMemory>,
     held: Held,
     options: Result<Option<Arc<Effective>>>,
     wanted: Wanted,
@@ -113,7 +113,7 @@ impl Wanted {
 impl State {
     /// Answers a request by `work`: at once where the document is small, else on a worker. An answer about a document that has
     /// changed meanwhile is none.
-    pub fn answer<T: Send + 'static>(
+    pub(crate) fn answer<T: Send + 'static>(
         &mut self,
         asked: Asked,
         reply: Reply<T>,
@@ -190,34 +190,34 @@ impl RequestContext {
     }
 
     /// True when nobody wants the result any more.
-    pub fn is_cancelled(&self) -> bool {
+    pub(crate) fn is_cancelled(&self) -> bool {
         self.check().is_err()
     }
 
     /// The error that says so.
-    pub fn check(&self) -> Result<()> {
+    pub(crate) fn check(&self) -> Result<()> {
         self.wanted.check()
     }
 
     /// Drawing or program.
-    pub fn document(&self) -> Option<&Arc<Document>> {
+    pub(crate) fn document(&self) -> Option<&Arc<Document>> {
         match &self.held {
             Held::Document(document) => Some(document),
             Held::Text { .. } | Held::Nothing => None,
         }
     }
 
-    pub fn program(&self) -> Option<&program::Document> {
+    pub(crate) fn program(&self) -> Option<&program::Document> {
         self.document()?.program()
     }
 
     /// The document, where it has a text.
-    pub fn document_and_text(&self) -> Option<(&Document, &SourceText)> {
+    pub(crate) fn document_and_text(&self) -> Option<(&Document, &SourceText)> {
         let document = self.document()?;
         Some((document, document.text()?))
     }
 
-    pub fn dxf(&self) -> Option<&dxf::Document> {
+    pub(crate) fn dxf(&self) -> Option<&dxf::Document> {
         match self.document()?.source() {
             Source::Dxf(dxf) => Some(dxf),
             Source::Cad(_) | Source::Program(_) => None,
@@ -225,7 +225,7 @@ impl RequestContext {
     }
 
     /// The text, as a question about the whole of it holds it.
-    pub fn whole(&self) -> Option<Whole<'_>> {
+    pub(crate) fn whole(&self) -> Option<Whole<'_>> {
         match &self.held {
             Held::Text {
                 text,
@@ -242,7 +242,7 @@ impl RequestContext {
     }
 
     /// A document that holds a drawing.
-    pub fn drawn(&self) -> Result<&Arc<Document>> {
+    pub(crate) fn drawn(&self) -> Result<&Arc<Document>> {
         let document = self
             .document()
             .ok_or_else(|| refused(say!(holds_no_drawing, self.uri)))?;
@@ -253,11 +253,11 @@ impl RequestContext {
     }
 
     /// The settings of the document with the request's own over them, where it brings any.
-    pub fn options(&self) -> Result<Option<Arc<Effective>>> {
+    pub(crate) fn options(&self) -> Result<Option<Arc<Effective>>> {
         self.options.clone()
     }
 
-    pub fn offset(&self, text: &SourceText, position: Position) -> usize {
+    pub(crate) fn offset(&self, text: &SourceText, position: Position) -> usize {
         text.offset_of(
             position.line as usize,
             position.character as usize,
@@ -265,18 +265,22 @@ impl RequestContext {
         )
     }
 
-    pub fn range(&self, text: &SourceText, bytes: std::ops::Range<usize>) -> Range {
+    pub(crate) fn range(&self, text: &SourceText, bytes: std::ops::Range<usize>) -> Range {
         lsp_range(range_of(text, bytes, self.encoding))
     }
 
-    pub fn lsp_uri(&self) -> Result<Uri> {
+    pub(crate) fn lsp_uri(&self) -> Result<Uri> {
         self.uri
             .parse()
             .map_err(|_| Error::invalid_params(say!(is_no_uri, self.uri)))
     }
 
     /// Edits of the document's text in the form that the client takes.
-    pub fn workspace_edit(&self, text: &SourceText, edits: Vec<TextEdit>) -> Result<WorkspaceEdit> {
+    pub(crate) fn workspace_edit(
+        &self,
+        text: &SourceText,
+        edits: Vec<TextEdit>,
+    ) -> Result<WorkspaceEdit> {
         let edits = lsp_edits(text, edits, self.encoding);
         let uri = self.lsp_uri()?;
         if !self.abilities.document_changes {

@@ -11,13 +11,13 @@ use std::sync::Arc;
 
 /// A drawing as it came, with the reason where it is not sound.
 pub(super) struct Sent {
-    pub uri: Arc<str>,
-    pub drawing: Result<(i64, Drawing), String>,
+    pub(crate) uri: Arc<str>,
+    pub(crate) drawing: Result<(i64, Drawing), String>,
 }
 
 impl Sent {
     /// Reads the params of `wedm/didOpenDrawing`; `Err` where not even the URI can be read.
-    pub fn read(mut params: Value) -> Result<Sent, String> {
+    pub(crate) fn read(mut params: Value) -> Result<Sent, String> {
         let drawing = params
             .get_mut("drawing")
             .map(Value::take)
@@ -59,13 +59,13 @@ fn insert(state: &mut State, uri: Arc<str>, version: i64, drawing: Drawing) {
 
 /// Changes as they came, with the reason where they cannot be read.
 pub(super) struct SentChanges {
-    pub uri: Arc<str>,
-    pub changes: Result<(i64, Vec<DrawingChange>), String>,
+    pub(crate) uri: Arc<str>,
+    pub(crate) changes: Result<(i64, Vec<DrawingChange>), String>,
 }
 
 impl SentChanges {
     /// Reads the params of `wedm/didChangeDrawing`; `Err` where not even the URI can be read.
-    pub fn read(params: Value) -> Result<SentChanges, String> {
+    pub(crate) fn read(params: Value) -> Result<SentChanges, String> {
         let uri = params
             .pointer("/drawing/uri")
             .and_then(Value::as_str)

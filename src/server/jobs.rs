@@ -14,7 +14,7 @@ pub(super) struct Progress {
 
 impl Progress {
     /// `params` are those of the request, which may hold a `workDoneToken`.
-    pub fn begin(writer: &Writer, token: Option<Value>, title: &str) -> Progress {
+    pub(crate) fn begin(writer: &Writer, token: Option<Value>, title: &str) -> Progress {
         let progress = Progress {
             to: token.map(|token| (writer.clone(), token)),
         };
@@ -22,12 +22,12 @@ impl Progress {
         progress
     }
 
-    pub fn report(&self, message: &str) {
+    pub(crate) fn report(&self, message: &str) {
         self.send(json!({ "kind": "report", "message": message }));
     }
 
     /// `done` of `all`.
-    pub fn share(&self, message: &str, done: usize, all: usize) {
+    pub(crate) fn share(&self, message: &str, done: usize, all: usize) {
         let percentage = done.min(all) * 100 / all.max(1);
         self.send(json!({ "kind": "report", "message": message, "percentage": percentage }));
     }
@@ -117,7 +117,7 @@ pub(super) struct Workers {
 const MOST_JUDGED: usize = 16;
 
 impl Workers {
-    pub fn new(writer: Writer) -> Workers {
+    pub(crate) fn new(writer: Writer) -> Workers {
         let count = std::thread::available_parallelism().map_or(2, usize::from);
         // Two at least, so that one long job does not hold up a short one.
         let count = count.clamp(2, 4);
@@ -130,12 +130,12 @@ impl Workers {
     }
 
     /// Judges a document, however many answers are being made.
-    pub fn judge(&self, job: impl FnOnce() + Send + 'static) {
+    pub(crate) fn judge(&self, job: impl FnOnce() + Send + 'static) {
         self.judges.push(Box::new(job));
     }
 
     /// Runs a request's job on a worker, unless its answer is not wanted any more when its turn comes.
-    pub fn run(
+    pub(crate) fn run(
         &self,
         is_about_a_place: bool,
         is_wanted: impl Fn() -> bool + Send + 'static,
@@ -159,7 +159,7 @@ impl Workers {
     }
 
     /// Ends each thread behind the job that it is at.
-    pub fn end(&self) {
+    pub(crate) fn end(&self) {
         self.requests.end();
         self.places.end();
         self.judges.end();

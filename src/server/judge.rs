@@ -38,34 +38,34 @@ pub(super) enum Task {
 
 /// A document on its way through what has come for it.
 pub(super) struct Job {
-    pub uri: Arc<str>,
-    pub version: i64,
-    pub content: Content,
-    pub tasks: Vec<Task>,
-    pub settings: Arc<Effective>,
-    pub encoding: Encoding,
+    pub(crate) uri: Arc<str>,
+    pub(crate) version: i64,
+    pub(crate) content: Content,
+    pub(crate) tasks: Vec<Task>,
+    pub(crate) settings: Arc<Effective>,
+    pub(crate) encoding: Encoding,
     /// The client shows the other places of a finding.
-    pub shows_related: bool,
+    pub(crate) shows_related: bool,
     /// The last look at it took long.
-    pub is_slow: bool,
+    pub(crate) is_slow: bool,
     /// What the client has been shown.
-    pub shown: Shown,
+    pub(crate) shown: Shown,
 }
 
 /// What came of it.
 pub(super) struct Judged {
-    pub uri: Arc<str>,
-    pub version: i64,
-    pub content: Content,
-    pub shown: Shown,
+    pub(crate) uri: Arc<str>,
+    pub(crate) version: i64,
+    pub(crate) content: Content,
+    pub(crate) shown: Shown,
     /// What the client is told and how many findings there are in all; `None` where nothing has changed.
-    pub told: Option<(Written, usize)>,
+    pub(crate) told: Option<(Written, usize)>,
     /// Looking took long.
-    pub is_slow: bool,
+    pub(crate) is_slow: bool,
     /// For the client's log.
-    pub remarks: Vec<String>,
+    pub(crate) remarks: Vec<String>,
     /// Why changes of a drawing were not made.
-    pub refused: Vec<String>,
+    pub(crate) refused: Vec<String>,
 }
 
 /// Changes, of one message and in all, that are made at once.
@@ -76,7 +76,7 @@ const LONG: Duration = Duration::from_millis(100);
 
 impl Job {
     /// True where little is to be done, whatever the document says.
-    pub fn is_small(&self) -> bool {
+    pub(crate) fn is_small(&self) -> bool {
         let kind = self.kind();
         let is_small_text = |text: &[u8]| is_small_text(kind, text);
         let is_small_task = |task: &Task| match task {
@@ -103,7 +103,7 @@ impl Job {
         newest.unwrap_or_else(|| self.content.kind())
     }
 
-    pub fn run(self) -> Judged {
+    pub(crate) fn run(self) -> Judged {
         let began = Instant::now();
         let Job {
             uri,

@@ -16,7 +16,7 @@ pub(super) enum Kind {
 
 impl Kind {
     /// By the language that the client names, else by the file's name.
-    pub fn of(language: &str, uri: &str) -> Kind {
+    pub(crate) fn of(language: &str, uri: &str) -> Kind {
         let path = uri.split(['?', '#']).next().unwrap_or_default();
         let name = path.rsplit('/').next().unwrap_or_default();
         if name.eq_ignore_ascii_case(FILE_NAME) {

@@ -214,9 +214,9 @@ impl LanguageServer for Backend {
 #[derive(Default)]
 pub(super) struct Flags {
     /// `shutdown` was answered: the end is a good one.
-    pub shut_down: AtomicBool,
+    pub(crate) shut_down: AtomicBool,
     /// Notifications that reached their handler.
-    pub taken: AtomicUsize,
+    pub(crate) taken: AtomicUsize,
 }
 
 pub(super) struct Backend {

@@ -37,9 +37,9 @@ use transport::{Inbox, Transport, Writer};
 
 /// How the server is run.
 #[derive(Clone, Copy, Debug)]
-pub struct Options {
+pub(crate) struct Options {
     /// End when the process that `initialize` names has died. Off where its number means nothing, as in a container.
-    pub watch_parent: bool,
+    pub(crate) watch_parent: bool,
 }
 
 impl Default for Options {
@@ -57,7 +57,7 @@ const LAST_ANSWERS: Duration = Duration::from_millis(400);
 const LAST_WRITES: Duration = Duration::from_millis(400);
 
 /// Serves the client on standard input and output until `exit` or the end of the input: 0 after `shutdown`, else 1.
-pub fn run_stdio(options: Options) -> ExitCode {
+pub(crate) fn run_stdio(options: Options) -> ExitCode {
     log_to_stderr();
     match serve(options) {
         Ok(code) => ExitCode::from(code),

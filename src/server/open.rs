@@ -12,37 +12,37 @@ use std::sync::{Arc, Weak};
 
 pub(super) struct Open {
     /// The client's own spelling.
-    pub uri: Arc<str>,
+    pub(crate) uri: Arc<str>,
     /// Of the content.
-    pub version: i64,
-    pub content: Content,
+    pub(crate) version: i64,
+    pub(crate) content: Content,
     /// A drawing of a CAD program, not a text.
-    pub is_drawing: bool,
+    pub(crate) is_drawing: bool,
     /// What holds for it.
-    pub settings: Arc<Effective>,
+    pub(crate) settings: Arc<Effective>,
     /// What the content is yet to be taken through, in its order.
-    pub tasks: Vec<Task>,
+    pub(crate) tasks: Vec<Task>,
     /// It is to be judged and published.
-    pub is_dirty: bool,
+    pub(crate) is_dirty: bool,
     /// Differs after every change: what was made for another stamp is out of date.
-    pub stamp: u64,
+    pub(crate) stamp: u64,
     /// Number of findings at the last publish.
-    pub findings: usize,
+    pub(crate) findings: usize,
     /// The client has been told something since the opening.
-    pub published: bool,
+    pub(crate) published: bool,
     /// The last look at it took long.
-    pub is_slow: bool,
+    pub(crate) is_slow: bool,
     /// Gone with the next change: requests that look at what was there before see that it is.
     revision: Arc<()>,
     /// What the client has been shown, as it was written.
-    pub shown: Shown,
+    pub(crate) shown: Shown,
     /// The semantic tokens that the client holds.
-    pub tokens: Arc<TokenMemory>,
+    pub(crate) tokens: Arc<TokenMemory>,
 }
 
 impl Open {
     /// A document that is yet to be read: its first task brings the text or drawing.
-    pub fn new(
+    pub(crate) fn new(
         uri: Arc<str>,
         version: i64,
         first: Task,
@@ -83,23 +83,23 @@ impl Open {
     }
 
     /// Gives the document its next stamp: what was made for the one before is out of date.
-    pub fn set_stamp(&mut self, stamp: u64) {
+    pub(crate) fn set_stamp(&mut self, stamp: u64) {
         self.stamp = stamp;
         self.revision = Arc::default();
     }
 
-    pub fn revision(&self) -> Weak<()> {
+    pub(crate) fn revision(&self) -> Weak<()> {
         Arc::downgrade(&self.revision)
     }
 
-    pub fn document(&self) -> Option<&Arc<Document>> {
+    pub(crate) fn document(&self) -> Option<&Arc<Document>> {
         match &self.content {
             Content::Read(document) => Some(document),
             _ => None,
         }
     }
 
-    pub fn is_away(&self) -> bool {
+    pub(crate) fn is_away(&self) -> bool {
         matches!(self.content, Content::Away)
     }
 }

@@ -20,12 +20,12 @@ use std::sync::Arc;
 
 impl State {
     /// The settings that hold for a document, its project's file read anew.
-    pub fn settings_for(&mut self, uri: &str) -> Arc<Effective> {
+    pub(crate) fn settings_for(&mut self, uri: &str) -> Arc<Effective> {
         let file = self.file_for(uri);
         self.config.effective_for(file.as_deref())
     }
 
-    pub fn file_for(&mut self, uri: &str) -> Option<Arc<ProjectFile>> {
+    pub(crate) fn file_for(&mut self, uri: &str) -> Option<Arc<ProjectFile>> {
         let file = self
             .config
             .file_for(uri, &mut Search::default(), &|file| self.opened_text(file))?;
@@ -93,7 +93,7 @@ impl State {
 
     /// Settings of any level may have changed: every open document is looked at under what holds for it now. Each folder is looked at
     /// and each file read once, however many documents there are.
-    pub fn settings_changed(&mut self) {
+    pub(crate) fn settings_changed(&mut self) {
         for file in self.shown_files.iter().cloned().collect::<Vec<_>>() {
             let project = config::read(&file, &|file| self.opened_text(file));
             self.show_file(&file, project.as_ref());
@@ -132,13 +132,13 @@ impl State {
     }
 
     /// Takes one level of the client's settings anew.
-    pub fn set_level(&mut self, level: Level, json: &Value) {
+    pub(crate) fn set_level(&mut self, level: Level, json: &Value) {
         for misfit in self.config.set_level(level, json) {
             self.client.show(Weight::Warning, misfit);
         }
     }
 
-    pub fn configuration_changed(&mut self, settings: &Value) {
+    pub(crate) fn configuration_changed(&mut self, settings: &Value) {
         if !settings.is_null() {
             self.set_level(Level::Pushed, settings);
             self.settings_changed();
@@ -147,7 +147,7 @@ impl State {
     }
 
     /// Asks for the section `wedm`, where the client can be asked.
-    pub fn pull_configuration(&mut self) {
+    pub(crate) fn pull_configuration(&mut self) {
         if !self.client.abilities.configuration {
             return;
         }
@@ -162,7 +162,7 @@ impl State {
         self.client.ask("workspace/configuration", params, take);
     }
 
-    pub fn folders_changed(&mut self, event: &WorkspaceFoldersChangeEvent) {
+    pub(crate) fn folders_changed(&mut self, event: &WorkspaceFoldersChangeEvent) {
         let paths = |folders: &[WorkspaceFolder]| -> Vec<PathBuf> {
             folders
                 .iter()

@@ -57,7 +57,7 @@ const MOST_ALIKE: usize = 16;
 
 impl Shown {
     /// The findings as a JSON array; with the document's `uri` their other places, too.
-    pub fn render(
+    pub(crate) fn render(
         &mut self,
         document: &Document,
         findings: Vec<Finding>,

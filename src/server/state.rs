@@ -50,7 +50,7 @@ pub(super) struct Mailbox {
 
 impl Mailbox {
     /// Hands `act` to the state thread. Nothing happens once that has ended.
-    pub fn tell(
+    pub(crate) fn tell(
         &self,
         name: &'static str,
         about: Option<Arc<str>>,
@@ -65,7 +65,7 @@ impl Mailbox {
     }
 
     /// The same for what changes a document and looks at nothing in it: several of these are judged together.
-    pub fn tell_change(
+    pub(crate) fn tell_change(
         &self,
         name: &'static str,
         about: Arc<str>,
@@ -81,29 +81,29 @@ impl Mailbox {
 }
 
 pub(super) struct State {
-    pub client: Client<State>,
-    pub config: Config,
-    pub encoding: Encoding,
-    pub workers: Workers,
+    pub(crate) client: Client<State>,
+    pub(crate) config: Config,
+    pub(crate) encoding: Encoding,
+    pub(crate) workers: Workers,
     /// Hands back what workers have judged.
     mailbox: Mailbox,
     /// What is done where a change does not fit its drawing.
     refuse_change: RefuseChange,
-    pub documents: FxHashMap<Arc<str>, Open>,
+    pub(crate) documents: FxHashMap<Arc<str>, Open>,
     /// Drawings that the client has been asked to send again.
-    pub resending: FxHashSet<Arc<str>>,
+    pub(crate) resending: FxHashSet<Arc<str>>,
     /// Documents that have to be judged and published, in the order in which they changed.
     dirty: Vec<Arc<str>>,
     /// Documents for which other settings hold: they are judged when nothing else is to be done, a few at a time.
-    pub unsettled: VecDeque<Arc<str>>,
+    pub(crate) unsettled: VecDeque<Arc<str>>,
     /// Open texts of project files, by their paths.
-    pub settings_texts: FxHashMap<PathBuf, Arc<str>>,
+    pub(crate) settings_texts: FxHashMap<PathBuf, Arc<str>>,
     /// What came about documents that a worker has, in its order.
     waiting: FxHashMap<Arc<str>, VecDeque<Message>>,
     /// Documents that a worker has.
     away: usize,
     /// Files on disk whose errors the client is shown.
-    pub shown_files: FxHashSet<PathBuf>,
+    pub(crate) shown_files: FxHashSet<PathBuf>,
     stamp: u64,
     stopped: Option<std::sync::mpsc::Sender<()>>,
 }
@@ -216,7 +216,7 @@ impl State {
     }
 
     /// Does `act` when what has come about a document before is done.
-    pub fn in_turn(
+    pub(crate) fn in_turn(
         &mut self,
         name: &'static str,
         about: Arc<str>,
@@ -244,17 +244,17 @@ impl State {
     }
 
     /// Answers when everything before has been handled and published; then the threads end.
-    pub fn stop(&mut self, done: std::sync::mpsc::Sender<()>) {
+    pub(crate) fn stop(&mut self, done: std::sync::mpsc::Sender<()>) {
         self.stopped = Some(done);
     }
 
-    pub fn next_stamp(&mut self) -> u64 {
+    pub(crate) fn next_stamp(&mut self) -> u64 {
         self.stamp += 1;
         self.stamp
     }
 
     /// Drops what was derived from a document, never its text, and derives it again.
-    pub fn rebuild(&mut self, uri: &Arc<str>) {
+    pub(crate) fn rebuild(&mut self, uri: &Arc<str>) {
         if self.documents.get(uri).is_some_and(|open| {
             matches!(open.content, Content::Settings(_) | Content::Foreign) && open.tasks.is_empty()
         }) {
@@ -265,7 +265,7 @@ impl State {
     }
 
     /// Has something done to a document, and has it judged.
-    pub fn add_task(&mut self, uri: &Arc<str>, task: Task) {
+    pub(crate) fn add_task(&mut self, uri: &Arc<str>, task: Task) {
         if let Some(open) = self.documents.get_mut(uri) {
             open.tasks.push(task);
             self.mark_dirty(uri);
@@ -273,7 +273,7 @@ impl State {
     }
 
     /// Something of a document has changed: what was made for it before is out of date.
-    pub fn give_stamp(&mut self, uri: &Arc<str>) {
+    pub(crate) fn give_stamp(&mut self, uri: &Arc<str>) {
         let stamp = self.next_stamp();
         if let Some(open) = self.documents.get_mut(uri) {
             open.set_stamp(stamp);
@@ -281,7 +281,7 @@ impl State {
     }
 
     /// Something of a document has changed: it is published anew.
-    pub fn mark_dirty(&mut self, uri: &Arc<str>) {
+    pub(crate) fn mark_dirty(&mut self, uri: &Arc<str>) {
         self.give_stamp(uri);
         if let Some(open) = self.documents.get_mut(uri)
             && !std::mem::replace(&mut open.is_dirty, true)
@@ -292,7 +292,7 @@ impl State {
     }
 
     /// Puts a document in its place.
-    pub fn insert(&mut self, open: Open) {
+    pub(crate) fn insert(&mut self, open: Open) {
         let uri = open.uri.clone();
         if matches!(open.content, Content::Settings(_))
             && let Some(path) = config::path_of(&uri)
@@ -303,14 +303,14 @@ impl State {
         self.mark_dirty(&uri);
     }
 
-    pub fn log_if_open(&self, uri: &Arc<str>) {
+    pub(crate) fn log_if_open(&self, uri: &Arc<str>) {
         if self.documents.contains_key(uri) {
             self.client.log(Weight::Info, say!(was_open_already, uri));
         }
     }
 
     /// Closes a document; false when it is not open.
-    pub fn close(&mut self, uri: &Arc<str>) -> bool {
+    pub(crate) fn close(&mut self, uri: &Arc<str>) -> bool {
         let Some(open) = self.documents.remove(uri) else {
             return false;
         };
@@ -454,7 +454,7 @@ impl State {
     }
 
     /// The open document, or the error that says there is none.
-    pub fn document(&mut self, uri: &str) -> jsonrpc::Result<&mut Open> {
+    pub(crate) fn document(&mut self, uri: &str) -> jsonrpc::Result<&mut Open> {
         self.documents
             .get_mut(uri)
             .ok_or_else(|| jsonrpc::Error::invalid_params(say!(is_not_open, uri)))

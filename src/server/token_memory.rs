@@ -41,7 +41,7 @@ pub(in crate::server) struct TokenMemory {
 
 impl TokenMemory {
     /// True where the client, which names the tokens of `previous`, holds those of `stamp` already.
-    pub fn is_current(&self, previous: &str, stamp: u64) -> bool {
+    pub(crate) fn is_current(&self, previous: &str, stamp: u64) -> bool {
         let sent = self.sent.lock().unwrap_or_else(PoisonError::into_inner);
         sent.as_ref()
             .is_some_and(|sent| sent.stamp == stamp && previous == stamp.to_string())
@@ -49,7 +49,7 @@ impl TokenMemory {
 
     /// Takes note of the tokens that are sent for `stamp`. Where the client holds those that are named `previous`, the edit that
     /// makes these of them; `None` where that is not known any more. The result id of the answer comes with it, if one can be given.
-    pub fn replace(
+    pub(crate) fn replace(
         &self,
         previous: Option<&str>,
         stamp: u64,

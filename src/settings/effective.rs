@@ -72,7 +72,7 @@ pub struct Effective {
 
 impl Effective {
     /// Where the page of a rule is, if anywhere.
-    pub fn page_of(&self, rule: Rule) -> Option<String> {
+    pub(crate) fn page_of(&self, rule: Rule) -> Option<String> {
         Some(self.docs_url.as_ref()?.replace("{rule}", rule.name()))
     }
 
@@ -170,12 +170,12 @@ impl Effective {
     }
 
     /// The largest number that the controller takes in 3B, µm.
-    pub fn largest_number(&self) -> i64 {
+    pub(crate) fn largest_number(&self) -> i64 {
         10_i64.pow(self.digits.min(18)) - 1
     }
 
     /// The same with one pass alone, that of the largest correction.
-    pub fn of_one_pass(&self) -> Effective {
+    pub(crate) fn of_one_pass(&self) -> Effective {
         Effective {
             corrections: vec![self.correction],
             pass: None,
@@ -187,7 +187,7 @@ impl Effective {
     }
 
     /// Which way the pass goes along the contour against the first one. They are counted from 0.
-    pub fn runs_back(&self, pass: usize) -> bool {
+    pub(crate) fn runs_back(&self, pass: usize) -> bool {
         pass % 2 == 1 && self.passes.sequence() == Sequence::Alternate
     }
 
@@ -201,7 +201,7 @@ impl Effective {
     }
 
     /// True where the slug of so many mm² is too heavy to drop.
-    pub fn keeps_slug(&self, area: f64) -> bool {
+    pub(crate) fn keeps_slug(&self, area: f64) -> bool {
         /// g in a mm³ of steel.
         const STEEL: f64 = 7.85e-3;
         let limit = self.job.thickness.zip(self.job.slug_limit);
@@ -210,7 +210,7 @@ impl Effective {
 
     /// What the last pass leaves in a sharp corner that the wire runs inside of, mm: half its kerf, which is its correction where nothing
     /// else is known; with skims of constant stock, that and all that lies between the first path and the last.
-    pub fn corner_radius(&self) -> f64 {
+    pub(crate) fn corner_radius(&self) -> f64 {
         let last = self.last_correction();
         let number = self.corrections.len().saturating_sub(1);
         let half_kerf = self.half_kerf(number).filter(|_| number > 0);
@@ -221,13 +221,13 @@ impl Effective {
     }
 
     /// The smallest correction of all passes, mm.
-    pub fn last_correction(&self) -> f64 {
+    pub(crate) fn last_correction(&self) -> f64 {
         let all = self.corrections.iter().copied();
         all.fold(self.correction, f64::min)
     }
 
     /// The correction of each pass, mm, from rough to finish.
-    pub fn each_correction(&self) -> Vec<f64> {
+    pub(crate) fn each_correction(&self) -> Vec<f64> {
         match self.corrections.len() {
             0 | 1 => vec![self.correction],
             _ => self.corrections.clone(),
@@ -235,7 +235,7 @@ impl Effective {
     }
 
     /// Why no program is written: what is wrong with the corrections of the passes, where that is an error.
-    pub fn pass_error(&self) -> Option<String> {
+    pub(crate) fn pass_error(&self) -> Option<String> {
         let is_error = self.severity(Rule::PassOrder) == Some(Severity::Error);
         let passes = self.passes.corrections.is_some().then_some(&self.passes);
         let faults = || super::pass_faults(&self.corrections, passes, self.wire_diameter);
@@ -247,7 +247,7 @@ impl Effective {
     }
 
     /// Severity of a rule, `None` when it is switched off.
-    pub fn severity(&self, rule: Rule) -> Option<Severity> {
+    pub(crate) fn severity(&self, rule: Rule) -> Option<Severity> {
         self.severities
             .get(&rule)
             .copied()
@@ -255,12 +255,12 @@ impl Effective {
     }
 
     /// Severity of a reader's finding: what is set for its rule, else what the reader gave it. `None` when it is switched off.
-    pub fn severity_of(&self, finding: &Finding) -> Option<Severity> {
+    pub(crate) fn severity_of(&self, finding: &Finding) -> Option<Severity> {
         self.severity_over(finding.rule, finding.severity)
     }
 
     /// Severity of something whose rule has other severities than its default one: `own`, unless somebody has set the rule.
-    pub fn severity_over(&self, rule: Rule, own: Severity) -> Option<Severity> {
+    pub(crate) fn severity_over(&self, rule: Rule, own: Severity) -> Option<Severity> {
         if self.stated.contains(&rule) {
             self.severity(rule)
         } else {

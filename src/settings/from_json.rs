@@ -7,7 +7,7 @@ use super::{Settings, SettingsError};
 /// Reads one level of settings. A key that does not fit is left out and reported, the others hold; null is "not set".
 ///
 /// An object that holds the section `wedm` stands for that section: editors send the one or the other.
-pub fn from_json(json: &serde_json::Value) -> (Settings, Vec<SettingsError>) {
+pub(crate) fn from_json(json: &serde_json::Value) -> (Settings, Vec<SettingsError>) {
     let section = json
         .get("wedm")
         .filter(|section| section.is_object() || section.is_null());

@@ -10,7 +10,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// Name of the project's file.
-pub const FILE_NAME: &str = "wedm.toml";
+pub(crate) const FILE_NAME: &str = "wedm.toml";
 
 /// Bytes that a settings file may have; nobody writes so many, and each costs hundreds in memory.
 const LARGEST: usize = 1024 * 1024;
@@ -19,7 +19,7 @@ const LARGEST: usize = 1024 * 1024;
 ///
 /// # Errors
 /// A sentence: it cannot be read, or is no settings file by its length.
-pub fn read_file(path: &Path) -> Result<Vec<u8>, String> {
+pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, String> {
     disk::read_path_at_most(path, 16 * LARGEST as u64)
 }
 
@@ -62,7 +62,7 @@ pub fn from_toml(text: &str) -> (Settings, Vec<SettingsError>) {
 }
 
 /// Where a `wedm.toml` says what a fault of the passes speaks of; `None` where it says nothing of it.
-pub fn place_in(text: &str, fault: &PassFault) -> Option<Range<usize>> {
+pub(crate) fn place_in(text: &str, fault: &PassFault) -> Option<Range<usize>> {
     if text.len() > LARGEST {
         return None;
     }

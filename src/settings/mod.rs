@@ -17,13 +17,17 @@ mod value;
 
 pub use budget::Budget;
 pub use effective::Effective;
-pub use from_json::from_json;
-pub use from_toml::{FILE_NAME, from_toml, place_in, read_file};
-pub use keys::{JobSettings, Passes, Profile, ProfileSettings, ProgramSettings, Settings, rows};
-pub use passes::{PassFault, pass_faults, passes_table};
-pub use profile::{CenterRule, Coordinates, LineEnd, NumberUnit, Zero, shipped_profiles};
-pub use reader::words_of;
-pub use row::{Range, Row};
+pub(crate) use from_json::from_json;
+pub use from_toml::from_toml;
+pub(crate) use from_toml::{FILE_NAME, place_in, read_file};
+pub(crate) use keys::{JobSettings, Passes, Profile, ProfileSettings, ProgramSettings};
+pub use keys::{Settings, rows};
+pub(crate) use passes::{PassFault, pass_faults, passes_table};
+pub use profile::shipped_profiles;
+pub(crate) use profile::{CenterRule, Coordinates, LineEnd, NumberUnit, Zero};
+pub(crate) use reader::words_of;
+pub(crate) use row::Range;
+pub use row::Row;
 pub use table::camel_case;
 
 use crate::drawing::Role;
@@ -50,7 +54,7 @@ pub enum SideSetting {
 
 impl SideSetting {
     /// The role of every contour that states none; nothing where it depends on nesting.
-    pub fn role(self) -> Option<Role> {
+    pub(crate) fn role(self) -> Option<Role> {
         match self {
             SideSetting::Auto => None,
             SideSetting::Both => Some(Role::Both),
@@ -179,7 +183,7 @@ pub enum RuleSeverity {
 }
 
 impl RuleSeverity {
-    pub fn severity(self) -> Option<Severity> {
+    pub(crate) fn severity(self) -> Option<Severity> {
         match self {
             RuleSeverity::Error => Some(Severity::Error),
             RuleSeverity::Warning => Some(Severity::Warning),
@@ -205,14 +209,14 @@ plain! {
 
 impl Settings {
     /// What is set of `[program]`.
-    pub fn program(&self) -> ProgramSettings {
+    pub(crate) fn program(&self) -> ProgramSettings {
         self.program.clone().unwrap_or_default()
     }
 
     /// Lays `later` over `self`: what `later` sets wins; tables are merged key by key.
     ///
     /// A wire diameter or a gap of a later level says the correction anew, where that level says none itself.
-    pub fn overlaid(&self, later: &Settings) -> Settings {
+    pub(crate) fn overlaid(&self, later: &Settings) -> Settings {
         let mut laid = Overlay::overlaid(self, later);
         if later.wire_diameter.is_some() || later.gap.is_some() {
             laid.correction = later.correction;
@@ -221,7 +225,7 @@ impl Settings {
     }
 
     /// What is wrong with the corrections of the passes once all levels are laid over each other. `place` says where a text speaks of it.
-    pub fn pass_errors(
+    pub(crate) fn pass_errors(
         &self,
         place: &dyn Fn(&PassFault) -> Option<std::ops::Range<usize>>,
     ) -> Vec<SettingsError> {
@@ -253,18 +257,18 @@ impl Settings {
 #[derive(Clone, Debug, PartialEq)]
 pub struct SettingsError {
     /// Dotted key, as written.
-    pub key: String,
-    pub message: String,
+    pub(crate) key: String,
+    pub(crate) message: String,
     /// Bytes in the source text, where there is one.
-    pub range: Option<std::ops::Range<usize>>,
+    pub(crate) range: Option<std::ops::Range<usize>>,
     /// What it is reported as: `settings`, or `pass-order`.
-    pub rule: Rule,
-    pub severity: Severity,
+    pub(crate) rule: Rule,
+    pub(crate) severity: Severity,
 }
 
 impl SettingsError {
     /// A value that does not fit by itself.
-    pub fn new(
+    pub(crate) fn new(
         key: impl Into<String>,
         message: String,
         range: Option<std::ops::Range<usize>>,

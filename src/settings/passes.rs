@@ -7,19 +7,19 @@ const ROUNDING: f64 = 1e-9;
 
 /// A pass that cannot follow the one before it, or that no wire can cut.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PassFault {
+pub(crate) struct PassFault {
     /// The dotted key that it speaks of.
-    pub key: &'static str,
+    pub(crate) key: &'static str,
     /// Index of the pass.
-    pub pass: usize,
+    pub(crate) pass: usize,
     /// Lower-case, no final dot.
-    pub message: String,
+    pub(crate) message: String,
 }
 
 /// What is wrong with the corrections of the passes from rough to finish, mm: one that is above that of the pass before it, and one
 /// that is below the wire's radius, where the diameter is known. `passes` is what else is said of them, where they come from
 /// `passes.corrections` and not from `correction`: each list in it is of as many.
-pub fn pass_faults(
+pub(crate) fn pass_faults(
     corrections: &[f64],
     passes: Option<&Passes>,
     wire_diameter: Option<f64>,
@@ -88,7 +88,7 @@ pub fn pass_faults(
 /// takes its share, the last one the rest. `gaps` are the spark gaps of the rough pass and of the skims.
 ///
 /// Rough: ρ + δ rough + stock; skim i of n: ρ + δ skim + stock · (n − i) / n. Without skims nothing is left for them: ρ + δ rough.
-pub fn passes_table(wire: f64, gaps: [f64; 2], stock: f64, skims: usize) -> Vec<f64> {
+pub(crate) fn passes_table(wire: f64, gaps: [f64; 2], stock: f64, skims: usize) -> Vec<f64> {
     let [rough, fine] = gaps;
     let left = |skim: usize| stock * (skims - skim) as f64 / skims as f64;
     let first = wire + rough + if skims > 0 { stock } else { 0.0 };

@@ -73,7 +73,7 @@ pub fn shipped_profiles() -> impl Iterator<Item = &'static str> {
 
 impl Profile {
     /// True where its pause stops the machine by an M word, so that the wire can be taken out.
-    pub fn stops(&self) -> bool {
+    pub(crate) fn stops(&self) -> bool {
         let stops = |line: &String| {
             line.as_bytes()
                 .windows(2)
@@ -83,7 +83,7 @@ impl Profile {
     }
 
     /// The profile of a name: a user's, laid over its base, or one that ships. The error says which there are.
-    pub fn of(
+    pub(crate) fn of(
         name: &str,
         own: Option<&BTreeMap<String, ProfileSettings>>,
     ) -> Result<Profile, String> {

@@ -61,7 +61,7 @@ impl Reader {
     }
 
     /// A table with declared keys.
-    pub fn table<T: Table>(&mut self, key: &str, node: &Node) -> Option<T> {
+    pub(crate) fn table<T: Table>(&mut self, key: &str, node: &Node) -> Option<T> {
         let mut table = T::default();
         self.entries(key, node, |reader, dotted, entry| {
             if !table.read(reader, &snake_case(&entry.key), dotted, &entry.node) {
@@ -72,16 +72,20 @@ impl Reader {
     }
 
     /// Tables with declared keys, by names of the user's.
-    pub fn tables<T: Table>(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, T>> {
+    pub(crate) fn tables<T: Table>(
+        &mut self,
+        key: &str,
+        node: &Node,
+    ) -> Option<BTreeMap<String, T>> {
         self.by_name(key, node, |_| None, Reader::table)
     }
 
     /// Roles by a name that is taken as it stands.
-    pub fn roles(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, Role>> {
+    pub(crate) fn roles(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, Role>> {
         self.by_name(key, node, |_| None, Reader::name)
     }
 
-    pub fn colors(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, Role>> {
+    pub(crate) fn colors(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, Role>> {
         let misfit = |name: &str| {
             let is_color = Color::named(name).is_some();
             (!is_color).then(|| say!(colors_that_are_known).to_owned())
@@ -89,7 +93,11 @@ impl Reader {
         self.by_name(key, node, misfit, Reader::name)
     }
 
-    pub fn rules(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, RuleSeverity>> {
+    pub(crate) fn rules(
+        &mut self,
+        key: &str,
+        node: &Node,
+    ) -> Option<BTreeMap<String, RuleSeverity>> {
         let names = Rule::ALL.map(Rule::name);
         let misfit = |name: &str| (!names.contains(&name)).then(|| names.join(", "));
         self.by_name(key, node, misfit, Reader::name)
@@ -115,7 +123,7 @@ impl Reader {
     }
 
     /// A number for each pass.
-    pub fn numbers(&mut self, key: &str, node: &Node, range: &Range) -> Option<Vec<f64>> {
+    pub(crate) fn numbers(&mut self, key: &str, node: &Node, range: &Range) -> Option<Vec<f64>> {
         let expected = say!(a_list_of_numbers_one_for_each_pass);
         match &node.value {
             Value::Null => None,
@@ -136,12 +144,12 @@ impl Reader {
         }
     }
 
-    pub fn profile_name(&mut self, key: &str, node: &Node) -> Option<String> {
+    pub(crate) fn profile_name(&mut self, key: &str, node: &Node) -> Option<String> {
         self.text(key, node, say!(the_name_of_a_profile))
     }
 
     /// An address with `{rule}` in it.
-    pub fn page_address(&mut self, key: &str, node: &Node) -> Option<String> {
+    pub(crate) fn page_address(&mut self, key: &str, node: &Node) -> Option<String> {
         let expected = say!(an_address_with_rule_in_it);
         let address = self.text(key, node, expected)?;
         let is_address = ["https://", "http://", "file://"]
@@ -154,7 +162,7 @@ impl Reader {
     }
 
     /// The name of a profile that ships. The shipped profiles themselves are read by this reader and have no base.
-    pub fn base(&mut self, key: &str, node: &Node) -> Option<String> {
+    pub(crate) fn base(&mut self, key: &str, node: &Node) -> Option<String> {
         let name = self.profile_name(key, node)?;
         if shipped_profiles().any(|shipped| shipped == name) {
             return Some(name);
@@ -164,11 +172,11 @@ impl Reader {
     }
 
     /// Lines of a program in which `{x}`, `{y}`, `{side}` and `{register}` stand for something.
-    pub fn lines(&mut self, key: &str, node: &Node) -> Option<Vec<String>> {
+    pub(crate) fn lines(&mut self, key: &str, node: &Node) -> Option<Vec<String>> {
         self.texts(key, node, say!(a_list_of_lines), Reader::line)
     }
 
-    pub fn words(&mut self, key: &str, node: &Node) -> Option<Vec<String>> {
+    pub(crate) fn words(&mut self, key: &str, node: &Node) -> Option<Vec<String>> {
         self.texts(key, node, say!(a_list_of_words), |reader, key, node| {
             reader.word(key, node)
         })
@@ -221,7 +229,7 @@ impl Reader {
         }
     }
 
-    pub fn truth(&mut self, key: &str, node: &Node) -> Option<bool> {
+    pub(crate) fn truth(&mut self, key: &str, node: &Node) -> Option<bool> {
         match node.value {
             Value::Null => None,
             Value::Truth(truth) => Some(truth),
@@ -229,7 +237,7 @@ impl Reader {
         }
     }
 
-    pub fn number(&mut self, key: &str, node: &Node, range: &Range) -> Option<f64> {
+    pub(crate) fn number(&mut self, key: &str, node: &Node, range: &Range) -> Option<f64> {
         match node.value {
             Value::Null => None,
             Value::Number(number) if range.holds(number) => Some(number),
@@ -237,7 +245,12 @@ impl Reader {
         }
     }
 
-    pub fn whole<T: TryFrom<u32>>(&mut self, key: &str, node: &Node, range: &Range) -> Option<T> {
+    pub(crate) fn whole<T: TryFrom<u32>>(
+        &mut self,
+        key: &str,
+        node: &Node,
+        range: &Range,
+    ) -> Option<T> {
         match node.value {
             Value::Null => return None,
             Value::Number(number) if number.fract() == 0.0 && range.holds(number) => {
@@ -283,7 +296,7 @@ impl Reader {
     }
 
     /// A word out of a closed set, which the type itself knows.
-    pub fn name<T: DeserializeOwned>(&mut self, key: &str, node: &Node) -> Option<T> {
+    pub(crate) fn name<T: DeserializeOwned>(&mut self, key: &str, node: &Node) -> Option<T> {
         let text = match &node.value {
             Value::Null => return None,
             Value::Text(text) => text.as_str(),
@@ -294,7 +307,7 @@ impl Reader {
             Err(names) => self.misfit(key, node, &names),
         }
     }
-    pub fn word(&mut self, key: &str, node: &Node) -> Option<String> {
+    pub(crate) fn word(&mut self, key: &str, node: &Node) -> Option<String> {
         match &node.value {
             Value::Null => None,
             Value::Text(text)
@@ -306,7 +319,7 @@ impl Reader {
         }
     }
 
-    pub fn point_setting(&mut self, key: &str, node: &Node) -> Option<PointSetting> {
+    pub(crate) fn point_setting(&mut self, key: &str, node: &Node) -> Option<PointSetting> {
         match &node.value {
             Value::Table(_) => {
                 let mut points = BTreeMap::new();
@@ -389,7 +402,7 @@ fn entry_of<'a>(root: &'a Node, key: &str) -> Option<&'a Entry> {
 }
 
 /// The words that a type out of a closed set has.
-pub fn words_of<T: DeserializeOwned>() -> Vec<String> {
+pub(crate) fn words_of<T: DeserializeOwned>() -> Vec<String> {
     let names = named::<T>("").err().unwrap_or_default();
     let names = names.trim_start_matches("one of ");
     names.split(", ").map(str::to_owned).collect()

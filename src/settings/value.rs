@@ -13,20 +13,20 @@ pub(super) enum Value {
 }
 
 pub(super) struct Node {
-    pub value: Value,
+    pub(crate) value: Value,
     /// Bytes in the source text, where there is one.
-    pub range: Option<Range<usize>>,
+    pub(crate) range: Option<Range<usize>>,
 }
 
 pub(super) struct Entry {
-    pub key: String,
-    pub key_range: Option<Range<usize>>,
-    pub node: Node,
+    pub(crate) key: String,
+    pub(crate) key_range: Option<Range<usize>>,
+    pub(crate) node: Node,
 }
 
 impl Value {
     /// The value as a message shows it.
-    pub fn shown(&self) -> String {
+    pub(crate) fn shown(&self) -> String {
         match self {
             Value::Null => say!(not_set).into(),
             Value::Truth(truth) => truth.to_string(),

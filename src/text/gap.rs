@@ -17,24 +17,24 @@ pub(super) struct Bytes {
 const ROOM: usize = 64 * 1024;
 
 impl Bytes {
-    pub fn new(buffer: Vec<u8>) -> Bytes {
+    pub(crate) fn new(buffer: Vec<u8>) -> Bytes {
         Bytes {
             buffer,
             ..Bytes::default()
         }
     }
 
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.buffer.len() - self.gap.len()
     }
 
     /// What lies before the gap, and what behind it.
-    pub fn pieces(&self) -> (&[u8], &[u8]) {
+    pub(crate) fn pieces(&self) -> (&[u8], &[u8]) {
         (&self.buffer[..self.gap.start], &self.buffer[self.gap.end..])
     }
 
     /// The text in one piece: a copy, kept until the next edit, where it has a gap.
-    pub fn whole(&self) -> &[u8] {
+    pub(crate) fn whole(&self) -> &[u8] {
         match self.pieces() {
             _ if self.gap.is_empty() => &self.buffer,
             (before, []) => before,
@@ -44,7 +44,7 @@ impl Bytes {
     }
 
     #[inline]
-    pub fn get(&self, at: usize) -> Option<&u8> {
+    pub(crate) fn get(&self, at: usize) -> Option<&u8> {
         let at = if at < self.gap.start {
             at
         } else {
@@ -55,7 +55,7 @@ impl Bytes {
 
     /// A range of bytes; those of one line cost nothing.
     #[inline]
-    pub fn slice(&self, range: Range<usize>) -> Option<&[u8]> {
+    pub(crate) fn slice(&self, range: Range<usize>) -> Option<&[u8]> {
         if range.end <= self.gap.start {
             self.buffer.get(range)
         } else if range.start >= self.gap.start {
@@ -67,18 +67,18 @@ impl Bytes {
     }
 
     /// Closes the gap.
-    pub fn join(&mut self) {
+    pub(crate) fn join(&mut self) {
         self.whole = OnceLock::new();
         self.buffer.drain(std::mem::take(&mut self.gap));
     }
 
-    pub fn into_whole(mut self) -> Vec<u8> {
+    pub(crate) fn into_whole(mut self) -> Vec<u8> {
         self.join();
         self.buffer
     }
 
     /// Replaces a range and leaves no gap.
-    pub fn replace(&mut self, range: Range<usize>, replacement: &[u8]) {
+    pub(crate) fn replace(&mut self, range: Range<usize>, replacement: &[u8]) {
         self.join();
         if range.len() == replacement.len() {
             self.buffer[range].copy_from_slice(replacement);
@@ -88,7 +88,12 @@ impl Bytes {
     }
 
     /// Replaces a range and leaves the gap before the byte that was at `next`, which is not before the end of the range.
-    pub fn replace_beside_gap(&mut self, range: Range<usize>, replacement: &[u8], next: usize) {
+    pub(crate) fn replace_beside_gap(
+        &mut self,
+        range: Range<usize>,
+        replacement: &[u8],
+        next: usize,
+    ) {
         self.whole = OnceLock::new();
         let more = replacement.len().saturating_sub(range.len());
         if self.gap.len() < more {

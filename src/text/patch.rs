@@ -5,7 +5,7 @@ use std::ops::Range;
 
 /// A text as what is left of another one, and what has come in between.
 #[derive(Clone, Debug)]
-pub struct Patch {
+pub(crate) struct Patch {
     /// In the order of the text. What is left of the old one rises.
     pieces: Vec<Piece>,
     old_length: usize,
@@ -36,7 +36,7 @@ impl Piece {
 
 impl Patch {
     /// Of a text of this length, nothing changed yet.
-    pub fn of(old_length: usize) -> Patch {
+    pub(crate) fn of(old_length: usize) -> Patch {
         Patch {
             pieces: vec![Piece::Old(0..old_length)],
             old_length,
@@ -44,7 +44,7 @@ impl Patch {
     }
 
     /// Adds edits of the text as it is with all edits so far; they are sorted and disjoint. `None` when they are not, or reach past the end.
-    pub fn then(&self, edits: &[TextEdit]) -> Option<Patch> {
+    pub(crate) fn then(&self, edits: &[TextEdit]) -> Option<Patch> {
         let mut pieces = Vec::with_capacity(self.pieces.len() + 2 * edits.len());
         let mut rest = self.pieces.iter();
         let mut present = rest.next();
@@ -86,7 +86,7 @@ impl Patch {
     }
 
     /// The edits of the old text that make the new one, sorted and disjoint.
-    pub fn edits(&self) -> Vec<TextEdit> {
+    pub(crate) fn edits(&self) -> Vec<TextEdit> {
         let mut edits = Vec::new();
         let (mut from, mut text) = (0, String::new());
         let mut close = |from: usize, to: usize, text: &mut String| {

@@ -14,7 +14,7 @@ pub(super) struct Walls {
 const FAN: usize = 8;
 
 impl Walls {
-    pub fn new(segments: Vec<Segment>) -> Walls {
+    pub(crate) fn new(segments: Vec<Segment>) -> Walls {
         let mut level: Vec<Bounds> = segments.iter().map(Segment::bounds).collect();
         let mut levels = Vec::new();
         while level.len() > 1 {
@@ -30,7 +30,7 @@ impl Walls {
         Walls { segments, levels }
     }
 
-    pub fn segment(&self, index: usize) -> &Segment {
+    pub(crate) fn segment(&self, index: usize) -> &Segment {
         &self.segments[index]
     }
 
@@ -53,7 +53,7 @@ impl Walls {
     }
 
     /// How far a point is from the nearest one; they are looked for `reach` about it first. Endless where there are none.
-    pub fn distance_to(&self, point: Point, reach: f64) -> f64 {
+    pub(crate) fn distance_to(&self, point: Point, reach: f64) -> f64 {
         let mut reach = reach.max(f64::MIN_POSITIVE);
         loop {
             let mut nearest = f64::INFINITY;
@@ -69,14 +69,18 @@ impl Walls {
     }
 
     /// The first wall found that is nearer to a point than `distance`.
-    pub fn nearer(&self, point: Point, distance: f64) -> Option<usize> {
+    pub(crate) fn nearer(&self, point: Point, distance: f64) -> Option<usize> {
         self.find(&Bounds::of_disc(point, distance), |index| {
             self.segments[index].distance_to(point) < distance
         })
     }
 
     /// The first segment with a box that touches `reach` of which `is_it` says so.
-    pub fn find(&self, reach: &Bounds, mut is_it: impl FnMut(usize) -> bool) -> Option<usize> {
+    pub(crate) fn find(
+        &self,
+        reach: &Bounds,
+        mut is_it: impl FnMut(usize) -> bool,
+    ) -> Option<usize> {
         let mut waiting = vec![(
             self.levels.len() - 1,
             0..self.levels.last().map_or(0, Vec::len),

@@ -15,10 +15,10 @@ use std::f64::consts::PI;
 /// A piece of the closed path and the wall it belongs to.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Element {
-    pub geometry: Segment,
-    pub source: Source,
+    pub(crate) geometry: Segment,
+    pub(crate) source: Source,
     /// Index of the wall; of the one before it, for the way round a corner.
-    pub wall: usize,
+    pub(crate) wall: usize,
 }
 
 /// The walls themselves as a path.
@@ -34,13 +34,13 @@ pub(super) fn elements(walls: &[Wall]) -> Vec<Element> {
 /// How the corners are made. Lengths in drawing units.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Joining {
-    pub correction: f64,
+    pub(crate) correction: f64,
     /// +1 where the wire runs to the left of the walls, −1 to the right.
-    pub side: f64,
+    pub(crate) side: f64,
     /// Offsets whose ends lie closer than this pass into each other.
-    pub touch: f64,
+    pub(crate) touch: f64,
     /// How far a radius may lie below the correction by rounding.
-    pub tolerance: f64,
+    pub(crate) tolerance: f64,
 }
 
 /// An extended corner reaches at most this many corrections from its vertex; beyond, the wire rolls about it.
@@ -57,7 +57,7 @@ enum Joint {
 /// The offsets of all walls and the ways round their convex corners in the order of the contour, before anything is cut.
 pub(super) struct Raw {
     /// Those that the wire's centre cannot follow at all are points.
-    pub elements: Vec<Element>,
+    pub(crate) elements: Vec<Element>,
     /// Behind each element.
     joints: Vec<Joint>,
     /// Elements that the wire's centre cannot follow, with the place that stands for them.
@@ -65,7 +65,7 @@ pub(super) struct Raw {
 }
 
 impl Raw {
-    pub fn new(walls: &[Wall], joining: &Joining) -> Raw {
+    pub(crate) fn new(walls: &[Wall], joining: &Joining) -> Raw {
         let mut raw = Raw {
             elements: Vec::with_capacity(walls.len()),
             joints: Vec::with_capacity(walls.len()),

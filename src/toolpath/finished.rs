@@ -16,14 +16,14 @@ pub struct Finished {
     /// What stays beyond the contour where it stays thickest; 0 where nothing does.
     pub uncut: f64,
     /// Where that is, on the contour.
-    pub at: Point,
+    pub(crate) at: Point,
     /// How far the wire cuts beyond the contour; 0 where it nowhere does.
     pub overcut: f64,
 }
 
 impl Finished {
     /// The worse of each.
-    pub fn merged(self, other: Finished) -> Finished {
+    pub(crate) fn merged(self, other: Finished) -> Finished {
         let worse = if other.uncut > self.uncut {
             other
         } else {
@@ -44,7 +44,7 @@ pub(super) struct Kerf {
 }
 
 impl Kerf {
-    pub fn new(path: &[Element], stand: Point, correction: f64, half: f64) -> Kerf {
+    pub(crate) fn new(path: &[Element], stand: Point, correction: f64, half: f64) -> Kerf {
         let mut pieces: Vec<Segment> = path.iter().map(|element| element.geometry).collect();
         if pieces.is_empty() {
             pieces.push(Segment::line(stand, stand));

@@ -11,15 +11,15 @@ pub(super) const ROUNDING: f64 = 1e-6;
 
 /// What all contours of one request have in common.
 pub(super) struct Job<'a> {
-    pub drawing: &'a Drawing,
-    pub outlines: &'a [Outline],
-    pub settings: &'a Effective,
+    pub(crate) drawing: &'a Drawing,
+    pub(crate) outlines: &'a [Outline],
+    pub(crate) settings: &'a Effective,
     /// What the selection says of contours, by outline.
-    pub picks: FxHashMap<usize, Pick>,
-    pub unit_mm: f64,
+    pub(crate) picks: FxHashMap<usize, Pick>,
+    pub(crate) unit_mm: f64,
     /// What all passes leave is worked out, too.
-    pub finishes: bool,
-    pub goes_on: &'a dyn Fn() -> bool,
+    pub(crate) finishes: bool,
+    pub(crate) goes_on: &'a dyn Fn() -> bool,
 }
 
 impl Job<'_> {
@@ -32,7 +32,7 @@ impl Job<'_> {
     }
 
     /// mm in drawing units.
-    pub fn units(&self, mm: f64) -> f64 {
+    pub(crate) fn units(&self, mm: f64) -> f64 {
         mm / self.unit_mm
     }
 }

@@ -23,10 +23,10 @@ const STEP: usize = 1024;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Along {
     /// +1 where the wire runs to the left of the walls, −1 to the right.
-    pub side: f64,
+    pub(crate) side: f64,
     /// Drawing units.
-    pub correction: f64,
-    pub corner: Corner,
+    pub(crate) correction: f64,
+    pub(crate) corner: Corner,
 }
 
 /// What a contour gives the wire.
@@ -53,7 +53,7 @@ pub(super) enum Fault {
 impl Job<'_> {
     /// The walls of a closed contour with the wire on the side of that sign, and the path along them, proved. Where there is none because
     /// of crumbs, they are left out: their neighbours move by less than what any control can follow.
-    pub fn along(
+    pub(crate) fn along(
         &self,
         contour: &Contour,
         side: f64,

@@ -25,9 +25,9 @@ const HALVED_BEYOND: u32 = 4;
 /// A place on the walls.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
-    pub wall: usize,
-    pub share: f64,
-    pub point: Point,
+    pub(crate) wall: usize,
+    pub(crate) share: f64,
+    pub(crate) point: Point,
 }
 
 /// The place on the walls that is nearest to `point`, and how far it is. Among equally near ones that with the largest x, so that
@@ -162,13 +162,13 @@ pub(super) fn circle_center(walls: &[Wall], tolerance: f64) -> Option<Point> {
 
 /// The walls of all contours.
 pub(super) struct Contours {
-    pub walls: Walls,
+    pub(crate) walls: Walls,
     /// By wall: the outline, and the segment of the drawing.
     of: Vec<(usize, EntityId, usize)>,
 }
 
 impl Contours {
-    pub fn new(drawing: &Drawing, outlines: &[Outline]) -> Contours {
+    pub(crate) fn new(drawing: &Drawing, outlines: &[Outline]) -> Contours {
         let (mut walls, mut of) = (Vec::new(), Vec::new());
         let is_cut = |(_, outline): &(usize, &Outline)| outline.contour.double_of.is_none();
         for (index, outline) in outlines.iter().enumerate().filter(is_cut) {
@@ -202,7 +202,7 @@ pub(super) struct Kerfs {
 }
 
 impl Kerfs {
-    pub fn new<'a>(paths: impl Iterator<Item = (usize, &'a [Element])>) -> Kerfs {
+    pub(crate) fn new<'a>(paths: impl Iterator<Item = (usize, &'a [Element])>) -> Kerfs {
         let (mut pieces, mut of) = (Vec::new(), Vec::new());
         for (outline, path) in paths {
             pieces.extend(path.iter().map(|element| element.geometry));
@@ -217,17 +217,17 @@ impl Kerfs {
 
 /// What a lead is checked against.
 pub(super) struct Surroundings<'a> {
-    pub drawing: &'a Drawing,
-    pub outlines: &'a [Outline],
+    pub(crate) drawing: &'a Drawing,
+    pub(crate) outlines: &'a [Outline],
     /// The outline that the lead leads to, and its walls.
-    pub outline: usize,
-    pub own: &'a Walls,
-    pub contours: &'a Contours,
-    pub kerfs: &'a Kerfs,
+    pub(crate) outline: usize,
+    pub(crate) own: &'a Walls,
+    pub(crate) contours: &'a Contours,
+    pub(crate) kerfs: &'a Kerfs,
     /// The path keeps at least this from the walls, and so must the leads; drawing units.
-    pub clearance: f64,
-    pub unit_mm: f64,
-    pub severity: Severity,
+    pub(crate) clearance: f64,
+    pub(crate) unit_mm: f64,
+    pub(crate) severity: Severity,
 }
 
 /// What a lead would cut.

@@ -22,7 +22,7 @@ mod tab;
 mod tests;
 mod wanted;
 
-pub use finished::Finished;
+pub(crate) use finished::Finished;
 pub use path::{PathSegment, Refusal, Source, WirePath};
 
 use crate::drawing::{Drawing, EntityId, Outline};
@@ -48,25 +48,29 @@ pub fn plan(
 
 /// The paths of one request.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Planned {
+pub(crate) struct Planned {
     /// In machining order, the passes of a contour one after another.
-    pub paths: Vec<WirePath>,
+    pub(crate) paths: Vec<WirePath>,
     /// What all passes leave, where several are cut and it is asked for.
-    pub finished: Option<Finished>,
+    pub(crate) finished: Option<Finished>,
 }
 
 /// One contour among the cuts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cut {
+pub(crate) struct Cut {
     /// Index into the outlines.
-    pub outline: usize,
+    pub(crate) outline: usize,
     /// The start mark that is nearest to it, of those that are nearer to no other contour.
-    pub mark: Option<Point>,
+    pub(crate) mark: Option<Point>,
 }
 
 /// All contours in the order in which they are cut. `None` for a drawing of so many contours or marks that finding out takes longer than
 /// a question may, and where the order is that of the nearest thread holes and there is no path.
-pub fn cuts(drawing: &Drawing, outlines: &[Outline], settings: &Effective) -> Option<Vec<Cut>> {
+pub(crate) fn cuts(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &Effective,
+) -> Option<Vec<Cut>> {
     const MOST_CONTOURS: usize = 20_000;
     const MOST_COMPARED: usize = 20_000_000;
     /// A path is laid for the order of the nearest.

@@ -7,8 +7,8 @@ use crate::geometry::{Arc, Line, Point, Segment, Vector, left_normal};
 /// A segment of a contour as it is cut: without gaps to its neighbours, in the direction of the cut.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wall {
-    pub geometry: Segment,
-    pub source: Source,
+    pub(crate) geometry: Segment,
+    pub(crate) source: Source,
 }
 
 /// The walls of a contour. Gaps within the join tolerance are closed half way by both neighbours, and what has no length is left out.

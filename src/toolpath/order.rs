@@ -50,16 +50,16 @@ pub(super) fn outline_of(
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pick {
     /// The entity that the cut begins with.
-    pub first: EntityId,
+    pub(crate) first: EntityId,
     /// Whether the cut goes against the contour's own direction; `None` where the selection does not say.
-    pub turned: Option<bool>,
+    pub(crate) turned: Option<bool>,
 }
 
 /// The outlines to cut, in machining order, and what the selection says of each.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Chosen {
-    pub outlines: Vec<usize>,
-    pub picks: FxHashMap<usize, Pick>,
+    pub(crate) outlines: Vec<usize>,
+    pub(crate) picks: FxHashMap<usize, Pick>,
 }
 
 /// Indices of the outlines to cut, in machining order: all as they are drawn, or those that hold one of `handles` as these select

@@ -30,7 +30,7 @@ pub enum Source {
 
 impl Source {
     /// The segment of the drawing, where it is of one.
-    pub fn place(self) -> Option<Place> {
+    pub(crate) fn place(self) -> Option<Place> {
         match self {
             Source::Segment { entity, segment }
             | Source::Corner { entity, segment }
@@ -70,12 +70,12 @@ pub struct WirePath {
 
 impl WirePath {
     /// The first path of its contour.
-    pub fn is_first(&self) -> bool {
+    pub(crate) fn is_first(&self) -> bool {
         self.pass == 1 && !self.cut_off
     }
 
     /// It cuts a tab that another pass has cut before, from where that ended: the machine does not stop in between.
-    pub fn goes_back_along_tab(&self) -> bool {
+    pub(crate) fn goes_back_along_tab(&self) -> bool {
         self.cut_off && self.pass > 1 && self.begin() != self.thread_hole
     }
 

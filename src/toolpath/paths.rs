@@ -21,25 +21,25 @@ use crate::settings::{Compensation, Corner, Jumps, SkimCorner};
 
 /// The offsets of a contour, before they have leads, all in the direction of the first pass.
 pub(super) struct Unled {
-    pub outline: usize,
-    pub walls: Vec<Wall>,
+    pub(crate) outline: usize,
+    pub(crate) walls: Vec<Wall>,
     own: Walls,
     /// `None` where the wire only stands.
-    pub entry: Option<Entry>,
+    pub(crate) entry: Option<Entry>,
     /// +1 where the wire runs to the left of the walls, −1 to the right.
-    pub side: f64,
-    pub passes: Vec<Pass>,
+    pub(crate) side: f64,
+    pub(crate) passes: Vec<Pass>,
 }
 
 /// One pass along a contour.
 pub(super) struct Pass {
     /// Drawing units.
-    pub correction: f64,
+    pub(crate) correction: f64,
     /// Begins anywhere; empty where the wire stands in one point.
-    pub path: Vec<Element>,
+    pub(crate) path: Vec<Element>,
     /// The element of the path that is entered, and where.
-    pub element: usize,
-    pub begin: Point,
+    pub(crate) element: usize,
+    pub(crate) begin: Point,
 }
 
 impl Job<'_> {

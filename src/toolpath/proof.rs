@@ -13,23 +13,23 @@ use std::sync::OnceLock;
 
 /// What the offset of one contour is held against. Lengths in drawing units.
 pub(super) struct Proof<'a> {
-    pub walls: &'a [Wall],
-    pub raw: &'a Raw,
+    pub(crate) walls: &'a [Wall],
+    pub(crate) raw: &'a Raw,
     /// The walls once more, to ask what is near.
-    pub own: &'a Walls,
-    pub correction: f64,
+    pub(crate) own: &'a Walls,
+    pub(crate) correction: f64,
     /// +1 where the wire runs to the left of the walls, −1 to the right.
-    pub side: f64,
+    pub(crate) side: f64,
     /// How far a path may be off by rounding.
-    pub rounding: f64,
+    pub(crate) rounding: f64,
     /// The raw elements, to ask what is near.
-    pub near_raw: OnceLock<Walls>,
+    pub(crate) near_raw: OnceLock<Walls>,
 }
 
 /// The path cannot be vouched for, near this wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Unproved {
-    pub wall: usize,
+    pub(crate) wall: usize,
 }
 
 impl Proof<'_> {
@@ -153,7 +153,7 @@ impl Proof<'_> {
 
     /// Shares of a stretch of a raw element at which other raw elements cross it or end on it, with 0 and 1, rising. Between two of
     /// them either all places keep clear of the walls or none.
-    pub fn cuts(&self, index: usize, stretch: &Segment) -> Vec<f64> {
+    pub(crate) fn cuts(&self, index: usize, stretch: &Segment) -> Vec<f64> {
         let length = stretch.length();
         let mut cuts = vec![0.0, 1.0];
         let slack = self.rounding * 1e-2;

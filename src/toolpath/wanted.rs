@@ -9,10 +9,10 @@ use crate::settings::{Compensation, Effective, PointSetting};
 /// What settings and start marks say about one contour, in drawing units.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Wanted {
-    pub thread: Option<Point>,
-    pub entry: Option<Point>,
+    pub(crate) thread: Option<Point>,
+    pub(crate) entry: Option<Point>,
     /// A mark that means the point of the contour beside it, where no entry is given.
-    pub beside: Option<Point>,
+    pub(crate) beside: Option<Point>,
 }
 
 /// Thread hole and entry of each of the `chosen` outlines, from the settings, then from the marks.

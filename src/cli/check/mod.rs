@@ -31,7 +31,7 @@ Examples:
   wedm check --output sarif drawings/ > findings.sarif
   wedm check --deny warning plate.dxf program.3b
   generate-plate | wedm check - --stdin-name plate.dxf")]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// Files, and folders to search; `-` is stdin
     #[arg(value_name = "PATH", default_value = ".")]
     paths: Vec<PathBuf>,
@@ -122,7 +122,7 @@ struct Survey {
     docs_url: Option<String>,
 }
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if !arguments.watch {
         return report(arguments);
     }

@@ -16,7 +16,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 const LONGEST_BODY: u64 = 64 << 20;
 
 /// A server that runs as a child of this process.
-pub struct Client {
+pub(crate) struct Client {
     child: Child,
     stdin: Option<ChildStdin>,
     incoming: Receiver<Value>,
@@ -27,7 +27,7 @@ pub struct Client {
 
 impl Client {
     /// Starts this very program as a server.
-    pub fn start() -> Result<Client, Failure> {
+    pub(crate) fn start() -> Result<Client, Failure> {
         let program = std::env::current_exe()
             .map_err(|error| Failure(say!(the_program_does_not_find_itself, error)))?;
         let mut child = Command::new(program)
@@ -52,12 +52,12 @@ impl Client {
         })
     }
 
-    pub fn notify(&mut self, method: &str, params: Value) -> Result<(), Failure> {
+    pub(crate) fn notify(&mut self, method: &str, params: Value) -> Result<(), Failure> {
         self.send(&json!({ "jsonrpc": "2.0", "method": method, "params": params }))
     }
 
     /// Sends a request and gives it time to be answered by `reply`: the server may ask something in between.
-    pub fn ask(&mut self, method: &str, params: Value) -> Result<u64, Failure> {
+    pub(crate) fn ask(&mut self, method: &str, params: Value) -> Result<u64, Failure> {
         self.last_id += 1;
         self.send(
             &json!({ "jsonrpc": "2.0", "id": self.last_id, "method": method, "params": params }),
@@ -66,7 +66,7 @@ impl Client {
     }
 
     /// The result of the request `id`. An error reply is a failure with the server's sentence.
-    pub fn reply(&mut self, id: u64) -> Result<Value, Failure> {
+    pub(crate) fn reply(&mut self, id: u64) -> Result<Value, Failure> {
         self.reply_or_error(id)?.map_err(|error| {
             Failure(say!(
                 the_server_refuses,
@@ -76,7 +76,7 @@ impl Client {
     }
 
     /// The result of the request `id`, or the error that it was answered with.
-    pub fn reply_or_error(&mut self, id: u64) -> Result<Result<Value, Value>, Failure> {
+    pub(crate) fn reply_or_error(&mut self, id: u64) -> Result<Result<Value, Value>, Failure> {
         let mut message = self.wait_for(say!(an_answer), |message| {
             message["id"] == id && message.get("method").is_none()
         })?;
@@ -86,13 +86,13 @@ impl Client {
         })
     }
 
-    pub fn request(&mut self, method: &str, params: Value) -> Result<Value, Failure> {
+    pub(crate) fn request(&mut self, method: &str, params: Value) -> Result<Value, Failure> {
         let id = self.ask(method, params)?;
         self.reply(id)
     }
 
     /// The diagnostics of `version` of a document, once they arrive. Those of older versions are passed over.
-    pub fn diagnostics(&mut self, uri: &str, version: i64) -> Result<Vec<Value>, Failure> {
+    pub(crate) fn diagnostics(&mut self, uri: &str, version: i64) -> Result<Vec<Value>, Failure> {
         let mut message = self.wait_for("diagnostics", |message| {
             let params = &message["params"];
             message["method"] == "textDocument/publishDiagnostics"
@@ -108,19 +108,19 @@ impl Client {
     }
 
     /// The server's own request `method`: its id and params.
-    pub fn asked(&mut self, method: &str) -> Result<(Value, Value), Failure> {
+    pub(crate) fn asked(&mut self, method: &str) -> Result<(Value, Value), Failure> {
         let mut message = self.wait_for(say!(a_request_of_the_server), |message| {
             message["method"] == method && message.get("id").is_some()
         })?;
         Ok((message["id"].take(), message["params"].take()))
     }
 
-    pub fn answer(&mut self, id: &Value, result: Value) -> Result<(), Failure> {
+    pub(crate) fn answer(&mut self, id: &Value, result: Value) -> Result<(), Failure> {
         self.send(&json!({ "jsonrpc": "2.0", "id": id, "result": result }))
     }
 
     /// Ends the session as the protocol says, and says whether the server ended as it should.
-    pub fn end(mut self) -> Result<(), Failure> {
+    pub(crate) fn end(mut self) -> Result<(), Failure> {
         self.request("shutdown", Value::Null)?;
         self.send(&json!({ "jsonrpc": "2.0", "method": "exit" }))?;
         self.stdin = None;

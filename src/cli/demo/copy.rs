@@ -7,14 +7,14 @@ use crate::geometry::Point;
 use serde_json::{Value, json};
 use std::ops::Range;
 
-pub struct Copy {
-    pub uri: String,
-    pub text: String,
-    pub version: i64,
+pub(crate) struct Copy {
+    pub(crate) uri: String,
+    pub(crate) text: String,
+    pub(crate) version: i64,
 }
 
 impl Copy {
-    pub fn new(uri: &str, text: &str) -> Copy {
+    pub(crate) fn new(uri: &str, text: &str) -> Copy {
         Copy {
             uri: uri.into(),
             text: text.into(),
@@ -23,7 +23,7 @@ impl Copy {
     }
 
     /// Moves vertices of the polyline `handle` as a designer does and gives the params of `textDocument/didChange`.
-    pub fn move_vertices(
+    pub(crate) fn move_vertices(
         &mut self,
         handle: &str,
         moves: &[(usize, f64, f64)],
@@ -59,7 +59,7 @@ impl Copy {
 
     /// Applies the edits that a `WorkspaceEdit` has for this text, refusing those for another version; gives the params of
     /// `textDocument/didChange`.
-    pub fn apply(&mut self, workspace_edit: &Value) -> Result<Value, Failure> {
+    pub(crate) fn apply(&mut self, workspace_edit: &Value) -> Result<Value, Failure> {
         let documents = workspace_edit["documentChanges"]
             .as_array()
             .map_or(&[][..], Vec::as_slice);

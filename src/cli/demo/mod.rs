@@ -28,7 +28,7 @@ use std::path::PathBuf;
 Examples:
   wedm demo
   wedm demo --correction 0.12 plate")]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// Folder that the files are written to
     #[arg(value_name = "DIR", default_value = "wedm-demo")]
     folder: PathBuf,
@@ -39,7 +39,7 @@ pub struct Arguments {
 /// mm. Below, no fillet of the plate is too tight; above, its slots are too narrow.
 const CORRECTIONS: std::ops::RangeInclusive<f64> = 0.02..=0.5;
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let correction = arguments
         .common
         .correction

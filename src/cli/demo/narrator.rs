@@ -10,42 +10,42 @@ const COLUMNS: usize = 80;
 const INDENT: usize = 4;
 
 /// What stands behind a drawing: a diagnostic in text has a line.
-pub enum Behind {
+pub(crate) enum Behind {
     Text,
     Nothing,
 }
 
 #[derive(Default)]
-pub struct Narrator {
+pub(crate) struct Narrator {
     steps: usize,
 }
 
 impl Narrator {
-    pub fn heading(&mut self, text: &str) {
+    pub(crate) fn heading(&mut self, text: &str) {
         self.print(output::STRONG, 0, "", text);
     }
 
-    pub fn step(&mut self, text: &str) {
+    pub(crate) fn step(&mut self, text: &str) {
         self.steps += 1;
         let number = format!("{:>2}  ", self.steps);
         let _ = output::print("\n");
         self.print(output::STRONG, INDENT, &number, text);
     }
 
-    pub fn say(&mut self, text: &str) {
+    pub(crate) fn say(&mut self, text: &str) {
         self.print(Style::new(), INDENT, "    ", text);
     }
 
-    pub fn item(&mut self, text: &str) {
+    pub(crate) fn item(&mut self, text: &str) {
         self.print(Style::new(), INDENT + 2, "    - ", text);
     }
 
-    pub fn good(&mut self, text: &str) {
+    pub(crate) fn good(&mut self, text: &str) {
         self.print(output::GOOD, INDENT, "    ", text);
     }
 
     /// A diagnostic as it arrived: its place, then its sentence.
-    pub fn diagnostic(&mut self, diagnostic: &Value, behind: Behind) {
+    pub(crate) fn diagnostic(&mut self, diagnostic: &Value, behind: Behind) {
         let (handle, segment) = super::segment_of(diagnostic);
         let line = match behind {
             Behind::Text => {
@@ -128,7 +128,7 @@ fn pieces(word: &str) -> Vec<&str> {
 }
 
 /// Milliseconds as a person reads them.
-pub fn duration(duration: Duration) -> String {
+pub(crate) fn duration(duration: Duration) -> String {
     let milliseconds = duration.as_secs_f64() * 1e3;
     if milliseconds < 10.0 {
         format!("{milliseconds:.1} ms")

@@ -15,10 +15,10 @@ const URI: &str = "untitled:plate.dxf";
 const DIE: &str = "2A";
 
 /// What the demonstration gives to its user.
-pub struct Made {
-    pub dxf: String,
-    pub program: String,
-    pub picture: String,
+pub(crate) struct Made {
+    pub(crate) dxf: String,
+    pub(crate) program: String,
+    pub(crate) picture: String,
 }
 
 /// The plate as client and user see it.
@@ -30,7 +30,7 @@ struct Session<'a> {
     diagnostics: Vec<Value>,
 }
 
-pub fn session(
+pub(crate) fn session(
     narrator: &mut Narrator,
     client: &mut Client,
     correction: f64,

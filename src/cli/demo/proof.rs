@@ -12,23 +12,23 @@ use crate::{dxf, picture, toolpath};
 use serde_json::Value;
 use std::sync::Arc as Shared;
 
-pub struct Proof {
-    pub blocks: usize,
+pub(crate) struct Proof {
+    pub(crate) blocks: usize,
     /// Largest distance of a decoded block from the path, or of the path from the blocks, µm.
-    pub from_path_um: f64,
+    pub(crate) from_path_um: f64,
     /// Distance of the program's end from the last thread hole, each block decoded from the end of the one before, µm.
-    pub open_um: f64,
+    pub(crate) open_um: f64,
     /// Smallest and largest distance in mm from the contours to where the wire cuts along them.
-    pub least_distance: f64,
-    pub largest_distance: f64,
-    pub picture: String,
+    pub(crate) least_distance: f64,
+    pub(crate) largest_distance: f64,
+    pub(crate) picture: String,
 }
 
 /// Places on each block that are looked at.
 const SAMPLES: u32 = 16;
 
 /// `faulty` and `fixed` are DXF text; `path` is the reply of `wedm/toolpath` for the latter.
-pub fn of(
+pub(crate) fn of(
     faulty: &str,
     fixed: &str,
     program: &str,

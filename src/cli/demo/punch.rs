@@ -10,7 +10,7 @@ const URI: &str = "cad:punch";
 /// `tan(−90° / 4)`: a quarter turn clockwise.
 const QUARTER: f64 = -0.414_213_562_373_095_03;
 
-pub fn session(
+pub(crate) fn session(
     narrator: &mut Narrator,
     client: &mut Client,
     correction: f64,

@@ -18,7 +18,7 @@ const NAMES: usize = 500;
 type Offer = (String, Cow<'static, str>, CompletionKind);
 
 /// What can stand at a byte, what belongs there most first.
-pub fn completions(document: &Document, offset: usize) -> Vec<Completion> {
+pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion> {
     let line = document.text().line_of(offset);
     // Behind the last line end there is a line for an editor, and none for the reader.
     let spot = spot(document, line).or_else(|| spot(document, line.checked_sub(1)?));

@@ -9,7 +9,7 @@ use crate::ide::{HINT_LINES, Hint};
 use std::ops::Range;
 
 /// Hints for what stands in a range of bytes, in the order of the text.
-pub fn hints(document: &Document, range: Range<usize>, unit: Unit) -> Vec<Hint> {
+pub(crate) fn hints(document: &Document, range: Range<usize>, unit: Unit) -> Vec<Hint> {
     let text = document.text();
     let end = text
         .line_start(text.line_of(range.start) + HINT_LINES)

@@ -12,7 +12,7 @@ use crate::ide::amounts::{rounded as rounded_to, turn};
 use crate::message::said;
 
 /// What stands at a byte; `None` where no tag is.
-pub fn hover(document: &Document, offset: usize, unit: Unit) -> Option<Hover> {
+pub(crate) fn hover(document: &Document, offset: usize, unit: Unit) -> Option<Hover> {
     let spot = spot(document, document.text().line_of(offset))?;
     let tag = spot.tag?;
     let lines = spot.lines;

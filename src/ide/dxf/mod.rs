@@ -19,12 +19,12 @@ mod symbols;
 mod tests;
 mod tokens;
 
-pub use completion::completions;
+pub(crate) use completion::completions;
 pub use folding::folds;
-pub use hints::hints;
-pub use hover::hover;
-pub use names::{Name, Names, name_at, occurrences};
+pub(crate) use hints::hints;
+pub(crate) use hover::hover;
+pub(crate) use names::{Name, Names, name_at, occurrences};
 pub use outline::outline;
-pub use selection::selections;
-pub use symbols::{ContourNote, GROUPED_ABOVE, notes, symbols};
+pub(crate) use selection::selections;
+pub(crate) use symbols::{ContourNote, GROUPED_ABOVE, notes, symbols};
 pub use tokens::{tokens, tokens_in};

@@ -11,7 +11,7 @@ use crate::text::SourceText;
 use std::ops::Range;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Names {
+pub(crate) enum Names {
     Record,
     Layer,
     Block,
@@ -21,14 +21,14 @@ pub enum Names {
 
 /// Something that one tag names and others refer to.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Name {
-    pub names: Names,
+pub(crate) struct Name {
+    pub(crate) names: Names,
     /// As it stands in the text; compared without regard to case, handles without regard to leading zeros as well.
-    pub text: String,
+    pub(crate) text: String,
 }
 
 /// What is named at a byte, on either line of a tag; and the bytes of the value.
-pub fn name_at(document: &Document, offset: usize) -> Option<(Name, Range<usize>)> {
+pub(crate) fn name_at(document: &Document, offset: usize) -> Option<(Name, Range<usize>)> {
     let spot = spot(document, document.text().line_of(offset))?;
     let tag = spot.tag?;
     let in_header = spot.name == b"SECTION"
@@ -49,7 +49,7 @@ pub fn name_at(document: &Document, offset: usize) -> Option<(Name, Range<usize>
 }
 
 /// Every place that defines or uses a name, in the order of the text, at most `limit`; `None` when it was stopped.
-pub fn occurrences(
+pub(crate) fn occurrences(
     text: &SourceText,
     name: &Name,
     limit: usize,

@@ -7,7 +7,7 @@ use crate::ide::widen;
 use std::ops::Range;
 
 /// Ranges of bytes around a byte, each within the next.
-pub fn selections(document: &Document, offset: usize) -> Vec<Range<usize>> {
+pub(crate) fn selections(document: &Document, offset: usize) -> Vec<Range<usize>> {
     let all = 0..document.text().len();
     let mut found: Vec<Range<usize>> = Vec::new();
     let Some(spot) = spot(document, document.text().line_of(offset)) else {

@@ -8,23 +8,23 @@ use std::ops::Range;
 
 /// A line of the text among its tags.
 pub(super) struct Spot<'a> {
-    pub lines: Lines<'a>,
-    pub line: usize,
-    pub item: usize,
+    pub(crate) lines: Lines<'a>,
+    pub(crate) line: usize,
+    pub(crate) item: usize,
     /// First line of the record; the name stands on the next one. `None` before the first record.
-    pub record: Option<usize>,
+    pub(crate) record: Option<usize>,
     /// Name of the record; empty where there is none.
-    pub name: &'a [u8],
+    pub(crate) name: &'a [u8],
     /// The tag that holds the line, whichever of its two lines it is.
-    pub tag: Option<Tag>,
+    pub(crate) tag: Option<Tag>,
     /// The tag before that.
-    pub before: Option<Tag>,
+    pub(crate) before: Option<Tag>,
     /// First line behind the last whole tag that ends before the line.
-    pub in_step: usize,
+    pub(crate) in_step: usize,
 }
 
 impl Spot<'_> {
-    pub fn at_value(&self) -> bool {
+    pub(crate) fn at_value(&self) -> bool {
         self.tag.is_some_and(|tag| tag.value_line() == self.line)
     }
 }

@@ -7,7 +7,7 @@ use crate::ide::{Symbol, SymbolKind};
 use std::collections::HashMap;
 
 /// With more entities than this in one text, or more contours, runs of them are listed and not each by itself.
-pub const GROUPED_ABOVE: usize = 20_000;
+pub(crate) const GROUPED_ABOVE: usize = 20_000;
 /// Runs that stand for many.
 const RUNS: usize = 1000;
 /// Entities of a contour that are listed under it.
@@ -15,14 +15,14 @@ const LISTED_OF_CONTOUR: usize = 200;
 
 /// A contour of the drawing, as the tree names it: its entities' handles in order of travel.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ContourNote {
-    pub closed: bool,
-    pub segments: usize,
-    pub handles: Vec<Handle>,
+pub(crate) struct ContourNote {
+    pub(crate) closed: bool,
+    pub(crate) segments: usize,
+    pub(crate) handles: Vec<Handle>,
 }
 
 /// The contours of a drawing.
-pub fn notes(snapshot: &Snapshot) -> Vec<ContourNote> {
+pub(crate) fn notes(snapshot: &Snapshot) -> Vec<ContourNote> {
     let handle = |piece: &Piece| Some(snapshot.drawing.get(piece.entity)?.handle.clone());
     let note = |outline: &Outline| ContourNote {
         closed: outline.contour.closed,
@@ -33,7 +33,7 @@ pub fn notes(snapshot: &Snapshot) -> Vec<ContourNote> {
 }
 
 /// Adds the contours to a tree and shortens it where it would be too long to list.
-pub fn symbols(mut tree: Vec<Symbol>, contours: &[ContourNote]) -> Vec<Symbol> {
+pub(crate) fn symbols(mut tree: Vec<Symbol>, contours: &[ContourNote]) -> Vec<Symbol> {
     let listed = contours_of(&tree, contours);
     shorten(&mut tree);
     if let Some(first) = listed.first()

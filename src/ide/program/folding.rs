@@ -6,7 +6,7 @@ use crate::program::Document;
 use crate::program::path::cuts;
 
 /// Contours first, then comments; at most `limit` of them, in the order of the text.
-pub fn folds(document: &Document, limit: usize) -> Vec<Fold> {
+pub(crate) fn folds(document: &Document, limit: usize) -> Vec<Fold> {
     let trace = document.trace();
     let mut found: Vec<Fold> = Vec::new();
     for cut in cuts(&trace) {

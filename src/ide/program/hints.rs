@@ -11,7 +11,7 @@ use std::ops::Range;
 /// Hints for the blocks that begin in a range of bytes, in the order of the text.
 ///
 /// An end point that the text itself states is not said again, and neither is that of an ISO block under G90, whose words it is.
-pub fn hints(document: &Document, range: Range<usize>) -> Vec<Hint> {
+pub(crate) fn hints(document: &Document, range: Range<usize>) -> Vec<Hint> {
     let text = document.text();
     let end = text
         .line_start(text.line_of(range.start) + HINT_LINES)

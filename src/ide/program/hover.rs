@@ -12,7 +12,7 @@ use crate::program::path::{Kind, Step};
 const SHOWN_DEVIATION: f64 = 0.05;
 
 /// What stands at a byte; `None` where nothing does.
-pub fn hover(document: &Document, offset: usize) -> Option<Hover> {
+pub(crate) fn hover(document: &Document, offset: usize) -> Option<Hover> {
     let text = document.text();
     let line = text.line_of(offset);
     let parts = words_of(document, line);

@@ -18,21 +18,21 @@ mod three_b;
 mod tokens;
 mod words;
 
-pub use folding::folds;
-pub use hints::hints;
-pub use hover::hover;
-pub use navigation::{highlights, match_of, pauses};
-pub use numbers::{number_at, renamed};
-pub use selection::selections;
-pub use symbols::symbols;
-pub use tokens::{tokens, tokens_in};
-pub use words::{Part, WordKind, words_of};
+pub(crate) use folding::folds;
+pub(crate) use hints::hints;
+pub(crate) use hover::hover;
+pub(crate) use navigation::{highlights, match_of, pauses};
+pub(crate) use numbers::{number_at, renamed};
+pub(crate) use selection::selections;
+pub(crate) use symbols::symbols;
+pub(crate) use tokens::{tokens, tokens_in};
+pub(crate) use words::{Part, WordKind, words_of};
 
 use super::{Completion, Signature};
 use crate::program::Document;
 
 /// What can stand at a byte, what is most likely first.
-pub fn completions(document: &Document, offset: usize) -> Vec<Completion> {
+pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion> {
     match document {
         Document::ThreeB(program) => three_b::completions(program, offset),
         Document::Iso(program) => iso::completions(program, offset),
@@ -40,7 +40,7 @@ pub fn completions(document: &Document, offset: usize) -> Vec<Completion> {
 }
 
 /// The form of the block that is written at a byte; `None` where none is.
-pub fn signature(document: &Document, offset: usize) -> Option<Signature> {
+pub(crate) fn signature(document: &Document, offset: usize) -> Option<Signature> {
     match document {
         Document::ThreeB(program) => three_b::signature(program, offset),
         Document::Iso(program) => iso::signature(program, offset),

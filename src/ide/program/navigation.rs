@@ -9,12 +9,12 @@ use std::ops::Range;
 ///
 /// Of a pause, the next pause or the end; of the end word, where the program begins; of a way in the way out and back; of any other
 /// block the last one of its contour, and of that one the first.
-pub fn match_of(document: &Document, offset: usize) -> Option<Range<usize>> {
+pub(crate) fn match_of(document: &Document, offset: usize) -> Option<Range<usize>> {
     pair(document, offset).map(|(_, other)| other)
 }
 
 /// The place at a byte and the one that belongs to it.
-pub fn highlights(document: &Document, offset: usize) -> Vec<Range<usize>> {
+pub(crate) fn highlights(document: &Document, offset: usize) -> Vec<Range<usize>> {
     pair(document, offset).map_or_else(Vec::new, |(own, other)| {
         if own == other {
             vec![own]
@@ -25,7 +25,7 @@ pub fn highlights(document: &Document, offset: usize) -> Vec<Range<usize>> {
 }
 
 /// All pauses and ends.
-pub fn pauses(document: &Document) -> Vec<Range<usize>> {
+pub(crate) fn pauses(document: &Document) -> Vec<Range<usize>> {
     let trace = document.trace();
     trace
         .steps

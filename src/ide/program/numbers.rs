@@ -6,7 +6,7 @@ use crate::text::TextEdit;
 use std::ops::Range;
 
 /// The block number at a byte: its bytes, and what it is.
-pub fn number_at(document: &Document, offset: usize) -> Option<(Range<usize>, u32)> {
+pub(crate) fn number_at(document: &Document, offset: usize) -> Option<(Range<usize>, u32)> {
     let line = document.text().line_of(offset);
     let part = words_of(document, line).into_iter().find(|part| {
         part.kind == WordKind::Number && part.range.start <= offset && offset <= part.range.end
@@ -19,7 +19,11 @@ pub fn number_at(document: &Document, offset: usize) -> Option<(Range<usize>, u3
 /// The edits that give the block at a byte another number, `20` or `N20`, and the calls of it.
 ///
 /// Errors: no number there, a name that is no number, or one that another block has.
-pub fn renamed(document: &Document, offset: usize, name: &str) -> Result<Vec<TextEdit>, String> {
+pub(crate) fn renamed(
+    document: &Document,
+    offset: usize,
+    name: &str,
+) -> Result<Vec<TextEdit>, String> {
     let (digits, number) =
         number_at(document, offset).ok_or(say!(there_is_no_block_number_here))?;
     if let Document::Iso(program) = document {

@@ -6,7 +6,7 @@ use crate::program::Document;
 use std::ops::Range;
 
 /// Ranges of bytes around a byte, each within the next.
-pub fn selections(document: &Document, offset: usize) -> Vec<Range<usize>> {
+pub(crate) fn selections(document: &Document, offset: usize) -> Vec<Range<usize>> {
     let text = document.text();
     let line = text.line_of(offset);
     let mut found: Vec<Range<usize>> = Vec::new();

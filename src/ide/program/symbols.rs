@@ -16,7 +16,7 @@ const RUNS: usize = 500;
 const LISTED_CUTS: usize = 5_000;
 
 /// The tree of a program, in the order of the text.
-pub fn symbols(document: &Document) -> Vec<Symbol> {
+pub(crate) fn symbols(document: &Document) -> Vec<Symbol> {
     let trace = document.trace();
     let tree = Tree {
         text: document.text(),

@@ -25,7 +25,7 @@ fn kind_of(kind: WordKind) -> Option<TokenKind> {
 }
 
 /// The tokens of some lines.
-pub fn tokens_in(document: &Document, lines: Range<usize>) -> Vec<Token> {
+pub(crate) fn tokens_in(document: &Document, lines: Range<usize>) -> Vec<Token> {
     let text = document.text();
     let mut found = Vec::new();
     for line in lines.start..lines.end.min(text.line_count()) {
@@ -44,7 +44,7 @@ pub fn tokens_in(document: &Document, lines: Range<usize>) -> Vec<Token> {
 }
 
 /// The tokens of the whole text, at most `limit`; what a line says hangs on no other line.
-pub fn tokens(document: &Document, limit: usize) -> Vec<Token> {
+pub(crate) fn tokens(document: &Document, limit: usize) -> Vec<Token> {
     let firsts: Vec<usize> = (0..document.text().line_count()).step_by(CHUNK).collect();
     let mut found = Vec::new();
     // As many at once as there may be need for.

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 /// What a piece of a line is, whatever the language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WordKind {
+pub(crate) enum WordKind {
     /// `N12`.
     Number,
     /// What leads a number: `B` of 3B.
@@ -28,13 +28,13 @@ pub enum WordKind {
 
 /// A piece of a line; bytes of the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Part {
-    pub kind: WordKind,
-    pub range: Range<usize>,
+pub(crate) struct Part {
+    pub(crate) kind: WordKind,
+    pub(crate) range: Range<usize>,
 }
 
 /// The pieces of a line, one behind the other; damaged lines are cut as far as that goes.
-pub fn words_of(document: &Document, line: usize) -> Vec<Part> {
+pub(crate) fn words_of(document: &Document, line: usize) -> Vec<Part> {
     let text = document.text();
     let range = text.line_range(line);
     let bytes = text.bytes().get(range.clone()).unwrap_or_default();

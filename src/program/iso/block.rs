@@ -6,7 +6,7 @@ use std::ops::Range;
 
 /// G00 to G03.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Motion {
+pub(crate) enum Motion {
     Rapid,
     Line,
     Clockwise,
@@ -15,7 +15,7 @@ pub enum Motion {
 
 /// G40, G41, G42.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Compensation {
+pub(crate) enum Compensation {
     Off,
     /// The wire runs to the left of the direction of travel.
     Left,
@@ -24,7 +24,7 @@ pub enum Compensation {
 
 /// M00, M01, M02 and M30.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stop {
+pub(crate) enum Stop {
     Pause,
     End,
 }
@@ -33,55 +33,55 @@ pub enum Stop {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Block {
     /// `N12`.
-    pub number: Option<u32>,
+    pub(crate) number: Option<u32>,
     /// `O0001` or `:0001`.
-    pub program: Option<u32>,
-    pub motion: Option<Motion>,
+    pub(crate) program: Option<u32>,
+    pub(crate) motion: Option<Motion>,
     /// True for G91, false for G90.
-    pub incremental: Option<bool>,
-    pub compensation: Option<Compensation>,
+    pub(crate) incremental: Option<bool>,
+    pub(crate) compensation: Option<Compensation>,
     /// True for inches (G20, G70), false for millimetres (G21, G71).
-    pub inch: Option<bool>,
+    pub(crate) inch: Option<bool>,
     /// G92: the coordinates are those of the place where the wire stands.
-    pub sets_position: bool,
-    pub x: Option<Number>,
-    pub y: Option<Number>,
-    pub i: Option<Number>,
-    pub j: Option<Number>,
-    pub r: Option<Number>,
+    pub(crate) sets_position: bool,
+    pub(crate) x: Option<Number>,
+    pub(crate) y: Option<Number>,
+    pub(crate) i: Option<Number>,
+    pub(crate) j: Option<Number>,
+    pub(crate) r: Option<Number>,
     /// `,R2.` or `,C1.`
-    pub corner: Option<Corner>,
+    pub(crate) corner: Option<Corner>,
     /// `D1` or `H1`: the place in the control's table that holds the correction.
-    pub offset: Option<Offset>,
-    pub stop: Option<Stop>,
+    pub(crate) offset: Option<Offset>,
+    pub(crate) stop: Option<Stop>,
     /// `M98 P1`.
-    pub call: Option<u32>,
+    pub(crate) call: Option<u32>,
     /// `L3`: how often the subprogram runs.
-    pub repeat: Option<u32>,
+    pub(crate) repeat: Option<u32>,
     /// M99.
-    pub returns: bool,
+    pub(crate) returns: bool,
     /// A word that takes the coordinates for something else than a move, such as G04 or G28.
-    pub takes_coordinates: bool,
+    pub(crate) takes_coordinates: bool,
     /// A word of the line could not be read, so that its coordinates are not known.
-    pub broken: bool,
+    pub(crate) broken: bool,
     /// Nothing but comments, marks and spaces stands in it.
-    pub empty: bool,
+    pub(crate) empty: bool,
 }
 
 /// A corner that the control makes at the end of a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Corner {
+pub(crate) struct Corner {
     /// Rounded; else chamfered.
-    pub round: bool,
+    pub(crate) round: bool,
     /// Its radius, or how far from the corner the chamfer begins and ends.
-    pub size: Number,
+    pub(crate) size: Number,
 }
 
 /// A place in the control's table of corrections.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Offset {
-    pub letter: u8,
-    pub index: u32,
+    pub(crate) letter: u8,
+    pub(crate) index: u32,
 }
 
 /// Something besides the block that a line shows.
@@ -353,7 +353,7 @@ impl Block {
 }
 
 /// Bytes of the word with `letter` in a line; the last of them where it stands several times.
-pub fn word_range(
+pub(crate) fn word_range(
     line: &[u8],
     offset: usize,
     wanted: impl Fn(u8, Number) -> bool,

@@ -9,8 +9,8 @@ use std::ops::Range;
 /// How ISO text is read: what a line does hangs on those before it.
 pub(super) struct Control {
     /// What is in force before the first line.
-    pub begin: Machine,
-    pub reading: Reading,
+    pub(crate) begin: Machine,
+    pub(crate) reading: Reading,
 }
 
 impl Language for Control {

@@ -6,26 +6,26 @@ use super::machine::{Bend, Course, Machine, Move, Reading, added, bend_about, mi
 use crate::geometry::{Locus, Point, Segment, cross, turn};
 
 /// Lines behind a corner's in which the move that it leads to is looked for.
-pub const REACH: usize = 64;
+pub(crate) const REACH: usize = 64;
 
 /// Two cuts that turn by less than this have no corner, radians.
 const STRAIGHT: f64 = 1e-4;
 
 /// What a line with a corner's word does.
 #[derive(Clone, Copy, Debug)]
-pub struct Turned {
+pub(crate) struct Turned {
     /// The move up to where the corner begins; the whole move where there is no corner to make.
-    pub made: Move,
-    pub corner: Option<Move>,
+    pub(crate) made: Move,
+    pub(crate) corner: Option<Move>,
     /// How many lines behind it were looked at.
-    pub looked_at: usize,
+    pub(crate) looked_at: usize,
     /// What comes next lies where it lies, however far the wire has been moved before.
-    pub is_fixed: bool,
+    pub(crate) is_fixed: bool,
 }
 
 /// Makes the corner at the end of a move, towards the first one that `behind` makes; the machine, which has made the move, stands at the
 /// sharp corner as its coordinates say, and begins the next move where the corner ends.
-pub fn turned<'a>(
+pub(crate) fn turned<'a>(
     made: Move,
     machine: &mut Machine,
     behind: impl Iterator<Item = &'a [u8]>,
@@ -53,7 +53,7 @@ pub fn turned<'a>(
 }
 
 /// The next cut, where nothing stands between; and how many lines were looked at.
-pub fn next_move<'a>(
+pub(crate) fn next_move<'a>(
     mut machine: Machine,
     behind: impl Iterator<Item = &'a [u8]>,
     reading: &Reading,

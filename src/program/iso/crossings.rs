@@ -11,7 +11,7 @@ const FEWEST_MOVES: u32 = 4;
 
 impl Crossings {
     /// Looks through a program; what is known of pairs of its parts is taken as it is.
-    pub fn look(&mut self, document: &Document) {
+    pub(crate) fn look(&mut self, document: &Document) {
         let Crossings { known, found } = self;
         found.clear();
         known.begin();
@@ -29,13 +29,13 @@ impl Crossings {
     }
 
     /// Whether a cut that crosses itself runs through a stretch.
-    pub fn touch(&self, stretch: usize) -> bool {
+    pub(crate) fn touch(&self, stretch: usize) -> bool {
         let mut places = self.found.iter().flat_map(|(places, _)| places);
         places.any(|(index, _)| *index == stretch)
     }
 
     /// The findings, in the order in which the cuts run.
-    pub fn findings(&self, document: &Document) -> Vec<Finding> {
+    pub(crate) fn findings(&self, document: &Document) -> Vec<Finding> {
         let own = |(places, found): &(Vec<(usize, usize)>, Arc<Found>)| {
             found.findings(
                 &way_of(document, places.clone(), None, None),

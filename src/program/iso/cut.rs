@@ -9,30 +9,30 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Part {
     /// Indices of the stretch, and of the run in there.
-    pub stretch: usize,
-    pub run: usize,
+    pub(crate) stretch: usize,
+    pub(crate) run: usize,
     /// Byte of the text from which the stretch's places count.
-    pub offset: usize,
+    pub(crate) offset: usize,
 }
 
 #[derive(Clone, Debug)]
 pub(super) struct Cut {
-    pub parts: Vec<Part>,
-    pub run: Run,
+    pub(crate) parts: Vec<Part>,
+    pub(crate) run: Run,
     /// The line that begins it, and the one that ends it, in the text.
-    pub range: Range<usize>,
-    pub last_range: Range<usize>,
+    pub(crate) range: Range<usize>,
+    pub(crate) last_range: Range<usize>,
     /// The stop that ended it, where it is a single one.
     stop: Option<StopAt>,
     stops: usize,
     /// Moves before the stop at its tab.
-    pub before_tab: Option<u32>,
+    pub(crate) before_tab: Option<u32>,
     /// Where the wire was sent to the other side first, and the line that did so.
-    pub flip: Option<(Place, Range<usize>)>,
+    pub(crate) flip: Option<(Place, Range<usize>)>,
 }
 
 impl Cut {
-    pub fn of(placed: &Placed<'_>, stretch: usize, run: usize) -> Option<Cut> {
+    pub(crate) fn of(placed: &Placed<'_>, stretch: usize, run: usize) -> Option<Cut> {
         let (offset, its) = (placed.offset, placed.stretch.run_at(run)?);
         let place = |(start, end): (u32, u32)| offset + start as usize..offset + end as usize;
         let mut cut = Cut {
@@ -53,7 +53,7 @@ impl Cut {
         Some(cut)
     }
 
-    pub fn stopped(&mut self, stop: Option<u32>, stretch: usize) {
+    pub(crate) fn stopped(&mut self, stop: Option<u32>, stretch: usize) {
         match stop {
             None => {}
             Some(SEVERAL) => self.stops += 2,
@@ -65,7 +65,7 @@ impl Cut {
     }
 
     /// This cut and then the next, which goes on from where it ends: behind the stop at its tab, where there was one.
-    pub fn append(&mut self, next: Cut) {
+    pub(crate) fn append(&mut self, next: Cut) {
         if self.stops > 0 {
             self.before_tab.get_or_insert(self.run.moves);
         }
@@ -78,18 +78,18 @@ impl Cut {
         (self.stop, self.stops) = (next.stop, next.stops);
     }
 
-    pub fn single_stop(&self) -> Option<StopAt> {
+    pub(crate) fn single_stop(&self) -> Option<StopAt> {
         self.stop.filter(|_| self.stops == 1)
     }
 
     /// Indices of its stretches and of its runs in there.
-    pub fn places(&self) -> Vec<(usize, usize)> {
+    pub(crate) fn places(&self) -> Vec<(usize, usize)> {
         let place = |part: &Part| (part.stretch, part.run);
         self.parts.iter().map(place).collect()
     }
 
     /// The stretch that holds all of it, and its run in there.
-    pub fn only_place(&self) -> Option<(usize, usize)> {
+    pub(crate) fn only_place(&self) -> Option<(usize, usize)> {
         let [part] = self.parts[..] else { return None };
         Some((part.stretch, part.run))
     }

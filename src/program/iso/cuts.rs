@@ -13,7 +13,7 @@ use std::ops::Range;
 
 impl Cut {
     /// Its moves, from where it begins.
-    pub fn way<'a>(&self, document: &'a Document) -> PartedWay<'a> {
+    pub(crate) fn way<'a>(&self, document: &'a Document) -> PartedWay<'a> {
         let Ends { begin, end, .. } = self.ends(document);
         let stop = self.before_tab.map(|moves| moves as usize);
         way_of(
@@ -37,7 +37,7 @@ impl Cut {
     }
 
     /// Cuts that run on one way, fall into stretches alike and stop before one move of it have one mark.
-    pub fn mark(&self, document: &Document) -> u64 {
+    pub(crate) fn mark(&self, document: &Document) -> u64 {
         let lay = |part: &Part| document.stretches().get(part.stretch)?.lays.get(part.run);
         let stop = self.before_tab.map_or(0, |moves| u64::from(moves) + 1);
         let marks = self.parts.iter().filter_map(lay).map(|lay| lay.mark);
@@ -45,7 +45,7 @@ impl Cut {
     }
 
     /// How far it may end beside a place and still end in it, µm.
-    pub fn tolerance(&self, document: &Document) -> f64 {
+    pub(crate) fn tolerance(&self, document: &Document) -> f64 {
         path::tolerance(self.run.arcs as usize).max(document.reading().writing().slack)
     }
 
@@ -62,7 +62,7 @@ impl Cut {
         ends.go_round(twice_area, only, || self.way(document))
     }
 
-    pub fn closes(&self, document: &Document) -> bool {
+    pub(crate) fn closes(&self, document: &Document) -> bool {
         let (ends, only) = (self.ends(document), self.only_lay(document));
         ends.closes(only, || self.way(document))
     }

@@ -25,7 +25,7 @@ use std::sync::{Arc, OnceLock};
 /// runs the stretches that it touched, and those behind for which something else is in force; one that has only been moved is shifted.
 /// A program that calls subprograms is run anew with each edit.
 #[derive(Clone, Debug)]
-pub struct Document {
+pub(crate) struct Document {
     text: SourceText,
     stretches: Chunks<Stretch>,
     reading: Reading,
@@ -52,9 +52,9 @@ type Places = Vec<(usize, usize)>;
 /// What was found in the cuts of a program.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Crossings {
-    pub known: Known,
+    pub(crate) known: Known,
     /// The cuts that cross themselves or lie on themselves, and where.
-    pub found: Vec<(Places, Arc<Found>)>,
+    pub(crate) found: Vec<(Places, Arc<Found>)>,
 }
 
 /// The last value of each place of the control's table, nm.
@@ -62,11 +62,11 @@ pub(super) type Table = FxHashMap<Offset, i64>;
 
 impl Document {
     /// Reads program text. Never fails: what is damaged is in [`Document::findings`].
-    pub fn read(bytes: Vec<u8>) -> Document {
+    pub(crate) fn read(bytes: Vec<u8>) -> Document {
         Document::read_with(bytes, &Effective::default())
     }
 
-    pub fn read_with(bytes: Vec<u8>, settings: &Effective) -> Document {
+    pub(crate) fn read_with(bytes: Vec<u8>, settings: &Effective) -> Document {
         let limits = Limits::of(settings);
         let mut document = Document {
             text: SourceText::new(bytes),
@@ -86,12 +86,12 @@ impl Document {
         document
     }
 
-    pub fn text(&self) -> &SourceText {
+    pub(crate) fn text(&self) -> &SourceText {
         &self.text
     }
 
     /// How the numbers of the program were found to be meant.
-    pub fn reading(&self) -> &Reading {
+    pub(crate) fn reading(&self) -> &Reading {
         &self.reading
     }
 
@@ -104,7 +104,7 @@ impl Document {
     }
 
     /// Looks again under other settings.
-    pub fn set_settings(&mut self, settings: &Effective) {
+    pub(crate) fn set_settings(&mut self, settings: &Effective) {
         let limits = Limits::of(settings);
         if limits == *self.limits {
             return;
@@ -219,7 +219,7 @@ impl Document {
     }
 
     /// Replaces a range of bytes and runs again what it touched.
-    pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
+    pub(crate) fn edit(&mut self, range: Range<usize>, replacement: &str) {
         self.repairs = OnceLock::new();
         if self.order.is_some() {
             let end = range.end.min(self.text.len());

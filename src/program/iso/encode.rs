@@ -22,11 +22,11 @@ const LARGEST_RADIUS: f64 = 4e8;
 /// A move to `to`, and the piece of the path that it stands for, in steps of the grid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Encoded {
-    pub motion: Motion,
-    pub from: Node,
-    pub to: Node,
-    pub center: Node,
-    pub piece: Segment,
+    pub(crate) motion: Motion,
+    pub(crate) from: Node,
+    pub(crate) to: Node,
+    pub(crate) center: Node,
+    pub(crate) piece: Segment,
 }
 
 /// Appends the moves of `piece` between its snapped ends. `step` is the grid's step in µm. A piece without length on the grid appends

@@ -22,39 +22,39 @@ const SLIPS: u32 = 2;
 const LONG: i64 = 1_000;
 
 /// Of more numbers without a point among others the first stands for all.
-pub const FEW_BARE: u32 = 20;
+pub(crate) const FEW_BARE: u32 = 20;
 
 /// Counts over some lines of a program. They add up in any order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Evidence {
+pub(crate) struct Evidence {
     /// Coordinates, and those of them with a decimal point.
-    pub numbers: u32,
-    pub with_point: u32,
+    pub(crate) numbers: u32,
+    pub(crate) with_point: u32,
     /// The most decimals of a coordinate.
-    pub decimals: u8,
+    pub(crate) decimals: u8,
     /// Numbers that are not 0 without a point, and those of them that no machine travels in mm.
-    pub bare: u32,
-    pub long: u32,
+    pub(crate) bare: u32,
+    pub(crate) long: u32,
     /// Of the numbers with a point, how many have so many decimals.
-    pub places: [u32; 8],
+    pub(crate) places: [u32; 8],
     /// Numbers that have four decimals or more.
-    pub fine: u32,
-    pub inch: bool,
+    pub(crate) fine: u32,
+    pub(crate) inch: bool,
     /// It says whether it is in inches or mm.
-    pub says_unit: bool,
-    pub absolute: Arcs,
-    pub incremental: Arcs,
+    pub(crate) says_unit: bool,
+    pub(crate) absolute: Arcs,
+    pub(crate) incremental: Arcs,
 }
 
 /// Arcs with I and J: how many of them do not fit under each rule, and how many fit under two rules about unlike centres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Arcs {
-    pub all: u32,
-    pub off: [u32; 3],
+pub(crate) struct Arcs {
+    pub(crate) all: u32,
+    pub(crate) off: [u32; 3],
     /// In the order of [`PAIRS`].
-    pub unclear: [u32; 3],
+    pub(crate) unclear: [u32; 3],
     /// How many turn by more than a half under each rule: between rules that the ends fit alike, the arcs that are meant turn less.
-    pub wide: [u32; 3],
+    pub(crate) wide: [u32; 3],
 }
 
 const RULES: [CenterRule; 3] = [
@@ -111,7 +111,7 @@ impl Arcs {
 }
 
 impl Evidence {
-    pub fn add(&mut self, other: &Evidence) {
+    pub(crate) fn add(&mut self, other: &Evidence) {
         self.numbers += other.numbers;
         self.with_point += other.with_point;
         self.decimals = self.decimals.max(other.decimals);
@@ -129,7 +129,7 @@ impl Evidence {
     }
 
     /// Takes note of a line's numbers.
-    pub fn numbers(&mut self, block: &Block) {
+    pub(crate) fn numbers(&mut self, block: &Block) {
         for number in [block.x, block.y, block.i, block.j, block.r]
             .into_iter()
             .flatten()
@@ -149,7 +149,7 @@ impl Evidence {
     }
 
     /// Takes note of an arc.
-    pub fn arc(&mut self, arc: &Move, tolerance: i64) {
+    pub(crate) fn arc(&mut self, arc: &Move, tolerance: i64) {
         let arcs = if arc.incremental {
             &mut self.incremental
         } else {
@@ -176,7 +176,7 @@ impl Evidence {
     }
 
     /// How the program is to be read. `preferred` is what holds where its arcs fit under several rules.
-    pub fn reading(&self, preferred: CenterRule) -> Reading {
+    pub(crate) fn reading(&self, preferred: CenterRule) -> Reading {
         let whole_numbers_are_fine = self.whole_numbers_are_fine();
         let absolute = self.absolute.rule(preferred, &RULES);
         // What the arcs under G90 show, those under G91 of the same program need not show again.
@@ -214,7 +214,7 @@ impl Evidence {
     }
 
     /// How many decimals the numbers have, where all but one or two have as many; and how many those are.
-    pub fn usual_places(&self) -> Option<(u8, u32)> {
+    pub(crate) fn usual_places(&self) -> Option<(u8, u32)> {
         let all: u32 = self.places.iter().sum();
         let (places, count) = self
             .places
@@ -225,7 +225,7 @@ impl Evidence {
     }
 
     /// Whether lengths have a decimal point, where nearly all are written alike.
-    pub fn pointed(&self) -> Option<bool> {
+    pub(crate) fn pointed(&self) -> Option<bool> {
         if self.whole_numbers_are_fine() {
             return (self.numbers > 0).then_some(false);
         }
@@ -233,7 +233,7 @@ impl Evidence {
     }
 
     /// True where the arcs fit under two rules equally well, as full circles do.
-    pub fn leaves_centers_open(&self) -> bool {
+    pub(crate) fn leaves_centers_open(&self) -> bool {
         let told = self.absolute.tells(3) || self.incremental.tells(2);
         !told && (self.absolute.is_open(3) || self.incremental.is_open(2))
     }

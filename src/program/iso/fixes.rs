@@ -20,7 +20,7 @@ use std::ops::Range;
 
 impl Document {
     /// The fixes of one finding, the preferred one first: what its place says by itself, and the slip that may be behind it.
-    pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
+    pub(crate) fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
         fixes(self, finding)
     }
 }

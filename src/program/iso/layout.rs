@@ -16,7 +16,11 @@ const LOOKED_AT: usize = 1000;
 /// space in the others; without a layout, as most lines of the text have it.
 ///
 /// Lines with what cannot be read, with variables, and with comments in another code page stay byte for byte.
-pub fn format(text: &SourceText, layout: Option<Layout>, lines: Range<usize>) -> Vec<TextEdit> {
+pub(crate) fn format(
+    text: &SourceText,
+    layout: Option<Layout>,
+    lines: Range<usize>,
+) -> Vec<TextEdit> {
     let parted = layout.map_or_else(|| is_parted(text), |layout| layout != Layout::Compact);
     let lines = lines.start..lines.end.min(text.line_count());
     let firsts = lines.clone().step_by(AT_ONCE);

@@ -10,24 +10,24 @@ use std::sync::{Arc, LazyLock};
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Limits {
     /// mm, where the program's own table does not say.
-    pub correction: f64,
-    pub side: crate::settings::SideSetting,
-    pub compensation: crate::settings::Compensation,
+    pub(crate) correction: f64,
+    pub(crate) side: crate::settings::SideSetting,
+    pub(crate) compensation: crate::settings::Compensation,
     /// The word that ends a program of the settings' profile.
-    pub end: String,
+    pub(crate) end: String,
     /// Words that profiles write: whoever has a profile for a machine knows what they mean there.
-    pub known: BTreeSet<Code>,
+    pub(crate) known: BTreeSet<Code>,
     /// A program that does not say otherwise is in inches.
-    pub inch: bool,
+    pub(crate) inch: bool,
     /// Somebody has said in what the numbers of programs are.
-    pub has_unit: bool,
+    pub(crate) has_unit: bool,
     /// Where full circles alone leave open how I and J are meant.
-    pub center: CenterRule,
-    pub profile: Option<Arc<Profile>>,
+    pub(crate) center: CenterRule,
+    pub(crate) profile: Option<Arc<Profile>>,
 }
 
 impl Limits {
-    pub fn of(settings: &Effective) -> Limits {
+    pub(crate) fn of(settings: &Effective) -> Limits {
         Limits {
             correction: settings.correction,
             side: settings.side,
@@ -49,7 +49,7 @@ impl Limits {
     }
 
     /// The lines that the settings' profile writes besides those that move the wire.
-    pub fn lines(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn lines(&self) -> impl Iterator<Item = &str> {
         self.profile
             .iter()
             .flat_map(|profile| lines_of(profile))

@@ -18,10 +18,10 @@ const MIDDLE_TOLERANCE: f64 = 2.5;
 /// Where a move leads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::program) struct Target {
-    pub motion: Motion,
-    pub to: Place,
-    pub bend: Bent,
-    pub side: Option<Side>,
+    pub(crate) motion: Motion,
+    pub(crate) to: Place,
+    pub(crate) bend: Bent,
+    pub(crate) side: Option<Side>,
 }
 
 /// About what an arc runs.
@@ -34,7 +34,7 @@ pub(in crate::program) enum Bent {
 
 impl Target {
     /// What a move does.
-    pub fn of(made: &Move, reading: &Reading) -> Target {
+    pub(crate) fn of(made: &Move, reading: &Reading) -> Target {
         let bend = match (made.is_arc(), made.bend) {
             (true, Bend::Radius(radius)) => Bent::Radius(radius),
             (true, _) => made
@@ -51,7 +51,7 @@ impl Target {
     }
 
     /// Whether a move runs along the same arc, or like this one along none.
-    pub fn is_along(&self, made: &Move, reading: &Reading) -> bool {
+    pub(crate) fn is_along(&self, made: &Move, reading: &Reading) -> bool {
         let bend = match self.bend {
             Bent::Line => return !made.is_arc(),
             Bent::Radius(radius) => Bend::Radius(radius),
@@ -148,15 +148,15 @@ pub(super) fn prove(
 
 /// A line that is written anew.
 pub(super) struct Line<'a> {
-    pub bytes: &'a [u8],
-    pub parted: bool,
-    pub style: Style,
-    pub reading: &'a Reading,
+    pub(crate) bytes: &'a [u8],
+    pub(crate) parted: bool,
+    pub(crate) style: Style,
+    pub(crate) reading: &'a Reading,
 }
 
 impl Line<'_> {
     /// The line with the words that lead to `target` from where the machine stands before it. All other words stay.
-    pub fn leading(&self, target: &Target, before: &Machine) -> Result<Vec<u8>, String> {
+    pub(crate) fn leading(&self, target: &Target, before: &Machine) -> Result<Vec<u8>, String> {
         let block = read_line(self.bytes, 1, |_| {});
         let incremental = block.incremental.unwrap_or(before.incremental);
         let base = if incremental { before.at } else { before.zero };

@@ -8,29 +8,29 @@ use super::word::Number;
 use crate::finding::Side;
 use crate::geometry::{Arc, Point, Segment};
 use crate::program::path::Writing;
-pub use crate::settings::CenterRule;
+pub(crate) use crate::settings::CenterRule;
 
 /// Nanometres in a micrometre.
-pub const MICROMETRE: i64 = 1_000;
+pub(crate) const MICROMETRE: i64 = 1_000;
 
 /// A place in nm.
-pub type Place = [i64; 2];
+pub(crate) type Place = [i64; 2];
 
 /// How the numbers of a program are to be read: found from the program as a whole.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reading {
     /// A number without decimal point is in µm (tenths of a thousandth of an inch); else it is in mm (inches) like the others.
-    pub whole_numbers_are_fine: bool,
+    pub(crate) whole_numbers_are_fine: bool,
     /// Of arcs under G90.
-    pub absolute: CenterRule,
+    pub(crate) absolute: CenterRule,
     /// Of arcs under G91; never [`CenterRule::Absolute`].
-    pub incremental: CenterRule,
+    pub(crate) incremental: CenterRule,
     /// By how much the ends of an arc may lie unlike far from its centre, nm.
-    pub tolerance: i64,
+    pub(crate) tolerance: i64,
 }
 
 impl Reading {
-    pub fn rule(&self, incremental: bool) -> CenterRule {
+    pub(crate) fn rule(&self, incremental: bool) -> CenterRule {
         if incremental {
             self.incremental
         } else {
@@ -39,7 +39,7 @@ impl Reading {
     }
 
     /// How the program says where its moves lead.
-    pub fn writing(&self) -> Writing {
+    pub(crate) fn writing(&self) -> Writing {
         Writing {
             names_places: true,
             slack: self.tolerance as f64 / 1e3,
@@ -47,7 +47,7 @@ impl Reading {
     }
 
     /// A length as it is written, in nm.
-    pub fn length(&self, number: Number, inch: bool) -> i64 {
+    pub(crate) fn length(&self, number: Number, inch: bool) -> i64 {
         if !number.point && self.whole_numbers_are_fine {
             return number.mantissa * if inch { 2_540 } else { MICROMETRE };
         }
@@ -68,7 +68,7 @@ impl Reading {
 
 /// Where an arc says that its centre is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bend {
+pub(crate) enum Bend {
     /// I and J in nm, as written, and where they would lie as absolute coordinates.
     Center { i: i64, j: i64, absolute: Place },
     /// R in nm; negative for more than a half turn.
@@ -79,25 +79,25 @@ pub enum Bend {
 
 /// One move of the wire.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Move {
-    pub motion: Motion,
-    pub from: Place,
-    pub to: Place,
-    pub bend: Bend,
+pub(crate) struct Move {
+    pub(crate) motion: Motion,
+    pub(crate) from: Place,
+    pub(crate) to: Place,
+    pub(crate) bend: Bend,
     /// It was written under G91.
-    pub incremental: bool,
+    pub(crate) incremental: bool,
     /// The side of travel on which the control lets the wire run beside this move.
-    pub side: Option<Side>,
-    pub offset: Option<Offset>,
+    pub(crate) side: Option<Side>,
+    pub(crate) offset: Option<Offset>,
     /// G41 or G42 (true) or G40 (false) takes effect with this move.
-    pub switches: Option<bool>,
+    pub(crate) switches: Option<bool>,
     /// The corner that the control makes at its end.
-    pub corner: Option<Corner>,
+    pub(crate) corner: Option<Corner>,
 }
 
 /// Where an arc runs, or why it does not.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Course {
+pub(crate) enum Course {
     Line,
     /// µm.
     Arc(Arc),
@@ -111,16 +111,16 @@ pub enum Course {
 }
 
 impl Move {
-    pub fn is_arc(&self) -> bool {
+    pub(crate) fn is_arc(&self) -> bool {
         matches!(self.motion, Motion::Clockwise | Motion::CounterClockwise)
     }
 
-    pub fn is_cut(&self) -> bool {
+    pub(crate) fn is_cut(&self) -> bool {
         self.motion != Motion::Rapid
     }
 
     /// The centre under a rule, nm; `None` where I and J do not stand.
-    pub fn center(&self, rule: CenterRule) -> Option<Place> {
+    pub(crate) fn center(&self, rule: CenterRule) -> Option<Place> {
         let Bend::Center { i, j, absolute } = self.bend else {
             return None;
         };
@@ -136,14 +136,14 @@ impl Move {
     }
 
     /// By how much further the start is from the centre than the end under a rule, nm. 0 where there is no centre.
-    pub fn difference(&self, rule: CenterRule) -> f64 {
+    pub(crate) fn difference(&self, rule: CenterRule) -> f64 {
         self.center(rule).map_or(0.0, |center| {
             distance(self.from, center) - distance(self.to, center)
         })
     }
 
     /// Where the move runs.
-    pub fn course(&self, reading: &Reading) -> Course {
+    pub(crate) fn course(&self, reading: &Reading) -> Course {
         if !self.is_arc() {
             return Course::Line;
         }
@@ -204,7 +204,7 @@ impl Move {
     }
 
     /// The line or arc in µm; the chord where an arc does not run.
-    pub fn segment(&self, reading: &Reading) -> Segment {
+    pub(crate) fn segment(&self, reading: &Reading) -> Segment {
         match self.course(reading) {
             Course::Arc(arc) => Segment::Arc(arc),
             _ => Segment::line(micrometres(self.from), micrometres(self.to)),
@@ -212,12 +212,12 @@ impl Move {
     }
 
     /// The same move, started at the zero of the plane.
-    pub fn at_origin(self) -> Move {
+    pub(crate) fn at_origin(self) -> Move {
         self.seen_from(self.from)
     }
 
     /// The same move with `place` as the zero of the plane.
-    pub fn seen_from(self, place: Place) -> Move {
+    pub(crate) fn seen_from(self, place: Place) -> Move {
         let back = place.map(i64::wrapping_neg);
         let mut moved = self.shifted(back);
         if let Bend::Center { absolute, .. } = &mut moved.bend {
@@ -227,7 +227,7 @@ impl Move {
     }
 
     /// The same move, started elsewhere. A centre in absolute coordinates stays.
-    pub fn shifted(mut self, by: Place) -> Move {
+    pub(crate) fn shifted(mut self, by: Place) -> Move {
         self.from = added(self.from, by);
         self.to = added(self.to, by);
         self
@@ -235,7 +235,7 @@ impl Move {
 }
 
 /// I and J for a centre, as the program's arcs have them.
-pub fn bend_about(center: Place, from: Place, incremental: bool, reading: &Reading) -> Bend {
+pub(crate) fn bend_about(center: Place, from: Place, incremental: bool, reading: &Reading) -> Bend {
     let [i, j] = [0, 1].map(|axis| center[axis].wrapping_sub(from[axis]));
     match reading.rule(incremental) {
         CenterRule::CenterToStart => Bend::Center {
@@ -251,62 +251,62 @@ pub fn bend_about(center: Place, from: Place, incremental: bool, reading: &Readi
     }
 }
 
-pub fn micrometres(place: Place) -> Point {
+pub(crate) fn micrometres(place: Place) -> Point {
     Point::new(place[0] as f64 / 1e3, place[1] as f64 / 1e3)
 }
 
-pub fn added(place: Place, by: Place) -> Place {
+pub(crate) fn added(place: Place, by: Place) -> Place {
     [place[0].wrapping_add(by[0]), place[1].wrapping_add(by[1])]
 }
 
 /// From `b` to `a`.
-pub fn apart(a: Place, b: Place) -> Place {
+pub(crate) fn apart(a: Place, b: Place) -> Place {
     [a[0].wrapping_sub(b[0]), a[1].wrapping_sub(b[1])]
 }
 
-pub fn distance(a: Place, b: Place) -> f64 {
+pub(crate) fn distance(a: Place, b: Place) -> f64 {
     ((a[0].wrapping_sub(b[0])) as f64).hypot((a[1].wrapping_sub(b[1])) as f64)
 }
 
 /// What is in force, and where the wire stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Machine {
+pub(crate) struct Machine {
     /// Where the wire stands, nm.
-    pub at: Place,
+    pub(crate) at: Place,
     /// Where the zero of the program's coordinates lies: G92 moves it.
-    pub zero: Place,
+    pub(crate) zero: Place,
     /// Where the wire stands is not known, since a coordinate could not be read.
-    pub lost: [bool; 2],
+    pub(crate) lost: [bool; 2],
     /// It was not known at some time since the last rapid or stop.
-    pub torn: bool,
-    pub motion: Motion,
-    pub incremental: bool,
-    pub inch: bool,
-    pub side: Option<Side>,
-    pub offset: Option<Offset>,
+    pub(crate) torn: bool,
+    pub(crate) motion: Motion,
+    pub(crate) incremental: bool,
+    pub(crate) inch: bool,
+    pub(crate) side: Option<Side>,
+    pub(crate) offset: Option<Offset>,
     /// What G40, G41 or G42 last said has not been followed by a move yet.
-    pub switches: Option<bool>,
+    pub(crate) switches: Option<bool>,
     /// The wire has moved since the beginning or the last stop.
-    pub moved: bool,
+    pub(crate) moved: bool,
     /// G92 has said where the wire stands.
-    pub stated: bool,
-    pub ended: bool,
+    pub(crate) stated: bool,
+    pub(crate) ended: bool,
     /// The corner behind the last move was cut off: how far from its sharp point the next one begins.
-    pub cut_short: Option<Place>,
-    pub trail: Trail,
+    pub(crate) cut_short: Option<Place>,
+    pub(crate) trail: Trail,
 }
 
 /// What was cut last without a stop or a rapid behind it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Trail {
+pub(crate) struct Trail {
     /// The last cut and the one before, seen from where they end.
-    pub last: [Option<Move>; 2],
+    pub(crate) last: [Option<Move>; 2],
     /// Tells whether a line says what the last one with a move said.
-    pub said: u64,
+    pub(crate) said: u64,
 }
 
 impl Trail {
-    pub fn push(&mut self, made: &Move) {
+    pub(crate) fn push(&mut self, made: &Move) {
         let along = [0, 1].map(|axis| made.to[axis].wrapping_sub(made.from[axis]));
         let before = self.last[0].map(|before| loose(before.seen_from(along)));
         self.last = [Some(loose(made.seen_from(made.to))), before];
@@ -345,7 +345,7 @@ impl Default for Machine {
 
 impl Machine {
     /// Does what a line says. The move it makes is given back; none where the wire stands still, or where it stands is not known.
-    pub fn run(&mut self, block: &Block, reading: &Reading) -> Option<Move> {
+    pub(crate) fn run(&mut self, block: &Block, reading: &Reading) -> Option<Move> {
         if let Some(inch) = block.inch {
             self.inch = inch;
         }

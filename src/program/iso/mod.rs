@@ -37,13 +37,15 @@ mod tests;
 pub(crate) mod word;
 mod write;
 
-pub use block::{Block, Compensation, Corner, Motion, Note, Offset, Stop, read_line};
+pub use block::read_line;
+pub(crate) use block::{Block, Compensation, Corner, Motion, Note, Offset, Stop};
 pub use document::Document;
-pub use layout::format;
+pub(crate) use layout::format;
 pub(crate) use numbers::renamed;
 pub(in crate::program) use taper::{Words as TaperWords, refuse_anywhere as refuse_taper};
 
-pub use machine::{CenterRule, Course, Machine, Move, Reading};
-pub use plain::words;
-pub use word::{Number, Term, Token, Value, WordFault};
-pub use write::{write, write_with};
+pub(crate) use machine::{CenterRule, Course, Machine, Move, Reading};
+pub(crate) use plain::words;
+pub(crate) use word::{Number, Term, Token, Value, WordFault};
+pub use write::write;
+pub(crate) use write::write_with;

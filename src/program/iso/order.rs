@@ -18,26 +18,26 @@ pub(super) const MOST_CALLS: usize = 20_000;
 
 /// The lines of a program in the order in which they run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Order {
-    pub lines: Vec<Range<usize>>,
+pub(crate) struct Order {
+    pub(crate) lines: Vec<Range<usize>>,
     /// The line of each N and O number.
-    pub labels: FxHashMap<u32, usize>,
+    pub(crate) labels: FxHashMap<u32, usize>,
     /// The numbers that are called.
-    pub called: FxHashSet<u32>,
+    pub(crate) called: FxHashSet<u32>,
     /// Lines that call a subprogram which is not in the text, with its number.
-    pub missing: Vec<(usize, u32)>,
+    pub(crate) missing: Vec<(usize, u32)>,
     /// Subprograms that go on into what stands behind them: the line behind which M99 is missing, with the number.
-    pub unreturned: Vec<(usize, u32)>,
+    pub(crate) unreturned: Vec<(usize, u32)>,
     /// The line at which the calls were no longer followed: they go too deep or never end.
-    pub endless: Option<usize>,
+    pub(crate) endless: Option<usize>,
     /// The line at which nothing more was run, since it would have been too much.
-    pub left_out: Option<usize>,
+    pub(crate) left_out: Option<usize>,
     /// How many lines may run in all.
-    pub most_lines: usize,
+    pub(crate) most_lines: usize,
 }
 
 /// Follows the calls of a program that has some.
-pub fn order(text: &SourceText) -> Order {
+pub(crate) fn order(text: &SourceText) -> Order {
     let most_lines = MOST_LINES + 2 * text.line_count();
     let order = Order {
         most_lines,

@@ -6,7 +6,7 @@ use crate::program::alike::{Alike, alike};
 use std::ops::Range;
 
 /// Hands each token of a line, which is without its line end, to `each`. Ranges are counted from `offset`.
-pub fn words(line: &[u8], offset: usize, mut each: impl FnMut(Token)) {
+pub(crate) fn words(line: &[u8], offset: usize, mut each: impl FnMut(Token)) {
     if !line.is_ascii()
         && let Some(plain) = Plain::of(line)
     {
@@ -84,6 +84,6 @@ impl Plain {
 }
 
 /// A line with the characters of its words as those that they look like; `None` where none is another.
-pub fn plain(line: &[u8]) -> Option<Vec<u8>> {
+pub(crate) fn plain(line: &[u8]) -> Option<Vec<u8>> {
     Plain::of(line).map(|plain| plain.bytes)
 }

@@ -20,7 +20,7 @@ const MOST_LENGTHS: usize = 4;
 impl Stretch {
     /// Runs the first `count` of `lines`, each with the byte at which it begins, counted from `start`; those behind say how the last of
     /// them run.
-    pub fn run<'a>(
+    pub(crate) fn run<'a>(
         lines: impl Lines<'a>,
         count: usize,
         start: usize,
@@ -39,7 +39,7 @@ impl Stretch {
     }
 
     /// The same without paths; `each` hears of every move of a run.
-    pub fn run_with<'a>(
+    pub(crate) fn run_with<'a>(
         mut lines: impl Lines<'a>,
         count: usize,
         start: usize,
@@ -380,7 +380,7 @@ impl Stretch {
 }
 
 /// Lines, each with the byte at which it begins, that can be gone through more than once.
-pub trait Lines<'a>: Iterator<Item = (usize, &'a [u8])> + Clone {}
+pub(crate) trait Lines<'a>: Iterator<Item = (usize, &'a [u8])> + Clone {}
 
 impl<'a, I: Iterator<Item = (usize, &'a [u8])> + Clone> Lines<'a> for I {}
 
@@ -424,7 +424,7 @@ fn mark_of(block: &Block, made: &Move) -> u64 {
 }
 
 /// From the first to the last byte of a line that is no space.
-pub fn words_of(line: &[u8], offset: usize) -> (u32, u32) {
+pub(crate) fn words_of(line: &[u8], offset: usize) -> (u32, u32) {
     let leading = line
         .iter()
         .take_while(|byte| byte.is_ascii_whitespace())

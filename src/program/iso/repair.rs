@@ -103,7 +103,7 @@ fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
 }
 
 /// What one slip may stand behind.
-pub fn is_trouble(finding: &Finding) -> bool {
+pub(crate) fn is_trouble(finding: &Finding) -> bool {
     match finding.rule {
         Rule::Syntax | Rule::NotClosed | Rule::MixedNumbers => {
             finding.severity <= Severity::Warning
@@ -124,7 +124,7 @@ pub fn is_trouble(finding: &Finding) -> bool {
     }
 }
 
-pub fn line_of(document: &Document, finding: &Finding) -> Option<usize> {
+pub(crate) fn line_of(document: &Document, finding: &Finding) -> Option<usize> {
     match &finding.place {
         Place::Text { range } => Some(document.text().line_of(range.start)),
         _ => None,

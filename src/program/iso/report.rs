@@ -38,7 +38,7 @@ impl Document {
     }
 
     /// The same without the blocks that are only suspected.
-    pub fn plain_findings(&self) -> Vec<Finding> {
+    pub(crate) fn plain_findings(&self) -> Vec<Finding> {
         plain_findings(self)
     }
 

@@ -7,47 +7,53 @@ use crate::program::path::{HeldWay, Lay, Node, mixed};
 
 /// Consecutive cuts without rapid or stop between, or the part of them that lies in one stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Run {
+pub(crate) struct Run {
     /// The first two and the last two moves that lead anywhere; the same one may be several of them.
-    pub first: [Move; 2],
-    pub last: [Move; 2],
-    pub moves: u32,
-    pub arcs: u32,
+    pub(crate) first: [Move; 2],
+    pub(crate) last: [Move; 2],
+    pub(crate) moves: u32,
+    pub(crate) arcs: u32,
     /// Twice the signed area in nm², about the place where the run begins.
-    pub twice_area: i128,
+    pub(crate) twice_area: i128,
     /// The line that begins it, bytes from the start of the stretch.
-    pub range: (u32, u32),
+    pub(crate) range: (u32, u32),
     /// The line that ends it.
-    pub last_range: (u32, u32),
+    pub(crate) last_range: (u32, u32),
     /// Nothing of it was lost to lines that could not be read.
-    pub whole: bool,
+    pub(crate) whole: bool,
     /// In one of its lines, or between them, something is wrong.
-    pub faulty: bool,
+    pub(crate) faulty: bool,
     /// It goes on in the next stretch.
-    pub open: bool,
+    pub(crate) open: bool,
     /// It is the continuation of the one before.
-    pub continues: bool,
+    pub(crate) continues: bool,
     /// The stop behind it, before anything else moves, bytes from the start of the stretch; [`SEVERAL`] for more than one.
-    pub stop: Option<u32>,
+    pub(crate) stop: Option<u32>,
     /// The side that the control let the wire run on, where that was one and the same from the second move to the one before the last.
-    pub side: RunSide,
+    pub(crate) side: RunSide,
     /// Where the wire was sent to the other side first, and the line that did so.
-    pub flip: Option<(Place, (u32, u32))>,
+    pub(crate) flip: Option<(Place, (u32, u32))>,
 }
 
 /// Stands for more than one stop.
-pub const SEVERAL: u32 = u32::MAX;
+pub(crate) const SEVERAL: u32 = u32::MAX;
 
 /// On which side of a run the wire was sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RunSide {
+pub(crate) enum RunSide {
     None,
     One(Side),
     Both,
 }
 
 impl Run {
-    pub fn begin(first: Move, cap: f64, range: (u32, u32), continues: bool, whole: bool) -> Run {
+    pub(crate) fn begin(
+        first: Move,
+        cap: f64,
+        range: (u32, u32),
+        continues: bool,
+        whole: bool,
+    ) -> Run {
         let side = first.side.map_or(RunSide::None, RunSide::One);
         let twice_area = cap as i128;
         Run {
@@ -68,7 +74,7 @@ impl Run {
         }
     }
 
-    pub fn start(&self) -> Place {
+    pub(crate) fn start(&self) -> Place {
         self.first[0].from
     }
 
@@ -88,7 +94,7 @@ impl Run {
             .wrapping_add(cap as i128)
     }
 
-    pub fn push(&mut self, step: Move, cap: f64, range: (u32, u32)) {
+    pub(crate) fn push(&mut self, step: Move, cap: f64, range: (u32, u32)) {
         self.twice_area = self.twice_area.wrapping_add(self.term(&step, cap));
         if self.moves == 1 {
             self.first[1] = step;
@@ -104,7 +110,7 @@ impl Run {
     }
 
     /// Appends the continuation of a run; the ranges stay those of the beginning.
-    pub fn append(&mut self, next: &Run) {
+    pub(crate) fn append(&mut self, next: &Run) {
         // The area of the continuation was taken about its own beginning.
         let (origin, its) = (self.start(), next.start());
         let shift = [
@@ -138,7 +144,7 @@ impl Run {
         self.side = joined(self.side, next.side);
     }
 
-    pub fn shift(&mut self, by: Place) {
+    pub(crate) fn shift(&mut self, by: Place) {
         for step in self.first.iter_mut().chain(&mut self.last) {
             *step = step.shifted(by);
         }
@@ -149,7 +155,7 @@ impl Run {
 }
 
 /// The second move has the wire on the other side than the first.
-pub fn changes_side(one: &Move, other: &Move) -> bool {
+pub(crate) fn changes_side(one: &Move, other: &Move) -> bool {
     matches!((one.side, other.side), (Some(one), Some(other)) if one != other)
 }
 
@@ -162,19 +168,19 @@ fn joined(a: RunSide, b: RunSide) -> RunSide {
 }
 
 /// Hears of every move of a run: the run's index, the move, the place of its words.
-pub type Hears<'a> = dyn FnMut(usize, &Move, (u32, u32)) + 'a;
+pub(crate) type Hears<'a> = dyn FnMut(usize, &Move, (u32, u32)) + 'a;
 
 /// The moves of a run as they are made.
 #[derive(Default)]
-pub struct Ways(Vec<Move>);
+pub(crate) struct Ways(Vec<Move>);
 
 impl Ways {
-    pub fn push(&mut self, step: Move) {
+    pub(crate) fn push(&mut self, step: Move) {
         self.0.push(step);
     }
 
     /// How the run lies on itself.
-    pub fn lay(self, reading: &Reading) -> Lay {
+    pub(crate) fn lay(self, reading: &Reading) -> Lay {
         let start = self.0.first().map_or([0, 0], |step| step.from);
         let mut way = HeldWay::from(Node::at(Point::origin()), reading.writing());
         for step in &self.0 {
@@ -213,22 +219,22 @@ impl Ways {
 
 /// An arc that may be tighter than a correction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tight {
-    pub arc: Move,
+pub(crate) struct Tight {
+    pub(crate) arc: Move,
     /// µm, taken about its own start: the same wherever it lies.
-    pub radius: f64,
+    pub(crate) radius: f64,
     /// Bytes from the start of the stretch; the whole line's words.
-    pub range: (u32, u32),
+    pub(crate) range: (u32, u32),
     /// The run that it is part of, by its index in the stretch.
-    pub run: u32,
+    pub(crate) run: u32,
 }
 
 /// The smallest radii among some arcs, µm; infinite where there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tightest {
+pub(crate) struct Tightest {
     /// Of those beside which the control lets the wire run on a side, and of the others.
-    pub offset: f64,
-    pub plain: f64,
+    pub(crate) offset: f64,
+    pub(crate) plain: f64,
 }
 
 impl Default for Tightest {

@@ -7,9 +7,9 @@ use crate::program::path::Heading;
 
 /// A move and how its numbers are read. It lies near the zero of the plane, so that it comes to the same wherever it is cut.
 #[derive(Clone, Copy, Debug)]
-pub struct Shape<'a> {
-    pub made: Move,
-    pub reading: &'a Reading,
+pub(crate) struct Shape<'a> {
+    pub(crate) made: Move,
+    pub(crate) reading: &'a Reading,
 }
 
 impl Heading for Shape<'_> {
@@ -56,7 +56,7 @@ impl Heading for Shape<'_> {
 }
 
 /// Where a move leads at its start and at its end, of any length; `None` where it leads nowhere.
-pub fn directions(made: &Move, reading: &Reading) -> Option<(Vector, Vector)> {
+pub(crate) fn directions(made: &Move, reading: &Reading) -> Option<(Vector, Vector)> {
     if !made.is_arc() {
         let along = micrometres(made.to) - micrometres(made.from);
         return (made.from != made.to).then_some((along, along));

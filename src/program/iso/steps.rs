@@ -19,10 +19,10 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Begun {
     /// Its first move, which is the way in where it has one.
-    pub from: Place,
-    pub to: Place,
-    pub last: Move,
-    pub moves: u32,
+    pub(crate) from: Place,
+    pub(crate) to: Place,
+    pub(crate) last: Move,
+    pub(crate) moves: u32,
 }
 
 /// A line that runs, and what it does.

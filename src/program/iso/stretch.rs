@@ -15,19 +15,19 @@ use crate::program::steps::Sum;
 use std::ops::Range;
 
 /// Lines that have been run, whose paths are yet to be found.
-pub struct Pathless {
-    pub stretch: Stretch,
-    pub ways: Vec<Ways>,
+pub(crate) struct Pathless {
+    pub(crate) stretch: Stretch,
+    pub(crate) ways: Vec<Ways>,
 }
 
 impl Pathless {
     /// What is in force behind it.
-    pub fn after(&self) -> Machine {
+    pub(crate) fn after(&self) -> Machine {
         self.stretch.after
     }
 
     /// How each run lies on itself: what takes time, and hangs on nothing but the moves.
-    pub fn with_paths(self) -> Stretch {
+    pub(crate) fn with_paths(self) -> Stretch {
         let Pathless { mut stretch, ways } = self;
         stretch.lays = ways
             .into_iter()
@@ -42,78 +42,78 @@ impl Pathless {
 
 /// A word whose meaning is a matter of the machine, where it stands first, and how often.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Foreign {
-    pub code: Code,
-    pub range: (u32, u32),
-    pub count: u32,
+pub(crate) struct Foreign {
+    pub(crate) code: Code,
+    pub(crate) range: (u32, u32),
+    pub(crate) count: u32,
 }
 
 /// A value for the control's table.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Definition {
-    pub offset: Offset,
-    pub terms: Vec<Term>,
-    pub inch: bool,
-    pub range: (u32, u32),
+pub(crate) struct Definition {
+    pub(crate) offset: Offset,
+    pub(crate) terms: Vec<Term>,
+    pub(crate) inch: bool,
+    pub(crate) range: (u32, u32),
 }
 
 /// Lines that have been run.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Stretch {
-    pub before: Machine,
-    pub after: Machine,
+pub(crate) struct Stretch {
+    pub(crate) before: Machine,
+    pub(crate) after: Machine,
     /// How the numbers were read.
-    pub reading: Reading,
-    pub evidence: Evidence,
+    pub(crate) reading: Reading,
+    pub(crate) evidence: Evidence,
     /// What is wrong in single lines; places are bytes from the start of the stretch.
-    pub faults: Vec<Finding>,
+    pub(crate) faults: Vec<Finding>,
     /// In the order of their runs, where they lay before the stretch was moved, as `runs`.
-    pub tight: Vec<Tight>,
-    pub tightest: Tightest,
-    pub runs: Vec<Run>,
+    pub(crate) tight: Vec<Tight>,
+    pub(crate) tightest: Tightest,
+    pub(crate) runs: Vec<Run>,
     /// By how much it has been moved since its lines were run.
-    pub moved: Place,
+    pub(crate) moved: Place,
     /// Of each run, how it lies on itself.
-    pub lays: Vec<Lay>,
+    pub(crate) lays: Vec<Lay>,
     /// About all of them, µm, where they lay before the stretch was moved.
-    pub bounds: Option<Bounds>,
+    pub(crate) bounds: Option<Bounds>,
     /// The runs that begin and end here are known to have nothing wrong with them as a whole.
-    pub is_quiet: bool,
-    pub foreign: Vec<Foreign>,
-    pub definitions: Vec<Definition>,
+    pub(crate) is_quiet: bool,
+    pub(crate) foreign: Vec<Foreign>,
+    pub(crate) definitions: Vec<Definition>,
     /// The first lengths without a decimal point that are not 0, and the first with one.
-    pub lengths: [Vec<(u32, u32)>; 2],
+    pub(crate) lengths: [Vec<(u32, u32)>; 2],
     /// How many lines behind its own say how its last ones run.
-    pub ahead: u32,
+    pub(crate) ahead: u32,
     /// A word of it has the control make a corner.
-    pub has_corners: bool,
+    pub(crate) has_corners: bool,
     /// N words with the byte at which they stand.
-    pub numbers: Vec<(u32, u32)>,
+    pub(crate) numbers: Vec<(u32, u32)>,
     /// Each of them is larger than the one before.
-    pub numbers_rise: bool,
+    pub(crate) numbers_rise: bool,
     /// Lines that may have an N word.
-    pub blocks: u32,
+    pub(crate) blocks: u32,
     /// Where a program or subprogram begins (`O`), whose numbers count for themselves: how many N words stand before it.
-    pub programs: Vec<u32>,
+    pub(crate) programs: Vec<u32>,
     /// A cut that was going on before these lines ends with none of them; true where all of it could be read.
-    pub ends_run_before: Option<bool>,
+    pub(crate) ends_run_before: Option<bool>,
     /// The stop before the first cut of these lines, as [`Run::stop`].
-    pub stop_before: Option<u32>,
+    pub(crate) stop_before: Option<u32>,
     /// Something is wrong in a line that belongs to that cut.
-    pub faulty_before: bool,
+    pub(crate) faulty_before: bool,
     /// The first words behind the end.
-    pub behind_end: Option<(u32, u32)>,
+    pub(crate) behind_end: Option<(u32, u32)>,
     /// The last line that says anything.
-    pub last_words: Option<(u32, u32)>,
+    pub(crate) last_words: Option<(u32, u32)>,
     /// A subprogram is called.
-    pub calls: bool,
+    pub(crate) calls: bool,
     /// Blocks that move the wire, and stops on the way.
-    pub moves: u32,
-    pub pauses: u32,
+    pub(crate) moves: u32,
+    pub(crate) pauses: u32,
     /// What the steps of its lines come to, wherever the stops of contours are.
-    pub sum: Sum,
+    pub(crate) sum: Sum,
     /// It holds coordinates under G90, or an absolute centre, or G92: what it does hangs on where the wire stands before.
-    pub fixed: bool,
+    pub(crate) fixed: bool,
 }
 
 /// A stretch and where it stands.
@@ -129,53 +129,53 @@ pub type StopAt = (usize, u32);
 
 impl Stretch {
     /// True when these lines do the same wherever the wire stands before them.
-    pub fn is_loose(&self) -> bool {
+    pub(crate) fn is_loose(&self) -> bool {
         !self.fixed
     }
 
     /// Moves everything that these lines do by `by`.
-    pub fn shift(&mut self, by: Place) {
+    pub(crate) fn shift(&mut self, by: Place) {
         self.before.at = added(self.before.at, by);
         self.after.at = added(self.after.at, by);
         self.moved = added(self.moved, by);
     }
 
     /// A cut begins or ends in here: what comes behind does not hang on those before.
-    pub fn parts_cuts(&self) -> bool {
+    pub(crate) fn parts_cuts(&self) -> bool {
         self.ends_run_before.is_some() || self.runs.iter().any(|run| !run.continues)
     }
 
-    pub fn run_count(&self) -> usize {
+    pub(crate) fn run_count(&self) -> usize {
         self.runs.len()
     }
 
     /// A run, where it lies.
-    pub fn run_at(&self, index: usize) -> Option<Run> {
+    pub(crate) fn run_at(&self, index: usize) -> Option<Run> {
         let mut run = *self.runs.get(index)?;
         run.shift(self.moved);
         Some(run)
     }
 
-    pub fn runs(&self) -> impl Iterator<Item = Run> + '_ {
+    pub(crate) fn runs(&self) -> impl Iterator<Item = Run> + '_ {
         (0..self.runs.len()).filter_map(|index| self.run_at(index))
     }
 
     /// Where a run begins, how many moves and arcs it has.
-    pub fn extent(&self, index: usize) -> Option<(Place, u32, u32)> {
+    pub(crate) fn extent(&self, index: usize) -> Option<(Place, u32, u32)> {
         self.runs
             .get(index)
             .map(|run| (added(run.start(), self.moved), run.moves, run.arcs))
     }
 
     /// The runs that begin and end here.
-    pub fn inner(&self) -> Range<usize> {
+    pub(crate) fn inner(&self) -> Range<usize> {
         let first = usize::from(self.runs.first().is_some_and(|run| run.continues));
         let end = self.runs.len() - usize::from(self.runs.last().is_some_and(|run| run.open));
         first..end.max(first)
     }
 
     /// The arcs of a run that may be tighter than a correction, where they lie.
-    pub fn tight_of(&self, run: usize) -> impl Iterator<Item = Tight> + '_ {
+    pub(crate) fn tight_of(&self, run: usize) -> impl Iterator<Item = Tight> + '_ {
         let first = self
             .tight
             .partition_point(|tight| (tight.run as usize) < run);

@@ -15,7 +15,7 @@ const MOST_DECIMALS: [u8; 2] = [6, 5];
 
 /// How lengths are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Style {
+pub(crate) struct Style {
     /// Whole micrometres (ten-thousandths of an inch) without a point.
     fine: bool,
     decimals: u8,
@@ -26,7 +26,7 @@ pub struct Style {
 
 impl Style {
     /// The style of a program, for numbers in inches or millimetres.
-    pub fn of(document: &Document, inch: bool) -> Style {
+    pub(crate) fn of(document: &Document, inch: bool) -> Style {
         let profile = document.limits.profile.as_ref();
         // Where nothing has been written yet the profile says it.
         let fine = match document.evidence().numbers {
@@ -62,12 +62,12 @@ impl Style {
         }
     }
 
-    pub fn is_inch(&self) -> bool {
+    pub(crate) fn is_inch(&self) -> bool {
         self.inch
     }
 
     /// What the last digit stands for, nm.
-    pub fn step(&self) -> i64 {
+    pub(crate) fn step(&self) -> i64 {
         match (self.fine, self.inch) {
             (true, false) => 1_000,
             (true, true) => 2_540,
@@ -78,7 +78,7 @@ impl Style {
     }
 
     /// The nearest length that can be written, nm.
-    pub fn rounded(&self, length: i64) -> i64 {
+    pub(crate) fn rounded(&self, length: i64) -> i64 {
         self.steps(length).wrapping_mul(self.step())
     }
 
@@ -92,7 +92,7 @@ impl Style {
     }
 
     /// The number of a length in nm.
-    pub fn number(&self, length: i64) -> String {
+    pub(crate) fn number(&self, length: i64) -> String {
         let steps = self.steps(length);
         let sign = if steps < 0 { "-" } else { "" };
         let steps = steps.unsigned_abs();

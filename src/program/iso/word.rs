@@ -7,15 +7,15 @@ use std::ops::Range;
 
 /// A number as it is written: `mantissa · 10^−decimals`. Whether it had a decimal point tells millimetres from micrometres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Number {
-    pub mantissa: i64,
-    pub decimals: u8,
-    pub point: bool,
+pub(crate) struct Number {
+    pub(crate) mantissa: i64,
+    pub(crate) decimals: u8,
+    pub(crate) point: bool,
 }
 
 impl Number {
     /// The number where it is a whole one, such as that of G01 or N10.
-    pub fn whole(self) -> Option<i64> {
+    pub(crate) fn whole(self) -> Option<i64> {
         let factor = 10_i64.checked_pow(u32::from(self.decimals))?;
         (self.mantissa % factor == 0).then_some(self.mantissa / factor)
     }
@@ -23,7 +23,7 @@ impl Number {
 
 /// One thing that stands in a line.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Token {
+pub(crate) enum Token {
     /// `G01`, `X-1.5`: the letter in upper case.
     Word {
         letter: u8,
@@ -67,7 +67,7 @@ pub enum Token {
 
 impl Token {
     /// Where it stands.
-    pub fn range_mut(&mut self) -> &mut Range<usize> {
+    pub(crate) fn range_mut(&mut self) -> &mut Range<usize> {
         match self {
             Token::Word { range, .. }
             | Token::Definition { range, .. }
@@ -82,7 +82,7 @@ impl Token {
     }
 
     /// The same in another place.
-    pub fn moved(mut self, place: impl Fn(Range<usize>) -> Range<usize>) -> Token {
+    pub(crate) fn moved(mut self, place: impl Fn(Range<usize>) -> Range<usize>) -> Token {
         let range = self.range_mut();
         *range = place(range.clone());
         self
@@ -92,12 +92,12 @@ impl Token {
 /// A term of a sum, with its sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Term {
-    pub is_negative: bool,
-    pub value: Value,
+    pub(crate) is_negative: bool,
+    pub(crate) value: Value,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Value {
+pub(crate) enum Value {
     Number(Number),
     /// What another place of the control's table holds.
     Place {
@@ -134,7 +134,7 @@ pub enum WordFault {
 
 impl WordFault {
     /// What is told of it: it stands at `start` of its line, and at `range` of the text.
-    pub fn finding(self, line: &[u8], start: usize, range: Range<usize>) -> Finding {
+    pub(crate) fn finding(self, line: &[u8], start: usize, range: Range<usize>) -> Finding {
         let column = start + 1;
         let bytes = line.get(start..start + range.len()).unwrap_or_default();
         let shown: String = String::from_utf8_lossy(&bytes[..bytes.len().min(48)])
@@ -170,7 +170,7 @@ impl WordFault {
 
 impl WordFault {
     /// What it means is read all the same.
-    pub fn is_read(self) -> bool {
+    pub(crate) fn is_read(self) -> bool {
         matches!(
             self,
             WordFault::OpenComment

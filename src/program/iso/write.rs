@@ -24,7 +24,7 @@ pub fn write(
 }
 
 /// As [`write()`]; `go_on` hears every few thousand segments how many are done and how many there are, and ends the work with `false`.
-pub fn write_with(
+pub(crate) fn write_with(
     paths: &[WirePath],
     unit_mm: f64,
     settings: &Effective,

@@ -18,20 +18,20 @@ const LONGEST_WAY_OUT: usize = 12;
 const BEHIND_A_STOP: usize = 16;
 
 /// The ends of a way, which alone tell of nearly all ways that they close.
-pub struct Ends {
+pub(crate) struct Ends {
     /// Where it begins, and where its first two blocks end.
-    pub begin: [Node; 3],
+    pub(crate) begin: [Node; 3],
     /// Where its last block begins and ends.
-    pub end: [Node; 2],
-    pub blocks: usize,
+    pub(crate) end: [Node; 2],
+    pub(crate) blocks: usize,
     /// µm.
-    pub tolerance: f64,
+    pub(crate) tolerance: f64,
 }
 
 impl Ends {
     /// True where they come back to the start or to the end of a way in of one or two blocks; a way out that goes elsewhere counts as one
     /// only where it runs neither back along the way in nor on in its direction.
-    pub fn close(&self) -> bool {
+    pub(crate) fn close(&self) -> bool {
         let ([start, first, second], [last, end]) = (self.begin, self.end);
         let is_near = |one: Node, other: Node| one.is_near(&other, self.tolerance);
         self.blocks == 0
@@ -51,15 +51,15 @@ fn runs_along(first: Vector, last: Vector) -> bool {
 
 /// How a way falls into way in, contour and way out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Closing {
-    pub closed: bool,
+pub(crate) struct Closing {
+    pub(crate) closed: bool,
     /// Blocks; none where the contour is open.
-    pub lead_in: usize,
-    pub lead_out: usize,
+    pub(crate) lead_in: usize,
+    pub(crate) lead_out: usize,
 }
 
 /// Whether a way holds a closed contour, and where; `None` where that hangs on blocks that are not held.
-pub fn closing(way: &dyn Way) -> Option<Closing> {
+pub(crate) fn closing(way: &dyn Way) -> Option<Closing> {
     let count = way.count();
     if count == 0 {
         return Some(Closing::default());
@@ -230,7 +230,7 @@ const LOOKED_THROUGH: usize = 16;
 
 /// Whether a way holds a closed contour that goes round something. Passes to and fro that leave the tab come back to where they begin,
 /// too, on the way on which they went.
-pub fn goes_round(way: &dyn Way) -> Option<bool> {
+pub(crate) fn goes_round(way: &dyn Way) -> Option<bool> {
     let closing = closing(way)?;
     let pieces = closing.lead_in..way.count() - closing.lead_out;
     let looked_at = (pieces.len() / 2).min(LOOKED_THROUGH);
@@ -253,7 +253,7 @@ fn is_mirrored(way: &dyn Way, tolerance: f64) -> Option<bool> {
 
 /// How far a way that does not close ends beside its start, or the end of a way in of one block, whichever is nearer; `None` where that
 /// hangs on blocks that are not held.
-pub fn not_closed(way: &dyn Way) -> Option<Fault> {
+pub(crate) fn not_closed(way: &dyn Way) -> Option<Fault> {
     let count = way.count();
     let end = way.node(count)?.meant;
     let beside = |index: usize| Some(end - way.node(index)?.meant);
@@ -265,7 +265,7 @@ pub fn not_closed(way: &dyn Way) -> Option<Fault> {
 
 /// Whether a way that goes on behind a stop belongs to the contour before it, which is open: it closes the contour or comes to meet it.
 /// `before` are the blocks up to the stop, `whole` those and the ones behind it.
-pub fn is_tab(before: &dyn Way, behind: &dyn Way, whole: &dyn Way) -> Option<bool> {
+pub(crate) fn is_tab(before: &dyn Way, behind: &dyn Way, whole: &dyn Way) -> Option<bool> {
     if before.count() == 0 || behind.count() == 0 || goes_round(before)? || goes_round(behind)? {
         return Some(false);
     }

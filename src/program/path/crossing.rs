@@ -11,9 +11,9 @@ use std::cell::Cell;
 /// Two pieces, by their index, and where they cross.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::program) struct Crossing {
-    pub first: usize,
-    pub second: usize,
-    pub at: Point,
+    pub(crate) first: usize,
+    pub(crate) second: usize,
+    pub(crate) at: Point,
 }
 
 /// Crossings that are told of one contour; more tell nobody more.
@@ -46,11 +46,11 @@ pub(in crate::program) fn margin(arcs: usize) -> f64 {
 
 /// A way by its pieces, each of which begins where the one before ends.
 pub(in crate::program) struct Tangle<'a> {
-    pub piece: &'a dyn Fn(usize) -> Option<Segment>,
-    pub count: usize,
-    pub margin: f64,
+    pub(crate) piece: &'a dyn Fn(usize) -> Option<Segment>,
+    pub(crate) count: usize,
+    pub(crate) margin: f64,
     /// Pieces that have been gone through.
-    pub steps: Cell<usize>,
+    pub(crate) steps: Cell<usize>,
 }
 
 /// Where a way that is held as a whole crosses itself.
@@ -137,7 +137,7 @@ impl Tangle<'_> {
     }
 
     /// The crossings among pairs of pieces that come near each other, in the order of the way; and whether all pairs were looked at.
-    pub fn crossings(&self, mut near: Vec<(usize, usize)>) -> (Vec<Crossing>, bool) {
+    pub(crate) fn crossings(&self, mut near: Vec<(usize, usize)>) -> (Vec<Crossing>, bool) {
         near.sort_unstable_by_key(|&(first, second)| (second, first));
         near.dedup();
         let is_all = near.len() <= MOST_PAIRS;

@@ -25,7 +25,7 @@ type Near = (Box<[(u32, u32)]>, usize);
 
 /// What is known of pairs of parts.
 #[derive(Clone, Debug, Default)]
-pub struct Known {
+pub(crate) struct Known {
     pairs: FxHashMap<Pair, Near>,
     /// What was found in cuts, by their marks.
     found: FxHashMap<u64, Arc<Found>>,
@@ -35,13 +35,13 @@ pub struct Known {
 
 impl Known {
     /// A look through the cuts of a program begins.
-    pub fn begin(&mut self) {
+    pub(crate) fn begin(&mut self) {
         self.used = [0, 0];
     }
 
     /// Where a cut of so many parts crosses itself, by its mark: its way is asked for only where nothing is known of it. Cuts have one
     /// mark where they run on one way and stop before one block of it.
-    pub fn crossings<'a>(
+    pub(crate) fn crossings<'a>(
         &mut self,
         mark: u64,
         parts: usize,
@@ -74,7 +74,7 @@ impl Known {
     }
 
     /// The look has ended: forgets all where much more is known than is in use.
-    pub fn tidy(&mut self) {
+    pub(crate) fn tidy(&mut self) {
         let [pairs, cuts] = self.used;
         if self.pairs.len() > 4 * pairs + 16_384 {
             self.pairs.clear();
@@ -87,21 +87,21 @@ impl Known {
 
 /// What was found in a cut.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Found {
-    pub crossings: Vec<Crossing>,
+pub(crate) struct Found {
+    pub(crate) crossings: Vec<Crossing>,
     /// So much lies on one place that not all of it was looked at.
-    pub is_crowded: bool,
+    pub(crate) is_crowded: bool,
     /// Pairs of parts that were held against each other.
     pairs: usize,
 }
 
 impl Found {
-    pub fn is_clean(&self) -> bool {
+    pub(crate) fn is_clean(&self) -> bool {
         self.crossings.is_empty() && !self.is_crowded
     }
 
     /// What is told of them.
-    pub fn findings(&self, way: &PartedWay<'_>, text: &SourceText) -> Vec<Finding> {
+    pub(crate) fn findings(&self, way: &PartedWay<'_>, text: &SourceText) -> Vec<Finding> {
         let mut findings = Vec::new();
         for crossing in &self.crossings {
             let (Some(from), Some(own)) = (way.range(crossing.first), way.range(crossing.second))

@@ -6,24 +6,24 @@ use std::ops::Range;
 
 /// A contour with its ways in and out, or the way between two contours.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Cut {
+pub(crate) struct Cut {
     /// As the trace counts them.
-    pub contour: usize,
+    pub(crate) contour: usize,
     /// Indices of the trace's steps; all of them move but the pauses before tabs.
-    pub steps: Range<usize>,
+    pub(crate) steps: Range<usize>,
     /// Steps at the beginning that lead to the contour.
-    pub lead_in: usize,
+    pub(crate) lead_in: usize,
     /// Steps at the end that lead away from it.
-    pub lead_out: usize,
+    pub(crate) lead_out: usize,
     /// The steps between them come back to where they begin.
-    pub closed: bool,
+    pub(crate) closed: bool,
     /// Nothing is cut here.
-    pub is_way: bool,
+    pub(crate) is_way: bool,
 }
 
 impl Cut {
     /// Indices of the steps of the contour itself.
-    pub fn contour_steps(&self) -> Range<usize> {
+    pub(crate) fn contour_steps(&self) -> Range<usize> {
         self.steps.start + self.lead_in
             ..self
                 .steps
@@ -34,7 +34,7 @@ impl Cut {
 }
 
 /// The cuts of a trace, in its order.
-pub fn cuts(trace: &Trace) -> Vec<Cut> {
+pub(crate) fn cuts(trace: &Trace) -> Vec<Cut> {
     let mut found = Vec::new();
     let mut index = 0;
     while let Some(first) = trace.steps.get(index) {
@@ -94,7 +94,7 @@ fn cut_in(trace: &Trace, steps: Range<usize>) -> Cut {
 }
 
 /// What a chain of steps comes to, its steps counted from 0; `None` where it hangs on steps that the chain does not hold.
-pub fn cut_of(chain: &Chain<'_>) -> Option<Cut> {
+pub(crate) fn cut_of(chain: &Chain<'_>) -> Option<Cut> {
     let first = chain.step(0);
     let contour = first.map_or(0, |step| step.contour);
     let all = Cut {

@@ -24,7 +24,7 @@ const MET: f64 = 2.0;
 const SHORTEST: f64 = 4.0;
 
 /// Where a block leads, as far as its joints tell.
-pub trait Heading {
+pub(crate) trait Heading {
     fn is_arc(&self) -> bool;
     /// Its directions at its start and at its end, of any length; `None` where it leads nowhere.
     fn directions(&self) -> Option<[Vector; 2]>;
@@ -77,7 +77,7 @@ impl Heading for Segment {
 
 /// A joint that may be a fault: what comes next says so.
 #[derive(Debug)]
-pub enum Joint<H> {
+pub(crate) enum Joint<H> {
     /// An arc that would go on from the block before without a corner if it ran the other way round.
     Reversed { made: H, is_back: bool },
     /// Out, and back on the same way; how the wire came to where that began, and how it went out.
@@ -90,7 +90,7 @@ pub enum Joint<H> {
 }
 
 /// How a block goes on from the two before it; `None` where nothing is odd about it.
-pub fn joint<H: Heading>(came: Option<H>, before: &H, made: H) -> Option<Joint<H>> {
+pub(crate) fn joint<H: Heading>(came: Option<H>, before: &H, made: H) -> Option<Joint<H>> {
     let [out, heading] = before.directions()?;
     let [start, _] = made.directions()?;
     let turned = turn(heading, start);
@@ -123,7 +123,7 @@ pub fn joint<H: Heading>(came: Option<H>, before: &H, made: H) -> Option<Joint<H
 
 impl<H: Heading> Joint<H> {
     /// What is wrong, seen with the next block of the same contour.
-    pub fn fault(&self, next: Option<&H>) -> Option<Fault> {
+    pub(crate) fn fault(&self, next: Option<&H>) -> Option<Fault> {
         let [ahead, _] = next?.directions()?;
         match self {
             Joint::Reversed { made, is_back } => {
@@ -151,7 +151,7 @@ impl<H: Heading> Joint<H> {
 }
 
 /// What is wrong at the joint at which `made` begins, in a language whose blocks say where their centres are.
-pub fn odd_joint(
+pub(crate) fn odd_joint(
     came: Option<Segment>,
     before: Segment,
     made: Segment,
@@ -164,7 +164,7 @@ pub fn odd_joint(
 }
 
 /// Whether a joint may be odd: it turns back on itself, or nearly. Costs next to nothing.
-pub fn may_be_odd(before: &Segment, made: &Segment) -> bool {
+pub(crate) fn may_be_odd(before: &Segment, made: &Segment) -> bool {
     let (Some([_, heading]), Some([start, _])) = (before.directions(), made.directions()) else {
         return false;
     };
@@ -186,6 +186,6 @@ fn tangent<H: Heading>(made: &H) -> Option<f64> {
 }
 
 /// The turn between two directions, radians.
-pub fn turn(from: Vector, to: Vector) -> f64 {
+pub(crate) fn turn(from: Vector, to: Vector) -> f64 {
     cross(from, to).atan2(from.dot(&to)).abs()
 }

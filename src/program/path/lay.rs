@@ -7,21 +7,21 @@ use crate::geometry::{Bounds, Segment};
 
 /// What a part of a cut comes to by itself.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Lay {
+pub(crate) struct Lay {
     /// Tells two parts apart: equal ways have equal marks.
-    pub mark: u64,
+    pub(crate) mark: u64,
     /// µm, seen from its beginning.
-    pub bounds: Bounds,
+    pub(crate) bounds: Bounds,
     /// Blocks of it that come near each other, by their number in the part, neighbours left out.
-    pub near: Box<[(u32, u32)]>,
+    pub(crate) near: Box<[(u32, u32)]>,
     /// It holds a closed contour, and one that goes round something.
-    pub closes: bool,
-    pub goes_round: bool,
+    pub(crate) closes: bool,
+    pub(crate) goes_round: bool,
 }
 
 impl Lay {
     /// Of a way that begins at the origin.
-    pub fn of(way: &HeldWay, mark: u64) -> Lay {
+    pub(crate) fn of(way: &HeldWay, mark: u64) -> Lay {
         let boxes: Vec<Bounds> = way.pieces().iter().map(Segment::bounds).collect();
         let mut near = Vec::new();
         near_each_other(way.pieces(), &boxes, &mut |first, second| {
@@ -40,7 +40,7 @@ impl Lay {
 }
 
 /// What the mark of a way becomes with one field more.
-pub fn mixed(mark: u64, field: u64) -> u64 {
+pub(crate) fn mixed(mark: u64, field: u64) -> u64 {
     (mark ^ field)
         .wrapping_mul(0x2545_f491_4f6c_dd1d)
         .rotate_left(23)

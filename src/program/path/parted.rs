@@ -9,33 +9,33 @@ use std::ops::Range;
 
 /// Blocks of a way that are held together: what an edit leaves as it was.
 #[derive(Clone, Copy, Debug)]
-pub struct Part<'a> {
-    pub lay: &'a Lay,
-    pub blocks: usize,
-    pub arcs: usize,
+pub(crate) struct Part<'a> {
+    pub(crate) lay: &'a Lay,
+    pub(crate) blocks: usize,
+    pub(crate) arcs: usize,
     /// Where it begins, seen from the beginning of the way, nm.
-    pub start: [i64; 2],
+    pub(crate) start: [i64; 2],
 }
 
 impl Part<'_> {
     /// Where it begins, µm.
-    pub fn offset(&self) -> Vector {
+    pub(crate) fn offset(&self) -> Vector {
         micrometres(self.start)
     }
 
     /// Its box where it lies.
-    pub fn placed(&self) -> Bounds {
+    pub(crate) fn placed(&self) -> Bounds {
         self.lay.bounds.moved(self.offset())
     }
 }
 
 /// A displacement of whole nm in µm.
-pub fn micrometres(nm: [i64; 2]) -> Vector {
+pub(crate) fn micrometres(nm: [i64; 2]) -> Vector {
     Vector::new(nm[0] as f64 * 1e-3, nm[1] as f64 * 1e-3)
 }
 
 /// What hands out the blocks of parts.
-pub trait Blocks: Sync {
+pub(crate) trait Blocks: Sync {
     /// Those of a part, from the origin on.
     fn pieces(&self, part: usize) -> Vec<Segment>;
 
@@ -51,9 +51,9 @@ pub trait Blocks: Sync {
 }
 
 /// A way in parts. Costs these, and the blocks of those that are asked for.
-pub struct PartedWay<'a> {
-    pub blocks: Box<dyn Blocks + 'a>,
-    pub parts: Vec<Part<'a>>,
+pub(crate) struct PartedWay<'a> {
+    pub(crate) blocks: Box<dyn Blocks + 'a>,
+    pub(crate) parts: Vec<Part<'a>>,
     /// Blocks before each part.
     firsts: Vec<usize>,
     pieces: Vec<OnceCell<Vec<Segment>>>,
@@ -69,7 +69,7 @@ pub struct PartedWay<'a> {
 const SLACK: f64 = 1.0;
 
 impl<'a> PartedWay<'a> {
-    pub fn new(
+    pub(crate) fn new(
         blocks: Box<dyn Blocks + 'a>,
         parts: Vec<Part<'a>>,
         stop: Option<usize>,
@@ -94,7 +94,7 @@ impl<'a> PartedWay<'a> {
     }
 
     /// Bytes of a block by its number.
-    pub fn range(&self, index: usize) -> Option<Range<usize>> {
+    pub(crate) fn range(&self, index: usize) -> Option<Range<usize>> {
         let part = self.part_of(index)?;
         self.blocks.range(part, index - self.firsts.get(part)?)
     }
@@ -186,13 +186,17 @@ const LARGE: f64 = 2e6;
 /// What is asked of a cut that lies in parts. Its ends tell it of nearly all, else the lay of the `only` part that holds all of it, else
 /// its whole way.
 impl Ends {
-    pub fn closes<'a>(&self, only: Option<&Lay>, way: impl FnOnce() -> PartedWay<'a>) -> bool {
+    pub(crate) fn closes<'a>(
+        &self,
+        only: Option<&Lay>,
+        way: impl FnOnce() -> PartedWay<'a>,
+    ) -> bool {
         let by_way = || closing(&way()).is_some_and(|closing| closing.closed);
         self.close() || only.map_or_else(by_way, |lay| lay.closes)
     }
 
     /// Whether it goes round something: passes to and fro do not. `twice_area` is in µm².
-    pub fn go_round<'a>(
+    pub(crate) fn go_round<'a>(
         &self,
         twice_area: f64,
         only: Option<&Lay>,

@@ -11,7 +11,7 @@ const BETWEEN: usize = 6;
 const BESIDE: f64 = 1_000.0;
 
 /// The passes of a way, the ways in and out with the first and the last of them; none where it goes round once.
-pub fn passes(way: &dyn Way) -> Vec<Range<usize>> {
+pub(crate) fn passes(way: &dyn Way) -> Vec<Range<usize>> {
     may_have_passes(way)
         .and_then(|()| found(way))
         .filter(|passes| passes.len() > 1)
@@ -59,7 +59,7 @@ fn found(way: &dyn Way) -> Option<Vec<Range<usize>>> {
 }
 
 /// All pieces of a way; `None` where they are not held.
-pub fn pieces_of(way: &dyn Way) -> Option<Vec<Segment>> {
+pub(crate) fn pieces_of(way: &dyn Way) -> Option<Vec<Segment>> {
     let mut pieces = Vec::with_capacity(way.count());
     way.pieces_about(Point::origin(), f64::INFINITY, &mut |_, piece| {
         pieces.push(*piece);

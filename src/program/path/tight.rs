@@ -4,9 +4,9 @@
 const ROUNDING: f64 = 0.5;
 
 /// Lengths of programs in those that people read.
-pub const UM_IN_MM: f64 = 1000.0;
+pub(crate) const UM_IN_MM: f64 = 1000.0;
 
 /// Whether a radius is below a correction, µm both.
-pub fn is_tight(radius: f64, correction: f64) -> bool {
+pub(crate) fn is_tight(radius: f64, correction: f64) -> bool {
     radius < correction - ROUNDING
 }

@@ -31,10 +31,10 @@ pub struct Step {
     /// Line of the text, from 0.
     pub line: usize,
     /// Number that the block carries (`N12`).
-    pub number: Option<u32>,
+    pub(crate) number: Option<u32>,
     pub kind: Kind,
     /// Where the machine stands before and after the step, µm.
-    pub start: Point,
+    pub(crate) start: Point,
     pub end: Point,
     /// The line or arc that the block means, from `start`, µm. `None` where nothing moves, and for a block that means none
     /// (`arc-without-radius`, …): the machine stays there.
@@ -44,18 +44,18 @@ pub struct Step {
     /// The side of travel on which the control lets the wire run, where the program says it.
     pub side: Option<Side>,
     /// The block counts from where it begins, so its words do not say where it ends.
-    pub is_relative: bool,
+    pub(crate) is_relative: bool,
 }
 
 impl Step {
     /// From the ideal end to where the machine stops, µm.
-    pub fn miss(&self) -> Vector {
+    pub(crate) fn miss(&self) -> Vector {
         self.ideal
             .map_or_else(Vector::zeros, |ideal| self.end - ideal.end())
     }
 
     /// Distance of the machine's end from the ideal end, µm.
-    pub fn deviation(&self) -> f64 {
+    pub(crate) fn deviation(&self) -> f64 {
         self.miss().norm()
     }
 
@@ -76,22 +76,22 @@ impl Step {
 pub struct Trace {
     pub steps: Vec<Step>,
     /// Where the program begins, µm: the origin where it does not say.
-    pub start: Point,
+    pub(crate) start: Point,
     /// The program says where it begins.
-    pub start_is_known: bool,
+    pub(crate) start_is_known: bool,
     /// How it says where its blocks lead.
-    pub writing: Writing,
+    pub(crate) writing: Writing,
 }
 
 impl Trace {
     /// Where the machine stands at the end, µm.
-    pub fn end(&self) -> Point {
+    pub(crate) fn end(&self) -> Point {
         self.steps.last().map_or(self.start, |step| step.end)
     }
 
     /// The same program as its blocks mean it: every step begins where the one before means to end, not where a counting machine has
     /// drifted to.
-    pub fn as_meant(mut self) -> Trace {
+    pub(crate) fn as_meant(mut self) -> Trace {
         let mut at = self.start;
         for step in &mut self.steps {
             let by = at - step.start;
@@ -104,12 +104,12 @@ impl Trace {
     }
 
     /// From the program's start to its end, µm: zero for a program that closes.
-    pub fn closure(&self) -> Vector {
+    pub(crate) fn closure(&self) -> Vector {
         self.end() - self.start
     }
 
     /// Length of the way in µm, along the ideal lines and arcs.
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         self.steps
             .iter()
             .filter_map(|step| step.ideal.as_ref())
@@ -118,7 +118,7 @@ impl Trace {
     }
 
     /// The box of the way, µm; `None` where nothing moves.
-    pub fn bounds(&self) -> Option<Bounds> {
+    pub(crate) fn bounds(&self) -> Option<Bounds> {
         let mut bounds = Bounds::EMPTY;
         for step in self.steps.iter().filter(|step| step.moves()) {
             bounds.include(step.start);
@@ -133,7 +133,7 @@ impl Trace {
 
 /// Consecutive steps that move, between two stops, of which only the first and the last are held where they are many.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Chain<'a> {
+pub(crate) struct Chain<'a> {
     /// The first steps; all of them where `tail` is empty.
     head: Cow<'a, [Step]>,
     tail: Vec<Step>,
@@ -150,10 +150,10 @@ pub struct Chain<'a> {
 
 impl<'a> Chain<'a> {
     /// Steps of either end that are held of a long chain.
-    pub const ENDS: usize = 24;
+    pub(crate) const ENDS: usize = 24;
 
     /// A chain that holds all its steps.
-    pub fn of(steps: impl Into<Cow<'a, [Step]>>, writing: Writing) -> Chain<'a> {
+    pub(crate) fn of(steps: impl Into<Cow<'a, [Step]>>, writing: Writing) -> Chain<'a> {
         let head: Cow<'a, [Step]> = steps.into();
         let arcs = head.iter().filter(|step| step.kind == Kind::Arc).count();
         Chain {
@@ -169,7 +169,7 @@ impl<'a> Chain<'a> {
     }
 
     /// A chain of `count` steps, `arcs` of them arcs, by its first and last ones; together the blocks mean to lead by `meant`, µm.
-    pub fn by_ends(
+    pub(crate) fn by_ends(
         head: Vec<Step>,
         tail: Vec<Step>,
         (count, arcs): (usize, usize),
@@ -191,16 +191,16 @@ impl<'a> Chain<'a> {
     }
 
     /// The same with a stop behind so many steps, before its tab.
-    pub fn stopping(self, stop: Option<usize>) -> Chain<'a> {
+    pub(crate) fn stopping(self, stop: Option<usize>) -> Chain<'a> {
         Chain { stop, ..self }
     }
 
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.count
     }
 
     /// A step by its index, where it is held.
-    pub fn step(&self, index: usize) -> Option<&Step> {
+    pub(crate) fn step(&self, index: usize) -> Option<&Step> {
         let in_tail = || {
             self.tail
                 .get((index + self.tail.len()).checked_sub(self.count)?)

@@ -3,29 +3,29 @@
 use crate::geometry::{Point, Segment};
 
 /// How far a way of so many arcs may end beside a place and still end in it, µm: rounding adds up as a random walk.
-pub fn tolerance(arcs: usize) -> f64 {
+pub(crate) fn tolerance(arcs: usize) -> f64 {
     2.0 + (arcs as f64).sqrt()
 }
 
 /// Where a way stands between two of its blocks, µm.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Node {
+pub(crate) struct Node {
     /// Where the machine stands.
-    pub stands: Point,
+    pub(crate) stands: Point,
     /// Where it would, did it not drift while it counts.
-    pub meant: Point,
+    pub(crate) meant: Point,
 }
 
 impl Node {
     /// A node of a program that names its places.
-    pub fn at(point: Point) -> Node {
+    pub(crate) fn at(point: Point) -> Node {
         Node {
             stands: point,
             meant: point,
         }
     }
 
-    pub fn is_near(&self, other: &Node, tolerance: f64) -> bool {
+    pub(crate) fn is_near(&self, other: &Node, tolerance: f64) -> bool {
         (self.stands - other.stands).norm() <= tolerance
             || (self.meant - other.meant).norm() <= tolerance
     }
@@ -33,15 +33,15 @@ impl Node {
 
 /// How a program says where its blocks lead.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Writing {
+pub(crate) struct Writing {
     /// Its places are named, not only the ways between them.
-    pub names_places: bool,
+    pub(crate) names_places: bool,
     /// How far ends that are meant as one may lie apart because numbers are written so coarsely, µm.
-    pub slack: f64,
+    pub(crate) slack: f64,
 }
 
 /// Blocks that cut one after another. What is `None` is not held.
-pub trait Way {
+pub(crate) trait Way {
     fn count(&self) -> usize;
     fn arcs(&self) -> usize;
     fn writing(&self) -> Writing;
@@ -69,7 +69,7 @@ pub trait Way {
 
 /// A way of which everything is held.
 #[derive(Clone, Debug, Default)]
-pub struct HeldWay {
+pub(crate) struct HeldWay {
     nodes: Vec<Node>,
     pieces: Vec<Segment>,
     arcs: usize,
@@ -78,7 +78,7 @@ pub struct HeldWay {
 }
 
 impl HeldWay {
-    pub fn from(start: Node, writing: Writing) -> HeldWay {
+    pub(crate) fn from(start: Node, writing: Writing) -> HeldWay {
         HeldWay {
             nodes: vec![start],
             writing,
@@ -86,17 +86,17 @@ impl HeldWay {
         }
     }
 
-    pub fn pieces(&self) -> &[Segment] {
+    pub(crate) fn pieces(&self) -> &[Segment] {
         &self.pieces
     }
 
     /// What comes next stands behind a stop.
-    pub fn stop_here(&mut self) {
+    pub(crate) fn stop_here(&mut self) {
         self.stop.get_or_insert(self.pieces.len());
     }
 
     /// One block more: what it means, from where the way is meant to stand, and where the machine stands behind it.
-    pub fn push(&mut self, piece: Segment, is_arc: bool, end: Node) {
+    pub(crate) fn push(&mut self, piece: Segment, is_arc: bool, end: Node) {
         self.pieces.push(piece);
         self.nodes.push(end);
         self.arcs += usize::from(is_arc);

@@ -38,10 +38,10 @@ pub struct Proposal {
 /// One refactoring of a language.
 pub(in crate::program) struct Refactoring<N: Notation> {
     /// Kind of its code action.
-    pub id: &'static str,
-    pub title: fn(&Effective) -> String,
+    pub(crate) id: &'static str,
+    pub(crate) title: fn(&Effective) -> String,
     /// The edits, sorted and disjoint; none where there is nothing to do. Errors say why it cannot be done: lower-case, no final dot.
-    pub rewrite: fn(&Sheet<'_, N>) -> Result<Vec<TextEdit>, String>,
+    pub(crate) rewrite: fn(&Sheet<'_, N>) -> Result<Vec<TextEdit>, String>,
 }
 
 /// All of a language, in the order in which they are offered.

@@ -10,16 +10,16 @@ use std::collections::BTreeMap;
 /// What a refactoring does to a program.
 pub(in crate::program) struct Rewrite<N: Notation> {
     /// By row, what stands in its place; rows that are not named stay.
-    pub rows: BTreeMap<usize, Vec<N::New>>,
+    pub(crate) rows: BTreeMap<usize, Vec<N::New>>,
     /// Where the program begins afterwards, where that changes.
-    pub start: Option<Node>,
+    pub(crate) start: Option<Node>,
     /// Where it ends afterwards, µm, where that changes.
-    pub end: Option<Point>,
-    pub extra: N::Extra,
+    pub(crate) end: Option<Point>,
+    pub(crate) extra: N::Extra,
 }
 
 impl<N: Notation> Rewrite<N> {
-    pub fn new() -> Rewrite<N> {
+    pub(crate) fn new() -> Rewrite<N> {
         Rewrite {
             rows: BTreeMap::new(),
             start: None,
@@ -29,7 +29,7 @@ impl<N: Notation> Rewrite<N> {
     }
 
     /// The edits of the text, proved; none where nothing changes.
-    pub fn edits(
+    pub(crate) fn edits(
         self,
         sheet: &Sheet<'_, N>,
         content: &Content<N>,
@@ -54,7 +54,7 @@ impl<N: Notation> Rewrite<N> {
     }
 
     /// The moves of the program as it is meant to be.
-    pub fn meant(&self, sheet: &Sheet<'_, N>, content: &Content<N>) -> Vec<N::New> {
+    pub(crate) fn meant(&self, sheet: &Sheet<'_, N>, content: &Content<N>) -> Vec<N::New> {
         let of_row = |row: usize| match self.rows.get(&row) {
             Some(news) => news.clone(),
             None => vec![N::kept(sheet, content, row, row)],

@@ -10,49 +10,49 @@ use std::ops::Range;
 
 /// A move in its line.
 pub(in crate::program) struct Row<N: Notation> {
-    pub line: usize,
+    pub(crate) line: usize,
     /// Where the machine stands before and after it, in the language's steps. Contours close exactly.
-    pub from: Node,
-    pub to: Node,
+    pub(crate) from: Node,
+    pub(crate) to: Node,
     /// What it means, from `from`, µm.
-    pub piece: Segment,
-    pub own: N::Own,
+    pub(crate) piece: Segment,
+    pub(crate) own: N::Own,
 }
 
 /// A contour in rows.
 #[derive(Clone, Debug)]
 pub(in crate::program) struct Contour {
     /// As a person counts them; ways between contours count as none.
-    pub ordinal: usize,
-    pub rows: Range<usize>,
-    pub lead_in: usize,
-    pub lead_out: usize,
-    pub closed: bool,
-    pub is_way: bool,
+    pub(crate) ordinal: usize,
+    pub(crate) rows: Range<usize>,
+    pub(crate) lead_in: usize,
+    pub(crate) lead_out: usize,
+    pub(crate) closed: bool,
+    pub(crate) is_way: bool,
 }
 
 impl Contour {
     /// The rows without the ways in and out.
-    pub fn own_rows(&self) -> Range<usize> {
+    pub(crate) fn own_rows(&self) -> Range<usize> {
         self.rows.start + self.lead_in..self.rows.end - self.lead_out
     }
 }
 
 /// A program for refactoring.
 pub(in crate::program) struct Sheet<'a, N: Notation> {
-    pub document: &'a N::Document,
-    pub settings: &'a Effective,
+    pub(crate) document: &'a N::Document,
+    pub(crate) settings: &'a Effective,
     /// Bytes of the text.
     selection: Range<usize>,
     /// As the blocks mean it.
-    pub trace: Trace,
+    pub(crate) trace: Trace,
     /// Its moves, or why they cannot be told.
     content: Result<Content<N>, String>,
 }
 
 pub(in crate::program) struct Content<N: Notation> {
-    pub rows: Vec<Row<N>>,
-    pub contours: Vec<Contour>,
+    pub(crate) rows: Vec<Row<N>>,
+    pub(crate) contours: Vec<Contour>,
     /// The rows before which the program pauses.
     pauses: Vec<usize>,
     /// Moves say where they lead, not by how much: nothing drifts.
@@ -60,7 +60,7 @@ pub(in crate::program) struct Content<N: Notation> {
 }
 
 impl<'a, N: Notation> Sheet<'a, N> {
-    pub fn new(
+    pub(crate) fn new(
         document: &'a N::Document,
         settings: &'a Effective,
         selection: Range<usize>,
@@ -89,12 +89,12 @@ impl<'a, N: Notation> Sheet<'a, N> {
     }
 
     /// The moves; the error says which line cannot be read.
-    pub fn content(&self) -> Result<&Content<N>, String> {
+    pub(crate) fn content(&self) -> Result<&Content<N>, String> {
         self.content.as_ref().map_err(Clone::clone)
     }
 
     /// Lines that the selection touches.
-    pub fn selected_lines(&self) -> Range<usize> {
+    pub(crate) fn selected_lines(&self) -> Range<usize> {
         let text = N::text(self.document);
         let first = text.line_of(self.selection.start);
         let last = text.line_of(self.selection.end.max(self.selection.start + 1) - 1);
@@ -102,7 +102,7 @@ impl<'a, N: Notation> Sheet<'a, N> {
     }
 
     /// The rows that are selected; all, where not more than one line is.
-    pub fn selected_rows(&self, content: &Content<N>) -> Range<usize> {
+    pub(crate) fn selected_rows(&self, content: &Content<N>) -> Range<usize> {
         let lines = self.selected_lines();
         if lines.len() < 2 {
             return 0..content.rows.len();
@@ -112,7 +112,7 @@ impl<'a, N: Notation> Sheet<'a, N> {
     }
 
     /// The contours that the selection touches; all, where it touches none.
-    pub fn selected_contours<'c>(&self, content: &'c Content<N>) -> Vec<&'c Contour> {
+    pub(crate) fn selected_contours<'c>(&self, content: &'c Content<N>) -> Vec<&'c Contour> {
         let lines = self.selected_lines();
         let cut = || content.contours.iter().filter(|contour| !contour.is_way);
         let touched = |contour: &&Contour| {
@@ -131,21 +131,21 @@ impl<'a, N: Notation> Sheet<'a, N> {
 
 impl<N: Notation> Content<N> {
     /// Where a node lies, µm.
-    pub fn point(node: Node) -> Point {
+    pub(crate) fn point(node: Node) -> Point {
         point_of(node) * N::STEP
     }
 
-    pub fn arcs(&self) -> usize {
+    pub(crate) fn arcs(&self) -> usize {
         let is_arc = |row: &&Row<N>| row.piece.as_arc().is_some();
         self.rows.iter().filter(is_arc).count()
     }
 
-    pub fn is_behind_pause(&self, row: usize) -> bool {
+    pub(crate) fn is_behind_pause(&self, row: usize) -> bool {
         self.pauses.binary_search(&row).is_ok()
     }
 
     /// An error where the contour pauses before its tab: the pause stands where it stands.
-    pub fn refuse_pause(&self, contour: &Contour) -> Result<(), String> {
+    pub(crate) fn refuse_pause(&self, contour: &Contour) -> Result<(), String> {
         let within = |row: &usize| contour.rows.start < *row && *row < contour.rows.end;
         match self.pauses.iter().copied().find(within) {
             Some(row) => Err(say!(
@@ -157,7 +157,7 @@ impl<N: Notation> Content<N> {
     }
 
     /// The rows of a closed contour whose ends are one place; the error says why there are none.
-    pub fn closed(&self, contour: &Contour) -> Result<Range<usize>, String> {
+    pub(crate) fn closed(&self, contour: &Contour) -> Result<Range<usize>, String> {
         self.refuse_pause(contour)?;
         let (own, ordinal) = (contour.own_rows(), contour.ordinal);
         if !contour.closed || own.is_empty() {

@@ -52,11 +52,11 @@ pub(in crate::program) struct Transform {
 }
 
 impl Transform {
-    pub fn of_numbers(self, x: i64, y: i64) -> (i64, i64) {
+    pub(crate) fn of_numbers(self, x: i64, y: i64) -> (i64, i64) {
         (self.xx * x + self.xy * y, self.yx * x + self.yy * y)
     }
 
-    pub fn of_node(self, node: Node) -> Node {
+    pub(crate) fn of_node(self, node: Node) -> Node {
         let (x, y) = self.of_numbers(node.x, node.y);
         Node { x, y }
     }
@@ -72,7 +72,7 @@ impl Transform {
         Point::from(self.of_vector(point.coords))
     }
 
-    pub fn of_segment(self, segment: &Segment) -> Segment {
+    pub(crate) fn of_segment(self, segment: &Segment) -> Segment {
         let Segment::Arc(arc) = segment else {
             return Segment::line(self.of_point(segment.start()), self.of_point(segment.end()));
         };
@@ -88,17 +88,17 @@ impl Transform {
         })
     }
 
-    pub fn mirrors(self) -> bool {
+    pub(crate) fn mirrors(self) -> bool {
         self.xx * self.yy - self.xy * self.yx < 0
     }
 
     /// X becomes Y.
-    pub fn swaps(self) -> bool {
+    pub(crate) fn swaps(self) -> bool {
         self.xx == 0
     }
 
     /// The sign that the coordinate of an axis gets, by the axis on which it stood.
-    pub fn sign(self, axis: usize) -> i64 {
+    pub(crate) fn sign(self, axis: usize) -> i64 {
         match (self.swaps(), axis) {
             (false, 0) => self.xx,
             (false, _) => self.yy,

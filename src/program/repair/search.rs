@@ -38,7 +38,7 @@ pub(in crate::program) enum Change<M> {
 }
 
 impl<M> Change<M> {
-    pub fn index(&self) -> usize {
+    pub(crate) fn index(&self) -> usize {
         match self {
             Change::Replace { index, .. }
             | Change::Delete { index }
@@ -48,7 +48,7 @@ impl<M> Change<M> {
     }
 
     /// How many blocks it takes the place of.
-    pub fn replaced(&self) -> usize {
+    pub(crate) fn replaced(&self) -> usize {
         match self {
             Change::Replace { .. } | Change::Delete { .. } => 1,
             Change::Exchange { .. } => 2,
@@ -60,22 +60,22 @@ impl<M> Change<M> {
 /// A change that makes a contour sound, or sounder.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::program) struct Repair<M> {
-    pub change: Change<M>,
+    pub(crate) change: Change<M>,
     /// It leaves nothing to be said, and no other one is as likely.
-    pub is_sure: bool,
+    pub(crate) is_sure: bool,
     /// Nothing is left to be said of the contour.
-    pub is_whole: bool,
+    pub(crate) is_whole: bool,
 }
 
 /// What a change comes to.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::program) struct Verdict {
     /// How much is left against the contour.
-    pub left: usize,
+    pub(crate) left: usize,
     /// What it asks for: the less, the likelier.
-    pub cost: f64,
+    pub(crate) cost: f64,
     /// Nothing speaks against it but another one that is as likely.
-    pub may_be_sure: bool,
+    pub(crate) may_be_sure: bool,
 }
 
 /// A contour that something is wrong with, as a language holds it.

@@ -6,9 +6,9 @@ use super::words::Words;
 /// A point that stands behind a block, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StatedPoint {
-    pub at: [f64; 2],
+    pub(crate) at: [f64; 2],
     /// The fewest decimals of its two numbers.
-    pub decimals: u8,
+    pub(crate) decimals: u8,
 }
 
 /// `N12`, `N 12`, `N12:`: the number, and how many bytes it takes.

@@ -1,6 +1,6 @@
 //! One block of 3B as typed numbers in micrometres; what it looks like as text is in `layout` and `parse`.
 
-pub use crate::program::grid::Node;
+pub(crate) use crate::program::grid::Node;
 
 /// G: the axis whose projections the controller counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,7 +19,7 @@ pub enum Quadrant {
 }
 
 impl CountingAxis {
-    pub fn other(self) -> CountingAxis {
+    pub(crate) fn other(self) -> CountingAxis {
         match self {
             CountingAxis::X => CountingAxis::Y,
             CountingAxis::Y => CountingAxis::X,
@@ -28,7 +28,7 @@ impl CountingAxis {
 }
 
 impl Quadrant {
-    pub const ALL: [Quadrant; 4] = [
+    pub(crate) const ALL: [Quadrant; 4] = [
         Quadrant::First,
         Quadrant::Second,
         Quadrant::Third,
@@ -46,7 +46,7 @@ impl Quadrant {
         }
     }
 
-    pub fn number(self) -> u8 {
+    pub(crate) fn number(self) -> u8 {
         match self {
             Quadrant::First => 1,
             Quadrant::Second => 2,
@@ -56,7 +56,7 @@ impl Quadrant {
     }
 
     /// Signs of x and y in the quadrant.
-    pub fn signs(self) -> (f64, f64) {
+    pub(crate) fn signs(self) -> (f64, f64) {
         match self {
             Quadrant::First => (1.0, 1.0),
             Quadrant::Second => (-1.0, 1.0),
@@ -66,7 +66,7 @@ impl Quadrant {
     }
 
     /// The quadrant of a direction, or of a point that is left counter-clockwise: each axis belongs to the quadrant after it.
-    pub fn counter_clockwise(x: i64, y: i64) -> Quadrant {
+    pub(crate) fn counter_clockwise(x: i64, y: i64) -> Quadrant {
         match (x, y) {
             (x, y) if x > 0 && y >= 0 => Quadrant::First,
             (x, y) if x <= 0 && y > 0 => Quadrant::Second,
@@ -76,7 +76,7 @@ impl Quadrant {
     }
 
     /// The quadrant of a point that is left clockwise: each axis belongs to the quadrant before it.
-    pub fn clockwise(x: i64, y: i64) -> Quadrant {
+    pub(crate) fn clockwise(x: i64, y: i64) -> Quadrant {
         match (x, y) {
             (x, y) if x >= 0 && y > 0 => Quadrant::First,
             (x, y) if x < 0 && y >= 0 => Quadrant::Second,
@@ -98,11 +98,11 @@ pub enum Motion {
 }
 
 impl Motion {
-    pub fn is_line(self) -> bool {
+    pub(crate) fn is_line(self) -> bool {
         matches!(self, Motion::Line(_))
     }
 
-    pub fn quadrant(self) -> Quadrant {
+    pub(crate) fn quadrant(self) -> Quadrant {
         match self {
             Motion::Line(quadrant)
             | Motion::Clockwise(quadrant)
@@ -127,7 +127,7 @@ pub struct Block {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PartArc {
     /// µm.
-    pub radius: i64,
+    pub(crate) radius: i64,
     /// `DD`: the wire runs inside of the arc, whose radius the correction makes smaller. `D`: outside.
-    pub concave: bool,
+    pub(crate) concave: bool,
 }

@@ -143,7 +143,7 @@ impl Document {
     }
 
     /// Reads again where the settings change what the text means or what is a fault of it.
-    pub fn set_settings(&mut self, settings: &Effective) {
+    pub(crate) fn set_settings(&mut self, settings: &Effective) {
         if self.words != OwnWords::of(settings) || self.limits != Limits::of(settings) {
             *self = Document::read_with(std::mem::take(&mut self.text).into_bytes(), settings);
         }

@@ -4,7 +4,7 @@ use super::block::{Block, CountingAxis, Motion, Node, Quadrant};
 use super::decode::{decode, phase};
 use crate::geometry::{Arc, Line, Segment};
 use crate::program::grid::{chord_count, grid_centers, in_pieces, largest_distance, sagitta};
-pub use crate::program::grid::{point_of, snap};
+pub(crate) use crate::program::grid::{point_of, snap};
 use std::f64::consts::{PI, TAU};
 
 /// How far a decoded block may end from its node, µm.
@@ -18,18 +18,18 @@ const CHORD_SAGITTA: f64 = 0.5;
 
 /// A block, the nodes between which it runs, and the piece of the path that it stands for, in µm.
 #[derive(Clone, Copy, Debug)]
-pub struct Encoded {
-    pub block: Block,
-    pub from: Node,
-    pub to: Node,
-    pub piece: Segment,
+pub(crate) struct Encoded {
+    pub(crate) block: Block,
+    pub(crate) from: Node,
+    pub(crate) to: Node,
+    pub(crate) piece: Segment,
 }
 
 /// Appends the blocks of `piece` (µm) from `from` to `to`, the snapped ends of it. None of their numbers is above `largest`.
 ///
 /// A piece that has no length on the grid, an arc of radius zero among them, appends nothing. `None` when an arc cannot be
 /// written within tolerance, or a number does not fit.
-pub fn encode(
+pub(crate) fn encode(
     piece: &Segment,
     from: Node,
     to: Node,

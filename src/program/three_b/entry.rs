@@ -12,12 +12,12 @@ use std::ops::Range;
 /// A displacement: what the integer machine does in µm, what the blocks mean in nm. Whole numbers, so that sums are exact in any order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::program) struct Move {
-    pub machine: [i64; 2],
-    pub meant: [i64; 2],
+    pub(crate) machine: [i64; 2],
+    pub(crate) meant: [i64; 2],
 }
 
 impl Move {
-    pub fn plus(self, other: Move) -> Move {
+    pub(crate) fn plus(self, other: Move) -> Move {
         let sum = |a: [i64; 2], b: [i64; 2]| [a[0].saturating_add(b[0]), a[1].saturating_add(b[1])];
         Move {
             machine: sum(self.machine, other.machine),
@@ -25,7 +25,7 @@ impl Move {
         }
     }
 
-    pub fn minus(self, other: Move) -> Move {
+    pub(crate) fn minus(self, other: Move) -> Move {
         let difference =
             |a: [i64; 2], b: [i64; 2]| [a[0].saturating_sub(b[0]), a[1].saturating_sub(b[1])];
         Move {
@@ -35,14 +35,14 @@ impl Move {
     }
 
     /// True where machine or meaning come back within `tolerance` µm.
-    pub fn is_within(&self, tolerance: f64) -> bool {
+    pub(crate) fn is_within(&self, tolerance: f64) -> bool {
         let near =
             |[x, y]: [i64; 2], unit: f64| (x as f64 * unit).hypot(y as f64 * unit) <= tolerance;
         near(self.machine, 1.0) || near(self.meant, 1e-3)
     }
 
     /// Where it leads from the origin.
-    pub fn node(&self) -> Node {
+    pub(crate) fn node(&self) -> Node {
         let ([x, y], [a, b]) = (self.meant_um(), self.machine);
         Node {
             stands: Point::new(a as f64, b as f64),
@@ -51,7 +51,7 @@ impl Move {
     }
 
     /// What the blocks mean, µm.
-    pub fn meant_um(&self) -> [f64; 2] {
+    pub(crate) fn meant_um(&self) -> [f64; 2] {
         self.meant.map(|nm| nm as f64 * 1e-3)
     }
 }
@@ -59,20 +59,24 @@ impl Move {
 /// A block as it stands in the text, and where it leads to.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct BlockEntry {
-    pub block: Block,
-    pub travel: Move,
+    pub(crate) block: Block,
+    pub(crate) travel: Move,
     /// What only some blocks have.
-    pub extra: Option<Box<Extra>>,
+    pub(crate) extra: Option<Box<Extra>>,
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Extra {
-    pub part: Option<PartArc>,
-    pub stated_end: Option<StatedPoint>,
+    pub(crate) part: Option<PartArc>,
+    pub(crate) stated_end: Option<StatedPoint>,
 }
 
 impl BlockEntry {
-    pub fn new(block: Block, part: Option<PartArc>, stated_end: Option<StatedPoint>) -> BlockEntry {
+    pub(crate) fn new(
+        block: Block,
+        part: Option<PartArc>,
+        stated_end: Option<StatedPoint>,
+    ) -> BlockEntry {
         let extra =
             (part.is_some() || stated_end.is_some()).then(|| Box::new(Extra { part, stated_end }));
         BlockEntry {
@@ -83,15 +87,15 @@ impl BlockEntry {
     }
 
     /// What a 4B block says beside a 3B block.
-    pub fn part(&self) -> Option<PartArc> {
+    pub(crate) fn part(&self) -> Option<PartArc> {
         self.extra.as_ref().and_then(|extra| extra.part)
     }
 
-    pub fn stated_end(&self) -> Option<StatedPoint> {
+    pub(crate) fn stated_end(&self) -> Option<StatedPoint> {
         self.extra.as_ref().and_then(|extra| extra.stated_end)
     }
 
-    pub fn is_line(&self) -> bool {
+    pub(crate) fn is_line(&self) -> bool {
         matches!(self.block.motion, Motion::Line(_))
     }
 }
@@ -128,26 +132,26 @@ pub(super) enum What {
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
-    pub start: u32,
-    pub length: u32,
-    pub line: u32,
-    pub number: u32,
-    pub what: What,
+    pub(crate) start: u32,
+    pub(crate) length: u32,
+    pub(crate) line: u32,
+    pub(crate) number: u32,
+    pub(crate) what: What,
 }
 
 pub(super) const NO_NUMBER: u32 = u32::MAX;
 
 impl Entry {
     /// Bytes from the run's first byte.
-    pub fn range(&self) -> Range<usize> {
+    pub(crate) fn range(&self) -> Range<usize> {
         self.start as usize..(self.start + self.length) as usize
     }
 
-    pub fn number(&self) -> Option<u32> {
+    pub(crate) fn number(&self) -> Option<u32> {
         (self.number != NO_NUMBER).then_some(self.number)
     }
 
-    pub fn block(&self) -> Option<&BlockEntry> {
+    pub(crate) fn block(&self) -> Option<&BlockEntry> {
         match &self.what {
             What::Block(block) => Some(block),
             _ => None,

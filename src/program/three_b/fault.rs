@@ -4,7 +4,7 @@ use std::ops::Range;
 
 /// What is wrong with a line as text.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Flaw {
+pub(crate) enum Flaw {
     /// It cannot be read: the sentence says what was found and what was expected.
     Unreadable(String),
     /// `B` is missing before the number that begins at this byte.
@@ -22,14 +22,14 @@ pub enum Flaw {
 /// A place that cannot be read as it stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SyntaxFault {
-    pub range: Range<usize>,
-    pub flaw: Flaw,
+    pub(crate) range: Range<usize>,
+    pub(crate) flaw: Flaw,
     /// Number that stands before a block that cannot be read.
-    pub number: Option<u32>,
+    pub(crate) number: Option<u32>,
 }
 
 impl SyntaxFault {
-    pub fn new(range: Range<usize>, flaw: Flaw) -> SyntaxFault {
+    pub(crate) fn new(range: Range<usize>, flaw: Flaw) -> SyntaxFault {
         SyntaxFault {
             range,
             flaw,
@@ -38,7 +38,7 @@ impl SyntaxFault {
     }
 
     /// What was found and what was expected.
-    pub fn sentence(&self) -> String {
+    pub(crate) fn sentence(&self) -> String {
         match &self.flaw {
             Flaw::Unreadable(sentence) | Flaw::NotPlain(sentence) => sentence.clone(),
             Flaw::DecimalCommas => say!(the_coordinates_have_decimal_commas).into(),

@@ -13,20 +13,20 @@ const MOST_DIGITS: usize = 12;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fields {
     /// The first byte of the block.
-    pub first: usize,
+    pub(crate) first: usize,
     pub x: Range<usize>,
     pub y: Range<usize>,
     pub j: Range<usize>,
     /// Radius of a 4B block.
-    pub radius: Option<Range<usize>>,
+    pub(crate) radius: Option<Range<usize>>,
     /// `GX` or `GY`.
     pub axis: Range<usize>,
     /// `D` or `DD` of a 4B block.
-    pub side: Option<Range<usize>>,
+    pub(crate) side: Option<Range<usize>>,
     /// `L1`, `SR2`, `NR3`.
     pub motion: Range<usize>,
     /// Behind the last byte.
-    pub end: usize,
+    pub(crate) end: usize,
 }
 
 impl Fields {
@@ -150,12 +150,12 @@ type Expected = (usize, &'static str);
 
 /// A block in which what was meant is plain.
 pub(super) struct Found {
-    pub block: Block,
-    pub part: Option<PartArc>,
-    pub fields: Fields,
+    pub(crate) block: Block,
+    pub(crate) part: Option<PartArc>,
+    pub(crate) fields: Fields,
     /// Number of the row that stands before the first `B`.
-    pub row: Option<u32>,
-    pub faults: Vec<SyntaxFault>,
+    pub(crate) row: Option<u32>,
+    pub(crate) faults: Vec<SyntaxFault>,
 }
 
 /// A number of the block as it stands.

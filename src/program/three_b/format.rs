@@ -31,7 +31,7 @@ const LOOKED_AT: usize = 1000;
 /// Blocks, words, block numbers, comments and the header with the start stay. Block numbers and end points of the checking layout
 /// are left out of the other two together; an end point that is not the block's own is a fault and stays in every layout. Each block
 /// gets a line of its own. Formatting twice is formatting once.
-pub fn format(
+pub(crate) fn format(
     text: &SourceText,
     layout: Option<Layout>,
     words: &Words<'_>,

@@ -4,7 +4,7 @@
 
 mod around;
 pub(crate) mod block;
-pub(crate) mod decode;
+pub mod decode;
 mod document;
 pub(crate) mod encode;
 mod entry;
@@ -26,16 +26,20 @@ mod tests;
 pub(crate) mod words;
 mod write;
 
-pub use crate::program::write::{ProofError, ProvedProgram};
+pub(crate) use crate::program::write::{ProofError, ProvedProgram};
 
-pub use around::StatedPoint;
-pub use block::{Block, CountingAxis, Motion, Node, PartArc, Quadrant};
-pub use decode::{DecodeFault, decode};
+pub(crate) use around::StatedPoint;
+pub use block::{Block, CountingAxis, Motion, Quadrant};
+pub(crate) use block::{Node, PartArc};
+pub(crate) use decode::DecodeFault;
+pub use decode::decode;
 pub use document::Document;
-pub use encode::{Encoded, encode, snap};
-pub use fault::{Flaw, SyntaxFault};
+pub(crate) use encode::{Encoded, encode, snap};
+pub(crate) use fault::{Flaw, SyntaxFault};
 pub use fields::{Fields, fields_of};
 pub use machine::{interpolate, travel};
 pub use parse::{Item, read, read_line};
-pub use words::{Word, Words};
-pub use write::{write, write_four_b, write_with};
+pub(crate) use words::Word;
+pub use words::Words;
+pub use write::write;
+pub(crate) use write::{write_four_b, write_with};

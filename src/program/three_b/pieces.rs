@@ -9,7 +9,7 @@ use std::ops::Range;
 
 /// What a piece of a line is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Field {
+pub(crate) enum Field {
     /// `N12`, with the colon where one stands.
     Number,
     /// The letter `B` before a number.
@@ -39,13 +39,13 @@ pub enum Field {
 
 /// A piece of a line; bytes from the beginning of the line.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Piece {
-    pub field: Field,
-    pub range: Range<usize>,
+pub(crate) struct Piece {
+    pub(crate) field: Field,
+    pub(crate) range: Range<usize>,
 }
 
 /// Cuts a line, without its line end, into pieces. Space between them belongs to none.
-pub fn pieces(line: &[u8], words: &Words<'_>) -> Vec<Piece> {
+pub(crate) fn pieces(line: &[u8], words: &Words<'_>) -> Vec<Piece> {
     let mut cutter = Cutter {
         line,
         at: if line.starts_with(b"\xef\xbb\xbf") {

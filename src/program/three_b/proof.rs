@@ -13,17 +13,17 @@ use crate::program::path::tolerance;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Proof {
     /// Sum of what each block ends beside its node: where a controller that only counts J has drifted to, µm.
-    pub drift: Vector,
+    pub(crate) drift: Vector,
     /// Largest distance of a block from its piece of the path, over its whole length, µm.
-    pub deviation: f64,
-    pub arcs: usize,
+    pub(crate) deviation: f64,
+    pub(crate) arcs: usize,
     drift_at_start: Vector,
     arcs_at_start: usize,
 }
 
 impl Proof {
     /// Reads `line` again, decodes it from its own node and compares it with its piece of the path.
-    pub fn check_line(
+    pub(crate) fn check_line(
         &mut self,
         line: &[u8],
         words: &Words<'_>,
@@ -88,7 +88,7 @@ impl Proof {
 
     /// The block, or another one that stands for the same arc where a controller that counts would else drift further and further: equal
     /// arcs in a row miss their ends alike.
-    pub fn steadied(&self, encoded: &Encoded, largest: i64) -> Encoded {
+    pub(crate) fn steadied(&self, encoded: &Encoded, largest: i64) -> Encoded {
         let drift = self.drift - self.drift_at_start;
         let drifted = |block: &Block| match decode(block, point_of(encoded.from)) {
             Ok(decoded) => (drift + (decoded.end() - point_of(encoded.to))).norm(),
@@ -110,7 +110,12 @@ impl Proof {
     /// Ends one contour: what it drifted must stay within the tolerance of closing.
     ///
     /// `first` and `last` are its nodes where the path is closed: they must be the same.
-    pub fn finish_contour(&mut self, closed: bool, first: Node, last: Node) -> Result<(), String> {
+    pub(crate) fn finish_contour(
+        &mut self,
+        closed: bool,
+        first: Node,
+        last: Node,
+    ) -> Result<(), String> {
         if closed && first != last {
             return Err(say!(
                 the_cut_begins_at_and_ends_at,

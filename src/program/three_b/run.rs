@@ -21,37 +21,37 @@ use std::ops::Range;
 /// Something found at bytes of the run.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Local {
-    pub range: Range<usize>,
-    pub rule: Rule,
-    pub detail: Detail,
-    pub spot: Spot,
-    pub counts: Counts,
+    pub(crate) range: Range<usize>,
+    pub(crate) rule: Rule,
+    pub(crate) detail: Detail,
+    pub(crate) spot: Spot,
+    pub(crate) counts: Counts,
     /// Index of the part that it lies in.
-    pub part: usize,
+    pub(crate) part: usize,
 }
 
 /// What a stretch of blocks without a word between them comes to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Sum {
-    pub blocks: usize,
-    pub arcs: usize,
-    pub travel: Move,
+    pub(crate) blocks: usize,
+    pub(crate) arcs: usize,
+    pub(crate) travel: Move,
     /// Twice the area between the way and its chord, µm²; only its sign is used.
-    pub twice_area: f64,
+    pub(crate) twice_area: f64,
     /// Faults that change where the way leads.
-    pub errors: usize,
+    pub(crate) errors: usize,
     /// Blocks that could not be read: where the way leads is not known.
-    pub unread: usize,
+    pub(crate) unread: usize,
     /// Tells two stretches apart: equal ways have equal marks.
-    pub mark: u64,
-    pub first: Option<Move>,
-    pub second: Option<Move>,
-    pub last: Option<Move>,
+    pub(crate) mark: u64,
+    pub(crate) first: Option<Move>,
+    pub(crate) second: Option<Move>,
+    pub(crate) last: Option<Move>,
 }
 
 impl Sum {
     /// This stretch and then the next.
-    pub fn then(&self, next: &Sum) -> Sum {
+    pub(crate) fn then(&self, next: &Sum) -> Sum {
         if next.blocks == 0 {
             return Sum {
                 errors: self.errors + next.errors,
@@ -83,7 +83,7 @@ impl Sum {
         }
     }
 
-    pub fn ends(&self) -> Ends {
+    pub(crate) fn ends(&self) -> Ends {
         let first = self.first.unwrap_or_default();
         let second = first.plus(self.second.unwrap_or_default());
         let last = self.travel.minus(self.last.unwrap_or_default());
@@ -142,11 +142,11 @@ fn mark_of(entry: &BlockEntry) -> u64 {
 /// Blocks up to a word or to the end of the run.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Part {
-    pub entries: Range<usize>,
-    pub sum: Sum,
+    pub(crate) entries: Range<usize>,
+    pub(crate) sum: Sum,
     /// The word behind it, at `entries.end`.
-    pub word: Option<(Word, bool)>,
-    pub lay: Lay,
+    pub(crate) word: Option<(Word, bool)>,
+    pub(crate) lay: Lay,
 }
 
 /// What a block means, from the origin on; nowhere where nobody knows.
@@ -162,9 +162,9 @@ fn nowhere() -> Segment {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Edge {
     /// The outermost block, from the origin on.
-    pub block: Segment,
+    pub(crate) block: Segment,
     /// Its joint with the other blocks of the run may be odd.
-    pub is_odd: bool,
+    pub(crate) is_odd: bool,
 }
 
 /// A part under way.
@@ -240,31 +240,31 @@ impl Open {
 /// Consecutive lines of a program.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Run {
-    pub entries: Vec<Entry>,
-    pub faults: Vec<Local>,
-    pub parts: Vec<Part>,
-    pub blocks: usize,
-    pub arcs: usize,
-    pub texts: usize,
+    pub(crate) entries: Vec<Entry>,
+    pub(crate) faults: Vec<Local>,
+    pub(crate) parts: Vec<Part>,
+    pub(crate) blocks: usize,
+    pub(crate) arcs: usize,
+    pub(crate) texts: usize,
     /// Entries with a number, and blocks with an end point behind them.
-    pub numbered: usize,
-    pub stated: usize,
-    pub numbering: Numbering,
-    pub positions: Positions,
-    pub travel: Move,
+    pub(crate) numbered: usize,
+    pub(crate) stated: usize,
+    pub(crate) numbering: Numbering,
+    pub(crate) positions: Positions,
+    pub(crate) travel: Move,
     /// Of its way, µm from where it begins.
-    pub bounds: Option<Bounds>,
-    pub words: usize,
+    pub(crate) bounds: Option<Bounds>,
+    pub(crate) words: usize,
     /// Entries: the controller's own first end word, the last end word of any, the last word.
-    pub own_end: Option<usize>,
-    pub last_end: Option<usize>,
-    pub last_word: Option<usize>,
+    pub(crate) own_end: Option<usize>,
+    pub(crate) last_end: Option<usize>,
+    pub(crate) last_word: Option<usize>,
     /// Parts between two words of the run that hold no closed contour, and those that come near themselves, until it is known
     /// that they do not cross.
-    pub open: Vec<usize>,
-    pub tangled: Vec<usize>,
+    pub(crate) open: Vec<usize>,
+    pub(crate) tangled: Vec<usize>,
     /// How its first part begins, and how its last one ends; `None` where there is no block in it.
-    pub edges: [Option<Edge>; 2],
+    pub(crate) edges: [Option<Edge>; 2],
 }
 
 /// How the blocks of a run are numbered.
@@ -305,7 +305,7 @@ impl Numbering {
     }
 
     /// This run and then the next.
-    pub fn then(self, next: Numbering) -> Numbering {
+    pub(crate) fn then(self, next: Numbering) -> Numbering {
         match (self, next) {
             (Numbering::Empty, other) | (other, Numbering::Empty) => other,
             (
@@ -344,13 +344,13 @@ impl Numbering {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Positions {
     /// Pairs of end points in the run that were held against each other.
-    pub compared: usize,
+    pub(crate) compared: usize,
     /// Those that are off, by the number of the block in the run, its entry, and by how much in µm.
-    pub off: Vec<(usize, usize, [f64; 2])>,
+    pub(crate) off: Vec<(usize, usize, [f64; 2])>,
     /// Entry, end point and displacement of the first block, where nothing in the run stands before it.
-    pub first: Option<(usize, StatedPoint, Move)>,
+    pub(crate) first: Option<(usize, StatedPoint, Move)>,
     /// What the next run's first end point is held against: `None` where nothing in this run says.
-    pub anchor: Option<Option<StatedPoint>>,
+    pub(crate) anchor: Option<Option<StatedPoint>>,
 }
 
 impl Positions {
@@ -384,7 +384,7 @@ pub(super) fn may_cross_itself(sum: &Sum) -> bool {
 
 impl Run {
     /// Reads lines that begin at `offset` of the text. `lines` are ranges of the text without line ends, `bytes` all of it.
-    pub fn read(
+    pub(crate) fn read(
         text: &[u8],
         offset: usize,
         lines: impl Iterator<Item = Range<usize>>,

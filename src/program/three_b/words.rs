@@ -11,8 +11,8 @@ pub enum Word {
 /// The words between blocks of one controller. The usual ones of other controllers are read as well.
 #[derive(Clone, Copy, Debug)]
 pub struct Words<'a> {
-    pub pause: &'a str,
-    pub end: &'a str,
+    pub(crate) pause: &'a str,
+    pub(crate) end: &'a str,
 }
 
 impl Default for Words<'_> {

@@ -26,7 +26,7 @@ pub fn write(
 }
 
 /// As [`write()`]; `go_on` hears every few thousand segments how many are done and how many there are, and ends the work with `false`.
-pub fn write_with(
+pub(crate) fn write_with(
     paths: &[WirePath],
     unit_mm: f64,
     settings: &Effective,
@@ -39,7 +39,7 @@ pub fn write_with(
 
 /// The same for 4B: the part's contour, which the controller offsets by the correction of the settings. Corners between lines get
 /// transition arcs of the correction and the margin; what cannot be offset so is refused.
-pub fn write_four_b(
+pub(crate) fn write_four_b(
     paths: &[WirePath],
     unit_mm: f64,
     settings: &Effective,

@@ -63,7 +63,7 @@ pub(crate) fn drawing_edit(
 
 /// The edit that rounds the corner between the segments at `before` and behind it, which turns to the left, with the fix
 /// radius. `None` where no such arc fits, or where an entity cannot take it.
-pub fn fillet(travel: &Travel, before: isize, limits: &Limits) -> Option<DrawingEdit> {
+pub(crate) fn fillet(travel: &Travel, before: isize, limits: &Limits) -> Option<DrawingEdit> {
     let arc = corner_arc(travel, before, limits)?;
     let (one, other) = (travel.segment(before)?, travel.segment(before + 1)?);
     let drawing = travel.drawing;

@@ -11,12 +11,12 @@ mod refillet;
 mod run;
 mod travel;
 
-pub use edit::fillet;
+pub(crate) use edit::fillet;
 pub(crate) use edit::{drawing_edit, keep_end_points};
-pub use refillet::{Attempt, Replacement};
+pub(crate) use refillet::{Attempt, Replacement};
 pub(crate) use refillet::{made_tangent, refillet};
 pub(crate) use run::{rounded_run_of, run_of};
-pub use travel::Travel;
+pub(crate) use travel::Travel;
 
 use super::Limits;
 use crate::drawing::ContourSegment;
@@ -34,7 +34,7 @@ pub(crate) fn is_too_small(radius: f64, limits: &Limits) -> bool {
 
 /// The numbers of an arc at fault, `None` when the segment is no arc, is wide enough, or curves away from the wire.
 /// `wire_side` is that of the contour's travel; `None` where the arc must survive both sides.
-pub fn check(
+pub(crate) fn check(
     segment: &ContourSegment,
     wire_side: Option<Side>,
     limits: &Limits,

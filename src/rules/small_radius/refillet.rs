@@ -14,24 +14,24 @@ const MOST_SWALLOWED: usize = 24;
 
 /// One arc of the fix radius in the place of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Replacement {
+pub(crate) struct Replacement {
     /// Positions of the two neighbours that stay; everything between them goes.
-    pub before: isize,
-    pub after: isize,
+    pub(crate) before: isize,
+    pub(crate) after: isize,
     /// The new arc, travelled with the wire on its left; it starts on the one neighbour and ends on the other.
-    pub arc: Arc,
+    pub(crate) arc: Arc,
     /// Number of arcs of the run.
-    pub arcs: usize,
+    pub(crate) arcs: usize,
     /// Largest distance by which the contour moves.
-    pub moved: f64,
+    pub(crate) moved: f64,
 }
 
 /// What came of looking for a replacement, and the region that it was looked for in: as long as nothing in there
 /// changes, the answer stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Attempt {
-    pub outcome: Result<Replacement, NoFix>,
-    pub region: Bounds,
+pub(crate) struct Attempt {
+    pub(crate) outcome: Result<Replacement, NoFix>,
+    pub(crate) region: Bounds,
 }
 
 /// Looks for the arc of radius `limits.fix_radius` that replaces `run`.

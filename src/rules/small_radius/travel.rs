@@ -8,20 +8,20 @@ use crate::geometry::{Bounds, Point};
 ///
 /// Positions count segments in that direction. On a closed contour they go round and round, below zero too.
 #[derive(Clone, Copy, Debug)]
-pub struct Travel<'a> {
-    pub drawing: &'a Drawing,
-    pub contour: &'a Contour,
-    pub index: &'a ContourIndex,
+pub(crate) struct Travel<'a> {
+    pub(crate) drawing: &'a Drawing,
+    pub(crate) contour: &'a Contour,
+    pub(crate) index: &'a ContourIndex,
     /// Wire side in the contour's own direction.
-    pub side: Side,
+    pub(crate) side: Side,
 }
 
 impl Travel<'_> {
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.contour.len()
     }
 
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.contour.is_empty()
     }
 
@@ -48,7 +48,7 @@ impl Travel<'_> {
     }
 
     /// The segment at a position, with the wire on the left of its direction.
-    pub fn segment(&self, position: isize) -> Option<ContourSegment> {
+    pub(crate) fn segment(&self, position: isize) -> Option<ContourSegment> {
         let own = self
             .contour
             .segment(self.drawing, self.index_at(position)?)?;

@@ -17,10 +17,10 @@ pub(in crate::server) enum Site {
 
 #[derive(Deserialize)]
 pub(in crate::server) struct Panic {
-    pub site: Site,
+    pub(crate) site: Site,
     /// The document whose derived data the panic leaves in doubt.
     #[serde(default)]
-    pub uri: String,
+    pub(crate) uri: String,
 }
 
 pub(in crate::server) fn panic(state: &mut State, site: Site, reply: Reply<Value>) {

@@ -2,7 +2,8 @@
 
 mod sequence;
 
-pub use sequence::{Sequence, check_answers, sequence};
+pub(crate) use sequence::Sequence;
+pub use sequence::{check_answers, sequence};
 
 use super::transport::{Frame, Frames, Writer};
 use super::{methods, serve_between};

@@ -36,7 +36,7 @@ pub(in crate::server) struct Frames<R> {
 }
 
 impl<R: Read> Frames<R> {
-    pub fn new(input: R) -> Frames<R> {
+    pub(crate) fn new(input: R) -> Frames<R> {
         Frames {
             input,
             buffer: Vec::new(),
@@ -49,12 +49,12 @@ impl<R: Read> Frames<R> {
 
     /// Bytes of the stream that are used up. It grows with every step; after [`Frames::was_broken`] it is less than before it, but
     /// more than before the step.
-    pub fn position(&self) -> i64 {
+    pub(crate) fn position(&self) -> i64 {
         self.dropped + self.start as i64
     }
 
     /// Reads until a frame is whole, broken, or the stream ends.
-    pub fn next(&mut self) -> Frame {
+    pub(crate) fn next(&mut self) -> Frame {
         if std::mem::take(&mut self.out_of_step) {
             self.skip_to_header(0);
         }
@@ -70,7 +70,7 @@ impl<R: Read> Frames<R> {
     }
 
     /// Says that a body was not what it should be: its end, and what follows, are searched for the next header.
-    pub fn was_broken(&mut self, body: &[u8]) {
+    pub(crate) fn was_broken(&mut self, body: &[u8]) {
         let tail = &body[body.len().saturating_sub(MARKER_CAP)..];
         self.dropped += self.start as i64 - tail.len() as i64;
         self.buffer.splice(..self.start, tail.iter().copied());

@@ -22,7 +22,7 @@ pub(super) struct Memory {
 
 impl Memory {
     /// Gives back what a message of `length` bytes leaves behind.
-    pub fn after_message(&self, length: usize, runtime: &tokio::runtime::Runtime) {
+    pub(crate) fn after_message(&self, length: usize, runtime: &tokio::runtime::Runtime) {
         if self
             .length
             .fetch_add(length, Ordering::AcqRel)

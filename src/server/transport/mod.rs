@@ -58,7 +58,7 @@ pub(crate) struct Transport<S, I> {
 }
 
 impl<S: LanguageServer, I: Inbox> Transport<S, I> {
-    pub fn new(service: LspService<S>, inbox: I, writer: Writer) -> std::io::Result<Self> {
+    pub(crate) fn new(service: LspService<S>, inbox: I, writer: Writer) -> std::io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_multi_thread()
             .worker_threads(1)
             .enable_time()
@@ -75,7 +75,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
     }
 
     /// Serves until `exit` or the end of the input; true when the client said `exit`.
-    pub fn serve(&mut self, input: impl Read) -> bool {
+    pub(crate) fn serve(&mut self, input: impl Read) -> bool {
         let mut frames = Frames::new(input);
         loop {
             if !self.wait_for_reader() {
@@ -116,7 +116,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
     }
 
     /// Waits for the handlers that still wait, at most `limit`.
-    pub fn drain(&self, limit: Duration) {
+    pub(crate) fn drain(&self, limit: Duration) {
         let deadline = Instant::now() + limit;
         while self.waiting.load(Ordering::Acquire) > 0 && Instant::now() < deadline {
             std::thread::sleep(Duration::from_millis(2));

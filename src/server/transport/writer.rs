@@ -21,12 +21,12 @@ const ONE_WRITE: usize = 1024 * 1024;
 /// Params of `textDocument/publishDiagnostics`. The URI is the client's own spelling.
 #[derive(Clone, Debug)]
 pub(crate) struct Publish {
-    pub uri: Arc<str>,
-    pub version: Option<i64>,
+    pub(crate) uri: Arc<str>,
+    pub(crate) version: Option<i64>,
     /// An array.
-    pub diagnostics: Written,
+    pub(crate) diagnostics: Written,
     /// Not superseded: the one publish that an opening or a closing is owed.
-    pub owed: bool,
+    pub(crate) owed: bool,
 }
 
 /// Handle to the writing thread.
@@ -94,7 +94,7 @@ impl Publish {
 
 impl Writer {
     /// Starts the thread. `failed` is called when the client cannot be written to any more.
-    pub fn start(
+    pub(crate) fn start(
         output: impl Write + Send + 'static,
         failed: impl FnOnce() + Send + 'static,
     ) -> std::io::Result<Writer> {
@@ -113,7 +113,7 @@ impl Writer {
     }
 
     /// Queues a whole JSON body.
-    pub fn send(&self, body: Vec<u8>) {
+    pub(crate) fn send(&self, body: Vec<u8>) {
         let mut queue = self.shared.queue();
         queue.bytes += body.len();
         queue.waiting.push_back(Waiting::Message(body));
@@ -121,7 +121,7 @@ impl Writer {
     }
 
     /// Queues any message that serializes.
-    pub fn send_json(&self, message: &impl Serialize) {
+    pub(crate) fn send_json(&self, message: &impl Serialize) {
         match serde_json::to_vec(message) {
             Ok(body) => self.send(body),
             Err(error) => tracing::error!("a message cannot be written: {error}"),
@@ -129,7 +129,7 @@ impl Writer {
     }
 
     /// Queues a notification.
-    pub fn notify(&self, method: &str, params: impl Serialize) {
+    pub(crate) fn notify(&self, method: &str, params: impl Serialize) {
         self.send_json(&Notification {
             jsonrpc: "2.0",
             method,
@@ -138,7 +138,7 @@ impl Writer {
     }
 
     /// Queues diagnostics in the place of unwritten older ones of the same document, unless those are owed.
-    pub fn publish(&self, publish: Publish) {
+    pub(crate) fn publish(&self, publish: Publish) {
         let mut queue = self.shared.queue();
         let uri = publish.uri.clone();
         queue.bytes += publish.size();
@@ -161,17 +161,17 @@ impl Writer {
     }
 
     /// True while too much waits for the client.
-    pub fn is_congested(&self) -> bool {
+    pub(crate) fn is_congested(&self) -> bool {
         self.shared.queue().bytes > BACKLOG
     }
 
     /// Waits until little enough waits, at most `limit`; true when it does.
-    pub fn wait_for_room(&self, limit: Duration) -> bool {
+    pub(crate) fn wait_for_room(&self, limit: Duration) -> bool {
         self.wait(limit, |queue| queue.bytes <= BACKLOG)
     }
 
     /// Waits until everything has been written, at most `limit`; then the thread ends.
-    pub fn end(&self, limit: Duration) {
+    pub(crate) fn end(&self, limit: Duration) {
         self.wait(limit, |queue| queue.waiting.is_empty() && !queue.writing);
         self.shared.queue().ended = true;
         self.shared.filled.notify_one();

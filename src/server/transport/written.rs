@@ -31,20 +31,20 @@ impl From<Vec<u8>> for Written {
 }
 
 impl Written {
-    pub fn of(result: &impl Serialize) -> serde_json::Result<Written> {
+    pub(crate) fn of(result: &impl Serialize) -> serde_json::Result<Written> {
         serde_json::to_vec(result).map(Written)
     }
 
-    pub fn json(&self) -> &[u8] {
+    pub(crate) fn json(&self) -> &[u8] {
         &self.0
     }
 
-    pub fn into_json(self) -> Vec<u8> {
+    pub(crate) fn into_json(self) -> Vec<u8> {
         self.0
     }
 
     /// Leaves the text with the reply to the request whose handler calls this.
-    pub fn leave(self) {
+    pub(crate) fn leave(self) {
         let _ = REPLY.try_with(|reply| *reply.lock() = Some(self));
     }
 }
@@ -59,7 +59,7 @@ impl Reply {
     }
 
     /// The body of a reply. An error takes the place of what was left.
-    pub fn body(&self, response: &Response) -> serde_json::Result<Vec<u8>> {
+    pub(crate) fn body(&self, response: &Response) -> serde_json::Result<Vec<u8>> {
         match self.lock().take().filter(|_| response.is_ok()) {
             None => serde_json::to_vec(response),
             Some(Written(json)) => {

@@ -25,7 +25,7 @@ const MOST_SUBPROGRAMS: usize = 100;
 const FIRST_PLACES: u32 = 4;
 
 /// What can stand at a byte, what is most likely first.
-pub fn completions(document: &Document, offset: usize) -> Vec<Completion> {
+pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion> {
     let text = document.text();
     let line = text.line_of(offset);
     let range = text.line_range(line);
@@ -56,12 +56,12 @@ pub fn completions(document: &Document, offset: usize) -> Vec<Completion> {
 /// What stands in a line before the cursor.
 pub(super) struct Typed {
     /// The words that are whole.
-    pub block: Block,
+    pub(crate) block: Block,
     /// The bytes of the line up to the word that has been begun.
     head: Vec<u8>,
     /// The letter of the word at the cursor, and its number where it has one.
-    pub letter: Option<u8>,
-    pub number: Option<Number>,
+    pub(crate) letter: Option<u8>,
+    pub(crate) number: Option<Number>,
     /// What is replaced: that word, or nothing at the cursor.
     range: Range<usize>,
 }
@@ -106,12 +106,12 @@ impl Typed {
 }
 
 pub(super) struct Offer<'a> {
-    pub document: &'a Document,
-    pub line: usize,
+    pub(crate) document: &'a Document,
+    pub(crate) line: usize,
     /// Before the line.
-    pub machine: Machine,
-    pub style: Style,
-    pub typed: Typed,
+    pub(crate) machine: Machine,
+    pub(crate) style: Style,
+    pub(crate) typed: Typed,
     found: Vec<Completion>,
 }
 

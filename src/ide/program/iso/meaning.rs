@@ -9,7 +9,7 @@ use crate::program::iso::word::{Number, Token};
 use std::ops::Range;
 
 /// What the word at a range of bytes says in its line, in Markdown; `None` for what means nothing.
-pub fn meaning(document: &Document, word: Range<usize>) -> Option<String> {
+pub(crate) fn meaning(document: &Document, word: Range<usize>) -> Option<String> {
     let text = document.text();
     let line = text.line_of(word.start);
     let range = text.line_range(line);

@@ -11,10 +11,10 @@ mod signature;
 mod tests;
 mod vocabulary;
 
-pub use completion::completions;
-pub use matching::partner;
-pub use meaning::meaning;
-pub use signature::signature;
+pub(crate) use completion::completions;
+pub(crate) use matching::partner;
+pub(crate) use meaning::meaning;
+pub(crate) use signature::signature;
 
 use crate::program::iso::block::word_range;
 

@@ -9,7 +9,7 @@ use crate::program::iso::plain::words;
 use crate::program::iso::word::{Token, WordFault};
 
 /// The form of the block that is written at a byte; `None` where none is.
-pub fn signature(document: &Document, offset: usize) -> Option<Signature> {
+pub(crate) fn signature(document: &Document, offset: usize) -> Option<Signature> {
     let text = document.text();
     let line = text.line_of(offset);
     let range = text.line_range(line);

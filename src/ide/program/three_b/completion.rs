@@ -19,7 +19,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 const LOOKED_BACK: usize = 500;
 
 /// What can stand at a byte, what is most likely first.
-pub fn completions(document: &Document, offset: usize) -> Vec<Completion> {
+pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion> {
     let text = document.text();
     let line = text.line_range(text.line_of(offset));
     let before = text

@@ -7,7 +7,7 @@ use crate::program::three_b::pieces::{Field, pieces};
 use std::ops::Range;
 
 /// What the word at a range of bytes says in its block, in Markdown; `None` for what means nothing.
-pub fn meaning(document: &Document, word: Range<usize>) -> Option<String> {
+pub(crate) fn meaning(document: &Document, word: Range<usize>) -> Option<String> {
     let text = document.text();
     let line = text.line_range(text.line_of(word.start));
     let bytes = text.bytes().get(line.clone())?;

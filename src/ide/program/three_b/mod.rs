@@ -6,6 +6,6 @@ mod completion;
 mod meaning;
 mod signature;
 
-pub use completion::completions;
-pub use meaning::meaning;
-pub use signature::signature;
+pub(crate) use completion::completions;
+pub(crate) use meaning::meaning;
+pub(crate) use signature::signature;

@@ -5,7 +5,7 @@ use crate::program::three_b::Document;
 use crate::program::three_b::pieces::{Field, pieces};
 
 /// The form of the block that is written at a byte; `None` where none is.
-pub fn signature(document: &Document, offset: usize) -> Option<Signature> {
+pub(crate) fn signature(document: &Document, offset: usize) -> Option<Signature> {
     let text = document.text();
     let line = text.line_range(text.line_of(offset));
     let bytes = text.bytes().get(line.clone())?;

@@ -10,9 +10,9 @@ use crate::program::refactor::Row;
 /// A move in its line.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::program) struct Own {
-    pub made: Move,
+    pub(crate) made: Move,
     /// How lengths are written there, in inches or millimetres.
-    pub style: Style,
+    pub(crate) style: Style,
 }
 
 /// Reads a program for refactoring. What cannot be read, or is run from somewhere else, is left alone.

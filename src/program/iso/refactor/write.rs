@@ -13,11 +13,11 @@ use crate::text::{TextEdit, edited};
 #[derive(Clone, Debug, Default)]
 pub(in crate::program) struct Extra {
     /// Words of the text that become others.
-    pub words: Vec<TextEdit>,
+    pub(crate) words: Vec<TextEdit>,
     /// How arcs are to be written; as they are, where it is `None`.
-    pub reading: Option<Reading>,
+    pub(crate) reading: Option<Reading>,
     /// A word to be put before the first move.
-    pub first_word: Option<&'static str>,
+    pub(crate) first_word: Option<&'static str>,
 }
 
 /// The edits of the text; none where nothing changes.

@@ -6,21 +6,21 @@ use std::ops::Range;
 
 /// A change that makes a cut sound, or sounder.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Repair {
-    pub kind: FixKind,
-    pub edits: Vec<TextEdit>,
+pub(crate) struct Repair {
+    pub(crate) kind: FixKind,
+    pub(crate) edits: Vec<TextEdit>,
     /// The line that it changes first.
-    pub line: usize,
+    pub(crate) line: usize,
     /// What is written, and what is meant.
-    pub found: String,
-    pub meant: String,
+    pub(crate) found: String,
+    pub(crate) meant: String,
     /// The cut does not close without it.
-    pub closes: bool,
+    pub(crate) closes: bool,
     /// Nothing is wrong any more, and no other change does as well.
-    pub is_sure: bool,
+    pub(crate) is_sure: bool,
     /// What is wrong speaks for it: a cut that only crosses itself may be meant to run elsewhere altogether.
-    pub explains: bool,
+    pub(crate) explains: bool,
 }
 
 /// Repairs by the lines of the cuts that they belong to.
-pub type Repairs = Vec<(Range<usize>, Vec<Repair>)>;
+pub(crate) type Repairs = Vec<(Range<usize>, Vec<Repair>)>;

@@ -12,14 +12,14 @@ const CLOSED: f64 = 2_000.0;
 
 /// A line of a cut.
 #[derive(Clone, Debug)]
-pub struct Line {
-    pub block: Block,
+pub(crate) struct Line {
+    pub(crate) block: Block,
     /// Faults of its words.
-    pub faults: u32,
+    pub(crate) faults: u32,
 }
 
 impl Line {
-    pub fn read(bytes: &[u8], document: &Document) -> Line {
+    pub(crate) fn read(bytes: &[u8], document: &Document) -> Line {
         let mut faults = 0;
         let block = read_line(bytes, 1, |note| match note {
             Note::Fault { .. } | Note::Twice { .. } => faults += 1,
@@ -60,13 +60,13 @@ struct Cut {
 
 /// What speaks against a way.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Against {
-    pub hard: u32,
-    pub soft: f64,
+pub(crate) struct Against {
+    pub(crate) hard: u32,
+    pub(crate) soft: f64,
     /// Cuts that do not close.
-    pub open: u32,
+    pub(crate) open: u32,
     /// Cuts that close, and do not come back to where the wire was threaded.
-    pub beside: u32,
+    pub(crate) beside: u32,
 }
 
 impl Against {
@@ -108,9 +108,9 @@ struct End {
 }
 
 /// The lines of a cut with what has been found before each.
-pub struct Way<'a> {
-    pub reading: &'a Reading,
-    pub lines: Vec<Line>,
+pub(crate) struct Way<'a> {
+    pub(crate) reading: &'a Reading,
+    pub(crate) lines: Vec<Line>,
     /// Before each line, and behind the last.
     before: Vec<Scan>,
     /// The end of the cut that is under way before each line.
@@ -120,7 +120,7 @@ pub struct Way<'a> {
 }
 
 impl<'a> Way<'a> {
-    pub fn new(reading: &'a Reading, lines: Vec<Line>, machine: Machine) -> Way<'a> {
+    pub(crate) fn new(reading: &'a Reading, lines: Vec<Line>, machine: Machine) -> Way<'a> {
         let mut scan = Scan {
             machine,
             against: Against::default(),
@@ -162,21 +162,21 @@ impl<'a> Way<'a> {
     }
 
     /// All that speaks against the way.
-    pub fn total(&self) -> Against {
+    pub(crate) fn total(&self) -> Against {
         self.before[self.lines.len()].against
     }
 
     /// Where the last move of the cut that is under way before a line leads at its end.
-    pub fn heading_before(&self, index: usize) -> Option<Vector> {
+    pub(crate) fn heading_before(&self, index: usize) -> Option<Vector> {
         self.before[index].cut.and_then(|cut| cut.heading)
     }
 
-    pub fn machine_before(&self, index: usize) -> &Machine {
+    pub(crate) fn machine_before(&self, index: usize) -> &Machine {
         &self.before[index].machine
     }
 
     /// What speaks against the way with other lines in the place of `count` ones, and how many lines were run to know it.
-    pub fn with(&self, index: usize, count: usize, lines: &[Line]) -> (Against, usize) {
+    pub(crate) fn with(&self, index: usize, count: usize, lines: &[Line]) -> (Against, usize) {
         let mut scan = self.before[index];
         let mut runs = 0;
         for line in lines {
@@ -229,7 +229,7 @@ impl<'a> Way<'a> {
     }
 
     /// From where the cut of a line ends to where it would close: at its beginning, or at the end of its way in; none where it closes.
-    pub fn gaps(&self, index: usize) -> Vec<Place> {
+    pub(crate) fn gaps(&self, index: usize) -> Vec<Place> {
         let Some((end, cut)) =
             self.ends[index].zip(self.before[index].cut.or(self.before[index + 1].cut))
         else {
@@ -248,7 +248,7 @@ impl<'a> Way<'a> {
 
     /// All moves that lead anywhere, with other lines in the place of `count` ones, each about its centre or with its radius: ways that
     /// lead alike have the same.
-    pub fn moves_with(&self, index: usize, count: usize, lines: &[Line]) -> Vec<Move> {
+    pub(crate) fn moves_with(&self, index: usize, count: usize, lines: &[Line]) -> Vec<Move> {
         let mut machine = self.before[0].machine;
         let all = self.lines[..index]
             .iter()

@@ -15,42 +15,42 @@ use std::ops::Range;
 
 /// How much a slip is less likely than none, by its kind.
 pub(super) mod prior {
-    pub const SIGN: f64 = 0.3;
-    pub const SWAP: f64 = 0.3;
-    pub const MOTION: f64 = 0.3;
-    pub const POINT: f64 = 0.3;
-    pub const DIGIT: f64 = 0.6;
-    pub const DOUBLED: f64 = 0.3;
-    pub const MORE: f64 = 0.8;
-    pub const LOST: f64 = 0.8;
-    pub const TWICE: f64 = 0.2;
-    pub const BLOCKS: f64 = 0.5;
-    pub const LETTER: f64 = 0.2;
-    pub const WORD: f64 = 1.2;
-    pub const VALUE: f64 = 1.0;
-    pub const BLOCK: f64 = 3.0;
-    pub const LOST_BLOCK: f64 = 2.0;
-    pub const TANGENT: f64 = 1.0;
+    pub(crate) const SIGN: f64 = 0.3;
+    pub(crate) const SWAP: f64 = 0.3;
+    pub(crate) const MOTION: f64 = 0.3;
+    pub(crate) const POINT: f64 = 0.3;
+    pub(crate) const DIGIT: f64 = 0.6;
+    pub(crate) const DOUBLED: f64 = 0.3;
+    pub(crate) const MORE: f64 = 0.8;
+    pub(crate) const LOST: f64 = 0.8;
+    pub(crate) const TWICE: f64 = 0.2;
+    pub(crate) const BLOCKS: f64 = 0.5;
+    pub(crate) const LETTER: f64 = 0.2;
+    pub(crate) const WORD: f64 = 1.2;
+    pub(crate) const VALUE: f64 = 1.0;
+    pub(crate) const BLOCK: f64 = 3.0;
+    pub(crate) const LOST_BLOCK: f64 = 2.0;
+    pub(crate) const TANGENT: f64 = 1.0;
     /// A length that stands elsewhere in the cut, and one that stands nowhere else.
-    pub const KNOWN: f64 = 1.0;
-    pub const ALONE: f64 = 0.5;
+    pub(crate) const KNOWN: f64 = 1.0;
+    pub(crate) const ALONE: f64 = 0.5;
 }
 
 /// The lengths of a cut, and how often each stands in it.
-pub struct Pool {
+pub(crate) struct Pool {
     /// Along X and Y, from an arc to its centre: nm, without sign.
     counts: [FxHashMap<i64, u32>; 2],
     /// What absolute coordinates along each axis are, as they are written.
     coordinates: [Vec<Number>; 2],
-    pub is_parted: bool,
-    pub styles: [Style; 2],
+    pub(crate) is_parted: bool,
+    pub(crate) styles: [Style; 2],
 }
 
 /// Coordinates that are tried for one that is lost.
 const MOST_COORDINATES: usize = 40;
 
 impl Pool {
-    pub fn of(document: &Document, lines: &[Line]) -> Pool {
+    pub(crate) fn of(document: &Document, lines: &[Line]) -> Pool {
         let mut pool = Pool {
             counts: Default::default(),
             coordinates: Default::default(),
@@ -90,21 +90,21 @@ impl Pool {
 
 /// What a line may have been meant to be.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Meant {
-    pub line: Vec<u8>,
+pub(crate) struct Meant {
+    pub(crate) line: Vec<u8>,
     /// What is written, and what is meant.
-    pub found: String,
-    pub meant: String,
+    pub(crate) found: String,
+    pub(crate) meant: String,
 }
 
 /// A line whose words are changed.
-pub struct Words<'a> {
-    pub document: &'a Document,
-    pub pool: &'a Pool,
-    pub bytes: &'a [u8],
-    pub index: usize,
-    pub before: &'a Machine,
-    pub meant: Vec<(Meant, f64)>,
+pub(crate) struct Words<'a> {
+    pub(crate) document: &'a Document,
+    pub(crate) pool: &'a Pool,
+    pub(crate) bytes: &'a [u8],
+    pub(crate) index: usize,
+    pub(crate) before: &'a Machine,
+    pub(crate) meant: Vec<(Meant, f64)>,
 }
 
 /// A letter stands for another axis where it stands for anything else.
@@ -119,7 +119,7 @@ fn other_axis(letter: u8) -> u8 {
 
 impl Words<'_> {
     /// What each way to read the line asks for.
-    pub fn all(mut self, way: &Way<'_>) -> Vec<(Meant, f64)> {
+    pub(crate) fn all(mut self, way: &Way<'_>) -> Vec<(Meant, f64)> {
         self.of_tokens();
         let line = &way.lines[self.index];
         let mut machine = *self.before;

@@ -17,7 +17,7 @@ impl Document {
     }
 
     /// The steps whose text overlaps or touches a range of bytes.
-    pub fn steps_in(&self, range: Range<usize>) -> Vec<Step> {
+    pub(crate) fn steps_in(&self, range: Range<usize>) -> Vec<Step> {
         steps::steps_in(self, range)
     }
 

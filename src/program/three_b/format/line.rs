@@ -14,21 +14,21 @@ use std::borrow::Cow;
 
 /// Writes one line anew.
 pub(super) struct Writer<'a> {
-    pub words: &'a Words<'a>,
-    pub layout: Layout,
-    pub numbers_count_blocks: bool,
+    pub(crate) words: &'a Words<'a>,
+    pub(crate) layout: Layout,
+    pub(crate) numbers_count_blocks: bool,
     /// Blocks before this line.
-    pub ordinal: u64,
-    pub is_over: bool,
-    pub items: &'a [Item],
-    pub stated: &'a [Stated],
-    pub pieces: Vec<Piece>,
-    pub is_sound: bool,
+    pub(crate) ordinal: u64,
+    pub(crate) is_over: bool,
+    pub(crate) items: &'a [Item],
+    pub(crate) stated: &'a [Stated],
+    pub(crate) pieces: Vec<Piece>,
+    pub(crate) is_sound: bool,
 }
 
 impl Writer<'_> {
     /// The line in its new form, `None` where it stays as it is.
-    pub fn form(&mut self, line: &[u8], line_end: &str) -> Option<Formed> {
+    pub(crate) fn form(&mut self, line: &[u8], line_end: &str) -> Option<Formed> {
         self.pieces = pieces(line, self.words);
         let from = if line.starts_with(b"\xef\xbb\xbf") {
             3

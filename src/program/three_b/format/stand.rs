@@ -20,7 +20,7 @@ pub(super) struct Walk {
 }
 
 impl Walk {
-    pub fn new(layout: Layout) -> Walk {
+    pub(crate) fn new(layout: Layout) -> Walk {
         Walk {
             layout,
             ordinal: 0,
@@ -34,7 +34,7 @@ impl Walk {
     }
 
     /// Follows the machine through some lines.
-    pub fn go_through(&mut self, chunk: &mut Chunk) {
+    pub(crate) fn go_through(&mut self, chunk: &mut Chunk) {
         (chunk.ordinal, chunk.is_over) = (self.ordinal, self.is_over);
         let mut first = 0;
         for Line { end, is_sound } in &chunk.lines {

@@ -33,12 +33,12 @@ pub(in crate::program) struct ThreeB;
 /// A block that stands in the place of another.
 #[derive(Clone, Debug)]
 pub(in crate::program) struct New {
-    pub encoded: Encoded,
-    pub part: Option<PartArc>,
+    pub(crate) encoded: Encoded,
+    pub(crate) part: Option<PartArc>,
     /// The row whose comment it carries.
-    pub source: usize,
+    pub(crate) source: usize,
     /// It runs exactly along its piece, to which it was not fitted: a block that was moved, mirrored, turned round.
-    pub exact: bool,
+    pub(crate) exact: bool,
 }
 
 /// How far an exact block may lie from its piece, µm: rounding.

@@ -16,14 +16,14 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub(in crate::program) struct Own {
     /// Bytes of the text.
-    pub range: Range<usize>,
-    pub block: Block,
-    pub part: Option<PartArc>,
+    pub(crate) range: Range<usize>,
+    pub(crate) block: Block,
+    pub(crate) part: Option<PartArc>,
     /// Its end point as the text states it.
-    pub coordinates: Option<Range<usize>>,
-    pub comment: Option<Range<usize>>,
+    pub(crate) coordinates: Option<Range<usize>>,
+    pub(crate) comment: Option<Range<usize>>,
     /// Compact or aligned, as it stands.
-    pub layout: Layout,
+    pub(crate) layout: Layout,
 }
 
 /// The blocks of a program; the error says which line cannot be read.

@@ -11,15 +11,15 @@ use crate::program::repair::search::Verdict;
 /// What speaks against a contour.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Against {
-    pub unread: usize,
-    pub faulty: usize,
-    pub off: usize,
-    pub out_of_turn: usize,
-    pub is_open: bool,
+    pub(crate) unread: usize,
+    pub(crate) faulty: usize,
+    pub(crate) off: usize,
+    pub(crate) out_of_turn: usize,
+    pub(crate) is_open: bool,
 }
 
 impl Against {
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.unread + self.faulty + self.off + self.out_of_turn + usize::from(self.is_open)
     }
 }
@@ -29,7 +29,7 @@ impl Against {
 pub(super) struct Joints {
     smooth: i32,
     /// Those of them at an arc.
-    pub round: i32,
+    pub(crate) round: i32,
     /// Two lines that would have been written as one.
     split: i32,
     /// Where the wire runs back on the way that it came.

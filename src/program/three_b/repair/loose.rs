@@ -11,7 +11,7 @@ const DIGITS: usize = 12;
 #[derive(Clone, Debug, PartialEq)]
 pub(in super::super) struct Loose {
     /// From its first number to the last of it that is there.
-    pub range: Range<usize>,
+    pub(crate) range: Range<usize>,
     numbers: Vec<Vec<u8>>,
     axis: Option<CountingAxis>,
     motions: Vec<Motion>,
@@ -23,9 +23,9 @@ pub(in super::super) struct Loose {
 /// One way to read it; `unknown` is the number that has to be found, 0 in the block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reading {
-    pub block: Block,
-    pub unknown: Option<Number>,
-    pub keys: usize,
+    pub(crate) block: Block,
+    pub(crate) unknown: Option<Number>,
+    pub(crate) keys: usize,
 }
 
 /// Reads what there is of one block in a text, which holds nothing else but a number before it and a comment behind it.

@@ -44,18 +44,18 @@ const LOOKED_AT: usize = 400;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Item {
     /// `None` where it cannot be read.
-    pub block: Option<Block>,
-    pub travel: Move,
+    pub(crate) block: Option<Block>,
+    pub(crate) travel: Move,
     /// What it means, from the origin.
-    pub way: Option<Segment>,
-    pub stated: Option<StatedPoint>,
-    pub number: Option<u32>,
+    pub(crate) way: Option<Segment>,
+    pub(crate) stated: Option<StatedPoint>,
+    pub(crate) number: Option<u32>,
     /// A rule finds a fault in the block for itself.
-    pub is_faulty: bool,
+    pub(crate) is_faulty: bool,
 }
 
 impl Item {
-    pub fn of(block: &Block) -> Item {
+    pub(crate) fn of(block: &Block) -> Item {
         Item {
             block: Some(*block),
             travel: travel_of(block),
@@ -76,26 +76,26 @@ impl Item {
 /// A block of a contour as it stands in the text.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
-    pub item: Item,
+    pub(crate) item: Item,
     /// What is left of it where it cannot be read.
-    pub loose: Option<Loose>,
+    pub(crate) loose: Option<Loose>,
     /// X, Y and J as they are written.
-    pub digits: [String; 3],
+    pub(crate) digits: [String; 3],
 }
 
 /// A contour that something is wrong with.
 pub(super) struct Path<'a> {
-    pub pieces: &'a [Piece],
+    pub(crate) pieces: &'a [Piece],
     /// What is stated before its first block, and the last number there.
-    pub start: Option<StatedPoint>,
-    pub number: Option<u32>,
+    pub(crate) start: Option<StatedPoint>,
+    pub(crate) number: Option<u32>,
     /// The usual step of the program's numbers, where its blocks have numbers.
-    pub step: Option<u32>,
-    pub limits: &'a Limits,
+    pub(crate) step: Option<u32>,
+    pub(crate) limits: &'a Limits,
     /// It leads from one contour to the next.
-    pub is_jump: bool,
+    pub(crate) is_jump: bool,
     /// Nothing is said of where it ends, for what it comes to with others.
-    pub is_closed: bool,
+    pub(crate) is_closed: bool,
 }
 
 /// Which repairs are handed out.

@@ -52,12 +52,12 @@ pub(in super::super) enum Digits {
 /// Where a block has to lead, µm, and how near.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wanted {
-    pub by: [f64; 2],
-    pub near: f64,
+    pub(crate) by: [f64; 2],
+    pub(crate) near: f64,
 }
 
 impl Wanted {
-    pub fn is_met(&self, block: &Block) -> bool {
+    pub(crate) fn is_met(&self, block: &Block) -> bool {
         let own = Move {
             machine: self.by.map(|um| um.round() as i64),
             meant: self.by.map(|um| (um * 1e3).round() as i64),
@@ -66,7 +66,7 @@ impl Wanted {
     }
 
     /// How far a block ends from there, µm.
-    pub fn miss(&self, block: &Block) -> f64 {
+    pub(crate) fn miss(&self, block: &Block) -> f64 {
         let [x, y] = travel_of(block).meant_um();
         (x - self.by[0]).hypot(y - self.by[1])
     }

@@ -5,11 +5,11 @@ use crate::finding::Fault;
 /// A block's place in its program and its number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in super::super) struct Numbered {
-    pub number: Option<u32>,
+    pub(crate) number: Option<u32>,
     /// The first block behind a pause: counting may begin anew.
-    pub is_after_pause: bool,
+    pub(crate) is_after_pause: bool,
     /// It cannot be read: whether it has a number is not known.
-    pub is_unread: bool,
+    pub(crate) is_unread: bool,
 }
 
 /// Blocks whose numbers tell the step.
@@ -43,7 +43,7 @@ pub(in super::super) struct Sequence<P> {
 
 impl<P> Sequence<P> {
     /// `blocks` are up to [`FIRST`] of the first ones, `first` the first number of all; `None` where these tell no step.
-    pub fn of(blocks: &[Numbered], first: Option<u32>) -> Option<Sequence<P>> {
+    pub(crate) fn of(blocks: &[Numbered], first: Option<u32>) -> Option<Sequence<P>> {
         let numbers: Vec<Option<u32>> = blocks.iter().map(|block| block.number).collect();
         let step = usual_step(&numbers)?;
         Some(Sequence {
@@ -58,7 +58,7 @@ impl<P> Sequence<P> {
     }
 
     /// Takes the next block; `next` is the one behind it.
-    pub fn push(&mut self, block: &Numbered, next: Option<&Numbered>, place: P) {
+    pub(crate) fn push(&mut self, block: &Numbered, next: Option<&Numbered>, place: P) {
         let Sequence {
             step,
             first,
@@ -108,7 +108,7 @@ impl<P> Sequence<P> {
 
     /// Takes `count` blocks at once that are numbered from `first` on to `last` by `step`, where they are in their turn; false where they
     /// are not.
-    pub fn skip(&mut self, first: u32, last: u32, step: u32, count: usize) -> bool {
+    pub(crate) fn skip(&mut self, first: u32, last: u32, step: u32, count: usize) -> bool {
         let expected = self
             .before
             .map_or(self.first, |before| before.saturating_add(self.step));
@@ -121,7 +121,7 @@ impl<P> Sequence<P> {
         is_next
     }
 
-    pub fn found(mut self) -> Vec<(P, Fault, Option<u32>)> {
+    pub(crate) fn found(mut self) -> Vec<(P, Fault, Option<u32>)> {
         let out_of_turn = self
             .found
             .iter()

@@ -43,19 +43,19 @@ pub(super) const ARC_TIE: f64 = 2.0 * J_TOLERANCE;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Limits {
     /// Digits of the controller's numbers.
-    pub digits: u32,
+    pub(crate) digits: u32,
     /// What they hold, µm.
     largest: i64,
     /// mm.
-    pub correction: f64,
+    pub(crate) correction: f64,
     /// The program holds the part's contour, not the wire's path.
-    pub holds_part: bool,
-    pub side: SideSetting,
-    pub pass: Option<usize>,
+    pub(crate) holds_part: bool,
+    pub(crate) side: SideSetting,
+    pub(crate) pass: Option<usize>,
 }
 
 impl Limits {
-    pub fn of(settings: &Effective) -> Limits {
+    pub(crate) fn of(settings: &Effective) -> Limits {
         Limits {
             digits: settings.digits,
             largest: settings.largest_number(),
@@ -69,7 +69,7 @@ impl Limits {
         }
     }
 
-    pub fn largest(&self) -> i64 {
+    pub(crate) fn largest(&self) -> i64 {
         self.largest
     }
 }
@@ -87,7 +87,7 @@ pub(super) enum Spot {
 
 impl Spot {
     /// Bytes of the spot, of `block` where the number is left out.
-    pub fn range(self, fields: &Fields, block: Range<usize>) -> Range<usize> {
+    pub(crate) fn range(self, fields: &Fields, block: Range<usize>) -> Range<usize> {
         let range = match self {
             Spot::Block => block.clone(),
             Spot::X => fields.x.clone(),
@@ -119,10 +119,10 @@ pub(super) enum Counts {
 /// What a rule sees in a block.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Sight {
-    pub rule: Rule,
-    pub spot: Spot,
-    pub detail: Detail,
-    pub counts: Counts,
+    pub(crate) rule: Rule,
+    pub(crate) spot: Spot,
+    pub(crate) detail: Detail,
+    pub(crate) counts: Counts,
 }
 
 impl Sight {
@@ -138,9 +138,9 @@ impl Sight {
 
 /// A block as a rule sees it.
 pub(super) struct Seen<'a> {
-    pub block: &'a Block,
-    pub part: Option<PartArc>,
-    pub limits: &'a Limits,
+    pub(crate) block: &'a Block,
+    pub(crate) part: Option<PartArc>,
+    pub(crate) limits: &'a Limits,
 }
 
 impl Seen<'_> {
@@ -191,16 +191,16 @@ pub(super) fn look(block: &Block, part: Option<PartArc>, limits: &Limits) -> Vec
 
 /// A block in its text, for those who make fixes.
 pub(super) struct Site<'a> {
-    pub text: &'a [u8],
+    pub(crate) text: &'a [u8],
     /// The block's bytes, and those of its line with its line end.
-    pub range: Range<usize>,
-    pub line: Range<usize>,
-    pub fields: Fields,
-    pub block: Block,
+    pub(crate) range: Range<usize>,
+    pub(crate) line: Range<usize>,
+    pub(crate) fields: Fields,
+    pub(crate) block: Block,
     /// The largest number that the controller takes, µm.
-    pub largest: i64,
+    pub(crate) largest: i64,
     /// Whether a contour closes when other blocks stand in the place of this one.
-    pub closes_with: &'a dyn Fn(&[Block]) -> bool,
+    pub(crate) closes_with: &'a dyn Fn(&[Block]) -> bool,
 }
 
 pub(super) use crate::finding::TextFix;

@@ -42,18 +42,18 @@ pub(in super::super) const FOREIGN: f64 = 0.5;
 
 /// A block whose coordinates are off, for those who make its fixes.
 pub(in super::super) struct Mismatched<'a> {
-    pub text: &'a [u8],
-    pub block: Block,
-    pub fields: Fields,
+    pub(crate) text: &'a [u8],
+    pub(crate) block: Block,
+    pub(crate) fields: Fields,
     /// Bytes of the coordinates behind the block.
-    pub coordinates: Range<usize>,
-    pub before: StatedPoint,
-    pub stated: StatedPoint,
+    pub(crate) coordinates: Range<usize>,
+    pub(crate) before: StatedPoint,
+    pub(crate) stated: StatedPoint,
     /// Whether the next block leads on from these coordinates (`true`) or from where this block ends; `None` where nothing says.
-    pub goes_on: Option<bool>,
+    pub(crate) goes_on: Option<bool>,
     /// The contour closes as its blocks stand, and with another block in the place of this one.
-    pub closes: bool,
-    pub closes_with: &'a dyn Fn(&[Block]) -> bool,
+    pub(crate) closes: bool,
+    pub(crate) closes_with: &'a dyn Fn(&[Block]) -> bool,
 }
 
 /// The coordinates become those of the block's end, or the block one that ends at them, as the coordinates behind allow. Made without
