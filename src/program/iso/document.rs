@@ -25,7 +25,7 @@ use std::sync::{Arc, OnceLock};
 /// runs the stretches that it touched, and those behind for which something else is in force; one that has only been moved is shifted.
 /// A program that calls subprograms is run anew with each edit.
 #[derive(Clone, Debug)]
-pub(crate) struct Document {
+pub struct Document {
     text: SourceText,
     stretches: Chunks<Stretch>,
     reading: Reading,
