@@ -150,10 +150,6 @@ impl SourceText {
         self.bytes.len()
     }
 
-    pub(crate) fn is_empty(&self) -> bool {
-        self.bytes.len() == 0
-    }
-
     pub fn line_count(&self) -> usize {
         self.line_starts.len()
     }

@@ -139,11 +139,6 @@ impl Chains {
         ))
     }
 
-    /// Keys of all contours, in no order.
-    pub(crate) fn keys(&self) -> impl Iterator<Item = Key> + '_ {
-        self.contours.keys().copied()
-    }
-
     /// True when an entity's free ends have not moved, so that the contours stand as they are. Never for an entity whose own
     /// ends touch, or that others meet: what lies between its ends counts there.
     pub(crate) fn same_ends(&self, drawing: &Drawing, entity: EntityId, is_cut: bool) -> bool {

@@ -98,10 +98,6 @@ impl Contour {
         self.pieces.last().map_or(0, |piece| piece.range().end)
     }
 
-    pub(crate) fn is_empty(&self) -> bool {
-        self.pieces.is_empty()
-    }
-
     /// False where there is nothing to cut: no segment is longer than `zero_length` (drawing units).
     pub(crate) fn has_length(&self, drawing: &Drawing, zero_length: f64) -> bool {
         self.segments(drawing)

@@ -76,10 +76,6 @@ impl ContourIndex {
         self.segments
     }
 
-    pub(crate) fn is_empty(&self) -> bool {
-        self.segments == 0
-    }
-
     fn extend(&mut self, drawing: &Drawing, contour: &Contour) {
         for run in self.runs.len()..self.segments.div_ceil(RUN) {
             let mut tight = Vec::new();

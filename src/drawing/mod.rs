@@ -18,18 +18,16 @@ mod knots;
 mod linked;
 mod names;
 mod nesting;
-mod orientation;
 mod outline;
 mod slots;
 
 pub(crate) use appearance::{Color, Visibility};
 pub use chain::Chains;
+pub(crate) use chain::Key as ContourKey;
 pub(crate) use chain::stated_role;
-pub(crate) use chain::{Key as ContourKey, Rechained};
 pub use contour::Contour;
 pub(crate) use contour::{ContourSegment, Piece};
 pub(crate) use doubles::run_together;
-pub(crate) use edit::ChangeError;
 pub use edit::{Change, Delta, DrawingEdit, Touched};
 pub use entity::{Entity, EntityId, Geometry, Role, Vertex};
 pub(crate) use handle::Handle;
@@ -37,9 +35,6 @@ pub(crate) use index::ContourIndex;
 pub(crate) use index::RUN;
 pub use kind::Kind;
 pub(crate) use nesting::{nesting_depths, winding, winding_of};
-pub(crate) use orientation::{
-    Orientation, orientation, orientation_by_extreme_point, orientation_by_turns,
-};
 pub use outline::Outline;
 pub(crate) use outline::wire_side;
 

@@ -5,7 +5,6 @@ use super::repair::gate;
 use super::steps::{self, Program};
 use super::{iso, three_b};
 use crate::finding::{Finding, Severity, TextFix};
-use crate::geometry::Point;
 use crate::settings::Effective;
 use crate::text::{SourceText, TextEdit};
 use std::ops::Range;
@@ -148,7 +147,7 @@ impl Document {
         (!edits.is_empty()).then_some(edits)
     }
 
-    fn program(&self) -> &dyn Program {
+    pub(super) fn program(&self) -> &dyn Program {
         match self {
             Document::ThreeB(document) => document,
             Document::Iso(document) => &**document,
@@ -184,11 +183,6 @@ impl Document {
         Some((chain, cut, nth))
     }
 
-    /// The moves from the last stop on that stand before a byte, by their ends.
-    pub(crate) fn chain_before(&self, offset: usize) -> Option<Chain<'static>> {
-        steps::chain_before(self.program(), offset)
-    }
-
     /// The first stop behind a byte.
     pub(crate) fn stop_behind(&self, offset: usize) -> Option<Range<usize>> {
         steps::stop_behind(self.program(), offset)
@@ -197,11 +191,6 @@ impl Document {
     /// The first block that moves.
     pub(crate) fn first_move(&self) -> Option<Range<usize>> {
         steps::first_move(self.program())
-    }
-
-    /// Where the program begins, µm: the origin where it does not say.
-    pub(crate) fn start(&self) -> Point {
-        self.program().begin().0
     }
 
     /// The steps whose text overlaps or touches a range of bytes. Costs the range, not the program.

@@ -19,29 +19,28 @@ mod segment;
 mod simulate;
 mod toolpath;
 
-pub(crate) use change::{DrawingChange, Splice, apply, changes_of};
+pub(crate) use change::{DrawingChange, apply, changes_of};
 pub use contours::Contours;
-pub(crate) use contours::{ContourPiece, ContoursContour, Direction, Gap};
-pub(crate) use data::{FindingData, RelatedPlace};
+pub(crate) use contours::{ContoursContour, Direction};
+pub(crate) use data::FindingData;
 pub(crate) use diagnostic::{
     CodeDescription, Diagnostic, Location, Position, Range, RelatedInformation, severity_number,
 };
-pub(crate) use drawing::{Drawing, Entity, Units};
-pub(crate) use generate::{Closure, Generate, Program, Refused};
+pub(crate) use drawing::Drawing;
+pub(crate) use generate::{Generate, Program, Refused};
 pub(crate) use in_force::{CorrectionSource, SettingsInForce};
 pub use inspection::Inspection;
 pub(crate) use inspection::{InspectedEntity, InspectedSegment};
 pub(crate) use locate::{Locate, Located};
 pub(crate) use requests::{
-    Applied, ApplyDrawingEdit, ChangeDrawing, CloseDrawing, DrawingEdit, DrawingName,
-    DrawingVersion, Inspect, OpenDrawing, OptionsOf, Picture, ResendDrawing, Resent, RulePage,
-    RulePageText, ScaleProgram,
+    Applied, ApplyDrawingEdit, ChangeDrawing, CloseDrawing, DrawingEdit, DrawingName, Inspect,
+    OpenDrawing, OptionsOf, Picture, ResendDrawing, Resent, RulePage, RulePageText, ScaleProgram,
 };
 pub use schema::schema;
 pub(crate) use schema::settings_schema;
 pub(crate) use segment::{SegmentKind, SegmentShape};
-pub(crate) use simulate::{Simulate, SimulatedBlock, SimulatedBounds, Simulation, StepKind};
-pub(crate) use toolpath::{PathPiece, PathSource, Toolpath, ToolpathPath};
+pub(crate) use simulate::{Simulate, SimulatedBlock, Simulation, StepKind};
+pub(crate) use toolpath::{PathPiece, PathSource, Toolpath};
 
 /// Version of the `wedm/` name space that the handshake states.
 pub(crate) const PROTOCOL: u32 = 1;

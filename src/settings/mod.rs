@@ -26,7 +26,6 @@ pub(crate) use passes::{PassFault, pass_faults, passes_table};
 pub use profile::shipped_profiles;
 pub(crate) use profile::{CenterRule, Coordinates, LineEnd, NumberUnit, Zero};
 pub(crate) use reader::words_of;
-pub(crate) use row::Range;
 pub use row::Row;
 pub use table::camel_case;
 

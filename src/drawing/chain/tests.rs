@@ -165,7 +165,7 @@ fn sets(shapes: &[(f64, f64, f64, f64, f64)], order: &[usize]) -> Sets {
             .get(key)
             .map(|contour| (contour.pieces.iter().map(handle).collect(), contour.closed))
     };
-    let sets: Sets = chains.keys().filter_map(set).collect();
+    let sets: Sets = chains.contours.keys().copied().filter_map(set).collect();
     assert_eq!(
         sets.iter().map(|(handles, _)| handles.len()).sum::<usize>(),
         shapes.len(),
@@ -385,7 +385,7 @@ fn star(count: usize) -> Drawing {
 }
 
 fn pieces(drawing: &Drawing, chains: &Chains) -> Vec<Vec<(EntityId, bool)>> {
-    let mut keys: Vec<Key> = chains.keys().collect();
+    let mut keys: Vec<Key> = chains.contours.keys().copied().collect();
     keys.sort_unstable_by_key(|&key| drawing.rank(chains.first_of(key).unwrap()));
     let pieces = |key| {
         chains
@@ -423,7 +423,9 @@ fn thousands_of_ends_nearly_in_one_point_are_chained_in_machining_order() {
     );
     assert!(
         chains
+            .contours
             .keys()
+            .copied()
             .filter(|&key| chains.get(key).unwrap().closed)
             .count()
             == 1

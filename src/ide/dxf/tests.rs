@@ -1,5 +1,6 @@
 //! What editors ask, at a cursor (`$0`) in small texts.
 
+use super::symbols::{ContourNote, GROUPED_ABOVE};
 use super::*;
 use crate::drawing::Unit;
 use crate::dxf::Document;

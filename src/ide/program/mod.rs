@@ -26,7 +26,6 @@ pub(crate) use numbers::{number_at, renamed};
 pub(crate) use selection::selections;
 pub(crate) use symbols::symbols;
 pub(crate) use tokens::{tokens, tokens_in};
-pub(crate) use words::{Part, WordKind, words_of};
 
 use super::{Completion, Signature};
 use crate::program::Document;

@@ -1,3 +1,4 @@
+use super::words::{WordKind, words_of};
 use super::*;
 use crate::ide::{CompletionKind, FoldKind, Symbol};
 use crate::program::{Document, Language, refactorings};

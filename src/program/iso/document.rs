@@ -61,7 +61,7 @@ pub(super) struct Crossings {
 pub(super) type Table = FxHashMap<Offset, i64>;
 
 impl Document {
-    /// Reads program text. Never fails: what is damaged is in [`Document::findings`].
+    #[cfg(test)]
     pub(crate) fn read(bytes: Vec<u8>) -> Document {
         Document::read_with(bytes, &Effective::default())
     }

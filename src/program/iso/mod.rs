@@ -38,14 +38,12 @@ pub(crate) mod word;
 mod write;
 
 pub use block::read_line;
-pub(crate) use block::{Block, Compensation, Corner, Motion, Note, Offset, Stop};
 pub use document::Document;
 pub(crate) use layout::format;
 pub(crate) use numbers::renamed;
 pub(in crate::program) use taper::{Words as TaperWords, refuse_anywhere as refuse_taper};
 
-pub(crate) use machine::{CenterRule, Course, Machine, Move, Reading};
 pub(crate) use plain::words;
-pub(crate) use word::{Number, Term, Token, Value, WordFault};
+pub(crate) use word::Token;
 pub use write::write;
 pub(crate) use write::write_with;

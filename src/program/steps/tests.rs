@@ -1,5 +1,6 @@
 //! What is asked of a part of a program is held against the whole trace, for programs of both languages under edits.
 
+use super::chain_before;
 use crate::program::path::{Chain, Cut, Kind, Step, Trace, cuts};
 use crate::program::{Document, Language};
 use crate::settings::Effective;
@@ -45,7 +46,7 @@ fn assert_parts_are_of_the_whole(document: &Document) -> Result<(), TestCaseErro
     let trace = document.trace();
     let (text, writing) = (document.text(), trace.writing);
     let all = cuts(&trace);
-    prop_assert_eq!(document.start(), trace.start);
+    prop_assert_eq!(document.program().begin().0, trace.start);
     let first = trace.steps.iter().find(|step| step.moves());
     prop_assert_eq!(document.first_move(), first.map(|step| step.range.clone()));
     for offset in (0..=text.len()).step_by(1 + text.len() / 29) {
@@ -110,7 +111,7 @@ fn assert_parts_are_of_the_whole(document: &Document) -> Result<(), TestCaseErro
         let before = last
             .filter(|step| step.moves())
             .and_then(|step| chain_by_trace(&trace, step.range.start));
-        let chain = document.chain_before(offset);
+        let chain = chain_before(document.program(), offset);
         prop_assert_eq!(
             chain.map(|chain| chain.count()),
             before.map(|(_, nth, _)| nth + 1)

@@ -26,16 +26,10 @@ mod tests;
 pub(crate) mod words;
 mod write;
 
-pub(crate) use crate::program::write::{ProofError, ProvedProgram};
-
-pub(crate) use around::StatedPoint;
 pub use block::{Block, CountingAxis, Motion, Quadrant};
-pub(crate) use block::{Node, PartArc};
-pub(crate) use decode::DecodeFault;
 pub use decode::decode;
 pub use document::Document;
-pub(crate) use encode::{Encoded, encode, snap};
-pub(crate) use fault::{Flaw, SyntaxFault};
+pub(crate) use fault::SyntaxFault;
 pub use fields::{Fields, fields_of};
 pub use machine::{interpolate, travel};
 pub use parse::{Item, read, read_line};

@@ -1,12 +1,13 @@
 //! Text, blocks and paths held against each other.
 
+use super::Document;
 use super::around::StatedPoint;
 use super::block::{Block, CountingAxis, Motion, Node, Quadrant};
+use super::decode::{DecodeFault, decode};
 use super::encode::{ASIDE_TOLERANCE, END_TOLERANCE, Encoded, encode, point_of, snap};
 use super::parse::{Item, read};
 use super::words::{Word, Words};
 use super::write::{write, write_with};
-use super::{DecodeFault, Document, decode};
 use crate::drawing::EntityId;
 use crate::geometry::{Arc, Point, Segment, Vector, direction, turn};
 use crate::program::{ProofError, ProvedProgram};

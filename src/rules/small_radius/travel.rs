@@ -21,10 +21,6 @@ impl Travel<'_> {
         self.contour.len()
     }
 
-    pub(crate) fn is_empty(&self) -> bool {
-        self.contour.is_empty()
-    }
-
     /// The contour's own index at a position; `None` past the ends of an open contour.
     pub(crate) fn index_at(&self, position: isize) -> Option<usize> {
         let count = self.len() as isize;

@@ -2,7 +2,6 @@
 
 mod sequence;
 
-pub(crate) use sequence::Sequence;
 pub use sequence::{check_answers, sequence};
 
 use super::transport::{Frame, Frames, Writer};
