@@ -115,12 +115,14 @@ impl Analysis {
             &mut report,
         );
         self.report_size(drawing, &mut report);
-        self.pairs.report(
+        let mut pairs = std::mem::take(&mut self.pairs);
+        pairs.report(
             drawing,
             &|key| self.outlook(drawing, key),
             &|key| side_of(self, key),
             &mut report,
         );
+        self.pairs = pairs;
         self.report_dead_ends(drawing, &ends, &mut report);
         if self.settings.side != SideSetting::Both || self.stated > 0 {
             let ordered = self.in_machining_order(drawing).to_vec();

@@ -17,6 +17,8 @@ pub(crate) struct Known {
     /// For each local rule, for each run of the index, what it has seen; nothing at all where it has seen nothing, as in
     /// most contours.
     observations: Vec<Vec<Vec<Observation>>>,
+    /// For each local rule how many of its observations concern which side.
+    counts: Vec<Counts>,
     /// Number of runs when the rules looked last.
     runs: usize,
 }
@@ -27,6 +29,7 @@ impl Known {
             index,
             stated,
             observations: Vec::new(),
+            counts: Vec::new(),
             runs: 0,
         }
     }
@@ -74,6 +77,9 @@ impl Known {
                 .get_mut(number)
                 .filter(|observations| !observations.is_empty())
             {
+                for gone in observations.iter().skip(runs).flatten() {
+                    self.counts[number].take(gone);
+                }
                 observations.resize(runs, Vec::new());
             }
             for run in ranges
@@ -86,8 +92,12 @@ impl Known {
                     continue;
                 }
                 self.observations.resize(LOCAL_RULES.len(), Vec::new());
+                self.counts.resize(LOCAL_RULES.len(), Counts::default());
                 let observations = &mut self.observations[number];
                 observations.resize(runs, Vec::new());
+                let counts = &mut self.counts[number];
+                observations[run].iter().for_each(|gone| counts.take(gone));
+                seen.iter().for_each(|new| counts.add(new));
                 observations[run] = seen.as_slice().into();
             }
         }
@@ -100,23 +110,27 @@ impl Known {
 
     /// Adds the findings of the local rules in this contour, rule by rule, in order of travel.
     pub(crate) fn report(&self, outlook: &Outlook, wire_side: Option<Side>, report: &mut Report) {
-        for (rule, observations) in LOCAL_RULES.iter().zip(&self.observations) {
-            let concerned = |observation: &&Observation| {
-                let of_side = match wire_side {
-                    Some(_) => observation.side.is_none() || observation.side == wire_side,
-                    None => !observation.needs_side,
-                };
-                of_side
-                    && (observation.index > 0
-                        || !outlook.contour.closed
-                        || (rule.holds)(outlook, **observation))
+        let of_rules = LOCAL_RULES.iter().zip(&self.observations);
+        for ((rule, observations), counts) in of_rules.zip(&self.counts) {
+            // What is seen where a closed contour begins is asked anew.
+            let holds = |observation: &Observation| {
+                observation.index > 0
+                    || !outlook.contour.closed
+                    || (rule.holds)(outlook, *observation)
             };
+            let concerned =
+                |observation: &&Observation| is_of(wire_side, observation) && holds(observation);
+            let at_the_beginning = observations.first().into_iter().flatten();
+            let fallen = at_the_beginning
+                .filter(|observation| is_of(wire_side, observation) && !holds(observation))
+                .count();
+            let count = counts.of(wire_side) - fallen;
             let mut observations = observations.iter().flatten().filter(concerned);
             if rule.one_hint_when_side_unknown && wire_side.is_none() {
                 let Some(&first) = observations.next() else {
                     continue;
                 };
-                let (mildest, count) = (Some(Severity::Hint), 1 + observations.count());
+                let mildest = Some(Severity::Hint);
                 if report.counts(rule.rule, mildest)
                     && let (Some(place), Some(detail)) = (
                         outlook.place(first.index as usize),
@@ -132,13 +146,15 @@ impl Known {
                 }
                 continue;
             }
+            report.count(rule.rule, None, count);
             for &observation in observations {
-                if report.counts(rule.rule, None)
-                    && let (Some(place), Some(detail)) = (
-                        outlook.place(observation.index as usize),
-                        (rule.detail)(outlook, observation, None),
-                    )
-                {
+                if report.is_full(rule.rule, None) {
+                    break;
+                }
+                if let (Some(place), Some(detail)) = (
+                    outlook.place(observation.index as usize),
+                    (rule.detail)(outlook, observation, None),
+                ) {
                     report.add(
                         rule.rule,
                         None,
@@ -149,6 +165,53 @@ impl Known {
                 }
             }
         }
+    }
+}
+
+/// True for what concerns the wire on this side, or on any where the side is not known.
+fn is_of(wire_side: Option<Side>, observation: &Observation) -> bool {
+    match wire_side {
+        Some(_) => observation.side.is_none() || observation.side == wire_side,
+        None => !observation.needs_side,
+    }
+}
+
+/// How many observations there are, by the side that they concern and by whether they need one.
+#[derive(Clone, Debug, Default)]
+struct Counts {
+    of: [[usize; 2]; 3],
+}
+
+impl Counts {
+    fn place(&mut self, observation: &Observation) -> &mut usize {
+        &mut self.of[row_of(observation.side)][usize::from(observation.needs_side)]
+    }
+
+    fn add(&mut self, observation: &Observation) {
+        *self.place(observation) += 1;
+    }
+
+    fn take(&mut self, observation: &Observation) {
+        *self.place(observation) -= 1;
+    }
+
+    /// How many are [`is_of`] this side.
+    fn of(&self, wire_side: Option<Side>) -> usize {
+        match wire_side {
+            Some(_) => [None, wire_side]
+                .iter()
+                .flat_map(|&side| self.of[row_of(side)])
+                .sum(),
+            None => self.of.iter().map(|[freely, _]| freely).sum(),
+        }
+    }
+}
+
+fn row_of(side: Option<Side>) -> usize {
+    match side {
+        None => 0,
+        Some(Side::Left) => 1,
+        Some(Side::Right) => 2,
     }
 }
 

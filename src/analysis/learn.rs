@@ -123,6 +123,7 @@ impl Analysis {
         let recounted = before.count() != geometry.segment_count();
         if recounted {
             self.chains.recount(drawing, entity);
+            self.pairs.renumber();
             self.answers.retain(|(other, _), _| *other != key);
         }
         self.lost.remove(&key);

@@ -109,15 +109,16 @@ impl Analysis {
         analysis.pairs = Pairs::new(&analysis.settings.budget, segments);
         analysis.known.reserve(keys.len());
         analysis.learn(drawing, &keys);
+        analysis.pairs.settle();
         analysis
     }
 
     /// Looks again at what `delta` touched. Same result as a fresh [`Analysis::new`].
     pub fn update(&mut self, drawing: &Drawing, delta: &Delta) {
-        if self.pairs.is_within_budget() {
+        if self.pairs.is_as_fresh() {
             self.look_at_touched(drawing, delta);
         }
-        if !self.pairs.is_within_budget() {
+        if !self.pairs.is_as_fresh() {
             *self = Analysis::new(drawing, self.settings.clone());
         }
     }
@@ -134,6 +135,9 @@ impl Analysis {
         }
         let mut moved = Vec::new();
         let suspended = self.suspended.take();
+        if suspended.is_some() {
+            self.pairs.renumber();
+        }
         match (suspended, delta.touched.as_slice()) {
             (Some(_), []) => {
                 self.suspended = suspended;
@@ -145,6 +149,7 @@ impl Analysis {
             (Some(entity), _) => moved.push(entity),
             (None, [Touched::Removed { entity }]) if self.may_be_suspended(*entity) => {
                 self.suspended = Some(*entity);
+                self.pairs.renumber();
                 self.order = OnceLock::new();
                 return;
             }
@@ -172,6 +177,7 @@ impl Analysis {
             return;
         }
         self.order = OnceLock::new();
+        self.pairs.renumber();
         let settings = self.settings.clone();
         let rechained = self
             .chains

@@ -8,6 +8,8 @@ use crate::finding::{Detail, NotJudged, Place, Rule, Severity, Side};
 use crate::geometry::Point;
 use crate::rules::{PAIR_RULES, Wall};
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Two segments of a contour that form a slot, and the disc between them.
 pub(crate) type Slot = ([usize; 2], Option<(Point, f64)>);
@@ -104,11 +106,8 @@ impl Pairs {
         doubled
     }
 
-    /// Says where segments have not been compared.
-    fn report_uncompared(&self, drawing: &Drawing, outlook: Outlooks, report: &mut Report) {
-        if self.uncompared.is_empty() || !report.counts(Rule::NotJudged, None) {
-            return;
-        }
+    /// Where the first run lies that has not been compared.
+    fn first_uncompared(&self, drawing: &Drawing, outlook: Outlooks) -> Option<Place> {
         let first = self.uncompared.iter().filter_map(|&(key, run)| {
             outlook(key)?.place(outlook(key)?.index.range_of(run as usize).start)
         });
@@ -116,7 +115,25 @@ impl Pairs {
             Place::Segment { entity, segment } => Some((drawing.rank(*entity), *segment)),
             _ => None,
         };
-        if let Some(place) = first.min_by_key(rank) {
+        first.min_by_key(rank)
+    }
+
+    /// Adds the findings, in the machining order of their entities.
+    pub(crate) fn report(
+        &mut self,
+        drawing: &Drawing,
+        outlook: Outlooks,
+        wire_side: &dyn Fn(ContourKey) -> Option<Side>,
+        report: &mut Report,
+    ) {
+        let told = match self.told.take().filter(|told| told.holds(wire_side)) {
+            Some(told) => told,
+            None => Arc::new(self.told(drawing, outlook, wire_side, report.is_for_a_path())),
+        };
+        if !self.uncompared.is_empty()
+            && report.counts(Rule::NotJudged, None)
+            && let Some(place) = told.uncompared.clone()
+        {
             let left_out = NotJudged::Pairs {
                 count: self.uncompared.len(),
             };
@@ -128,20 +145,63 @@ impl Pairs {
                 Vec::new(),
             );
         }
+        let mut kinds: Vec<(Rule, Option<Severity>, bool)> = Vec::new();
+        for (&(rule, mildest), &count) in &told.counts {
+            let rule = PAIR_RULES[rule].rule;
+            report.count(rule, mildest, count);
+            kinds.push((rule, mildest, !report.is_full(rule, mildest)));
+        }
+        for each in &told.pairs {
+            let (_, mildest, is_open) = kinds[each.kind];
+            let rule = &PAIR_RULES[each.rule];
+            if !is_open {
+                continue;
+            }
+            if report.is_full(rule.rule, mildest) {
+                kinds[each.kind].2 = false;
+                if kinds.iter().all(|(.., is_open)| !is_open) {
+                    break;
+                }
+            } else if let (Some(own), Some(theirs)) = (outlook(each.one.0), outlook(each.other.0))
+                && let (Some(one), Some(other)) = (
+                    Wall::new(&own, each.one.1),
+                    Wall::new(&theirs, each.other.1),
+                )
+                && let (Some(place), Some(related)) =
+                    (own.place(each.one.1), theirs.place(each.other.1))
+                && let Some(detail) = (rule.detail)(&one, &other, each.one.0 == each.other.0)
+            {
+                let related = each.others.clone().unwrap_or_else(|| vec![related]);
+                report.add(rule.rule, mildest, place, detail, related);
+            }
+        }
+        self.told = Some(told);
     }
 
-    /// Adds the findings, in the machining order of their entities.
-    pub(crate) fn report(
+    /// What there is to tell of all that has been seen.
+    fn told(
         &self,
         drawing: &Drawing,
         outlook: Outlooks,
         wire_side: &dyn Fn(ContourKey) -> Option<Side>,
-        report: &mut Report,
-    ) {
-        self.report_uncompared(drawing, outlook, report);
+        is_for_a_path: bool,
+    ) -> Told {
         type Ends = ((EntityId, usize), (EntityId, usize));
+        let mut told = Told {
+            uncompared: self.first_uncompared(drawing, outlook),
+            ..Told::default()
+        };
+        for key in self
+            .seen
+            .values()
+            .flatten()
+            .flat_map(|each| [each.one.0, each.other.0])
+        {
+            told.sides.entry(key).or_insert_with(|| wire_side(key));
+        }
+        let side_of = |key: ContourKey| told.sides.get(&key).copied().flatten();
         let concerned = |key: ContourKey, side: Option<Side>| {
-            side.is_none() || wire_side(key).is_none() || side == wire_side(key)
+            side.is_none() || side_of(key).is_none() || side == side_of(key)
         };
         let mut seen: Vec<(usize, Ends, &Observed)> = Vec::new();
         for each in self.seen.values().flatten() {
@@ -180,8 +240,8 @@ impl Pairs {
             &seen.iter().map(|(_, _, each)| *each).collect::<Vec<_>>(),
             &|key| outlook(key).map(|it| it.contour.len()),
         );
-        for (at, (rule, ends, each)) in seen.iter().enumerate() {
-            let rule = &PAIR_RULES[*rule];
+        for (at, (number, ends, each)) in seen.iter().enumerate() {
+            let rule = &PAIR_RULES[*number];
             if rule.silent_for_doubles && doubles.contains(&(ends.0.0, ends.1.0))
                 || merged.contains(&at)
             {
@@ -196,27 +256,61 @@ impl Pairs {
                 _ => None,
             };
             let unknown = rule.warning_when_side_unknown
-                && (wire_side(each.one.0).is_none() || wire_side(each.other.0).is_none());
+                && (side_of(each.one.0).is_none() || side_of(each.other.0).is_none());
             // Where the contour is the wire's own path it may well touch and cross itself: leads do.
-            let mildest = if unknown || report.is_for_a_path() {
+            let mildest = if unknown || is_for_a_path {
                 Some(Severity::Warning)
             } else {
                 each.mildest
             };
-            if report.counts(rule.rule, mildest)
-                && let (Some(own), Some(theirs)) = (outlook(each.one.0), outlook(each.other.0))
-                && let (Some(one), Some(other)) = (
-                    Wall::new(&own, each.one.1),
-                    Wall::new(&theirs, each.other.1),
-                )
-                && let (Some(place), Some(related)) =
-                    (own.place(each.one.1), theirs.place(each.other.1))
-                && let Some(detail) = (rule.detail)(&one, &other, each.one.0 == each.other.0)
-            {
-                let related = others.unwrap_or_else(|| vec![related]);
-                report.add(rule.rule, mildest, place, detail, related);
-            }
+            *told.counts.entry((*number, mildest)).or_default() += 1;
+            told.pairs.push(ToldPair {
+                rule: *number,
+                mildest,
+                kind: 0,
+                one: each.one,
+                other: each.other,
+                others,
+            });
         }
+        for pair in &mut told.pairs {
+            pair.kind = told.counts.range(..(pair.rule, pair.mildest)).count();
+        }
+        told
+    }
+}
+
+/// What there is to tell of the pairs that have been seen, while none comes or goes and the wire stays on its sides.
+#[derive(Debug, Default)]
+pub(super) struct Told {
+    /// The side of the wire at each of the contours.
+    sides: FxHashMap<ContourKey, Option<Side>>,
+    /// Where the first run lies that has not been compared.
+    uncompared: Option<Place>,
+    /// In the order of the rules, and in the machining order of the entities.
+    pairs: Vec<ToldPair>,
+    /// How many there are of each rule and severity.
+    counts: BTreeMap<(usize, Option<Severity>), usize>,
+}
+
+#[derive(Debug)]
+struct ToldPair {
+    /// Index into [`PAIR_RULES`].
+    rule: usize,
+    mildest: Option<Severity>,
+    /// Place of its rule and severity among the counts.
+    kind: usize,
+    one: SegmentId,
+    other: SegmentId,
+    /// Where else the same entity lies.
+    others: Option<Vec<Place>>,
+}
+
+impl Told {
+    fn holds(&self, wire_side: &dyn Fn(ContourKey) -> Option<Side>) -> bool {
+        self.sides
+            .iter()
+            .all(|(&key, &side)| wire_side(key) == side)
     }
 }
 

@@ -1,6 +1,7 @@
 //! What the rules on pairs of segments have seen, by the runs of segments that the two lie in.
 
 use super::compare::{Comparison, Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId, passes};
+use super::pair_findings::Told;
 use crate::drawing::{ContourIndex, ContourKey};
 use crate::finding::Rule;
 use crate::geometry::{Bounds, Grid, Point};
@@ -8,6 +9,7 @@ use crate::rules::{Limits, PAIR_RULES, PairRule};
 use crate::settings::{Budget, Effective};
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
 
 /// What a look of the budget is: a segment held against another one, or so many boxes of the grid.
@@ -39,6 +41,12 @@ pub(crate) struct Pairs {
     left: u64,
     left_to_ask: u64,
     most_seen: usize,
+    /// Where enough has been seen: runs that had not been compared, nor seen by any other, and were forgotten; and whether something has
+    /// changed that those that were compared may see.
+    untold: FxHashSet<RunId>,
+    is_disturbed: bool,
+    /// What there is to tell of all that has been seen, while that stays.
+    pub(super) told: Option<Arc<Told>>,
 }
 
 impl Pairs {
@@ -61,10 +69,40 @@ impl Pairs {
         (self.left, self.left_to_ask) = (self.granted, self.granted);
     }
 
-    /// True while what has been seen, edit by edit, is what a look at everything sees. Each pair that there is has been looked at once at
-    /// least: where that took no more than half of what there was, a look at everything comes to its end, too. Else what is left out
+    /// True while what has been seen, edit by edit, is what a look at everything sees.
+    pub(crate) fn is_as_fresh(&self) -> bool {
+        self.is_within_budget() || self.is_settled()
+    }
+
+    /// Segments have other numbers, or entities another order.
+    pub(crate) fn renumber(&mut self) {
+        self.told = None;
+    }
+
+    /// Everything has been looked at, in the order of the drawing.
+    pub(crate) fn settle(&mut self) {
+        self.is_disturbed = false;
+    }
+
+    /// True where so much has been seen that a look at everything ends there, and nothing has changed but among what comes behind that
+    /// end: a look at everything ends there again.
+    fn is_settled(&self) -> bool {
+        let half = self.granted / 2;
+        self.seen_count >= self.most_seen
+            && self.left >= half
+            && self.left_to_ask >= half
+            && !self.is_disturbed
+            && self.untold.is_empty()
+    }
+
+    /// True for a run that was left out of the comparison, and that none of those that were compared has seen.
+    fn is_left_out(&self, run: &RunId) -> bool {
+        self.uncompared.contains(run) && !self.partners.contains_key(run)
+    }
+
+    /// Each pair that there is has been looked at once at least: where that took no more than half of what there was, a look at everything comes to its end, too. Else what is left out
     /// hangs on the order in which things are looked at: all has to be looked at.
-    pub(crate) fn is_within_budget(&self) -> bool {
+    fn is_within_budget(&self) -> bool {
         let half = self.granted / 2;
         self.uncompared.is_empty()
             && self.seen_count < self.most_seen
@@ -92,9 +130,15 @@ impl Pairs {
     /// Forgets a run with the box that it was looked at with.
     pub(crate) fn forget_run(&mut self, run: RunId, bounds: &Bounds) {
         self.grid.remove(run, bounds);
+        if self.is_left_out(&run) {
+            self.untold.insert(run);
+        } else {
+            self.is_disturbed = true;
+        }
         self.uncompared.remove(&run);
         self.disturb(bounds);
         for partner in self.partners.remove(&run).unwrap_or_default() {
+            self.told = None;
             let gone = self.seen.remove(&ordered(run, partner));
             self.seen_count -= gone.map_or(0, |gone| gone.len());
             if let Some(of_partner) = self.partners.get_mut(&partner) {
@@ -119,11 +163,16 @@ impl Pairs {
             return;
         }
         let (partners, stale) = (&self.partners, &mut self.stale);
+        let (uncompared, untold) = (&self.uncompared, &self.untold);
+        let mut is_seen = false;
         self.grid.near(&bounds.grown(self.reach), |run| {
             if partners.contains_key(&run) {
                 stale.insert(run);
+                is_seen = true;
             }
+            is_seen |= !uncompared.contains(&run) && !untold.contains(&run);
         });
+        self.is_disturbed |= is_seen;
     }
 
     /// Looks at new runs, with each other and with all that come near them.
@@ -155,6 +204,12 @@ impl Pairs {
                 self.grid.insert(run, bounds);
                 self.disturb(&bounds);
             }
+        }
+        // Of what was not there before nobody knows whether it comes behind the end of what is compared.
+        let is_known = |run| self.untold.contains(run);
+        self.is_disturbed |= !runs.iter().all(is_known);
+        for run in runs {
+            self.untold.remove(run);
         }
         // Their order is that of the contours, whatever the numbers by which these are known.
         let new: FxHashMap<RunId, usize> = runs
@@ -222,11 +277,15 @@ impl Pairs {
             if found.iter().any(|seen| seen.disc.is_some()) {
                 self.stale.insert(run);
             }
+            self.told = None;
             self.seen.insert(ordered(run, other), found);
             self.partners.entry(run).or_default().push(other);
             if other != run {
                 self.partners.entry(other).or_default().push(run);
             }
+        }
+        if self.is_disturbed && !self.uncompared.is_empty() {
+            self.told = None;
         }
         self.ask_again(&mut kept, limits);
     }
@@ -266,6 +325,7 @@ impl Pairs {
                 continue;
             };
             for each in &mut seen {
+                let was_blocked = each.blocked;
                 each.blocked = each.disc.is_some_and(|disc| {
                     left == 0
                         || self.reaches_into(
@@ -276,6 +336,9 @@ impl Pairs {
                             &mut left,
                         )
                 });
+                if each.blocked != was_blocked {
+                    self.told = None;
+                }
             }
             if left == 0 && seen.iter().any(|each| each.disc.is_some()) {
                 self.uncompared.insert(pair.0);
