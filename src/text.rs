@@ -85,6 +85,12 @@ impl Default for SourceText {
     }
 }
 
+/// The first characters of some bytes, for a sentence about them.
+pub(crate) fn shown(bytes: &[u8]) -> String {
+    let near = String::from_utf8_lossy(&bytes[..bytes.len().min(48)]);
+    near.chars().take(12).collect()
+}
+
 impl SourceText {
     pub fn new(mut bytes: Vec<u8>) -> SourceText {
         bytes.truncate(u32::MAX as usize);
@@ -197,6 +203,38 @@ impl SourceText {
             }
         }
         start..end
+    }
+
+    /// A line with its line end.
+    pub(crate) fn whole_line(&self, line: usize) -> Range<usize> {
+        self.line_start(line)..self.line_start(line + 1)
+    }
+
+    /// The bytes of a line, without its line end.
+    pub(crate) fn line(&self, line: usize) -> &[u8] {
+        self.bytes().get(self.line_range(line)).unwrap_or_default()
+    }
+
+    /// The line end of a line; of the one before it where it has none, else LF.
+    pub(crate) fn line_end(&self, line: usize) -> &'static str {
+        let end_of = |line: usize| {
+            let end = self.line_range(line).end;
+            match (self.byte(end)?, self.byte(end + 1)) {
+                (b'\r', Some(b'\n')) => Some("\r\n"),
+                (b'\r', _) => Some("\r"),
+                _ => Some("\n"),
+            }
+        };
+        let own = end_of(line).or_else(|| end_of(line.checked_sub(1)?));
+        own.unwrap_or("\n")
+    }
+
+    /// The edit that leaves a word out, with the space behind it in its line.
+    pub(crate) fn without_word(&self, word: &Range<usize>) -> TextEdit {
+        let behind = self.bytes().get(word.end..).unwrap_or_default();
+        let is_space = |byte: &&u8| matches!(byte, b' ' | b'\t');
+        let space = behind.iter().take_while(is_space).count();
+        TextEdit::new(word.start..word.end + space, "")
     }
 
     /// Replaces a range of bytes, which is clamped to the text. Costs a move of the tail; where lines come or

@@ -28,6 +28,11 @@ impl Axis {
 /// The numbers of a fault in a program. Lengths in µm unless they say otherwise.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fault {
+    /// What a rule says in a sentence of its own, where nobody else wants its numbers.
+    Said {
+        rule: Rule,
+        sentence: String,
+    },
     /// One of a block's three `B` is not there.
     MissingB,
     BlockNumberAsB {
@@ -62,12 +67,6 @@ pub enum Fault {
         axis: Axis,
         counted: i64,
         larger: i64,
-    },
-    /// An arc ends at (`x`, `y`) from its centre, where `axis` hardly moves.
-    ArcEndAxis {
-        axis: Axis,
-        x: f64,
-        y: f64,
     },
     /// With the other axis the contour closes.
     AxisKeepsOpen {
@@ -104,7 +103,6 @@ pub enum Fault {
     ExchangedKeepsOpen,
     /// The block stands twice: without it the contour closes.
     TwinKeepsOpen,
-    ZeroBlock,
     /// An arc whose centre is one of its ends, or is not said.
     ArcWithoutRadius,
     /// `field` holds more than `digits` digits.
@@ -174,12 +172,6 @@ pub enum Fault {
         number: u32,
     },
     EndlessCalls,
-    /// Full circles only: I and J are taken as leading from start to centre.
-    OpenCenters,
-    CenterOnLine,
-    WordTwice {
-        letter: char,
-    },
     /// G02 for G03, or the other way round; `is_sure` where the way turns back on itself.
     ReversedArc {
         is_sure: bool,
@@ -204,7 +196,6 @@ pub enum Fault {
     NoReturn {
         number: u32,
     },
-    NoCorner,
     /// `word` stands for the first of `count`.
     Bare {
         word: String,
@@ -256,20 +247,25 @@ impl Fault {
         }
     }
 
+    pub(crate) fn said(rule: Rule, sentence: impl Into<String>) -> Fault {
+        let sentence = sentence.into();
+        Fault::Said { rule, sentence }
+    }
+
     pub(crate) fn rule(&self) -> Rule {
         match self {
+            Fault::Said { rule, .. } => *rule,
             Fault::MissingB => Rule::MissingB,
             Fault::BlockNumberAsB { .. } => Rule::BlockNumberAsB,
             Fault::LengthInJ { .. } => Rule::LengthInJ,
             Fault::WrongJ { .. } | Fault::JKeepsOpen { .. } => Rule::WrongJ,
             Fault::JOverTurn { .. } => Rule::JOverTurn,
-            Fault::SmallerProjection { .. }
-            | Fault::ArcEndAxis { .. }
-            | Fault::AxisKeepsOpen { .. } => Rule::WrongCountingAxis,
+            Fault::SmallerProjection { .. } | Fault::AxisKeepsOpen { .. } => {
+                Rule::WrongCountingAxis
+            }
             Fault::AxisQuadrant { .. }
             | Fault::UnusualQuadrant { .. }
             | Fault::QuadrantKeepsOpen { .. } => Rule::WrongQuadrant,
-            Fault::ZeroBlock => Rule::ZeroBlock,
             Fault::ArcWithoutRadius => Rule::ArcWithoutRadius,
             Fault::TooManyDigits { .. } => Rule::TooManyDigits,
             Fault::NotClosed { .. } => Rule::NotClosed,
@@ -287,9 +283,6 @@ impl Fault {
             | Fault::NoSubprogram { .. }
             | Fault::EndlessCalls
             | Fault::UnknownValue { .. } => Rule::MachineDependent,
-            Fault::OpenCenters => Rule::AmbiguousCenter,
-            Fault::CenterOnLine => Rule::CenterOnLine,
-            Fault::WordTwice { .. } => Rule::WordTwice,
             Fault::ReversedArc { .. } => Rule::ReversedArc,
             Fault::Spur { .. } => Rule::Spur,
             Fault::DoubledBlock { .. } | Fault::TwinKeepsOpen => Rule::DoubledBlock,
@@ -297,7 +290,6 @@ impl Fault {
             Fault::SideChange { .. } => Rule::SideChange,
             Fault::StillOn => Rule::MissingCancel,
             Fault::NoReturn { .. } => Rule::MissingReturn,
-            Fault::NoCorner => Rule::CornerWord,
             Fault::Bare { .. } | Fault::Pointed { .. } | Fault::Places { .. } => Rule::MixedNumbers,
             Fault::LooksLikeInches { .. } | Fault::AbsurdSize { .. } => Rule::Units,
             Fault::Suspect { .. } | Fault::NumberKeepsOpen { .. } | Fault::ExchangedKeepsOpen => {

@@ -18,6 +18,7 @@ pub(super) fn program(fault: &Fault) -> String {
         Side::Right => say!(g42_lets_the_wire_run_on_the_right),
     };
     match fault {
+        Fault::Said { sentence, .. } => sentence.clone(),
         Fault::MissingB => say!(a_b_of_the_block_is_missing_the_controller).into(),
         Fault::BlockNumberAsB { number } => {
             say!(b_stands_where_the_block_number_was_meant, number)
@@ -69,13 +70,6 @@ pub(super) fn program(fault: &Fault) -> String {
                 axis.other().letter()
             )
         }
-        Fault::ArcEndAxis { axis, x, y } => say!(
-            g_does_not_fit_the_end_of_the_arc,
-            axis.letter(),
-            x,
-            y,
-            axis.other().letter()
-        ),
         Fault::AxisKeepsOpen { axis, is_sure } => keeps_open(
             &format!("G{}", axis.letter()),
             &format!("G{}", axis.other().letter()),
@@ -120,7 +114,6 @@ pub(super) fn program(fault: &Fault) -> String {
         }
         Fault::ExchangedKeepsOpen => say!(x_and_y_stand_for_each_other).into(),
         Fault::TwinKeepsOpen => say!(the_block_stands_twice_without).into(),
-        Fault::ZeroBlock => say!(the_block_moves_nothing_its_j).into(),
         Fault::ArcWithoutRadius => say!(the_arc_has_no_radius).into(),
         Fault::TooManyDigits {
             field,
@@ -202,8 +195,6 @@ pub(super) fn program(fault: &Fault) -> String {
         }
         Fault::NoSubprogram { number } => say!(subprogram_does_not_stand_in_this_text, number),
         Fault::EndlessCalls => say!(the_subprograms_call_each_other_without_end_or).into(),
-        Fault::CenterOnLine => say!(i_and_j_stand_beside_a_straight_cut).into(),
-        Fault::WordTwice { letter } => say!(stands_twice_in_this_line, letter),
         Fault::ReversedArc { is_sure: true } => say!(the_arc_runs_the_wrong_way_round).into(),
         Fault::ReversedArc { is_sure: false } => say!(the_arc_may_run_the_wrong_way_round).into(),
         Fault::Spur { length } => {
@@ -221,7 +212,6 @@ pub(super) fn program(fault: &Fault) -> String {
         Fault::NoReturn { number } => {
             say!(subprogram_has_no_m99, number)
         }
-        Fault::NoCorner => say!(the_word_for_a_corner_finds_none_here_or).into(),
         Fault::Bare { word, count: 1 } => {
             say!(has_no_decimal_point_the_other_numbers_have, word)
         }
@@ -258,6 +248,5 @@ pub(super) fn program(fault: &Fault) -> String {
                 _ => say!(may_be_wrong_with_here, found, comes_of_it, meant),
             }
         }
-        Fault::OpenCenters => say!(full_circles_alone_do_not_tell_how).into(),
     }
 }

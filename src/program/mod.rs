@@ -8,6 +8,7 @@ mod chunks;
 pub mod convert;
 mod document;
 mod edits;
+mod encode;
 mod format;
 pub(crate) mod grid;
 pub mod iso;

@@ -211,8 +211,8 @@ impl<'a> Walk<'a> {
             contour: step.contour,
             rapid: step.kind == Kind::Rapid,
         };
-        let first = self.first_of(&own, at);
-        let last = until.unwrap_or_else(|| self.last_of(&own, at));
+        let first = self.end_of(&own, at, false);
+        let last = until.unwrap_or_else(|| self.end_of(&own, at, true));
         let (mut count, mut arcs, mut meant) = (0, 0, Vector::zeros());
         let (mut nth, mut stop) = (0, None);
         for chunk in first.chunk..=last.chunk {
@@ -270,68 +270,48 @@ impl<'a> Walk<'a> {
         Some((chain(by_ends), nth))
     }
 
-    fn first_of(&mut self, own: &Own, at: At) -> At {
-        let mut first = at;
-        for chunk in (0..=at.chunk).rev() {
-            let mut end = at.step;
-            if chunk < at.chunk {
-                let sum = self.program.sum_of(chunk);
-                if sum.is_empty() {
-                    continue;
+    /// The first step of a chain, or the last one where it is looked for `ahead` of one of its steps.
+    fn end_of(&mut self, own: &Own, at: At, ahead: bool) -> At {
+        let mut found = at;
+        let chunks = match ahead {
+            true => at.chunk..self.program.chunk_count(),
+            false => 0..at.chunk + 1,
+        };
+        for chunk in towards(chunks, ahead) {
+            let sum = self.program.sum_of(chunk);
+            if chunk != at.chunk && sum.is_empty() {
+                continue;
+            }
+            if chunk != at.chunk && sum.is_all(own.rapid) {
+                if self.contours[chunk] != own.contour {
+                    break;
                 }
-                if sum.is_all(own.rapid) {
-                    if self.contours[chunk] != own.contour {
-                        break;
-                    }
-                    first = At { chunk, step: 0 };
-                    continue;
-                }
-                end = usize::MAX;
+                let step = if ahead { sum.moves - 1 } else { 0 };
+                found = At { chunk, step };
+                continue;
             }
             let steps = self.steps(chunk);
-            let end = end.min(steps.len());
-            for (step, before) in steps[..end].iter().enumerate().rev() {
-                if own.holds(before) {
-                    first = At { chunk, step };
-                } else if before.kind != Kind::Pause {
-                    return first;
+            let range = match (chunk == at.chunk, ahead) {
+                (true, true) => at.step..steps.len(),
+                (true, false) => 0..at.step.min(steps.len()),
+                (false, _) => 0..steps.len(),
+            };
+            for step in towards(range, ahead) {
+                if own.holds(&steps[step]) {
+                    found = At { chunk, step };
+                } else if steps[step].kind != Kind::Pause {
+                    return found;
                 }
             }
         }
-        first
+        found
     }
+}
 
-    fn last_of(&mut self, own: &Own, at: At) -> At {
-        let mut last = at;
-        for chunk in at.chunk..self.program.chunk_count() {
-            let mut begin = at.step;
-            if chunk > at.chunk {
-                let sum = self.program.sum_of(chunk);
-                if sum.is_empty() {
-                    continue;
-                }
-                if sum.is_all(own.rapid) {
-                    if self.contours[chunk] != own.contour {
-                        break;
-                    }
-                    last = At {
-                        chunk,
-                        step: sum.moves - 1,
-                    };
-                    continue;
-                }
-                begin = 0;
-            }
-            for (step, behind) in self.steps(chunk).iter().enumerate().skip(begin) {
-                if own.holds(behind) {
-                    last = At { chunk, step };
-                } else if behind.kind != Kind::Pause {
-                    return last;
-                }
-            }
-        }
-        last
-    }
+/// A range from its beginning, or from its end.
+fn towards(range: Range<usize>, ahead: bool) -> impl Iterator<Item = usize> {
+    let (first, end) = (range.start, range.end);
+    range.map(move |at| if ahead { at } else { first + end - 1 - at })
 }
 
 /// What the moves of a chain have in common.

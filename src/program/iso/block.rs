@@ -13,6 +13,49 @@ pub(crate) enum Motion {
     CounterClockwise,
 }
 
+impl Motion {
+    const ALL: [Motion; 4] = [
+        Motion::Rapid,
+        Motion::Line,
+        Motion::Clockwise,
+        Motion::CounterClockwise,
+    ];
+
+    /// That of a number behind G.
+    pub(super) fn of(number: Number) -> Option<Motion> {
+        let index = usize::try_from(number.mantissa).ok()?;
+        Motion::ALL
+            .get(index)
+            .filter(|_| number.decimals == 0)
+            .copied()
+    }
+
+    pub(super) fn word(self) -> &'static str {
+        ["G00", "G01", "G02", "G03"][self as usize]
+    }
+
+    pub(super) fn is_arc(self) -> bool {
+        matches!(self, Motion::Clockwise | Motion::CounterClockwise)
+    }
+
+    /// The arc that turns so, counter-clockwise or not.
+    pub(super) fn turning(left: bool) -> Motion {
+        match left {
+            true => Motion::CounterClockwise,
+            false => Motion::Clockwise,
+        }
+    }
+
+    /// An arc the other way round; a straight move as it is.
+    pub(super) fn reversed(self) -> Motion {
+        match self {
+            Motion::Clockwise => Motion::CounterClockwise,
+            Motion::CounterClockwise => Motion::Clockwise,
+            straight => straight,
+        }
+    }
+}
+
 /// G40, G41, G42.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Compensation {
@@ -105,6 +148,28 @@ pub enum Note {
     },
 }
 
+impl Note {
+    /// A value for a place of the control's table, where it is one.
+    fn of_table(letter: u8, place: Number, terms: Option<Vec<Term>>, range: Range<usize>) -> Note {
+        match terms.filter(|_| matches!(letter, b'D' | b'H')) {
+            Some(terms) => Note::Definition {
+                offset: Offset {
+                    letter,
+                    index: index(place),
+                },
+                terms,
+                range,
+            },
+            None => Note::foreign(letter, place, range),
+        }
+    }
+
+    fn foreign(letter: u8, number: Number, range: Range<usize>) -> Note {
+        let code = Code::of(letter, number);
+        Note::Foreign { code, range }
+    }
+}
+
 /// What a foreign word is told apart by: its letter, and its number times 10 where that is G's or M's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Code(u32);
@@ -163,20 +228,14 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
             }
             match letter {
                 b'G' => {
-                    if block.motion.is_some()
-                        && number.decimals == 0
-                        && (0..=3).contains(&number.mantissa)
-                    {
+                    if block.motion.is_some() && Motion::of(number).is_some() {
                         note(Note::Twice {
                             letter,
                             range: range.clone(),
                         });
                     }
                     if !block.prepare(number) {
-                        note(Note::Foreign {
-                            code: Code::of(letter, number),
-                            range,
-                        });
+                        note(Note::foreign(letter, number, range));
                     }
                 }
                 b'M' => match number.whole() {
@@ -184,10 +243,7 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
                     Some(2 | 30) => block.stop = Some(Stop::End),
                     Some(98) => calls = true,
                     Some(99) => block.returns = true,
-                    _ => note(Note::Foreign {
-                        code: Code::of(letter, number),
-                        range,
-                    }),
+                    _ => note(Note::foreign(letter, number, range)),
                 },
                 b'N' => block.number = Some(index(number)),
                 b'O' => block.program = Some(index(number)),
@@ -207,10 +263,7 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
                 b'L' => block.repeat = Some(index(number)),
                 // The feed does not change where the wire goes.
                 b'F' => {}
-                _ => note(Note::Foreign {
-                    code: Code::of(letter, number),
-                    range,
-                }),
+                _ => note(Note::foreign(letter, number, range)),
             }
         }
         Token::Definition {
@@ -220,26 +273,12 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
             range,
         } => {
             block.empty = false;
-            match value {
-                Some(value) if matches!(letter, b'D' | b'H') => {
-                    let terms = vec![Term {
-                        is_negative: false,
-                        value: Value::Number(value),
-                    }];
-                    note(Note::Definition {
-                        offset: Offset {
-                            letter,
-                            index: index(place),
-                        },
-                        terms,
-                        range,
-                    });
-                }
-                _ => note(Note::Foreign {
-                    code: Code::of(letter, place),
-                    range,
-                }),
-            }
+            let term = |value| Term {
+                is_negative: false,
+                value: Value::Number(value),
+            };
+            let terms = value.map(|value| vec![term(value)]);
+            note(Note::of_table(letter, place, terms, range));
         }
         Token::Sum {
             letter,
@@ -248,21 +287,7 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
             range,
         } => {
             block.empty = false;
-            if matches!(letter, b'D' | b'H') {
-                note(Note::Definition {
-                    offset: Offset {
-                        letter,
-                        index: index(place),
-                    },
-                    terms,
-                    range,
-                });
-            } else {
-                note(Note::Foreign {
-                    code: Code::of(letter, place),
-                    range,
-                });
-            }
+            note(Note::of_table(letter, place, Some(terms), range));
         }
         Token::Corner { round, number, .. } => {
             block.empty = false;
@@ -323,10 +348,7 @@ impl Block {
             return matches!((number.mantissa, number.decimals), (901 | 911, 1));
         }
         match number.mantissa {
-            0 => self.motion = Some(Motion::Rapid),
-            1 => self.motion = Some(Motion::Line),
-            2 => self.motion = Some(Motion::Clockwise),
-            3 => self.motion = Some(Motion::CounterClockwise),
+            0..=3 => self.motion = Motion::of(number),
             4 => self.takes_coordinates = true,
             20 | 70 => self.inch = Some(true),
             21 | 71 => self.inch = Some(false),
@@ -344,6 +366,11 @@ impl Block {
             _ => return false,
         }
         true
+    }
+
+    /// What a line says, whatever is wrong in it.
+    pub(crate) fn of(line: &[u8]) -> Block {
+        read_line(line, 1, |_| {})
     }
 
     /// True where the line has a coordinate of its own.

@@ -1,6 +1,6 @@
 //! How ISO text is read by the engine that all languages share.
 
-use super::machine::{Machine, Reading};
+use super::machine::{Machine, Reading, apart};
 use super::stretch::{Pathless, Stretch};
 use crate::program::chunks::Language;
 use crate::text::SourceText;
@@ -61,7 +61,7 @@ impl Language for Control {
                 ..before
             } == old;
         if is_moved {
-            stretch.shift([0, 1].map(|axis| before.at[axis].wrapping_sub(old.at[axis])));
+            stretch.shift(apart(before.at, old.at));
         }
         is_moved
     }
@@ -72,8 +72,5 @@ pub(super) fn lines_from(
     text: &SourceText,
     first: usize,
 ) -> impl Iterator<Item = (usize, &[u8])> + Clone {
-    (first..text.line_count()).map(|line| {
-        let range = text.line_range(line);
-        (range.start, &text.bytes()[range])
-    })
+    (first..text.line_count()).map(|line| (text.line_start(line), text.line(line)))
 }

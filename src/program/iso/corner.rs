@@ -1,8 +1,8 @@
 //! Corners that the control makes: R on a straight cut, `,R` and `,C` behind any. The move ends early, the corner's own follows, and the
 //! next one begins where that ends.
 
-use super::block::{Corner, Motion, read_line};
-use super::machine::{Bend, Course, Machine, Move, Reading, added, bend_about, micrometres};
+use super::block::{Block, Corner, Motion};
+use super::machine::{Bend, Course, Machine, Move, Reading, added, apart, bend_about, micrometres};
 use crate::geometry::{Locus, Point, Segment, cross, turn};
 
 /// Lines behind a corner's in which the move that it leads to is looked for.
@@ -46,7 +46,7 @@ pub(crate) fn turned<'a>(
     turned.is_fixed = !next.incremental;
     let size = reading.length(corner.size, machine.inch);
     if let Some((short, own)) = cut_off(&made, &next, &corner, size, reading) {
-        machine.cut_short = Some([0, 1].map(|axis| own.to[axis].wrapping_sub(made.to[axis])));
+        machine.cut_short = Some(apart(own.to, made.to));
         (turned.made, turned.corner) = (short, Some(own));
     }
     turned
@@ -61,7 +61,7 @@ pub(crate) fn next_move<'a>(
     let mut looked_at = 0;
     for line in behind.take(REACH) {
         looked_at += 1;
-        let block = read_line(line, 1, |_| {});
+        let block = Block::of(line);
         if block.sets_position || block.call.is_some() || block.returns || block.stop.is_some() {
             return (None, looked_at);
         }
@@ -100,15 +100,8 @@ fn cut_off(
     } else {
         chamfered(&one, &other, length)?
     };
-    let place = |point: Point| {
-        added(
-            made.to,
-            [
-                (point.x * 1e3).round() as i64,
-                (point.y * 1e3).round() as i64,
-            ],
-        )
-    };
+    let nm = |um: f64| (um * 1e3).round() as i64;
+    let place = |point: Point| added(made.to, [nm(point.x), nm(point.y)]);
     let (begin, end) = (place(begin), place(end));
     let mut short = Move {
         to: begin,
@@ -131,11 +124,7 @@ fn cut_off(
         return Some((short, own));
     };
     let turns_left = cross(one.end_tangent(), other.start_tangent()) > 0.0;
-    let motion = if turns_left {
-        Motion::CounterClockwise
-    } else {
-        Motion::Clockwise
-    };
+    let motion = Motion::turning(turns_left);
     let bend = bend_about(place(center), begin, made.incremental, reading);
     Some((
         short,

@@ -42,7 +42,12 @@ impl Cursor<'_> {
     #[inline]
     fn skip_space(&mut self) {
         // 0x1A ends a text of DOS.
-        while matches!(self.peek(), Some(b' ' | b'\t' | 0x0b | 0x0c | 0x1a)) {
+        self.skip(|byte| matches!(byte, b' ' | b'\t' | 0x0b | 0x0c | 0x1a));
+    }
+
+    #[inline]
+    fn skip(&mut self, wanted: impl Fn(u8) -> bool) {
+        while self.peek().is_some_and(&wanted) {
             self.at += 1;
         }
     }
@@ -64,9 +69,7 @@ impl Cursor<'_> {
             b'(' => self.comment(start),
             b';' => {
                 self.at = self.line.len();
-                Token::Comment {
-                    range: self.range(start),
-                }
+                self.comment_from(start)
             }
             b'%' => Token::Tape {
                 range: self.range(start),
@@ -95,9 +98,7 @@ impl Cursor<'_> {
             }
             b'#' => {
                 self.skip_to_space();
-                Token::Foreign {
-                    range: self.range(start),
-                }
+                self.foreign(start)
             }
             _ => self.stray(start),
         })
@@ -105,15 +106,10 @@ impl Cursor<'_> {
 
     /// What begins no word, up to the next space or letter.
     fn stray(&mut self, start: usize) -> Token {
-        while self.peek().is_some_and(|byte| {
+        self.skip(|byte| {
             !byte.is_ascii_alphabetic() && !matches!(byte, b' ' | b'\t' | b'(' | b';' | b'%')
-        }) {
-            self.at += 1;
-        }
-        Token::Fault {
-            fault: WordFault::NoWord,
-            range: self.range(start),
-        }
+        });
+        self.fault(WordFault::NoWord, start)
     }
 
     /// `: G01 X… Y…`: what the wire's upper end does meanwhile.
@@ -123,18 +119,11 @@ impl Cursor<'_> {
             self.at = start + 1;
             return self.stray(start);
         }
-        while self
-            .peek()
-            .is_some_and(|byte| !matches!(byte, b'(' | b';' | b'%'))
-        {
-            self.at += 1;
-        }
+        self.skip(|byte| !matches!(byte, b'(' | b';' | b'%'));
         while self.at > start && matches!(self.line[self.at - 1], b' ' | b'\t') {
             self.at -= 1;
         }
-        Token::Foreign {
-            range: self.range(start),
-        }
+        self.foreign(start)
     }
 
     /// `,R2.` behind its comma.
@@ -156,12 +145,22 @@ impl Cursor<'_> {
     }
 
     fn skip_to_space(&mut self) {
-        while self
-            .peek()
-            .is_some_and(|byte| !matches!(byte, b' ' | b'\t' | b'(' | b';'))
-        {
-            self.at += 1;
-        }
+        self.skip(|byte| !matches!(byte, b' ' | b'\t' | b'(' | b';'));
+    }
+
+    fn foreign(&self, start: usize) -> Token {
+        let range = self.range(start);
+        Token::Foreign { range }
+    }
+
+    fn comment_from(&self, start: usize) -> Token {
+        let range = self.range(start);
+        Token::Comment { range }
+    }
+
+    fn fault(&self, fault: WordFault, start: usize) -> Token {
+        let range = self.range(start);
+        Token::Fault { fault, range }
     }
 
     /// A comment behind its `(`; those within it are part of it.
@@ -175,22 +174,15 @@ impl Cursor<'_> {
                 _ => {}
             }
             if depth == 0 {
-                return Token::Comment {
-                    range: self.range(start),
-                };
+                return self.comment_from(start);
             }
         }
         // Writers that nest an opening bracket without closing it mean the first closing one.
         if let Some(closing) = self.line[start..].iter().position(|&byte| byte == b')') {
             self.at = start + closing + 1;
-            return Token::Comment {
-                range: self.range(start),
-            };
+            return self.comment_from(start);
         }
-        Token::Fault {
-            fault: WordFault::OpenComment,
-            range: self.range(start),
-        }
+        self.fault(WordFault::OpenComment, start)
     }
 
     #[inline]
@@ -212,10 +204,7 @@ impl Cursor<'_> {
                 }
             }
             Ok(None) => self.without_number(letter, start),
-            Err(fault) => Token::Fault {
-                fault,
-                range: self.range(start),
-            },
+            Err(fault) => self.fault(fault, start),
         }
     }
 
@@ -224,9 +213,7 @@ impl Cursor<'_> {
         match self.peek() {
             Some(b'#' | b'[' | b'=') => {
                 self.skip_to_space();
-                return Token::Foreign {
-                    range: self.range(start),
-                };
+                return self.foreign(start);
             }
             _ => self.at = start + 1,
         }
@@ -243,28 +230,19 @@ impl Cursor<'_> {
         {
             self.at = start + 2;
             if matches!(self.number(letter), Ok(Some(_))) {
-                return Token::Foreign {
-                    range: self.range(start),
-                };
+                return self.foreign(start);
             }
             self.at = start + 1;
         }
         if letters >= 3 {
             self.at = start;
-            while self.peek().is_some_and(|byte| {
+            self.skip(|byte| {
                 byte.is_ascii_alphanumeric()
                     || matches!(byte, b'_' | b',' | b'.' | b'-' | b'+' | b'=')
-            }) {
-                self.at += 1;
-            }
-            return Token::Foreign {
-                range: self.range(start),
-            };
+            });
+            return self.foreign(start);
         }
-        Token::Fault {
-            fault: WordFault::NoNumber { letter },
-            range: self.range(start),
-        }
+        self.fault(WordFault::NoNumber { letter }, start)
     }
 
     fn is_definition(&mut self) -> bool {

@@ -1,6 +1,6 @@
 //! ISO text as an open document: its lines run, what came of them, and what an edit leaves as it was.
 
-use super::block::{Block, Offset, read_line};
+use super::block::{Block, Offset};
 use super::control::{Control, lines_from};
 use super::cut::Cut;
 use super::evidence::Evidence;
@@ -133,10 +133,7 @@ impl Document {
 
     /// A line's bytes, without its end.
     pub(super) fn line_bytes(&self, line: usize) -> &[u8] {
-        self.text
-            .bytes()
-            .get(self.text.line_range(line))
-            .unwrap_or_default()
+        self.text.line(line)
     }
 
     /// From the first to the last byte of a line that is no space.
@@ -148,7 +145,7 @@ impl Document {
 
     /// What a line says.
     pub(super) fn block(&self, line: usize) -> Block {
-        read_line(self.line_bytes(line), 1, |_| {})
+        Block::of(self.line_bytes(line))
     }
 
     /// How many decimals nearly all numbers have, and how many have others.

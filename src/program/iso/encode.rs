@@ -2,19 +2,12 @@
 
 use super::block::Motion;
 use crate::geometry::{Arc, Segment};
-use crate::program::grid::{
-    Node, chord_count, grid_centers, in_pieces, largest_distance, point_of, sagitta, snap,
-};
+use crate::program::encode::{ASIDE_TOLERANCE, Attempt, Encoder, aside};
+use crate::program::grid::{Node, grid_centers, point_of};
 use std::f64::consts::{PI, TAU};
-
-/// How far a move may lie from its piece of the path, anywhere, µm: its centre is on the grid, its ends are snapped.
-pub(super) const ASIDE_TOLERANCE: f64 = 2.5;
 
 /// By how much the ends of a written arc may lie unlike far from its centre, µm: less than any reader takes for a fault.
 const RADIUS_TOLERANCE: f64 = 1.5;
-
-/// The largest sagitta of a chord that stands for a piece of an arc too large for the format, µm.
-const CHORD_SAGITTA: f64 = 0.5;
 
 /// A radius in steps above which an arc goes out as chords: its centre has more digits than controls take.
 const LARGEST_RADIUS: f64 = 4e8;
@@ -29,121 +22,59 @@ pub(super) struct Encoded {
     pub(crate) piece: Segment,
 }
 
-/// Appends the moves of `piece` between its snapped ends. `step` is the grid's step in µm. A piece without length on the grid appends
-/// nothing. `None` where no arc within tolerance can be written.
-pub(super) fn encode(
-    piece: &Segment,
-    from: Node,
-    to: Node,
-    step: f64,
-    full_circles: bool,
-    moves: &mut Vec<Encoded>,
-) -> Option<()> {
-    let Segment::Arc(arc) = piece else {
-        if from != to {
-            moves.push(Encoded {
-                motion: Motion::Line,
-                from,
-                to,
-                center: from,
-                piece: *piece,
-            });
-        }
-        return Some(());
-    };
-    let is_full = from == to && arc.sweep.abs() > PI;
-    if from == to && (!is_full || arc.radius < 0.5) {
-        return Some(());
-    }
-    if arc.radius > LARGEST_RADIUS {
-        return in_pieces(
-            piece,
-            from,
-            to,
-            chord_count(arc, CHORD_SAGITTA / step)?,
-            |piece, from, to| {
-                moves.push(Encoded {
-                    motion: Motion::Line,
-                    from,
-                    to,
-                    center: from,
-                    piece,
-                });
-                Some(())
-            },
-        );
-    }
-    if is_full && !full_circles {
-        return in_pieces(piece, from, to, 2, |piece, from, to| {
-            encode_arc(&piece, from, to, step, 0, moves)
-        });
-    }
-    encode_arc(piece, from, to, step, 0, moves)
+/// How a profile has its moves.
+pub(super) struct Moves {
+    /// A step of the grid, µm.
+    pub step: f64,
+    /// Full turns are written as one arc.
+    pub full_circles: bool,
 }
 
-fn encode_arc(
-    piece: &Segment,
-    from: Node,
-    to: Node,
-    step: f64,
-    depth: u32,
-    moves: &mut Vec<Encoded>,
-) -> Option<()> {
-    let Segment::Arc(arc) = piece else {
-        return None;
-    };
-    if from == to && arc.sweep.abs() <= PI {
-        return Some(());
+impl Encoder for Moves {
+    type Block = Encoded;
+
+    fn step(&self) -> f64 {
+        self.step
     }
-    let fits = |center: Node| {
-        (error_of(arc, center, from, to) * step <= ASIDE_TOLERANCE)
-            && radii_differ(center, from, to) * step <= RADIUS_TOLERANCE
-    };
-    let center = grid_centers(arc, from, to)
-        .iter()
-        .map(|center| center.node)
-        .find(|&center| fits(center));
-    if let Some(center) = center {
-        let motion = if arc.sweep > 0.0 {
-            Motion::CounterClockwise
-        } else {
-            Motion::Clockwise
-        };
-        moves.push(Encoded {
-            motion,
-            from,
-            to,
-            center,
-            piece: *piece,
-        });
-        return Some(());
+
+    fn lines(&self, _: i64) -> i64 {
+        1
     }
-    // A chord of an arc this flat is as near to it as the grid is.
-    if sagitta(arc) * step <= 2.0 * CHORD_SAGITTA {
-        moves.push(Encoded {
+
+    fn line(&self, piece: Segment, from: Node, to: Node) -> Encoded {
+        Encoded {
             motion: Motion::Line,
             from,
             to,
             center: from,
-            piece: *piece,
-        });
-        return Some(());
+            piece,
+        }
     }
-    if depth >= 8 {
-        return None;
-    }
-    let middle = snap(arc.point_at(0.5))?;
-    for (share, from, to) in [(0.0, from, middle), (0.5, middle, to)] {
-        encode_arc(
-            &piece.part(share, share + 0.5),
+
+    fn arc(&self, arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt<Encoded> {
+        if arc.radius > LARGEST_RADIUS {
+            return Attempt::Chords;
+        }
+        if full_turn && !self.full_circles {
+            return Attempt::Pieces(2);
+        }
+        let fits = |center: &Node| {
+            error_of(arc, *center, from, to) * self.step <= ASIDE_TOLERANCE
+                && radii_differ(*center, from, to) * self.step <= RADIUS_TOLERANCE
+        };
+        let centers = grid_centers(arc, from, to).map(|center| center.node);
+        let Some(center) = centers.into_iter().find(fits) else {
+            return Attempt::Misses;
+        };
+        let motion = Motion::turning(arc.sweep > 0.0);
+        Attempt::Made(Encoded {
+            motion,
             from,
             to,
-            step,
-            depth + 1,
-            moves,
-        )?;
+            center,
+            piece: Segment::Arc(*arc),
+        })
     }
-    Some(())
 }
 
 fn radii_differ(center: Node, from: Node, to: Node) -> f64 {
@@ -165,6 +96,5 @@ fn error_of(arc: &Arc, center: Node, from: Node, to: Node) -> f64 {
     if turn > PI && turn < TAU + PI {
         return f64::INFINITY;
     }
-    let middles = (made.point_at(0.5) - arc.point_at(0.5)).norm();
-    largest_distance(&Segment::Arc(made), &Segment::Arc(*arc)).max(middles)
+    aside(&Segment::Arc(made), &Segment::Arc(*arc))
 }

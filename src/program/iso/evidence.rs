@@ -3,7 +3,7 @@
 //! Nothing of it is assumed: the readings are held against the arcs, and the one that fits the most of them is taken.
 
 use super::block::{Block, Motion};
-use super::machine::{CenterRule, MICROMETRE, Move, Place, Reading};
+use super::machine::{CenterRule, MICROMETRE, Move, Place, Reading, apart};
 
 /// Ends of an arc lie no more unlike far from its centre than this many steps of the finest number: each of the three points may be
 /// off by half a step on both axes.
@@ -241,8 +241,7 @@ impl Evidence {
 
 /// True where an arc about a centre turns by more than a half, and by less than a whole.
 fn turns_widely(arc: &Move, center: Place) -> bool {
-    let from_center =
-        |place: Place| [0, 1].map(|axis| i128::from(place[axis].wrapping_sub(center[axis])));
+    let from_center = |place: Place| apart(place, center).map(i128::from);
     let ([ax, ay], [bx, by]) = (from_center(arc.from), from_center(arc.to));
     let cross = ax * by - ay * bx;
     if arc.motion == Motion::CounterClockwise {

@@ -2,14 +2,14 @@
 
 mod centers;
 
-use super::block::{Compensation, Motion, Stop, read_line, word_range};
+use super::block::{Block, Compensation, Motion, Stop};
 use super::document::Document;
 use super::layout::is_parted;
 use super::line::with_word;
-use super::machine::{Machine, Place, distance};
+use super::machine::{Machine, Place, apart, distance};
 use super::numbers::numbered;
 use super::order::labels;
-use super::plain::plain;
+use super::plain::{plain, word_at};
 use super::repair::{is_trouble, line_of};
 use super::style::Style;
 use crate::finding::{Detail, Fault, Finding, FixKind, Place as Where, Rule, TextFix};
@@ -21,19 +21,13 @@ use std::ops::Range;
 impl Document {
     /// The fixes of one finding, the preferred one first: what its place says by itself, and the slip that may be behind it.
     pub(crate) fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
-        fixes(self, finding)
-    }
-}
-
-fn fixes(document: &Document, finding: &Finding) -> Vec<TextFix> {
-    let own = of_place(document, finding);
-    let searched = searched(document, finding);
-    let speaks_for_itself =
-        matches!(finding.rule, Rule::Syntax | Rule::DoubledBlock) && !own.is_empty();
-    match speaks_for_itself {
-        true => merged(own, searched, false),
-        // What the place says by itself names the slip better.
-        false => merged(searched, own, true),
+        let (own, searched) = (of_place(self, finding), searched(self, finding));
+        let speaks_for_itself = matches!(finding.rule, Rule::Syntax | Rule::DoubledBlock);
+        match speaks_for_itself && !own.is_empty() {
+            true => merged(own, searched, false),
+            // What the place says by itself names the slip better.
+            false => merged(searched, own, true),
+        }
     }
 }
 
@@ -109,7 +103,7 @@ fn plain_fix(document: &Document, fault: &Fault, range: &Range<usize>) -> Option
         Fault::SideChange { .. } | Fault::RoleSide { .. } | Fault::EntrySide { .. } => {
             let word = text.bytes().get(range.clone())?;
             let is_word = word.get(1..)?.iter().all(u8::is_ascii_digit);
-            let said = read_line(word, 1, |_| {}).compensation.filter(|_| is_word);
+            let said = Block::of(word).compensation.filter(|_| is_word);
             let other = match said? {
                 Compensation::Left => "G42",
                 Compensation::Right => "G41",
@@ -151,31 +145,19 @@ fn character_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
     let text = document.text();
     let (kind, edit) = match text.bytes().get(range.clone()) {
         Some([b'O' | b'o', rest @ ..]) => {
-            let zeros = rest.iter().map(|byte| {
-                if matches!(byte, b'O' | b'o') {
-                    '0'
-                } else {
-                    char::from(*byte)
-                }
-            });
-            (
-                FixKind::ZeroForO,
-                TextEdit::new(
-                    range.clone(),
-                    ['0'].into_iter().chain(zeros).collect::<String>(),
-                ),
-            )
+            let rest = String::from_utf8_lossy(rest).replace(['O', 'o'], "0");
+            let edit = TextEdit::new(range.clone(), format!("0{rest}"));
+            (FixKind::ZeroForO, edit)
         }
         Some(b",") => (FixKind::DecimalPoints, TextEdit::new(range.clone(), ".")),
         _ => {
-            let line = text.line_range(text.line_of(range.start));
-            let plain = text
-                .bytes()
-                .get(line.clone())
-                .and_then(plain)
-                .and_then(|plain| String::from_utf8(plain).ok());
-            let Some(text) = plain else { return Vec::new() };
-            (FixKind::PlainLetters, TextEdit::new(line, text))
+            let line = text.line_of(range.start);
+            let plain = plain(text.line(line)).and_then(|plain| String::from_utf8(plain).ok());
+            let Some(plain) = plain else {
+                return Vec::new();
+            };
+            let edit = TextEdit::new(text.line_range(line), plain);
+            (FixKind::PlainLetters, edit)
         }
     };
     vec![TextFix::text(kind, true, edit)]
@@ -187,34 +169,25 @@ fn exchanged_word(
     line: usize,
     before: Option<Motion>,
 ) -> Option<(String, String, TextEdit)> {
-    let range = document.text().line_range(line);
-    let bytes = document.line_bytes(line);
-    let other = |motion: Motion| match motion {
-        Motion::Clockwise => Some("G03"),
-        Motion::CounterClockwise => Some("G02"),
-        Motion::Rapid | Motion::Line => None,
-    };
-    let own = read_line(bytes, 1, |_| {}).motion;
-    let meant = other(own.or(before)?)?.to_owned();
+    let text = document.text();
+    let own = document.block(line).motion;
+    let stands = own.or(before).filter(|motion| motion.is_arc())?;
+    let meant = stands.reversed().word().to_owned();
     if own.is_some() {
-        let word = word_range(bytes, range.start + 1, |letter, number| {
+        let word = word_at(text, line, |letter, number| {
             letter == b'G' && matches!(number.whole(), Some(2 | 3))
         })?;
-        let word = word.start - 1..word.end - 1;
-        let found =
-            String::from_utf8_lossy(document.text().bytes().get(word.clone())?).into_owned();
+        let found = String::from_utf8_lossy(text.bytes().get(word.clone())?).into_owned();
         return Some((found, meant.clone(), TextEdit::new(word, meant)));
     }
-    let text = String::from_utf8(with_word(bytes, &meant, is_parted(document.text()))).ok()?;
-    Some((String::new(), meant, TextEdit::new(range, text)))
+    let new = String::from_utf8(with_word(text.line(line), &meant, is_parted(text))).ok()?;
+    let edit = TextEdit::new(text.line_range(line), new);
+    Some((String::new(), meant, edit))
 }
 
 /// A line with its end.
 fn whole_line(document: &Document, line: usize) -> TextEdit {
-    TextEdit::new(
-        document.text().line_start(line)..document.text().line_start(line + 1),
-        "",
-    )
+    TextEdit::new(document.text().whole_line(line), "")
 }
 
 /// Out and back go, where they lead back to where they began.
@@ -314,12 +287,12 @@ fn closing_fix(document: &Document, range: &Range<usize>) -> Option<TextFix> {
     } else {
         machine.zero
     };
-    let [x, y] = [0, 1].map(|axis| style.number(target[axis].wrapping_sub(base[axis])));
+    let [x, y] = apart(target, base).map(|length| style.number(length));
     let separator = if is_parted(text) { " " } else { "" };
     let words = ["G01".to_owned(), format!("X{x}"), format!("Y{y}")].join(separator);
     // Proved: the line leads there.
     let mut again = machine;
-    let made = again.run(&read_line(words.as_bytes(), 1, |_| {}), document.reading())?;
+    let made = again.run(&Block::of(words.as_bytes()), document.reading())?;
     if made.to != target || made.motion != Motion::Line {
         return None;
     }
@@ -334,15 +307,8 @@ fn closing_fix(document: &Document, range: &Range<usize>) -> Option<TextFix> {
 
 /// True where the line behind `line` that moves next says itself how, or would cut straight anyway.
 fn goes_on_by_itself(document: &Document, line: usize, motion: Motion) -> bool {
-    let text = document.text();
-    let block = |line: usize| {
-        read_line(
-            text.bytes().get(text.line_range(line)).unwrap_or_default(),
-            1,
-            |_| {},
-        )
-    };
-    let next = (line + 1..text.line_count()).map(block).find(|block| {
+    let mut behind = (line + 1..document.text().line_count()).map(|line| document.block(line));
+    let next = behind.find(|block| {
         block.motion.is_some()
             || block.stop == Some(Stop::End)
             || block.has_coordinates()
@@ -362,11 +328,8 @@ fn number_fixes(document: &Document, fault: &Fault, range: &Range<usize>) -> Vec
     match *fault {
         Fault::Unnumbered { expected } if free(expected) => {
             let own = text.line_range(line);
-            let new = with_word(
-                text.bytes().get(own.clone()).unwrap_or_default(),
-                &format!("N{expected}"),
-                is_parted(text),
-            );
+            let number = format!("N{expected}");
+            let new = with_word(text.line(line), &number, is_parted(text));
             if let Ok(new) = String::from_utf8(new) {
                 let edit = TextEdit::new(own, new);
                 fixes.push(TextFix::text(
@@ -409,11 +372,8 @@ const RENUMBERED: u32 = 10;
 
 /// The G00 of a line.
 fn rapid_word(document: &Document, range: &Range<usize>) -> Option<Range<usize>> {
-    let line = document
-        .text()
-        .line_range(document.text().line_of(range.start));
-    let bytes = document.text().bytes().get(line.clone())?;
-    word_range(bytes, line.start, |letter, number| {
+    let text = document.text();
+    word_at(text, text.line_of(range.start), |letter, number| {
         letter == b'G' && number.whole() == Some(0)
     })
 }

@@ -2,7 +2,7 @@
 //!
 //! No number is rewritten: whether it has a decimal point, and how many digits, means something to a control.
 
-use super::plain::words;
+use super::plain::words_in;
 use super::word::Token;
 use crate::program::edits::{self, AT_ONCE, LineEdits};
 use crate::settings::Layout;
@@ -30,9 +30,9 @@ pub(crate) fn format(
     edits::formed(text, &pieces, |lines| {
         let mut edits = LineEdits::default();
         for line in lines.clone() {
-            let range = text.line_range(line);
-            if let Some(new) = formed(&text.bytes()[range.clone()], parted) {
-                edits.push(text, line..line + 1, TextEdit { range, text: new });
+            if let Some(new) = formed(text.line(line), parted) {
+                let edit = TextEdit::new(text.line_range(line), new);
+                edits.push(text, line..line + 1, edit);
             }
         }
         edits
@@ -43,9 +43,8 @@ pub(crate) fn format(
 pub(super) fn is_parted(text: &SourceText) -> bool {
     let (mut parted, mut closed) = (0, 0);
     for line in 0..text.line_count().min(LOOKED_AT) {
-        let range = text.line_range(line);
         let mut end = None;
-        words(&text.bytes()[range], 1, |token| {
+        words_in(text.line(line), |token| {
             if let Token::Word { range, .. } = token {
                 match end {
                     Some(end) if end == range.start => closed += 1,
@@ -121,10 +120,9 @@ fn formed(line: &[u8], parted: bool) -> Option<String> {
 
 fn tokens_of(line: &[u8]) -> Vec<Token> {
     let mut tokens = Vec::new();
-    // Counted from 1 so that no byte order mark is looked for: such a line stays.
-    words(line, 1, |token| tokens.push(token));
-    let shift = |range: Range<usize>| range.start - 1..range.end - 1;
-    tokens.into_iter().map(|token| token.moved(shift)).collect()
+    // A line with a byte order mark stays.
+    words_in(line, |token| tokens.push(token));
+    tokens
 }
 
 /// A token without its place; what a comment, a definition or the machine's own words say is their text.

@@ -1,6 +1,6 @@
 //! What of the settings decides what is a fault of an ISO program.
 
-use super::block::{Code, Note, Stop, read_line};
+use super::block::{Block, Code, Note, Stop, read_line};
 use super::machine::CenterRule;
 use crate::settings::{Effective, Profile, UnitSetting, shipped_profiles};
 use std::collections::BTreeSet;
@@ -98,8 +98,7 @@ fn words_of_profile(profile: &Profile) -> Vec<Code> {
 /// M02 or M30, as the settings' profile has it.
 fn end_word(settings: &Effective) -> String {
     let lines = settings.profile.iter().flat_map(|profile| &profile.end);
-    let mut ends =
-        lines.filter(|line| read_line(line.as_bytes(), 1, |_| {}).stop == Some(Stop::End));
+    let mut ends = lines.filter(|line| Block::of(line.as_bytes()).stop == Some(Stop::End));
     ends.next_back()
         .map_or_else(|| "M02".into(), |line| line.trim().into())
 }

@@ -1,12 +1,12 @@
 //! A line written anew, so that its move leads elsewhere; all other words stay.
 
-use super::block::{Motion, read_line};
+use super::block::{Block, Motion};
 use super::document::Document;
 use super::layout::is_parted;
-use super::machine::{Bend, CenterRule, Course, Machine, Move, Place, Reading};
-use super::plain::words;
+use super::machine::{Bend, CenterRule, Course, Machine, Move, Place, Reading, apart, to_center};
+use super::plain::words_in;
 use super::style::Style;
-use super::word::{Number, Token};
+use super::word::Token;
 use crate::finding::Side;
 use crate::geometry::Segment;
 use crate::text::{TextEdit, difference};
@@ -56,7 +56,7 @@ impl Target {
             Bent::Line => return !made.is_arc(),
             Bent::Radius(radius) => Bend::Radius(radius),
             Bent::Center(center) => {
-                let [i, j] = [0, 1].map(|axis| center[axis].wrapping_sub(made.from[axis]));
+                let [i, j] = apart(center, made.from);
                 Bend::Center {
                     i,
                     j,
@@ -90,10 +90,9 @@ pub(super) fn line_to(
     before: &Machine,
     target: &Target,
 ) -> Option<TextEdit> {
-    let range = document.text().line_range(line);
-    let own = document.text().bytes().get(range.clone())?;
+    let own = document.line_bytes(line);
     let reading = document.reading();
-    let inch = read_line(own, 1, |_| {}).inch.unwrap_or(before.inch);
+    let inch = document.block(line).inch.unwrap_or(before.inch);
     let written = Line {
         bytes: own,
         parted: is_parted(document.text()),
@@ -102,9 +101,10 @@ pub(super) fn line_to(
     };
     let new = written.leading(target, before).ok()?;
     let mut machine = *before;
-    let made = machine.run(&read_line(&new, 1, |_| {}), reading);
+    let made = machine.run(&Block::of(&new), reading);
     prove(line, made.as_ref(), target, reading).ok()?;
     let mut edits = Vec::new();
+    let range = document.text().line_range(line);
     push_changed(&mut edits, range, own, &new).ok()?;
     edits.pop()
 }
@@ -119,10 +119,8 @@ pub(super) fn push_changed(
     if old != new {
         let TextEdit { range: own, text } =
             difference(old, new).ok_or(say!(a_line_is_in_another_code_page))?;
-        edits.push(TextEdit {
-            range: range.start + own.start..range.start + own.end,
-            text,
-        });
+        let place = range.start + own.start..range.start + own.end;
+        edits.push(TextEdit::new(place, text));
     }
     Ok(())
 }
@@ -157,7 +155,7 @@ pub(super) struct Line<'a> {
 impl Line<'_> {
     /// The line with the words that lead to `target` from where the machine stands before it. All other words stay.
     pub(crate) fn leading(&self, target: &Target, before: &Machine) -> Result<Vec<u8>, String> {
-        let block = read_line(self.bytes, 1, |_| {});
+        let block = Block::of(self.bytes);
         let incremental = block.incremental.unwrap_or(before.incremental);
         let base = if incremental { before.at } else { before.zero };
         let mut cluster: Vec<String> = Vec::new();
@@ -178,24 +176,19 @@ impl Line<'_> {
             Bent::Line => {}
             Bent::Radius(radius) => cluster.push(format!("R{}", number(radius))),
             Bent::Center(center) => {
-                for (axis, letter) in [(0, 'I'), (1, 'J')] {
-                    let length = match self.reading.rule(incremental) {
-                        CenterRule::StartToCenter => center[axis].wrapping_sub(before.at[axis]),
-                        CenterRule::CenterToStart => before.at[axis].wrapping_sub(center[axis]),
-                        CenterRule::Absolute => center[axis].wrapping_sub(before.zero[axis]),
-                    };
-                    cluster.push(format!("{letter}{}", number(length)));
-                }
+                let rule = self.reading.rule(incremental);
+                let [i, j] = to_center(rule, center, before.at, before.zero).map(number);
+                cluster.extend([format!("I{i}"), format!("J{j}")]);
             }
         }
-        let motion = word_of(target.motion);
+        let motion = target.motion.word();
         let mut out: Vec<u8> = Vec::with_capacity(self.bytes.len() + 24);
         let (mut copied, mut is_placed, mut has_motion) = (0, false, false);
         let mut anchor = 0;
         let separator = if self.parted { " " } else { "" };
         let mut fault = None;
         let mut tokens = Vec::new();
-        words(self.bytes, 1, |token| tokens.push(token));
+        words_in(self.bytes, |token| tokens.push(token));
         for token in tokens {
             let Token::Word {
                 letter,
@@ -208,12 +201,11 @@ impl Line<'_> {
                 }
                 continue;
             };
-            let range = range.start - 1..range.end - 1;
             match letter {
-                b'G' if is_motion(number) => {
+                b'G' if Motion::of(number).is_some() => {
                     has_motion = true;
                     out.extend_from_slice(&self.bytes[copied..range.start]);
-                    let same = Some(target.motion) == motion_of(number);
+                    let same = Some(target.motion) == Motion::of(number);
                     out.extend_from_slice(if same {
                         &self.bytes[range.clone()]
                     } else {
@@ -269,7 +261,7 @@ impl Line<'_> {
 pub(super) fn with_word(line: &[u8], word: &str, parted: bool) -> Vec<u8> {
     let mut at = 0;
     let mut is_first = true;
-    words(line, 1, |token| {
+    words_in(line, |token| {
         if let Token::Word {
             letter: b'N' | b'O',
             range,
@@ -279,7 +271,7 @@ pub(super) fn with_word(line: &[u8], word: &str, parted: bool) -> Vec<u8> {
         | Token::Tape { range } = token
             && is_first
         {
-            at = range.end - 1;
+            at = range.end;
         } else {
             is_first = false;
         }
@@ -297,27 +289,4 @@ pub(super) fn with_word(line: &[u8], word: &str, parted: bool) -> Vec<u8> {
     let at = if at == 0 { lead } else { at };
     out.splice(at..at, text.bytes());
     out
-}
-
-fn word_of(motion: Motion) -> &'static str {
-    match motion {
-        Motion::Rapid => "G00",
-        Motion::Line => "G01",
-        Motion::Clockwise => "G02",
-        Motion::CounterClockwise => "G03",
-    }
-}
-
-fn motion_of(number: Number) -> Option<Motion> {
-    Some(match number.whole()? {
-        0 => Motion::Rapid,
-        1 => Motion::Line,
-        2 => Motion::Clockwise,
-        3 => Motion::CounterClockwise,
-        _ => return None,
-    })
-}
-
-fn is_motion(number: Number) -> bool {
-    number.decimals == 0 && motion_of(number).is_some()
 }

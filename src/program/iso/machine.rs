@@ -112,7 +112,7 @@ pub(crate) enum Course {
 
 impl Move {
     pub(crate) fn is_arc(&self) -> bool {
-        matches!(self.motion, Motion::Clockwise | Motion::CounterClockwise)
+        self.motion.is_arc()
     }
 
     pub(crate) fn is_cut(&self) -> bool {
@@ -125,12 +125,8 @@ impl Move {
             return None;
         };
         Some(match rule {
-            CenterRule::StartToCenter => {
-                [self.from[0].wrapping_add(i), self.from[1].wrapping_add(j)]
-            }
-            CenterRule::CenterToStart => {
-                [self.from[0].wrapping_sub(i), self.from[1].wrapping_sub(j)]
-            }
+            CenterRule::StartToCenter => added(self.from, [i, j]),
+            CenterRule::CenterToStart => apart(self.from, [i, j]),
             CenterRule::Absolute => absolute,
         })
     }
@@ -236,18 +232,21 @@ impl Move {
 
 /// I and J for a centre, as the program's arcs have them.
 pub(crate) fn bend_about(center: Place, from: Place, incremental: bool, reading: &Reading) -> Bend {
-    let [i, j] = [0, 1].map(|axis| center[axis].wrapping_sub(from[axis]));
-    match reading.rule(incremental) {
-        CenterRule::CenterToStart => Bend::Center {
-            i: i.wrapping_neg(),
-            j: j.wrapping_neg(),
-            absolute: center,
-        },
-        CenterRule::StartToCenter | CenterRule::Absolute => Bend::Center {
-            i,
-            j,
-            absolute: center,
-        },
+    // An absolute centre counts from where the arc begins.
+    let [i, j] = to_center(reading.rule(incremental), center, from, from);
+    Bend::Center {
+        i,
+        j,
+        absolute: center,
+    }
+}
+
+/// I and J for a centre, nm, where absolute ones count from `zero`.
+pub(crate) fn to_center(rule: CenterRule, center: Place, from: Place, zero: Place) -> Place {
+    match rule {
+        CenterRule::StartToCenter => apart(center, from),
+        CenterRule::CenterToStart => apart(from, center),
+        CenterRule::Absolute => apart(center, zero),
     }
 }
 
@@ -265,7 +264,8 @@ pub(crate) fn apart(a: Place, b: Place) -> Place {
 }
 
 pub(crate) fn distance(a: Place, b: Place) -> f64 {
-    ((a[0].wrapping_sub(b[0])) as f64).hypot((a[1].wrapping_sub(b[1])) as f64)
+    let [x, y] = apart(a, b);
+    (x as f64).hypot(y as f64)
 }
 
 /// What is in force, and where the wire stands.
@@ -307,7 +307,7 @@ pub(crate) struct Trail {
 
 impl Trail {
     pub(crate) fn push(&mut self, made: &Move) {
-        let along = [0, 1].map(|axis| made.to[axis].wrapping_sub(made.from[axis]));
+        let along = apart(made.to, made.from);
         let before = self.last[0].map(|before| loose(before.seen_from(along)));
         self.last = [Some(loose(made.seen_from(made.to))), before];
     }
@@ -412,7 +412,7 @@ impl Machine {
         if block.broken {
             self.lost = [true, true];
         }
-        let is_arc = matches!(self.motion, Motion::Clockwise | Motion::CounterClockwise);
+        let is_arc = self.motion.is_arc();
         let full_circle = is_arc && (block.i.is_some() || block.j.is_some());
         if !block.has_coordinates() && !full_circle {
             return None;

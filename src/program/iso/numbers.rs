@@ -6,11 +6,12 @@
 //! N7 G01 X1.                 N40 G01 X1.
 //! ```
 
-use super::block::{read_line, word_range};
+use super::block::Block;
 use super::document::Document;
 use super::layout::is_parted;
 use super::line::with_word;
 use super::order::{called, labels};
+use super::plain::word_at;
 use crate::text::{SourceText, TextEdit};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
@@ -38,16 +39,14 @@ pub(super) fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, 
         .collect();
     let mut number = step;
     for line in 0..text.line_count() {
-        let range = text.line_range(line);
-        let bytes = text.bytes().get(range.clone()).unwrap_or_default();
-        let block = read_line(bytes, 1, |_| {});
+        let block = document.block(line);
         if block.empty || block.program.is_some() {
             continue;
         }
         while taken.contains(&number) && number < u32::MAX {
             number = number.saturating_add(step);
         }
-        match (block.number, number_word(bytes, range.start)) {
+        match (block.number, number_word(text, line)) {
             (Some(old), Some(word)) => {
                 if labels.get(&old) == Some(&line) {
                     renamed.insert(old, number);
@@ -55,10 +54,10 @@ pub(super) fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, 
                 edits.push(TextEdit::new(word, format!("N{number}")));
             }
             _ => {
-                let new = with_word(bytes, &format!("N{number}"), parted);
+                let new = with_word(text.line(line), &format!("N{number}"), parted);
                 let new = String::from_utf8(new)
                     .map_err(|_| say!(that_line_is_in_another_code_page, line + 1))?;
-                edits.push(TextEdit::new(range, new));
+                edits.push(TextEdit::new(text.line_range(line), new));
             }
         }
         number = number.saturating_add(step);
@@ -92,13 +91,7 @@ pub(super) fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, 
 
 /// True where a line begins a program (`O`).
 fn is_program(text: &SourceText, line: usize) -> bool {
-    read_line(
-        text.bytes().get(text.line_range(line)).unwrap_or_default(),
-        1,
-        |_| {},
-    )
-    .program
-    .is_some()
+    Block::of(text.line(line)).program.is_some()
 }
 
 /// No numbers but those that are called.
@@ -108,18 +101,11 @@ pub(super) fn without_numbers(document: &Document) -> Result<Vec<TextEdit>, Stri
     let called = called(text);
     let mut edits = Vec::new();
     for line in 0..text.line_count() {
-        let range = text.line_range(line);
-        let bytes = text.bytes().get(range.clone()).unwrap_or_default();
-        let block = read_line(bytes, 1, |_| {});
-        if let (Some(number), Some(word)) = (block.number, number_word(bytes, range.start))
+        let number = document.block(line).number;
+        if let (Some(number), Some(word)) = (number, number_word(text, line))
             && !called.contains(&number)
         {
-            let behind = text.bytes().get(word.end..range.end).unwrap_or_default();
-            let space = behind
-                .iter()
-                .take_while(|byte| matches!(byte, b' ' | b'\t'))
-                .count();
-            edits.push(TextEdit::new(word.start..word.end + space, ""));
+            edits.push(text.without_word(&word));
         }
     }
     Ok(edits)
@@ -165,10 +151,8 @@ fn calls(document: &Document, renamed: impl Fn(u32) -> Option<u32>) -> Vec<TextE
     let text = document.text();
     let mut edits = Vec::new();
     for line in 0..text.line_count() {
-        let range = text.line_range(line);
-        let bytes = text.bytes().get(range.clone()).unwrap_or_default();
-        if let Some(new) = read_line(bytes, 1, |_| {}).call.and_then(&renamed)
-            && let Some(word) = word_range(bytes, range.start, |letter, _| letter == b'P')
+        if let Some(new) = document.block(line).call.and_then(&renamed)
+            && let Some(word) = word_at(text, line, |letter, _| letter == b'P')
         {
             edits.push(TextEdit::new(word, format!("P{new}")));
         }
@@ -176,8 +160,8 @@ fn calls(document: &Document, renamed: impl Fn(u32) -> Option<u32>) -> Vec<TextE
     edits
 }
 
-fn number_word(line: &[u8], start: usize) -> Option<Range<usize>> {
-    word_range(line, start, |letter, _| letter == b'N')
+pub(super) fn number_word(text: &SourceText, line: usize) -> Option<Range<usize>> {
+    word_at(text, line, |letter, _| letter == b'N')
 }
 
 fn refuse_unknown_calls(document: &Document) -> Result<(), String> {

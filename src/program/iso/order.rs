@@ -1,6 +1,6 @@
 //! The order in which the lines of a program run: from the first to the last, or through the subprograms that `M98 P…` calls.
 
-use super::block::{Stop, read_line};
+use super::block::{Block, Stop};
 use super::control::Control;
 use crate::program::chunks::Language;
 use crate::text::SourceText;
@@ -59,8 +59,7 @@ pub(crate) fn order(text: &SourceText) -> Order {
 pub(super) fn labels(text: &SourceText) -> FxHashMap<u32, usize> {
     let mut labels = FxHashMap::default();
     for line in 0..text.line_count() {
-        let range = text.line_range(line);
-        let block = read_line(&text.bytes()[range], 0, |_| {});
+        let block = Block::of(text.line(line));
         for number in [block.number, block.program].into_iter().flatten() {
             labels.insert(number, line);
         }
@@ -70,7 +69,7 @@ pub(super) fn labels(text: &SourceText) -> FxHashMap<u32, usize> {
 
 /// The numbers that are called.
 pub(super) fn called(text: &SourceText) -> FxHashSet<u32> {
-    let call = |line: usize| read_line(text.bytes().get(text.line_range(line))?, 1, |_| {}).call;
+    let call = |line: usize| Block::of(text.line(line)).call;
     (0..text.line_count()).filter_map(call).collect()
 }
 
@@ -96,8 +95,7 @@ impl Walk<'_> {
                 return false;
             }
             self.left -= 1;
-            let range = self.text.line_range(line);
-            let block = read_line(&self.text.bytes()[range], 0, |_| {});
+            let block = Block::of(self.text.line(line));
             // Another program begins: what runs into it has no end of its own.
             if let Some(own) = number.filter(|_| line > first)
                 && [

@@ -1,12 +1,55 @@
 //! The words of a line, whatever characters they are written in: those that look like others are read as what they look like.
 
 use super::cursor::scan;
-use super::word::{Token, WordFault};
+use super::word::{Number, Token, WordFault};
 use crate::program::alike::{Alike, alike};
+use crate::text::SourceText;
 use std::ops::Range;
 
 /// Hands each token of a line, which is without its line end, to `each`. Ranges are counted from `offset`.
-pub(crate) fn words(line: &[u8], offset: usize, mut each: impl FnMut(Token)) {
+pub(crate) fn words(line: &[u8], offset: usize, each: impl FnMut(Token)) {
+    tokens(line, offset, offset == 0, each);
+}
+
+/// The same for a line that may not begin with a byte order mark; ranges are counted from its start.
+pub(super) fn words_in(line: &[u8], each: impl FnMut(Token)) {
+    tokens(line, 0, false, each);
+}
+
+/// Hands the letter and the number of each word of a line to `each`, with its bytes in the text.
+pub(super) fn words_at(
+    text: &SourceText,
+    line: usize,
+    mut each: impl FnMut(u8, Number, Range<usize>),
+) {
+    tokens(text.line(line), text.line_start(line), false, |token| {
+        if let Token::Word {
+            letter,
+            number,
+            range,
+        } = token
+        {
+            each(letter, number, range);
+        }
+    });
+}
+
+/// The last of the words of a line that are wanted.
+pub(super) fn word_at(
+    text: &SourceText,
+    line: usize,
+    wanted: impl Fn(u8, Number) -> bool,
+) -> Option<Range<usize>> {
+    let mut found = None;
+    words_at(text, line, |letter, number, range| {
+        if wanted(letter, number) {
+            found = Some(range);
+        }
+    });
+    found
+}
+
+fn tokens(line: &[u8], offset: usize, may_have_mark: bool, mut each: impl FnMut(Token)) {
     if !line.is_ascii()
         && let Some(plain) = Plain::of(line)
     {
@@ -14,12 +57,12 @@ pub(crate) fn words(line: &[u8], offset: usize, mut each: impl FnMut(Token)) {
             fault: WordFault::Lookalike,
             range: offset + plain.first.start..offset + plain.first.end,
         });
-        scan(&plain.bytes, 0, offset == 0, |token| {
+        scan(&plain.bytes, 0, may_have_mark, |token| {
             each(plain.placed(token, offset))
         });
         return;
     }
-    scan(line, offset, offset == 0, each);
+    scan(line, offset, may_have_mark, each);
 }
 
 /// A line in which characters stand as those that they look like, each with its place in the text.

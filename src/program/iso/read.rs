@@ -1,12 +1,12 @@
 //! Lines are run: what each says, what it leaves in force, and what is wrong in it.
 
-use super::block::{Block, Motion, Note, Stop, read_line};
+use super::block::{Block, Note, Stop, read_line};
 use super::corner::{self, Turned, turned};
 use super::machine::{Course, Machine, Move, Reading, Trail};
 use super::run::{Hears, Run, SEVERAL, Tight, Ways};
 use super::shape::Shape;
 use super::stretch::{Definition, Foreign, Pathless, Stretch};
-use crate::finding::{Fault, Finding};
+use crate::finding::{Fault, Finding, Rule};
 use crate::geometry::Side;
 use crate::program::path::{joint, mixed};
 use std::ops::Range;
@@ -127,7 +127,10 @@ impl Stretch {
             Note::Twice { letter, range } => {
                 if faults.len() == known_faults {
                     let letter = letter as char;
-                    faults.push(Finding::of(Fault::WordTwice { letter }, range));
+                    faults.push(Finding::of(
+                        Fault::said(Rule::WordTwice, say!(stands_twice_in_this_line, letter)),
+                        range,
+                    ));
                 }
             }
         });
@@ -159,7 +162,8 @@ impl Stretch {
         let made = self.after.run(&block, &self.reading);
         let is_free = self.faults.len() == known_faults;
         if is_free && self.has_stray_center(&block) {
-            self.fault(Fault::CenterOnLine, range);
+            let sentence = say!(i_and_j_stand_beside_a_straight_cut);
+            self.fault(Fault::said(Rule::CenterOnLine, sentence), range);
         }
         match made {
             Some(made) => {
@@ -210,10 +214,7 @@ impl Stretch {
     /// I or J in a line that makes no arc of them.
     fn has_stray_center(&self, block: &Block) -> bool {
         (block.i.is_some() || block.j.is_some())
-            && !matches!(
-                self.after.motion,
-                Motion::Clockwise | Motion::CounterClockwise
-            )
+            && !self.after.motion.is_arc()
             && !block.takes_coordinates
             && !block.sets_position
             && !block.broken
@@ -238,7 +239,8 @@ impl Stretch {
         let turned = turned(made, &mut self.after, ahead.lines(), &self.reading);
         self.ahead = self.ahead.max(ahead.beyond(turned.looked_at));
         if turned.corner.is_none() {
-            self.fault(Fault::NoCorner, range);
+            let sentence = say!(the_word_for_a_corner_finds_none_here_or);
+            self.fault(Fault::said(Rule::CornerWord, sentence), range);
         }
         turned
     }

@@ -389,7 +389,7 @@ impl<'a> Suspect<'a> {
                 vec![TextEdit::new(start..start, format!("{new}{end}"))]
             }
             // The whole line goes, with its end.
-            Change::Delete { .. } => vec![TextEdit::new(start..text.line_start(line + 1), "")],
+            Change::Delete { .. } => vec![TextEdit::new(text.whole_line(line), "")],
             Change::Replace { .. } | Change::Exchange { .. } => {
                 let mut edits = Vec::new();
                 for (line, new) in (line..).zip(self.texts_with(change)) {

@@ -2,11 +2,12 @@
 
 mod text;
 
-use super::block::{Code, Motion, word_range};
+use super::block::{Code, Motion};
 use super::cut::Cut;
 use super::document::{Document, Table};
 use super::limits::Limits;
 use super::machine::{Course, Move, Place as Spot, Reading, apart, distance, micrometres};
+use super::plain::word_at;
 use super::repair::found::Repair;
 use super::repair::{is_trouble, line_of};
 use super::run::{Run, RunSide, Tight};
@@ -34,28 +35,73 @@ const MET: f64 = 2_000.0;
 impl Document {
     /// What is wrong in the program, in the order of the text.
     pub fn findings(&self) -> Vec<Finding> {
-        findings(self)
+        let mut findings = self.plain_findings();
+        let suspects = suspects(self, &findings);
+        if !suspects.is_empty() {
+            findings.extend(suspects);
+            sort(&mut findings);
+        }
+        findings
     }
 
-    /// The same without the blocks that are only suspected.
+    /// The same without the blocks that are only suspected: what is wrong by itself, without a search for what is behind it.
     pub(crate) fn plain_findings(&self) -> Vec<Finding> {
-        plain_findings(self)
+        let mut report = Report::new(self);
+        let mut last_words = None;
+        let mut is_ended = false;
+        for placed in self.placed() {
+            let (stretch, offset) = (placed.stretch, placed.offset);
+            report.line_faults(stretch, offset);
+            report.note(stretch, offset);
+            is_ended = stretch.after.ended;
+            if let Some(words) = stretch.last_words {
+                last_words = Some(at(offset, words));
+            }
+            if let Some(behind) = stretch.behind_end
+                && !std::mem::replace(&mut report.is_behind_end_said, true)
+            {
+                let word = report.end_before(at(offset, behind).start);
+                report.add(at(offset, behind), Fault::TextAfterEnd { word });
+            }
+        }
+        report.spurs();
+        for cut in self.contours() {
+            report.judge(cut);
+        }
+        report.findings.extend(self.crossings().findings(self));
+        report.definitions();
+        report.bare_numbers();
+        report.odd_places();
+        report.unit();
+        report.foreign_words();
+        report.block_numbers();
+        report.calls();
+        if let (false, Some(words)) = (is_ended, last_words)
+            && report.moves > 0
+            && report.is_whole()
+        {
+            let word = self.limits.end.clone();
+            report.add(words, Fault::MissingEnd { word });
+        }
+        if self.evidence().leaves_centers_open()
+            && let Some(range) = report.first_center()
+        {
+            let sentence = say!(full_circles_alone_do_not_tell_how);
+            report.add(range, Fault::said(Rule::AmbiguousCenter, sentence));
+        }
+        report.finish()
     }
 
     /// The stretches not known to be quiet that are: with the cuts that begin and end in there nothing is wrong as a whole.
     pub(super) fn quiet(&self) -> Vec<usize> {
-        quiet(self)
+        let mut report = Report::new(self);
+        let placed = self.placed().enumerate();
+        let not_known = placed.filter(|(_, placed)| !placed.stretch.is_quiet);
+        not_known
+            .filter(|(index, placed)| report.is_quiet(placed, *index))
+            .map(|(index, _)| index)
+            .collect()
     }
-}
-
-fn findings(document: &Document) -> Vec<Finding> {
-    let mut findings = plain_findings(document);
-    let suspects = suspects(document, &findings);
-    if !suspects.is_empty() {
-        findings.extend(suspects);
-        sort(&mut findings);
-    }
-    findings
 }
 
 /// The blocks of which one slip may be all that is wrong, where nothing is said at their place yet.
@@ -66,7 +112,7 @@ fn suspects(document: &Document, findings: &[Finding]) -> Vec<Finding> {
             .any(|finding| is_trouble(finding) && line_of(document, finding) == Some(line))
     };
     let first = |(_, repairs): &(Range<usize>, Vec<Repair>)| repairs.first().cloned();
-    let repairs: Vec<Repair> = document.repairs().iter().filter_map(first).collect();
+    let repairs = document.repairs().iter().filter_map(first);
     let suspect = |repair: Repair| {
         let range = document.words_of(repair.line);
         let fault = Fault::Suspect {
@@ -74,88 +120,29 @@ fn suspects(document: &Document, findings: &[Finding]) -> Vec<Finding> {
             meant: repair.meant,
             closes: repair.closes,
         };
-        let severity = if repair.is_sure {
-            Rule::SuspectBlock.default_severity()
-        } else {
-            Severity::Information
+        let severity = match repair.is_sure {
+            true => Rule::SuspectBlock.default_severity(),
+            false => Severity::Information,
         };
         Finding::of(fault, range).with(severity)
     };
     repairs
-        .into_iter()
         .filter(|repair| repair.explains && !is_said(repair.line))
         .map(suspect)
         .collect()
 }
 
-/// By place.
-fn sort(findings: &mut [Finding]) {
-    let start = |finding: &Finding| match &finding.place {
+/// First and last byte of what a finding is said of.
+fn place_of(finding: &Finding) -> (usize, usize) {
+    match &finding.place {
         Place::Text { range } => (range.start, range.end),
         _ => (0, 0),
-    };
-    findings.sort_by_key(|finding| (start(finding), finding.rule));
+    }
 }
 
-/// What is wrong by itself, without a search for what is behind it.
-fn plain_findings(document: &Document) -> Vec<Finding> {
-    let mut report = Report::new(document);
-    let mut last_words = None;
-    let mut is_ended = false;
-    for placed in document.placed() {
-        let (stretch, offset) = (placed.stretch, placed.offset);
-        report.line_faults(stretch, offset);
-        report.note(stretch, offset);
-        is_ended = stretch.after.ended;
-        if let Some(words) = stretch.last_words {
-            last_words = Some(at(offset, words));
-        }
-        if let Some(behind) = stretch.behind_end
-            && !std::mem::replace(&mut report.is_behind_end_said, true)
-        {
-            let word = report.end_before(at(offset, behind).start);
-            report.add(at(offset, behind), Fault::TextAfterEnd { word });
-        }
-    }
-    report.spurs();
-    for cut in document.contours() {
-        report.judge(cut);
-    }
-    report
-        .findings
-        .extend(document.crossings().findings(document));
-    report.definitions();
-    report.bare_numbers();
-    report.odd_places();
-    report.unit();
-    report.foreign_words();
-    report.block_numbers();
-    report.calls();
-    if let (false, Some(words)) = (is_ended, last_words)
-        && report.moves > 0
-        && report.is_whole()
-    {
-        let word = document.limits.end.clone();
-        report.add(words, Fault::MissingEnd { word });
-    }
-    if document.evidence().leaves_centers_open()
-        && let Some(range) = report.first_center()
-    {
-        report.add(range, Fault::OpenCenters);
-    }
-    report.finish()
-}
-
-fn quiet(document: &Document) -> Vec<usize> {
-    let mut report = Report::new(document);
-    let not_known = document
-        .placed()
-        .enumerate()
-        .filter(|(_, placed)| !placed.stretch.is_quiet);
-    not_known
-        .filter(|(index, placed)| report.is_quiet(placed, *index))
-        .map(|(index, _)| index)
-        .collect()
+/// By place.
+fn sort(findings: &mut [Finding]) {
+    findings.sort_by_key(|finding| (place_of(finding), finding.rule));
 }
 
 struct Report<'a> {
@@ -416,18 +403,14 @@ impl<'a> Report<'a> {
     fn switch_range(&self, start: usize) -> Range<usize> {
         let line = self.text.line_of(start);
         for line in (line.saturating_sub(SWITCH_REACH)..=line).rev() {
-            let range = self.text.line_range(line);
-            let found = word_range(
-                &self.text.bytes()[range.clone()],
-                range.start,
-                |letter, number| letter == b'G' && matches!(number.whole(), Some(41 | 42)),
-            );
+            let found = word_at(self.text, line, |letter, number| {
+                letter == b'G' && matches!(number.whole(), Some(41 | 42))
+            });
             if let Some(found) = found {
                 return found;
             }
         }
-        let range = self.text.line_range(line);
-        start..range.end.max(start)
+        start..self.text.line_range(line).end.max(start)
     }
 
     /// Arcs that the wire cannot follow at its distance: those of a part's contour, where the control or nobody offsets it.
@@ -488,14 +471,10 @@ impl<'a> Report<'a> {
     /// Sorted by place; a line that a subprogram runs several times is said once.
     fn finish(mut self) -> Vec<Finding> {
         sort(&mut self.findings);
-        let start = |finding: &Finding| match &finding.place {
-            Place::Text { range } => (range.start, range.end),
-            _ => (0, 0),
-        };
         if self.document.order().is_some() {
             let mut said = FxHashSet::default();
             self.findings
-                .retain(|finding| said.insert((start(finding), finding.rule)));
+                .retain(|finding| said.insert((place_of(finding), finding.rule)));
         }
         self.findings
     }

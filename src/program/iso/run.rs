@@ -1,7 +1,7 @@
 //! Consecutive cuts of an ISO program without rapid or stop between, as far as they lie in one stretch, how they lie on themselves, and
 //! their arcs that may be too tight.
 
-use super::machine::{Bend, Move, Place, Reading, added};
+use super::machine::{Bend, Move, Place, Reading, added, apart};
 use crate::geometry::{Point, Side};
 use crate::program::path::{HeldWay, Lay, Node, mixed};
 
@@ -81,17 +81,8 @@ impl Run {
     /// What a move adds to the area.
     fn term(&self, step: &Move, cap: f64) -> i128 {
         let origin = self.start();
-        let from = [
-            step.from[0].wrapping_sub(origin[0]),
-            step.from[1].wrapping_sub(origin[1]),
-        ];
-        let to = [
-            step.to[0].wrapping_sub(origin[0]),
-            step.to[1].wrapping_sub(origin[1]),
-        ];
-        (i128::from(from[0]) * i128::from(to[1]))
-            .wrapping_sub(i128::from(from[1]) * i128::from(to[0]))
-            .wrapping_add(cap as i128)
+        let [from, to] = [step.from, step.to].map(|place| apart(place, origin));
+        cross(from, to).wrapping_add(cap as i128)
     }
 
     pub(crate) fn push(&mut self, step: Move, cap: f64, range: (u32, u32)) {
@@ -113,16 +104,7 @@ impl Run {
     pub(crate) fn append(&mut self, next: &Run) {
         // The area of the continuation was taken about its own beginning.
         let (origin, its) = (self.start(), next.start());
-        let shift = [
-            its[0].wrapping_sub(origin[0]),
-            its[1].wrapping_sub(origin[1]),
-        ];
-        let along = [
-            next.last[1].to[0].wrapping_sub(its[0]),
-            next.last[1].to[1].wrapping_sub(its[1]),
-        ];
-        let between = (i128::from(shift[0]) * i128::from(along[1]))
-            .wrapping_sub(i128::from(shift[1]) * i128::from(along[0]));
+        let between = cross(apart(its, origin), apart(next.last[1].to, its));
         self.twice_area = self
             .twice_area
             .wrapping_add(next.twice_area)
@@ -152,6 +134,11 @@ impl Run {
             *at = added(*at, by);
         }
     }
+}
+
+fn cross(a: Place, b: Place) -> i128 {
+    let [[ax, ay], [bx, by]] = [a, b].map(|place| place.map(i128::from));
+    (ax * by).wrapping_sub(ay * bx)
 }
 
 /// The second move has the wire on the other side than the first.

@@ -23,11 +23,7 @@ impl Heading for Shape<'_> {
 
     /// With G02 for G03, and the other way round.
     fn exchanged(&self) -> Option<[Vector; 2]> {
-        let motion = match self.made.motion {
-            Motion::Clockwise => Motion::CounterClockwise,
-            Motion::CounterClockwise => Motion::Clockwise,
-            other => other,
-        };
+        let motion = self.made.motion.reversed();
         let made = Move {
             motion,
             ..self.made

@@ -1,6 +1,5 @@
 //! How a program writes its lengths, found from those that stand in it: what is added to it is written alike.
 
-use super::block::read_line;
 use super::document::Document;
 use crate::settings::NumberUnit;
 
@@ -39,13 +38,8 @@ impl Style {
             .decimals
             .clamp(LEAST_DECIMALS[unit], MOST_DECIMALS[unit]);
         let (mut looked_at, mut padded) = (0, true);
-        let text = document.text();
-        for line in 0..text.line_count() {
-            let block = read_line(
-                text.bytes().get(text.line_range(line)).unwrap_or_default(),
-                1,
-                |_| {},
-            );
+        for line in 0..document.text().line_count() {
+            let block = document.block(line);
             for number in [block.x, block.y, block.i, block.j].into_iter().flatten() {
                 padded &= number.decimals == decimals;
                 looked_at += 1;

@@ -34,8 +34,7 @@ pub(in crate::program) fn refuse_anywhere(
 }
 
 fn reason(document: &Document, line: usize, wanted: Words) -> Option<&'static str> {
-    let text = document.text();
-    let code = without_comments(text.bytes().get(text.line_range(line))?);
+    let code = without_comments(document.line_bytes(line));
     let mut words = code.iter().enumerate().filter(|(at, byte)| {
         let before = at.checked_sub(1).and_then(|before| code.get(before));
         byte.is_ascii_alphabetic() && !before.is_some_and(u8::is_ascii_alphabetic) || **byte == b':'

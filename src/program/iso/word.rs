@@ -3,6 +3,7 @@
 //! Nothing here knows what a word means, and nothing that one line says hangs on another.
 
 use crate::finding::{Detail, Finding, Rule, Severity};
+use crate::text::shown;
 use std::ops::Range;
 
 /// A number as it is written: `mantissa · 10^−decimals`. Whether it had a decimal point tells millimetres from micrometres.
@@ -137,10 +138,7 @@ impl WordFault {
     pub(crate) fn finding(self, line: &[u8], start: usize, range: Range<usize>) -> Finding {
         let column = start + 1;
         let bytes = line.get(start..start + range.len()).unwrap_or_default();
-        let shown: String = String::from_utf8_lossy(&bytes[..bytes.len().min(48)])
-            .chars()
-            .take(12)
-            .collect();
+        let shown = shown(bytes);
         let sentence = match self {
             WordFault::NoNumber { letter } => say!(word_without_number, column, letter as char),
             WordFault::NotANumber { letter } => say!(

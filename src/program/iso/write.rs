@@ -1,10 +1,13 @@
 //! Paths to the text of one ISO program, as a profile says, each line of which is read again while it is written.
 
-use super::block::{Motion, Note, read_line};
-use super::encode::{ASIDE_TOLERANCE, Encoded, encode};
-use super::machine::{CenterRule, Course, MICROMETRE, Machine, Move, Place, Reading, micrometres};
+use super::block::{Block, Motion, Note, read_line};
+use super::encode::{Encoded, Moves};
+use super::machine::{
+    CenterRule, Course, MICROMETRE, Machine, Move, Place, Reading, micrometres, to_center,
+};
 use crate::finding::Side;
 use crate::geometry::Segment;
+use crate::program::encode::{ASIDE_TOLERANCE, Encoder};
 use crate::program::grid::{Node, largest_distance, point_of};
 use crate::program::write::{
     ProofError, ProvedProgram, Writer, cuts, nothing_to_write, push_number, push_places, scaled,
@@ -123,15 +126,11 @@ impl Writer for Lines<'_> {
         }
         let mut encoded = std::mem::take(&mut self.encoded);
         encoded.clear();
-        encode(
-            piece,
-            from,
-            to,
-            self.step_um(),
-            self.profile.full_circles,
-            &mut encoded,
-        )
-        .ok_or_else(|| {
+        let moves = Moves {
+            step: self.step_um(),
+            full_circles: self.profile.full_circles,
+        };
+        moves.encode(piece, from, to, &mut encoded).ok_or_else(|| {
             ProofError::Mismatch(say!(
                 no_moves_within_tolerance_lead_from_to,
                 format_args!("{from:?}"),
@@ -328,7 +327,7 @@ impl<'a> Lines<'a> {
     fn step_out(&mut self, step: &Encoded) -> Result<(), ProofError> {
         let start = self.out.len();
         self.push_move(step);
-        let block = read_line(&self.out[start..], 1, |_| {});
+        let block = Block::of(&self.out[start..]);
         let made = self.machine.run(&block, &self.reading);
         let aside = self.check(step, made)?;
         self.deviation = self.deviation.max(aside);
@@ -350,22 +349,13 @@ impl<'a> Lines<'a> {
             push_number(&mut out, u64::from(self.number), 0);
         }
         if !modal || self.motion != Some(step.motion) {
-            separate.push(
-                &mut out,
-                match step.motion {
-                    Motion::Rapid => b"G00",
-                    Motion::Line => b"G01",
-                    Motion::Clockwise => b"G02",
-                    Motion::CounterClockwise => b"G03",
-                },
-            );
+            separate.push(&mut out, step.motion.word().as_bytes());
             self.motion = Some(step.motion);
         }
         let from = match self.profile.coordinates {
             Coordinates::Absolute => self.zero,
             Coordinates::Incremental => step.from,
         };
-        let is_arc = matches!(step.motion, Motion::Clockwise | Motion::CounterClockwise);
         // An arc without coordinates is a full circle: both are kept for it.
         let keep = !modal || step.from == step.to;
         if keep || step.to.x != step.from.x {
@@ -376,19 +366,10 @@ impl<'a> Lines<'a> {
             separate.push(&mut out, b"Y");
             self.push_length(&mut out, step.to.y - from.y);
         }
-        if is_arc {
-            let (i, j) = match self
-                .reading
-                .rule(self.profile.coordinates == Coordinates::Incremental)
-            {
-                CenterRule::StartToCenter => {
-                    (step.center.x - step.from.x, step.center.y - step.from.y)
-                }
-                CenterRule::CenterToStart => {
-                    (step.from.x - step.center.x, step.from.y - step.center.y)
-                }
-                CenterRule::Absolute => (step.center.x - self.zero.x, step.center.y - self.zero.y),
-            };
+        if step.motion.is_arc() {
+            let is_incremental = self.profile.coordinates == Coordinates::Incremental;
+            let [center, from, zero] = [step.center, step.from, self.zero].map(|at| [at.x, at.y]);
+            let [i, j] = to_center(self.reading.rule(is_incremental), center, from, zero);
             separate.push(&mut out, b"I");
             self.push_length(&mut out, i);
             separate.push(&mut out, b"J");

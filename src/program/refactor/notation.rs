@@ -4,8 +4,9 @@ use super::{Content, Contour, Refactoring, Rewrite, Row, Sheet, Transform};
 use crate::finding::Finding;
 use crate::program::grid::Node;
 use crate::program::path::Trace;
+use crate::program::steps::Program;
 use crate::settings::Effective;
-use crate::text::{SourceText, TextEdit};
+use crate::text::TextEdit;
 use std::ops::Range;
 
 /// What is about to be done with moves.
@@ -19,7 +20,7 @@ pub(in crate::program) enum Change {
 
 /// A language whose programs can be rewritten. Errors are lower-case and have no final dot.
 pub(in crate::program) trait Notation: Sized {
-    type Document;
+    type Document: Program;
     /// What is known of a move besides where it leads.
     type Own;
     /// What stands in the place of a move.
@@ -33,8 +34,6 @@ pub(in crate::program) trait Notation: Sized {
     const NUMBER: &'static str;
 
     fn read(bytes: Vec<u8>, settings: &Effective) -> Self::Document;
-    fn text(document: &Self::Document) -> &SourceText;
-    fn trace(document: &Self::Document) -> Trace;
     fn findings(document: &Self::Document) -> Vec<Finding>;
 
     /// The moves of a program, one for each step of the trace that moves; the error says which line cannot be read.

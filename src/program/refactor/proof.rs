@@ -5,6 +5,7 @@ use super::{Content, Notation, Rewrite, Sheet};
 use crate::finding::{Rule, Severity};
 use crate::program::grid::point_of;
 use crate::program::path::{Kind, Trace};
+use crate::program::steps::{Program, trace};
 use crate::text::{TextEdit, edited};
 
 /// How far the end of a program that counts may lie from where it is meant to, µm, beside 1 µm for each arc.
@@ -81,9 +82,9 @@ pub(super) fn same_way<N: Notation>(
         return Ok(edits);
     }
     let bytes =
-        edited(N::text(sheet.document).bytes(), &edits).ok_or(say!(the_edits_lie_on_each_other))?;
+        edited(sheet.document.text().bytes(), &edits).ok_or(say!(the_edits_lie_on_each_other))?;
     let after = N::read(bytes, sheet.settings);
-    if way(&N::trace(&after).as_meant()) != way(&sheet.trace) {
+    if way(&trace(&after).as_meant()) != way(&sheet.trace) {
         return Err(say!(the_numbers_are_part_of_what_the_machine_does).into());
     }
     refuse_new_errors::<N>(sheet.document, &after)?;

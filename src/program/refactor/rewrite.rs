@@ -4,6 +4,7 @@ use super::proof::{prove, same_way};
 use super::{Content, Notation, Sheet};
 use crate::geometry::Point;
 use crate::program::grid::Node;
+use crate::program::steps::Program;
 use crate::text::{TextEdit, difference, edited};
 use std::collections::BTreeMap;
 
@@ -38,7 +39,7 @@ impl<N: Notation> Rewrite<N> {
         if edits.is_empty() {
             return Ok(edits);
         }
-        let old = N::text(sheet.document).bytes();
+        let old = sheet.document.text().bytes();
         let bytes = edited(old, &edits).ok_or(say!(the_edits_lie_on_each_other))?;
         let after = N::read(bytes, sheet.settings);
         prove(sheet, content, &self, &after)?;
@@ -48,7 +49,7 @@ impl<N: Notation> Rewrite<N> {
         }
         let again = Sheet::<N>::new(&after, sheet.settings, 0..0);
         let finished = same_way(&again, more).ok();
-        let both = finished.and_then(|more| edited(N::text(&after).bytes(), &more));
+        let both = finished.and_then(|more| edited(after.text().bytes(), &more));
         let both = both.and_then(|bytes| difference(old, &bytes));
         Ok(both.map_or(edits, |both| vec![both]))
     }

@@ -5,6 +5,7 @@ use crate::geometry::{Point, Segment};
 use crate::program::grid::{Node, point_of};
 use crate::program::path::cuts;
 use crate::program::path::{Kind, Trace};
+use crate::program::steps::{Program, trace};
 use crate::settings::Effective;
 use std::ops::Range;
 
@@ -65,7 +66,7 @@ impl<'a, N: Notation> Sheet<'a, N> {
         settings: &'a Effective,
         selection: Range<usize>,
     ) -> Sheet<'a, N> {
-        let trace = N::trace(document).as_meant();
+        let trace = trace(document).as_meant();
         let (contours, pauses) = contours(&trace);
         let moves = trace.steps.iter().filter(|step| step.moves()).count();
         let content = N::rows(document, &trace, &contours).and_then(|rows| {
@@ -95,7 +96,7 @@ impl<'a, N: Notation> Sheet<'a, N> {
 
     /// Lines that the selection touches.
     pub(crate) fn selected_lines(&self) -> Range<usize> {
-        let text = N::text(self.document);
+        let text = self.document.text();
         let first = text.line_of(self.selection.start);
         let last = text.line_of(self.selection.end.max(self.selection.start + 1) - 1);
         first..last.max(first) + 1

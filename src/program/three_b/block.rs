@@ -3,11 +3,7 @@
 pub(crate) use crate::program::grid::Node;
 
 /// G: the axis whose projections the controller counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CountingAxis {
-    X,
-    Y,
-}
+pub use crate::finding::Axis as CountingAxis;
 
 /// A quadrant, 1 to 4.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,15 +12,6 @@ pub enum Quadrant {
     Second,
     Third,
     Fourth,
-}
-
-impl CountingAxis {
-    pub(crate) fn other(self) -> CountingAxis {
-        match self {
-            CountingAxis::X => CountingAxis::Y,
-            CountingAxis::Y => CountingAxis::X,
-        }
-    }
 }
 
 impl Quadrant {
@@ -37,22 +24,12 @@ impl Quadrant {
 
     /// The quadrant by its number, `None` but for 1 to 4.
     pub fn from_number(number: u8) -> Option<Quadrant> {
-        match number {
-            1 => Some(Quadrant::First),
-            2 => Some(Quadrant::Second),
-            3 => Some(Quadrant::Third),
-            4 => Some(Quadrant::Fourth),
-            _ => None,
-        }
+        let index = usize::from(number.checked_sub(1)?);
+        Quadrant::ALL.get(index).copied()
     }
 
     pub(crate) fn number(self) -> u8 {
-        match self {
-            Quadrant::First => 1,
-            Quadrant::Second => 2,
-            Quadrant::Third => 3,
-            Quadrant::Fourth => 4,
-        }
+        self as u8 + 1
     }
 
     /// Signs of x and y in the quadrant.
@@ -98,6 +75,22 @@ pub enum Motion {
 }
 
 impl Motion {
+    pub(crate) fn all() -> impl Iterator<Item = Motion> {
+        let kinds: [fn(Quadrant) -> Motion; 3] =
+            [Motion::Line, Motion::CounterClockwise, Motion::Clockwise];
+        kinds.into_iter().flat_map(|kind| Quadrant::ALL.map(kind))
+    }
+
+    /// Z as it is written.
+    pub(crate) fn name(self) -> &'static str {
+        let names = match self {
+            Motion::Line(_) => ["L1", "L2", "L3", "L4"],
+            Motion::Clockwise(_) => ["SR1", "SR2", "SR3", "SR4"],
+            Motion::CounterClockwise(_) => ["NR1", "NR2", "NR3", "NR4"],
+        };
+        names[self.quadrant() as usize]
+    }
+
     pub(crate) fn is_line(self) -> bool {
         matches!(self, Motion::Line(_))
     }

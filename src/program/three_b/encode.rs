@@ -2,19 +2,15 @@
 
 use super::block::{Block, CountingAxis, Motion, Node, Quadrant};
 use super::decode::{decode, phase};
-use crate::geometry::{Arc, Line, Segment};
-use crate::program::grid::{chord_count, grid_centers, in_pieces, largest_distance, sagitta};
+use crate::geometry::{Arc, Segment};
+pub(super) use crate::program::encode::ASIDE_TOLERANCE;
+use crate::program::encode::{Attempt, Encoder, aside};
+use crate::program::grid::grid_centers;
 pub(crate) use crate::program::grid::{point_of, snap};
 use std::f64::consts::{PI, TAU};
 
 /// How far a decoded block may end from its node, µm.
 pub(crate) const END_TOLERANCE: f64 = 1.5;
-
-/// How far a decoded block may lie from its piece of the path, anywhere, µm.
-pub(crate) const ASIDE_TOLERANCE: f64 = 2.5;
-
-/// The largest sagitta of a chord that stands for a piece of an arc too large for the format, µm.
-const CHORD_SAGITTA: f64 = 0.5;
 
 /// A block, the nodes between which it runs, and the piece of the path that it stands for, in µm.
 #[derive(Clone, Copy, Debug)]
@@ -36,38 +32,59 @@ pub(crate) fn encode(
     largest: i64,
     blocks: &mut Vec<Encoded>,
 ) -> Option<()> {
-    match piece {
-        Segment::Line(line) => encode_line(line, from, to, largest, blocks),
-        Segment::Arc(arc) => encode_arc(arc, from, to, largest, 0, blocks),
-    }
+    Blocks { largest }.encode(piece, from, to, blocks)
 }
 
-fn encode_line(
-    line: &Line,
-    from: Node,
-    to: Node,
+/// Blocks none of whose numbers is above the largest.
+struct Blocks {
     largest: i64,
-    blocks: &mut Vec<Encoded>,
-) -> Option<()> {
-    let longest = (to.x - from.x).abs().max((to.y - from.y).abs());
-    if longest == 0 {
-        return Some(());
+}
+
+impl Encoder for Blocks {
+    type Block = Encoded;
+
+    fn step(&self) -> f64 {
+        1.0
     }
-    // Pieces one µm short of the limit, because a snapped node may lie one further.
-    let count = if longest <= largest {
-        1
-    } else {
-        longest / (largest - 1).max(1) + 1
-    };
-    in_pieces(&Segment::Line(*line), from, to, count, |piece, from, to| {
-        blocks.push(Encoded {
+
+    fn lines(&self, longest: i64) -> i64 {
+        match longest <= self.largest {
+            true => 1,
+            // Pieces one µm short of the limit, because a snapped node may lie one further.
+            false => longest / (self.largest - 1).max(1) + 1,
+        }
+    }
+
+    fn line(&self, piece: Segment, from: Node, to: Node) -> Encoded {
+        Encoded {
             block: line_block(from, to),
             from,
             to,
             piece,
-        });
-        Some(())
-    })
+        }
+    }
+
+    fn arc(&self, arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt<Encoded> {
+        // Its centre needs more digits than a block has.
+        if arc.radius > 2.0 * self.largest as f64 {
+            return Attempt::Chords;
+        }
+        match arc_block(arc, from, to, full_turn) {
+            None => Attempt::Misses,
+            Some(block) if block.x.max(block.y) > self.largest => Attempt::Chords,
+            // Pieces of one length differ in their J, which is split once more where that is too long.
+            Some(block) if block.j > self.largest => {
+                let count = block.j / (self.largest - self.largest / 1000).max(1) + 1;
+                Attempt::Pieces(count.max(2))
+            }
+            Some(block) => Attempt::Made(Encoded {
+                block,
+                from,
+                to,
+                piece: Segment::Arc(*arc),
+            }),
+        }
+    }
 }
 
 /// The block of a straight line between two different nodes.
@@ -94,110 +111,12 @@ pub(crate) fn line_block(from: Node, to: Node) -> Block {
     }
 }
 
-fn encode_arc(
-    arc: &Arc,
-    from: Node,
-    to: Node,
-    largest: i64,
-    depth: u32,
-    blocks: &mut Vec<Encoded>,
-) -> Option<()> {
-    let full_turn = from == to && arc.sweep.abs() > PI;
-    if from == to && (!full_turn || arc.radius < 0.5) {
-        return Some(());
-    }
-    // Its centre needs more digits than a block has.
-    if arc.radius > 2.0 * largest as f64 {
-        return chords(arc, from, to, largest, blocks);
-    }
-    let whole = Segment::Arc(*arc);
-    match arc_block(arc, from, to, full_turn) {
-        Attempt::Block(block) if block.x > largest || block.y > largest => {
-            chords(arc, from, to, largest, blocks)
-        }
-        Attempt::Block(block) if block.j > largest => {
-            // Pieces of one length differ in their J, which is split once more where that is too long.
-            let count = block.j / (largest - largest / 1000).max(1) + 1;
-            in_pieces(&whole, from, to, count.max(2), |piece, from, to| {
-                encode(&piece, from, to, largest, blocks)
-            })
-        }
-        Attempt::Block(block) => {
-            blocks.push(Encoded {
-                block,
-                from,
-                to,
-                piece: whole,
-            });
-            Some(())
-        }
-        // A chord of an arc this flat is as near to it as the grid is.
-        Attempt::Misses if sagitta(arc) <= 2.0 * CHORD_SAGITTA => {
-            encode_chord(&whole, from, to, largest, blocks)
-        }
-        Attempt::Misses if depth < 8 => {
-            let middle = snap(arc.point_at(0.5))?;
-            for (share, from, to) in [(0.0, from, middle), (0.5, middle, to)] {
-                if let Segment::Arc(half) = whole.part(share, share + 0.5) {
-                    encode_arc(&half, from, to, largest, depth + 1, blocks)?;
-                }
-            }
-            Some(())
-        }
-        Attempt::Misses => None,
-    }
-}
-
-/// Lines whose sagitta stays below [`CHORD_SAGITTA`].
-fn chords(arc: &Arc, from: Node, to: Node, largest: i64, blocks: &mut Vec<Encoded>) -> Option<()> {
-    let count = chord_count(arc, CHORD_SAGITTA)?;
-    in_pieces(&Segment::Arc(*arc), from, to, count, |piece, from, to| {
-        encode_chord(&piece, from, to, largest, blocks)
-    })
-}
-
-/// Straight blocks that stand for an arc.
-fn encode_chord(
-    piece: &Segment,
-    from: Node,
-    to: Node,
-    largest: i64,
-    blocks: &mut Vec<Encoded>,
-) -> Option<()> {
-    let first = blocks.len();
-    encode_line(
-        &Line {
-            start: piece.start(),
-            end: piece.end(),
-        },
-        from,
-        to,
-        largest,
-        blocks,
-    )?;
-    let count = (blocks.len() - first) as f64;
-    for (index, block) in blocks[first..].iter_mut().enumerate() {
-        block.piece = piece.part(index as f64 / count, (index + 1) as f64 / count);
-    }
-    Some(())
-}
-
-enum Attempt {
-    Block(Block),
-    /// Decoded again, the block would not end at its node.
-    Misses,
-}
-
 /// The block about the best centre; where it leads too far from the arc, as a grid centre two µm off can past a half turn, about the
 /// next best one.
-fn arc_block(arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt {
-    let centers = grid_centers(arc, from, to);
-    let mut attempts = centers
+fn arc_block(arc: &Arc, from: Node, to: Node, full_turn: bool) -> Option<Block> {
+    grid_centers(arc, from, to)
         .iter()
-        .map(|center| block_about(center.node, arc, from, to, full_turn));
-    attempts
-        .find(|attempt| matches!(attempt, Attempt::Block(_)))
-        .unwrap_or(Attempt::Misses)
+        .find_map(|center| block_about(center.node, arc, from, to, full_turn))
 }
 
 /// Other blocks that stand for the same arc within tolerance: about another centre, or counting 1 µm more or less.
@@ -211,7 +130,7 @@ pub(crate) fn alternatives(encoded: &Encoded, largest: i64) -> Vec<Block> {
     }
     let mut found = Vec::new();
     for center in grid_centers(arc, from, to) {
-        let Attempt::Block(block) = block_about(center.node, arc, from, to, false) else {
+        let Some(block) = block_about(center.node, arc, from, to, false) else {
             continue;
         };
         let counts = [block.j - 1, block.j, block.j + 1].map(|j| Block { j, ..block });
@@ -228,18 +147,17 @@ fn stands_for(block: &Block, arc: &Arc, from: Node, to: Node, full_turn: bool) -
         Ok(Segment::Arc(decoded)) => {
             decoded.is_full_turn() == full_turn
                 && (decoded.end - point_of(to)).norm() <= END_TOLERANCE
-                && largest_distance(&Segment::Arc(decoded), &Segment::Arc(*arc)) <= ASIDE_TOLERANCE
-                && (decoded.point_at(0.5) - arc.point_at(0.5)).norm() <= ASIDE_TOLERANCE
+                && aside(&Segment::Arc(decoded), &Segment::Arc(*arc)) <= ASIDE_TOLERANCE
         }
         _ => false,
     }
 }
 
-fn block_about(center: Node, arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt {
+fn block_about(center: Node, arc: &Arc, from: Node, to: Node, full_turn: bool) -> Option<Block> {
     let (start_x, start_y) = (from.x - center.x, from.y - center.y);
     let (end_x, end_y) = (to.x - center.x, to.y - center.y);
     if (start_x, start_y) == (0, 0) || (end_x, end_y) == (0, 0) {
-        return Attempt::Misses;
+        return None;
     }
     let counter_clockwise = arc.sweep > 0.0;
     let radius = (start_x as f64).hypot(start_y as f64);
@@ -255,7 +173,7 @@ fn block_about(center: Node, arc: &Arc, from: Node, to: Node, full_turn: bool) -
         let between = (end_y as f64).atan2(end_x as f64) - start_angle;
         let sweep = between + TAU * ((arc.sweep - between) / TAU).round();
         if sweep * arc.sweep <= 0.0 || sweep.abs() > TAU {
-            return Attempt::Misses;
+            return None;
         }
         let (first, last) = match axis {
             CountingAxis::X => (start_x, end_x),
@@ -281,11 +199,7 @@ fn block_about(center: Node, arc: &Arc, from: Node, to: Node, full_turn: bool) -
         axis,
         motion,
     };
-    if stands_for(&block, arc, from, to, full_turn) {
-        Attempt::Block(block)
-    } else {
-        Attempt::Misses
-    }
+    stands_for(&block, arc, from, to, full_turn).then_some(block)
 }
 
 /// What a controller counts on an axis along an arc.

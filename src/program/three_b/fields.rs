@@ -3,6 +3,7 @@
 use super::block::{Block, CountingAxis, Motion, PartArc, Quadrant};
 use super::fault::{Flaw, SyntaxFault};
 use crate::program::alike::wide_space;
+use crate::text::TextEdit;
 use std::ops::Range;
 
 /// More digits than any controller takes are not read as a number; [`numbers`] says how many.
@@ -30,6 +31,34 @@ pub struct Fields {
 }
 
 impl Fields {
+    /// The edits that make another block of the one that stands here, in its letter case.
+    pub(super) fn changed(&self, text: &[u8], old: &Block, new: &Block) -> Vec<TextEdit> {
+        let first = text.get(self.motion.start);
+        let cased = |text: String| match first.is_some_and(u8::is_ascii_lowercase) {
+            true => text.to_lowercase(),
+            false => text,
+        };
+        let all = [
+            (&self.x, new.x.to_string(), new.x == old.x),
+            (&self.y, new.y.to_string(), new.y == old.y),
+            (&self.j, new.j.to_string(), new.j == old.j),
+            (
+                &self.axis,
+                cased(format!("G{}", new.axis.letter())),
+                new.axis == old.axis,
+            ),
+            (
+                &self.motion,
+                cased(new.motion.name().into()),
+                new.motion == old.motion,
+            ),
+        ];
+        let changed = all.into_iter().filter(|(.., is_same)| !is_same);
+        changed
+            .map(|(range, text, _)| TextEdit::new(range.clone(), text))
+            .collect()
+    }
+
     fn shifted(self, by: usize) -> Fields {
         let shift = |range: Range<usize>| range.start + by..range.end + by;
         Fields {

@@ -13,6 +13,7 @@ use crate::program::alike::with_plain_marks;
 use crate::program::edits::{self, AT_ONCE, LineEdits};
 use crate::program::three_b::around::before_comment;
 use crate::program::three_b::decode::decode;
+use crate::program::three_b::layout::layout_in;
 use crate::program::three_b::parse::{Item, read_line};
 use crate::program::three_b::words::{Word, Words};
 use crate::settings::Layout;
@@ -64,7 +65,7 @@ fn layout_of(text: &SourceText, words: &Words<'_>) -> Layout {
     // Compact, aligned, checking.
     let mut votes = [0_usize; 3];
     for line in 0..text.line_count() {
-        let bytes = &text.bytes()[text.line_range(line)];
+        let bytes = text.line(line);
         read_line(bytes, 0, words, |item| {
             let Item::Block {
                 range, stated_end, ..
@@ -72,12 +73,11 @@ fn layout_of(text: &SourceText, words: &Words<'_>) -> Layout {
             else {
                 return;
             };
-            let spaced = bytes.get(range).is_some_and(|block| block.contains(&b' '));
-            votes[if stated_end.is_some() {
-                2
-            } else {
-                usize::from(spaced)
-            }] += 1;
+            let layout = match stated_end {
+                Some(_) => Layout::Checking,
+                None => layout_in(bytes.get(range).unwrap_or_default()),
+            };
+            votes[layout as usize] += 1;
         });
         if votes.iter().sum::<usize>() >= LOOKED_AT {
             break;
@@ -149,24 +149,19 @@ impl Chunk {
             // The reader skips a byte order mark at offset 0 only.
             let shift = usize::from(line > 0);
             let mut is_sound = true;
-            read_line(
-                &text.bytes()[text.line_range(line)],
-                shift,
-                words,
-                |mut item| match &mut item {
-                    Item::Fault(_) | Item::Text { .. } => is_sound = false,
-                    Item::CommentedBlock { .. } => {}
-                    Item::Block { range, .. }
-                    | Item::Word { range, .. }
-                    | Item::StartPoint { range, .. } => {
-                        *range = range.start - shift..range.end - shift;
-                        chunk.ways.push(way_of(&item));
-                        chunk.items.push(item);
-                    }
-                },
-            );
+            let line = text.line(line);
+            read_line(line, shift, words, |mut item| match &mut item {
+                Item::Fault(_) | Item::Text { .. } => is_sound = false,
+                Item::CommentedBlock { .. } => {}
+                Item::Block { range, .. }
+                | Item::Word { range, .. }
+                | Item::StartPoint { range, .. } => {
+                    *range = range.start - shift..range.end - shift;
+                    chunk.ways.push(way_of(&item));
+                    chunk.items.push(item);
+                }
+            });
             // Wide marks and spaces among the fields stay as they stand.
-            let line = &text.bytes()[text.line_range(line)];
             let code = before_comment(line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line));
             is_sound &= code.is_ascii() || with_plain_marks(code).is_none();
             chunk.lines.push(Line {
@@ -191,8 +186,6 @@ impl Chunk {
         for (line, Line { end, is_sound }) in (self.first_line..).zip(&self.lines) {
             let (items, stated) = (&self.items[first..*end], &self.stated[first..*end]);
             if lines.contains(&line) {
-                let range = text.line_range(line);
-                let bytes = &text.bytes()[range.clone()];
                 let pieces = Vec::new();
                 let mut writer = Writer {
                     words,
@@ -205,7 +198,7 @@ impl Chunk {
                     pieces,
                     is_sound: *is_sound,
                 };
-                if let Some(formed) = writer.form(bytes, line_end(text, line)) {
+                if let Some(formed) = writer.form(text.line(line), text.line_end(line)) {
                     replace(&mut edits, text, line, formed);
                 }
             }
@@ -245,22 +238,6 @@ fn has_end(items: &[Item]) -> bool {
             }
         )
     })
-}
-
-/// The line end of a line; of the one before it where it has none.
-fn line_end(text: &SourceText, line: usize) -> &str {
-    let end_of = |line: usize| {
-        let bytes = text
-            .bytes()
-            .get(text.line_range(line).end..text.line_start(line + 1))
-            .unwrap_or_default();
-        std::str::from_utf8(bytes)
-            .ok()
-            .filter(|end| !end.is_empty())
-    };
-    end_of(line)
-        .or_else(|| end_of(line.checked_sub(1)?))
-        .unwrap_or("\n")
 }
 
 /// A line in its new form: text, and the bytes of the old line that stand behind it as they are.

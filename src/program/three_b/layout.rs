@@ -1,6 +1,6 @@
 //! What blocks look like as text: compact, aligned, checking.
 
-use super::block::{Block, CountingAxis, Motion, Node, PartArc};
+use super::block::{Block, Node, PartArc};
 use crate::program::write::{push_number, push_places};
 use crate::settings::Layout;
 
@@ -22,6 +22,14 @@ pub(crate) fn push_block(
         push_end_point(out, end);
     }
     out.push(b'\n');
+}
+
+/// The layout in which a block is written.
+pub(super) fn layout_in(block: &[u8]) -> Layout {
+    match block.contains(&b' ') {
+        true => Layout::Aligned,
+        false => Layout::Compact,
+    }
 }
 
 /// Appends `N   12: `.
@@ -49,31 +57,18 @@ pub(crate) fn push_fields(
         push_number(out, value.unsigned_abs(), width);
         out.extend_from_slice(between);
     }
-    out.extend_from_slice(match block.axis {
-        CountingAxis::X => b"GX",
-        CountingAxis::Y => b"GY",
-    });
+    out.extend([b'G', block.axis.letter() as u8]);
     out.extend_from_slice(between);
     if let Some(part) = part {
         out.extend_from_slice(if part.concave { b"DD" } else { b"D" });
         out.extend_from_slice(between);
     }
-    let (kind, quadrant): (&[u8], _) = match block.motion {
-        Motion::Line(quadrant) => (b"L", quadrant),
-        Motion::Clockwise(quadrant) => (b"SR", quadrant),
-        Motion::CounterClockwise(quadrant) => (b"NR", quadrant),
-    };
-    out.extend_from_slice(kind);
-    out.push(b'0' + quadrant.number());
+    out.extend_from_slice(block.motion.name().as_bytes());
 }
 
 /// Appends the spaces behind a block in columns, so that what follows lines and arcs stands in one column.
 pub(crate) fn push_to_comment_column(out: &mut Vec<u8>, block: &Block) {
-    out.extend_from_slice(if matches!(block.motion, Motion::Line(_)) {
-        b"  "
-    } else {
-        b" "
-    });
+    out.extend_from_slice(if block.motion.is_line() { b"  " } else { b" " });
 }
 
 /// Appends `; x , y`, the absolute end point in mm.

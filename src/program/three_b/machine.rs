@@ -33,15 +33,10 @@ pub fn travel(block: &Block) -> Option<Node> {
 
 /// Steps on X and on Y as a displacement in a quadrant.
 fn signed(quadrant: Quadrant, along_x: i64, along_y: i64) -> Node {
-    let (sign_x, sign_y) = match quadrant {
-        Quadrant::First => (1, 1),
-        Quadrant::Second => (-1, 1),
-        Quadrant::Third => (-1, -1),
-        Quadrant::Fourth => (1, -1),
-    };
+    let (sign_x, sign_y) = quadrant.signs();
     Node {
-        x: sign_x * along_x,
-        y: sign_y * along_y,
+        x: sign_x as i64 * along_x,
+        y: sign_y as i64 * along_y,
     }
 }
 

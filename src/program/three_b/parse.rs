@@ -13,6 +13,7 @@ use super::fault::{Flaw, SyntaxFault};
 use super::fields;
 use super::words::{Word, Words};
 use crate::program::alike::{Likeness, alike, in_plain_letters, with_plain_marks};
+use crate::text::{self, SourceText};
 use std::ops::Range;
 
 /// One thing that a line says.
@@ -58,9 +59,10 @@ pub enum Item {
 pub fn read(text: &[u8], words: &Words<'_>) -> (Vec<Item>, Vec<SyntaxFault>) {
     let (mut items, mut faults) = (Vec::new(), Vec::new());
     let mut has_block = false;
-    for range in lines(text) {
-        let start = range.start;
-        read_line(&text[range], start, words, |item| match item {
+    let source = SourceText::new(text.to_vec());
+    for line in 0..source.line_count() {
+        let start = source.line_start(line);
+        read_line(source.line(line), start, words, |item| match item {
             Item::Fault(fault) => faults.push(fault),
             Item::Text { range, column } if has_block => {
                 faults.push(unexpected(text, range, column))
@@ -85,31 +87,6 @@ pub(super) fn unexpected(text: &[u8], range: Range<usize>, column: usize) -> Syn
         say!(a_block_or_word_or_comment_of_3b)
     );
     SyntaxFault::new(range, Flaw::Unreadable(sentence))
-}
-
-/// The bytes of each line without its end.
-fn lines(text: &[u8]) -> impl Iterator<Item = Range<usize>> + '_ {
-    let mut next = Some(0);
-    std::iter::from_fn(move || {
-        let start = next?;
-        match memchr::memchr2(b'\n', b'\r', &text[start..]) {
-            None => {
-                next = None;
-                Some(start..text.len())
-            }
-            Some(length) => {
-                let end = start + length;
-                next = Some(
-                    end + if text[end..].starts_with(b"\r\n") {
-                        2
-                    } else {
-                        1
-                    },
-                );
-                Some(start..end)
-            }
-        }
-    })
 }
 
 /// Reads one line, without its line end, and hands out what it says. Ranges are counted from `offset`.
@@ -506,14 +483,8 @@ impl Cursor<'_> {
 
 /// The first characters of what was found.
 fn shown(bytes: &[u8]) -> String {
-    let word = bytes
-        .split(u8::is_ascii_whitespace)
-        .next()
-        .unwrap_or_default();
-    String::from_utf8_lossy(&word[..word.len().min(48)])
-        .chars()
-        .take(12)
-        .collect()
+    let mut words = bytes.split(u8::is_ascii_whitespace);
+    text::shown(words.next().unwrap_or_default())
 }
 
 /// Places in a comment at which a block is looked for.

@@ -8,7 +8,8 @@ use super::decode::meant;
 use super::entry::{BlockEntry, Entry, Move, NO_NUMBER, What};
 use super::fault::Flaw;
 use super::parse::{Item, read_line};
-use super::rules::position_mismatch::mismatch;
+use super::rules::block_number::Numbering;
+use super::rules::position_mismatch::Positions;
 use super::rules::{self, Counts, Limits, Spot};
 use super::words::{Word, Words};
 use crate::finding::{Detail, Fault, Rule};
@@ -265,108 +266,6 @@ pub(super) struct Run {
     pub(crate) tangled: Vec<usize>,
     /// How its first part begins, and how its last one ends; `None` where there is no block in it.
     pub(crate) edges: [Option<Edge>; 2],
-}
-
-/// How the blocks of a run are numbered.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Numbering {
-    /// There is no block.
-    #[default]
-    Empty,
-    /// Every block has the number before it and `step`; `step` is 0 for a single block.
-    Regular {
-        first: u32,
-        last: u32,
-        step: u32,
-    },
-    Irregular,
-}
-
-impl Numbering {
-    fn with(self, number: Option<u32>, is_block: bool) -> Numbering {
-        match (self, number) {
-            (same, None) if !is_block => same,
-            (Numbering::Empty, Some(number)) => Numbering::Regular {
-                first: number,
-                last: number,
-                step: 0,
-            },
-            (Numbering::Regular { first, last, step }, Some(number))
-                if number > last && (step == 0 || number - last == step) =>
-            {
-                Numbering::Regular {
-                    first,
-                    last: number,
-                    step: number - last,
-                }
-            }
-            _ => Numbering::Irregular,
-        }
-    }
-
-    /// This run and then the next.
-    pub(crate) fn then(self, next: Numbering) -> Numbering {
-        match (self, next) {
-            (Numbering::Empty, other) | (other, Numbering::Empty) => other,
-            (
-                Numbering::Regular {
-                    first,
-                    last: a,
-                    step,
-                },
-                Numbering::Regular {
-                    first: b,
-                    last,
-                    step: next_step,
-                },
-            ) => {
-                let between = b.saturating_sub(a);
-                let agree = between > 0
-                    && [step, next_step]
-                        .iter()
-                        .all(|step| *step == 0 || *step == between);
-                if agree {
-                    Numbering::Regular {
-                        first,
-                        last,
-                        step: between,
-                    }
-                } else {
-                    Numbering::Irregular
-                }
-            }
-            _ => Numbering::Irregular,
-        }
-    }
-}
-
-/// The end points that stand behind the blocks of a run.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Positions {
-    /// Pairs of end points in the run that were held against each other.
-    pub(crate) compared: usize,
-    /// Those that are off, by the number of the block in the run, its entry, and by how much in µm.
-    pub(crate) off: Vec<(usize, usize, [f64; 2])>,
-    /// Entry, end point and displacement of the first block, where nothing in the run stands before it.
-    pub(crate) first: Option<(usize, StatedPoint, Move)>,
-    /// What the next run's first end point is held against: `None` where nothing in this run says.
-    pub(crate) anchor: Option<Option<StatedPoint>>,
-}
-
-impl Positions {
-    fn block(&mut self, nth: usize, entry: usize, block: &BlockEntry) {
-        let stated = block.stated_end();
-        match (self.anchor, stated) {
-            (Some(Some(before)), Some(stated)) => {
-                self.compared += 1;
-                self.off
-                    .extend(mismatch(&before, &block.travel, &stated).map(|by| (nth, entry, by)));
-            }
-            (None, Some(stated)) => self.first = Some((entry, stated, block.travel)),
-            _ => {}
-        }
-        self.anchor = Some(stated);
-    }
 }
 
 /// A way of at most this many lines between two pauses leads from one contour to the next.

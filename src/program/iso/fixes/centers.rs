@@ -1,9 +1,8 @@
 //! Centres that the ends of an arc fit.
 
-use super::super::block::read_line;
 use super::super::document::Document;
 use super::super::line::{Bent, Target, line_to};
-use super::super::machine::{Bend, CenterRule, Move, Place, distance, micrometres};
+use super::super::machine::{Bend, CenterRule, Move, Place, added, apart, distance, micrometres};
 use super::super::style::Style;
 use crate::finding::{CenterFix, FixKind, TextFix};
 use crate::geometry::Arc;
@@ -12,14 +11,12 @@ use std::ops::Range;
 
 /// Centres that the ends of an arc fit: where another convention, a lost sign or a swap of I and J leads, else the nearest one.
 pub(super) fn center_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
-    let text = document.text();
-    let line = text.line_of(range.start);
+    let line = document.text().line_of(range.start);
     let Some(before) = document.machine_before(line) else {
         return Vec::new();
     };
-    let bytes = text.bytes().get(text.line_range(line)).unwrap_or_default();
     let (mut machine, reading) = (before, document.reading());
-    let Some(made) = machine.run(&read_line(bytes, 1, |_| {}), reading) else {
+    let Some(made) = machine.run(&document.block(line), reading) else {
         return Vec::new();
     };
     let Bend::Center { i, j, absolute } = made.bend else {
@@ -43,19 +40,14 @@ pub(super) fn center_fixes(document: &Document, range: &Range<usize>) -> Vec<Tex
     // As from the point that I and J count from.
     let about = match rule {
         CenterRule::StartToCenter | CenterRule::CenterToStart => made.from,
-        CenterRule::Absolute => [absolute[0].wrapping_sub(i), absolute[1].wrapping_sub(j)],
+        CenterRule::Absolute => apart(absolute, [i, j]),
     };
     let sign = if rule == CenterRule::CenterToStart {
         -1
     } else {
         1
     };
-    let at = |i: i64, j: i64| {
-        [
-            about[0].wrapping_add(i.wrapping_mul(sign)),
-            about[1].wrapping_add(j.wrapping_mul(sign)),
-        ]
-    };
+    let at = |i: i64, j: i64| added(about, [i, j].map(|length| length.wrapping_mul(sign)));
     centers.extend([(-i, j), (i, -j), (-i, -j)].map(|(i, j)| (at(i, j), CenterFix::Sign)));
     centers.extend([(j, i), (-j, i), (j, -i), (-j, -i)].map(|(i, j)| (at(i, j), CenterFix::Swap)));
     let fits = |center: Place| {

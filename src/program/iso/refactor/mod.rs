@@ -9,12 +9,12 @@ mod tests;
 mod turned;
 mod write;
 
-use super::block::{Motion, read_line};
+use super::block::Motion;
 use super::document::Document;
 use super::line::{Bent, Target};
 use super::machine::{Place, micrometres};
 use super::numbers;
-use super::plain::words;
+use super::plain::{words_at, words_in};
 use super::style::Style;
 use super::taper::{Words, refuse, refuse_anywhere};
 use super::word::Token;
@@ -27,7 +27,7 @@ use crate::program::refactor::{
     proposals as common,
 };
 use crate::settings::Effective;
-use crate::text::{SourceText, TextEdit};
+use crate::text::TextEdit;
 use rows::Own;
 use std::ops::Range;
 use write::Extra;
@@ -64,14 +64,6 @@ impl Notation for Iso {
         Document::read_with(bytes, settings)
     }
 
-    fn text(document: &Document) -> &SourceText {
-        document.text()
-    }
-
-    fn trace(document: &Document) -> Trace {
-        document.trace()
-    }
-
     fn findings(document: &Document) -> Vec<Finding> {
         document.plain_findings()
     }
@@ -106,7 +98,7 @@ impl Notation for Iso {
     ) -> Result<Vec<Target>, String> {
         let made = content.rows[row].own.made;
         Ok(vec![Target {
-            motion: other_way(made.motion),
+            motion: made.motion.reversed(),
             to: made.from,
             ..Target::of(&made, sheet.document.reading())
         }])
@@ -135,7 +127,7 @@ impl Notation for Iso {
         let mirrors = transform.mirrors();
         Target {
             motion: if mirrors {
-                other_way(kept.motion)
+                kept.motion.reversed()
             } else {
                 kept.motion
             },
@@ -288,18 +280,10 @@ fn place_of(node: Node) -> Place {
     [node.x, node.y]
 }
 
-fn other_way(motion: Motion) -> Motion {
-    match motion {
-        Motion::Clockwise => Motion::CounterClockwise,
-        Motion::CounterClockwise => Motion::Clockwise,
-        straight => straight,
-    }
-}
-
 /// True where a line says nothing but its number and where it leads, and can go.
 fn says_only_where(document: &Document, line: usize) -> bool {
     let mut only = true;
-    words(document.line_bytes(line), 1, |token| {
+    words_in(document.line_bytes(line), |token| {
         only &= match token {
             Token::Word { letter, number, .. } => {
                 matches!(letter, b'N' | b'X' | b'Y') || letter == b'G' && number.whole() == Some(1)
@@ -315,24 +299,13 @@ fn swapped_sides(document: &Document, lines: Range<usize>) -> Vec<TextEdit> {
     let text = document.text();
     let mut edits = Vec::new();
     for line in lines {
-        let start = text.line_start(line);
-        words(document.line_bytes(line), 1, |token| {
-            if let Token::Word {
-                letter: b'G',
-                number,
-                range,
-            } = token
-                && let Some(other) = match number.whole() {
-                    Some(41) => Some("G42"),
-                    Some(42) => Some("G41"),
-                    _ => None,
-                }
-            {
-                edits.push(TextEdit {
-                    range: start + range.start - 1..start + range.end - 1,
-                    text: other.into(),
-                });
-            }
+        words_at(text, line, |letter, number, range| {
+            let other = match (letter, number.whole()) {
+                (b'G', Some(41)) => Some("G42"),
+                (b'G', Some(42)) => Some("G41"),
+                _ => None,
+            };
+            edits.extend(other.map(|other| TextEdit::new(range, other)));
         });
     }
     edits
@@ -353,8 +326,7 @@ fn positions(document: &Document, factor: f64) -> Result<Vec<TextEdit>, String> 
     let text = document.text();
     let mut edits = Vec::new();
     for line in 0..text.line_count() {
-        let (start, bytes) = (text.line_start(line), document.line_bytes(line));
-        let block = read_line(bytes, 1, |_| {});
+        let block = document.block(line);
         if block.takes_coordinates && block.has_coordinates() {
             return Err(format!(
                 "line {}: a word takes the coordinates for a place of the machine",
@@ -367,19 +339,12 @@ fn positions(document: &Document, factor: f64) -> Result<Vec<TextEdit>, String> 
         let before = document.machine_before(line);
         let inch = before.is_some_and(|machine| machine.inch);
         let style = Style::of(document, inch);
-        words(bytes, 1, |token| {
-            if let Token::Word {
-                letter: letter @ (b'X' | b'Y'),
-                number,
-                range,
-            } = token
-            {
+        words_at(text, line, |letter, number, range| {
+            if matches!(letter, b'X' | b'Y') {
                 let length = document.reading().length(number, inch) as f64 * factor;
-                let text = style.number(length.round() as i64);
-                edits.push(TextEdit {
-                    range: start + range.start - 1..start + range.end - 1,
-                    text: format!("{}{text}", letter as char),
-                });
+                let number = style.number(length.round() as i64);
+                let word = format!("{}{number}", letter as char);
+                edits.push(TextEdit::new(range, word));
             }
         });
     }

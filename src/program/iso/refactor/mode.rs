@@ -7,11 +7,9 @@
 //! ```
 
 use super::Iso;
-use crate::program::iso::block::read_line;
 use crate::program::iso::machine::{CenterRule, Reading};
-use crate::program::iso::plain::words;
+use crate::program::iso::plain::words_at;
 use crate::program::iso::taper::{Words, refuse_anywhere};
-use crate::program::iso::word::Token;
 use crate::program::refactor::{Refactoring, Rewrite, Sheet};
 use crate::text::TextEdit;
 
@@ -59,33 +57,14 @@ fn converted(sheet: &Sheet<'_, Iso>, incremental: bool) -> Result<Vec<TextEdit>,
     let first = content.rows.first().map_or(0, |row| row.line);
     let mut stands = false;
     for line in 0..text.line_count() {
-        let range = text.line_range(line);
-        let by = range.start.max(1) - range.start;
-        words(
-            text.bytes().get(range.clone()).unwrap_or_default(),
-            range.start.max(1),
-            |token| {
-                if let Token::Word {
-                    letter: b'G',
-                    number,
-                    range,
-                } = token
-                    && (number.mantissa, number.decimals) == (if incremental { 90 } else { 91 }, 0)
-                {
-                    rewrite.extra.words.push(TextEdit {
-                        range: range.start - by..range.end - by,
-                        text: word.into(),
-                    });
-                    stands |= line <= first;
-                }
-            },
-        );
-        let block = read_line(
-            text.bytes().get(text.line_range(line)).unwrap_or_default(),
-            1,
-            |_| {},
-        );
-        stands |= line <= first && block.incremental == Some(incremental);
+        words_at(text, line, |letter, number, range| {
+            let is_other = number.mantissa == if incremental { 90 } else { 91 };
+            if letter == b'G' && is_other && number.decimals == 0 {
+                rewrite.extra.words.push(TextEdit::new(range, word));
+                stands |= line <= first;
+            }
+        });
+        stands |= line <= first && sheet.document.block(line).incremental == Some(incremental);
     }
     // G90 holds where nothing is said.
     rewrite.extra.first_word = (!stands && incremental).then_some(word);

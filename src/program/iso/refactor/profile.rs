@@ -40,10 +40,7 @@ pub(super) fn proposals(document: &Document, settings: &Effective) -> Vec<Propos
             Ok(if same {
                 Vec::new()
             } else {
-                vec![TextEdit {
-                    range: whole,
-                    text: written.text,
-                }]
+                vec![TextEdit::new(whole, written.text)]
             })
         });
         if edits.as_ref().map_or(true, |edits| !edits.is_empty()) {

@@ -1,8 +1,8 @@
 //! The words of a program mirrored or turned: numbers stay as they are written, their letters and signs change.
 
 use super::{Iso, swapped_sides};
-use crate::program::iso::block::{read_line, word_range};
-use crate::program::iso::plain::words;
+use crate::program::iso::block::Block;
+use crate::program::iso::plain::words_in;
 use crate::program::iso::word::{Number, Token};
 use crate::program::refactor::{Rewrite, Sheet, Transform};
 use crate::text::TextEdit;
@@ -20,9 +20,7 @@ pub(super) fn turn_words(
         edits.extend(swapped_sides(sheet.document, 0..text.line_count()));
     }
     for line in 0..text.line_count() {
-        let range = text.line_range(line);
-        let bytes = text.bytes().get(range.clone()).unwrap_or_default();
-        line_words(bytes, range.start, transform, edits)
+        line_words(text.line(line), text.line_start(line), transform, edits)
             .map_err(|reason| say!(line_by_number, line + 1, reason))?;
     }
     Ok(())
@@ -38,11 +36,11 @@ fn line_words(
     transform: Transform,
     edits: &mut Vec<TextEdit>,
 ) -> Result<(), String> {
-    let block = read_line(line, 1, |_| {});
-    let mut fault = None;
+    let block = Block::of(line);
+    let (mut fault, mut is_wait) = (None, false);
     // X and Y, I and J: place and text of the number without its sign.
     let mut pairs: [[Option<Turned>; 2]; 2] = Default::default();
-    words(line, 1, |token| {
+    words_in(line, |token| {
         let Token::Word {
             letter,
             number,
@@ -51,7 +49,6 @@ fn line_words(
         else {
             return;
         };
-        let range = range.start - 1..range.end - 1;
         let slot = match letter {
             b'X' => (0, 0),
             b'Y' => (0, 1),
@@ -62,6 +59,7 @@ fn line_words(
                 return;
             }
             b'G' => {
+                is_wait |= number.whole() == Some(4);
                 let motion = match (number.mantissa, number.decimals) {
                     (2, 0) => "G03",
                     (3, 0) => "G02",
@@ -72,10 +70,8 @@ fn line_words(
                     _ => return,
                 };
                 if transform.mirrors() {
-                    edits.push(TextEdit {
-                        range: start + range.start..start + range.end,
-                        text: motion.into(),
-                    });
+                    let place = start + range.start..start + range.end;
+                    edits.push(TextEdit::new(place, motion));
                 }
                 return;
             }
@@ -91,10 +87,6 @@ fn line_words(
         return Err(fault);
     }
     if block.takes_coordinates && block.has_coordinates() {
-        let is_wait = word_range(line, 1, |letter, number| {
-            letter == b'G' && number.whole() == Some(4)
-        })
-        .is_some();
         return if is_wait {
             Ok(())
         } else {
@@ -104,10 +96,8 @@ fn line_words(
     for (pair, names) in pairs.into_iter().zip([["X", "Y"], ["I", "J"]]) {
         let name = |axis: usize| names[if transform.swaps() { 1 - axis } else { axis }];
         let mut edit = |range: Range<usize>, name: &str, number: String| {
-            edits.push(TextEdit {
-                range: start + range.start..start + range.end,
-                text: format!("{name}{number}"),
-            });
+            let place = start + range.start..start + range.end;
+            edits.push(TextEdit::new(place, format!("{name}{number}")));
         };
         match pair {
             // Both keep their order in the line.

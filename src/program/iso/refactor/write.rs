@@ -1,7 +1,7 @@
 //! From where the moves are to lead to edits of the text: every line is run again as the control does.
 
 use super::Iso;
-use crate::program::iso::block::read_line;
+use crate::program::iso::block::Block;
 use crate::program::iso::layout::is_parted;
 use crate::program::iso::line::{Line, Target, prove, push_changed, with_word};
 use crate::program::iso::machine::Reading;
@@ -56,7 +56,7 @@ pub(super) fn edits(
         let here: Vec<TextEdit> = here.collect();
         let mut bytes = edited(own, &here).ok_or(say!(words_lie_on_each_other))?;
         let Some((index, row)) = rows.next_if(|(_, row)| row.line == line) else {
-            machine.run(&read_line(&bytes, 1, |_| {}), &reading);
+            machine.run(&Block::of(&bytes), &reading);
             push_changed(&mut edits, range, own, &bytes)?;
             continue;
         };
@@ -65,10 +65,7 @@ pub(super) fn edits(
             Some([target]) => *target,
             Some(_) => {
                 // The whole line goes, its line end with it.
-                edits.push(TextEdit {
-                    range: range.start..text.line_start(line + 1),
-                    text: String::new(),
-                });
+                edits.push(TextEdit::new(text.whole_line(line), ""));
                 continue;
             }
         };
@@ -79,7 +76,7 @@ pub(super) fn edits(
         }
         // A line that does what is meant stays as it is.
         let mut as_it_is = machine;
-        let made = as_it_is.run(&read_line(&bytes, 1, |_| {}), &reading);
+        let made = as_it_is.run(&Block::of(&bytes), &reading);
         if made.is_some_and(|made| made.from == machine.at && Target::of(&made, &reading) == target)
         {
             machine = as_it_is;
@@ -91,7 +88,7 @@ pub(super) fn edits(
                 reading: &reading,
             };
             bytes = written.leading(&target, &machine)?;
-            let made = machine.run(&read_line(&bytes, 1, |_| {}), &reading);
+            let made = machine.run(&Block::of(&bytes), &reading);
             prove(line, made.as_ref(), &target, &reading)?;
         }
         push_changed(&mut edits, range, own, &bytes)?;

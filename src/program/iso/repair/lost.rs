@@ -6,7 +6,9 @@ use crate::geometry::{Segment, Vector, left_normal};
 use crate::program::iso::block::Motion;
 use crate::program::iso::document::Document;
 use crate::program::iso::line::with_word;
-use crate::program::iso::machine::{Bend, CenterRule, Move, Place, Reading, distance, micrometres};
+use crate::program::iso::machine::{
+    Bend, CenterRule, Move, Place, Reading, added, distance, micrometres,
+};
 use crate::program::iso::shape::directions;
 use crate::program::repair::gap::is_one_line;
 
@@ -24,7 +26,7 @@ impl Suspect<'_> {
         };
         let style = &self.pool.styles[usize::from(before.inch)];
         let across = |gap: Place| {
-            let to = [0, 1].map(|axis| style.rounded(before.at[axis].wrapping_add(gap[axis])));
+            let to = added(before.at, gap).map(|length| style.rounded(length));
             micrometres(to) - micrometres(before.at)
         };
         gaps.into_iter().map(across).collect()
@@ -51,13 +53,9 @@ impl Suspect<'_> {
             let to = before.at[axis].wrapping_add(nm(along[axis]));
             style.number(to.wrapping_sub(base[axis]))
         };
-        let motion = match arc.map(|arc| arc.sweep > 0.0) {
-            None => "G01",
-            Some(true) => "G03",
-            Some(false) => "G02",
-        };
+        let motion = arc.map_or(Motion::Line, |arc| Motion::turning(arc.sweep > 0.0));
         let mut words = vec![
-            motion.to_owned(),
+            motion.word().to_owned(),
             format!("X{}", number(0)),
             format!("Y{}", number(1)),
         ];

@@ -3,7 +3,9 @@
 use crate::geometry::Vector;
 use crate::program::iso::block::{Block, Motion, Note, Stop, read_line};
 use crate::program::iso::document::Document;
-use crate::program::iso::machine::{Bend, Course, Machine, Move, Place, Reading, distance};
+use crate::program::iso::machine::{
+    Bend, Course, Machine, Move, Place, Reading, added, apart, distance,
+};
 use crate::program::iso::shape::directions;
 use crate::program::path::turn;
 
@@ -197,7 +199,7 @@ impl<'a> Way<'a> {
     /// The whole of it, where from a line on everything is as it was, or only lies elsewhere.
     fn rest(&self, scan: &Scan, at: usize) -> Option<Against> {
         let known = &self.before[at];
-        let by = [0, 1].map(|axis| scan.machine.at[axis].wrapping_sub(known.machine.at[axis]));
+        let by = apart(scan.machine.at, known.machine.at);
         if by != [0, 0] && at < self.loose_from {
             return None;
         }
@@ -220,8 +222,8 @@ impl<'a> Way<'a> {
                     return None;
                 }
                 let end = self.ends[at]?;
-                let moved = |place: Place| [0, 1].map(|axis| place[axis].wrapping_add(by[axis]));
-                let closing = closing(own, moved(end.from), moved(end.to), self.reading);
+                let [from, to] = [end.from, end.to].map(|place| added(place, by));
+                let closing = closing(own, from, to, self.reading);
                 Some(whole.plus(closing).minus(end.cost))
             }
             _ => None,
@@ -238,11 +240,10 @@ impl<'a> Way<'a> {
         if end.cost.open == 0 {
             return Vec::new();
         }
-        let gap = |begin: Place, end: Place| [0, 1].map(|axis| begin[axis].wrapping_sub(end[axis]));
         vec![
-            gap(cut.start, end.to),
-            gap(cut.entered, end.to),
-            gap(cut.entered, end.from),
+            apart(cut.start, end.to),
+            apart(cut.entered, end.to),
+            apart(cut.entered, end.from),
         ]
     }
 
@@ -460,7 +461,7 @@ fn closing(cut: &Cut, from: Place, to: Place, reading: &Reading) -> Against {
 
 /// A line that is almost along an axis is odder than one that is not.
 fn slant(made: &Move) -> f64 {
-    let [x, y] = [0, 1].map(|axis| (made.to[axis].wrapping_sub(made.from[axis]) as f64).abs());
+    let [x, y] = apart(made.to, made.from).map(|along| (along as f64).abs());
     let (long, short) = (x.max(y), x.min(y));
     if short == 0.0 {
         0.0

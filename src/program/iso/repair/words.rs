@@ -5,8 +5,8 @@ use crate::program::iso::block::Motion;
 use crate::program::iso::document::Document;
 use crate::program::iso::layout::is_parted;
 use crate::program::iso::line::with_word;
-use crate::program::iso::machine::{Bend, CenterRule, Machine, Move, Place};
-use crate::program::iso::plain::words;
+use crate::program::iso::machine::{Bend, Machine, Move, Place, to_center};
+use crate::program::iso::plain::words_in;
 use crate::program::iso::style::Style;
 use crate::program::iso::word::{Number, Token, WordFault};
 use crate::program::repair::keys::{self, Key};
@@ -157,9 +157,7 @@ impl Words<'_> {
     /// Slips within the words.
     fn of_tokens(&mut self) {
         let mut tokens = Vec::new();
-        // Counted from 1 so that no byte order mark is looked for.
-        words(self.bytes, 1, |token| tokens.push(token));
-        let placed = |range: &Range<usize>| range.start - 1..range.end - 1;
+        words_in(self.bytes, |token| tokens.push(token));
         // Where each letter stands, the last one first.
         let mut places: FxHashMap<u8, Vec<Range<usize>>> = FxHashMap::default();
         let (mut motion, mut twice) = (None, None);
@@ -170,21 +168,21 @@ impl Words<'_> {
                     number,
                     range,
                 } => {
-                    self.of_number(*letter, *number, placed(range));
+                    self.of_number(*letter, *number, range.clone());
                     let known = places.entry(*letter).or_default();
                     if !known.is_empty() {
                         twice = Some(*letter);
                     }
-                    known.insert(0, placed(range));
+                    known.insert(0, range.clone());
                 }
                 Token::Word {
                     letter: b'G',
                     number,
                     range,
                 } if number.decimals == 0 && (0..=3).contains(&number.mantissa) => {
-                    motion = Some((number.mantissa, placed(range)));
+                    motion = Some((number.mantissa, range.clone()));
                 }
-                Token::Fault { fault, range } => self.of_fault(*fault, placed(range)),
+                Token::Fault { fault, range } => self.of_fault(*fault, range.clone()),
                 _ => {}
             }
         }
@@ -332,16 +330,11 @@ impl Words<'_> {
         let Some(center) = made.center(rule) else {
             return;
         };
-        for axis in 0..2 {
-            let Some(place) = solved(made, center, axis) else {
-                continue;
-            };
-            let length = match rule {
-                CenterRule::StartToCenter => place.wrapping_sub(made.from[axis]),
-                CenterRule::CenterToStart => made.from[axis].wrapping_sub(place),
-                CenterRule::Absolute => place.wrapping_sub(self.before.zero[axis]),
-            };
-            self.set(if axis == 0 { b'I' } else { b'J' }, length);
+        for (axis, letter) in [(0, b'I'), (1, b'J')] {
+            if let Some(place) = solved(made, center, axis) {
+                let words = to_center(rule, [place; 2], made.from, self.before.zero);
+                self.set(letter, words[axis]);
+            }
         }
     }
 
@@ -353,7 +346,7 @@ impl Words<'_> {
         }
         let meant = format!("{}{}", letter as char, style.number(length));
         let mut places = Vec::new();
-        words(self.bytes, 1, |token| {
+        words_in(self.bytes, |token| {
             if let Token::Word {
                 letter,
                 number,
@@ -361,7 +354,7 @@ impl Words<'_> {
             } = token
                 && matches!(letter, b'X' | b'Y' | b'I' | b'J' | b'G' | b'N')
             {
-                places.push((letter, number, range.start - 1..range.end - 1));
+                places.push((letter, number, range));
             }
         });
         let own = places.iter().find(|(its, ..)| *its == letter).cloned();
@@ -431,7 +424,7 @@ fn solved(made: &Move, center: Place, axis: usize) -> Option<i64> {
 
 fn number_of(text: &str) -> Option<Number> {
     let mut found = None;
-    words(format!("X{text}").as_bytes(), 1, |token| {
+    words_in(format!("X{text}").as_bytes(), |token| {
         found = match (token, found) {
             (
                 Token::Word {

@@ -1,16 +1,17 @@
 //! What is wrong with the words and numbers of a program as a whole.
 
-use super::super::block::{Stop, read_line, word_range};
+use super::super::block::Stop;
 use super::super::document::Table;
 use super::super::evidence::FEW_BARE;
 use super::super::machine::micrometres;
+use super::super::numbers::number_word;
 use super::super::order::MOST_CALLS;
-use super::super::plain::words;
+use super::super::plain::{word_at, words_at};
 use super::super::table::value;
-use super::super::word::Token;
 use super::{Report, SWITCH_REACH, at};
 use crate::finding::{Detail, Fault, NotJudged, Rule, Severity};
 use crate::program::path::{absurd_size, size_of};
+use crate::text::shown;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
@@ -40,11 +41,7 @@ impl Report<'_> {
 
     /// The beginning of some bytes of the text.
     pub(super) fn shown(&self, range: &Range<usize>) -> String {
-        let bytes = self.text.bytes().get(range.clone()).unwrap_or_default();
-        String::from_utf8_lossy(&bytes[..bytes.len().min(48)])
-            .chars()
-            .take(12)
-            .collect()
+        shown(self.text.bytes().get(range.clone()).unwrap_or_default())
     }
 
     /// Numbers that stand twice, and blocks that lack the one that the others skip.
@@ -99,13 +96,8 @@ impl Report<'_> {
                 let start = placed.offset + place as usize;
                 if *seen.entry(number).or_insert(start) != start {
                     let line = self.text.line_of(start);
-                    let range = self.text.line_range(line);
-                    let word = word_range(
-                        &self.text.bytes()[range.clone()],
-                        range.start,
-                        |letter, _| letter == b'N',
-                    )
-                    .unwrap_or(range);
+                    let word =
+                        number_word(self.text, line).unwrap_or_else(|| self.text.line_range(line));
                     self.add(word, Fault::DoubledNumber { number });
                 }
             }
@@ -145,9 +137,7 @@ impl Report<'_> {
         let lines = (0..self.text.line_of(behind)).rev();
         let ends = |line: &usize| self.document.block(*line).stop == Some(Stop::End);
         let word = lines.take(SWITCH_REACH).find(ends).and_then(|line| {
-            let range = self.text.line_range(line);
-            let bytes = self.text.bytes().get(range.clone())?;
-            word_range(bytes, range.start, |letter, number| {
+            word_at(self.text, line, |letter, number| {
                 letter == b'M' && matches!(number.whole(), Some(2 | 30))
             })
         });
@@ -224,24 +214,12 @@ impl Report<'_> {
                 continue;
             }
             for line in placed.lines {
-                let range = self.text.line_range(line);
-                words(
-                    &self.text.bytes()[range.clone()],
-                    range.start.max(1),
-                    |token| {
-                        if let Token::Word {
-                            letter: b'X' | b'Y' | b'I' | b'J' | b'R',
-                            number,
-                            range: word,
-                        } = token
-                            && number.point
-                            && number.decimals != usual
-                        {
-                            let by = range.start.max(1) - range.start;
-                            found.push(word.start - by..word.end - by);
-                        }
-                    },
-                );
+                words_at(self.text, line, |letter, number, word| {
+                    let is_length = matches!(letter, b'X' | b'Y' | b'I' | b'J' | b'R');
+                    if is_length && number.point && number.decimals != usual {
+                        found.push(word);
+                    }
+                });
             }
         }
         for range in found.into_iter().take(odd as usize) {
@@ -298,7 +276,7 @@ impl Report<'_> {
     /// The first line with a length.
     fn first_length(&self) -> Option<Range<usize>> {
         let has_length = |line: &usize| {
-            let block = read_line(&self.text.bytes()[self.text.line_range(*line)], 1, |_| {});
+            let block = self.document.block(*line);
             [block.x, block.y]
                 .into_iter()
                 .flatten()
@@ -315,13 +293,9 @@ impl Report<'_> {
             let has_arcs =
                 placed.stretch.evidence.absolute.all + placed.stretch.evidence.incremental.all > 0;
             for line in placed.lines.filter(|_| has_arcs) {
-                let range = self.text.line_range(line);
-                let bytes = &self.text.bytes()[range.clone()];
-                let block = read_line(bytes, range.start, |_| {});
-                if block.i.is_some() || block.j.is_some() {
-                    return word_range(bytes, range.start, |letter, _| {
-                        matches!(letter, b'I' | b'J')
-                    });
+                let center = word_at(self.text, line, |letter, _| matches!(letter, b'I' | b'J'));
+                if center.is_some() {
+                    return center;
                 }
             }
         }

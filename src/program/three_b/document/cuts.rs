@@ -1,6 +1,6 @@
 //! Where a program falls into contours and the ways between them: the blocks from one word to the next.
 
-use super::super::entry::Entry;
+use super::super::entry::{BlockEntry, Entry};
 use super::super::run::{Run, Sum, is_jump};
 use super::{At, Cut, Document, PartAt, View};
 use std::ops::Range;
@@ -23,16 +23,47 @@ impl Document {
         own.or_else(foreign).or_else(pause)
     }
 
+    /// What stands in a run.
+    pub(super) fn entries_in(&self, run: usize) -> &[Entry] {
+        self.runs.get(run).map_or(&[], |of| &of.entries)
+    }
+
     /// What stands in some runs, in its order.
     pub(super) fn entries(
         &self,
         runs: Range<usize>,
     ) -> impl DoubleEndedIterator<Item = (At, &Entry)> {
-        let of = |run: usize| self.runs.get(run).map_or(&[][..], |of| &of.entries);
         runs.flat_map(move |run| {
-            let entries = of(run).iter().enumerate();
+            let entries = self.entries_in(run).iter().enumerate();
             entries.map(move |(entry, what)| (At { run, entry }, what))
         })
+    }
+
+    /// The entries from one on.
+    pub(super) fn from(&self, at: At) -> impl Iterator<Item = (At, &Entry)> {
+        let all = self.entries(at.run..self.runs.len());
+        all.skip_while(move |(own, _)| *own < at)
+    }
+
+    /// The entries before one, the nearest first.
+    pub(super) fn before(&self, at: At) -> impl Iterator<Item = (At, &Entry)> {
+        let all = self.entries(0..at.run + 1).rev();
+        all.skip_while(move |(own, _)| *own >= at)
+    }
+
+    /// The entry that a range lies in or before.
+    pub(super) fn entry_at(&self, range: &Range<usize>) -> Option<At> {
+        let run = self.runs.at(range.start);
+        let entries = self.entries_in(run);
+        let local = range.start.checked_sub(self.runs.byte(run))?;
+        let entry = entries.partition_point(|entry| entry.range().end <= local);
+        (entry < entries.len()).then_some(At { run, entry })
+    }
+
+    /// The block that a range lies in or before.
+    pub(super) fn block_at(&self, range: &Range<usize>) -> Option<(At, &BlockEntry)> {
+        let at = self.entry_at(range)?;
+        Some((at, self.entry(at)?.block()?))
     }
 
     pub(super) fn last_block(&self, end: Option<At>) -> Option<At> {

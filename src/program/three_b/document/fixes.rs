@@ -3,9 +3,9 @@
 use super::super::around::StatedPoint;
 use super::super::block::{Block, Node};
 use super::super::encode::line_block;
-use super::super::entry::{BlockEntry, Entry, Move, What, travel_of};
+use super::super::entry::{BlockEntry, Move, What, travel_of};
 use super::super::fields::fields_of;
-use super::super::layout::push_fields;
+use super::super::layout::{layout_in, push_fields};
 use super::super::pieces::{Field, Piece, pieces};
 use super::super::rules::position_mismatch::Mismatched;
 use super::super::rules::{
@@ -17,7 +17,6 @@ use crate::finding::{Detail, Fault, Finding, FixKind, Place};
 use crate::program::alike::{Alike, alike};
 use crate::program::path::not_closed;
 use crate::program::repair::merged;
-use crate::settings::Layout;
 use crate::text::{TextEdit, WIDEST_COLUMN};
 use std::ops::Range;
 
@@ -99,25 +98,8 @@ impl Document {
     }
 
     fn next_block(&self, at: At) -> Option<&BlockEntry> {
-        self.runs
-            .iter()
-            .enumerate()
-            .skip(at.run)
-            .find_map(|(run, of)| {
-                let from = if run == at.run { at.entry + 1 } else { 0 };
-                of.entries.get(from..)?.iter().find_map(Entry::block)
-            })
-    }
-
-    /// The block that a range lies in or before.
-    fn block_at(&self, range: &Range<usize>) -> Option<(At, &BlockEntry)> {
-        let run = self.runs.at(range.start);
-        let of = self.runs.get(run)?;
-        let local = range.start.checked_sub(self.runs.byte(run))?;
-        let entry = of
-            .entries
-            .partition_point(|entry| entry.range().end <= local);
-        Some((At { run, entry }, of.entries.get(entry)?.block()?))
+        let mut behind = self.from(at).skip(1);
+        behind.find_map(|(_, entry)| entry.block())
     }
 
     fn block_fixes(&self, range: &Range<usize>, fault: &Fault) -> Vec<TextFix> {
@@ -142,7 +124,7 @@ impl Document {
             } else {
                 block
             },
-            line: self.text.line_start(line)..self.text.line_start(line + 1),
+            line: self.text.whole_line(line),
             fields,
             block: entry.block,
             largest: self.limits.largest(),
@@ -191,12 +173,8 @@ impl Document {
         }
         let block = line_block(Node { x: 0, y: 0 }, Node { x, y });
         let own = self.text.bytes().get(range.clone()).unwrap_or_default();
-        let layout = if own.contains(&b' ') {
-            Layout::Aligned
-        } else {
-            Layout::Compact
-        };
-        let mut text = missing_end::line_end_of(&self.text).as_bytes().to_vec();
+        let layout = layout_in(own);
+        let mut text = self.text.line_end(0).as_bytes().to_vec();
         if let Some(number) = self.number_behind(at) {
             text.extend_from_slice(format!("N{number} ").as_bytes());
         }
@@ -301,18 +279,17 @@ impl Document {
                 let place =
                     |start: usize, length: usize| range.start + start..range.start + start + length;
                 let alike = alike(bytes);
-                let plain = |found: &Alike| TextEdit {
-                    range: place(found.at, found.length),
-                    text: (found.likeness.ascii() as char).to_string(),
+                let plain = |found: &Alike| {
+                    TextEdit::new(
+                        place(found.at, found.length),
+                        char::from(found.likeness.ascii()),
+                    )
                 };
                 let fix = |kind, edit| vec![TextFix::text(kind, true, edit)];
                 if alike.iter().any(|found| found.likeness.is_letter()) {
                     return fix(FixKind::PlainLetters, alike.iter().map(plain).collect());
                 }
-                let commas = decimal_commas(bytes).map(|at| TextEdit {
-                    range: place(at, 1),
-                    text: ".".into(),
-                });
+                let commas = decimal_commas(bytes).map(|at| TextEdit::new(place(at, 1), "."));
                 let commas: Vec<TextEdit> = commas.collect();
                 if commas.len() == 2 {
                     fix(FixKind::DecimalPoints, commas)

@@ -48,7 +48,7 @@ impl Document {
 
     /// The odd joints whose blocks lie on both sides of the beginning of a run.
     fn odd_about(&self, run: usize) -> Vec<(At, Fault)> {
-        let entries = self.runs.get(run).map_or(&[][..], |of| &of.entries);
+        let entries = self.entries_in(run);
         let Some(entry) = entries.iter().position(|entry| entry.block().is_some()) else {
             return Vec::new();
         };
@@ -72,16 +72,6 @@ impl Document {
         odd.collect()
     }
 
-    /// The entries from one on.
-    pub(super) fn from(&self, at: At) -> impl Iterator<Item = (At, &Entry)> {
-        (at.run..self.runs.len()).flat_map(move |run| {
-            let from = if run == at.run { at.entry } else { 0 };
-            let entries = self.runs.get(run).map_or(&[][..], |of| &of.entries);
-            let own = entries.iter().enumerate().skip(from);
-            own.map(move |(entry, of)| (At { run, entry }, of))
-        })
-    }
-
     /// Whether an odd joint is told: nothing else is wrong with the contour, and a spur is no way out and in again between two passes.
     pub(super) fn is_told(&self, view: &View, cut: &Cut, at: At, fault: &Fault) -> bool {
         let tip = || self.stands_before(view, at);
@@ -103,15 +93,18 @@ impl Document {
     }
 
     fn entry_of(&self, run: usize, local: &Local) -> Option<At> {
-        let entries = &self.runs.get(run)?.entries;
+        let entries = self.entries_in(run);
         let entry = entries.partition_point(|entry| entry.range().start < local.range.start);
         Some(At { run, entry })
     }
 
     /// Where the machine stands before an entry, µm.
     fn stands_before(&self, view: &View, at: At) -> Point {
-        let entries = self.runs.get(at.run).map_or(&[][..], |of| &of.entries);
-        let travels = entries.iter().take(at.entry).filter_map(Entry::block);
+        let travels = self
+            .entries_in(at.run)
+            .iter()
+            .take(at.entry)
+            .filter_map(Entry::block);
         let by = travels.map(|block| block.travel.machine);
         let begin = view.begins.get(at.run).copied().unwrap_or_default();
         by.fold(begin, |at, [x, y]| at + Vector::new(x as f64, y as f64))
@@ -150,9 +143,9 @@ impl Document {
         let (mut edit, mut found) = (Vec::new(), Vec::new());
         for at in [out, back] {
             let line = self.text.line_of(self.range_of(at).start);
-            let own = self.text.line_start(line)..self.text.line_start(line + 1);
+            let own = self.text.whole_line(line);
             let number = self.entry(at)?.line;
-            let entries = self.runs.get(at.run)?.entries.iter();
+            let entries = self.entries_in(at.run).iter();
             if entries.filter(|entry| entry.line == number).count() > 1 {
                 return None;
             }

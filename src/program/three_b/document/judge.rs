@@ -4,10 +4,10 @@ use super::super::entry::{Move, What};
 use super::super::fields::fields_of;
 use super::super::parse::unexpected;
 use super::super::repair::FEWEST_BLAMED;
-use super::super::rules::{self, not_closed::FRAGMENT};
+use super::super::rules;
 use super::super::run::{Sum, may_cross_itself};
 use super::cuts::joined;
-use super::{At, Cut, Document, PartAt, View};
+use super::{Cut, Document, PartAt, View};
 use crate::finding::{Axis, Detail, Fault, Finding, Rule, Severity};
 use crate::geometry::{Bounds, Vector};
 use crate::program::path::{Known, Lay, Way, absurd_size, is_tab, mixed, not_closed, tolerance};
@@ -19,6 +19,9 @@ const PAUSES_WITHIN: usize = 16;
 
 /// Those of them behind which a tab is looked for.
 const TABS_WITHIN: usize = 4;
+
+/// Up to this many blocks are a fragment: they may well be all that was meant.
+const FRAGMENT: usize = 2;
 
 /// Cuts that belong to one contour.
 struct GoesOn {
@@ -64,12 +67,9 @@ impl Document {
             before = before.plus(of.travel);
         }
         let first = || {
-            Some(
-                self.range_of(
-                    self.from(At { run: 0, entry: 0 })
-                        .find_map(|(at, entry)| entry.block().map(|_| at))?,
-                ),
-            )
+            let mut all = self.entries(0..self.runs.len());
+            let (at, _) = all.find(|(_, entry)| entry.block().is_some())?;
+            Some(self.range_of(at))
         };
         if view.end.is_some()
             && let Some(fault) = absurd_size(&bounds, blocks)
@@ -307,8 +307,8 @@ impl Document {
         let mut texts = behind.filter(|(at, entry)| *at > end && is_text(&entry.what));
         if let Some((first, _)) = texts.next() {
             let word = self.range_of(end);
-            let word = String::from_utf8_lossy(self.text.bytes().get(word).unwrap_or_default())
-                .into_owned();
+            let word = self.text.bytes().get(word).unwrap_or_default();
+            let word = String::from_utf8_lossy(word).into_owned();
             let fault = Fault::TextAfterEnd { word };
             view.findings.push(Finding::of(fault, self.range_of(first)));
         }
@@ -320,20 +320,14 @@ impl Document {
         let first_block = blocks.find(|(_, entry)| entry.block().is_some());
         let first_block = first_block.map(|(at, _)| at);
         let mut findings = Vec::new();
-        let texts = self
-            .runs
-            .iter()
-            .enumerate()
-            .filter(|(_, run)| run.texts > 0)
-            .flat_map(|(run, of)| {
-                of.entries
-                    .iter()
-                    .enumerate()
-                    .filter_map(move |(entry, what)| match what.what {
-                        What::Text { column } => Some((At { run, entry }, column, false)),
-                        What::CommentedBlock { column } => Some((At { run, entry }, column, true)),
-                        _ => None,
-                    })
+        let has_texts = |run: &usize| self.runs[*run].texts > 0;
+        let runs = (0..self.runs.len()).filter(has_texts);
+        let texts = runs
+            .flat_map(|run| self.entries(run..run + 1))
+            .filter_map(|(at, entry)| match entry.what {
+                What::Text { column } => Some((at, column, false)),
+                What::CommentedBlock { column } => Some((at, column, true)),
+                _ => None,
             });
         let has_fault = self.runs.iter().any(|run| !run.faults.is_empty());
         let mut is_said = false;

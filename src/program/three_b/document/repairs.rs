@@ -1,19 +1,18 @@
 //! Repairs of a contour as edits of the text.
 
 use super::super::around::{StatedPoint, before_comment, two_numbers};
-use super::super::entry::{Entry, What, travel_of};
-use super::super::fields::{Fields, fields_of};
-use super::super::layout::{push_end_point, push_fields, push_to_comment_column};
+use super::super::entry::{What, travel_of};
+use super::super::fields::fields_of;
+use super::super::layout::{layout_in, push_end_point, push_fields, push_to_comment_column};
 use super::super::repair::{
     BLOCKS, Change, Item, Loose, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs,
 };
-use super::super::rules::{TextFix, axis_of, block_number, motion_name};
+use super::super::rules::{TextFix, block_number};
 use super::{At, Cut, Document};
 use crate::finding::{Axis, Fault, Finding, FixKind, Place, Rule};
 use crate::program::grid::Node;
 use crate::program::repair::offered;
-use crate::program::three_b::block::Block;
-use crate::settings::Layout;
+use crate::program::three_b::block::{Block, Motion};
 use crate::text::TextEdit;
 use std::ops::Range;
 
@@ -96,7 +95,7 @@ impl Document {
         let old = pieces.get(index)?.item.block?;
         let fault = match slip {
             Slip::Motion => {
-                let [found, meant] = [old.motion, block.motion].map(motion_name);
+                let [found, meant] = [old.motion, block.motion].map(Motion::name);
                 Fault::QuadrantKeepsOpen {
                     found,
                     meant,
@@ -104,7 +103,7 @@ impl Document {
                 }
             }
             Slip::Axis => Fault::AxisKeepsOpen {
-                axis: axis_of(old.axis),
+                axis: old.axis,
                 is_sure,
             },
             Slip::Exchanged => Fault::ExchangedKeepsOpen,
@@ -149,10 +148,10 @@ impl Document {
 
     /// The usual step of the numbers, as the first of them tell it.
     fn number_step(&self) -> Option<u32> {
-        let blocks = self.runs.iter().flat_map(|of| &of.entries);
+        let blocks = self.entries(0..self.runs.len());
         let numbers = blocks
-            .filter(|entry| entry.block().is_some())
-            .map(Entry::number)
+            .filter(|(_, entry)| entry.block().is_some())
+            .map(|(_, entry)| entry.number())
             .take(block_number::FIRST);
         block_number::usual_step(&numbers.collect::<Vec<_>>())
     }
@@ -160,31 +159,6 @@ impl Document {
     /// The last number before a block.
     fn number_before(&self, at: At) -> Option<u32> {
         self.before(at).find_map(|(_, entry)| entry.number())
-    }
-
-    /// The entries before one, the nearest first.
-    pub(super) fn before(&self, at: At) -> impl Iterator<Item = (At, &Entry)> {
-        (0..=at.run).rev().flat_map(move |run| {
-            let entries = self.runs.get(run).map_or(&[][..], |of| &of.entries[..]);
-            let end = if run == at.run {
-                at.entry.min(entries.len())
-            } else {
-                entries.len()
-            };
-            let own = entries[..end].iter().enumerate().rev();
-            own.map(move |(entry, of)| (At { run, entry }, of))
-        })
-    }
-
-    /// The entry that a range lies in or before.
-    pub(super) fn entry_at(&self, range: &Range<usize>) -> Option<At> {
-        let run = self.runs.at(range.start);
-        let of = self.runs.get(run)?;
-        let local = range.start.checked_sub(self.runs.byte(run))?;
-        let entry = of
-            .entries
-            .partition_point(|entry| entry.range().end <= local);
-        (entry < of.entries.len()).then_some(At { run, entry })
     }
 
     /// The blocks of a contour, those that cannot be read among them; `None` where there are too few or too many, or they are 4B.
@@ -252,7 +226,6 @@ impl Document {
         let text = self.text.bytes();
         let own = |index: usize| Some(self.range_of(*places.get(index)?));
         let line = |index: usize| Some(self.text.line_of(own(index)?.start));
-        let whole = |line: usize| self.text.line_start(line)..self.text.line_start(line + 1);
         let is_alone = |index: usize| {
             let own_line = line(index)?;
             let is_other =
@@ -270,12 +243,12 @@ impl Document {
                 let fields = fields_of(text, own(*index)?)?;
                 Some((
                     kind_of(&old, block, slip),
-                    changed_fields(text, &fields, &old, block),
+                    fields.changed(text, &old, block),
                 ))
             }
             Change::Delete { index } => {
                 let range = match is_alone(*index)? {
-                    true => whole(line(*index)?),
+                    true => self.text.whole_line(line(*index)?),
                     false => own(*index)?,
                 };
                 Some((FixKind::DeleteTwin, vec![TextEdit::new(range, "")]))
@@ -319,7 +292,7 @@ impl Document {
         let range = start + loose.range.start..start + loose.range.end;
         let found = self.text.bytes().get(range.clone())?;
         let mut made = Vec::new();
-        push_fields(&mut made, layout_of(found), block, None);
+        push_fields(&mut made, layout_in(found), block, None);
         if found.iter().all(|byte| !byte.is_ascii_uppercase()) {
             made.make_ascii_lowercase();
         }
@@ -359,7 +332,7 @@ impl Document {
         if let Some(number) = number {
             made.extend_from_slice(&renumbered(text.get(line.start..own.start)?, number));
         }
-        let layout = layout_of(text.get(own.clone())?);
+        let layout = layout_in(text.get(own.clone())?);
         push_fields(&mut made, layout, block, None);
         let before = match index.checked_sub(1) {
             Some(before) => item(before).and_then(|item| item.stated),
@@ -374,7 +347,7 @@ impl Document {
             push_end_point(&mut made, Node { x, y });
         }
         let made = String::from_utf8(made).ok()?;
-        let line_end = super::super::rules::missing_end::line_end_of(&self.text);
+        let line_end = self.text.line_end(0);
         let edit = match index {
             0 => {
                 // What leads to the stop before a jump was cut.
@@ -392,14 +365,6 @@ impl Document {
         };
         let (length, is_arc) = (x.hypot(y) / 1000.0, !block.motion.is_line());
         Some((FixKind::InsertBlock { length, is_arc }, vec![edit]))
-    }
-}
-
-/// How a block is written.
-fn layout_of(found: &[u8]) -> Layout {
-    match found.contains(&b' ') {
-        true => Layout::Aligned,
-        false => Layout::Compact,
     }
 }
 
@@ -429,10 +394,10 @@ fn renumbered(prefix: &[u8], number: u32) -> Vec<u8> {
 fn kind_of(old: &Block, new: &Block, slip: &Slip) -> FixKind {
     match slip {
         Slip::Motion => FixKind::SetMotion {
-            name: motion_name(new.motion),
+            name: new.motion.name(),
         },
         Slip::Axis => FixKind::SetAxis {
-            axis: axis_of(new.axis),
+            axis: new.axis,
             j: (old.j != new.j).then_some(new.j),
         },
         Slip::Exchanged => FixKind::ExchangeXAndY,
@@ -447,35 +412,4 @@ fn kind_of(old: &Block, new: &Block, slip: &Slip) -> FixKind {
         Slip::Number(Number::J, _) => FixKind::SetJ { j: new.j },
         Slip::Coordinates | Slip::Unread { .. } => FixKind::FollowCoordinates,
     }
-}
-
-/// The fields that differ, in the case of the block.
-fn changed_fields(text: &[u8], fields: &Fields, old: &Block, new: &Block) -> Vec<TextEdit> {
-    let is_lower = text
-        .get(fields.motion.start)
-        .is_some_and(u8::is_ascii_lowercase);
-    let cased = |text: String| if is_lower { text.to_lowercase() } else { text };
-    let all = [
-        (&fields.x, new.x.to_string(), new.x == old.x),
-        (&fields.y, new.y.to_string(), new.y == old.y),
-        (&fields.j, new.j.to_string(), new.j == old.j),
-        (
-            &fields.axis,
-            cased(format!("G{}", axis_of(new.axis).letter())),
-            new.axis == old.axis,
-        ),
-        (
-            &fields.motion,
-            cased(motion_name(new.motion).into()),
-            new.motion == old.motion,
-        ),
-    ];
-    let edit = |(range, text, _): (&Range<usize>, String, bool)| TextEdit {
-        range: range.clone(),
-        text,
-    };
-    all.into_iter()
-        .filter(|(.., is_same)| !is_same)
-        .map(edit)
-        .collect()
 }

@@ -1,9 +1,8 @@
 //! What hangs on one block following another: their numbers, and the places that they state.
 
 use super::super::entry::{Entry, What};
-use super::super::rules::block_number::{self, Numbered, Sequence};
+use super::super::rules::block_number::{self, Numbered, Numbering, Sequence};
 use super::super::rules::position_mismatch;
-use super::super::run::Numbering;
 use super::{At, Document, View};
 use crate::finding::{Fault, Finding};
 
@@ -73,7 +72,7 @@ impl Document {
         run: usize,
         end: Option<At>,
     ) -> impl Iterator<Item = (At, Numbered)> + '_ {
-        let entries = self.runs.get(run).map_or(&[][..], |of| &of.entries[..]);
+        let entries = self.entries_in(run);
         let is_word = |entry: &Entry| matches!(entry.what, What::Word { .. });
         let mut is_after_pause = None;
         entries.iter().enumerate().filter_map(move |(entry, what)| {

@@ -1,7 +1,7 @@
 //! The machine on its way through a program.
 
 use super::super::decode::meant;
-use super::super::entry::What;
+use super::super::entry::{Entry, What};
 use super::super::run::is_jump;
 use super::{At, Document};
 use crate::geometry::{Point, Vector};
@@ -23,13 +23,10 @@ impl Document {
 
     /// The line of the first block of 4B, from 0.
     pub(in crate::program) fn first_four_b_line(&self) -> Option<usize> {
-        self.runs.placed().find_map(|(run, place)| {
-            let entry = run
-                .entries
-                .iter()
-                .find(|entry| entry.block().is_some_and(|block| block.part().is_some()))?;
-            Some(place.lines.start + entry.line as usize)
-        })
+        let is_of_part = |entry: &Entry| entry.block().is_some_and(|block| block.part().is_some());
+        let mut all = self.entries(0..self.runs.len());
+        let (at, entry) = all.find(|(_, entry)| is_of_part(entry))?;
+        Some(self.runs.place(at.run).lines.start + entry.line as usize)
     }
 
     /// Where the machine stands before each run, µm.
@@ -55,19 +52,11 @@ impl Program for Document {
     }
 
     fn begin(&self) -> (Point, bool) {
-        let runs = self.runs.iter();
-        let mut until_block = runs
-            .clone()
-            .take_while(|run| run.blocks == 0)
-            .chain(runs.clone().find(|run| run.blocks > 0));
-        let start = until_block.find_map(|run| {
-            run.entries
-                .iter()
-                .take_while(|entry| entry.block().is_none())
-                .find_map(|entry| match entry.what {
-                    What::StartPoint(at) => Some(at),
-                    _ => None,
-                })
+        let entries = self.entries(0..self.runs.len());
+        let mut heading = entries.take_while(|(_, entry)| entry.block().is_none());
+        let start = heading.find_map(|(_, entry)| match entry.what {
+            What::StartPoint(at) => Some(at),
+            _ => None,
         });
         let [x, y] = start.unwrap_or([0.0, 0.0]).map(|mm| (mm * 1000.0).round());
         (Point::new(x, y), start.is_some())

@@ -119,17 +119,8 @@ fn replaced(
         }
         _ => program,
     };
-    let line_end = text
-        .bytes()
-        .get(text.line_range(0).end..text.line_start(1))
-        .filter(|end| !end.is_empty())
-        .unwrap_or(b"\n");
-    let line_end = std::str::from_utf8(line_end).map_err(|error| error.to_string())?;
-    let new = blocks.trim_end().replace('\n', line_end);
-    Ok(vec![TextEdit {
-        range: first..end.max(first),
-        text: new,
-    }])
+    let new = blocks.trim_end().replace('\n', text.line_end(0));
+    Ok(vec![TextEdit::new(first..end.max(first), new)])
 }
 
 fn geometry(content: &Content<ThreeB>, contour: &Contour) -> Geometry {

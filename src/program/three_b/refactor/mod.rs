@@ -18,14 +18,15 @@ use super::decode::decode;
 use super::encode::{ASIDE_TOLERANCE, END_TOLERANCE, Encoded, encode, point_of, snap};
 use crate::finding::Finding;
 use crate::geometry::{Arc, Segment};
-use crate::program::grid::{Node, largest_distance};
+use crate::program::encode::aside;
+use crate::program::grid::Node;
 use crate::program::path::Trace;
 use crate::program::refactor::{
     Change, Content, Contour, Notation, Refactoring, Rewrite, Row, Sheet, Transform,
 };
 use crate::program::write::scaled;
 use crate::settings::Effective;
-use crate::text::{SourceText, TextEdit};
+use crate::text::TextEdit;
 
 /// 3B and 4B.
 pub(in crate::program) struct ThreeB;
@@ -55,14 +56,6 @@ impl Notation for ThreeB {
 
     fn read(bytes: Vec<u8>, settings: &Effective) -> Document {
         Document::read_with(bytes, settings)
-    }
-
-    fn text(document: &Document) -> &SourceText {
-        document.text()
-    }
-
-    fn trace(document: &Document) -> Trace {
-        document.trace()
     }
 
     fn findings(document: &Document) -> Vec<Finding> {
@@ -110,12 +103,7 @@ impl Notation for ThreeB {
             return encoded(sheet, &piece, ends, row.own.part, index);
         };
         // The same numbers into the opposite quadrant.
-        let opposite = match quadrant {
-            Quadrant::First => Quadrant::Third,
-            Quadrant::Second => Quadrant::Fourth,
-            Quadrant::Third => Quadrant::First,
-            Quadrant::Fourth => Quadrant::Second,
-        };
+        let opposite = Quadrant::ALL[(quadrant as usize + 2) % 4];
         let mut new = ThreeB::kept(sheet, content, index, index);
         let [from, to] = ends;
         new.encoded = Encoded {
@@ -221,8 +209,7 @@ impl Notation for ThreeB {
                 .all(|share| apart(share) <= EXACT)
         } else {
             (decoded.end() - point_of(*to)).norm() <= END_TOLERANCE
-                && largest_distance(&decoded, piece) <= ASIDE_TOLERANCE
-                && apart(0.5) <= ASIDE_TOLERANCE
+                && aside(&decoded, piece) <= ASIDE_TOLERANCE
         };
         if runs_along { Ok(()) } else { Err(beside()) }
     }

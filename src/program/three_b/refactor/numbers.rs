@@ -37,15 +37,12 @@ pub(super) fn numbered(document: &Document) -> Vec<TextEdit> {
                         0
                     }
                 );
-                edits.push(TextEdit {
-                    range: start..digits.end,
-                    text,
-                });
+                edits.push(TextEdit::new(start..digits.end, text));
             }
-            None => edits.push(TextEdit {
-                range: block.range.start..block.range.start,
-                text: format!("N{number} "),
-            }),
+            None => {
+                let place = block.range.start..block.range.start;
+                edits.push(TextEdit::new(place, format!("N{number} ")));
+            }
         }
     }
     let bytes = document.text().bytes();
@@ -55,22 +52,7 @@ pub(super) fn numbered(document: &Document) -> Vec<TextEdit> {
 
 /// The edits that leave the block numbers out, with the space behind them.
 pub(super) fn without_numbers(document: &Document) -> Vec<TextEdit> {
-    let edit = |(block, word): (Step, Option<Range<usize>>)| {
-        let word = word?;
-        let bytes = document
-            .text()
-            .bytes()
-            .get(word.end..block.range.start.max(word.end))
-            .unwrap_or_default();
-        let space = bytes
-            .iter()
-            .take_while(|byte| matches!(byte, b' ' | b'\t'))
-            .count();
-        Some(TextEdit {
-            range: word.start..word.end + space,
-            text: String::new(),
-        })
-    };
+    let edit = |(_, word): (Step, Option<Range<usize>>)| Some(document.text().without_word(&word?));
     blocks_of(document).into_iter().filter_map(edit).collect()
 }
 
@@ -81,13 +63,14 @@ fn blocks_of(document: &Document) -> Vec<(Step, Option<Range<usize>>)> {
     steps.retain(Step::moves);
     let mut at = 0;
     let block = |step: Step| {
-        let line = text.line_range(step.line);
-        let bytes = text.bytes().get(line.clone()).unwrap_or_default();
-        let words = pieces(bytes, &document.words());
+        let (start, words) = (
+            text.line_start(step.line),
+            pieces(text.line(step.line), &document.words()),
+        );
         let mut numbers = words
             .into_iter()
             .filter(|piece| piece.field == Field::Number)
-            .map(|piece| line.start + piece.range.start..line.start + piece.range.end);
+            .map(|piece| start + piece.range.start..start + piece.range.end);
         let word = numbers.find(|word| word.start >= at && word.start < step.range.end);
         at = step.range.end;
         (step, word)

@@ -7,6 +7,7 @@ use crate::program::refactor::{Contour, Row};
 use crate::program::three_b::Document;
 use crate::program::three_b::block::{Block, Node, PartArc};
 use crate::program::three_b::encode::{point_of, snap};
+use crate::program::three_b::layout::layout_in;
 use crate::program::three_b::parse::{Item, read_line};
 use crate::program::three_b::pieces::{Field, pieces};
 use crate::settings::Layout;
@@ -76,9 +77,8 @@ pub(super) fn rows(
                     fault.get_or_insert_with(|| say!(the_block_of_a_line_leads_nowhere, line + 1));
                     return;
                 };
-                let is_spaced = bytes
-                    .get(own.start - range.start..own.end - range.start)
-                    .is_some_and(|block| block.contains(&b' '));
+                let written = text.bytes().get(own.clone()).unwrap_or_default();
+                let layout = layout_in(written);
                 pieces_of_path.push((step.start, step.end, piece));
                 let own = Own {
                     range: own,
@@ -90,11 +90,7 @@ pub(super) fn rows(
                     } else {
                         None
                     },
-                    layout: if is_spaced {
-                        Layout::Aligned
-                    } else {
-                        Layout::Compact
-                    },
+                    layout,
                 };
                 rows.push((line, own));
             }

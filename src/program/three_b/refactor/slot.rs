@@ -42,10 +42,7 @@ fn new_header(text: &SourceText, header: &Range<usize>, start: Node) -> Result<T
     } else {
         line.trim_start_matches("; ")
     };
-    Ok(TextEdit {
-        range: header.clone(),
-        text: new.to_owned(),
-    })
+    Ok(TextEdit::new(header.clone(), new))
 }
 
 /// What stands in the place of one row: its number stays, its comment goes with its block.
@@ -58,10 +55,7 @@ fn slot(
     let (line, row) = (content.rows[index].line, &content.rows[index].own);
     let Some(first) = news.first() else {
         // The whole line goes, its line end with it.
-        return Ok(TextEdit {
-            range: text.line_start(line)..text.line_start(line + 1),
-            text: String::new(),
-        });
+        return Ok(TextEdit::new(text.whole_line(line), ""));
     };
     let comment_moves = first.source != index;
     let mut end = row
@@ -74,7 +68,7 @@ fn slot(
     let mut out = Vec::new();
     for (position, new) in news.iter().enumerate() {
         if position > 0 {
-            out.extend_from_slice(line_end(text, line));
+            out.extend_from_slice(text.line_end(line).as_bytes());
         }
         let block = &new.encoded.block;
         push_fields(&mut out, row.layout, block, new.part.as_ref());
@@ -99,19 +93,5 @@ fn slot(
     }
     let text =
         String::from_utf8(out).map_err(|_| say!(the_comment_is_in_another_code_page, line + 1))?;
-    Ok(TextEdit {
-        range: row.range.start..end,
-        text,
-    })
-}
-
-fn line_end(text: &SourceText, line: usize) -> &[u8] {
-    let end_of = |line: usize| {
-        text.bytes()
-            .get(text.line_range(line).end..text.line_start(line + 1))
-            .filter(|end| !end.is_empty())
-    };
-    end_of(line)
-        .or_else(|| end_of(line.checked_sub(1)?))
-        .unwrap_or(b"\n")
+    Ok(TextEdit::new(row.range.start..end, text))
 }

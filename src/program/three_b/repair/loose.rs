@@ -1,7 +1,7 @@
 //! What is left of a block that cannot be read: its numbers, its axis and its motion, as far as they are there.
 
 use super::super::block::{Block, CountingAxis, Motion, Quadrant};
-use super::slips::{Number, motions};
+use super::slips::Number;
 use std::ops::Range;
 
 /// More digits than a number of a block has.
@@ -139,7 +139,7 @@ pub(in super::super) fn loose(text: &[u8]) -> Option<Loose> {
     }
     let kind_of = |motion: &Motion| kinds.iter().any(|kind| kind(motion.quadrant()) == *motion);
     let is_in = |motion: &Motion| quadrant.is_none_or(|quadrant| motion.quadrant() == quadrant);
-    let motions = motions()
+    let motions = Motion::all()
         .filter(|motion| kind_of(motion) && is_in(motion))
         .collect();
     Some(Loose {

@@ -96,12 +96,6 @@ pub(super) fn is_usual(block: &Block) -> bool {
     (x, y) == (0, 0) || quadrant == usual
 }
 
-pub(super) fn motions() -> impl Iterator<Item = Motion> {
-    let kinds: [fn(Quadrant) -> Motion; 3] =
-        [Motion::Line, Motion::CounterClockwise, Motion::Clockwise];
-    kinds.into_iter().flat_map(|kind| Quadrant::ALL.map(kind))
-}
-
 /// The sound blocks that differ from one by a slip and lead where it is wanted. `digits` are its numbers as they are written.
 pub(super) fn blocks_to(
     block: &Block,
@@ -115,7 +109,7 @@ pub(super) fn blocks_to(
             found.push((changed, slip));
         }
     };
-    motions().for_each(|motion| take(Block { motion, ..*block }, Slip::Motion));
+    Motion::all().for_each(|motion| take(Block { motion, ..*block }, Slip::Motion));
     let axis = block.axis.other();
     take(Block { axis, ..*block }, Slip::Axis);
     let (x, y) = (block.y, block.x);

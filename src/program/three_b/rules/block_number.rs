@@ -12,6 +12,79 @@ pub(in super::super) struct Numbered {
     pub(crate) is_unread: bool,
 }
 
+/// How the blocks of a run are numbered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in super::super) enum Numbering {
+    /// There is no block.
+    #[default]
+    Empty,
+    /// Every block has the number before it and `step`; `step` is 0 for a single block.
+    Regular {
+        first: u32,
+        last: u32,
+        step: u32,
+    },
+    Irregular,
+}
+
+impl Numbering {
+    pub fn with(self, number: Option<u32>, is_block: bool) -> Numbering {
+        match (self, number) {
+            (same, None) if !is_block => same,
+            (Numbering::Empty, Some(number)) => Numbering::Regular {
+                first: number,
+                last: number,
+                step: 0,
+            },
+            (Numbering::Regular { first, last, step }, Some(number))
+                if number > last && (step == 0 || number - last == step) =>
+            {
+                Numbering::Regular {
+                    first,
+                    last: number,
+                    step: number - last,
+                }
+            }
+            _ => Numbering::Irregular,
+        }
+    }
+
+    /// This run and then the next.
+    pub fn then(self, next: Numbering) -> Numbering {
+        match (self, next) {
+            (Numbering::Empty, other) | (other, Numbering::Empty) => other,
+            (
+                Numbering::Regular {
+                    first,
+                    last: a,
+                    step,
+                },
+                Numbering::Regular {
+                    first: b,
+                    last,
+                    step: next_step,
+                },
+            ) => {
+                let between = b.saturating_sub(a);
+                let agree = between > 0
+                    && [step, next_step]
+                        .iter()
+                        .all(|step| *step == 0 || *step == between);
+                if agree {
+                    Numbering::Regular {
+                        first,
+                        last,
+                        step: between,
+                    }
+                } else {
+                    Numbering::Irregular
+                }
+            }
+            _ => Numbering::Irregular,
+        }
+    }
+}
+
 /// Blocks whose numbers tell the step.
 pub(in super::super) const FIRST: usize = 16;
 

@@ -1,10 +1,16 @@
 //! `block-number-as-b`: `B25` before a block where the number `N25` was meant. The reader finds it; this is its repair.
 
-use super::{Site, TextFix, one_edit};
-use crate::finding::FixKind;
+use super::{BlockRule, Site, TextFix, one_edit};
+use crate::finding::{Fault, FixKind, Rule};
 use crate::text::TextEdit;
 
-pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
+pub(super) const RULE: BlockRule = BlockRule {
+    rule: Rule::BlockNumberAsB,
+    look: |_| None,
+    fixes,
+};
+
+fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
     let Some(&b) = site.text.get(site.range.start) else {
         return Vec::new();
     };

@@ -1,9 +1,16 @@
 //! `j-over-turn`: J of an arc counts more than once round, 4R.
 
-use super::{J_TOLERANCE, Seen, Sight, Site, Spot, TextFix, one_edit};
-use crate::finding::{Fault, FixKind};
+use super::{BlockRule, J_TOLERANCE, Seen, Sight, Site, Spot, TextFix, one_edit};
+use crate::finding::{Fault, FixKind, Rule};
+use crate::program::three_b::block::Block;
 
-pub(super) fn look(seen: &Seen) -> Option<Sight> {
+pub(super) const RULE: BlockRule = BlockRule {
+    rule: Rule::JOverTurn,
+    look,
+    fixes,
+};
+
+fn look(seen: &Seen) -> Option<Sight> {
     let turn = 4.0 * seen.radius();
     let is_over = !seen.is_line() && seen.block.j as f64 > turn + J_TOLERANCE;
     is_over.then(|| {
@@ -17,19 +24,18 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     })
 }
 
-pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
+fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
     let turn = (4.0 * (site.block.x as f64).hypot(site.block.y as f64)).round() as i64;
     let candidates = [turn, site.block.j / 10, site.block.j - turn];
+    let with = |j: i64| Block { j, ..site.block };
     let closing = candidates
         .into_iter()
         .filter(|&j| j > 0 && j <= turn)
-        .find(|&j| {
-            (site.closes_with)(&[crate::program::three_b::block::Block { j, ..site.block }])
-        });
+        .find(|&j| (site.closes_with)(&[with(j)]));
     let j = closing.unwrap_or(turn);
     vec![one_edit(
         FixKind::SetJ { j },
-        vec![site.set_j(j)],
+        site.made(&with(j)),
         closing.is_some(),
         closing.is_some(),
     )]

@@ -1,10 +1,17 @@
 //! `length-in-j`: J holds the length of the line, where the controller counts its projection.
 
 use super::projection::{Length, length};
-use super::{Seen, Sight, Site, Spot, TextFix, one_edit};
-use crate::finding::{Fault, FixKind};
+use super::{BlockRule, Seen, Sight, Site, Spot, TextFix, one_edit};
+use crate::finding::{Axis, Fault, FixKind, Rule};
+use crate::program::three_b::block::Block;
 
-pub(super) fn look(seen: &Seen) -> Option<Sight> {
+pub(super) const RULE: BlockRule = BlockRule {
+    rule: Rule::LengthInJ,
+    look,
+    fixes,
+};
+
+fn look(seen: &Seen) -> Option<Sight> {
     if !seen.is_line() || length(seen) != Length::Euclid {
         return None;
     }
@@ -19,19 +26,22 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     ))
 }
 
-fn larger_axis(seen: &Seen) -> crate::finding::Axis {
+fn larger_axis(seen: &Seen) -> Axis {
     match seen.block.x.cmp(&seen.block.y) {
-        std::cmp::Ordering::Greater => crate::finding::Axis::X,
-        std::cmp::Ordering::Less => crate::finding::Axis::Y,
-        std::cmp::Ordering::Equal => seen.axis(),
+        std::cmp::Ordering::Greater => Axis::X,
+        std::cmp::Ordering::Less => Axis::Y,
+        std::cmp::Ordering::Equal => seen.block.axis,
     }
 }
 
-pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
+fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
     let projection = site.block.x.max(site.block.y);
     vec![one_edit(
         FixKind::SetJ { j: projection },
-        vec![site.set_j(projection)],
+        site.made(&Block {
+            j: projection,
+            ..site.block
+        }),
         true,
         true,
     )]

@@ -1,13 +1,19 @@
 //! `missing-b`: one of a block's three `B` is not there. The reader finds it; this is its repair.
 
-use super::{Site, TextFix, one_edit};
-use crate::finding::FixKind;
+use super::{BlockRule, Site, TextFix, one_edit};
+use crate::finding::{Fault, FixKind, Rule};
 use crate::program::three_b::fault::Flaw;
 use crate::program::three_b::parse::{Item, read_line};
 use crate::program::three_b::words::Words;
 use crate::text::TextEdit;
 
-pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
+pub(super) const RULE: BlockRule = BlockRule {
+    rule: Rule::MissingB,
+    look: |_| None,
+    fixes,
+};
+
+fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
     let Some(line) = site.text.get(site.line.clone()) else {
         return Vec::new();
     };

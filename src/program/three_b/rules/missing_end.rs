@@ -6,7 +6,7 @@ use crate::text::{SourceText, TextEdit};
 
 /// The end word on a line of its own, behind the line that ends at `behind`.
 pub(in super::super) fn fixes(text: &SourceText, behind: usize, word: &str) -> Vec<TextFix> {
-    let line_end = line_end_of(text);
+    let line_end = text.line_end(0);
     let line = text.line_of(behind);
     let range = text.line_range(line);
     let edit = TextEdit::new(range.end..range.end, format!("{line_end}{word}"));
@@ -16,14 +16,4 @@ pub(in super::super) fn fixes(text: &SourceText, behind: usize, word: &str) -> V
         true,
         true,
     )]
-}
-
-/// The line end of a text: that of its first line.
-pub(in super::super) fn line_end_of(text: &SourceText) -> &'static str {
-    let end = text.line_range(0).end;
-    match text.bytes().get(end..).unwrap_or_default() {
-        [b'\r', b'\n', ..] => "\r\n",
-        [b'\r', ..] => "\r",
-        _ => "\n",
-    }
 }

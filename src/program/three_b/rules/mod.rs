@@ -19,13 +19,12 @@ mod zero_block;
 
 pub(super) mod block_number;
 pub(super) mod missing_end;
-pub(super) mod not_closed;
 pub(super) mod position_mismatch;
 pub(super) mod text_after_end;
 
-use super::block::{Block, CountingAxis, Motion, PartArc, Quadrant};
+use super::block::{Block, Motion, PartArc};
 use super::fields::Fields;
-use crate::finding::{Axis, Detail, Fault, Fix, FixKind, Rule};
+use crate::finding::{Detail, Fault, Fix, FixKind, Rule};
 use crate::settings::{Compensation, Effective, SideSetting};
 use crate::text::TextEdit;
 use std::ops::Range;
@@ -148,33 +147,35 @@ impl Seen<'_> {
         matches!(self.block.motion, Motion::Line(_))
     }
 
-    fn axis(&self) -> Axis {
-        axis_of(self.block.axis)
-    }
-
     fn radius(&self) -> f64 {
         (self.block.x as f64).hypot(self.block.y as f64)
     }
 }
 
-pub(super) fn axis_of(axis: CountingAxis) -> Axis {
-    match axis {
-        CountingAxis::X => Axis::X,
-        CountingAxis::Y => Axis::Y,
-    }
+/// A rule on single blocks.
+struct BlockRule {
+    rule: Rule,
+    look: fn(&Seen) -> Option<Sight>,
+    /// The preferred one first.
+    fixes: fn(&Site, &Fault) -> Vec<TextFix>,
 }
 
-/// The rules that leave nothing for others to see in a block, and then the others.
-const FIRST: [fn(&Seen) -> Option<Sight>; 2] = [zero_block::look, arc_without_radius::look];
-const OTHERS: [fn(&Seen) -> Option<Sight>; 7] = [
-    length_in_j::look,
-    wrong_j::look,
-    j_over_turn::look,
-    wrong_counting_axis::look,
-    wrong_quadrant::look,
-    too_many_digits::look,
-    small_radius::look,
+/// They are asked in this order. What the first [`ALONE`] of them find leaves nothing for others to see in a block.
+const RULES: [BlockRule; 12] = [
+    zero_block::RULE,
+    arc_without_radius::RULE,
+    length_in_j::RULE,
+    wrong_j::RULE,
+    j_over_turn::RULE,
+    wrong_counting_axis::RULE,
+    wrong_quadrant::RULE,
+    too_many_digits::RULE,
+    small_radius::RULE,
+    missing_b::RULE,
+    block_number_as_b::RULE,
+    reversed_arc::RULE,
 ];
+const ALONE: usize = 2;
 
 /// What is wrong with a block for itself.
 pub(super) fn look(block: &Block, part: Option<PartArc>, limits: &Limits) -> Vec<Sight> {
@@ -183,9 +184,13 @@ pub(super) fn look(block: &Block, part: Option<PartArc>, limits: &Limits) -> Vec
         part,
         limits,
     };
-    match FIRST.iter().find_map(|look| look(&seen)) {
+    let (first, others) = RULES.split_at(ALONE);
+    match first.iter().find_map(|rule| (rule.look)(&seen)) {
         Some(sight) => vec![sight],
-        None => OTHERS.iter().filter_map(|look| look(&seen)).collect(),
+        None => others
+            .iter()
+            .filter_map(|rule| (rule.look)(&seen))
+            .collect(),
     }
 }
 
@@ -210,35 +215,9 @@ impl Site<'_> {
         TextEdit::new(range.clone(), text.into())
     }
 
-    fn set_j(&self, j: i64) -> TextEdit {
-        self.replace(&self.fields.j, j.to_string())
-    }
-
-    fn set_axis(&self, axis: Axis) -> TextEdit {
-        let is_lower = self
-            .text
-            .get(self.fields.axis.start)
-            .is_some_and(u8::is_ascii_lowercase);
-        let text = format!("G{}", axis.letter());
-        self.replace(
-            &self.fields.axis,
-            if is_lower { text.to_lowercase() } else { text },
-        )
-    }
-
-    fn set_motion(&self, name: &str) -> TextEdit {
-        let is_lower = self
-            .text
-            .get(self.fields.motion.start)
-            .is_some_and(u8::is_ascii_lowercase);
-        self.replace(
-            &self.fields.motion,
-            if is_lower {
-                name.to_lowercase()
-            } else {
-                name.into()
-            },
-        )
+    /// Another block in its place.
+    fn made(&self, new: &Block) -> Vec<TextEdit> {
+        self.fields.changed(self.text, &self.block, new)
     }
 
     /// The line with its line end where the block stands alone in it, else the block.
@@ -265,35 +244,8 @@ impl Site<'_> {
 
 /// The fixes of a fault in a block, the preferred one first.
 pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
-    match fault.rule() {
-        Rule::MissingB => missing_b::fixes(site),
-        Rule::BlockNumberAsB => block_number_as_b::fixes(site),
-        Rule::LengthInJ => length_in_j::fixes(site),
-        Rule::WrongJ => wrong_j::fixes(site, fault),
-        Rule::JOverTurn => j_over_turn::fixes(site),
-        Rule::WrongCountingAxis => wrong_counting_axis::fixes(site, fault),
-        Rule::WrongQuadrant => wrong_quadrant::fixes(site, fault),
-        Rule::ReversedArc => reversed_arc::fixes(site),
-        Rule::ZeroBlock => zero_block::fixes(site),
-        Rule::ArcWithoutRadius => arc_without_radius::fixes(site),
-        Rule::TooManyDigits => too_many_digits::fixes(site),
-        _ => Vec::new(),
-    }
-}
-
-/// Z as it is written.
-pub(super) fn motion_name(motion: Motion) -> &'static str {
-    let name = |names: [&'static str; 4], quadrant: Quadrant| match quadrant {
-        Quadrant::First => names[0],
-        Quadrant::Second => names[1],
-        Quadrant::Third => names[2],
-        Quadrant::Fourth => names[3],
-    };
-    match motion {
-        Motion::Line(quadrant) => name(["L1", "L2", "L3", "L4"], quadrant),
-        Motion::Clockwise(quadrant) => name(["SR1", "SR2", "SR3", "SR4"], quadrant),
-        Motion::CounterClockwise(quadrant) => name(["NR1", "NR2", "NR3", "NR4"], quadrant),
-    }
+    let own = RULES.iter().find(|own| own.rule == fault.rule());
+    own.map_or_else(Vec::new, |own| (own.fixes)(site, fault))
 }
 
 /// A fix that changes one thing, to be made without asking only where the contour then closes.

@@ -6,8 +6,8 @@ use super::super::around::StatedPoint;
 use super::super::block::{Block, CountingAxis, Motion, Node};
 use super::super::decode::meant;
 use super::super::encode::{counted, line_block};
-use super::super::entry::{Move, travel_of};
-use super::{TextFix, motion_name, one_edit};
+use super::super::entry::{BlockEntry, Move, travel_of};
+use super::{TextFix, one_edit};
 use crate::finding::FixKind;
 use crate::geometry::{Arc, Point, Segment, Vector};
 use crate::program::three_b::fields::Fields;
@@ -35,6 +35,35 @@ pub(in super::super) fn mismatch(
         off(travel.machine.map(|um| um as f64)),
     );
     (is_far(meant) && is_far(machine)).then_some(meant)
+}
+
+/// The end points that stand behind the blocks of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in super::super) struct Positions {
+    /// Pairs of end points in the run that were held against each other.
+    pub compared: usize,
+    /// Those that are off, by the number of the block in the run, its entry, and by how much in µm.
+    pub off: Vec<(usize, usize, [f64; 2])>,
+    /// Entry, end point and displacement of the first block, where nothing in the run stands before it.
+    pub first: Option<(usize, StatedPoint, Move)>,
+    /// What the next run's first end point is held against: `None` where nothing in this run says.
+    pub anchor: Option<Option<StatedPoint>>,
+}
+
+impl Positions {
+    pub fn block(&mut self, nth: usize, entry: usize, block: &BlockEntry) {
+        let stated = block.stated_end();
+        match (self.anchor, stated) {
+            (Some(Some(before)), Some(stated)) => {
+                self.compared += 1;
+                self.off
+                    .extend(mismatch(&before, &block.travel, &stated).map(|by| (nth, entry, by)));
+            }
+            (None, Some(stated)) => self.first = Some((entry, stated, block.travel)),
+            _ => {}
+        }
+        self.anchor = Some(stated);
+    }
 }
 
 /// More of the end points than this share are off: the numbers are something else than end points.
@@ -173,48 +202,6 @@ fn set_block(site: &Mismatched<'_>) -> Option<(Block, Vec<TextEdit>)> {
     if mismatch(&site.before, &travel_of(&block), &site.stated).is_some() {
         return None;
     }
-    let Fields {
-        x,
-        y,
-        j,
-        axis,
-        motion,
-        ..
-    } = &site.fields;
-    let is_lower = site
-        .text
-        .get(motion.start)
-        .is_some_and(u8::is_ascii_lowercase);
-    let cased = |text: &str| {
-        if is_lower {
-            text.to_lowercase()
-        } else {
-            text.to_owned()
-        }
-    };
-    let axis_name = if block.axis == CountingAxis::X {
-        "GX"
-    } else {
-        "GY"
-    };
-    let new = [
-        (x, block.x.to_string(), block.x == site.block.x),
-        (y, block.y.to_string(), block.y == site.block.y),
-        (j, block.j.to_string(), block.j == site.block.j),
-        (axis, cased(axis_name), block.axis == site.block.axis),
-        (
-            motion,
-            cased(motion_name(block.motion)),
-            block.motion == site.block.motion,
-        ),
-    ];
-    let edit = new.into_iter().filter(|(.., is_same)| !is_same);
-    Some((
-        block,
-        edit.map(|(range, text, _)| TextEdit {
-            range: range.clone(),
-            text,
-        })
-        .collect(),
-    ))
+    let edit = site.fields.changed(site.text, &site.block, &block);
+    Some((block, edit))
 }

@@ -1,28 +1,30 @@
 //! `reversed-arc`: what can be done about an arc that runs the wrong way round. That it does is told by its joints
 //! ([`crate::program::path`]).
 
-use super::{Site, TextFix, motion_name, one_edit};
-use crate::finding::FixKind;
+use super::{BlockRule, Site, TextFix, one_edit};
+use crate::finding::{Fault, FixKind, Rule};
 use crate::geometry::{Arc, Point, Segment};
 use crate::program::three_b::block::{Block, Motion, Quadrant};
 use crate::program::three_b::decode::meant;
 use crate::program::three_b::encode::counted;
 use std::f64::consts::TAU;
 
+pub(super) const RULE: BlockRule = BlockRule {
+    rule: Rule::ReversedArc,
+    look: |_| None,
+    fixes,
+};
+
 /// The arc about the same centre between the same ends, the other way round.
-pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
+fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
     let Some(other) = exchanged(&site.block) else {
         return Vec::new();
     };
     let is_safe = (site.closes_with)(&[other]);
-    let name = motion_name(other.motion);
-    let mut edit = vec![site.set_motion(name)];
-    if other.j != site.block.j {
-        edit.insert(0, site.set_j(other.j));
-    }
+    let name = other.motion.name();
     vec![one_edit(
         FixKind::SetMotion { name },
-        edit,
+        site.made(&other),
         is_safe,
         is_safe,
     )]

@@ -3,7 +3,7 @@
 //! A 4B block says on which side of the arc the wire runs (`DD` inside). A 3B program holds the part's contour only where the
 //! settings say so (`compensation = "controller"` or `"none"`); the wire's own path rightly has arcs down to nothing.
 
-use super::{Counts, Seen, Sight, Spot};
+use super::{BlockRule, Counts, Seen, Sight, Spot};
 use crate::finding::{Detail, Rule, SmallRadius};
 use crate::geometry::{Point, Segment};
 use crate::program::path::{UM_IN_MM, is_tight};
@@ -11,7 +11,13 @@ use crate::program::three_b::block::Motion;
 use crate::program::three_b::decode::decode;
 use crate::settings::SideSetting;
 
-pub(super) fn look(seen: &Seen) -> Option<Sight> {
+pub(super) const RULE: BlockRule = BlockRule {
+    rule: Rule::SmallRadius,
+    look,
+    fixes: |_, _| Vec::new(),
+};
+
+fn look(seen: &Seen) -> Option<Sight> {
     let turns_left = match seen.block.motion {
         Motion::Line(_) => return None,
         Motion::Clockwise(_) => false,

@@ -1,16 +1,21 @@
 //! `too-many-digits`: a number that the controller has no digits for.
 
 use super::projection::is_misfit;
-use super::{Seen, Sight, Site, Spot, TextFix, one_edit};
-use crate::finding::{Fault, FixKind};
+use super::{BlockRule, Seen, Sight, Site, Spot, TextFix, one_edit};
+use crate::finding::{Fault, FixKind, Rule};
 use crate::geometry::Point;
 use crate::program::three_b::block::Node;
 use crate::program::three_b::decode::{DecodeFault, decode, meant};
 use crate::program::three_b::encode::{encode, snap};
-use crate::program::three_b::layout::push_fields;
-use crate::settings::Layout;
+use crate::program::three_b::layout::{layout_in, push_fields};
 
-pub(super) fn look(seen: &Seen) -> Option<Sight> {
+pub(super) const RULE: BlockRule = BlockRule {
+    rule: Rule::TooManyDigits,
+    look,
+    fixes,
+};
+
+fn look(seen: &Seen) -> Option<Sight> {
     let block = seen.block;
     let numbers = [
         (Spot::J, "J", block.j),
@@ -33,7 +38,7 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
 /// The way in pieces that fit. More than this many are a fault of the number, not of its size.
 const MOST_PIECES: usize = 64;
 
-pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
+fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
     // Where J contradicts X and Y a digit is wrong, not the block too long.
     if decode(&site.block, Point::origin()) == Err(DecodeFault::WrongLength)
         || is_misfit(&site.block)
@@ -63,15 +68,7 @@ pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
         Some(line) if line.ends_with(b"\r") => b"\r",
         _ => b"\n",
     };
-    let is_spaced = site
-        .text
-        .get(site.range.clone())
-        .is_some_and(|block| block.contains(&b' '));
-    let layout = if is_spaced {
-        Layout::Aligned
-    } else {
-        Layout::Compact
-    };
+    let layout = layout_in(site.text.get(site.range.clone()).unwrap_or_default());
     let mut text = Vec::new();
     for (index, piece) in pieces.iter().enumerate() {
         if index > 0 {

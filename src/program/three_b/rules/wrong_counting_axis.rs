@@ -3,15 +3,21 @@
 //! A line counts its larger projection. An arc counts the axis along which it runs at its end: X where the end lies nearer to the Y
 //! axis of its centre, Y where it lies nearer to the X axis. Counted on the other axis, one µm of J is many µm of the way.
 
-use super::{ARC_TIE, Counts, Seen, Sight, Site, Spot, TIE, TextFix, axis_of, one_edit};
-use crate::finding::{Axis, Fault, FixKind};
-use crate::geometry::{Arc, Point, Segment};
-use crate::program::three_b::block::{Block, CountingAxis, Motion};
+use super::{ARC_TIE, BlockRule, Seen, Sight, Site, Spot, TIE, TextFix, one_edit};
+use crate::finding::{Axis, Fault, FixKind, Rule};
+use crate::geometry::{Point, Segment};
+use crate::program::three_b::block::{Block, Motion};
 use crate::program::three_b::decode::decode;
 use crate::program::three_b::encode::counted;
 
-pub(super) fn look(seen: &Seen) -> Option<Sight> {
-    let axis = seen.axis();
+pub(super) const RULE: BlockRule = BlockRule {
+    rule: Rule::WrongCountingAxis,
+    look,
+    fixes,
+};
+
+fn look(seen: &Seen) -> Option<Sight> {
+    let axis = seen.block.axis;
     if seen.is_line() {
         let Block { x, y, j, .. } = *seen.block;
         let (counted, other) = if axis == Axis::X { (x, y) } else { (y, x) };
@@ -38,32 +44,26 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     } else {
         (out.y.abs(), out.x.abs())
     };
-    let sight = || {
-        Sight::at(
-            Spot::Axis,
-            Fault::ArcEndAxis {
-                axis,
-                x: out.x,
-                y: out.y,
-            },
-        )
+    let fault = || {
+        let sentence = say!(
+            g_does_not_fit_the_end_of_the_arc,
+            axis.letter(),
+            out.x,
+            out.y,
+            axis.other().letter()
+        );
+        Fault::said(Rule::WrongCountingAxis, sentence)
     };
-    (along > across + ARC_TIE).then(|| Sight {
-        counts: Counts::Always,
-        ..sight()
-    })
+    (along > across + ARC_TIE).then(|| Sight::at(Spot::Axis, fault()))
 }
 
-pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
+fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     let axis = site.block.axis.other();
-    let name = axis_of(axis);
+    let flipped = Block { axis, ..site.block };
     let only_axis = |in_fix_all| {
         one_edit(
-            FixKind::SetAxis {
-                axis: name,
-                j: None,
-            },
-            vec![site.set_axis(name)],
+            FixKind::SetAxis { axis, j: None },
+            site.made(&flipped),
             true,
             in_fix_all,
         )
@@ -71,7 +71,6 @@ pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     if let Fault::AxisKeepsOpen { is_sure, .. } = fault {
         return vec![only_axis(*is_sure)];
     }
-    let flipped = Block { axis, ..site.block };
     if let Motion::Line(_) = site.block.motion {
         let larger = site.block.x.max(site.block.y);
         let is_ratio = site.block.j > larger + 2;
@@ -84,13 +83,13 @@ pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
             (true, 1..) => (site.block.j as f64 * larger as f64 / smaller as f64).round() as i64,
             _ => larger,
         };
-        return vec![with_j(site, name, j, true)];
+        return vec![with_j(site, axis, j, true)];
     }
     let Ok(Segment::Arc(arc)) = decode(&site.block, Point::origin()) else {
         return Vec::new();
     };
-    let same_end = counted_on(&arc, axis);
-    let with_same_end = with_j(site, name, same_end, true);
+    let same_end = counted(&arc, axis).round() as i64;
+    let with_same_end = with_j(site, axis, same_end, true);
     if (site.closes_with)(&[flipped]) {
         return vec![
             only_axis(true),
@@ -100,17 +99,15 @@ pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     vec![with_same_end]
 }
 
-/// What an axis counts along the arc.
-fn counted_on(arc: &Arc, axis: CountingAxis) -> i64 {
-    counted(arc, axis).round() as i64
-}
-
 fn with_j(site: &Site, axis: Axis, j: i64, in_fix_all: bool) -> TextFix {
-    let mut edit = vec![site.set_j(j), site.set_axis(axis)];
-    edit.sort_by_key(|edit| edit.range.start);
+    let made = Block {
+        axis,
+        j,
+        ..site.block
+    };
     one_edit(
         FixKind::SetAxis { axis, j: Some(j) },
-        edit,
+        site.made(&made),
         true,
         in_fix_all,
     )

@@ -4,11 +4,17 @@
 //! tells which.
 
 use super::projection::{Length, length};
-use super::{Counts, Seen, Sight, Site, Spot, TextFix, one_edit};
-use crate::finding::{Axis, Fault, FixKind};
+use super::{BlockRule, Counts, Seen, Sight, Site, Spot, TextFix, one_edit};
+use crate::finding::{Axis, Fault, FixKind, Rule};
 use crate::program::three_b::block::Block;
 
-pub(super) fn look(seen: &Seen) -> Option<Sight> {
+pub(super) const RULE: BlockRule = BlockRule {
+    rule: Rule::WrongJ,
+    look,
+    fixes,
+};
+
+fn look(seen: &Seen) -> Option<Sight> {
     let Block { x, y, j, .. } = *seen.block;
     if !seen.is_line() {
         return None;
@@ -35,11 +41,14 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     })
 }
 
-pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
+fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     if let Fault::JKeepsOpen { meant, is_sure, .. } = *fault {
         return vec![one_edit(
             FixKind::SetJ { j: meant },
-            vec![site.set_j(meant)],
+            site.made(&Block {
+                j: meant,
+                ..site.block
+            }),
             true,
             is_sure,
         )];
@@ -51,11 +60,7 @@ pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
         ..site.block
     };
     // The larger number with the digits that J has.
-    let (larger, other) = if x >= y {
-        (&site.fields.x, y)
-    } else {
-        (&site.fields.y, x)
-    };
+    let other = x.min(y);
     let by_number = if x >= y {
         Block { x: j, ..site.block }
     } else {
@@ -70,13 +75,13 @@ pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     let field = if x >= y { Axis::X } else { Axis::Y };
     let set_j = one_edit(
         FixKind::SetJ { j: projection },
-        vec![site.set_j(projection)],
+        site.made(&by_j),
         !number_first,
         j_closes || j == 0,
     );
     let mut fixes = vec![set_j];
     if number_closes || is_shifted {
-        let edit = vec![site.replace(larger, j.to_string())];
+        let edit = site.made(&by_number);
         let set_number = one_edit(
             FixKind::SetEnd {
                 axis: field,

@@ -3,16 +3,22 @@
 //! +X is `L1`, +Y `L2`, −X `L3`, −Y `L4`. Since a zero has no sign, the other quadrant at the same half axis leads to the same place;
 //! it is an error only where nothing but Z tells the direction, or where the contour does not close.
 
-use super::{Counts, Seen, Sight, Site, Spot, TextFix, motion_name, one_edit};
-use crate::finding::{Axis, Fault, FixKind};
+use super::{BlockRule, Counts, Seen, Sight, Site, Spot, TextFix, one_edit};
+use crate::finding::{Axis, Fault, FixKind, Rule};
 use crate::program::three_b::block::{Block, Motion, Quadrant};
 
-pub(super) fn look(seen: &Seen) -> Option<Sight> {
+pub(super) const RULE: BlockRule = BlockRule {
+    rule: Rule::WrongQuadrant,
+    look,
+    fixes,
+};
+
+fn look(seen: &Seen) -> Option<Sight> {
     let Motion::Line(quadrant) = seen.block.motion else {
         return None;
     };
     let Block { x, y, j, .. } = *seen.block;
-    let axis = seen.axis();
+    let axis = seen.block.axis;
     let along = match (x, y) {
         (0, 0) => axis,
         (_, 0) => Axis::X,
@@ -34,7 +40,7 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     let sight = Sight::at(
         Spot::Motion,
         Fault::AxisQuadrant {
-            found: motion_name(seen.block.motion),
+            found: seen.block.motion.name(),
             expected,
             axis: along,
         },
@@ -49,30 +55,20 @@ pub(super) fn look(seen: &Seen) -> Option<Sight> {
     })
 }
 
-pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
+fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     match fault {
         Fault::QuadrantKeepsOpen { meant, is_sure, .. } => {
             vec![one_edit(
                 FixKind::SetMotion { name: meant },
-                vec![site.set_motion(meant)],
+                site.made(&named(&site.block, meant)),
                 true,
                 *is_sure,
             )]
         }
         Fault::AxisQuadrant { expected, .. } | Fault::UnusualQuadrant { expected, .. } => {
             let is_fault = matches!(fault, Fault::AxisQuadrant { .. });
-            let motion = |name: &str| match name {
-                "L1" => Motion::Line(Quadrant::First),
-                "L2" => Motion::Line(Quadrant::Second),
-                "L3" => Motion::Line(Quadrant::Third),
-                _ => Motion::Line(Quadrant::Fourth),
-            };
-            let closing = expected.iter().copied().find(|name| {
-                (site.closes_with)(&[Block {
-                    motion: motion(name),
-                    ..site.block
-                }])
-            });
+            let closes = |name: &&str| (site.closes_with)(&[named(&site.block, name)]);
+            let closing = expected.iter().copied().find(closes);
             // The half axis that the controller takes it for now.
             let same = match (site.block.motion, expected[0]) {
                 (Motion::Line(Quadrant::Fourth), "L1") | (Motion::Line(Quadrant::First), "L2") => {
@@ -96,7 +92,7 @@ pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
             let fix = |(index, name): (usize, &'static str)| {
                 one_edit(
                     FixKind::SetMotion { name },
-                    vec![site.set_motion(name)],
+                    site.made(&named(&site.block, name)),
                     index == 0,
                     index == 0 && is_fault && closing.is_some(),
                 )
@@ -104,5 +100,14 @@ pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
             names.into_iter().enumerate().map(fix).collect()
         }
         _ => Vec::new(),
+    }
+}
+
+/// The block with the Z of a name.
+fn named(block: &Block, name: &str) -> Block {
+    let motion = Motion::all().find(|motion| motion.name() == name);
+    Block {
+        motion: motion.unwrap_or(block.motion),
+        ..*block
     }
 }

@@ -1,14 +1,21 @@
 //! `zero-block`: a block that moves nothing.
 
-use super::{Seen, Sight, Site, Spot, TextFix};
-use crate::finding::{Fault, FixKind};
+use super::{BlockRule, Seen, Sight, Site, Spot, TextFix};
+use crate::finding::{Fault, FixKind, Rule};
 
-pub(super) fn look(seen: &Seen) -> Option<Sight> {
+pub(super) const RULE: BlockRule = BlockRule {
+    rule: Rule::ZeroBlock,
+    look,
+    fixes,
+};
+
+fn look(seen: &Seen) -> Option<Sight> {
     let block = seen.block;
     let is_zero = block.j == 0 && (!seen.is_line() || (block.x == 0 && block.y == 0));
-    is_zero.then(|| Sight::at(Spot::Block, Fault::ZeroBlock))
+    let sentence = || say!(the_block_moves_nothing_its_j);
+    is_zero.then(|| Sight::at(Spot::Block, Fault::said(Rule::ZeroBlock, sentence())))
 }
 
-pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
+fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
     vec![site.delete(FixKind::DeleteBlock, true)]
 }

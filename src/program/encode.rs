@@ -1,0 +1,121 @@
+//! From a line or arc of the path to blocks between nodes of the grid: where it is cut into pieces is the same in every language.
+
+use super::grid::{Node, chord_count, in_pieces, largest_distance, sagitta, snap};
+use crate::geometry::{Arc, Segment};
+use std::f64::consts::PI;
+
+/// How far a block may lie from its piece of the path, anywhere, µm: centres are on the grid, ends are snapped.
+pub(super) const ASIDE_TOLERANCE: f64 = 2.5;
+
+/// The largest sagitta of a chord that stands for a piece of an arc too large for a language, µm.
+const CHORD_SAGITTA: f64 = 0.5;
+
+/// How a language can write an arc.
+pub(super) enum Attempt<B> {
+    Made(B),
+    /// Only in so many pieces of one length.
+    Pieces(i64),
+    /// Only as straight cuts: its numbers do not fit.
+    Chords,
+    /// Not within tolerance.
+    Misses,
+}
+
+/// What one language makes of a piece of the path. Nodes and pieces are in steps of its grid.
+pub(super) trait Encoder {
+    type Block;
+
+    /// A step of the grid, µm.
+    fn step(&self) -> f64;
+    /// The straight cuts that it takes for so many steps.
+    fn lines(&self, longest: i64) -> i64;
+    fn line(&self, piece: Segment, from: Node, to: Node) -> Self::Block;
+    fn arc(&self, arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt<Self::Block>;
+
+    /// Appends the blocks of `piece` between its snapped ends. A piece that has no length on the grid, an arc of radius zero among
+    /// them, appends nothing. `None` where no arc within tolerance can be written, or a number does not fit.
+    fn encode(
+        &self,
+        piece: &Segment,
+        from: Node,
+        to: Node,
+        blocks: &mut Vec<Self::Block>,
+    ) -> Option<()> {
+        encode(self, piece, from, to, 0, blocks)
+    }
+}
+
+fn encode<E: Encoder + ?Sized>(
+    encoder: &E,
+    piece: &Segment,
+    from: Node,
+    to: Node,
+    depth: u32,
+    blocks: &mut Vec<E::Block>,
+) -> Option<()> {
+    let Segment::Arc(arc) = piece else {
+        return straight(encoder, piece, from, to, blocks);
+    };
+    let full_turn = from == to && arc.sweep.abs() > PI;
+    if from == to && (!full_turn || arc.radius < 0.5) {
+        return Some(());
+    }
+    match encoder.arc(arc, from, to, full_turn) {
+        Attempt::Made(block) => blocks.push(block),
+        Attempt::Pieces(count) => in_pieces(piece, from, to, count, |piece, from, to| {
+            encode(encoder, &piece, from, to, 0, blocks)
+        })?,
+        Attempt::Chords => {
+            let count = chord_count(arc, CHORD_SAGITTA / encoder.step())?;
+            in_pieces(piece, from, to, count, |piece, from, to| {
+                straight(encoder, &piece, from, to, blocks)
+            })?;
+        }
+        // A chord of an arc this flat is as near to it as the grid is.
+        Attempt::Misses if sagitta(arc) * encoder.step() <= 2.0 * CHORD_SAGITTA => {
+            straight(encoder, piece, from, to, blocks)?;
+        }
+        Attempt::Misses if depth < 8 => {
+            let middle = snap(arc.point_at(0.5))?;
+            for (share, from, to) in [(0.0, from, middle), (0.5, middle, to)] {
+                let half = piece.part(share, share + 0.5);
+                encode(encoder, &half, from, to, depth + 1, blocks)?;
+            }
+        }
+        Attempt::Misses => return None,
+    }
+    Some(())
+}
+
+/// Straight cuts, for an arc too.
+fn straight<E: Encoder + ?Sized>(
+    encoder: &E,
+    piece: &Segment,
+    from: Node,
+    to: Node,
+    blocks: &mut Vec<E::Block>,
+) -> Option<()> {
+    let longest = (to.x - from.x).abs().max((to.y - from.y).abs());
+    if longest == 0 {
+        return Some(());
+    }
+    in_pieces(
+        piece,
+        from,
+        to,
+        encoder.lines(longest),
+        |piece, from, to| {
+            blocks.push(encoder.line(piece, from, to));
+            Some(())
+        },
+    )
+}
+
+/// How far a written line or arc lies from its piece at most, its middle from that of the piece too; infinite where nobody knows.
+pub(super) fn aside(written: &Segment, piece: &Segment) -> f64 {
+    let middles = (written.point_at(0.5) - piece.point_at(0.5)).norm();
+    match middles.is_nan() {
+        true => f64::INFINITY,
+        false => largest_distance(written, piece).max(middles),
+    }
+}
