@@ -12,7 +12,8 @@ mod small_radius;
 mod title;
 mod unwritable;
 
-pub(crate) use fault::{Axis, Fault};
+pub use fault::Axis;
+pub(crate) use fault::Fault;
 pub(crate) use fix::{CenterFix, TextFix};
 pub use fix::{Edit, Fix, FixKind};
 pub(crate) use not_judged::NotJudged;
