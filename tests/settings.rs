@@ -156,9 +156,7 @@ fn the_protocol_lists_every_key() {
 
 /// The first sentence of a meaning, and the words that may stand there.
 fn in_short(row: &Row) -> String {
-    let meaning = row.plain_meaning().replace('`', "");
-    let first = meaning.split_inclusive(". ").next().unwrap_or_default();
-    let first = first.trim_end_matches(['.', ' ']).to_owned();
+    let first = row.first_sentence();
     let schema = schema_of(row);
     let names: Vec<&str> = words(&schema).iter().map(|(name, _)| *name).collect();
     match names.is_empty() {
@@ -439,7 +437,6 @@ fn a_profile_that_ships_is_named_wherever_profiles_are_listed() {
     let places = [
         "docs/programs.md",
         "src/settings/keys.rs",
-        "src/cli/options.rs",
         "clients/vscode/src/commands/profiles.ts",
     ];
     for place in places {

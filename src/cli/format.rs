@@ -1,12 +1,12 @@
 //! `wedm format`: programs in their layout, with the same blocks.
 
 use super::changes::print_diff;
-use super::options::{Common, words};
+use super::options::{Common, Words, parser, row};
 use super::output::{self, STRONG, styled};
 use super::{Failure, Verdict, files};
 use crate::finding::Rule;
 use crate::program::{self, Language};
-use crate::settings::{Layout, ProgramSettings, Settings};
+use crate::settings::Settings;
 use crate::text::edited;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -29,14 +29,10 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     target: Target,
     /// Form of the blocks [default: `program.layout` where it is set, else the program's own]
-    #[arg(long, value_parser = words::<Layout>())]
-    layout: Option<Layout>,
-    /// Word that ends the program [default: DD]
-    #[arg(long, value_name = "WORD")]
-    end: Option<String>,
-    /// Word that pauses it, to thread the wire [default: D]
-    #[arg(long, value_name = "WORD")]
-    pause: Option<String>,
+    #[arg(long, value_parser = parser(row("program.layout")))]
+    layout: Option<Settings>,
+    #[command(flatten)]
+    words: Words,
     /// Settings file, laid over the `wedm.toml` found upwards from the input
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
@@ -123,19 +119,11 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
         config: arguments.config.clone(),
         ..Common::default()
     };
-    let program = ProgramSettings {
-        layout: arguments.layout,
-        end: arguments.end.clone(),
-        pause: arguments.pause.clone(),
-        ..ProgramSettings::default()
-    };
     if arguments.target.in_place {
         output::refuse_irregular(path)?;
     }
-    let last = Settings {
-        program: Some(program),
-        ..Settings::default()
-    };
+    let layout = arguments.layout.clone().unwrap_or_default();
+    let last = arguments.words.0.overlaid(&layout);
     let opened = files::open_to_use(path, &common, &last)?;
     let settings = opened.document.settings().clone();
     let program = opened.program()?;

@@ -1,131 +1,131 @@
-//! Options that several commands share, and the settings that come of them.
+//! Options that several commands share: those that stand for a key of the settings are declared there, here is only which ones there are.
 
-use crate::settings::{
-    Compensation, Corner, Direction, Layout, Order, Passes, PointSetting, ProgramSettings,
-    Settings, SideSetting, words_of,
-};
-use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
-use serde::de::DeserializeOwned;
+use crate::settings::{Row, Settings, rows};
+use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
+use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
 use std::path::PathBuf;
+use std::sync::LazyLock;
+
+/// Groups of options: their heading, the table whose keys they set, and their names.
+const GROUPS: [(&str, &str, &str); 3] = [
+    ("Settings", "", "correction passes side"),
+    (
+        "Program",
+        "program.",
+        "direction corner thread entry lead-in tab order layout compensation digits profile end pause",
+    ),
+    ("Words", "program.", "end pause"),
+];
+
+/// `--passes` is the list of their corrections.
+const PASSES: &str = "passes.corrections";
 
 /// What every command that looks at a drawing takes.
 #[derive(Args, Clone, Debug, Default)]
-#[command(next_help_heading = "Settings")]
 pub(crate) struct Common {
-    /// Wire radius + spark gap in mm: how far the wire's centre runs from the contour
-    #[arg(long, value_name = "MM", value_parser = positive, allow_hyphen_values = true)]
-    pub(crate) correction: Option<f64>,
-    /// Correction of each pass in mm, from rough to finish, in place of --correction
-    #[arg(long, value_name = "MM,MM", value_delimiter = ',', value_parser = positive)]
-    pub(crate) passes: Vec<f64>,
-    /// Side on which the wire runs, where neither entity nor layer says
-    #[arg(long, value_parser = words::<SideSetting>())]
-    pub(crate) side: Option<SideSetting>,
+    #[command(flatten)]
+    pub(super) keys: Keys<0>,
     /// Settings file, laid over the `wedm.toml` found upwards from the input
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Settings")]
     pub(crate) config: Option<PathBuf>,
 }
 
 /// How a program is written.
-#[derive(Args, Clone, Debug, Default)]
-#[command(next_help_heading = "Program")]
-pub(crate) struct Program {
-    /// Direction in which closed contours are cut
-    #[arg(long, value_parser = words::<Direction>())]
-    pub(crate) direction: Option<Direction>,
-    /// How the wire goes round convex corners
-    #[arg(long, value_parser = words::<Corner>())]
-    pub(crate) corner: Option<Corner>,
-    /// Thread hole, in drawing units [default: the "O" mark, else found from the entry]
-    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
-    pub(crate) thread: Option<[f64; 2]>,
-    /// Point of the contour where the cut begins, in drawing units
-    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
-    pub(crate) entry: Option<[f64; 2]>,
-    /// Length of the lead-in in mm, where no thread hole is given
-    #[arg(long, value_name = "MM", value_parser = positive, allow_hyphen_values = true)]
-    pub(crate) lead_in: Option<f64>,
-    /// Length of a punch's contour in mm that stands until all passes are cut, then is cut off
-    #[arg(long, value_name = "MM", value_parser = positive)]
-    pub(crate) tab: Option<f64>,
-    /// Order of the contours; what lies within one always comes before it [default: inside-first]
-    #[arg(long, value_parser = words::<Order>())]
-    pub(crate) order: Option<Order>,
-    /// Form of the blocks
-    #[arg(long, value_parser = words::<Layout>())]
-    pub(crate) layout: Option<Layout>,
-    /// Where the correction is applied
-    #[arg(long, value_parser = words::<Compensation>())]
-    pub(crate) compensation: Option<Compensation>,
-    /// Digits of the controller's numbers in 3B: longer blocks are split [default: 6]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(4..=9))]
-    pub(crate) digits: Option<u8>,
-    /// How an ISO program is written: fast-wire, robofil, generic, or one of the settings' [profiles]
-    #[arg(long, value_name = "NAME")]
-    pub(crate) profile: Option<String>,
-    /// Word that ends the program [default: DD]
-    #[arg(long, value_name = "WORD")]
-    pub(crate) end: Option<String>,
-    /// Word that pauses it, to thread the wire [default: D]
-    #[arg(long, value_name = "WORD")]
-    pub(crate) pause: Option<String>,
-}
+pub(crate) type Program = Keys<1>;
+
+/// Words of a program.
+pub(crate) type Words = Keys<2>;
+
+/// What the options of a group set.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Keys<const GROUP: usize>(pub(crate) Settings);
 
 impl Common {
     /// The last level of settings: what the command line says.
     pub(crate) fn settings(&self) -> Settings {
-        Settings {
-            correction: self.correction,
-            side: self.side,
-            passes: (!self.passes.is_empty()).then(|| Passes {
-                corrections: Some(self.passes.clone()),
-                ..Passes::default()
-            }),
-            ..Settings::default()
-        }
+        self.keys.0.clone()
     }
-}
 
-impl Common {
     /// The same with what the command line says of the program.
     pub(crate) fn settings_with(&self, program: &Program) -> Settings {
-        Settings {
-            program: Some(program.settings()),
-            ..self.settings()
-        }
+        self.keys.0.overlaid(&program.0)
     }
 }
 
-impl Program {
-    fn settings(&self) -> ProgramSettings {
-        ProgramSettings {
-            layout: self.layout,
-            direction: self.direction,
-            corner: self.corner,
-            thread: self.thread.map(PointSetting::One),
-            entry: self.entry.map(PointSetting::One),
-            lead_in: self.lead_in,
-            tab: self.tab,
-            order: self.order,
-            compensation: self.compensation,
-            digits: self.digits,
-            profile: self.profile.clone(),
-            end: self.end.clone(),
-            pause: self.pause.clone(),
-            ..ProgramSettings::default()
-        }
+/// The options of a group and the rows that they stand for.
+fn options(group: usize) -> impl Iterator<Item = (&'static str, &'static Row)> {
+    let (_, table, names) = GROUPS[group];
+    names
+        .split(' ')
+        .map(move |name| (name, row(&format!("{table}{name}"))))
+}
+
+impl<const GROUP: usize> Args for Keys<GROUP> {
+    fn augment_args(command: Command) -> Command {
+        command.args(options(GROUP).map(|(name, row)| {
+            let arg = Arg::new(name)
+                .long(name)
+                .help(help(row))
+                .value_parser(parser(row));
+            let arg = arg.help_heading(GROUPS[GROUP].0).allow_hyphen_values(true);
+            let value = match row.read {
+                "name" => return arg,
+                "number" => "MM",
+                "numbers" => "MM,MM",
+                "point_setting" => "X,Y",
+                "whole" => "N",
+                "word" => "WORD",
+                _ => "NAME",
+            };
+            arg.value_name(value)
+        }))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
     }
 }
 
-/// Words that a setting may have, read as the setting's own type reads them.
-pub(crate) fn words<T>() -> impl TypedValueParser<Value = T>
-where
-    T: DeserializeOwned + Clone + Send + Sync + 'static,
-{
-    // They are as long-lived as the parser of the command line, which is made once.
-    let words = words_of::<T>().into_iter().map(|word| &*word.leak());
-    PossibleValuesParser::new(words).try_map(|word| serde_json::from_value::<T>(word.into()))
+impl<const GROUP: usize> FromArgMatches for Keys<GROUP> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let mut keys = Keys::default();
+        keys.update_from_arg_matches(matches)?;
+        Ok(keys)
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        for (name, _) in options(GROUP) {
+            if let Some(stated) = matches.get_one::<Settings>(name) {
+                self.0 = self.0.overlaid(stated);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A key by its option.
+pub(crate) fn row(key: &str) -> &'static Row {
+    static ROWS: LazyLock<Vec<Row>> = LazyLock::new(rows);
+    let key = if key == "passes" { PASSES } else { key };
+    let row = ROWS.iter().find(|row| row.key == key);
+    row.expect("options are keys of the settings")
+}
+
+fn help(row: &Row) -> String {
+    let meaning = row.first_sentence();
+    match &row.default {
+        Some(default) => format!("{meaning} [default: {}]", default.trim_matches('"')),
+        None => meaning,
+    }
+}
+
+/// Reads the value of a key as the settings read it.
+pub(crate) fn parser(row: &'static Row) -> ValueParser {
+    if row.words.is_empty() {
+        return ValueParser::new(|text: &str| Settings::of_option(row, text));
+    }
+    let words = PossibleValuesParser::new(row.words.iter().map(String::as_str));
+    words.try_map(|word| Settings::of_option(row, &word)).into()
 }
 
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
@@ -135,36 +135,31 @@ pub(crate) fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-/// `X,Y`, both finite; either may be negative.
-pub(crate) fn point(text: &str) -> Result<[f64; 2], String> {
-    let number = |text: &str| {
-        text.trim()
-            .parse::<f64>()
-            .ok()
-            .filter(|number| number.is_finite())
-    };
-    let both = text
-        .split_once(',')
-        .and_then(|(x, y)| Some([number(x)?, number(y)?]));
-    both.ok_or_else(|| say!(expected_two_numbers_with_a_comma_between_such).into())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::settings::PointSetting;
 
     #[test]
     fn points_are_two_finite_numbers() {
+        let point = |text: &str| {
+            let settings = Settings::of_option(row("program.thread"), text).ok()?;
+            settings.program?.thread
+        };
         let expected = [
-            ("1,2", Some([1.0, 2.0])),
-            ("-115,-10.5", Some([-115.0, -10.5])),
-            ("1, 2", Some([1.0, 2.0])),
+            ("1,2", [1.0, 2.0]),
+            ("-115,-10.5", [-115.0, -10.5]),
+            ("1, 2", [1.0, 2.0]),
         ];
         for (text, point_of_text) in expected {
-            assert_eq!(point(text).ok(), point_of_text, "{text}");
+            assert_eq!(
+                point(text),
+                Some(PointSetting::One(point_of_text)),
+                "{text}"
+            );
         }
         for text in ["", "1", "1,2,3", "nan,1", "1,inf", "a,b", "1;2"] {
-            assert!(point(text).is_err(), "{text}");
+            assert_eq!(point(text), None, "{text}");
         }
     }
 
@@ -173,6 +168,16 @@ mod tests {
         assert_eq!(positive("0.1"), Ok(0.1));
         for text in ["0", "-0.1", "nan", "inf", "thick"] {
             assert!(positive(text).is_err(), "{text}");
+            assert!(
+                Settings::of_option(row("correction"), text).is_err(),
+                "{text}"
+            );
         }
+    }
+
+    #[test]
+    fn every_option_is_a_key_of_the_settings() {
+        let all = (0..GROUPS.len()).flat_map(options);
+        assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 12);
     }
 }

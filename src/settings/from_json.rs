@@ -23,11 +23,9 @@ fn node(json: &serde_json::Value) -> Node {
         Json::String(text) => Value::Text(text.clone()),
         Json::Array(items) => Value::List(items.iter().map(node).collect()),
         Json::Object(entries) => {
-            let entries = entries.iter().map(|(key, value)| Entry {
-                key: key.clone(),
-                key_range: None,
-                node: node(value),
-            });
+            let entries = entries
+                .iter()
+                .map(|(key, value)| Entry::new(key, node(value)));
             Value::Table(entries.collect())
         }
     };

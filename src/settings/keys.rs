@@ -2,7 +2,7 @@
 //!
 //! Any level may set any key. A key that is added here is read, overlaid and documented; what is to be done with it is its user's matter.
 
-use super::reader::{Reader, Table};
+use super::reader::{Reader, Table, words_of};
 use super::row::{Range, Row};
 use super::table::{Overlay, as_toml, kebab_case};
 use super::value::Node;
@@ -101,11 +101,11 @@ tables! {
         direction: Direction = Direction::Ccw => name;
         /// How the wire goes round a convex corner of the part.
         corner: Corner = Corner::Arc => name;
-        /// Thread hole `[x, y]` in drawing units, or a table of them by handle. Else the TEXT or MTEXT "O", or the POINT, nearest to the
+        /// Thread hole `[x, y]` in drawing units. A table has them by handle. Else the TEXT or MTEXT "O", or the POINT, nearest to the
         /// contour, else the centre of a round opening where neither entry nor `lead-in` is set, else found from the entry. An "O" on the
         /// part's side, or within the correction of the contour, is not the hole but the entry beside it.
         thread: PointSetting => point_setting;
-        /// Point `[x, y]` of the contour where the cut begins, in drawing units, or a table of them by handle. Else the point beside an "O"
+        /// Point `[x, y]` of the contour where the cut begins, in drawing units. A table has them by handle. Else the point beside an "O"
         /// that means it, under `as-picked` the begin of the entity picked first, the point nearest to the thread hole, else the middle of
         /// the longest line, else the point of the longest arc with the largest x.
         entry: PointSetting => point_setting;

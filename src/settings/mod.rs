@@ -5,6 +5,7 @@
 mod budget;
 mod effective;
 mod from_json;
+mod from_option;
 mod from_toml;
 #[macro_use]
 mod table;
@@ -25,7 +26,6 @@ pub use keys::{Settings, rows};
 pub(crate) use passes::{PassFault, pass_faults, passes_table};
 pub use profile::shipped_profiles;
 pub(crate) use profile::{CenterRule, Coordinates, LineEnd, NumberUnit, Zero};
-pub(crate) use reader::words_of;
 pub use row::Row;
 pub use table::camel_case;
 

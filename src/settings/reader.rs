@@ -20,7 +20,7 @@ pub(super) trait Table: Default {
 
 /// Reads the root table. Null is an empty level.
 pub(super) fn read(root: &Node) -> (Settings, Vec<SettingsError>) {
-    let mut reader = Reader { errors: Vec::new() };
+    let mut reader = Reader::default();
     let mut settings: Settings = reader.table("", root).unwrap_or_default();
     let errors = settings.pass_errors(&|fault| place_of(root, fault));
     reader.errors.extend(errors);
@@ -29,8 +29,9 @@ pub(super) fn read(root: &Node) -> (Settings, Vec<SettingsError>) {
 }
 
 /// What was wrong so far. A method reads one kind of value: its dotted key, the value, and the range where numbers have one.
+#[derive(Default)]
 pub(super) struct Reader {
-    errors: Vec<SettingsError>,
+    pub(super) errors: Vec<SettingsError>,
 }
 
 impl Reader {
@@ -402,7 +403,7 @@ fn entry_of<'a>(root: &'a Node, key: &str) -> Option<&'a Entry> {
 }
 
 /// The words that a type out of a closed set has.
-pub(crate) fn words_of<T: DeserializeOwned>() -> Vec<String> {
+pub(super) fn words_of<T: DeserializeOwned>() -> Vec<String> {
     let names = named::<T>("").err().unwrap_or_default();
     let names = names.trim_start_matches("one of ");
     names.split(", ").map(str::to_owned).collect()

@@ -49,6 +49,10 @@ pub struct Row {
     /// As TOML writes it; `None` where the key is not set by default.
     pub default: Option<String>,
     pub range: Option<Range>,
+    /// The kind of its value, by the reader's method.
+    pub(crate) read: &'static str,
+    /// The words that it may be, where they are a closed set.
+    pub(crate) words: Vec<String>,
     /// What the key means. The first sentence stands for itself.
     pub meaning: String,
 }
@@ -63,5 +67,12 @@ impl Row {
             rest = link.split_once(')').map_or("", |(_, behind)| behind);
         }
         plain + rest
+    }
+
+    /// What the key means in short, without a final dot.
+    pub fn first_sentence(&self) -> String {
+        let meaning = self.plain_meaning().replace('`', "");
+        let first = meaning.split_inclusive(". ").next().unwrap_or_default();
+        first.trim_end_matches(['.', ' ']).to_owned()
     }
 }

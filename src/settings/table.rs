@@ -118,6 +118,8 @@ macro_rules! table {
                     key: format!("{within}{}", kebab_case(stringify!($key))),
                     default: where_given!($(as_toml(&<$type>::from($default)))?),
                     range: where_given!($(Some($range))?),
+                    read: stringify!($read),
+                    words: words!($read $type),
                     meaning: [$($doc.trim()),*].join(" "),
                 }),*]
             }
@@ -170,6 +172,16 @@ macro_rules! filled_value {
     };
     ($value:expr, $default:expr) => {
         $value.unwrap_or_else(|| $default.into())
+    };
+}
+
+/// The words that a value may be, where its type is a closed set of them.
+macro_rules! words {
+    (name $type:ty) => {
+        words_of::<$type>()
+    };
+    ($read:ident $type:ty) => {
+        Vec::new()
     };
 }
 

@@ -24,6 +24,17 @@ pub(super) struct Entry {
     pub(crate) node: Node,
 }
 
+impl Entry {
+    /// Without a place in a text.
+    pub(crate) fn new(key: &str, node: Node) -> Entry {
+        Entry {
+            key: key.to_owned(),
+            key_range: None,
+            node,
+        }
+    }
+}
+
 impl Value {
     /// The value as a message shows it.
     pub(crate) fn shown(&self) -> String {

@@ -40,10 +40,8 @@ pub(crate) struct Arguments {
 const CORRECTIONS: std::ops::RangeInclusive<f64> = 0.02..=0.5;
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
-    let correction = arguments
-        .common
-        .correction
-        .unwrap_or(crate::settings::Settings::default().correction());
+    let stated = arguments.common.settings();
+    let correction = stated.correction();
     if !CORRECTIONS.contains(&correction) {
         let (least, most) = (CORRECTIONS.start(), CORRECTIONS.end());
         return Err(Failure(say!(
@@ -53,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             correction
         )));
     }
-    if arguments.common.side.is_some() || arguments.common.config.is_some() {
+    if stated.side.is_some() || arguments.common.config.is_some() {
         return Err(Failure(
             say!(the_demonstration_brings_its_own_settings_expected_correction_alone).into(),
         ));
