@@ -223,6 +223,18 @@ fn sync(folder: &Path) {
 
 /// The system's reason without its number.
 pub(crate) fn plain(error: &io::Error) -> String {
+    let of_kind = match error.kind() {
+        ErrorKind::NotFound => Some(say!(no_such_file_or_directory)),
+        ErrorKind::PermissionDenied => Some(say!(permission_denied)),
+        ErrorKind::NotADirectory => Some(say!(not_a_directory)),
+        ErrorKind::IsADirectory => Some(say!(is_a_directory)),
+        ErrorKind::StorageFull => Some(say!(no_space_left_on_device)),
+        ErrorKind::ReadOnlyFilesystem => Some(say!(read_only_file_system)),
+        _ => None,
+    };
+    if let Some(sentence) = of_kind {
+        return sentence.to_owned();
+    }
     let text = error.to_string();
     let short = text.split(" (os error").next().unwrap_or(&text);
     let mut characters = short.chars();

@@ -1,9 +1,11 @@
 //! Every rule of every document, once: its name, its severity where nothing is set, the kinds of documents that it speaks of, and what
-//! it says in a few words. The page of a rule is `docs/rules/<name>.md`; its check stands where it can see what it needs.
+//! it says in a few words. The page of a rule is `docs/rules/<name>.md`, in Chinese below `docs/zh`; its check stands where it can see what it needs.
 
 mod page;
 
 pub(crate) use page::Line;
+
+use crate::message::Language;
 
 /// How bad a finding is; the order is from worst to mildest.
 #[derive(
@@ -57,9 +59,10 @@ macro_rules! rules {
             pub const ALL: [Rule; TABLE.len()] = [$(Rule::$rule,)+];
 
             /// Its page of documentation as it is written.
-            fn written(self) -> &'static str {
-                match self {
-                    $(Rule::$rule => include_str!(concat!("../docs/rules/", $name, ".md")),)+
+            fn written(self, language: Language) -> &'static str {
+                match (language, self) {
+                    $((Language::English, Rule::$rule) => include_str!(concat!("../docs/rules/", $name, ".md")),)+
+                    $((Language::Chinese, Rule::$rule) => include_str!(concat!("../docs/zh/rules/", $name, ".md")),)+
                 }
             }
 

@@ -5,9 +5,11 @@
 mod gap;
 mod line_starts;
 mod patch;
+mod writing;
 
 pub(crate) use line_starts::LineStarts;
 pub(crate) use patch::Patch;
+pub(crate) use writing::Writing;
 
 use gap::Bytes;
 use std::borrow::Cow;

@@ -43,6 +43,7 @@ impl Desk {
         command
             .args(arguments.split_whitespace())
             .current_dir(self.0.path())
+            .env("LC_ALL", "C")
             .stdin(Stdio::null());
         command
     }
@@ -666,6 +667,75 @@ fn programs_are_formatted_where_they_are_told_to_be() {
         "format --check iso",
         0,
         &["!0 programs would be formatted, 1 unchanged"],
+    );
+}
+
+/// A program of a square, as an editor of Chinese Windows writes it: its third block stops too early, and its spaces are no layout's.
+fn program_in_gb_18030(comment: &[u8]) -> Vec<u8> {
+    let line = |block: &str, comment: &[u8]| [block.as_bytes(), b" ; ", comment, b"\r\n"].concat();
+    [
+        line("B9000B0B9000GXL1", comment),
+        line("B0 B9000 B9000 GYL2", b"\x81\x40\x81\x7c"),
+        line("B9000B0B900GXL3", b"\x95\x32\x82\x36"),
+        line("B0B9000B9000GYL4", comment),
+        b"DD\r\n".to_vec(),
+    ]
+    .concat()
+}
+
+#[test]
+fn a_program_in_gb_18030_is_written_as_it_was() {
+    let punch: &[u8] = b"\xcd\xb9\xc4\xa3 \xb5\xda 1 \xb6\xce";
+    let desk = Desk::new();
+    let program = program_in_gb_18030(punch);
+    desk.write("gb.3b", &program);
+    let comments = |bytes: &[u8]| -> Vec<Vec<u8>> {
+        let lines = bytes.split(|byte| *byte == b'\n');
+        let behind = lines.filter_map(|line| {
+            let at = line.iter().position(|byte| *byte == b';')?;
+            Some(line[at..].to_vec())
+        });
+        behind.collect()
+    };
+    let note = "!note: what is not UTF-8 is read as GB 18030, and written so";
+    check(
+        &desk,
+        "check gb.3b",
+        1,
+        &["B9000B0B900GXL3 ; \u{20000}", note],
+    );
+    let checked = desk.run("check gb.3b . --output concise");
+    assert_eq!(checked.stderr.matches("GB 18030").count(), 1, "{checked:?}");
+
+    check(&desk, "fix gb.3b --in-place", 0, &[note]);
+    let repaired = desk.read("gb.3b");
+    let expected = String::from_utf8_lossy(&program).replace("B900G", "B9000G");
+    assert_eq!(String::from_utf8_lossy(&repaired), expected);
+    assert_eq!(comments(&repaired), comments(&program));
+
+    check(&desk, "format gb.3b --in-place", 0, &[]);
+    let formatted = desk.read("gb.3b");
+    assert_ne!(formatted, repaired);
+    assert_eq!(comments(&formatted), comments(&program));
+    desk.write("gb.3b", &program);
+    let diff = desk.command("fix gb.3b --diff").output().unwrap();
+    assert!(diff.stdout.windows(punch.len()).any(|part| part == punch));
+
+    // One byte that is none of GB 18030: nothing is known of the file, and nothing of it is lost.
+    desk.write("odd.3b", program_in_gb_18030(b"\xcd\xb9\xff"));
+    let odd = desk.read("odd.3b");
+    let ended = desk.run("fix odd.3b --in-place");
+    assert!(!ended.stderr.contains("GB 18030"), "{ended:?}");
+    assert_eq!(comments(&desk.read("odd.3b")), comments(&odd));
+
+    // The same text in UTF-8 comes out the same, and a byte-order mark stays.
+    let text = "\u{feff}B9000B0B9000GXL1 ; 凸模\r\nDD\r\n";
+    desk.write("plain.3b", text);
+    check(&desk, "format plain.3b --in-place", 0, &[]);
+    let plain = String::from_utf8(desk.read("plain.3b")).unwrap();
+    assert!(
+        plain.starts_with('\u{feff}') && plain.contains("; 凸模"),
+        "{plain:?}"
     );
 }
 

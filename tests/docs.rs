@@ -91,6 +91,48 @@ fn every_rule_has_its_page() {
     }
 }
 
+/// What a page is made of: depths of headings; blocks of code, of which TOML without its comments and otherwise how many lines; rows of
+/// tables; and where links lead.
+fn shape(page: &str) -> (Vec<usize>, Vec<Vec<String>>, usize, Vec<String>) {
+    let (mut headings, mut blocks, mut is_code) = (Vec::new(), Vec::new(), false);
+    for line in page.lines() {
+        if line.starts_with("```") {
+            is_code = !is_code;
+            if is_code {
+                blocks.push(vec![line.to_owned()]);
+            }
+        } else if let Some(block) = blocks.last_mut().filter(|_| is_code) {
+            let is_toml = block[0] == "```toml";
+            let code = line.split('#').next().unwrap_or_default().trim_end();
+            block.push(if is_toml { code } else { "" }.to_owned());
+        } else if line.starts_with('#') {
+            headings.push(line.chars().take_while(|mark| *mark == '#').count());
+        }
+    }
+    let rows = page.lines().filter(|line| line.starts_with('|')).count();
+    let file = |target: String| target.split('#').next().unwrap_or_default().to_owned();
+    let mut targets: Vec<String> = links(page).into_iter().map(file).collect();
+    targets.sort_unstable();
+    (headings, blocks, rows, targets)
+}
+
+#[test]
+fn every_page_of_a_rule_has_its_twin_in_chinese() {
+    for rule in Rule::ALL {
+        let name = rule.name();
+        let page = read(&root().join(format!("docs/rules/{name}.md")));
+        let twin = read(&root().join(format!("docs/zh/rules/{name}.md")));
+        assert!(twin.starts_with(&format!("# {name}\n")), "{name}");
+        let twin = twin.replace("](../../", "](../");
+        assert_eq!(shape(&page), shape(&twin), "{name}");
+        let default = format!("{:?}", rule.default_severity()).to_lowercase();
+        assert!(
+            twin.contains("默认级别：") && twin.contains(&format!("（{default}）")),
+            "{name}: {default} is not said"
+        );
+    }
+}
+
 /// The list of rules: what each says, how bad it is where nothing is set, and in which documents it is found. Update it with
 /// `UPDATE_EXPECT=1 cargo test --test docs`.
 #[test]

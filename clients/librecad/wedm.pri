@@ -9,6 +9,7 @@ HEADERS += \
     $$PWD/src/core/difference.h \
     $$PWD/src/core/drawing.h \
     $$PWD/src/core/frame.h \
+    $$PWD/src/core/language.h \
     $$PWD/src/core/messages.h \
     $$PWD/src/core/program_search.h \
     $$PWD/src/core/restarts.h \
@@ -19,7 +20,17 @@ SOURCES += \
     $$PWD/src/core/difference.cpp \
     $$PWD/src/core/drawing.cpp \
     $$PWD/src/core/frame.cpp \
+    $$PWD/src/core/language.cpp \
     $$PWD/src/core/messages.cpp \
     $$PWD/src/core/program_search.cpp \
     $$PWD/src/core/server.cpp \
     $$PWD/src/core/session.cpp
+
+# What lrelease makes of translations/wedm_zh.ts is inside the plugin; without Qt's tools it speaks English alone.
+LRELEASE = $$[QT_INSTALL_BINS]/lrelease
+!exists($$LRELEASE): LRELEASE = $$[QT_HOST_BINS]/lrelease
+exists($$LRELEASE) {
+    CONFIG += lrelease embed_translations
+    TRANSLATIONS += $$PWD/translations/wedm_zh.ts
+    QM_FILES_RESOURCE_PREFIX = wedm/translations
+} else: message(no lrelease: the plugin speaks English alone)

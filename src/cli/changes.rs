@@ -2,18 +2,24 @@
 
 use super::{Failure, output};
 use crate::message::readable;
+use crate::text::Writing;
 use similar::udiff::UnifiedHunkHeader;
 use similar::{Algorithm, ChangeTag, capture_diff_slices, group_diff_ops};
 use std::path::Path;
 
 /// A unified diff with three lines of context: for people with colours and readable, else in the file's own bytes.
-pub(crate) fn print_diff(path: &Path, before: &[u8], after: &[u8]) -> Result<(), Failure> {
+pub(crate) fn print_diff(
+    path: &Path,
+    before: &[u8],
+    after: &[u8],
+    writing: Writing,
+) -> Result<(), Failure> {
     let for_people = output::is_for_people();
     let diff = diff(path, before, after, for_people);
     if for_people {
         output::print(String::from_utf8_lossy(&diff))
     } else {
-        output::print_bytes(&diff)
+        output::print_bytes(&writing.written(&diff))
     }
 }
 

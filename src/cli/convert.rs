@@ -44,7 +44,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         output::refuse_input(out, path)?;
     }
     let last = arguments.common.settings_with(&arguments.program);
-    let document = files::open_to_use(path, &arguments.common, &last)?.document;
+    let files::Opened {
+        document, writing, ..
+    } = files::open_to_use(path, &arguments.common, &last)?;
     if document.program().is_none() {
         return Err(Failure::of(path, say!(a_drawing_is_generated_from)));
     }
@@ -55,7 +57,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             return report::refuse(path, &document, &refusal, advice);
         }
     };
-    output::write(arguments.output.as_deref(), &made.bytes)?;
+    let bytes = match target {
+        Target::Drawing => made.bytes.as_slice().into(),
+        _ => writing.written(&made.bytes),
+    };
+    output::write(arguments.output.as_deref(), &bytes)?;
     summarise(arguments, target, &made);
     Ok(Verdict::Clean)
 }
@@ -91,7 +97,7 @@ fn summarise(arguments: &Arguments, target: Target, made: &Converted) {
     let written = output::target_name(arguments.output.as_deref());
     output::say(&format!(
         "{} {written}: {what}",
-        styled(output::GOOD, "written")
+        styled(output::GOOD, say!(written))
     ));
     if target == Target::Drawing
         && (cuts.four_b.is_some() || cuts.cuts.iter().any(|cut| cut.side.is_some()))

@@ -11,10 +11,11 @@ use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::program::{self, Language};
 use crate::protocol::FindingData;
 use crate::settings::{Effective, Settings, SettingsError};
-use crate::text::SourceText;
+use crate::text::{SourceText, Writing};
 use crate::{dxf, settings};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Name endings that a folder is searched for.
 const ENDINGS: [&str; 6] = ["dxf", "dxb", "3b", "4b", "iso", "nc"];
@@ -25,6 +26,8 @@ pub(crate) struct Opened {
     pub(crate) document: Document,
     /// The file as it was: only over this one may be written.
     pub(crate) seen: Seen,
+    /// How a program was written, and is again.
+    pub(crate) writing: Writing,
     /// Values in settings files that do not fit; the settings without them hold.
     pub(crate) settings_rows: Vec<Row>,
 }
@@ -39,10 +42,12 @@ pub(crate) fn open(path: &Path, common: &Common, last: &Settings) -> Result<Open
     let kind = kind_of(path)?;
     let (settings, settings_rows) = settings_for(path, common, last)?;
     let (bytes, seen) = read(path).map_err(|reason| Failure::of(path, reason))?;
+    let (document, writing) = document(&kind, bytes, Arc::new(settings));
     Ok(Opened {
         path: path.to_path_buf(),
-        document: document(&kind, bytes, Arc::new(settings)),
+        document,
         seen,
+        writing,
         settings_rows,
     })
 }
@@ -57,7 +62,7 @@ pub(crate) fn open_stdin(
     let (settings, rows) = settings_for(name, common, last)?;
     let bytes = disk::read_stream_at_most(std::io::stdin().lock(), LARGEST_STREAM, Vec::new())
         .map_err(|reason| Failure::of(name, reason))?;
-    Ok((document(&kind, bytes, Arc::new(settings)), rows))
+    Ok((document(&kind, bytes, Arc::new(settings)).0, rows))
 }
 
 /// A text that cannot be held whole is refused: what is written from it would lack its end.
@@ -120,14 +125,28 @@ fn kind_of(path: &Path) -> Result<Kind, Failure> {
     Err(Failure::of(path, refusal))
 }
 
-fn document(kind: &Kind, bytes: Vec<u8>, settings: Arc<Effective>) -> Document {
-    let source = match kind {
-        Kind::Dxf => Source::Dxf(dxf::Document::read_file(bytes)),
+/// A drawing says itself in which code page its texts are.
+fn document(kind: &Kind, bytes: Vec<u8>, settings: Arc<Effective>) -> (Document, Writing) {
+    let (source, writing) = match kind {
+        Kind::Dxf => (Source::Dxf(dxf::Document::read_file(bytes)), Writing::Plain),
         Kind::Program(language) => {
-            Source::Program(program::Document::read(*language, bytes, &settings))
+            let (text, writing) = text_of(bytes);
+            let program = program::Document::read(*language, text, &settings);
+            (Source::Program(program), writing)
         }
     };
-    Document::new(source, settings)
+    (Document::new(source, settings), writing)
+}
+
+/// The text of a file, and how it was written; what is not usual is said once, of however many files.
+fn text_of(bytes: Vec<u8>) -> (Vec<u8>, Writing) {
+    static SAID: AtomicBool = AtomicBool::new(false);
+    let (text, writing) = Writing::read(bytes);
+    if writing == Writing::Gb18030 && !SAID.swap(true, Ordering::Relaxed) {
+        let note = output::styled(output::NOTE, say!(note));
+        output::say(&say!(read_as_gb_18030, note));
+    }
+    (text, writing)
 }
 
 /// The settings for an input, and the faults found in settings files.
@@ -141,8 +160,8 @@ fn settings_for(
     let project = project_file(path);
     for file in project.iter().chain(&common.config) {
         let bytes = settings::read_file(file).map_err(|reason| Failure::of(file, reason))?;
-        let text =
-            String::from_utf8(bytes).map_err(|_| Failure::of(file, say!(it_is_not_utf_8_text)))?;
+        let text = String::from_utf8(text_of(bytes).0)
+            .map_err(|_| Failure::of(file, say!(it_is_not_utf_8_text)))?;
         let (level, errors) = settings::from_toml(&text);
         settings = settings.overlaid(&level);
         let source = SourceText::new(text.clone().into_bytes());

@@ -10,6 +10,7 @@ use crate::document::{Document, Source};
 use crate::finding::{Edit, Finding, Rule, Severity};
 use crate::job::{self, Repairs};
 use crate::message::{readable, said};
+use crate::text::Writing;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -77,7 +78,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let common = &arguments.common;
     let opened = files::open_to_use(path, common, &common.settings())?;
     let repair = repair(path, opened.document)?;
-    deliver(arguments, &repair, &opened.seen)?;
+    deliver(arguments, &repair, &opened.seen, opened.writing)?;
     summarise(path, &repair);
     let errors_left = repair
         .after
@@ -180,14 +181,25 @@ fn refused(path: &Path, document: &Document) -> Vec<(Row, String)> {
     repaired.take(LISTED).filter_map(reason).collect()
 }
 
-fn deliver(arguments: &Arguments, repair: &Repair, seen: &Seen) -> Result<(), Failure> {
+fn deliver(
+    arguments: &Arguments,
+    repair: &Repair,
+    seen: &Seen,
+    writing: Writing,
+) -> Result<(), Failure> {
     let target = &arguments.target;
     if target.diff {
-        return print_diff(&arguments.path, &repair.bytes_before, repair.bytes());
+        return print_diff(
+            &arguments.path,
+            &repair.bytes_before,
+            repair.bytes(),
+            writing,
+        );
     }
+    let bytes = writing.written(repair.bytes());
     match &target.output {
-        Some(path) => output::write(Some(path), repair.bytes()),
-        None if repair.is_changed() => output::write_over(&arguments.path, seen, repair.bytes()),
+        Some(path) => output::write(Some(path), &bytes),
+        None if repair.is_changed() => output::write_over(&arguments.path, seen, &bytes),
         None => Ok(()),
     }
 }

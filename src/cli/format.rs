@@ -135,7 +135,7 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
     let is_changed = after != before;
     let target = &arguments.target;
     if target.diff {
-        print_diff(path, before, &after)?;
+        print_diff(path, before, &after, opened.writing)?;
     } else if target.check {
         if is_changed {
             output::print(format!(
@@ -145,9 +145,9 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
             ))?;
         }
     } else if !target.in_place {
-        output::write(target.output.as_deref(), &after)?;
+        output::write(target.output.as_deref(), &opened.writing.written(&after))?;
     } else if is_changed {
-        output::write_over(path, &opened.seen, &after)?;
+        output::write_over(path, &opened.seen, &opened.writing.written(&after))?;
     }
     let findings = opened.document.all_findings();
     // What was meant may be plain and the block read: its text is damaged all the same.

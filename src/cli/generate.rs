@@ -97,7 +97,7 @@ fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
         .map(|drift| (drift * 100.0).round() / 100.0 + 0.0);
     output::say(&say!(
         the_program_is_written,
-        styled(output::GOOD, "written"),
+        styled(output::GOOD, say!(written)),
         target,
         say!(blocks, program.blocks),
         say!(contours, contours),

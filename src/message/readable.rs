@@ -32,7 +32,7 @@ pub(crate) fn readable(text: &str) -> Cow<'_, str> {
 }
 
 /// How many columns of a terminal a text takes: a Chinese character takes two.
-pub fn columns(text: &str) -> usize {
+pub(crate) fn columns(text: &str) -> usize {
     unicode_width::UnicodeWidthStr::width(text)
 }
 

@@ -1,6 +1,7 @@
 //! Colours of light and dark viewers, the legend and the scale bar.
 
 use super::sheet::{MARGIN, SHEET_WIDTH, Sheet, escaped, number};
+use crate::message::columns;
 
 const STYLE: &str = "\
 text{font-family:system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif;font-size:12px;fill:#24292f}
@@ -91,14 +92,18 @@ pub(super) const THREAD: &str =
 
 /// What the lines of a drawing mean, as far as they occur.
 pub(super) fn entries(shown: &Shown) -> Vec<Entry> {
-    let mut entries = vec![(r#"<path class="contour" d="M0 0h24"/>"#, "contour")];
+    let mut entries = vec![(r#"<path class="contour" d="M0 0h24"/>"#, say!(a_contour))];
     if shown.paths {
-        entries.extend([(WIRE, "wire"), (LEAD, "lead"), (THREAD, say!(thread_hole))]);
+        entries.extend([
+            (WIRE, say!(the_wire)),
+            (LEAD, say!(the_lead)),
+            (THREAD, say!(thread_hole)),
+        ]);
     }
     if shown.faults {
         let tight = r#"<path class="fault" d="M2 4A14 14 0 0 1 22 4"/>"#;
         let correction = r#"<circle class="correction" cx="12" cy="0" r="8"/>"#;
-        entries.extend([(tight, say!(too_tight)), (correction, "correction")]);
+        entries.extend([(tight, say!(too_tight)), (correction, say!(the_correction))]);
     }
     if shown.others {
         let dot = r#"<circle class="dot" cx="16" cy="0" r="4.5"/>"#;
@@ -114,7 +119,7 @@ pub(super) fn legend(sheet: &mut Sheet, top: f64, entries: &[Entry]) {
         sheet.line(format_args!(
             r#"<g transform="translate({left} {y})">{sample}<text class="note" x="32" y="4">{text}</text></g>"#
         ));
-        x += 32.0 + text.chars().count() as f64 * 6.6 + 22.0;
+        x += 32.0 + columns(text) as f64 * 6.6 + 22.0;
     }
 }
 

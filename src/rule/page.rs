@@ -1,13 +1,19 @@
 //! The page of a rule as the program holds it: Markdown that leads nowhere but to other rules.
 
 use super::Rule;
+use crate::message::{Language, spoken};
 
 impl Rule {
-    /// The page of documentation, without pictures; of its links those to other rules are left, as `NAME.md`.
+    /// The page of documentation in the language that is spoken, without pictures; of its links those to other rules are left, as
+    /// `NAME.md`.
     pub(crate) fn page(self) -> String {
+        self.page_in(spoken())
+    }
+
+    fn page_in(self, language: Language) -> String {
         let is_picture = |line: &&str| line.starts_with("![");
         let lines: Vec<&str> = self
-            .written()
+            .written(language)
             .lines()
             .filter(|line| !is_picture(line))
             .collect();
@@ -84,8 +90,8 @@ mod tests {
 
     #[test]
     fn no_page_leads_out_of_the_program() {
-        for rule in Rule::ALL {
-            let page = rule.page();
+        let pages = |rule: Rule| Language::ALL.map(|language| (rule, rule.page_in(language)));
+        for (rule, page) in Rule::ALL.into_iter().flat_map(pages) {
             assert!(page.starts_with(&format!("# {}\n", rule.name())), "{page}");
             for link in page.split("](").skip(1) {
                 let target = link.split(')').next().unwrap_or_default();

@@ -105,6 +105,7 @@ namespace Wedm.Core
                     ""workspace"": { ""configuration"": true },
                     ""experimental"": { ""wedm"": { ""applyDrawingEdit"": true, ""resendDrawing"": true } } },
                 ""rootUri"": null }");
+            greeting["locale"] = System.Globalization.CultureInfo.CurrentUICulture.Name;
             greeting["processId"] = Process.GetCurrentProcess().Id;
             greeting["clientInfo"] = new JObject { ["name"] = "wedm for AutoCAD" };
             _server.Connection.Request("initialize", greeting, Greeted, error =>

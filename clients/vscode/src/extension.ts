@@ -15,6 +15,7 @@ import { rulePages } from "./rulePages";
 import { sayWhatFails } from "./server/notices";
 import { Server } from "./server/server";
 import { Status } from "./status";
+import { speak } from "./words";
 
 /** Settings that count from the server's next start. */
 const STARTS_ANEW = ["wedm.server.path", "wedm.server.log"];
@@ -22,6 +23,7 @@ const STARTS_ANEW = ["wedm.server.path", "wedm.server.log"];
 let running: Server | undefined;
 
 export function activate(context: vscode.ExtensionContext): void {
+  speak(vscode.l10n.bundle ?? {});
   const log = vscode.window.createOutputChannel("Wire EDM", { log: true });
   const server = new Server(context, log);
   running = server;

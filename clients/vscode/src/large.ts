@@ -1,11 +1,11 @@
 // Files that VS Code hands to no extension, because they are too large: said, with the way by path.
 
 import * as vscode from "vscode";
+import { t } from "./words";
 
 /** VS Code's own limit, in bytes: above it a text is not synchronised with extensions. */
 const LIMIT = 50 * 1024 * 1024;
 const OURS = /\.(dxf|3b|4b|iso|nc)$/i;
-const CHECK = "Check It by Path";
 
 export function watchLargeFiles(): vscode.Disposable {
   const said = new Set<string>();
@@ -20,10 +20,13 @@ export function watchLargeFiles(): vscode.Disposable {
     }
     said.add(uri.toString());
     const name = vscode.workspace.asRelativePath(uri);
-    const message =
-      `Wire EDM: ${name} is ${(size / 1024 / 1024).toFixed(0)} MB large. VS Code hands files over 50 MB to no extension, ` +
-      "so it is not checked while you edit. It can be checked by its path.";
-    if ((await vscode.window.showWarningMessage(message, CHECK)) === CHECK) {
+    const message = t(
+      "Wire EDM: {0} is {1} MB large. VS Code hands files over 50 MB to no extension, so it is not checked while you edit. It can be checked by its path.",
+      name,
+      (size / 1024 / 1024).toFixed(0),
+    );
+    const check = t("Check It by Path");
+    if ((await vscode.window.showWarningMessage(message, check)) === check) {
       await vscode.commands.executeCommand("wedm.checkPath", uri);
     }
   };

@@ -4,6 +4,7 @@ import * as vscode from "vscode";
 import type { Front } from "./front";
 import type { SettingsInForce } from "./protocol";
 import type { Server, State } from "./server/server";
+import { t } from "./words";
 
 /** Answers to a burst of edits come in a burst. */
 const CALM = 150;
@@ -18,7 +19,7 @@ export class Status implements vscode.Disposable {
     private readonly front: Front,
   ) {
     this.#item = vscode.window.createStatusBarItem("wedm.correction", vscode.StatusBarAlignment.Right, 110);
-    this.#item.name = "Wire EDM: Correction";
+    this.#item.name = t("Wire EDM: Correction");
     this.#subscriptions = [
       this.#item,
       server.onDidChangeState(() => void this.#refresh()),
@@ -55,24 +56,24 @@ export class Status implements vscode.Disposable {
     } catch {
       // A server that has just died says so with its state.
       this.#item.text = "wedm";
-      this.#item.tooltip = "Wire EDM: the correction in force is not known";
+      this.#item.tooltip = t("Wire EDM: the correction in force is not known");
     }
   }
 
   #show(settings: SettingsInForce): void {
-    const passes = settings.corrections.length > 1 ? ` · ${settings.corrections.length} passes` : "";
+    const passes = settings.corrections.length > 1 ? t(" · {0} passes", settings.corrections.length) : "";
     this.#item.text = `$(record-small) ${settings.correction.toFixed(3)} mm${passes}`;
     this.#item.backgroundColor = undefined;
     this.#item.command = "wedm.changeCorrection";
-    const from = { default: "the default", client: "from the settings of VS Code", file: "from wedm.toml" }[settings.correctionFrom];
+    const from = { default: t("the default"), client: t("from the settings of VS Code"), file: t("from wedm.toml") }[settings.correctionFrom];
     const list = settings.corrections.map((correction) => correction.toFixed(3)).join(", ");
     const tooltip = new vscode.MarkdownString(
-      `**Correction ${settings.correction.toFixed(3)} mm**, ${from}\n\n` +
-        (passes === "" ? "" : `Passes: ${list} mm\n\n`) +
-        `Wire side: ${settings.side}\n\nInner arcs with a smaller radius cannot be cut. Click to change.`,
+      `${t("**Correction {0} mm**, {1}", settings.correction.toFixed(3), from)}\n\n` +
+        (passes === "" ? "" : `${t("Passes: {0} mm", list)}\n\n`) +
+        `${t("Wire side: {0}", settings.side)}\n\n${t("Inner arcs with a smaller radius cannot be cut. Click to change.")}`,
     );
     this.#item.tooltip = tooltip;
-    this.#item.accessibilityInformation = { label: `Wire EDM: correction ${settings.correction.toFixed(3)} millimetres` };
+    this.#item.accessibilityInformation = { label: t("Wire EDM: correction {0} millimetres", settings.correction.toFixed(3)) };
     this.#item.show();
   }
 

@@ -2,6 +2,7 @@
 
 import type { Fault } from "../src/picture/messages";
 import { element } from "./page";
+import { t } from "../src/words";
 
 export function showFaults(faults: readonly Fault[], chosen: (fault: Fault) => void): void {
   const strip = element("faults", HTMLElement);
@@ -28,7 +29,7 @@ function placeOf({ handle, segment, line }: Fault): string {
   if (handle !== undefined) {
     return segment === undefined ? handle : `${handle} · ${segment}`;
   }
-  return `line ${(line ?? 0) + 1}`;
+  return t("line {0}", (line ?? 0) + 1);
 }
 
 /** The radius where the sentence begins with one, else the rule. */

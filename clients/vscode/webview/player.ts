@@ -4,6 +4,7 @@ import type { SimulatedBlock } from "../src/protocol";
 import { element, host } from "./page";
 import type { Sheet } from "./sheet";
 import { type Spot, Track } from "./track";
+import { t } from "../src/words";
 
 /** How long the whole way takes at speed 1, in seconds: so that a short program can be followed, and a long one seen. */
 const SHORTEST = 6;
@@ -185,15 +186,15 @@ export class Player {
       return;
     }
     const toMm = this.#sheet?.unitsPerMm ?? 0;
-    const travelled = toMm > 0 ? `${(this.#distance / toMm).toFixed(1)} of ${(this.#track.length / toMm).toFixed(1)} mm` : "";
+    const travelled = toMm > 0 ? t("{0} of {1} mm", (this.#distance / toMm).toFixed(1), (this.#track.length / toMm).toFixed(1)) : "";
     const line = piece.dataset["line"];
     const block = line === undefined ? undefined : this.#blocks.get(Number(line));
-    const facts = [line === undefined ? "" : `line ${Number(line) + 1}`, travelled];
+    const facts = [line === undefined ? "" : t("line {0}", Number(line) + 1), travelled];
     if (block !== undefined) {
       const [x, y] = block.end;
-      facts.splice(1, 0, `to ${(x / 1000).toFixed(3)}, ${(y / 1000).toFixed(3)}`);
+      facts.splice(1, 0, t("to {0}, {1}", (x / 1000).toFixed(3), (y / 1000).toFixed(3)));
       if (block.deviation !== 0) {
-        facts.push(`${block.deviation.toFixed(2)} µm off`);
+        facts.push(t("{0} µm off", block.deviation.toFixed(2)));
       }
     }
     this.#where.textContent = facts.filter((fact) => fact !== "").join(" · ");
@@ -208,7 +209,7 @@ export class Player {
 
   #showButton(): void {
     this.#button.classList.toggle("playing", this.#playing);
-    this.#button.setAttribute("aria-label", this.#playing ? "Pause" : "Play");
-    this.#button.title = this.#playing ? "Pause (space)" : "Play (space)";
+    this.#button.setAttribute("aria-label", this.#playing ? t("Pause") : t("Play"));
+    this.#button.title = this.#playing ? t("Pause (space)") : t("Play (space)");
   }
 }

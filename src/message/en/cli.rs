@@ -192,4 +192,6 @@ declare! {
     length_of_blocks(blocks, length) => "{blocks}, {length:.3} mm";
     takes_minutes(minutes) => ", {minutes:.1} min";
     meant_elsewhere(x, y, deviation) => "meant {x:.4}, {y:.4}: {deviation:.2} µm beside";
+    read_as_gb_18030(note) => "{note} what is not UTF-8 is read as GB 18030, and written so";
+    written => "written";
 }

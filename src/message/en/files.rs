@@ -8,4 +8,10 @@ declare! {
     it_is_read_only => "it is read-only";
     it_is_not_the_file_any_more_that_was_read => "it is not the file any more that was read, nothing is changed";
     its_owner_user_group_cannot_be_kept(uid, gid, error) => "its owner (user {uid}, group {gid}) cannot be kept: {error}";
+    no_such_file_or_directory => "no such file or directory";
+    permission_denied => "permission denied";
+    not_a_directory => "not a directory";
+    is_a_directory => "is a directory";
+    no_space_left_on_device => "no space left on device";
+    read_only_file_system => "read-only file system";
 }

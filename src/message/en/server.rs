@@ -112,4 +112,6 @@ declare! {
     correction_mm(correction) => "correction {correction:.3} mm";
     the_wire => "wire";
     step_in_line(number, line, what, x, y) => "{number}line {line} · {what} · to {x:.3}, {y:.3}";
+    the_lead => "lead";
+    the_correction => "correction";
 }

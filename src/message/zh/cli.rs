@@ -46,7 +46,7 @@ translate! {
     watching(files) => "正在监视 {files} 个文件；按 Ctrl-C 结束";
     stdin_is_not_watched => "标准输入不能监视，--watch 要文件或文件夹";
     wedm_fix_in_place(heading, file) => "{heading} wedm fix {file} --in-place";
-    can_be_repaired_such_as(files) => "{files} 可以修复，例如：";
+    can_be_repaired_such_as(files) => "{files}可以修复，例如：";
     heading_wedm_fix_in_place(heading, file) => "{heading} wedm fix {file} --in-place";
     against_its_own_direction => "，与自身画线方向相反";
     gap_of_um_closed_after_segment(distance, after) => "段 {after} 后 {distance:.3} µm 的间隙已闭合";
@@ -190,6 +190,8 @@ translate! {
     column_of_lines => "行";
     a_way => "空走";
     length_of_blocks(blocks, length) => "{blocks}，{length:.3} mm";
-    takes_minutes(minutes) => "，{minutes:.1} min";
+    takes_minutes(minutes) => "，{minutes:.1} 分钟";
     meant_elsewhere(x, y, deviation) => "应在 {x:.4}, {y:.4}：偏离 {deviation:.2} µm";
+    read_as_gb_18030(note) => "{note}不是 UTF-8 的文件按 GB 18030 读入，写出时仍为 GB 18030";
+    written => "已写出";
 }

@@ -8,4 +8,10 @@ translate! {
     it_is_read_only => "是只读的";
     it_is_not_the_file_any_more_that_was_read => "已不是当初读入的文件，未作任何修改";
     its_owner_user_group_cannot_be_kept(uid, gid, error) => "文件的所有者（用户 {uid}，组 {gid}）无法保留：{error}";
+    no_such_file_or_directory => "没有这个文件或文件夹";
+    permission_denied => "没有权限";
+    not_a_directory => "不是文件夹";
+    is_a_directory => "是文件夹";
+    no_space_left_on_device => "磁盘已满";
+    read_only_file_system => "文件系统只读";
 }

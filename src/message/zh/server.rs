@@ -112,4 +112,6 @@ translate! {
     correction_mm(correction) => "补偿量 {correction:.3} mm";
     the_wire => "电极丝";
     step_in_line(number, line, what, x, y) => "{number}第 {line} 行 · {what} · 到 {x:.3}, {y:.3}";
+    the_lead => "引线";
+    the_correction => "补偿量";
 }

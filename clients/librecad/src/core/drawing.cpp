@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "drawing.h"
 
+#include <QCoreApplication>
 #include <QHash>
 
 #include <cmath>
@@ -37,15 +38,15 @@ QString splice(Entity &entity, const Change &change)
 {
     const qint64 size = entity.vertices.size();
     if (entity.kind != Kind::Polyline)
-        return QStringLiteral("entity %1 is no polyline").arg(change.handle);
+        return QCoreApplication::translate("wedm::Drawing", "entity %1 is no polyline").arg(change.handle);
     if (change.start < 0 || change.deleteCount < 0 || qint64(change.start) + change.deleteCount > size)
-        return QStringLiteral("vertices %1 to %2 of %3, which has %4")
+        return QCoreApplication::translate("wedm::Drawing", "vertices %1 to %2 of %3, which has %4")
             .arg(change.start)
             .arg(qint64(change.start) + change.deleteCount)
             .arg(change.handle)
             .arg(size);
     if (!finite(change.insert))
-        return QStringLiteral("a vertex of %1 is not finite").arg(change.handle);
+        return QCoreApplication::translate("wedm::Drawing", "a vertex of %1 is not finite").arg(change.handle);
     QVector<Vertex> vertices;
     vertices.reserve(int(size) - change.deleteCount + change.insert.size());
     vertices += entity.vertices.mid(0, change.start);
@@ -58,7 +59,7 @@ QString splice(Entity &entity, const Change &change)
 QString put(Drawing &drawing, const Change &change)
 {
     if (!finite(change.entity))
-        return QStringLiteral("a number of %1 is not finite").arg(change.handle);
+        return QCoreApplication::translate("wedm::Drawing", "a number of %1 is not finite").arg(change.handle);
     Entity entity = change.entity;
     entity.handle = change.handle;
     const int there = indexOf(drawing, change.handle);
@@ -71,7 +72,7 @@ QString put(Drawing &drawing, const Change &change)
     if (!change.before.isEmpty()) {
         place = indexOf(drawing, change.before);
         if (place < 0)
-            return QStringLiteral("there is no entity %1 to put %2 before").arg(change.before, change.handle);
+            return QCoreApplication::translate("wedm::Drawing", "there is no entity %1 to put %2 before").arg(change.before, change.handle);
     }
     drawing.entities.insert(place, entity);
     return QString();
@@ -116,7 +117,7 @@ Drawing applied(const Drawing &drawing, const QVector<Change> &changes, QString 
         } else {
             const int index = indexOf(result, change.handle);
             if (index < 0)
-                fault = QStringLiteral("there is no entity %1").arg(change.handle);
+                fault = QCoreApplication::translate("wedm::Drawing", "there is no entity %1").arg(change.handle);
             else if (change.what == Change::What::Delete)
                 result.entities.remove(index);
             else

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "messages.h"
 
+#include <QCoreApplication>
 #include <QJsonArray>
 #include <QJsonDocument>
 
@@ -257,7 +258,7 @@ QVector<Change> changesFromJson(const QJsonArray &changes, QString *failure)
         }
         if (!sound) {
             if (failure)
-                *failure = QStringLiteral("change %1 of the fix is not understood").arg(i);
+                *failure = QCoreApplication::translate("wedm::Session", "change %1 of the fix is not understood").arg(i);
             return {};
         }
         result += change;

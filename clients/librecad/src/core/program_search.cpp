@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "program_search.h"
 
+#include <QCoreApplication>
 #include <QDir>
 #include <QFileInfo>
 #include <QStandardPaths>
@@ -19,8 +20,9 @@ const char NAME[] = "wedm";
 /// LibreCAD takes every file beside a plugin for a plugin and complains about the others, but not on Windows; a folder it passes over.
 const char FOLDER[] = "wedm-server";
 
-const char HOW_TO_GET_IT[] = "Build it in wedm's folder with \"cargo install --path .\", or put the program into the folder wedm-server "
-                             "beside the plugin, or choose it with the button \"Server…\".";
+const char HOW_TO_GET_IT[] = QT_TRANSLATE_NOOP("wedm::ProgramSearch",
+                             "Build it in wedm's folder with \"cargo install --path .\", or put the program into the folder wedm-server "
+                             "beside the plugin, or choose it with the button \"Server…\".");
 
 bool runs(const QString &path)
 {
@@ -47,8 +49,8 @@ QString findProgram(const ProgramSearch &search, QString *message)
         if (runs(search.setting))
             return search.setting;
         if (message)
-            *message = QStringLiteral("The wedm server is set to \"%1\", and there is no such program. %2")
-                           .arg(QDir::toNativeSeparators(search.setting), QString::fromUtf8(HOW_TO_GET_IT));
+            *message = QCoreApplication::translate("wedm::ProgramSearch", "The wedm server is set to \"%1\", and there is no such program. %2")
+                           .arg(QDir::toNativeSeparators(search.setting), QCoreApplication::translate("wedm::ProgramSearch", HOW_TO_GET_IT));
         return QString();
     }
     const QDir plugins(search.pluginFolder);
@@ -65,9 +67,9 @@ QString findProgram(const ProgramSearch &search, QString *message)
     if (runs(ofCargo))
         return ofCargo;
     if (message)
-        *message = QStringLiteral("The wedm server was not found: it is not set, not in \"%1\", not on PATH and not in \"%2\". %3")
+        *message = QCoreApplication::translate("wedm::ProgramSearch", "The wedm server was not found: it is not set, not in \"%1\", not on PATH and not in \"%2\". %3")
                        .arg(QDir::toNativeSeparators(plugins.filePath(FOLDER)), QDir::toNativeSeparators(QFileInfo(ofCargo).path()),
-                            QString::fromUtf8(HOW_TO_GET_IT));
+                            QCoreApplication::translate("wedm::ProgramSearch", HOW_TO_GET_IT));
     return QString();
 }
 

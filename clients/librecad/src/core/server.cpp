@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "server.h"
 
+#include "language.h"
+
 #include <QCoreApplication>
 #include <QDir>
 #include <QJsonDocument>
@@ -88,6 +90,7 @@ void Server::initialize()
     const QJsonObject params{
         {"processId", QCoreApplication::applicationPid()},
         {"clientInfo", QJsonObject{{"name", "wedm for LibreCAD"}, {"version", WEDM_PLUGIN_VERSION}}},
+        {"locale", language()},
         {"rootUri", QJsonValue()},
         {"capabilities", QJsonObject{{"experimental", QJsonObject{{"wedm", QJsonObject{{"resendDrawing", true}}}}}}},
     };

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The entries of the menu, by their names in it. The last two are the plugin's own: they are LibreCAD's only way to let a plugin at
+// The entries of the menu, by their names in it, which are shown in the language of the windows. The last two are the plugin's own: they are LibreCAD's only way to let a plugin at
 // the drawing, and are taken out of the menu.
 #pragma once
+
+#include <QtGlobal>
 
 namespace wedm {
 namespace command {
 
-constexpr char CHECK[] = "Check radii";
-constexpr char LIVE[] = "Live check";
-constexpr char FIX[] = "Fix";
-constexpr char GENERATE[] = "Generate 3B…";
-constexpr char MARK[] = "Mark faults";
-constexpr char CLEAR[] = "Clear marks";
+constexpr char CHECK[] = QT_TRANSLATE_NOOP("wedm::command", "Check radii");
+constexpr char LIVE[] = QT_TRANSLATE_NOOP("wedm::command", "Live check");
+constexpr char FIX[] = QT_TRANSLATE_NOOP("wedm::command", "Fix");
+constexpr char GENERATE[] = QT_TRANSLATE_NOOP("wedm::command", "Generate 3B…");
+constexpr char MARK[] = QT_TRANSLATE_NOOP("wedm::command", "Mark faults");
+constexpr char CLEAR[] = QT_TRANSLATE_NOOP("wedm::command", "Clear marks");
 constexpr char LOOK[] = "wedm look";
 constexpr char APPLY[] = "wedm apply";
 

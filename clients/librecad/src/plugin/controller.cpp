@@ -134,6 +134,11 @@ void Controller::settle()
         menu->removeAction(actionOf(command::APPLY));
     }
     actionOf(command::LIVE)->setCheckable(true);
+    // LibreCAD knows a command by the action's data, not by its text.
+    for (const char *name : {command::CHECK, command::LIVE, command::FIX, command::GENERATE, command::MARK, command::CLEAR}) {
+        if (QAction *action = actionOf(name))
+            action->setText(QCoreApplication::translate("wedm::command", name));
+    }
     if (m_kept.live())
         setLive(true);
     if (!firstCommand().isEmpty())

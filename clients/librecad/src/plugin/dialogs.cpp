@@ -3,6 +3,7 @@
 
 #include "host.h"
 
+#include <QCoreApplication>
 #include <QDir>
 #include <QFileDialog>
 #include <QMainWindow>
@@ -20,7 +21,7 @@ constexpr int NAMED = 8;
 
 QString tr(const char *text)
 {
-    return QObject::tr(text);
+    return QCoreApplication::translate("wedm::dialogs", text);
 }
 
 QMessageBox *box(QMessageBox::Icon icon, const char *name, const QString &text)

@@ -2,6 +2,7 @@
 #include "plugin.h"
 
 #include "controller.h"
+#include "core/language.h"
 
 namespace {
 
@@ -11,7 +12,7 @@ const char MENU[] = "Wire EDM";
 } // namespace
 
 WedmPlugin::WedmPlugin()
-    : m_controller(new wedm::Controller(this))
+    : m_controller((wedm::speakLanguage(), new wedm::Controller(this)))
 {
 }
 

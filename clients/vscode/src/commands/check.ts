@@ -5,6 +5,7 @@ import type { Server } from "../server/server";
 import { type Listed, read } from "./listed";
 import { run } from "./run";
 import { uriOf } from "./subject";
+import { t } from "../words";
 
 const SEVERITIES: Record<Listed["severity"], vscode.DiagnosticSeverity> = {
   error: vscode.DiagnosticSeverity.Error,
@@ -12,7 +13,6 @@ const SEVERITIES: Record<Listed["severity"], vscode.DiagnosticSeverity> = {
   information: vscode.DiagnosticSeverity.Information,
   hint: vscode.DiagnosticSeverity.Hint,
 };
-const PROBLEMS = "Show Problems";
 
 export class PathCheck implements vscode.Disposable {
   readonly #findings = vscode.languages.createDiagnosticCollection("wedm check");
@@ -31,7 +31,7 @@ export class PathCheck implements vscode.Disposable {
       return;
     }
     if (target.scheme !== "file") {
-      void vscode.window.showErrorMessage(`Wire EDM: ${target.toString()} is no file on disk.`);
+      void vscode.window.showErrorMessage(t("Wire EDM: {0} is no file on disk.", target.toString()));
       return;
     }
     const found = await this.server.find();
@@ -45,7 +45,7 @@ export class PathCheck implements vscode.Disposable {
   async #check(program: string, target: vscode.Uri): Promise<void> {
     const options = ["check", "--output", "json", ...(await this.#settings(target)), "--", target.fsPath];
     const outcome = await vscode.window.withProgress(
-      { location: vscode.ProgressLocation.Notification, title: `Checking ${vscode.workspace.asRelativePath(target)}`, cancellable: true },
+      { location: vscode.ProgressLocation.Notification, title: t("Checking {0}", vscode.workspace.asRelativePath(target)), cancellable: true },
       async (_progress, token) => ({ ...(await run(program, options, token)), cancelled: token.isCancellationRequested }),
     );
     if (outcome.cancelled) {
@@ -53,7 +53,7 @@ export class PathCheck implements vscode.Disposable {
     }
     const list = read(outcome.output);
     if (list === null) {
-      void vscode.window.showErrorMessage(`Wire EDM: ${outcome.errors.trim() || `wedm check ended with code ${outcome.code ?? "none"}`}`);
+      void vscode.window.showErrorMessage(`Wire EDM: ${outcome.errors.trim() || t("{0} ended with code {1}", "wedm check", outcome.code ?? "–")}`);
       return;
     }
     this.#show(list);
@@ -101,11 +101,14 @@ export class PathCheck implements vscode.Disposable {
     const [faults, warnings] = [count("error"), count("warning")];
     const unread = errors.trim() === "" ? "" : ` ${errors.trim().split("\n").pop() ?? ""}`;
     const name = vscode.workspace.asRelativePath(target);
-    const message = `${name}: ${faults === 1 ? "1 error" : `${faults} errors`}, ${warnings === 1 ? "1 warning" : `${warnings} warnings`}.${unread}`;
+    const problems = t("Show Problems");
+    const errorsFound = faults === 1 ? t("1 error") : t("{0} errors", faults);
+    const warningsFound = warnings === 1 ? t("1 warning") : t("{0} warnings", warnings);
+    const message = t("{0}: {1}, {2}.", name, errorsFound, warningsFound) + unread;
     const chosen = await (faults > 0
-      ? vscode.window.showErrorMessage(message, PROBLEMS)
-      : vscode.window.showInformationMessage(message, ...(list.length > 0 ? [PROBLEMS] : [])));
-    if (chosen === PROBLEMS) {
+      ? vscode.window.showErrorMessage(message, problems)
+      : vscode.window.showInformationMessage(message, ...(list.length > 0 ? [problems] : [])));
+    if (chosen === problems) {
       await vscode.commands.executeCommand("workbench.actions.view.problems");
     }
   }
@@ -119,8 +122,8 @@ export class PathCheck implements vscode.Disposable {
 async function choose(): Promise<vscode.Uri | undefined> {
   const folder = vscode.workspace.workspaceFolders?.[0]?.uri;
   const chosen = await vscode.window.showOpenDialog({
-    title: "Check a File or Folder",
-    openLabel: "Check",
+    title: t("Check a File or Folder"),
+    openLabel: t("Check"),
     canSelectFiles: true,
     canSelectFolders: true,
     ...(folder === undefined ? {} : { defaultUri: folder }),

@@ -10,6 +10,7 @@ import type { Server } from "../server/server";
 import { write } from "./output";
 import { run } from "./run";
 import { subject } from "./subject";
+import { t } from "../words";
 
 const EXTENSIONS: Record<string, string> = { "3b": ".3b", "wire-iso": ".iso" };
 
@@ -25,9 +26,9 @@ export async function convertToDxf(server: Server, front: Front, argument: unkno
   }
   const stem = document.uri.path.replace(/\.[^./]*$/, "");
   const target = await vscode.window.showSaveDialog({
-    title: "Save the Drawing",
+    title: t("Save the Drawing"),
     defaultUri: document.uri.with({ scheme: "file", path: `${stem}.dxf` }),
-    filters: { "DXF drawing": ["dxf"] },
+    filters: { [t("DXF drawing")]: ["dxf"] },
   });
   if (target === undefined) {
     return;
@@ -52,7 +53,7 @@ async function converted(program: string, document: vscode.TextDocument): Promis
     await writeFile(source, document.getText());
     const outcome = await run(program, ["convert", source, "-o", drawing]);
     if (outcome.code !== 0) {
-      return { reason: outcome.errors.trim() || `wedm convert ended with code ${outcome.code ?? "none"}` };
+      return { reason: outcome.errors.trim() || t("{0} ended with code {1}", "wedm convert", outcome.code ?? "–") };
     }
     return await readFile(drawing, "utf8");
   } finally {

@@ -4,6 +4,7 @@ import * as vscode from "vscode";
 import type { Front } from "../front";
 import type { SettingsInForce } from "../protocol";
 import type { Server } from "../server/server";
+import { t } from "../words";
 
 const KEYS = /^\s*(corrections?|wire[-_]?diameter|gap)\s*=/i;
 
@@ -41,10 +42,10 @@ async function open(file: vscode.Uri): Promise<void> {
 
 async function ask(present: number | undefined): Promise<void> {
   const entered = await vscode.window.showInputBox({
-    title: "Correction",
-    prompt: "How far the wire's centre runs from the contour, in mm: wire radius + spark gap. Empty: the default.",
+    title: t("Correction"),
+    prompt: t("How far the wire's centre runs from the contour, in mm: wire radius + spark gap. Empty: the default."),
     value: present === undefined ? "" : String(present),
-    validateInput: (text) => (text.trim() === "" || Number(text.replace(",", ".")) > 0 ? null : "expected a number above 0, in mm"),
+    validateInput: (text) => (text.trim() === "" || Number(text.replace(",", ".")) > 0 ? null : t("expected a number above 0, in mm")),
   });
   if (entered === undefined) {
     return;

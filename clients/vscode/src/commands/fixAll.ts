@@ -4,6 +4,7 @@ import * as vscode from "vscode";
 import { type CodeAction, LSPErrorCodes, ResponseError, TextDocumentEdit } from "vscode-languageclient/node";
 import type { Front } from "../front";
 import type { Server } from "../server/server";
+import { t } from "../words";
 
 /** Kind of the action that makes every safe repair. */
 const FIX_ALL = "source.fixAll.wedm";
@@ -11,16 +12,16 @@ const FIX_ALL = "source.fixAll.wedm";
 export async function fixAll(server: Server, front: Front): Promise<void> {
   const document = front.document;
   if (document === undefined) {
-    void vscode.window.showInformationMessage("Wire EDM: open a drawing or a program first.");
+    void vscode.window.showInformationMessage(t("Wire EDM: open a drawing or a program first."));
     return;
   }
-  const offered = await vscode.window.withProgress({ location: vscode.ProgressLocation.Window, title: "Wire EDM: looking for repairs" }, () =>
+  const offered = await vscode.window.withProgress({ location: vscode.ProgressLocation.Window, title: t("Wire EDM: looking for repairs") }, () =>
     repairs(server, document),
   );
   if (offered === "none") {
-    void vscode.window.showInformationMessage("Wire EDM: there is nothing that can be repaired safely.");
+    void vscode.window.showInformationMessage(t("Wire EDM: there is nothing that can be repaired safely."));
   } else if (offered === "outdated" || offered.textDocument.version !== document.version || !(await apply(document, offered))) {
-    void vscode.window.showWarningMessage("Wire EDM: the text has changed meanwhile, nothing was done.");
+    void vscode.window.showWarningMessage(t("Wire EDM: the text has changed meanwhile, nothing was done."));
   }
 }
 

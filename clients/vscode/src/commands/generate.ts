@@ -12,12 +12,11 @@ import type { Sides } from "./keep";
 import { choices } from "./profiles";
 import { askSides, offerToKeep } from "./sides";
 import { subject } from "./subject";
+import { t } from "../words";
 
 type Format = "3b" | "4b" | "iso";
 
 const TITLES: Record<Format, string> = { "3b": "3B", "4b": "4B", iso: "ISO" };
-const PROBLEMS = "Show Problems";
-const FORCE = "Generate All the Same";
 
 interface How {
   options?: { program?: { profile: string } };
@@ -42,9 +41,9 @@ export async function generate(server: Server, front: Front, pictures: Pictures,
   const { generated } = made;
   const stem = document.uri.path.replace(/\.[^./]*$/, "");
   const target = await vscode.window.showSaveDialog({
-    title: `Save the ${TITLES[format]} Program`,
+    title: t("Save the {0} Program", TITLES[format]),
     defaultUri: document.uri.with({ scheme: document.uri.scheme === "untitled" ? "file" : document.uri.scheme, path: `${stem}.${format}` }),
-    filters: { [`${TITLES[format]} program`]: format === "iso" ? ["iso", "nc"] : [format] },
+    filters: { [t("{0} program", TITLES[format])]: format === "iso" ? ["iso", "nc"] : [format] },
   });
   if (target === undefined) {
     return;
@@ -63,8 +62,8 @@ async function chooseProfile(document: vscode.TextDocument): Promise<How | undef
   const settings = vscode.workspace.getConfiguration("wedm", document);
   const own = Object.keys(settings.get<object | null>("profiles", null) ?? {});
   const offered = choices(settings.get<string | null>("program.profile", null), own);
-  const placeHolder = "How the ISO program is written";
-  const chosen = await vscode.window.showQuickPick(offered, { title: "Profile", placeHolder, matchOnDetail: true });
+  const placeHolder = t("How the ISO program is written");
+  const chosen = await vscode.window.showQuickPick(offered, { title: t("Profile"), placeHolder, matchOnDetail: true });
   if (chosen === undefined) {
     return undefined;
   }
@@ -88,7 +87,7 @@ async function attempt(
   const options = { ...how.options, ...how.sides };
   try {
     const generated = await vscode.window.withProgress(
-      { location: vscode.ProgressLocation.Window, title: `Wire EDM: generating ${TITLES[format]}` },
+      { location: vscode.ProgressLocation.Window, title: t("Wire EDM: generating {0}", TITLES[format]) },
       (_progress, token) => server.request("wedm/generate", { uri, format, options, ...(how.force === true ? { force: true } : {}) }, token),
     );
     return { generated, how };
@@ -106,22 +105,23 @@ async function answer(error: unknown, how: How, ask: () => Promise<Sides | undef
   if (error.code === LSPErrorCodes.ContentModified) {
     return how;
   }
-  const sentence = `No program: ${error.message}.`;
+  const sentence = t("No program: {0}.", error.message);
   if (error.code !== LSPErrorCodes.RequestFailed) {
     void vscode.window.showErrorMessage(sentence);
     return undefined;
   }
-  if (how.sides === undefined && /side of contour .* is not known/.test(error.message)) {
+  if (how.sides === undefined && /side of contour .* is not known|不知道轮廓 .* 的补偿方向/.test(error.message)) {
     const sides = await ask();
     return sides === undefined ? undefined : { ...how, sides };
   }
   const listed = (error.data as { diagnostics?: unknown[] } | undefined)?.diagnostics ?? [];
   const canBeForced = listed.length > 0 && how.force !== true;
-  switch (await vscode.window.showErrorMessage(sentence, ...(canBeForced ? [PROBLEMS, FORCE] : [PROBLEMS]))) {
-    case PROBLEMS:
+  const [problems, force] = [t("Show Problems"), t("Generate All the Same")];
+  switch (await vscode.window.showErrorMessage(sentence, ...(canBeForced ? [problems, force] : [problems]))) {
+    case problems:
       await vscode.commands.executeCommand("workbench.actions.view.problems");
       return undefined;
-    case FORCE:
+    case force:
       return { ...how, force: true };
     case undefined:
     default:
@@ -130,16 +130,13 @@ async function answer(error: unknown, how: How, ask: () => Promise<Sides | undef
 }
 
 function told(generated: Program, format: Format): string {
-  const blocks = counted(generated.blocks, "block");
-  const path = `wire path ${generated.length.toFixed(3)} mm, decoded again at most ${generated.deviation.toFixed(2)} µm beside it`;
+  const blocks = generated.blocks === 1 ? t("1 block") : t("{0} blocks", generated.blocks);
+  const path = t("wire path {0} mm, decoded again at most {1} µm beside it", generated.length.toFixed(3), generated.deviation.toFixed(2));
   // A drift that rounds to zero has no sign.
   const [x, y] = [generated.closure.x, generated.closure.y].map((drift) => (Math.round(drift * 100) / 100 + 0).toFixed(2));
-  const drift = format === "iso" ? "" : `; a controller that counts J drifts by ${x}, ${y} µm`;
+  const drift = format === "iso" ? "" : t("; a controller that counts J drifts by {0}, {1} µm", x ?? "", y ?? "");
   const { length } = generated.warnings;
-  const warnings = length === 0 ? "" : ` ${counted(length, "finding")} ${length === 1 ? "stands" : "stand"} in the drawing.`;
-  return `${blocks}, ${path}${drift}.${warnings}`;
-}
-
-function counted(count: number, what: string): string {
-  return `${count} ${what}${count === 1 ? "" : "s"}`;
+  const stand = length === 1 ? t(" 1 finding stands in the drawing.") : t(" {0} findings stand in the drawing.", length);
+  const warnings = length === 0 ? "" : stand;
+  return t("{0}, {1}{2}.", blocks, path, drift) + warnings;
 }

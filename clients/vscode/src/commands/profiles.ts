@@ -1,5 +1,7 @@
 // How an ISO program can be written, as a list to choose from. Knows nothing of VS Code.
 
+import { t } from "../words";
+
 export interface Choice {
   label: string;
   description?: string;
@@ -19,8 +21,8 @@ const SHIPPED: readonly (readonly [name: string, meant: string])[] = [
 export function choices(set: string | null, own: readonly string[]): Choice[] {
   const others = own.filter((name) => SHIPPED.every(([shipped]) => shipped !== name));
   return [
-    { label: "As the Settings Say", description: set ?? "", detail: "wedm.toml beside the drawing or above, else wedm.program.profile, else generic" },
-    ...SHIPPED.map(([profile, detail]) => ({ label: profile, detail, profile })),
-    ...others.map((profile) => ({ label: profile, detail: "Set in wedm.profiles", profile })),
+    { label: t("As the Settings Say"), description: set ?? "", detail: t("wedm.toml beside the drawing or above, else wedm.program.profile, else generic") },
+    ...SHIPPED.map(([profile, detail]) => ({ label: profile, detail: t(detail), profile })),
+    ...others.map((profile) => ({ label: profile, detail: t("Set in wedm.profiles"), profile })),
   ];
 }

@@ -4,6 +4,7 @@ import * as vscode from "vscode";
 import type { Front } from "../front";
 import { isProgram } from "../languages";
 import { subject } from "./subject";
+import { t } from "../words";
 
 /** The server's command, which the client offers as its own while the server runs. */
 const COMMAND = "wedm.scale";
@@ -14,9 +15,9 @@ export async function scaleProgram(front: Front, argument: unknown): Promise<voi
     return;
   }
   const entered = await vscode.window.showInputBox({
-    title: "Scale Program",
-    prompt: "Factor by which every length of the program is multiplied.",
-    validateInput: (text) => (factorOf(text) > 0 && Number.isFinite(factorOf(text)) ? null : "expected a number above 0"),
+    title: t("Scale Program"),
+    prompt: t("Factor by which every length of the program is multiplied."),
+    validateInput: (text) => (factorOf(text) > 0 && Number.isFinite(factorOf(text)) ? null : t("expected a number above 0")),
   });
   if (entered !== undefined) {
     await vscode.commands.executeCommand(COMMAND, { uri: document.uri.toString(), factor: factorOf(entered) });

@@ -5,8 +5,7 @@ import type { Pictures } from "../picture/pictures";
 import type { ContoursContour, Role } from "../protocol";
 import type { Server } from "../server/server";
 import { keep, type Sides } from "./keep";
-
-const KEEP = "Keep in wedm.toml";
+import { t } from "../words";
 
 /** By nesting, one by one, or the answer for the only one. */
 interface Way extends vscode.QuickPickItem {
@@ -17,9 +16,10 @@ interface Answer extends vscode.QuickPickItem {
   role: Role;
 }
 
-const OPENING: Answer = { label: "Opening: Wire Inside", detail: "What falls out is scrap, as of a die's plate", role: "opening" };
-const PUNCH: Answer = { label: "Punch: Wire Outside", detail: "What falls out is the part", role: "punch" };
-const NOT_CUT: Answer = { label: "Not Cut", detail: "A frame, a construction line", role: "ignore" };
+// Made when they are asked: the language is not chosen yet when this is read.
+const opening = (): Answer => ({ label: t("Opening: Wire Inside"), detail: t("What falls out is scrap, as of a die's plate"), role: "opening" });
+const punch = (): Answer => ({ label: t("Punch: Wire Outside"), detail: t("What falls out is the part"), role: "punch" });
+const notCut = (): Answer => ({ label: t("Not Cut"), detail: t("A frame, a construction line"), role: "ignore" });
 
 /** What the contours of unknown side are, or undefined where the user gives up. */
 export async function askSides(server: Server, pictures: Pictures, uri: vscode.Uri): Promise<Sides | undefined> {
@@ -28,19 +28,19 @@ export async function askSides(server: Server, pictures: Pictures, uri: vscode.U
   await pictures.open(uri, false);
   const several = unknown.length > 1;
   const byNesting: Way = {
-    label: "By Nesting",
-    detail: `What lies outermost is a punch, a contour within it an opening, and so on${several ? `: ${unknown.length} contours` : ""}`,
+    label: t("By Nesting"),
+    detail: t("What lies outermost is a punch, a contour within it an opening, and so on") + (several ? t(": {0} contours", unknown.length) : ""),
     choice: "nesting",
   };
-  const each: Way = { label: "Say for Each Contour…", detail: "They are marked in the picture one after another", choice: "each" };
-  const one = [OPENING, PUNCH].map((answer): Way => ({ ...answer, choice: answer.role }));
+  const each: Way = { label: t("Say for Each Contour…"), detail: t("They are marked in the picture one after another"), choice: "each" };
+  const one = [opening(), punch()].map((answer): Way => ({ ...answer, choice: answer.role }));
   const ways = several ? [byNesting, each] : [byNesting, ...one];
   try {
     if (!several) {
       pictures.mark(handlesOf(unknown));
     }
-    const placeHolder = several ? "Where the wire runs along each contour is not known" : "The contour that is marked in the picture";
-    const way = await vscode.window.showQuickPick(ways, { title: "Which Side Does the Wire Run On?", placeHolder, ignoreFocusOut: true });
+    const placeHolder = several ? t("Where the wire runs along each contour is not known") : t("The contour that is marked in the picture");
+    const way = await vscode.window.showQuickPick(ways, { title: t("Which Side Does the Wire Run On?"), placeHolder, ignoreFocusOut: true });
     if (way === undefined || way.choice === "nesting") {
       return way && { side: "auto" };
     }
@@ -54,9 +54,9 @@ async function askEach(pictures: Pictures, unknown: readonly ContoursContour[], 
   const roles: Role[] = [];
   for (const [index, contour] of unknown.entries()) {
     pictures.mark(handlesOf([contour]));
-    const title = `Contour ${index + 1} of ${unknown.length}`;
-    const placeHolder = `The one that is marked in the picture, ${(contour.length * unitsToMm).toFixed(3)} mm round`;
-    const answer = await vscode.window.showQuickPick([OPENING, PUNCH, NOT_CUT], { title, placeHolder, ignoreFocusOut: true });
+    const title = t("Contour {0} of {1}", index + 1, unknown.length);
+    const placeHolder = t("The one that is marked in the picture, {0} mm round", (contour.length * unitsToMm).toFixed(3));
+    const answer = await vscode.window.showQuickPick([opening(), punch(), notCut()], { title, placeHolder, ignoreFocusOut: true });
     if (answer === undefined) {
       return undefined;
     }
@@ -89,7 +89,8 @@ export async function offerToKeep(server: Server, uri: vscode.Uri, sides: Sides)
   if (general === undefined || uri.scheme !== "file") {
     return;
   }
-  if ((await vscode.window.showInformationMessage("Keep what you said of the wire's side for the next time?", KEEP)) !== KEEP) {
+  const yes = t("Keep in wedm.toml");
+  if ((await vscode.window.showInformationMessage(t("Keep what you said of the wire's side for the next time?"), yes)) !== yes) {
     return;
   }
   const edit = new vscode.WorkspaceEdit();

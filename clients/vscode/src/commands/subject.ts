@@ -3,6 +3,7 @@
 import * as vscode from "vscode";
 import type { Front } from "../front";
 import { isOurs } from "../languages";
+import { t } from "../words";
 
 /** Commands come from the palette, a menu, a code lens or another program: with a URI, with its text, or with nothing. */
 export async function subject(
@@ -12,12 +13,12 @@ export async function subject(
 ): Promise<vscode.TextDocument | undefined> {
   const uri = uriOf(argument) ?? front.document?.uri;
   if (uri === undefined) {
-    void vscode.window.showInformationMessage("Wire EDM: open a drawing or a program first.");
+    void vscode.window.showInformationMessage(t("Wire EDM: open a drawing or a program first."));
     return undefined;
   }
   const document = await vscode.workspace.openTextDocument(uri);
   if (!isOurs(document) || !accepts(document.languageId)) {
-    void vscode.window.showInformationMessage(`Wire EDM: ${vscode.workspace.asRelativePath(uri)} is not of the kind that this command is for.`);
+    void vscode.window.showInformationMessage(t("Wire EDM: {0} is not of the kind that this command is for.", vscode.workspace.asRelativePath(uri)));
     return undefined;
   }
   return document;

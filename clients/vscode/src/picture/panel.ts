@@ -8,6 +8,7 @@ import type { SimulatedBlock } from "../protocol";
 import type { Server } from "../server/server";
 import { type Fault, fromPage, type FromPage, type ToPage } from "./messages";
 import { page } from "./page";
+import { t } from "../words";
 
 export const VIEW_TYPE = "wedm.picture";
 /** A picture is made at most this often while somebody types, in ms. */
@@ -143,7 +144,7 @@ export class Picture implements vscode.Disposable {
   async #draw(uri: vscode.Uri): Promise<void> {
     const document = await vscode.workspace.openTextDocument(uri);
     const name = uri.path.split("/").pop() ?? "";
-    this.#panel.title = `Picture of ${name}`;
+    this.#panel.title = t("Picture of {0}", name);
     const kind = isDrawing(document.languageId) ? "drawing" : "program";
     const { svg } = await this.server.request("wedm/picture", { uri: uri.toString() });
     const blocks = kind === "program" ? await this.#blocks(uri) : [];

@@ -6,6 +6,7 @@ import type { Front } from "../front";
 import { isOurs } from "../languages";
 import type { Server } from "../server/server";
 import { Picture, VIEW_TYPE } from "./panel";
+import { t } from "../words";
 
 export class Pictures implements vscode.WebviewPanelSerializer, vscode.Disposable {
   #picture: Picture | undefined;
@@ -23,12 +24,12 @@ export class Pictures implements vscode.WebviewPanelSerializer, vscode.Disposabl
   async open(argument: unknown, play: boolean): Promise<void> {
     const uri = uriOf(argument) ?? this.front.document?.uri;
     if (uri === undefined || !isOurs(await vscode.workspace.openTextDocument(uri))) {
-      void vscode.window.showInformationMessage("Wire EDM: open a drawing or a program first.");
+      void vscode.window.showInformationMessage(t("Wire EDM: open a drawing or a program first."));
       return;
     }
     if (this.#picture === undefined) {
       const place = { viewColumn: vscode.ViewColumn.Beside, preserveFocus: true };
-      this.#adopt(vscode.window.createWebviewPanel(VIEW_TYPE, "Picture", place, { retainContextWhenHidden: true }), uri);
+      this.#adopt(vscode.window.createWebviewPanel(VIEW_TYPE, t("Picture"), place, { retainContextWhenHidden: true }), uri);
     } else {
       this.#picture.show(uri);
       this.#picture.panel.reveal(undefined, true);

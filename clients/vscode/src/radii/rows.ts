@@ -1,6 +1,7 @@
 // The radius list as rows: an entity and the segments in it. Knows nothing of VS Code.
 
 import type { InspectedEntity, InspectedSegment, Inspection } from "../protocol";
+import { t } from "../words";
 
 export interface SegmentRow {
   kind: "segment";
@@ -31,12 +32,12 @@ export function rows(inspection: Inspection, onlyFaults: boolean): EntityRow[] {
 function entityRow(entity: InspectedEntity, toMm: number, onlyFaults: boolean): EntityRow {
   const segments = entity.segments.map((segment) => segmentRow(entity.handle, segment, toMm));
   const faults = segments.filter((segment) => segment.faulty).length;
-  const count = segments.length === 1 ? "1 segment" : `${segments.length} segments`;
+  const count = segments.length === 1 ? t("1 segment") : t("{0} segments", segments.length);
   return {
     kind: "entity",
     handle: entity.handle,
     label: `${entity.type} ${entity.handle}`,
-    description: `${entity.layer} · ${faults === 0 ? count : `${faults} of ${count} not ok`}`,
+    description: `${entity.layer} · ${faults === 0 ? count : t("{0} of {1} not ok", faults, count)}`,
     faults,
     segments: onlyFaults ? segments.filter((segment) => segment.faulty) : segments,
   };
@@ -44,7 +45,7 @@ function entityRow(entity: InspectedEntity, toMm: number, onlyFaults: boolean): 
 
 function segmentRow(handle: string, segment: InspectedSegment, toMm: number): SegmentRow {
   const mm = (length: number): string => (length * toMm).toFixed(3);
-  const what = segment.radius === undefined ? `line ${mm(segment.length)}` : `R ${mm(segment.radius)}`;
+  const what = segment.radius === undefined ? t("line {0}", mm(segment.length)) : `R ${mm(segment.radius)}`;
   const [x, y] = segment.start;
   return {
     kind: "segment",
@@ -59,5 +60,5 @@ function segmentRow(handle: string, segment: InspectedSegment, toMm: number): Se
 /** The totals above the list. */
 export function summary(list: EntityRow[]): string {
   const faults = list.reduce((sum, entity) => sum + entity.faults, 0);
-  return faults === 0 ? "all ok" : `${faults} not ok`;
+  return faults === 0 ? t("all ok") : t("{0} not ok", faults);
 }

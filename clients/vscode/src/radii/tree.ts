@@ -5,6 +5,7 @@ import { isDrawing, isOurs } from "../languages";
 import { reveal, segmentAt } from "../place";
 import type { Server } from "../server/server";
 import { type EntityRow, type Row, rows, summary } from "./rows";
+import { t } from "../words";
 
 /** Edits come in bursts, and a long list is not made for each. */
 const CALM = 250;
@@ -99,14 +100,14 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
       }
       this.#rows = list;
       this.#view.description = uri === undefined ? "" : `${uri.path.split("/").pop() ?? ""}: ${summary(list)}`;
-      this.#view.message = uri !== undefined && list.length === 0 ? (this.#onlyFaults ? "Every radius is ok." : "There is nothing to cut.") : "";
+      this.#view.message = uri !== undefined && list.length === 0 ? (this.#onlyFaults ? t("Every radius is ok.") : t("There is nothing to cut.")) : "";
     } catch {
       // The text has changed meanwhile, and the next diagnostics bring the list; or the server is gone, which is said elsewhere.
       if (asked !== this.#asked || this.server.state.kind === "running") {
         return;
       }
       this.#rows = [];
-      this.#view.message = "The server is not running.";
+      this.#view.message = t("The server is not running.");
     }
     this.#stale = false;
     this.#changed.fire(undefined);
@@ -136,7 +137,7 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
     item.iconPath = faulty
       ? new vscode.ThemeIcon("error", new vscode.ThemeColor("problemsErrorIcon.foreground"))
       : new vscode.ThemeIcon("pass", new vscode.ThemeColor("testing.iconPassed"));
-    item.command = { command: "wedm.radii.reveal", title: "Reveal in Text", arguments: [row.handle, row.kind === "segment" ? row.segment.index : undefined] };
+    item.command = { command: "wedm.radii.reveal", title: t("Reveal in Text"), arguments: [row.handle, row.kind === "segment" ? row.segment.index : undefined] };
     return item;
   }
 

@@ -1,6 +1,7 @@
 // Where the server's program is: by the setting, beside the extension, on the PATH, where cargo installs. Knows nothing of VS Code.
 
 import { delimiter, isAbsolute, join } from "node:path";
+import { t } from "../words";
 
 export interface Places {
   /** `wedm.server.path`, where it is set. */
@@ -35,21 +36,21 @@ export async function findServer(places: Places, isProgram: (path: string) => Pr
   const cargo = join(places.home, ".cargo", "bin", NAME + places.suffix);
   return (await isProgram(cargo))
     ? { program: cargo, from: "cargo" }
-    : { program: null, reason: `wedm is neither beside the extension (${beside}) nor on the PATH, nor is it ${cargo}` };
+    : { program: null, reason: t("wedm is neither beside the extension ({0}) nor on the PATH, nor is it {1}", beside, cargo) };
 }
 
 async function bySetting(setting: string, places: Places, isProgram: (path: string) => Promise<boolean>): Promise<Found> {
   const path = setting.replace(/^~(?=[/\\]|$)/, places.home);
-  const fail = (reason: string): Found => ({ program: null, reason: `the setting wedm.server.path is "${setting}": ${reason}` });
+  const fail = (reason: string): Found => ({ program: null, reason: t('the setting wedm.server.path is "{0}": {1}', setting, reason) });
   if (isAbsolute(path)) {
     const program = await first([path, path + places.suffix], isProgram);
-    return program === null ? fail("there is no program of that name") : { program, from: "setting" };
+    return program === null ? fail(t("there is no program of that name")) : { program, from: "setting" };
   }
   if (/[/\\]/.test(path)) {
-    return fail("expected an absolute path, or a name on the PATH");
+    return fail(t("expected an absolute path, or a name on the PATH"));
   }
   const program = await first(candidates(path, places), isProgram);
-  return program === null ? fail("it is not on the PATH") : { program, from: "setting" };
+  return program === null ? fail(t("it is not on the PATH")) : { program, from: "setting" };
 }
 
 function candidates(name: string, places: Places): string[] {

@@ -1,6 +1,7 @@
 // Whether the program that answered is a server that this extension can speak with.
 
 import { PROTOCOL } from "../protocol";
+import { t } from "../words";
 
 /** What of the answer to `initialize` is looked at; whatever answered may have sent anything. */
 export interface Answer {
@@ -15,13 +16,13 @@ export function misfit(answer: Answer | undefined, program: string): string | nu
   if (spoken === PROTOCOL) {
     return null;
   }
-  const name = text(answer?.serverInfo?.name) ?? "unnamed";
-  const version = text(answer?.serverInfo?.version) ?? "without a version";
+  const name = text(answer?.serverInfo?.name) ?? t("unnamed");
+  const version = text(answer?.serverInfo?.version) ?? t("without a version");
   if (typeof spoken !== "number") {
-    return `${program} is not wedm: it says it is ${name} ${version} and names no protocol of wedm`;
+    return t("{0} is not wedm: it says it is {1} {2} and names no protocol of wedm", program, name, version);
   }
-  const cure = spoken > PROTOCOL ? "update the extension" : "update the server";
-  return `${program} (wedm ${version}) speaks protocol ${spoken} of wedm, this extension speaks ${PROTOCOL}: ${cure}`;
+  const cure = spoken > PROTOCOL ? t("update the extension") : t("update the server");
+  return t("{0} (wedm {1}) speaks protocol {2} of wedm, this extension speaks {3}: {4}", program, version, spoken, PROTOCOL, cure);
 }
 
 function read(value: unknown, key: string): unknown {

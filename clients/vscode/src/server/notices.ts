@@ -2,13 +2,9 @@
 
 import * as vscode from "vscode";
 import type { Server } from "./server";
+import { t } from "../words";
 
 const HOW = vscode.Uri.parse("https://github.com/wedm/wedm#install");
-
-const SETTING = "Choose…";
-const GET = "How to Get It";
-const AGAIN = "Try Again";
-const LOG = "Show Log";
 
 /** Says once for each reason that the server is not there. */
 export function sayWhatFails(server: Server, log: vscode.LogOutputChannel): vscode.Disposable {
@@ -21,24 +17,25 @@ export function sayWhatFails(server: Server, log: vscode.LogOutputChannel): vsco
       return;
     }
     said = state.reason;
-    const advice = "Build it with: cargo install --path . (in the folder of wedm), or set wedm.server.path.";
+    const advice = t("Build it with: cargo install --path . (in the folder of wedm), or set wedm.server.path.");
+    const [setting, get, again, showLog] = [t("Choose…"), t("How to Get It"), t("Try Again"), t("Show Log")];
     const missing = state.reason.includes("PATH") || state.reason.includes("wedm.server.path");
     const message = `Wire EDM: ${state.reason}.${missing ? ` ${advice}` : ""}`;
     // More than three do not fit into the notice.
-    const ways = state.cure === "program" ? [GET, SETTING, AGAIN] : [AGAIN, LOG, SETTING];
+    const ways = state.cure === "program" ? [get, setting, again] : [again, showLog, setting];
     const way = await vscode.window.showErrorMessage(message, ...ways);
     switch (way) {
-      case SETTING:
+      case setting:
         await chooseProgram();
         break;
-      case GET:
+      case get:
         await vscode.env.openExternal(HOW);
         break;
-      case AGAIN:
+      case again:
         said = "";
         await server.restart();
         break;
-      case LOG:
+      case showLog:
         log.show();
         break;
       case undefined:
@@ -49,7 +46,7 @@ export function sayWhatFails(server: Server, log: vscode.LogOutputChannel): vsco
 
 /** The change of the setting starts the server. */
 async function chooseProgram(): Promise<void> {
-  const chosen = await vscode.window.showOpenDialog({ title: "The program wedm", canSelectMany: false, openLabel: "Use This Program" });
+  const chosen = await vscode.window.showOpenDialog({ title: t("The program wedm"), canSelectMany: false, openLabel: t("Use This Program") });
   if (chosen?.[0] !== undefined) {
     await vscode.workspace.getConfiguration("wedm").update("server.path", chosen[0].fsPath, vscode.ConfigurationTarget.Global);
   }

@@ -15,6 +15,7 @@ import { misfit } from "./handshake";
 import { isProgram, launch } from "./process";
 import { Restarts } from "./restarts";
 import { forServer } from "./settings";
+import { t } from "../words";
 
 /** What may be asked: the requests of wedm's own name space, and the one of LSP that VS Code would answer otherwise. */
 interface Requests extends Methods {
@@ -104,7 +105,7 @@ export class Server implements vscode.Disposable {
       if (start !== this.#start) {
         return;
       }
-      this.#fail(`${found.program} could not be started: ${error instanceof Error ? error.message : String(error)}`, "program");
+      this.#fail(t("{0} could not be started: {1}", found.program, error instanceof Error ? error.message : String(error)), "program");
       return;
     }
     if (start !== this.#start) {
@@ -151,7 +152,7 @@ export class Server implements vscode.Disposable {
     if (client.initializeResult === undefined) {
       if (silence.signal.aborted) {
         await this.#end();
-        this.#fail(`${program} does not answer: there was nothing within ${PATIENCE / 1_000} s`, "program");
+        this.#fail(t("{0} does not answer: there was nothing within {1} s", program, PATIENCE / 1_000), "program");
       } else {
         await died();
       }
@@ -184,11 +185,11 @@ export class Server implements vscode.Disposable {
     this.log.error(reason);
     const pause = this.#restarts.afterLifeOf(this.#ready === 0 ? 0 : Date.now() - this.#ready);
     if (pause === null) {
-      this.#fail(`the server has ended 6 times in a row (${reason}) and is not started again`, "restart");
+      this.#fail(t("the server has ended 6 times in a row ({0}) and is not started again", reason), "restart");
       return;
     }
-    const when = pause === 0 ? "" : ` in ${pause / 1_000} s`;
-    this.#become({ kind: "waiting", reason: `the server has ended (${reason}); it is started again${when}` });
+    const when = pause === 0 ? "" : t(" in {0} s", pause / 1_000);
+    this.#become({ kind: "waiting", reason: t("the server has ended ({0}); it is started again{1}", reason, when) });
     this.#timer = setTimeout(() => void this.#launch(), pause);
   }
 

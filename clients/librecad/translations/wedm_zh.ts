@@ -1,0 +1,504 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="zh" sourcelanguage="en">
+<context>
+    <name>QObject</name>
+    <message>
+        <source>This plugin was built for LibreCAD %1, and this is LibreCAD %2. The plugin interface changes between versions without notice, so nothing is done. Build the plugin against the source of this version.</source>
+        <translation>此插件为 LibreCAD %1 编译，而这是 LibreCAD %2。插件接口随版本变化，因此不作任何操作。请用此版本的源代码编译插件。</translation>
+    </message>
+    <message>
+        <source>The drawing has changed while the repair was on its way; nothing was changed. Ask for it again.</source>
+        <translation>等待修复期间图形已改变，未作任何修改。请重新要求修复。</translation>
+    </message>
+    <message>
+        <source>The repair holds what this plugin cannot draw; nothing was changed.</source>
+        <translation>修复中含有此插件画不出的内容，未作任何修改。</translation>
+    </message>
+    <message>
+        <source>LibreCAD has kept something else than the repair: press Undo, and repair the saved file with &quot;wedm fix&quot;.</source>
+        <translation>LibreCAD 保存的与修复内容不符：请撤销，再用“wedm fix”修复已保存的文件。</translation>
+    </message>
+</context>
+<context>
+    <name>wedm::Connection</name>
+    <message>
+        <source>it could not be started: %1</source>
+        <translation>无法启动：%1</translation>
+    </message>
+    <message>
+        <source>it was killed or has crashed</source>
+        <translation>被终止或已崩溃</translation>
+    </message>
+    <message>
+        <source>it ended with code %1</source>
+        <translation>以代码 %1 结束</translation>
+    </message>
+    <message>
+        <source>it does not speak the language server protocol: %1</source>
+        <translation>不是语言服务器协议：%1</translation>
+    </message>
+</context>
+<context>
+    <name>wedm::Controller</name>
+    <message>
+        <source>live check on</source>
+        <translation>实时检查已打开</translation>
+    </message>
+    <message>
+        <source>live check %1</source>
+        <translation>实时检查%1</translation>
+    </message>
+    <message>
+        <source>Wire EDM</source>
+        <translation>线切割</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n mark(s) taken away.</source>
+        <translation>
+            <numerusform>已清除 %n 个标记。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Not checked here: %1. Explode them, or check the saved DXF.</source>
+        <translation>此处未检查：%1。请分解，或检查保存的 DXF。</translation>
+    </message>
+    <message>
+        <source> The drawing&apos;s unit is neither mm nor inch; it is taken as the settings say, else as mm.</source>
+        <translation>图形单位既不是毫米也不是英寸；按设置处理，没有设置时为 mm。</translation>
+    </message>
+    <message>
+        <source>The program is being made…</source>
+        <translation>正在生成程序…</translation>
+    </message>
+    <message>
+        <source>Written: %1, %2 blocks, wire path %3 mm. Every block was decoded again: at most %4 µm from the path; a control that counts J drifts by %5, %6 µm.</source>
+        <translation>已写出：%1，%2 个程序段，切割路线 %3 mm。已逐段重新解码：偏离切割路线最多 %4 µm；按 J 计数的控制器累计偏差 %5, %6 µm。</translation>
+    </message>
+    <message>
+        <source>Findings that stand in the drawing: %1</source>
+        <translation>图形中的问题：%1</translation>
+    </message>
+    <message>
+        <source>Nothing was changed.</source>
+        <translation>未作任何修改。</translation>
+    </message>
+    <message>
+        <source>Another drawing has come to the front while the repair was on its way; nothing was changed.</source>
+        <translation>等待修复期间已切换到另一图形，未作任何修改。</translation>
+    </message>
+    <message>
+        <source>The drawing was changed by Undo while the repair was on its way; nothing was changed. Ask for it again.</source>
+        <translation>等待修复期间图形已被撤销操作改变，未作任何修改。请重新要求修复。</translation>
+    </message>
+    <message>
+        <source>Done: %1. One Undo takes it back.</source>
+        <translation>完成：%1。撤销一次即可恢复。</translation>
+    </message>
+    <message>
+        <source>There is nothing to mark.</source>
+        <translation>没有可标记的。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n mark(s) on the layer WEDM_MARKS. They are saved with the drawing until they are cleared.</source>
+        <translation>
+            <numerusform>图层 WEDM_MARKS 上有 %n 个标记，清除之前随图形保存。</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>wedm::Drawing</name>
+    <message>
+        <source>entity %1 is no polyline</source>
+        <translation>图元 %1 不是多段线</translation>
+    </message>
+    <message>
+        <source>vertices %1 to %2 of %3, which has %4</source>
+        <translation>%3 的顶点 %1 到 %2 超出范围，共 %4 个</translation>
+    </message>
+    <message>
+        <source>a vertex of %1 is not finite</source>
+        <translation>%1 有顶点不是有限数</translation>
+    </message>
+    <message>
+        <source>a number of %1 is not finite</source>
+        <translation>%1 有数不是有限数</translation>
+    </message>
+    <message>
+        <source>there is no entity %1 to put %2 before</source>
+        <translation>没有图元 %1，无法把 %2 放在它前面</translation>
+    </message>
+    <message>
+        <source>there is no entity %1</source>
+        <translation>没有图元 %1</translation>
+    </message>
+</context>
+<context>
+    <name>wedm::LiveCheck</name>
+    <message>
+        <source>waits: a look would end Redo</source>
+        <translation>等待中：检查会使重做失效</translation>
+    </message>
+</context>
+<context>
+    <name>wedm::Panel</name>
+    <message>
+        <source>Wire EDM</source>
+        <translation>线切割</translation>
+    </message>
+    <message>
+        <source>Fix this</source>
+        <translation>修复此处</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source>not set here</source>
+        <translation>此处未设置</translation>
+    </message>
+    <message>
+        <source>Wire radius + spark gap. A wedm.toml beside the drawing comes first; without either it is 0.1 mm.</source>
+        <translation>丝半径 + 放电间隙。图形旁的 wedm.toml 优先；两者都没有时为 0.1 mm。</translation>
+    </message>
+    <message>
+        <source>opening: the wire runs inside</source>
+        <translation>型孔：丝在内侧走</translation>
+    </message>
+    <message>
+        <source>punch: the wire runs outside</source>
+        <translation>凸模：丝在外侧走</translation>
+    </message>
+    <message>
+        <source>by nesting</source>
+        <translation>按嵌套</translation>
+    </message>
+    <message>
+        <source>both sides</source>
+        <translation>两侧</translation>
+    </message>
+    <message>
+        <source>Where the wire runs. A program can be made only where that is known.</source>
+        <translation>丝在哪一侧走。知道补偿方向才能生成程序。</translation>
+    </message>
+    <message>
+        <source>Faults</source>
+        <translation>问题</translation>
+    </message>
+    <message>
+        <source>Arcs and faults</source>
+        <translation>圆弧和问题</translation>
+    </message>
+    <message>
+        <source>All vertices</source>
+        <translation>全部顶点</translation>
+    </message>
+    <message>
+        <source>Check</source>
+        <translation>检查</translation>
+    </message>
+    <message>
+        <source>Fix all</source>
+        <translation>全部修复</translation>
+    </message>
+    <message>
+        <source>3B…</source>
+        <translation>3B…</translation>
+    </message>
+    <message>
+        <source>Mark</source>
+        <translation>标记</translation>
+    </message>
+    <message>
+        <source>Clear marks</source>
+        <translation>清除标记</translation>
+    </message>
+    <message>
+        <source>Server…</source>
+        <translation>服务器…</translation>
+    </message>
+    <message>
+        <source>Look at the drawing now</source>
+        <translation>立即检查图形</translation>
+    </message>
+    <message>
+        <source>Make every repair that is safe, in one undo step</source>
+        <translation>做所有安全的修复，一次撤销即可恢复</translation>
+    </message>
+    <message>
+        <source>Repair the selected segment</source>
+        <translation>修复选中的段</translation>
+    </message>
+    <message>
+        <source>Write the 3B program to a file</source>
+        <translation>把 3B 程序写到文件</translation>
+    </message>
+    <message>
+        <source>Draw a circle about each fault, on the layer WEDM_MARKS</source>
+        <translation>在图层 WEDM_MARKS 上给每个问题画圈</translation>
+    </message>
+    <message>
+        <source>Choose the program of the wedm server</source>
+        <translation>选择 wedm 服务器程序</translation>
+    </message>
+    <message>
+        <source>Correction</source>
+        <translation>补偿量</translation>
+    </message>
+    <message>
+        <source>Wire side</source>
+        <translation>补偿方向</translation>
+    </message>
+    <message>
+        <source>the built-in default</source>
+        <translation>内置默认值</translation>
+    </message>
+    <message>
+        <source>this dock</source>
+        <translation>此面板</translation>
+    </message>
+    <message>
+        <source>in force: correction %1 mm, from %2</source>
+        <translation>当前补偿量 %1 mm，来自%2</translation>
+    </message>
+    <message>
+        <source>, entity %1 vertex %2</source>
+        <translation>，图元 %1 顶点 %2</translation>
+    </message>
+    <message>
+        <source>and more: %1 that were sent are not listed</source>
+        <translation>另有 %1 个未列出</translation>
+    </message>
+    <message>
+        <source>not checked since Undo</source>
+        <translation>撤销后未检查</translation>
+    </message>
+    <message>
+        <source>What is listed was found before. Check looks at the drawing again; what Redo could bring back is lost then.</source>
+        <translation>列出的是以前的结果。重新检查后，不能再重做。</translation>
+    </message>
+    <message>
+        <source>no fault found</source>
+        <translation>没有问题</translation>
+    </message>
+    <message>
+        <source>errors: %1   warnings: %2</source>
+        <translation>错误：%1   警告：%2</translation>
+    </message>
+    <message>
+        <source>%1 at the last check</source>
+        <translation>上次检查：%1</translation>
+    </message>
+</context>
+<context>
+    <name>wedm::ProgramSearch</name>
+    <message>
+        <source>Build it in wedm&apos;s folder with &quot;cargo install --path .&quot;, or put the program into the folder wedm-server beside the plugin, or choose it with the button &quot;Server…&quot;.</source>
+        <translation>请在 wedm 文件夹中用“cargo install --path .”编译，或把程序放到插件旁的 wedm-server 文件夹，或用“服务器…”按钮选择。</translation>
+    </message>
+    <message>
+        <source>The wedm server is set to &quot;%1&quot;, and there is no such program. %2</source>
+        <translation>wedm 服务器设为“%1”，但没有这个程序。%2</translation>
+    </message>
+    <message>
+        <source>The wedm server was not found: it is not set, not in &quot;%1&quot;, not on PATH and not in &quot;%2&quot;. %3</source>
+        <translation>找不到 wedm 服务器：没有设置，“%1”中没有，PATH 中没有，“%2”中也没有。%3</translation>
+    </message>
+</context>
+<context>
+    <name>wedm::RadiusTable</name>
+    <message>
+        <source>Vertex</source>
+        <translation>顶点</translation>
+    </message>
+    <message>
+        <source>Entity</source>
+        <translation>图元</translation>
+    </message>
+    <message>
+        <source>Layer</source>
+        <translation>图层</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>类型</translation>
+    </message>
+    <message>
+        <source>Radius %1</source>
+        <translation>半径 %1</translation>
+    </message>
+    <message>
+        <source>Sweep °</source>
+        <translation>圆心角 °</translation>
+    </message>
+    <message>
+        <source>Verdict</source>
+        <translation>判定</translation>
+    </message>
+    <message>
+        <source>× %1 mm</source>
+        <translation>× %1 mm</translation>
+    </message>
+</context>
+<context>
+    <name>wedm::Server</name>
+    <message>
+        <source>%1 does not answer: there was nothing within %2 s.</source>
+        <translation>%1 没有应答：已等待 %2 s。</translation>
+    </message>
+    <message>
+        <source>Starting %1</source>
+        <translation>正在启动 %1</translation>
+    </message>
+    <message>
+        <source>%1 refuses to start: %2</source>
+        <translation>%1 拒绝启动：%2</translation>
+    </message>
+    <message>
+        <source>%1 is no wedm server (it calls itself &quot;%2&quot;). Choose the right program with the button &quot;Server…&quot;.</source>
+        <translation>%1 不是 wedm 服务器（它自称“%2”）。请用“服务器…”按钮选择正确的程序。</translation>
+    </message>
+    <message>
+        <source>wedm %1 at %2 speaks protocol %3, this plugin speaks protocol %4. Install the server and the plugin of the same release, or choose another server with the button &quot;Server…&quot;.</source>
+        <translation>wedm %1（%2）的协议是 %3，此插件的协议是 %4。请安装同一版本的服务器和插件，或用“服务器…”按钮另选服务器。</translation>
+    </message>
+    <message>
+        <source>wedm %1</source>
+        <translation>wedm %1</translation>
+    </message>
+    <message>
+        <source>%1: %2.</source>
+        <translation>%1：%2。</translation>
+    </message>
+    <message>
+        <source>The wedm server has ended 6 times in a row (%1) and is not started again before the next command.</source>
+        <translation>wedm 服务器已连续结束 6 次（%1），下一个命令之前不再启动。</translation>
+    </message>
+    <message>
+        <source> in %1 s</source>
+        <translation>，%1 s 后</translation>
+    </message>
+    <message>
+        <source>The wedm server has ended (%1). It is started again%2.</source>
+        <translation>wedm 服务器已结束（%1）%2重新启动。</translation>
+    </message>
+</context>
+<context>
+    <name>wedm::Session</name>
+    <message>
+        <source>change %1 of the fix is not understood</source>
+        <translation>看不懂修复中的修改 %1</translation>
+    </message>
+    <message>
+        <source>The server is not there; nothing was changed.</source>
+        <translation>没有服务器，未作任何修改。</translation>
+    </message>
+    <message>
+        <source>Nothing was found at this segment; nothing was changed.</source>
+        <translation>此段没有问题，未作任何修改。</translation>
+    </message>
+    <message>
+        <source>The server ended before it answered; nothing was changed.</source>
+        <translation>服务器没有应答就结束了，未作任何修改。</translation>
+    </message>
+    <message>
+        <source>No repair: %1. Nothing was changed.</source>
+        <translation>没有修复：%1。未作任何修改。</translation>
+    </message>
+    <message>
+        <source>The server is not there; nothing was written.</source>
+        <translation>没有服务器，未写出任何文件。</translation>
+    </message>
+    <message>
+        <source>the server ended before it answered</source>
+        <translation>服务器没有应答就结束了</translation>
+    </message>
+    <message>
+        <source>No program was written: %1.</source>
+        <translation>未写出程序：%1。</translation>
+    </message>
+    <message>
+        <source>There is nothing that can be repaired safely; nothing was changed.</source>
+        <translation>没有能安全修复的，未作任何修改。</translation>
+    </message>
+    <message>
+        <source>The drawing has changed while the repair was on its way; nothing was changed. Ask for it again.</source>
+        <translation>等待修复期间图形已改变，未作任何修改。请重新要求修复。</translation>
+    </message>
+    <message>
+        <source>The repair does not fit the drawing: %1. Nothing was changed.</source>
+        <translation>修复与图形不符：%1。未作任何修改。</translation>
+    </message>
+    <message>
+        <source>the server sent none</source>
+        <translation>服务器没有发来程序</translation>
+    </message>
+    <message>
+        <source>No program was written to %1: %2.</source>
+        <translation>程序未写到 %1：%2。</translation>
+    </message>
+</context>
+<context>
+    <name>wedm::command</name>
+    <message>
+        <source>Check radii</source>
+        <translation>检查半径</translation>
+    </message>
+    <message>
+        <source>Live check</source>
+        <translation>实时检查</translation>
+    </message>
+    <message>
+        <source>Fix</source>
+        <translation>修复</translation>
+    </message>
+    <message>
+        <source>Generate 3B…</source>
+        <translation>生成 3B…</translation>
+    </message>
+    <message>
+        <source>Mark faults</source>
+        <translation>标记问题</translation>
+    </message>
+    <message>
+        <source>Clear marks</source>
+        <translation>清除标记</translation>
+    </message>
+</context>
+<context>
+    <name>wedm::dialogs</name>
+    <message>
+        <source>Wire EDM</source>
+        <translation>线切割</translation>
+    </message>
+    <message>
+        <source>Write the 3B program</source>
+        <translation>写出 3B 程序</translation>
+    </message>
+    <message>
+        <source>3B programs (*.3b);;All files (*)</source>
+        <translation>3B 程序 (*.3b);;所有文件 (*)</translation>
+    </message>
+    <message>
+        <source>The program of the wedm server</source>
+        <translation>wedm 服务器程序</translation>
+    </message>
+    <message>
+        <source>Write it all the same</source>
+        <translation>仍然写出</translation>
+    </message>
+    <message>
+        <source>This repair rebuilds a large polyline.</source>
+        <translation>此修复要重建一条很大的多段线。</translation>
+    </message>
+    <message>
+        <source>LibreCAD would be busy for about %1 s, because a plugin can only replace a polyline as a whole. Another way: save the drawing and repair the file with &quot;wedm fix FILE --in-place&quot;, which takes no time.</source>
+        <translation>插件只能整条替换多段线，LibreCAD 约 %1 s 不能操作。另一办法：保存图形，用“wedm fix FILE --in-place”修复文件，立即完成。</translation>
+    </message>
+    <message>
+        <source>Repair it here</source>
+        <translation>在此修复</translation>
+    </message>
+</context>
+</TS>
