@@ -3,8 +3,8 @@
 //! DXF text, drawings sent by a CAD program and programs differ here and nowhere above.
 
 use crate::analysis::Analysis;
-use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline};
-use crate::finding::{Detail, Edit, Finding, Fix, Place};
+use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline, Role};
+use crate::finding::{self, Detail, Edit, Finding, Fix, Keep, Place};
 use crate::program;
 use crate::settings::Effective;
 use crate::text::{SourceText, TextEdit};
@@ -117,6 +117,11 @@ impl Document {
         }
     }
 
+    /// Whether an entity of the drawing is a part of a contour that is cut.
+    pub fn cuts(&self, id: EntityId) -> bool {
+        self.analysis.cuts(id)
+    }
+
     /// What long work may look at; `None` for a program.
     pub fn snapshot(&self) -> Option<Snapshot> {
         let drawing = self.drawing()?.clone();
@@ -189,6 +194,7 @@ impl Document {
                     .map_or_else(Vec::new, |drawing| of_drawing(drawing))
                     .into_iter()
                     .map(|fix| fix.map(Edit::Drawing))
+                    .chain(self.keeps(finding).map(|fix| fix.map(Edit::Settings)))
                     .collect()
             }
             Source::Program(program) => program
@@ -197,6 +203,38 @@ impl Document {
                 .map(|fix| fix.map(Edit::Text))
                 .collect(),
         }
+    }
+
+    /// What the settings can keep of a finding in a drawing.
+    pub fn keeps(&self, finding: &Finding) -> impl Iterator<Item = Fix<Vec<Keep>>> {
+        let role = self.settings().side.role().unwrap_or(Role::Both);
+        let keeps = match &finding.detail {
+            Detail::SetAside(parts) => parts.iter().flat_map(|part| part.keeps(role)).collect(),
+            Detail::OpenContour { .. } => {
+                self.spare_layer(finding).map_or_else(Vec::new, |layer| {
+                    let (kind, keeps) = finding::ignored(&layer);
+                    vec![Fix::keeping(kind, keeps)]
+                })
+            }
+            _ => Vec::new(),
+        };
+        keeps.into_iter()
+    }
+
+    /// The layer of a finding's contour, where no closed contour lies on it.
+    fn spare_layer(&self, finding: &Finding) -> Option<Arc<str>> {
+        let drawing = self.drawing()?;
+        let Place::Segment { entity, .. } = finding.place else {
+            return None;
+        };
+        let layer = &drawing.get(entity)?.layer;
+        let lies_there = |id: EntityId| drawing.get(id).is_some_and(|it| it.layer == *layer);
+        let outlines = self.analysis.outlines(drawing);
+        let closed = outlines.iter().filter(|outline| outline.contour.closed);
+        (!closed
+            .flat_map(|outline| &outline.contour.pieces)
+            .any(|piece| lies_there(piece.entity)))
+        .then(|| layer.clone())
     }
 
     /// One edit that makes every safe fix that the document can take.
@@ -250,7 +288,7 @@ impl Document {
         let edits = match (self.fix_all()?, &self.source) {
             (Edit::Drawing(edit), Source::Dxf(text)) => text.text_edits(&edit).ok()?,
             (Edit::Text(edits), _) => edits,
-            (Edit::Drawing(_), _) => return None,
+            (Edit::Drawing(_) | Edit::Settings(_), _) => return None,
         };
         Some(edits).filter(|edits| !edits.is_empty())
     }

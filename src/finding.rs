@@ -2,6 +2,7 @@
 //!
 //! [`sentence`] makes of it what a person reads, the server its form in the protocol.
 
+mod aside;
 mod fault;
 mod fix;
 mod lengths;
@@ -12,10 +13,12 @@ mod small_radius;
 mod title;
 mod unwritable;
 
+pub(crate) use aside::{MOST_HANDLES, ignored};
+pub use aside::{Aside, SetAside};
 pub use fault::Axis;
 pub(crate) use fault::Fault;
 pub(crate) use fix::{CenterFix, TextFix};
-pub use fix::{Edit, Fix, FixKind};
+pub use fix::{Edit, Fix, FixKind, Keep};
 pub(crate) use not_judged::NotJudged;
 pub(crate) use sentence::related;
 pub use sentence::sentence;
@@ -164,6 +167,8 @@ pub enum Detail {
         visibility: Visibility,
         count: usize,
     },
+    /// What is drawn to be read and not to be cut.
+    SetAside(Vec<SetAside>),
     Units(String),
     /// The larger side of the largest contour, which speaks for another unit.
     Size {

@@ -1,6 +1,7 @@
 //! The contours of a drawing in machining order, with their roles.
 
 use super::Analysis;
+use super::aside::{role_of_linetype, set_aside};
 use crate::drawing::{ContourKey, Drawing, EntityId, Outline, Role, nesting_depths};
 use crate::finding::Side;
 use crate::settings::Effective;
@@ -52,7 +53,7 @@ impl Analysis {
             let mut last = None;
             let mut keys = Vec::new();
             for &id in drawing.order() {
-                let key = self.chains.contour_of(id);
+                let key = self.chains.contour_of(id).filter(|&key| !self.is_lone(key));
                 if key != last
                     && let Some(key) = key
                     && seen.insert(key)
@@ -96,7 +97,7 @@ impl Analysis {
     }
 }
 
-/// The role that an entity states, else that of its handle, else that of its layer, else that of its colour.
+/// The role that an entity states, else that of its handle, its linetype, its layer, its colour.
 pub(super) fn role_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> Option<Role> {
     let entity = drawing.get(id)?;
     let by_color = || {
@@ -113,15 +114,18 @@ pub(super) fn role_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> 
             settings.contours.get(&*entity.handle).copied()
         }
     };
+    let by_linetype = || role_of_linetype(settings, &drawing.linetype(id)?.name);
     entity
         .role
         .or_else(by_handle)
+        .or_else(by_linetype)
         .or_else(|| settings.layers.get(&*entity.layer).copied())
         .or_else(by_color)
 }
 
-/// True when an entity is part of a contour: it has segments, its role is not `ignore`, and it is seen, or somebody has given it
-/// or its layer a role. A colour or a handle alone does not bring back what is frozen.
+/// True when an entity is part of a contour, which may be a lone line: it has segments, its role is not `ignore`, it is seen, or somebody
+/// has given it or its layer a role, and it is not set aside by its linetype or its layer. A colour or a handle alone does not bring back
+/// what is frozen.
 pub(crate) fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> bool {
     let Some(entity) = drawing
         .get(id)
@@ -132,4 +136,5 @@ pub(crate) fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> b
     let is_asked_for = || entity.role.is_some() || settings.layers.contains_key(&*entity.layer);
     role_of(drawing, settings, id) != Some(Role::Ignore)
         && (drawing.visibility(id).is_seen() || is_asked_for())
+        && set_aside(drawing, settings, id).is_none()
 }

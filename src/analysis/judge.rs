@@ -124,6 +124,7 @@ impl Analysis {
         );
         self.pairs = pairs;
         self.report_dead_ends(drawing, &ends, &mut report);
+        self.report_set_aside(drawing, &mut report);
         if self.settings.side != SideSetting::Both || self.stated > 0 {
             let ordered = self.in_machining_order(drawing).to_vec();
             let sides: Vec<Option<Side>> = ordered.iter().map(|&key| side_of(self, key)).collect();

@@ -1,6 +1,7 @@
 //! Drawing → contours → findings, and what of it may be reused after an edit.
 
 mod arcs;
+mod aside;
 mod compare;
 mod contours;
 mod dead_ends;
@@ -23,6 +24,7 @@ use crate::finding::{Finding, NoFix, Side};
 use crate::geometry::Bounds;
 use crate::rules::{Limits, Outlook};
 use crate::settings::Effective;
+use aside::{AsideEntities, LoneLines, set_aside};
 use known::{Answer, Known};
 use pairs::Pairs;
 use report::Tally;
@@ -62,6 +64,10 @@ pub struct Analysis {
     segments: usize,
     /// How many contours have a stated role.
     stated: usize,
+    /// Lines that stand alone, and which of them are not cut: nothing else is known of those.
+    lone: LoneLines,
+    /// What is not cut by its linetype or its layer.
+    aside: AsideEntities,
     /// An entity that was removed and may come back nearly as it was, as one does in whose text a number is being typed: all
     /// that is known of it is kept until the next change. Nothing of it shows, since the drawing does not hold it.
     suspended: Option<EntityId>,
@@ -91,6 +97,8 @@ impl Analysis {
             vast: FxHashSet::default(),
             segments: 0,
             stated: 0,
+            lone: LoneLines::default(),
+            aside: AsideEntities::default(),
             suspended: None,
             pairs: Pairs::default(),
             answers: FxHashMap::default(),
@@ -99,8 +107,14 @@ impl Analysis {
             outlines: OnceLock::new(),
             tally: OnceLock::new(),
         };
+        for (id, _) in drawing.entities() {
+            if set_aside(drawing, &analysis.settings, id).is_some() {
+                analysis.note_aside(drawing, id);
+            }
+        }
         // In machining order: where not all is compared, it is the same that is left out, however the drawing came about.
         let keys = analysis.in_machining_order(drawing).to_vec();
+        analysis.order = OnceLock::new();
         let segments = keys
             .iter()
             .filter_map(|&key| analysis.chains.get(key))
@@ -108,7 +122,11 @@ impl Analysis {
             .sum();
         analysis.pairs = Pairs::new(&analysis.settings.budget, segments);
         analysis.known.reserve(keys.len());
-        analysis.learn(drawing, &keys);
+        let (whole, mut lone) = analysis.without_lone(drawing, keys);
+        analysis.learn(drawing, &whole);
+        analysis.judge_lone(drawing, &lone);
+        lone.retain(|&key| !analysis.is_lone(key));
+        analysis.learn(drawing, &lone);
         analysis.pairs.settle();
         analysis
     }
@@ -155,6 +173,8 @@ impl Analysis {
             }
             (None, _) => {}
         }
+        // What lone lines are asked about again.
+        let mut changed = Vec::new();
         for touched in &delta.touched {
             let (entity, vertices) = match *touched {
                 Touched::Vertices {
@@ -166,14 +186,24 @@ impl Analysis {
                 Touched::Entity { entity } | Touched::Removed { entity } => (entity, None),
                 Touched::All => continue,
             };
-            let stays =
-                self.chains
+            self.note_aside(drawing, entity);
+            let key = self.chains.contour_of(entity);
+            let is_lone = key.is_some_and(|key| {
+                self.lone.contains_key(&key) || self.as_lone(drawing, key).is_some()
+            });
+            let stays = !is_lone
+                && self
+                    .chains
                     .same_ends(drawing, entity, is_cut(drawing, &self.settings, entity));
+            let box_of = |analysis: &Analysis| key.and_then(|key| analysis.box_of(key));
+            changed.extend(box_of(self).filter(|_| !self.lone.is_empty()));
             if !stays || !self.look_again(drawing, entity, vertices) {
                 moved.push(entity);
             }
+            changed.extend(box_of(self).filter(|_| !self.lone.is_empty()));
         }
         if moved.is_empty() {
+            self.look_at_lone(drawing, &changed, Vec::new());
             return;
         }
         self.order = OnceLock::new();
@@ -189,16 +219,50 @@ impl Analysis {
             return;
         }
         for key in &rechained.gone {
-            self.lost.remove(key);
-            self.notable.remove(key);
-            self.vast.remove(key);
-            if let Some(known) = self.take_known(*key) {
-                self.pairs.forget(*key, &known.index);
-            }
+            changed.extend(self.box_of(*key).filter(|_| !self.lone.is_empty()));
+            self.forget(*key);
+            self.lone.remove(key);
         }
         let gone: FxHashSet<ContourKey> = rechained.gone.into_iter().collect();
         self.answers.retain(|(key, _), _| !gone.contains(key));
-        self.learn(drawing, &rechained.new);
+        let (whole, lone) = self.without_lone(drawing, rechained.new);
+        self.learn(drawing, &whole);
+        if !self.lone.is_empty() {
+            let new = whole.iter().chain(&lone);
+            changed.extend(new.filter_map(|&key| self.box_of(key)));
+        }
+        self.look_at_lone(drawing, &changed, lone);
+    }
+
+    /// Forgets what has been seen of a contour.
+    fn forget(&mut self, key: ContourKey) {
+        self.lost.remove(&key);
+        self.notable.remove(&key);
+        self.vast.remove(&key);
+        if let Some(known) = self.take_known(key) {
+            self.pairs.forget(key, &known.index);
+        }
+    }
+
+    /// Looks again at the lone lines near what has changed, of which some are `new`.
+    fn look_at_lone(&mut self, drawing: &Drawing, changed: &[Bounds], new: Vec<ContourKey>) {
+        let asked = self.lone_near(changed);
+        let answered = self.judge_lone(drawing, &asked);
+        if answered.is_empty() && new.is_empty() {
+            return;
+        }
+        (self.order, self.outlines) = (OnceLock::new(), OnceLock::new());
+        for &key in &answered {
+            if self.is_lone(key) {
+                self.forget(key);
+                self.answers.retain(|(other, _), _| *other != key);
+            }
+        }
+        let mut cut: Vec<ContourKey> = answered.into_iter().chain(new).collect();
+        cut.retain(|&key| !self.is_lone(key) && !self.known.contains_key(&key));
+        cut.sort_unstable();
+        cut.dedup();
+        self.learn(drawing, &cut);
     }
 
     /// True for an entity that is a contour of its own, and in the way of nothing that has been seen of others.
@@ -206,7 +270,11 @@ impl Analysis {
         let key = self.chains.contour_of(entity);
         let contour = key.and_then(|key| self.chains.get(key));
         contour.is_some_and(|contour| contour.closed && contour.pieces.len() == 1)
-            && key.is_some_and(|key| self.pairs.may_spare(key))
+            && key.is_some_and(|key| {
+                let own = self.box_of(key);
+                self.pairs.may_spare(key)
+                    && own.is_some_and(|own| self.lone_near(&[own]).is_empty())
+            })
     }
 
     /// What holds of `drawing` once `delta` has been made to the drawing that this is of.

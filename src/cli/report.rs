@@ -4,10 +4,11 @@ use super::output::complain;
 use super::{Failure, Verdict, output};
 use crate::document::Document;
 use crate::finding;
-use crate::finding::{Finding, Place, Rule, Severity};
+use crate::finding::{Detail, Finding, Fix, Keep, Place, Rule, Severity};
 use crate::job::{self, Refusal};
 use crate::message::{is_hidden, readable};
 use crate::protocol::FindingData;
+use crate::settings;
 use crate::text::SourceText;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use rayon::prelude::*;
@@ -32,6 +33,9 @@ pub(crate) struct Row {
     /// The other places that the finding concerns.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) related: Vec<RelatedRow>,
+    /// Lines of a `wedm.toml`, each with what it does.
+    #[serde(skip)]
+    keeps: Vec<(String, String)>,
     #[serde(skip)]
     excerpt: Option<Excerpt>,
 }
@@ -131,6 +135,13 @@ pub(crate) fn row(path: &Path, document: &Document, finding: &Finding) -> Row {
         .iter()
         .filter_map(|place| related(document, finding, place))
         .collect();
+    if matches!(finding.detail, Detail::SetAside(_)) {
+        let told = |fix: Fix<Vec<Keep>>| {
+            let title = finding::title(&fix.kind, document.unit_mm());
+            (title, settings::as_lines(&fix.edit))
+        };
+        row.keeps = document.keeps(finding).map(told).collect();
+    }
     row
 }
 
@@ -181,6 +192,7 @@ impl Row {
             message,
             data,
             related: Vec::new(),
+            keeps: Vec::new(),
             excerpt: text.and_then(|text| excerpt(text, &range)),
         }
     }
@@ -212,7 +224,12 @@ impl Row {
                 let others = self.related.iter().map(|related| {
                     Level::NOTE.message(say!(in_line, related.message, related.line))
                 });
-                renderer.render(&[title.element(snippet).elements(others)])
+                let keeps = self.keeps.iter().map(|(title, lines)| {
+                    let lines = lines.trim_end().replace('\n', "  ");
+                    Level::HELP.message(format!("{}: {}", readable(title), readable(&lines)))
+                });
+                let group = title.element(snippet).elements(others);
+                renderer.render(&[group.elements(keeps)])
             }
             None => {
                 let place = annotate_snippets::Origin::path(path.as_ref())

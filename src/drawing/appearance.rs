@@ -1,5 +1,7 @@
 //! What a CAD program shows of an entity: its colour, and whether it is to be seen at all.
 
+use std::sync::Arc;
+
 /// Whether an entity is to be seen in the CAD program. What is not seen is not cut, unless somebody gives it a role.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Visibility {
@@ -19,6 +21,22 @@ impl Visibility {
     pub(crate) fn is_seen(self) -> bool {
         matches!(self, Visibility::Shown | Visibility::Unplotted)
     }
+}
+
+/// The linetype in which an entity is drawn, where it is not a continuous one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Linetype {
+    pub(crate) name: Arc<str>,
+    /// It is that of the entity's layer, not its own.
+    pub(crate) of_layer: bool,
+}
+
+/// All that a drawing knows of how one entity looks.
+#[derive(Clone, Debug)]
+pub(crate) struct Look {
+    pub(super) unseen: Option<(Visibility, Arc<str>)>,
+    pub(super) linetype: Option<Linetype>,
+    pub(super) color: Option<Color>,
 }
 
 /// The colour of an entity or a layer.

@@ -48,6 +48,18 @@ pub enum Role {
     Ignore,
 }
 
+impl Role {
+    /// As the settings have it.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Role::Opening => "opening",
+            Role::Punch => "punch",
+            Role::Both => "both",
+            Role::Ignore => "ignore",
+        }
+    }
+}
+
 /// What an entity is. Messages have it with angles in degrees.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(

@@ -7,6 +7,7 @@ mod appearance;
 mod chain;
 mod contour;
 mod doubles;
+mod drafting;
 mod edit;
 mod ends;
 mod entity;
@@ -21,20 +22,21 @@ mod nesting;
 mod outline;
 mod slots;
 
-pub(crate) use appearance::{Color, Visibility};
+pub(crate) use appearance::{Color, Linetype, Look, Visibility};
 pub use chain::Chains;
 pub(crate) use chain::Key as ContourKey;
 pub(crate) use chain::stated_role;
 pub use contour::Contour;
 pub(crate) use contour::{ContourSegment, Piece};
 pub(crate) use doubles::run_together;
+pub(crate) use drafting::{is_drafting_layer, is_drafting_linetype};
 pub use edit::{Change, Delta, DrawingEdit, Touched};
 pub use entity::{Entity, EntityId, Geometry, Role, Vertex};
 pub(crate) use handle::Handle;
 pub(crate) use index::ContourIndex;
 pub(crate) use index::RUN;
 pub use kind::Kind;
-pub(crate) use nesting::{nesting_depths, winding, winding_of};
+pub(crate) use nesting::{nesting_depths, turns_about, winding, winding_of};
 pub use outline::Outline;
 pub(crate) use outline::wire_side;
 
@@ -82,6 +84,8 @@ pub struct Drawing {
     straight: FxHashSet<EntityId>,
     /// Entities that are not simply shown, with the layer that says so; the entity's own where it says so itself.
     unseen: FxHashMap<EntityId, (Visibility, Arc<str>)>,
+    /// Linetypes that are not continuous.
+    linetypes: FxHashMap<EntityId, Linetype>,
     /// By id: the colour that an entity has of its own. Shorter than the drawing where the last ones have none.
     colors: Vec<Option<Color>>,
     /// By the name of the layer in lower case.
@@ -322,6 +326,41 @@ impl Drawing {
             .map(|(&id, (visibility, layer))| (id, *visibility, layer))
     }
 
+    /// Says in which linetype an entity is drawn; `None` is a continuous one. True when that is something new.
+    pub(crate) fn set_linetype(&mut self, id: EntityId, linetype: Option<Linetype>) -> bool {
+        let before = self.linetypes.get(&id);
+        let is_new = before != linetype.as_ref();
+        if is_new {
+            match linetype {
+                Some(linetype) => drop(self.linetypes.insert(id, linetype)),
+                None => drop(self.linetypes.remove(&id)),
+            }
+        }
+        is_new
+    }
+
+    /// The linetype in which an entity is drawn, where it is not a continuous one.
+    pub(crate) fn linetype(&self, id: EntityId) -> Option<&Linetype> {
+        self.linetypes.get(&id)
+    }
+
+    /// How an entity looks, for one that is removed and may come back.
+    pub(crate) fn look(&self, id: EntityId) -> Look {
+        Look {
+            unseen: self.unseen.get(&id).cloned(),
+            linetype: self.linetypes.get(&id).cloned(),
+            color: self.colors.get(id.0 as usize).copied().flatten(),
+        }
+    }
+
+    pub(crate) fn set_look(&mut self, id: EntityId, look: Look) {
+        if let Some(unseen) = look.unseen {
+            self.unseen.insert(id, unseen);
+        }
+        self.set_linetype(id, look.linetype);
+        self.set_color(id, look.color);
+    }
+
     /// Gives an entity a colour of its own, or leaves it that of its layer. True when that is something new.
     pub(crate) fn set_color(&mut self, id: EntityId, color: Option<Color>) -> bool {
         let index = id.0 as usize;
@@ -401,6 +440,7 @@ impl Drawing {
         self.whole.remove(&id);
         self.straight.remove(&id);
         self.unseen.remove(&id);
+        self.linetypes.remove(&id);
         self.set_color(id, None);
         Some(entity)
     }

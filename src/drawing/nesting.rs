@@ -54,6 +54,12 @@ pub(crate) fn winding(drawing: &Drawing, contour: &Contour, point: Point) -> i64
 
 /// The same of closed segments.
 pub(crate) fn winding_of(segments: impl Iterator<Item = Segment>, point: Point) -> i64 {
+    let (angle, caps) = turns_about(segments, point);
+    (angle / TAU).round() as i64 + caps
+}
+
+/// The angle by which the chords of segments go round `point`, and how many turns their arcs add to that.
+pub(crate) fn turns_about(segments: impl Iterator<Item = Segment>, point: Point) -> (f64, i64) {
     let mut angle = 0.0;
     let mut caps = 0;
     for segment in segments {
@@ -71,5 +77,5 @@ pub(crate) fn winding_of(segments: impl Iterator<Item = Segment>, point: Point) 
             }
         }
     }
-    (angle / TAU).round() as i64 + caps
+    (angle, caps)
 }

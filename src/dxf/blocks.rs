@@ -11,7 +11,7 @@ use super::number::{self, Number};
 use super::place;
 use super::shape::Shape;
 use super::space::{Lies, Space, Vector3};
-use crate::drawing::{Color, Geometry, Kind, Visibility};
+use crate::drawing::{Color, Geometry, Kind, Linetype, Visibility};
 use crate::finding::NotJudged;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
@@ -77,6 +77,7 @@ pub(super) struct Part {
     pub(super) visibility: (Visibility, Arc<str>),
     /// A colour that is not that of its layer.
     pub(super) color: Option<Color>,
+    pub(super) linetype: Option<Linetype>,
     pub(super) kind: Kind,
     pub(super) geometry: Geometry,
 }
@@ -357,8 +358,8 @@ impl Blocks {
                                     .or_default() += 1;
                                 continue;
                             };
-                            let (visibility, color) =
-                                inherited.hand_on(*appearance, layer, pen.states);
+                            let (visibility, color, linetype) =
+                                inherited.hand_on(appearance, layer, pen.states);
                             shape.placed(&map, *kind, &mut |kind, shape| match shape
                                 .drawn(pen.tolerance)
                             {
@@ -368,6 +369,7 @@ impl Blocks {
                                         layer,
                                         visibility,
                                         color,
+                                        linetype: linetype.clone(),
                                         kind,
                                         geometry,
                                     });

@@ -28,9 +28,10 @@ pub(super) struct Read {
 }
 
 /// What an entity says of how it looks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Appearance {
     pub(super) paint: Paint,
+    pub(super) stroke: Stroke,
     pub(super) invisible: bool,
 }
 
@@ -41,6 +42,28 @@ pub(super) enum Paint {
     /// From the reference that draws it.
     ByBlock,
     Own(Color),
+}
+
+/// Whence an entity has its linetype.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Stroke {
+    ByLayer,
+    /// From the reference that draws it.
+    ByBlock,
+    Continuous,
+    Own(Arc<str>),
+}
+
+impl Stroke {
+    /// By the name in the text.
+    pub(super) fn of(name: &[u8], layers: &mut Layers) -> Stroke {
+        match name {
+            name if name.eq_ignore_ascii_case(b"BYLAYER") => Stroke::ByLayer,
+            name if name.eq_ignore_ascii_case(b"BYBLOCK") => Stroke::ByBlock,
+            name if name.eq_ignore_ascii_case(b"CONTINUOUS") => Stroke::Continuous,
+            name => Stroke::Own(layers.name(name)),
+        }
+    }
 }
 
 /// Where the vertices of a polyline stand.
@@ -103,6 +126,7 @@ pub(super) enum Plane {
 pub(super) struct Common {
     handle: Option<Tag>,
     layer: Option<Tag>,
+    linetype: Option<Tag>,
     color: Option<Tag>,
     rgb: Option<Tag>,
     invisible: bool,
@@ -129,6 +153,7 @@ impl Common {
         }
         match tag.code {
             5 => self.handle = Some(tag),
+            6 => self.linetype = Some(tag),
             8 => self.layer = Some(tag),
             60 => self.invisible = lexer.lines.trimmed(tag.value_line()) == b"1",
             62 => self.color = Some(tag),
@@ -277,7 +302,7 @@ impl Common {
         )
     }
 
-    pub(super) fn appearance(&self, lexer: &Lexer) -> Appearance {
+    pub(super) fn appearance(&self, lexer: &Lexer, layers: &mut Layers) -> Appearance {
         let rgb = self
             .rgb
             .and_then(|tag| Self::whole(lexer, tag))
@@ -290,8 +315,12 @@ impl Common {
             }
             (None, None) => Paint::ByLayer,
         };
+        let stroke = self.linetype.map_or(Stroke::ByLayer, |tag| {
+            Stroke::of(lexer.lines.trimmed(tag.value_line()), layers)
+        });
         Appearance {
             paint,
+            stroke,
             invisible: self.invisible,
         }
     }
@@ -305,7 +334,7 @@ impl Common {
         (shape, lies): (Shape, Lies),
         vertices: Option<VertexLines>,
     ) -> Outcome {
-        let appearance = self.appearance(lexer);
+        let appearance = self.appearance(lexer, layers);
         let (handle, layer) = (self.handle(lexer), self.layer(lexer, layers));
         Outcome::Entity(Read {
             handle,

@@ -1,10 +1,10 @@
 //! What a reference to a block hands on to what it draws: layer, colour, whether it is seen; and how a shape in it comes to lie.
 
-use super::entity::{Appearance, Insert, Paint};
+use super::entity::{Appearance, Insert, Paint, Stroke};
 use super::layer_table::LayerStates;
 use super::shape::{Affine, Shape};
 use super::space::{FLAT, Lies, Space, Vector3, in_space};
-use crate::drawing::{Color, Geometry, Kind, Visibility};
+use crate::drawing::{Color, Geometry, Kind, Linetype, Visibility};
 use crate::geometry::Point;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -15,6 +15,8 @@ pub(super) struct Inherited {
     pub(super) layer: Arc<str>,
     /// The colour of what has that of its block.
     color: Option<Color>,
+    /// The linetype of what has that of its block.
+    linetype: Option<Linetype>,
     /// Where nothing of it is seen: a frozen layer, or a reference that is invisible. One that is switched off hides only what lies on
     /// it.
     hidden: Option<(Visibility, Arc<str>)>,
@@ -38,20 +40,22 @@ impl Inherited {
             Paint::ByBlock => around.and_then(|around| around.color),
             Paint::ByLayer => None,
         };
+        let around_linetype = around.and_then(|around| around.linetype.as_ref());
         Inherited {
             layer: layer.clone(),
             color,
+            linetype: stroke(&insert.appearance.stroke, around_linetype, layer, states),
             hidden: around_hidden.or(own),
         }
     }
 
-    /// Whether a part with its own appearance is seen, with the layer that decides it; and its colour.
+    /// Whether a part with its own appearance is seen, with the layer that decides it; its colour; its linetype.
     pub(super) fn hand_on(
         &self,
-        appearance: Appearance,
+        appearance: &Appearance,
         layer: &Arc<str>,
         states: &mut LayerStates,
-    ) -> ((Visibility, Arc<str>), Option<Color>) {
+    ) -> ((Visibility, Arc<str>), Option<Color>, Option<Linetype>) {
         let visibility = match &self.hidden {
             Some(hidden) => hidden.clone(),
             None if appearance.invisible => (Visibility::Invisible, layer.clone()),
@@ -62,7 +66,26 @@ impl Inherited {
             Paint::ByBlock => self.color,
             Paint::ByLayer => None,
         };
-        (visibility, color)
+        let linetype = stroke(&appearance.stroke, self.linetype.as_ref(), layer, states);
+        (visibility, color, linetype)
+    }
+}
+
+/// The linetype in which something on a layer is drawn, within what hands on the one `around`; `None` is a continuous one.
+pub(super) fn stroke(
+    own: &Stroke,
+    around: Option<&Linetype>,
+    layer: &Arc<str>,
+    states: &mut LayerStates,
+) -> Option<Linetype> {
+    match own {
+        Stroke::ByLayer => states.linetype_of(layer),
+        Stroke::ByBlock => around.cloned(),
+        Stroke::Continuous => None,
+        Stroke::Own(name) => Some(Linetype {
+            name: name.clone(),
+            of_layer: false,
+        }),
     }
 }
 

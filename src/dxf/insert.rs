@@ -116,7 +116,7 @@ pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcom
         columns: (columns, seen(along * column_step.unwrap_or(0.0))),
         rows: (rows, seen(across * row_step.unwrap_or(0.0))),
         handle: common.handle(lexer),
-        appearance: common.appearance(lexer),
+        appearance: common.appearance(lexer, layers),
         layer: common.layer(lexer, layers),
     };
     Outcome::Insert(Box::new(insert))

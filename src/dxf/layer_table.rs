@@ -3,7 +3,7 @@
 use super::lines::Lines;
 use super::number::{self, Number};
 use super::place::own_tags;
-use crate::drawing::{Color, Visibility};
+use crate::drawing::{Color, Linetype, Visibility};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 use std::sync::Arc;
@@ -14,6 +14,8 @@ pub(crate) struct LayerEntry {
     pub(crate) name: Arc<str>,
     pub(super) visibility: Visibility,
     pub(super) color: Option<Color>,
+    /// Where it is not the continuous one.
+    pub(super) linetype: Option<Arc<str>>,
 }
 
 /// The layer on which AutoCAD keeps the points that dimensions hang on: it is never plotted.
@@ -34,6 +36,7 @@ pub(super) fn read(
         name: "".into(),
         visibility: Visibility::Shown,
         color: None,
+        linetype: None,
     };
     let (mut named, mut frozen, mut off, mut plotted, mut rgb) = (false, false, false, true, None);
     for tag in own_tags(lines, range) {
@@ -42,6 +45,11 @@ pub(super) fn read(
             2 => {
                 entry.name = name(lines.trimmed(line));
                 named = true;
+            }
+            6 => {
+                let own = lines.trimmed(line);
+                let is_plain = own.is_empty() || own.eq_ignore_ascii_case(b"CONTINUOUS");
+                entry.linetype = (!is_plain).then(|| name(own));
             }
             70 => frozen = whole(line).is_some_and(|flags| flags & FROZEN != 0),
             62 => {
@@ -68,38 +76,52 @@ pub(super) fn read(
     named.then_some(entry)
 }
 
-/// What the table says of each layer that is not simply shown. Names are the same in upper and in lower case.
+impl LayerEntry {
+    /// True where it is shown, and its lines are continuous: nobody need remember it.
+    pub(super) fn is_plain(&self) -> bool {
+        self.visibility == Visibility::Shown && self.linetype.is_none()
+    }
+}
+
+/// What the table says of each layer that is not simply shown, or has a linetype. Names are the same in upper and in lower case.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LayerStates {
-    unlike: FxHashMap<String, Visibility>,
+    unlike: FxHashMap<String, (Visibility, Option<Arc<str>>)>,
     /// The layer that was asked for last: neighbours lie on the same.
-    last: Option<(Arc<str>, Visibility)>,
+    last: Option<(Arc<str>, (Visibility, Option<Arc<str>>))>,
 }
 
 impl LayerStates {
     pub(super) fn enter(&mut self, entry: &LayerEntry) {
-        if entry.visibility != Visibility::Shown {
-            self.unlike
-                .insert(entry.name.to_lowercase(), entry.visibility);
+        if !entry.is_plain() {
+            let state = (entry.visibility, entry.linetype.clone());
+            self.unlike.insert(entry.name.to_lowercase(), state);
         }
         self.last = None;
     }
 
     pub(super) fn of(&mut self, layer: &Arc<str>) -> Visibility {
+        self.state(layer)
+            .map_or(Visibility::Shown, |(visibility, _)| *visibility)
+    }
+
+    /// The linetype of what has that of its layer.
+    pub(super) fn linetype_of(&mut self, layer: &Arc<str>) -> Option<Linetype> {
+        let name = self.state(layer)?.1.clone()?;
+        Some(Linetype {
+            name,
+            of_layer: true,
+        })
+    }
+
+    fn state(&mut self, layer: &Arc<str>) -> Option<&(Visibility, Option<Arc<str>>)> {
         if self.unlike.is_empty() {
-            return Visibility::Shown;
+            return None;
         }
-        if let Some((last, visibility)) = &self.last
-            && Arc::ptr_eq(last, layer)
-        {
-            return *visibility;
+        if !matches!(&self.last, Some((last, _)) if Arc::ptr_eq(last, layer)) {
+            let state = self.unlike.get(&layer.to_lowercase());
+            self.last = Some((layer.clone(), state.cloned().unwrap_or_default()));
         }
-        let visibility = self
-            .unlike
-            .get(&layer.to_lowercase())
-            .copied()
-            .unwrap_or_default();
-        self.last = Some((layer.clone(), visibility));
-        visibility
+        self.last.as_ref().map(|(_, state)| state)
     }
 }

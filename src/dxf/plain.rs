@@ -2,7 +2,7 @@
 //!
 //! What is found here is what [`super::entities::read`] would find; anything that it would say a word about is left to it.
 
-use super::entity::{Appearance, Paint, Read};
+use super::entity::{Appearance, Paint, Read, Stroke};
 use super::layers::Layers;
 use super::lines::Lines;
 use super::number;
@@ -31,6 +31,7 @@ pub(super) fn read(lines: Lines, line: usize, layers: &mut Layers) -> Option<(Re
     let mut next = line + 2;
     let mut values = [None; CODES.len()];
     let (mut handle, mut layer, mut paint) = (None, &b"0"[..], Paint::ByLayer);
+    let mut linetype = &b"BYLAYER"[..];
     loop {
         let (code, value_at) = code(bytes, at)?;
         if code == 0 {
@@ -47,10 +48,11 @@ pub(super) fn read(lines: Lines, line: usize, layers: &mut Layers) -> Option<(Re
             let value = lines.content(next + 1);
             match code {
                 5 => handle = Some((plain_handle(value)?, next + 1)),
+                6 => linetype = unpadded(value)?,
                 8 => layer = unpadded(value)?,
                 62 => paint = plain_paint(value)?,
-                // Line type, thickness, line type scale, class, owner, line weight: they draw nothing.
-                6 | 39 | 48 | 100 | 330 | 370 => {}
+                // Thickness, line type scale, class, owner, line weight: they draw nothing.
+                39 | 48 | 100 | 330 | 370 => {}
                 _ => return None,
             }
             at = behind_line_end(bytes, value_at + value.len())?;
@@ -84,6 +86,7 @@ pub(super) fn read(lines: Lines, line: usize, layers: &mut Layers) -> Option<(Re
         layer: layers.name(layer),
         appearance: Appearance {
             paint,
+            stroke: Stroke::of(linetype, layers),
             invisible: false,
         },
         kind,

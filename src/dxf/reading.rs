@@ -2,6 +2,7 @@
 
 use super::blocks::{Blocks, Drawn, Part, Undrawn};
 use super::entity::{Appearance, Insert, Outcome, Paint, Read};
+use super::inherited::stroke;
 use super::layer_table::{LayerEntry, LayerStates};
 use super::lexer::Lexer;
 use super::lines::Lines;
@@ -108,9 +109,8 @@ impl Pass<'_> {
 
     fn layer(&mut self, entry: LayerEntry) -> Became {
         // What stands before its layer is read again.
-        self.reading.early |= self.reading.known.is_none()
-            && !self.reading.drawing.is_empty()
-            && entry.visibility != Visibility::Shown;
+        self.reading.early |=
+            self.reading.known.is_none() && !self.reading.drawing.is_empty() && !entry.is_plain();
         self.table.states.enter(&entry);
         if let Some(color) = entry.color {
             self.reading.drawing.set_layer_color(&entry.name, color);
@@ -267,6 +267,7 @@ impl Pass<'_> {
             layer,
             visibility,
             color,
+            linetype,
             kind,
             geometry,
         } in parts
@@ -288,6 +289,7 @@ impl Pass<'_> {
             let drawing = &mut self.reading.drawing;
             drawing.set_visibility(id, visibility.0, &visibility.1);
             drawing.set_color(id, color);
+            drawing.set_linetype(id, linetype);
             ids.end = EntityId(id.0 + 1);
         }
         item.became = Became::Parts {
@@ -323,8 +325,10 @@ pub(super) fn set_appearance(
         Paint::Own(color) => Some(color),
         Paint::ByLayer | Paint::ByBlock => None,
     };
+    let linetype = stroke(&appearance.stroke, None, layer, states);
+    let is_stroked_otherwise = drawing.set_linetype(id, linetype);
     let seen_otherwise = drawing.set_visibility(id, visibility, layer);
-    drawing.set_color(id, color) | seen_otherwise
+    drawing.set_color(id, color) | seen_otherwise | is_stroked_otherwise
 }
 
 /// Kinds that become arcs within a tolerance.

@@ -12,7 +12,7 @@ use super::lines::Lines;
 use super::number::{self, Code, Number};
 use super::reader::range_key;
 use super::table::{Became, NO_ITEM, Named};
-use crate::drawing::{Delta, Entity, EntityId, Touched};
+use crate::drawing::{Delta, Entity, EntityId, Look, Touched};
 use crate::finding::{Finding, Place, Rule};
 use std::ops::Range;
 use std::sync::Arc;
@@ -22,6 +22,7 @@ pub(super) struct Suspended {
     item: usize,
     id: EntityId,
     entity: Arc<Entity>,
+    look: Look,
     vertices: VertexLines,
     index: usize,
     /// The vertex, as it stood when the number was one.
@@ -75,6 +76,7 @@ impl Document {
         {
             return None;
         }
+        let look = self.drawing.look(id);
         let vertices = self.table.vertices.remove(&id)?;
         let entity = Arc::make_mut(&mut self.drawing).remove(id)?;
         self.table.set_item_of(id, NO_ITEM);
@@ -85,6 +87,7 @@ impl Document {
             item,
             id,
             entity,
+            look,
             vertices,
             index,
             lines: old.clone(),
@@ -134,6 +137,7 @@ impl Document {
         if !drawing.put_back(suspended.id, suspended.entity) {
             return None;
         }
+        drawing.set_look(suspended.id, suspended.look);
         let touched = drawing
             .splice(suspended.id, suspended.index, 1, &[vertex])
             .ok()?;

@@ -1,8 +1,9 @@
 //! A repair as data: what it does, and its edit.
 
-use super::Axis;
+use super::{Aside, Axis};
 use crate::drawing::{Change, DrawingEdit};
 use crate::text::TextEdit;
+use std::sync::Arc;
 
 /// How the centre was found to which an arc's ends fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +35,27 @@ pub enum Edit {
     Drawing(DrawingEdit),
     /// Sorted and disjoint.
     Text(Vec<TextEdit>),
+    /// Lines of the `wedm.toml` that holds for the document.
+    Settings(Vec<Keep>),
+}
+
+/// A key of a table of the settings, and what it is to be.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Keep {
+    /// Dotted: what it is made of stands in it as TOML has it.
+    pub table: String,
+    pub key: String,
+    pub value: String,
+}
+
+impl Keep {
+    pub(crate) fn new(table: &str, key: &str, value: &str) -> Keep {
+        Keep {
+            table: table.into(),
+            key: key.into(),
+            value: value.into(),
+        }
+    }
 }
 
 /// A repair of a program.
@@ -63,6 +85,18 @@ impl Fix {
             preferred: true,
             in_fix_all: true,
             edit: DrawingEdit { changes },
+        }
+    }
+}
+
+impl Fix<Vec<Keep>> {
+    /// What is kept in the settings: never but by choice.
+    pub(crate) fn keeping(kind: FixKind, edit: Vec<Keep>) -> Fix<Vec<Keep>> {
+        Fix {
+            kind,
+            preferred: false,
+            in_fix_all: false,
+            edit,
         }
     }
 }
@@ -205,5 +239,13 @@ pub enum FixKind {
     },
     InsertLine {
         block: String,
+    },
+    /// What is drawn to be read is cut.
+    CutAllTheSame {
+        why: Aside,
+    },
+    /// What lies on a layer is not cut.
+    IgnoreLayer {
+        layer: Arc<str>,
     },
 }

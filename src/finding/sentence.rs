@@ -2,7 +2,7 @@
 
 use super::lengths::{absurd, mm, told_apart};
 use super::program_sentence::program;
-use super::{Detail, Finding, NoFix, NotJudged, SmallRadius, Unwritable};
+use super::{Aside, Detail, Finding, NoFix, NotJudged, SetAside, SmallRadius, Unwritable};
 use crate::drawing::Visibility;
 use crate::message::readable;
 
@@ -24,6 +24,7 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
         Detail::UnsupportedEntity { kind, count, why } => {
             say!(of_them_is_not_cut, kind, count, why)
         }
+        Detail::SetAside(parts) => set_aside(parts),
         Detail::Unseen {
             layer,
             visibility,
@@ -168,6 +169,33 @@ fn unwritable(what: &Unwritable) -> String {
             turn.to_degrees().abs()
         ),
     }
+}
+
+/// Names that are listed at most.
+const LISTED: usize = 8;
+
+fn set_aside(parts: &[SetAside]) -> String {
+    let count: usize = parts.iter().map(|part| part.count).sum();
+    let (entities, are) = if count == 1 {
+        (say!(n1_entity).to_string(), say!(is))
+    } else {
+        (say!(entities, count), say!(are))
+    };
+    let mut said: Vec<String> = parts
+        .iter()
+        .take(LISTED)
+        .map(|SetAside { why, count, .. }| match why {
+            Aside::Linetype(name) => say!(in_a_linetype, count, name),
+            Aside::Layer(name) => say!(on_a_layer, count, name),
+            Aside::Lone if *count == 1 => say!(n1_lone_line).into(),
+            Aside::Lone => say!(lone_lines, count),
+        })
+        .collect();
+    let others: usize = parts.iter().skip(LISTED).map(|part| part.count).sum();
+    if others > 0 {
+        said.push(say!(others_of_them, others));
+    }
+    say!(drawn_to_be_read_and_not_cut, entities, are, said.join(", "))
 }
 
 fn unseen(layer: &str, visibility: Visibility, count: usize) -> String {

@@ -1,7 +1,7 @@
 //! What a fix is called.
 
 use super::lengths::mm;
-use super::{CenterFix, FixKind};
+use super::{Aside, CenterFix, FixKind};
 
 /// What a fix does, as the title of its code action.
 pub(crate) fn title(kind: &FixKind, unit_mm: f64) -> String {
@@ -94,6 +94,14 @@ pub(crate) fn title(kind: &FixKind, unit_mm: f64) -> String {
         FixKind::Rewrite { found, meant } if found.is_empty() => say!(write, meant),
         FixKind::Rewrite { found, meant } => say!(write_for, meant, found),
         FixKind::InsertLine { block } => say!(insert_the_block, block),
+        FixKind::CutAllTheSame {
+            why: Aside::Linetype(name),
+        } => say!(cut_what_is_drawn_in_a_linetype, name),
+        FixKind::CutAllTheSame {
+            why: Aside::Layer(name),
+        } => say!(cut_what_lies_on_a_layer, name),
+        FixKind::CutAllTheSame { why: Aside::Lone } => say!(cut_the_lone_lines).into(),
+        FixKind::IgnoreLayer { layer } => say!(ignore_the_layer, layer),
         FixKind::SwapSide => say!(let_the_wire_run_on_the_other_side).into(),
         FixKind::OneArc { chords, radius } => say!(
             replace_the_chords_by_one_arc_of_r_mm,

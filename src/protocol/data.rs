@@ -114,6 +114,9 @@ impl FindingData {
                 data.kind = Some(kind.clone());
                 data.count = Some(*count);
             }
+            Detail::SetAside(parts) => {
+                data.count = Some(parts.iter().map(|part| part.count).sum());
+            }
             Detail::Unseen { count, .. } | Detail::More { count } => data.count = Some(*count),
             Detail::SharpCorner {
                 turn,

@@ -24,7 +24,8 @@ pub struct InspectedEntity {
     pub(crate) r#type: String,
     pub(crate) layer: String,
     pub(crate) closed: bool,
-    /// False where it is no part of a contour: its layer is frozen or switched off, its role is `ignore`, or it is a point.
+    /// False where it is no part of a contour: its layer is frozen or switched off, its role is `ignore`, it is drawn to be read (as centre
+    /// lines are) and not to be cut, or it is a point.
     pub(crate) cut: bool,
     pub(crate) segments: Vec<InspectedSegment>,
 }
@@ -46,7 +47,7 @@ impl Inspection {
         let drawing = document.drawing()?;
         let unit = document.settings().unit_of(drawing);
         let zero_length = document.settings().tolerances.in_units(unit.mm).zero_length;
-        let is_cut = |id| crate::analysis::is_cut(drawing, document.settings(), id);
+        let is_cut = |id| document.cuts(id);
         Some(Inspection::new(
             drawing,
             unit.mm,

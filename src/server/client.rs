@@ -28,6 +28,8 @@ pub(super) struct Abilities {
     pub(crate) apply_drawing_edit: bool,
     pub(crate) resend_drawing: bool,
     pub(crate) document_changes: bool,
+    /// A workspace edit may make a new file.
+    pub(crate) create_files: bool,
     pub(crate) configuration: bool,
     pub(crate) register_configuration: bool,
     pub(crate) register_watched_files: bool,

@@ -1,6 +1,7 @@
 //! A request about an open document: what it looks at, whether its answer is still wanted, and where it is answered.
 
 use super::client::Abilities;
+use super::config;
 use super::convert::{lsp_edits, lsp_range, range_of};
 use super::errors::{internal, moved_on, refused};
 use super::jobs::Progress;
@@ -13,11 +14,13 @@ use crate::finding::{Rule, Severity};
 use crate::ide::Whole;
 use crate::ide::dxf::{Name, name_at};
 use crate::program;
-use crate::settings::{Effective, SettingsError, from_json};
+use crate::settings::{Effective, FILE_NAME, SettingsError, from_json};
 use crate::text::{Encoding, SourceText, TextEdit};
+use ls_types::request::{CodeActionRequest, Request};
 use ls_types::{
-    DocumentChanges, OneOf, OptionalVersionedTextDocumentIdentifier, Position, Range,
-    TextDocumentEdit, Uri, WorkspaceEdit,
+    CreateFile, CreateFileOptions, DocumentChangeOperation, DocumentChanges, OneOf,
+    OptionalVersionedTextDocumentIdentifier, Position, Range, ResourceOp, TextDocumentEdit, Uri,
+    WorkspaceEdit,
 };
 use serde_json::Value;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -75,8 +78,17 @@ pub(super) struct RequestContext {
     /// The semantic tokens that the client holds.
     pub(crate) tokens: Arc<TokenMemory>,
     held: Held,
+    /// Where the settings of the document are written; asked for with its actions alone.
+    settings_file: Option<SettingsFile>,
     options: Result<Option<Arc<Effective>>>,
     wanted: Wanted,
+}
+
+/// The `wedm.toml` that holds for a document, or the one that would.
+pub(super) struct SettingsFile {
+    uri: Uri,
+    pub text: SourceText,
+    is_new: bool,
 }
 
 enum Held {
@@ -157,6 +169,7 @@ impl RequestContext {
     /// And whether the document is so small that the request is answered at once.
     fn new(state: &mut State, asked: Asked) -> Result<(RequestContext, bool)> {
         let Asked {
+            name,
             title,
             reach,
             about,
@@ -166,6 +179,11 @@ impl RequestContext {
         let options = with_options(state, &about.uri, about.options.as_ref());
         let (encoding, abilities) = (state.encoding, state.client.abilities.clone());
         let progress = Progress::begin(state.client.writer(), about.token, title);
+        let settings_file = if name == CodeActionRequest::METHOD {
+            SettingsFile::of(state, &about.uri)
+        } else {
+            None
+        };
         let open = state.document(&about.uri)?;
         let is_small =
             reach != Reach::Long && open.content.is_small() && open.findings <= FEW_FINDINGS;
@@ -180,6 +198,7 @@ impl RequestContext {
             held: open.document().map_or(Held::Nothing, |document| {
                 Held::of(document, reach, about.position, encoding)
             }),
+            settings_file,
             options,
             wanted: Wanted {
                 client,
@@ -275,6 +294,56 @@ impl RequestContext {
             .map_err(|_| Error::invalid_params(say!(is_no_uri, self.uri)))
     }
 
+    pub fn settings_file(&self) -> Option<&SettingsFile> {
+        self.settings_file.as_ref()
+    }
+
+    /// Edits of the file with the settings, in the form that the client takes; `None` where it cannot make a new one.
+    pub fn settings_edit(
+        &self,
+        file: &SettingsFile,
+        edits: Vec<TextEdit>,
+    ) -> Option<WorkspaceEdit> {
+        let edits = lsp_edits(&file.text, edits, self.encoding);
+        let uri = file.uri.clone();
+        if !file.is_new && !self.abilities.document_changes {
+            return Some(WorkspaceEdit {
+                changes: Some([(uri, edits)].into()),
+                ..WorkspaceEdit::default()
+            });
+        }
+        let change = TextDocumentEdit {
+            text_document: OptionalVersionedTextDocumentIdentifier {
+                uri: uri.clone(),
+                version: None,
+            },
+            edits: edits.into_iter().map(OneOf::Left).collect(),
+        };
+        let changes = if !file.is_new {
+            DocumentChanges::Edits(vec![change])
+        } else if self.abilities.create_files {
+            let options = CreateFileOptions {
+                overwrite: Some(false),
+                ignore_if_exists: Some(true),
+            };
+            let create = CreateFile {
+                uri,
+                options: Some(options),
+                annotation_id: None,
+            };
+            DocumentChanges::Operations(vec![
+                DocumentChangeOperation::Op(ResourceOp::Create(create)),
+                DocumentChangeOperation::Edit(change),
+            ])
+        } else {
+            return None;
+        };
+        Some(WorkspaceEdit {
+            document_changes: Some(changes),
+            ..WorkspaceEdit::default()
+        })
+    }
+
     /// Edits of the document's text in the form that the client takes.
     pub(crate) fn workspace_edit(
         &self,
@@ -299,6 +368,23 @@ impl RequestContext {
         Ok(WorkspaceEdit {
             document_changes: Some(DocumentChanges::Edits(vec![change])),
             ..WorkspaceEdit::default()
+        })
+    }
+}
+
+impl SettingsFile {
+    fn of(state: &mut State, uri: &str) -> Option<SettingsFile> {
+        let found = state.file_for(uri);
+        let path = match &found {
+            Some(file) => file.path.clone(),
+            None => config::path_of(uri)?.parent()?.join(FILE_NAME),
+        };
+        Some(SettingsFile {
+            uri: config::uri_of(&path)?.parse().ok()?,
+            text: found
+                .as_ref()
+                .map_or_else(|| SourceText::new(Vec::new()), |file| file.text.clone()),
+            is_new: found.is_none(),
         })
     }
 }

@@ -27,6 +27,8 @@ pub struct Effective {
     pub unit: Unit,
     pub margin: f64,
     pub layers: BTreeMap<String, Role>,
+    /// Roles by linetype, in upper case.
+    pub linetypes: BTreeMap<String, Role>,
     /// Roles by handle.
     pub contours: BTreeMap<String, Role>,
     pub colors: BTreeMap<Color, Role>,
@@ -128,6 +130,12 @@ impl Effective {
             },
             margin: settings.margin(),
             layers: settings.layers.clone().unwrap_or_default(),
+            linetypes: settings
+                .linetypes
+                .iter()
+                .flatten()
+                .map(|(name, &role)| (name.to_uppercase(), role))
+                .collect(),
             contours: settings.contours.clone().unwrap_or_default(),
             colors: settings
                 .colors

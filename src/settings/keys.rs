@@ -50,6 +50,10 @@ tables! {
         /// Role of the entities on a layer, by its name. An entity's own `role` comes first. A contour takes the role of its first entity that
         /// has one. A role other than `ignore` cuts also what is frozen or switched off.
         layers: BTreeMap<String, Role> => roles;
+        /// Role of what is drawn in a linetype, by itself or by its layer: by the name of the linetype, before layers and colours; in DXF.
+        /// Without one, what is drawn in CENTER, HIDDEN, PHANTOM and their like is not cut: see
+        /// [`unsupported-entity`](rules/unsupported-entity.md).
+        linetypes: BTreeMap<String, Role> => roles;
         /// Role of the contour that holds an entity, by the entity's handle, before layers and colours. Handles are those of one drawing:
         /// in a `wedm.toml` that holds for several they mean each one's own entity of that name.
         contours: BTreeMap<String, Role> => roles;

@@ -9,6 +9,7 @@ mod from_option;
 mod from_toml;
 #[macro_use]
 mod table;
+mod keep;
 mod keys;
 mod passes;
 mod profile;
@@ -21,6 +22,7 @@ pub use effective::Effective;
 pub(crate) use from_json::from_json;
 pub use from_toml::from_toml;
 pub(crate) use from_toml::{FILE_NAME, place_in, read_file};
+pub(crate) use keep::{as_lines, keep};
 pub(crate) use keys::{JobSettings, Passes, Profile, ProfileSettings, ProgramSettings};
 pub use keys::{Settings, rows};
 pub(crate) use passes::{PassFault, pass_faults, passes_table};

@@ -36,6 +36,16 @@ declare! {
     switched_off => "switched off";
     invisible_entities_are_not_cut(entities, are) => "{entities} {are} invisible (group code 60): not cut";
     entities_of_a_layer_that_is_not_plotted_are_cut(layer, entities, are) => "layer {layer} is not plotted: {entities} on it {are} cut all the same, unless its role is ignore ([layers])";
+    drawn_to_be_read_and_not_cut(entities, are, parts) => "{entities} {are} drawn to be read, and not cut: {parts}";
+    in_a_linetype(count, name) => "{count} in linetype {name}";
+    on_a_layer(count, name) => "{count} on layer {name}";
+    n1_lone_line => "1 lone line within closed contours";
+    lone_lines(count) => "{count} lone lines within closed contours";
+    others_of_them(count) => "{count} others";
+    cut_what_is_drawn_in_a_linetype(name) => "Cut what is drawn in {name} all the same (wedm.toml)";
+    cut_what_lies_on_a_layer(name) => "Cut layer {name} all the same (wedm.toml)";
+    cut_the_lone_lines => "Cut the lone lines all the same (wedm.toml)";
+    ignore_the_layer(layer) => "Ignore layer {layer} (wedm.toml)";
     segment(handle, segment) => "{handle}, segment {segment}";
     the_facing_wall(place) => "the facing wall: {place}";
     the_wire_comes_no_further_than_here(place) => "the wire comes no further than here: {place}";

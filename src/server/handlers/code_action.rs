@@ -1,12 +1,13 @@
 //! `textDocument/codeAction`: the fixes of findings, one action that makes every safe fix, and the refactorings of programs.
 
 use crate::document::{Document, Source};
-use crate::finding::{self, Edit, Finding, Place};
+use crate::finding::{self, Edit, Finding, Keep, Place};
 use crate::job::{self, Repairs};
 use crate::program;
 use crate::protocol::{self, FindingData, method};
 use crate::server::context::RequestContext;
 use crate::server::convert;
+use crate::settings;
 use ls_types::{
     CodeAction, CodeActionContext, CodeActionDisabled, CodeActionKind, CodeActionOrCommand,
     CodeActionParams, CodeActionResponse, CodeActionTriggerKind, Command, Range,
@@ -257,10 +258,27 @@ fn with_edit(
             .text_edits(edit)
             .inspect_err(|reason| tracing::info!("\"{}\" is not offered: {reason}", action.title))
             .ok()?,
+        (_, Edit::Settings(keeps)) => return with_settings(context, action, keeps),
         (_, Edit::Text(edits)) => edits.clone(),
         (Source::Program(_), Edit::Drawing(_)) => return None,
     };
     let edit = context.workspace_edit(document.text()?, edits).ok()?;
+    Some(CodeAction {
+        edit: Some(edit),
+        ..action
+    })
+}
+
+/// The action with lines for the `wedm.toml` that holds for the document, or for a new one beside it.
+fn with_settings(
+    context: &RequestContext,
+    action: CodeAction,
+    keeps: &[Keep],
+) -> Option<CodeAction> {
+    let file = context.settings_file()?;
+    let text = file.text.as_str_lossy();
+    let edits = vec![settings::keep(&text, keeps)?];
+    let edit = context.settings_edit(&file, edits)?;
     Some(CodeAction {
         edit: Some(edit),
         ..action

@@ -94,6 +94,8 @@ fn offers(encoding: Encoding, abilities: &Abilities) -> Value {
 fn abilities(client: &Value) -> Abilities {
     let able = |path: &str| client.pointer(path).and_then(Value::as_bool) == Some(true);
     let folds = client.pointer("/textDocument/foldingRange/rangeLimit");
+    let of_files = client.pointer("/workspace/workspaceEdit/resourceOperations");
+    let creates = |kinds: &Vec<Value>| kinds.iter().any(|kind| kind == "create");
     Abilities {
         apply_drawing_edit: able("/experimental/wedm/applyDrawingEdit"),
         resend_drawing: able("/experimental/wedm/resendDrawing"),
@@ -101,6 +103,7 @@ fn abilities(client: &Value) -> Abilities {
         rule_pages: able("/experimental/wedm/rulePages"),
         apply_edit: able("/workspace/applyEdit"),
         document_changes: able("/workspace/workspaceEdit/documentChanges"),
+        create_files: of_files.and_then(Value::as_array).is_some_and(creates),
         configuration: able("/workspace/configuration"),
         register_configuration: able("/workspace/didChangeConfiguration/dynamicRegistration"),
         register_watched_files: able("/workspace/didChangeWatchedFiles/dynamicRegistration"),

@@ -1,0 +1,398 @@
+//! What is drawn to be read and not to be cut: centre lines, hidden edges, hatches, dimensions, construction.
+//!
+//! An entity is set aside by its linetype or its layer, whatever lies about it. A line is set aside as a contour of its own where it stands
+//! alone, with a stretch of it within a closed contour and no end near that of another: a chain, or an end that faces another one, is an
+//! outline that has lost something. A closed contour that holds a lone line is none the worse for it, so what is set aside is learned by no
+//! rule; it is looked at again where something near it has changed.
+
+use super::Analysis;
+use super::contours::role_of;
+use super::report::Report;
+use crate::drawing::{
+    Contour, ContourIndex, ContourKey, Drawing, EntityId, Role, is_drafting_layer,
+    is_drafting_linetype, turns_about,
+};
+use crate::finding::{Aside, Detail, MOST_HANDLES, Place, Rule, SetAside};
+use crate::geometry::{
+    Bounds, Grid, Line, Point, Segment, Vector, cross, line_line, meetings, turn,
+};
+use crate::settings::{Compensation, Effective};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Share of a line's length within which an end of it and that of another belong together.
+const SHARE: f64 = 0.25;
+/// Join tolerances (1 mm) within which they always do where the other one is no lone line.
+const JOINS: f64 = 100.0;
+/// Sine of the angle between lines that are none the less parallel: hatches, and the pieces of a broken line.
+const PARALLEL: f64 = 0.01;
+/// From so many questions on it pays to sort the contours by place.
+const MANY: usize = 16;
+
+/// Whether an entity is set aside by its linetype or its layer: nobody has given it, its linetype or its layer a role.
+///
+/// A role of the layer does not bring back what has such a linetype of its own.
+pub fn set_aside(drawing: &Drawing, settings: &Effective, id: EntityId) -> Option<Aside> {
+    let entity = drawing.get(id)?;
+    let is_asked_for = entity.role.is_some()
+        || (!settings.contours.is_empty() && settings.contours.contains_key(&*entity.handle));
+    if is_asked_for {
+        return None;
+    }
+    let layer_has_role = || settings.layers.contains_key(&*entity.layer);
+    if let Some(linetype) = drawing.linetype(id) {
+        if role_of_linetype(settings, &linetype.name).is_some() {
+            return None;
+        }
+        if is_drafting_linetype(&linetype.name) && !(linetype.of_layer && layer_has_role()) {
+            return Some(Aside::Linetype(linetype.name.clone()));
+        }
+    }
+    (is_drafting_layer(&entity.layer) && !layer_has_role())
+        .then(|| Aside::Layer(entity.layer.clone()))
+}
+
+/// The role that the settings give to a linetype.
+pub(super) fn role_of_linetype(settings: &Effective, name: &str) -> Option<Role> {
+    if settings.linetypes.is_empty() {
+        return None;
+    }
+    settings.linetypes.get(&name.to_uppercase()).copied()
+}
+
+/// A contour that is one line.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lone {
+    line: Line,
+    /// What lies beyond this does not matter to it.
+    reach: Bounds,
+    pub(super) is_aside: bool,
+}
+
+impl Analysis {
+    /// The contour as a line that may be set aside: one straight segment, to which nobody has given a role.
+    pub(super) fn as_lone(&self, drawing: &Drawing, key: ContourKey) -> Option<Lone> {
+        let contour = self.chains.get(key)?;
+        let &[piece] = contour.pieces.as_slice() else {
+            return None;
+        };
+        let (1, false) = (piece.count(), contour.closed) else {
+            return None;
+        };
+        let entity = drawing.get(piece.entity)?;
+        let Segment::Line(line) = drawing.segment(piece.entity, 0)? else {
+            return None;
+        };
+        let settings = &self.settings;
+        let has_role = entity.role.is_some()
+            || settings.contours.contains_key(&*entity.handle)
+            || drawing
+                .linetype(piece.entity)
+                .is_some_and(|linetype| role_of_linetype(settings, &linetype.name).is_some());
+        let join = self.limits.tolerances.join;
+        let length = line.length();
+        // Where the contour is the wire's own path, a line may well be all of it.
+        if has_role || settings.compensation == Compensation::None || length <= join {
+            return None;
+        }
+        let reach = (SHARE * length).max(JOINS * join);
+        Some(Lone {
+            line,
+            reach: Bounds::of_points(&[line.start, line.end]).grown(reach),
+            is_aside: false,
+        })
+    }
+
+    /// True for a contour that is not cut.
+    pub(super) fn is_lone(&self, key: ContourKey) -> bool {
+        self.lone.get(&key).is_some_and(|lone| lone.is_aside)
+    }
+
+    /// True for an entity that is a part of a contour that is cut.
+    pub fn cuts(&self, id: EntityId) -> bool {
+        self.chains
+            .contour_of(id)
+            .is_some_and(|key| !self.is_lone(key))
+    }
+
+    /// Says once what is seen in the drawing and not cut.
+    pub(super) fn report_set_aside(&self, drawing: &Drawing, report: &mut Report) {
+        let by_itself = self.aside.iter().filter_map(|&id| {
+            let why = set_aside(drawing, &self.settings, id)?;
+            let is_drawn = drawing.get(id)?.geometry.segment_count() > 0;
+            (is_drawn && role_of(drawing, &self.settings, id) != Some(Role::Ignore))
+                .then_some((why, id))
+        });
+        let lone = self.lone.iter().filter_map(|(&key, lone)| {
+            let id = self.chains.first_of(key).filter(|_| lone.is_aside)?;
+            Some((Aside::Lone, id))
+        });
+        let mut all: Vec<(Aside, EntityId)> = by_itself.chain(lone).collect();
+        if all.is_empty() || !report.counts(Rule::UnsupportedEntity, None) {
+            return;
+        }
+        all.sort_unstable_by_key(|(_, id)| drawing.rank(*id));
+        let Some(&(_, first)) = all.first() else {
+            return;
+        };
+        let mut parts: BTreeMap<&Aside, SetAside> = BTreeMap::new();
+        for (why, id) in &all {
+            let part = parts.entry(why).or_insert_with(|| SetAside {
+                why: why.clone(),
+                count: 0,
+                handles: Vec::new(),
+                spare_layers: Vec::new(),
+            });
+            part.count += 1;
+            if let (Aside::Lone, true, Some(entity)) =
+                (why, part.handles.len() < MOST_HANDLES, drawing.get(*id))
+            {
+                part.handles.push((&*entity.handle).into());
+            }
+        }
+        if let Some(part) = parts.get_mut(&Aside::Lone) {
+            let of = |(why, id): &(Aside, EntityId)| {
+                (*why == Aside::Lone).then(|| Some(drawing.get(*id)?.layer.clone()))?
+            };
+            let mut layers: BTreeSet<Arc<str>> = all.iter().filter_map(of).collect();
+            for (id, entity) in drawing.entities() {
+                if layers.contains(&entity.layer) && self.cuts(id) {
+                    layers.remove(&entity.layer);
+                }
+            }
+            part.spare_layers = layers.into_iter().collect();
+        }
+        report.add(
+            Rule::UnsupportedEntity,
+            None,
+            Place::Entity { entity: first },
+            Detail::SetAside(parts.into_values().collect()),
+            Vec::new(),
+        );
+    }
+
+    /// Takes down whether an entity is set aside by itself.
+    pub(super) fn note_aside(&mut self, drawing: &Drawing, id: EntityId) {
+        let is_aside =
+            drawing.visibility(id).is_seen() && set_aside(drawing, &self.settings, id).is_some();
+        if is_aside {
+            self.aside.insert(id);
+        } else {
+            self.aside.remove(&id);
+        }
+    }
+
+    /// Asks of lines whether they are to be cut; those of which the answer has changed.
+    pub(super) fn judge_lone(&mut self, drawing: &Drawing, keys: &[ContourKey]) -> Vec<ContourKey> {
+        if keys.is_empty() {
+            return Vec::new();
+        }
+        let others: Vec<(ContourKey, Bounds)> = self
+            .known
+            .iter()
+            .filter(|(key, _)| !self.lone.contains_key(key))
+            .filter(|(key, _)| {
+                self.chains
+                    .first_of(**key)
+                    .is_some_and(|first| drawing.get(first).is_some())
+            })
+            .map(|(&key, known)| (key, known.index.bounds()))
+            .chain(self.lone.iter().map(|(&key, lone)| (key, lone.reach)))
+            .collect();
+        let mut grid = Grid::default();
+        if keys.len() > MANY {
+            others
+                .iter()
+                .for_each(|&(key, bounds)| grid.insert(key, bounds));
+        }
+        let judge = |&key: &ContourKey| {
+            let lone = self.lone.get(&key)?;
+            let mut near = Vec::new();
+            match keys.len() > MANY {
+                true => drop(grid.near(&lone.reach, |other| near.push(other))),
+                false => near.extend(
+                    others
+                        .iter()
+                        .filter(|(_, bounds)| bounds.touches(&lone.reach))
+                        .map(|(other, _)| *other),
+                ),
+            }
+            near.retain(|&other| other != key);
+            let is_aside = !near.iter().any(|&other| self.faces(drawing, lone, other))
+                && near
+                    .iter()
+                    .any(|&other| self.holds_some_of(drawing, &lone.line, other));
+            Some((key, is_aside))
+        };
+        let judged: Vec<(ContourKey, bool)> = keys.iter().filter_map(judge).collect();
+        let is_new = |(key, is_aside): (ContourKey, bool)| {
+            let lone = self.lone.get_mut(&key)?;
+            (std::mem::replace(&mut lone.is_aside, is_aside) != is_aside).then_some(key)
+        };
+        judged.into_iter().filter_map(is_new).collect()
+    }
+
+    /// True where an end of the line faces one of another contour.
+    fn faces(&self, drawing: &Drawing, lone: &Lone, other: ContourKey) -> bool {
+        let join = self.limits.tolerances.join;
+        let line = &lone.line;
+        if let Some(theirs) = self.lone.get(&other) {
+            return are_a_corner(line, &theirs.line, JOINS * join);
+        }
+        let Some(contour) = self.chains.get(other).filter(|contour| !contour.closed) else {
+            return false;
+        };
+        let ends = [
+            contour
+                .segment(drawing, 0)
+                .map(|first| first.geometry.start()),
+            contour
+                .segment(drawing, contour.len().saturating_sub(1))
+                .map(|last| last.geometry.end()),
+        ];
+        let reach = (SHARE * line.length()).max(JOINS * join);
+        ends.into_iter()
+            .flatten()
+            .any(|end| (end - line.start).norm() <= reach || (end - line.end).norm() <= reach)
+    }
+
+    /// True where a stretch of the line lies within a closed contour, and not on it.
+    fn holds_some_of(&self, drawing: &Drawing, line: &Line, other: ContourKey) -> bool {
+        let join = self.limits.tolerances.join;
+        let (Some(contour), Some(known)) = (self.chains.get(other), self.known.get(&other)) else {
+            return false;
+        };
+        if !contour.closed {
+            return false;
+        }
+        let own = Segment::Line(*line);
+        let area = Bounds::of_points(&[line.start, line.end]).grown(join);
+        let mut cuts = vec![0.0, 1.0];
+        for range in known.index.near(&area) {
+            for segment in contour.segments_in(drawing, range) {
+                let met = meetings(&own, &segment.geometry);
+                cuts.extend(met.into_iter().map(|point| line.share_of(point)));
+                // Where they run on one another they do not meet.
+                cuts.extend(
+                    [segment.geometry.start(), segment.geometry.end()]
+                        .into_iter()
+                        .filter(|&end| line.distance_to(end) <= join)
+                        .map(|end| line.share_of(end).clamp(0.0, 1.0)),
+                );
+            }
+        }
+        cuts.sort_by(f64::total_cmp);
+        let length = line.length();
+        let middles = cuts
+            .windows(2)
+            .filter(|cut| (cut[1] - cut[0]) * length > 2.0 * join)
+            .map(|cut| own.point_at(cut[0].midpoint(cut[1])));
+        let lies_on = |point: Point| {
+            let about = Bounds::of_disc(point, join);
+            known.index.near(&about).any(|range| {
+                contour
+                    .segments_in(drawing, range)
+                    .any(|segment| segment.geometry.distance_to(point) <= join)
+            })
+        };
+        middles
+            .into_iter()
+            .any(|middle| is_inside(drawing, contour, &known.index, middle) && !lies_on(middle))
+    }
+
+    /// The lines whose answer may hang on something within these boxes.
+    pub(super) fn lone_near(&self, changed: &[Bounds]) -> Vec<ContourKey> {
+        let touched = |lone: &Lone| changed.iter().any(|bounds| bounds.touches(&lone.reach));
+        let mut keys: Vec<ContourKey> = self
+            .lone
+            .iter()
+            .filter(|(_, lone)| touched(lone))
+            .map(|(&key, _)| key)
+            .collect();
+        keys.sort_unstable();
+        keys
+    }
+
+    /// The box of what a contour may matter to: its own, and a lone line's reach.
+    pub(super) fn box_of(&self, key: ContourKey) -> Option<Bounds> {
+        match self.lone.get(&key) {
+            Some(lone) => Some(lone.reach),
+            None => Some(self.known.get(&key)?.index.bounds()),
+        }
+    }
+
+    /// Divides contours into those that are learned and the lines that may be set aside, which are entered.
+    pub(super) fn without_lone(
+        &mut self,
+        drawing: &Drawing,
+        keys: Vec<ContourKey>,
+    ) -> (Vec<ContourKey>, Vec<ContourKey>) {
+        let (mut whole, mut lone) = (Vec::with_capacity(keys.len()), Vec::new());
+        for key in keys {
+            match self.as_lone(drawing, key) {
+                Some(line) => {
+                    self.lone.insert(key, line);
+                    lone.push(key);
+                }
+                None => whole.push(key),
+            }
+        }
+        (whole, lone)
+    }
+}
+
+/// True where the ends of two lines face each other as the sides of a corner do that has lost its tip, or lie within `least`: not where the
+/// lines cross, as in a centre mark, or run beside or behind each other, as in a hatch.
+fn are_a_corner(one: &Line, other: &Line, least: f64) -> bool {
+    let (u, v) = (one.end - one.start, other.end - other.start);
+    let lengths = [u.norm(), v.norm()];
+    if cross(u, v).abs() <= PARALLEL * lengths[0] * lengths[1] {
+        return false;
+    }
+    let near = least.min(SHARE * lengths[0].min(lengths[1]));
+    let ends = |line: &Line| [line.start, line.end];
+    let meet = ends(one)
+        .iter()
+        .any(|end| ends(other).iter().any(|their| (their - end).norm() <= near));
+    if meet {
+        return true;
+    }
+    let Some(tip) = line_line(one.start, u, other.start, v) else {
+        return false;
+    };
+    let beyond = |line: &Line, along: Vector, length: f64| {
+        let share = along.dot(&(tip - line.start)) / (length * length);
+        let missing = if share > 1.0 { share - 1.0 } else { -share };
+        (0.0..=SHARE).contains(&missing)
+    };
+    beyond(one, u, lengths[0]) && beyond(other, v, lengths[1])
+}
+
+/// Whether a closed contour goes round a point. A run whose box does not hold the point is seen from there as its chord is.
+fn is_inside(drawing: &Drawing, contour: &Contour, index: &ContourIndex, point: Point) -> bool {
+    let here = Bounds::of_points(&[point]);
+    if !index.bounds().touches(&here) {
+        return false;
+    }
+    let (mut angle, mut caps) = (0.0, 0);
+    for run in 0..index.run_count() {
+        let range = index.range_of(run);
+        if index.bounds_of_run(run).touches(&here) {
+            let segments = contour.segments_in(drawing, range);
+            let (turned, arcs) = turns_about(segments.map(|segment| segment.geometry), point);
+            angle += turned;
+            caps += arcs;
+        } else if let Some((first, last)) = contour
+            .segment(drawing, range.start)
+            .zip(contour.segment(drawing, range.end.saturating_sub(1)))
+        {
+            angle += turn(first.geometry.start() - point, last.geometry.end() - point);
+        }
+    }
+    (angle / TAU).round() as i64 + caps != 0
+}
+
+pub(super) type LoneLines = FxHashMap<ContourKey, Lone>;
+pub(super) type AsideEntities = FxHashSet<EntityId>;
