@@ -4,9 +4,9 @@
 
 use crate::analysis::Analysis;
 use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline, Role};
-use crate::finding::{self, Detail, Edit, Finding, Fix, Keep, Place};
+use crate::finding::{self, Detail, Edit, Finding, Fix, FixKind, Keep, Place};
 use crate::program;
-use crate::settings::Effective;
+use crate::settings::{self, Effective};
 use crate::text::{SourceText, TextEdit};
 use crate::{dxf, finding::Severity};
 use std::ops::Range;
@@ -118,7 +118,7 @@ impl Document {
     }
 
     /// Whether an entity of the drawing is a part of a contour that is cut.
-    pub fn cuts(&self, id: EntityId) -> bool {
+    pub(crate) fn cuts(&self, id: EntityId) -> bool {
         self.analysis.cuts(id)
     }
 
@@ -165,6 +165,15 @@ impl Document {
         findings(&self.source, &mut self.analysis, limit)
     }
 
+    /// What is suppressed in a drawing, each with the reason.
+    pub(crate) fn suppressed(&self) -> Vec<(Finding, String)> {
+        let of_drawing = |drawing: &Arc<Drawing>| self.analysis.clone().suppressed(drawing);
+        if self.settings().suppressed.is_empty() {
+            return Vec::new();
+        }
+        self.drawing().map_or_else(Vec::new, of_drawing)
+    }
+
     /// All findings, for whoever shares the document and cannot keep what was found out on the way.
     pub fn all_findings(&self) -> Arc<[Finding]> {
         self.asked
@@ -206,7 +215,7 @@ impl Document {
     }
 
     /// What the settings can keep of a finding in a drawing.
-    pub fn keeps(&self, finding: &Finding) -> impl Iterator<Item = Fix<Vec<Keep>>> {
+    pub(crate) fn keeps(&self, finding: &Finding) -> impl Iterator<Item = Fix<Vec<Keep>>> {
         let role = self.settings().side.role().unwrap_or(Role::Both);
         let keeps = match &finding.detail {
             Detail::SetAside(parts) => parts.iter().flat_map(|part| part.keeps(role)).collect(),
@@ -218,7 +227,25 @@ impl Document {
             }
             _ => Vec::new(),
         };
-        keeps.into_iter()
+        keeps.into_iter().chain(self.suppression(finding))
+    }
+
+    /// What lets a finding stand, where it lies at an entity of a file: the reason is to be written yet.
+    fn suppression(&self, finding: &Finding) -> Option<Fix<Vec<Keep>>> {
+        let (Place::Segment { entity, .. } | Place::Entity { entity }) = finding.place else {
+            return None;
+        };
+        if matches!(finding.detail, Detail::SetAside(_)) {
+            return None;
+        }
+        let name = self.settings().document.as_ref()?;
+        let handle = &self.drawing()?.get(entity)?.handle;
+        let table = settings::table_of_suppressions(name, handle);
+        let rule = finding.rule;
+        Some(Fix::keeping(
+            FixKind::Suppress { rule },
+            vec![Keep::new(&table, rule.name(), "")],
+        ))
     }
 
     /// The layer of a finding's contour, where no closed contour lies on it.
@@ -326,8 +353,13 @@ fn findings(source: &Source, analysis: &mut Analysis, limit: usize) -> (Vec<Find
     for finding in of_source {
         // The reader knows no settings: severities are laid over its findings here.
         // A layer that has a role is cut or not as that says.
-        let has_role = matches!(&finding.detail, Detail::Unseen { layer, .. } if settings.layers.contains_key(&**layer));
-        if let Some(severity) = settings.severity_of(finding).filter(|_| !has_role) {
+        // Where the settings say the unit, nobody asks the drawing.
+        let is_answered = match &finding.detail {
+            Detail::Unseen { layer, .. } => settings.layers.contains_key(&**layer),
+            Detail::Units(_) => settings.states_unit,
+            _ => false,
+        };
+        if let Some(severity) = settings.severity_of(finding).filter(|_| !is_answered) {
             findings.push(Finding {
                 severity,
                 ..finding.clone()

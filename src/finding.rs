@@ -13,8 +13,8 @@ mod small_radius;
 mod title;
 mod unwritable;
 
-pub(crate) use aside::{MOST_HANDLES, ignored};
 pub use aside::{Aside, SetAside};
+pub(crate) use aside::{MOST_HANDLES, ignored};
 pub use fault::Axis;
 pub(crate) use fault::Fault;
 pub(crate) use fix::{CenterFix, TextFix};

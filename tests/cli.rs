@@ -212,8 +212,8 @@ fn commands_print_and_end_as_they_say() {
             1,
             &["narrow-slot", "2 errors, 1 warning"],
         ),
-        ("check no_unit.dxf", 0, &["warning[units]", "1 warning"]),
-        ("check no_unit.dxf --deny warning", 1, &["1 warning"]),
+        ("check no_unit.dxf", 0, &["information[units]", "1 note"]),
+        ("check no_unit.dxf --deny warning", 0, &["1 note"]),
         ("check clean.dxf --deny warning", 0, &[]),
         ("check garbage.dxf", 1, &["1 error\n"]),
         (
@@ -864,6 +864,76 @@ fn the_radius_list_names_vertex_radius_and_verdict() {
             &listed["segments"][0]["radius"]
         ),
         (&"ARC".into(), &false.into(), &0.0.into())
+    );
+}
+
+#[test]
+fn what_is_suppressed_with_a_reason_is_told_where_it_is_asked_for() {
+    let desk = Desk::new();
+    check(
+        &desk,
+        "check tight.dxf",
+        1,
+        &["error[small-radius]", "1 error"],
+    );
+    let found = desk.run("check tight.dxf --output json").json();
+    let error = &found["diagnostics"].as_array().unwrap()[0];
+    let (handle, rule) = (
+        error["data"]["handle"].as_str().unwrap(),
+        error["rule"].as_str().unwrap(),
+    );
+    let table = format!("[drawings.\"tight.dxf\".suppress.{handle}]\n");
+    // Without a reason it is none.
+    desk.write("wedm.toml", format!("{table}{rule} = \"\"\n"));
+    check(
+        &desk,
+        "check tight.dxf",
+        1,
+        &["is empty, expected the reason", "small-radius"],
+    );
+    desk.write(
+        "wedm.toml",
+        format!("{table}{rule} = \"the wire is thin\"\n"),
+    );
+    check(
+        &desk,
+        "check tight.dxf",
+        0,
+        &["nothing found, 1 suppressed"],
+    );
+    let shown = [
+        "error[small-radius]",
+        "suppressed: the wire is thin",
+        "nothing found",
+    ];
+    check(&desk, "check tight.dxf --show-suppressed", 0, &shown);
+    let json = desk
+        .run("check tight.dxf --show-suppressed --output json")
+        .json();
+    assert_eq!(json["suppressed"][0]["suppressed"], "the wire is thin");
+    assert_eq!(json["diagnostics"], Value::Array(Vec::new()));
+    let sarif = desk.run("check tight.dxf --output sarif").json();
+    let result = &sarif["runs"][0]["results"][0];
+    assert_eq!(
+        result["suppressions"][0]["justification"],
+        "the wire is thin"
+    );
+    check(&desk, "fix tight.dxf --diff", 0, &["!nothing to repair"]);
+    check(
+        &desk,
+        "generate tight.dxf --side opening",
+        0,
+        &["DD\n", "!written stdout"],
+    );
+    // Of another drawing it says nothing, and what suppresses nothing is told.
+    check(&desk, "check narrow.dxf", 1, &["2 errors, 1 warning"]);
+    desk.write("wedm.toml", format!("{table}gap = \"filled\"\n"));
+    let useless = format!("the suppression of gap at {handle} suppresses nothing here");
+    check(
+        &desk,
+        "check tight.dxf",
+        1,
+        &["warning[settings]", &useless, "1 error, 1 warning"],
     );
 }
 

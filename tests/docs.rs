@@ -525,6 +525,7 @@ fn the_settings_of_the_readme_are_the_defaults() {
     assert_eq!(set.skim_corner(), default.skim_corner());
     let shown = Effective {
         passes: default,
+        states_unit: false,
         stated_layout: None,
         stated_direction: None,
         stated_lead_in: None,

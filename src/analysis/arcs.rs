@@ -44,7 +44,11 @@ impl Analysis {
             let mut accepted: Vec<(Stretch, Travel, Replacement)> = Vec::new();
             for index in self.tight_in_entity_order(key) {
                 let fault = self.fault(drawing, key, index, wire_side);
-                if fault.is_none_or(|(_, numbers)| numbers.taken_by_skims) {
+                let is_let_stand = |(at, numbers): &(ContourSegment, SmallRadius)| {
+                    numbers.taken_by_skims
+                        || self.reason(drawing, Rule::SmallRadius, at.entity).is_some()
+                };
+                if fault.as_ref().is_none_or(is_let_stand) {
                     continue;
                 }
                 let Some((

@@ -34,7 +34,7 @@ const MANY: usize = 16;
 /// Whether an entity is set aside by its linetype or its layer: nobody has given it, its linetype or its layer a role.
 ///
 /// A role of the layer does not bring back what has such a linetype of its own.
-pub fn set_aside(drawing: &Drawing, settings: &Effective, id: EntityId) -> Option<Aside> {
+pub(crate) fn set_aside(drawing: &Drawing, settings: &Effective, id: EntityId) -> Option<Aside> {
     let entity = drawing.get(id)?;
     let is_asked_for = entity.role.is_some()
         || (!settings.contours.is_empty() && settings.contours.contains_key(&*entity.handle));
@@ -86,11 +86,16 @@ impl Analysis {
             return None;
         };
         let settings = &self.settings;
+        let linetype = drawing.linetype(piece.entity);
+        // Who gives a role to a layer that is there to be read wants what lies on it.
+        let is_for_reading = || {
+            is_drafting_layer(&entity.layer)
+                || linetype.is_some_and(|it| it.of_layer && is_drafting_linetype(&it.name))
+        };
         let has_role = entity.role.is_some()
             || settings.contours.contains_key(&*entity.handle)
-            || drawing
-                .linetype(piece.entity)
-                .is_some_and(|linetype| role_of_linetype(settings, &linetype.name).is_some());
+            || linetype.is_some_and(|it| role_of_linetype(settings, &it.name).is_some())
+            || (settings.layers.contains_key(&*entity.layer) && is_for_reading());
         let join = self.limits.tolerances.join;
         let length = line.length();
         // Where the contour is the wire's own path, a line may well be all of it.
@@ -111,7 +116,7 @@ impl Analysis {
     }
 
     /// True for an entity that is a part of a contour that is cut.
-    pub fn cuts(&self, id: EntityId) -> bool {
+    pub(crate) fn cuts(&self, id: EntityId) -> bool {
         self.chains
             .contour_of(id)
             .is_some_and(|key| !self.is_lone(key))

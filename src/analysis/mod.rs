@@ -14,6 +14,7 @@ mod pairs;
 mod pockets;
 mod repair;
 mod report;
+mod suppressed;
 
 pub(crate) use contours::is_cut;
 
@@ -30,6 +31,7 @@ use pairs::Pairs;
 use report::Tally;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::{Arc, OnceLock};
+use suppressed::Judged;
 
 /// Up to so many touched places are looked at one by one, however small the drawing is.
 const FEW: usize = 16;
@@ -300,10 +302,22 @@ impl Analysis {
         &self.settings
     }
 
-    /// At most `limit` findings, errors first, then in machining order; and how many there are in all.
+    /// At most `limit` findings, errors first, then in machining order; and how many there are in all. What is suppressed is none of them.
     pub fn findings(&mut self, drawing: &Drawing, limit: usize) -> (Vec<Finding>, usize) {
-        let (mut findings, count) = self.report(drawing, limit).finish();
-        self.give_reasons(drawing, &mut findings);
+        if self.settings.suppressed.is_empty() {
+            let (mut findings, count) = self.report(drawing, limit).finish();
+            self.give_reasons(drawing, &mut findings);
+            return (findings, count);
+        }
+        let Judged {
+            mut findings,
+            useless,
+            ..
+        } = self.judged(drawing);
+        findings.extend(useless);
+        findings.sort_by_key(|finding| finding.severity);
+        let count = findings.len();
+        findings.truncate(limit);
         (findings, count)
     }
 

@@ -72,7 +72,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 fn draw_program(arguments: &Arguments, document: &Document) -> Result<Verdict, Failure> {
     if arguments.output.as_deref().and_then(ending_of).as_deref() == Some("dxf") {
         let path = arguments.path.display();
-        return Err(Failure(say!(a_program_is_drawn_as_svg, path)));
+        return Err(Failure(say!(
+            a_program_is_drawn_as_svg,
+            path,
+            output::word(&arguments.path)
+        )));
     }
     let trace = document
         .program()

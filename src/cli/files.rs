@@ -186,7 +186,10 @@ fn settings_for(
             None => return Err(Failure(error.message)),
         }
     }
-    Ok((Effective::of(&settings), rows))
+    let name = path
+        .file_name()
+        .map(|name| name.to_string_lossy().into_owned());
+    Ok((Effective::of_document(&settings, name), rows))
 }
 
 fn settings_row(file: &Path, source: &SourceText, error: SettingsError) -> Row {

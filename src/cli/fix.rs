@@ -267,7 +267,7 @@ fn summarise(path: &Path, repair: &Repair) {
             .collect::<Vec<_>>()
             .join(say!(comma));
         let heading = styled(output::WARNING, say!(left));
-        output::say(&say!(left_in_all, heading, counts, name));
+        output::say(&say!(left_in_all, heading, counts, output::word(path)));
         return;
     }
     for row in left {

@@ -26,6 +26,17 @@ pub(crate) fn name(path: &Path) -> String {
     readable(&path.to_string_lossy()).into_owned()
 }
 
+/// A path as a word of a command that one may copy.
+pub(crate) fn word(path: &Path) -> String {
+    let name = name(path);
+    let is_plain = |letter: char| letter.is_alphanumeric() || "/\\.-_+:,@%=".contains(letter);
+    match !name.is_empty() && name.chars().all(is_plain) {
+        true => name,
+        false if cfg!(windows) => format!("\"{name}\""),
+        false => format!("'{}'", name.replace('\'', "'\\''")),
+    }
+}
+
 /// Text to stdout. A reader that has gone away has seen enough: no error.
 pub(crate) fn print(text: impl AsRef<str>) -> Result<(), Failure> {
     let mut stdout = anstream::stdout().lock();

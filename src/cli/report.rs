@@ -33,6 +33,9 @@ pub(crate) struct Row {
     /// The other places that the finding concerns.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) related: Vec<RelatedRow>,
+    /// Why it is let stand.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) suppressed: Option<String>,
     /// Lines of a `wedm.toml`, each with what it does.
     #[serde(skip)]
     keeps: Vec<(String, String)>,
@@ -78,6 +81,15 @@ pub(crate) fn rows(path: &Path, document: &mut Document) -> Vec<Row> {
     let (findings, _) = job::check(document, MOST);
     let (document, rows) = (&*document, findings.par_iter().with_min_len(SHARE));
     rows.map(|finding| row(path, document, finding)).collect()
+}
+
+/// What is suppressed in a document, with the reasons.
+pub(crate) fn suppressed(path: &Path, document: &Document) -> Vec<Row> {
+    let told = |(finding, reason): (Finding, String)| Row {
+        suppressed: Some(reason),
+        ..row(path, document, &finding)
+    };
+    document.suppressed().into_iter().map(told).collect()
 }
 
 /// Findings to stderr.
@@ -192,6 +204,7 @@ impl Row {
             message,
             data,
             related: Vec::new(),
+            suppressed: None,
             keeps: Vec::new(),
             excerpt: text.and_then(|text| excerpt(text, &range)),
         }
@@ -228,8 +241,12 @@ impl Row {
                     let lines = lines.trim_end().replace('\n', "  ");
                     Level::HELP.message(format!("{}: {}", readable(title), readable(&lines)))
                 });
+                let reason = self
+                    .suppressed
+                    .iter()
+                    .map(|reason| Level::NOTE.message(say!(suppressed_since, readable(reason))));
                 let group = title.element(snippet).elements(others);
-                renderer.render(&[group.elements(keeps)])
+                renderer.render(&[group.elements(keeps).elements(reason)])
             }
             None => {
                 let place = annotate_snippets::Origin::path(path.as_ref())

@@ -227,7 +227,7 @@ impl Document {
         if let Some(sentence) = about_unit(unit) {
             let finding = Finding {
                 rule: Rule::Units,
-                severity: Severity::Warning,
+                severity: Severity::Information,
                 place: Place::Document,
                 detail: Detail::Units(sentence),
                 related: Vec::new(),

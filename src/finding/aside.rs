@@ -25,7 +25,7 @@ pub struct SetAside {
 }
 
 /// Handles that a setting is written for at most.
-pub const MOST_HANDLES: usize = 50;
+pub(crate) const MOST_HANDLES: usize = 50;
 
 impl SetAside {
     /// What the settings can keep of it: that it is cut all the same, that its layer is ignored.

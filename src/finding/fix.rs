@@ -1,6 +1,6 @@
 //! A repair as data: what it does, and its edit.
 
-use super::{Aside, Axis};
+use super::{Aside, Axis, Rule};
 use crate::drawing::{Change, DrawingEdit};
 use crate::text::TextEdit;
 use std::sync::Arc;
@@ -243,6 +243,10 @@ pub enum FixKind {
     /// What is drawn to be read is cut.
     CutAllTheSame {
         why: Aside,
+    },
+    /// A finding is let stand, for a reason that is to be written.
+    Suppress {
+        rule: Rule,
     },
     /// What lies on a layer is not cut.
     IgnoreLayer {

@@ -101,6 +101,7 @@ pub(crate) fn title(kind: &FixKind, unit_mm: f64) -> String {
             why: Aside::Layer(name),
         } => say!(cut_what_lies_on_a_layer, name),
         FixKind::CutAllTheSame { why: Aside::Lone } => say!(cut_the_lone_lines).into(),
+        FixKind::Suppress { rule } => say!(suppress_here_with_a_reason, rule.name()),
         FixKind::IgnoreLayer { layer } => say!(ignore_the_layer, layer),
         FixKind::SwapSide => say!(let_the_wire_run_on_the_other_side).into(),
         FixKind::OneArc { chords, radius } => say!(

@@ -108,8 +108,9 @@ impl Config {
         settings
     }
 
-    pub(crate) fn effective_for(&self, file: Option<&ProjectFile>) -> Arc<Effective> {
-        Arc::new(Effective::of(&self.settings_for(file)))
+    pub(crate) fn effective_for(&self, uri: &str, file: Option<&ProjectFile>) -> Arc<Effective> {
+        let settings = self.settings_for(file);
+        Arc::new(Effective::of_document(&settings, name_of(uri)))
     }
 
     /// The project's file that holds for a document: upwards from it, or from the workspace folder where it is no file.
@@ -222,6 +223,12 @@ pub(super) fn path_of(uri: &str) -> Option<PathBuf> {
     is_file
         .then(|| parsed.to_file_path().map(|path| path.into_owned()))
         .flatten()
+}
+
+/// The name of a document's file.
+pub(super) fn name_of(uri: &str) -> Option<String> {
+    let path = path_of(uri)?;
+    Some(path.file_name()?.to_string_lossy().into_owned())
 }
 
 /// The URI of a file.

@@ -87,7 +87,7 @@ pub(super) struct RequestContext {
 /// The `wedm.toml` that holds for a document, or the one that would.
 pub(super) struct SettingsFile {
     uri: Uri,
-    pub text: SourceText,
+    pub(crate) text: SourceText,
     is_new: bool,
 }
 
@@ -294,12 +294,12 @@ impl RequestContext {
             .map_err(|_| Error::invalid_params(say!(is_no_uri, self.uri)))
     }
 
-    pub fn settings_file(&self) -> Option<&SettingsFile> {
+    pub(crate) fn settings_file(&self) -> Option<&SettingsFile> {
         self.settings_file.as_ref()
     }
 
     /// Edits of the file with the settings, in the form that the client takes; `None` where it cannot make a new one.
-    pub fn settings_edit(
+    pub(crate) fn settings_edit(
         &self,
         file: &SettingsFile,
         edits: Vec<TextEdit>,
@@ -443,6 +443,9 @@ fn with_options(
     };
     match all.pass_errors(&|_| None).iter().find(is_error) {
         Some(error) if !is_wrong_already() => misfit(error),
-        _ => Ok(Some(Arc::new(Effective::of(&all)))),
+        _ => Ok(Some(Arc::new(Effective::of_document(
+            &all,
+            config::name_of(uri),
+        )))),
     }
 }

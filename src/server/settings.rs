@@ -22,7 +22,7 @@ impl State {
     /// The settings that hold for a document, its project's file read anew.
     pub(crate) fn settings_for(&mut self, uri: &str) -> Arc<Effective> {
         let file = self.file_for(uri);
-        self.config.effective_for(file.as_deref())
+        self.config.effective_for(uri, file.as_deref())
     }
 
     pub(crate) fn file_for(&mut self, uri: &str) -> Option<Arc<ProjectFile>> {
@@ -99,21 +99,25 @@ impl State {
             self.show_file(&file, project.as_ref());
         }
         let mut search = Search::default();
-        let mut effective: FxHashMap<Option<PathBuf>, Arc<Effective>> = FxHashMap::default();
+        let mut effective: FxHashMap<(Option<PathBuf>, Option<String>), Arc<Effective>> =
+            FxHashMap::default();
         let mut uris: Vec<Arc<str>> = self.documents.keys().cloned().collect();
         uris.sort_unstable();
         for uri in uris {
             let file = self
                 .config
                 .file_for(&uri, &mut search, &|file| self.opened_text(file));
-            let key = file.as_ref().map(|file| file.path.clone());
+            let key = (
+                file.as_ref().map(|file| file.path.clone()),
+                config::name_of(&uri),
+            );
             let settings = match effective.get(&key) {
                 Some(settings) => settings.clone(),
                 None => {
                     if let Some(file) = &file {
                         self.show_file(&file.path, Some(file));
                     }
-                    let settings = self.config.effective_for(file.as_deref());
+                    let settings = self.config.effective_for(&uri, file.as_deref());
                     effective.insert(key, settings.clone());
                     settings
                 }

@@ -25,10 +25,16 @@ pub struct Effective {
     pub passes: Passes,
     pub side: SideSetting,
     pub unit: Unit,
+    /// Somebody has set it.
+    pub states_unit: bool,
     pub margin: f64,
     pub layers: BTreeMap<String, Role>,
     /// Roles by linetype, in upper case.
     pub linetypes: BTreeMap<String, Role>,
+    /// The name of the file of the document that they hold for.
+    pub document: Option<String>,
+    /// Findings that are let stand in it, by handle and rule, with the reason.
+    pub suppressed: BTreeMap<String, BTreeMap<Rule, String>>,
     /// Roles by handle.
     pub contours: BTreeMap<String, Role>,
     pub colors: BTreeMap<Color, Role>,
@@ -124,12 +130,15 @@ impl Effective {
             gap: settings.gap,
             passes: settings.passes.clone().unwrap_or_default(),
             side: settings.side(),
+            states_unit: settings.units.is_some(),
             unit: match settings.units() {
                 UnitSetting::Mm => Unit::MILLIMETRE,
                 UnitSetting::Inch => Unit::INCH,
             },
             margin: settings.margin(),
             layers: settings.layers.clone().unwrap_or_default(),
+            document: None,
+            suppressed: BTreeMap::new(),
             linetypes: settings
                 .linetypes
                 .iter()
@@ -265,6 +274,28 @@ impl Effective {
     /// Severity of a reader's finding: what is set for its rule, else what the reader gave it. `None` when it is switched off.
     pub(crate) fn severity_of(&self, finding: &Finding) -> Option<Severity> {
         self.severity_over(finding.rule, finding.severity)
+    }
+
+    /// The same with what is said of one drawing, by the name of its file.
+    pub(crate) fn of_document(settings: &Settings, name: Option<String>) -> Effective {
+        let own = settings.drawings.as_ref().zip(name.as_ref());
+        let own = own.and_then(|(drawings, name)| drawings.get(name)?.suppress.clone());
+        let rules = |reasons: BTreeMap<String, String>| {
+            let rule = |name: &str| Rule::ALL.into_iter().find(|rule| rule.name() == name);
+            let known = reasons
+                .into_iter()
+                .filter_map(|(name, reason)| Some((rule(&name)?, reason)));
+            known.collect()
+        };
+        Effective {
+            document: name,
+            suppressed: own
+                .into_iter()
+                .flatten()
+                .map(|(handle, reasons)| (handle, rules(reasons)))
+                .collect(),
+            ..Effective::of(settings)
+        }
     }
 
     /// Severity of something whose rule has other severities than its default one: `own`, unless somebody has set the rule.

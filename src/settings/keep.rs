@@ -1,11 +1,10 @@
 //! Lines that are put into the text of a `wedm.toml`, everything else in it staying as it is.
 
-use super::from_toml;
 use crate::finding::Keep;
 use crate::text::TextEdit;
 
 /// The lines of a table that nothing stands in yet.
-pub fn as_lines(keeps: &[Keep]) -> String {
+pub(crate) fn as_lines(keeps: &[Keep]) -> String {
     let mut lines = String::new();
     let mut table = None;
     for keep in keeps {
@@ -20,7 +19,7 @@ pub fn as_lines(keeps: &[Keep]) -> String {
 
 /// The edit of `text` after which the settings hold what is to be kept: below the head of its table where that stands, else at the end.
 /// `None` where the text cannot take it, as where the table is written in another way.
-pub fn keep(text: &str, keeps: &[Keep]) -> Option<TextEdit> {
+pub(crate) fn keep(text: &str, keeps: &[Keep]) -> Option<TextEdit> {
     let table = &keeps.first()?.table;
     let lines: String = keeps.iter().map(line).collect();
     let heading = format!("[{table}]");
@@ -44,28 +43,34 @@ pub fn keep(text: &str, keeps: &[Keep]) -> Option<TextEdit> {
     };
     let mut changed = text.to_owned();
     changed.replace_range(edit.range.clone(), &edit.text);
-    let errors = |text: &str| from_toml(text).1.len();
-    (keeps.iter().all(|keep| keep.table == *table) && errors(&changed) <= errors(text))
-        .then_some(edit)
+    // A value that somebody is to write yet is no fault of the text.
+    let is_toml = |text: &str| toml::from_str::<toml::Table>(text).is_ok();
+    let is_one_table = keeps.iter().all(|keep| keep.table == *table);
+    (is_one_table && is_toml(&changed)).then_some(edit)
 }
 
 fn line(keep: &Keep) -> String {
-    let is_bare = !keep.key.is_empty()
-        && keep
-            .key
-            .bytes()
-            .all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'-' | b'_'));
-    let quoted = |text: &str| toml::Value::String(text.into()).to_string();
-    let key = if is_bare {
-        keep.key.clone()
-    } else {
-        quoted(&keep.key)
-    };
-    format!("{key} = {}\n", quoted(&keep.value))
+    let value = toml::Value::String(keep.value.clone());
+    format!("{} = {value}\n", key(&keep.key))
+}
+
+/// A key as TOML has it: bare where it can be.
+fn key(name: &str) -> String {
+    let is_bare = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'-' | b'_');
+    match !name.is_empty() && name.bytes().all(is_bare) {
+        true => name.into(),
+        false => toml::Value::String(name.into()).to_string(),
+    }
+}
+
+/// The head of the table in which a finding at an entity of a drawing is let stand.
+pub(crate) fn table_of_suppressions(drawing: &str, handle: &str) -> String {
+    format!("drawings.{}.suppress.{}", key(drawing), key(handle))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::from_toml;
     use super::*;
 
     #[test]

@@ -60,6 +60,8 @@ tables! {
         /// Role of what is drawn in a colour, by itself or by its layer, where neither entity nor layer has one. Colours are `red`, `yellow`,
         /// `green`, `cyan`, `blue`, `magenta`, `white`, `1` to `255` (AutoCAD colour index), `#rrggbb`; in DXF.
         colors: BTreeMap<String, Role> => colors;
+        /// What is said of one drawing, by the name of its file: `[drawings."plate.dxf".suppress.2A]`.
+        drawings: BTreeMap<String, DrawingSettings> => tables;
         /// How near the arcs lie to the ellipses and splines that they stand for, mm.
         #[serde(alias = "arc-fit")]
         arc_fit: f64 = 0.001 => number in ARC_FIT;
@@ -76,6 +78,13 @@ tables! {
         job: JobSettings => table;
         /// [Profiles](programs.md#profiles) of ISO programs of your own, by name.
         profiles: BTreeMap<String, ProfileSettings> => tables;
+    }
+
+    /// What is said of one drawing.
+    DrawingSettings() {
+        /// Findings that somebody has looked at and lets stand, by the handle of the entity at which they are told and the name of the
+        /// rule, with the reason: [suppressions](rules/README.md#suppressions).
+        suppress: BTreeMap<String, BTreeMap<String, String>> => reasons;
     }
 
     /// Corrections of a multi-pass cut.
@@ -209,6 +218,7 @@ pub fn rows() -> Vec<Row> {
     rows.extend(Passes::rows("passes."));
     rows.extend(ProgramSettings::rows("program."));
     rows.extend(JobSettings::rows("job."));
+    rows.extend(DrawingSettings::rows("drawings.NAME."));
     rows.extend(ProfileSettings::rows("profiles.NAME."));
     rows
 }

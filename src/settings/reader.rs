@@ -104,6 +104,31 @@ impl Reader {
         self.by_name(key, node, misfit, Reader::name)
     }
 
+    /// By handle and by rule why something is let stand.
+    pub(crate) fn reasons(
+        &mut self,
+        key: &str,
+        node: &Node,
+    ) -> Option<BTreeMap<String, BTreeMap<String, String>>> {
+        let names = Rule::ALL.map(Rule::name);
+        let misfit = |name: &str| (!names.contains(&name)).then(|| names.join(", "));
+        self.by_name(
+            key,
+            node,
+            |_| None,
+            |reader, key, node| reader.by_name(key, node, misfit, Reader::reason),
+        )
+    }
+
+    fn reason(&mut self, key: &str, node: &Node) -> Option<String> {
+        let expected = say!(the_reason_in_words);
+        let reason = self.text(key, node, expected)?;
+        if reason.trim().is_empty() {
+            return self.complain(key, node, say!(is_empty_expected, key, expected));
+        }
+        Some(reason)
+    }
+
     /// Values by name. `misfit` says which names are expected where one is not known.
     fn by_name<T>(
         &mut self,
@@ -305,7 +330,10 @@ impl Reader {
         };
         match named(text) {
             Ok(name) => Some(name),
-            Err(names) => self.misfit(key, node, &names),
+            Err(names) => match nearest(text, &names) {
+                Some(near) => self.misfit(key, node, &say!(did_you_mean_of, names, near)),
+                None => self.misfit(key, node, &names),
+            },
         }
     }
     pub(crate) fn word(&mut self, key: &str, node: &Node) -> Option<String> {
@@ -375,10 +403,50 @@ impl Reader {
     }
 
     fn unknown(&mut self, key: &str, entry: &Entry, expected: &str) {
-        let message = say!(is_not_known_expected, key, expected);
+        let message = match nearest(&entry.key, expected) {
+            Some(near) => say!(is_not_known_did_you_mean, key, near),
+            None => say!(is_not_known_expected, key, expected),
+        };
         self.errors
             .push(SettingsError::new(key, message, entry.key_range.clone()));
     }
+}
+
+/// The one of some words in a list that somebody has most likely meant: a few letters differ, no more than a third of them.
+fn nearest<'a>(word: &str, words: &'a str) -> Option<&'a str> {
+    let plain = |word: &str| snake_case(word).to_lowercase();
+    let (word, most) = (plain(word), word.chars().count() / 3);
+    let letter = |letter: char| !(letter.is_alphanumeric() || letter == '-');
+    let near = words
+        .split(letter)
+        .filter(|known| known.chars().count() > 1)
+        .map(|known| (distance(&word, &plain(known)), known))
+        .filter(|(distance, _)| (1..=most).contains(distance));
+    near.min_by_key(|(distance, _)| *distance)
+        .map(|(_, known)| known)
+}
+
+/// Letters that come, go, change or change places between two words.
+fn distance(one: &str, other: &str) -> usize {
+    let other: Vec<char> = other.chars().collect();
+    let mut before: Vec<usize> = Vec::new();
+    let mut row: Vec<usize> = (0..=other.len()).collect();
+    let mut last = None;
+    for (at, letter) in one.chars().enumerate() {
+        let mut next = vec![at + 1];
+        for (column, &their) in other.iter().enumerate() {
+            let changed = row[column] + usize::from(letter != their);
+            let mut best = changed.min(row[column + 1] + 1).min(next[column] + 1);
+            let turned = column > 0 && last == Some(their) && other[column - 1] == letter;
+            if let Some(two_back) = before.get(column.wrapping_sub(1)).filter(|_| turned) {
+                best = best.min(two_back + 1);
+            }
+            next.push(best);
+        }
+        before = std::mem::replace(&mut row, next);
+        last = Some(letter);
+    }
+    row[other.len()]
 }
 
 /// The value that a fault of the passes speaks of, else what else the tree says about the passes.
@@ -449,6 +517,77 @@ mod tests {
     use super::super::{Corner, Layout, SideSetting, UnitSetting, from_json, from_toml};
     use super::*;
     use serde_json::json;
+
+    #[test]
+    fn what_was_most_likely_meant_is_asked() {
+        for (text, expected) in [
+            ("layer = {}", "layer is not known, did you mean layers?"),
+            (
+                "corection = 0.1",
+                "corection is not known, did you mean correction?",
+            ),
+            (
+                "[program]\nleadin = 3",
+                "program.leadin is not known, did you mean lead-in?",
+            ),
+            (
+                "[rules]\nshrap-corner = \"off\"",
+                "rules.shrap-corner is not known, did you mean sharp-corner?",
+            ),
+            (
+                "side = \"openning\"",
+                "side is \"openning\", expected both, auto, opening, punch: did you mean opening?",
+            ),
+            (
+                "[layers]\nDIE = \"Punch\"",
+                "layers.DIE is \"Punch\", expected opening, punch, both, ignore",
+            ),
+        ] {
+            let (_, errors) = from_toml(text);
+            let said: Vec<&str> = errors.iter().map(|error| &*error.message).collect();
+            assert!(
+                said.len() == 1 && said[0].replace("one of ", "").starts_with(expected),
+                "{said:?} {expected}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_suppression_has_a_reason() {
+        let table = "[drawings.\"plate.dxf\".suppress.2A]\n";
+        let (settings, errors) = from_toml(&format!("{table}gap = \"glued\""));
+        assert!(errors.is_empty(), "{errors:?}");
+        assert_eq!(
+            settings.drawings.unwrap()["plate.dxf"]
+                .suppress
+                .as_ref()
+                .unwrap()["2A"]["gap"],
+            "glued"
+        );
+        for (line, expected) in [
+            (
+                "gap = \" \"",
+                "drawings.plate.dxf.suppress.2A.gap is empty, expected the reason in words",
+            ),
+            (
+                "gap = true",
+                "drawings.plate.dxf.suppress.2A.gap is true, expected the reason in words",
+            ),
+            (
+                "gab = \"x\"",
+                "drawings.plate.dxf.suppress.2A.gab is not known, did you mean gap?",
+            ),
+        ] {
+            let (_, errors) = from_toml(&format!("{table}{line}"));
+            assert_eq!(
+                errors
+                    .iter()
+                    .map(|error| &*error.message)
+                    .collect::<Vec<_>>(),
+                [expected]
+            );
+        }
+    }
 
     #[test]
     fn the_documented_file_is_read_whole() {

@@ -10,7 +10,8 @@ use std::fmt::Write;
 /// `path:line:column: severity[rule]: sentence (where)`.
 pub(super) fn concise(survey: &Survey) -> String {
     let line = |row: &Row| format!("{}:{}", readable(&row.path), told(row));
-    survey.rows.iter().map(line).collect()
+    let suppressed = survey.suppressed.iter().filter(|_| survey.shows_suppressed);
+    survey.rows.iter().chain(suppressed).map(line).collect()
 }
 
 /// The same under a heading for each file.
@@ -38,6 +39,11 @@ fn told(row: &Row) -> String {
     );
     let others = row.related.iter().map(|related| related.message.clone());
     let places: Vec<String> = row.whereabouts().into_iter().chain(others).collect();
+    let reason = row
+        .suppressed
+        .iter()
+        .map(|reason| say!(suppressed_since, readable(reason)));
+    let places: Vec<String> = places.into_iter().chain(reason).collect();
     let place = match places.join("; ") {
         none if none.is_empty() => none,
         places => format!(" ({places})"),

@@ -59,6 +59,9 @@ pub(crate) struct Arguments {
     /// Check again whenever a file changes, until the process is ended
     #[arg(long)]
     watch: bool,
+    /// Print also what is suppressed, with the reason
+    #[arg(long)]
+    show_suppressed: bool,
     /// End with 1 also for findings of this severity
     #[arg(long, value_enum, value_name = "SEVERITY")]
     deny: Option<Deny>,
@@ -106,6 +109,7 @@ enum Deny {
 /// What became of one file.
 struct Checked {
     rows: Vec<Row>,
+    suppressed: Vec<Row>,
     /// Some of it is repaired by `wedm fix`.
     fixable: bool,
     failure: Option<Failure>,
@@ -117,6 +121,9 @@ struct Checked {
 struct Survey {
     files: usize,
     rows: Vec<Row>,
+    /// What is suppressed counts for nothing.
+    suppressed: Vec<Row>,
+    shows_suppressed: bool,
     fixable: Vec<PathBuf>,
     failures: Vec<Failure>,
     docs_url: Option<String>,
@@ -143,6 +150,9 @@ fn report(arguments: &Arguments) -> Result<Verdict, Failure> {
         Format::Grouped => output::print(lines::grouped(&survey) + &text::summary(&survey))?,
         Format::Github => output::print(lines::github(&survey))?,
         Format::Junit => output::print(lines::junit(&survey))?,
+        Format::Json if survey.shows_suppressed => output::print_json(
+            &serde_json::json!({ "diagnostics": survey.rows, "suppressed": survey.suppressed }),
+        )?,
         Format::Json => output::print_json(&serde_json::json!({ "diagnostics": survey.rows }))?,
         Format::Sarif => output::print_json_text(&format!("{:#}\n", sarif::log(&survey)))?,
     }
@@ -180,6 +190,8 @@ fn survey(arguments: &Arguments) -> Survey {
     let mut survey = Survey {
         files: 0,
         rows: Vec::new(),
+        suppressed: Vec::new(),
+        shows_suppressed: arguments.show_suppressed,
         fixable: Vec::new(),
         failures: found.failures,
         docs_url: None,
@@ -188,6 +200,7 @@ fn survey(arguments: &Arguments) -> Survey {
         survey.files += usize::from(file.failure.is_none());
         survey.failures.extend(file.failure);
         survey.rows.extend(file.rows);
+        survey.suppressed.extend(file.suppressed);
         survey.docs_url = survey.docs_url.or(file.docs_url);
         if file.fixable {
             survey.fixable.push(path);
@@ -200,6 +213,7 @@ fn survey(arguments: &Arguments) -> Survey {
         crate::finding::Rule::PassOrder,
     ];
     survey.rows.retain(|row| arguments.wants(row.rule));
+    survey.suppressed.retain(|row| arguments.wants(row.rule));
     survey.rows.retain(|row| {
         !of_settings.contains(&row.rule)
             || said.insert((row.path.clone(), row.line, row.message.clone()))
@@ -218,6 +232,7 @@ fn check(path: &Path, arguments: &Arguments, settings: &Settings) -> Checked {
     match opened {
         Err(failure) => Checked {
             rows: Vec::new(),
+            suppressed: Vec::new(),
             fixable: false,
             failure: Some(failure),
             docs_url: None,
@@ -226,6 +241,7 @@ fn check(path: &Path, arguments: &Arguments, settings: &Settings) -> Checked {
             rows.extend(super::report::rows(name, &mut document));
             Checked {
                 rows,
+                suppressed: super::report::suppressed(name, &document),
                 // What came on stdin is in no file that could be repaired.
                 fixable: !stdin && document.can_be_fixed(),
                 failure: None,

@@ -26,7 +26,7 @@ pub(super) fn log(survey: &Survey) -> Value {
                 "executionSuccessful": survey.failures.is_empty(),
                 "toolExecutionNotifications": notifications,
             }],
-            "results": survey.rows.iter().map(result).collect::<Vec<_>>(),
+            "results": survey.rows.iter().chain(&survey.suppressed).map(result).collect::<Vec<_>>(),
         }],
     })
 }
@@ -78,6 +78,9 @@ fn result(row: &Row) -> Value {
             })
         };
         result["relatedLocations"] = row.related.iter().map(location).collect();
+    }
+    if let Some(reason) = &row.suppressed {
+        result["suppressions"] = json!([{ "kind": "external", "justification": reason }]);
     }
     result
 }

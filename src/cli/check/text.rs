@@ -9,7 +9,11 @@ use std::fmt::Write;
 
 pub(super) fn render(survey: &Survey) -> String {
     let mut text = String::new();
-    for rows in survey.rows.chunks(16 * SHARE) {
+    let suppressed: &[Row] = match survey.shows_suppressed {
+        true => &survey.suppressed,
+        false => &[],
+    };
+    for rows in survey.rows.chunks(16 * SHARE).chain([suppressed]) {
         let rows = rows.par_iter().with_min_len(SHARE);
         let rendered: Vec<String> = rows.map(Row::rendered).collect();
         for row in rendered {
@@ -46,6 +50,11 @@ pub(super) fn summary(survey: &Survey) -> String {
     } else {
         parts.join(say!(comma))
     };
+    let suppressed = match survey.suppressed.len() {
+        0 => String::new(),
+        count => say!(and_so_many_suppressed, count),
+    };
+    let result = result + &suppressed;
     let files = say!(files, survey.files);
     let _ = writeln!(text, "{}", say!(checked, files, result));
     if let [only] = survey.fixable.as_slice() {
@@ -55,7 +64,7 @@ pub(super) fn summary(survey: &Survey) -> String {
             say!(
                 wedm_fix_in_place,
                 styled(output::NOTE, say!(repair_what_can_be_repaired_with)),
-                output::name(only)
+                output::word(only)
             )
         );
     } else if let Some(first) = survey.fixable.first() {
@@ -66,7 +75,7 @@ pub(super) fn summary(survey: &Survey) -> String {
         let _ = writeln!(
             text,
             "{}",
-            say!(heading_wedm_fix_in_place, heading, output::name(first))
+            say!(heading_wedm_fix_in_place, heading, output::word(first))
         );
     }
     text

@@ -94,8 +94,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         narrator.say(&format!("{}  {what}", output::name(&path)));
     }
     narrator.step(say!(go_on_with));
-    let drawing = output::name(&arguments.folder.join("demo.dxf"));
-    let program = output::name(&arguments.folder.join("plate.3b"));
+    let drawing = output::word(&arguments.folder.join("demo.dxf"));
+    let program = output::word(&arguments.folder.join("plate.3b"));
     for words in [
         &["check", &drawing][..],
         &["inspect", &drawing],

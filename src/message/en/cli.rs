@@ -4,7 +4,7 @@ declare! {
     the_edits_overlap => "the edits overlap";
     more_errors_than_before => "what was repaired has more errors than before; nothing is written";
     no_program_is_written => "no program is written";
-    no_program_of_a_drawing_with(path, errors) => "{path}: no program is written, the drawing has {errors}; repair it (wedm fix {path}), or insist with --force";
+    no_program_of_a_drawing_with(path, errors, word) => "{path}: no program is written, the drawing has {errors}; repair it (wedm fix {word} --in-place), or insist with --force";
     nothing_of_a_program_with(path, errors) => "{path}: nothing is written, the program has {errors}; repair them, or insist with --force";
     a_drawing_is_generated_from => "it is a drawing, expected a program: wedm generate makes one of it";
     nothing_is_made_with_such_settings => "nothing is made with settings that do not fit, see above";
@@ -14,7 +14,7 @@ declare! {
     its_name_ends_otherwise(ending) => "its name ends with .{ending}, expected .dxf, .3b, .iso or .nc";
     note => "note:";
     drawn_without_the_path(note, reason) => "{note} drawn without the path of the wire: {reason}";
-    a_program_is_drawn_as_svg(path) => "{path}: a program is drawn as .svg; as a drawing: wedm convert {path} -o OUT.dxf";
+    a_program_is_drawn_as_svg(path, word) => "{path}: a program is drawn as .svg; as a drawing: wedm convert {word} -o OUT.dxf";
     a_picture_that_is_not_written(ending) => ".{ending} is not written, expected .svg or .dxf";
     binary_dxf_is_not_edited => "it is binary DXF, which is read but not edited: save it as ASCII DXF";
     the_change_of_holds_neither(handle) => "the change of {handle} holds neither or both of vertices and entity, expected one";
@@ -194,4 +194,6 @@ declare! {
     meant_elsewhere(x, y, deviation) => "meant {x:.4}, {y:.4}: {deviation:.2} µm beside";
     read_as_gb_18030(note) => "{note} what is not UTF-8 is read as GB 18030, and written so";
     written => "written";
+    suppressed_since(reason) => "suppressed: {reason}";
+    and_so_many_suppressed(count) => ", {count} suppressed";
 }

@@ -45,6 +45,7 @@ declare! {
     cut_what_is_drawn_in_a_linetype(name) => "Cut what is drawn in {name} all the same (wedm.toml)";
     cut_what_lies_on_a_layer(name) => "Cut layer {name} all the same (wedm.toml)";
     cut_the_lone_lines => "Cut the lone lines all the same (wedm.toml)";
+    suppress_here_with_a_reason(rule) => "Suppress {rule} here, with a reason (wedm.toml)";
     ignore_the_layer(layer) => "Ignore layer {layer} (wedm.toml)";
     segment(handle, segment) => "{handle}, segment {segment}";
     the_facing_wall(place) => "the facing wall: {place}";

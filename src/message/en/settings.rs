@@ -19,6 +19,10 @@ declare! {
     a_point => "a point [x, y]";
     a_word_of_letters_and_digits => "a word of letters and digits such as \"DD\"";
     colors_that_are_known => "red, yellow, green, cyan, blue, magenta, white, a number from 1 to 255 or #rrggbb";
+    the_reason_in_words => "the reason in words";
+    did_you_mean_of(expected, near) => "{expected}: did you mean {near}?";
+    is_not_known_did_you_mean(key, near) => "{key} is not known, did you mean {near}?";
+    suppresses_nothing(handle, rule) => "the suppression of {rule} at {handle} suppresses nothing here: take it out";
     one_or_other(ones, other) => "{ones} or {other}";
     is_expected(key, found, expected) => "{key} is {found}, expected {expected}";
     is_empty_expected(key, expected) => "{key} is empty, expected {expected}";

@@ -4,7 +4,7 @@ translate! {
     the_edits_overlap => "各处修改相互重叠";
     more_errors_than_before => "修复后错误反而更多；未写入任何文件";
     no_program_is_written => "未写出程序";
-    no_program_of_a_drawing_with(path, errors) => "{path}：图形有 {errors}，不写出程序；请先修复（wedm fix {path}），或加 --force 强制写出";
+    no_program_of_a_drawing_with(path, errors, word) => "{path}：图形有 {errors}，不写出程序；请先修复（wedm fix {word} --in-place），或加 --force 强制写出";
     nothing_of_a_program_with(path, errors) => "{path}：程序有 {errors}，不写出任何文件；请先修复，或加 --force 强制写出";
     a_drawing_is_generated_from => "这是图形，此处要程序：用 wedm generate 由它生成程序";
     nothing_is_made_with_such_settings => "设置不合适，未写出任何文件，见上文";
@@ -14,7 +14,7 @@ translate! {
     its_name_ends_otherwise(ending) => "文件扩展名是 .{ending}，应为 .dxf、.3b、.iso 或 .nc";
     note => "注意：";
     drawn_without_the_path(note, reason) => "{note}只画轮廓，没有切割路线：{reason}";
-    a_program_is_drawn_as_svg(path) => "{path}：程序画成 .svg；要画成图形：wedm convert {path} -o OUT.dxf";
+    a_program_is_drawn_as_svg(path, word) => "{path}：程序画成 .svg；要画成图形：wedm convert {word} -o OUT.dxf";
     a_picture_that_is_not_written(ending) => "不能写出 .{ending}，应为 .svg 或 .dxf";
     binary_dxf_is_not_edited => "这是二进制 DXF，只读不改：请另存为 ASCII DXF";
     the_change_of_holds_neither(handle) => "{handle} 的修改须在 vertices 和 entity 中只含一项，现在两项都有或都没有";
@@ -194,4 +194,6 @@ translate! {
     meant_elsewhere(x, y, deviation) => "应在 {x:.4}, {y:.4}：偏离 {deviation:.2} µm";
     read_as_gb_18030(note) => "{note}不是 UTF-8 的文件按 GB 18030 读入，写出时仍为 GB 18030";
     written => "已写出";
+    suppressed_since(reason) => "已忽略：{reason}";
+    and_so_many_suppressed(count) => "，已忽略 {count} 个";
 }

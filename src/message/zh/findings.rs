@@ -36,6 +36,17 @@ translate! {
     switched_off => "已关闭";
     invisible_entities_are_not_cut(entities, are) => "{entities}{are}不可见（组码 60）：不切割";
     entities_of_a_layer_that_is_not_plotted_are_cut(layer, entities, are) => "图层 {layer} 不打印：其上 {entities}{are}照样切割，除非其用途为 ignore（[layers]）";
+    drawn_to_be_read_and_not_cut(entities, are, parts) => "{entities}{are}是制图用线，不切割：{parts}";
+    in_a_linetype(count, name) => "线型 {name} {count} 个";
+    on_a_layer(count, name) => "图层 {name} 上 {count} 个";
+    n1_lone_line => "封闭轮廓内的单独直线 1 条";
+    lone_lines(count) => "封闭轮廓内的单独直线 {count} 条";
+    others_of_them(count) => "其他 {count} 个";
+    cut_what_is_drawn_in_a_linetype(name) => "照样切割线型 {name}（wedm.toml）";
+    cut_what_lies_on_a_layer(name) => "照样切割图层 {name}（wedm.toml）";
+    cut_the_lone_lines => "照样切割这些单独直线（wedm.toml）";
+    suppress_here_with_a_reason(rule) => "在此忽略 {rule}，须写明理由（wedm.toml）";
+    ignore_the_layer(layer) => "忽略图层 {layer}（wedm.toml）";
     segment(handle, segment) => "{handle} 段 {segment}";
     the_facing_wall(place) => "对面的槽壁：{place}";
     the_wire_comes_no_further_than_here(place) => "丝最多走到这里：{place}";

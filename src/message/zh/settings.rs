@@ -19,6 +19,10 @@ translate! {
     a_point => "点 [x, y]";
     a_word_of_letters_and_digits => "由字母和数字组成的代码，如 \"DD\"";
     colors_that_are_known => "red、yellow、green、cyan、blue、magenta、white、1 到 255 的数或 #rrggbb";
+    the_reason_in_words => "用文字写明理由";
+    did_you_mean_of(expected, near) => "{expected}：是否想写 {near}？";
+    is_not_known_did_you_mean(key, near) => "未知的 {key}，是否想写 {near}？";
+    suppresses_nothing(handle, rule) => "对 {handle} 处 {rule} 的忽略不起作用：请删去";
     one_or_other(ones, other) => "{ones} 或 {other}";
     is_expected(key, found, expected) => "{key} 是 {found}，应为 {expected}";
     is_empty_expected(key, expected) => "{key} 为空，应为 {expected}";
