@@ -176,11 +176,8 @@ const LISTED: usize = 8;
 
 fn set_aside(parts: &[SetAside]) -> String {
     let count: usize = parts.iter().map(|part| part.count).sum();
-    let (entities, are) = if count == 1 {
-        (say!(n1_entity).to_string(), say!(is))
-    } else {
-        (say!(entities, count), say!(are))
-    };
+    let entities = say!(entities, count);
+    let are = if count == 1 { say!(is) } else { say!(are) };
     let mut said: Vec<String> = parts
         .iter()
         .take(LISTED)
