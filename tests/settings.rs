@@ -110,7 +110,9 @@ fn type_of(row: &Row, schema: &Value) -> String {
             format!("list of numbers{range}, at least one")
         }
         Some("array") => "list of lines".into(),
-        Some("object") if row.key == "profiles" => "table of tables by name".into(),
+        Some("object") if ["profiles", "drawings"].contains(&row.key.as_str()) => {
+            "table of tables by name".into()
+        }
         Some("object") => format!(
             "table of {} by name",
             listed(words(&schema["additionalProperties"]))
@@ -177,6 +179,7 @@ fn the_readme_shows_every_key_with_its_default() {
         "program.tab-stop" => "\"M01\"",
         "job.thickness" => "40",
         "job.slug-limit" => "100",
+        "linetypes" => "{ DASHED = \"punch\" }",
         "layers" => "{ DIE = \"opening\", FRAME = \"ignore\" }",
         "colors" => "{ red = \"punch\" }",
         "contours" => "{ 2A = \"punch\" }",
@@ -189,7 +192,7 @@ fn the_readme_shows_every_key_with_its_default() {
     let all = of_documents();
     let rows = all
         .iter()
-        .filter(|row| !["rules", "profiles"].contains(&row.key.as_str()));
+        .filter(|row| !["rules", "profiles", "drawings"].contains(&row.key.as_str()));
     for row in rows {
         let (of, key) = row.key.split_once('.').unwrap_or(("", &row.key));
         if of != table {
@@ -333,6 +336,7 @@ fn the_settings_page_of_vs_code_has_every_key() {
                 "default": null,
                 "additionalProperties": { "type": "object", "additionalProperties": false, "properties": of_profiles },
             }),
+            "drawings" => json!({ "type": ["object", "null"], "default": null }),
             _ => editor_schema(row, &schema_of(row), true),
         };
         schema["order"] = json!(10 + index);

@@ -22,8 +22,6 @@ const LINETYPES: &[&str] = &[
     "gestrichelt",
     "hidden",
     "interromp",
-    "iso dash",
-    "iso long",
     "jis_",
     "long_dash",
     "mitte",

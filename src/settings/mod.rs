@@ -23,9 +23,7 @@ pub(crate) use from_json::from_json;
 pub use from_toml::from_toml;
 pub(crate) use from_toml::{FILE_NAME, place_in, read_file};
 pub(crate) use keep::{as_lines, keep, table_of_suppressions};
-pub(crate) use keys::{
-    DrawingSettings, JobSettings, Passes, Profile, ProfileSettings, ProgramSettings,
-};
+pub(crate) use keys::{JobSettings, Passes, Profile, ProfileSettings, ProgramSettings};
 pub use keys::{Settings, rows};
 pub(crate) use passes::{PassFault, pass_faults, passes_table};
 pub use profile::shipped_profiles;

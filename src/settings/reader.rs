@@ -705,7 +705,7 @@ end = "DD"
         check(
             "corection = 1",
             "corection",
-            "corection is not known, expected correction,",
+            "corection is not known, did you mean correction?",
         );
         check(
             "passes = { corrections = [0.1, 0] }",
@@ -735,7 +735,7 @@ end = "DD"
         check(
             "rules = { small-radii = \"off\" }",
             "small-radii",
-            "rules.small-radii is not known, expected small-radius",
+            "rules.small-radii is not known, did you mean small-radius?",
         );
         check(
             "rules = { small-radius = \"loud\" }",

@@ -143,7 +143,7 @@ pub fn judge(group: Group, sound: &str, faulty: &Faulty) -> Option<Verdict> {
         .find_map(|finding| document.fixes(finding).into_iter().next());
     let first_text = first.as_ref().and_then(|fix| match &fix.edit {
         Edit::Text(edits) => with(&document, edits),
-        Edit::Drawing(_) => None,
+        Edit::Drawing(_) | Edit::Settings(_) => None,
     });
     let first_fix = first_text
         .as_ref()

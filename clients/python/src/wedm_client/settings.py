@@ -85,8 +85,10 @@ class Settings(TypedDict, total=False):
     margin: float
     resolution: float
     layers: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
+    linetypes: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
     contours: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
     colors: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
+    drawings: Mapping[str, Literal[]]
     arc_fit: float
     rules: Mapping[str, Literal["error", "warning", "information", "hint", "off"]]
     docs_url: str
