@@ -69,7 +69,6 @@ impl<const GROUP: usize> Args for Keys<GROUP> {
                 .value_parser(parser(row));
             let arg = arg.help_heading(GROUPS[GROUP].0).allow_hyphen_values(true);
             let value = match row.read {
-                "name" => return arg,
                 "number" => "MM",
                 "numbers" => "MM,MM",
                 "point_setting" => "X,Y",
@@ -179,5 +178,6 @@ mod tests {
     fn every_option_is_a_key_of_the_settings() {
         let all = (0..GROUPS.len()).flat_map(options);
         assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 12);
+        assert_eq!(row("program.corner").words, ["arc", "intersection"]);
     }
 }

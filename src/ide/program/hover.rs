@@ -1,7 +1,7 @@
 //! What stands at a place: the block in words, and what the word under the cursor means in it.
 
+use super::of;
 use super::words::words_of;
-use super::{iso, three_b};
 use crate::geometry::Segment;
 use crate::ide::Hover;
 use crate::ide::amounts::{degrees, mm, point, turn};
@@ -33,10 +33,7 @@ pub(crate) fn hover(document: &Document, offset: usize) -> Option<Hover> {
                 .rfind(|step| step.range.end <= part.range.start)
         })
         .or(steps.first());
-    let word = match document {
-        Document::ThreeB(program) => three_b::meaning(program, part.range.clone()),
-        Document::Iso(program) => iso::meaning(program, part.range.clone()),
-    };
+    let word = of(document).meaning(part.range.clone());
     let block = step.map(|step| about_step(step, steps.len() > 1));
     let text = [word, block]
         .into_iter()

@@ -29,19 +29,57 @@ pub(crate) use tokens::{tokens, tokens_in};
 
 use super::{Completion, Signature};
 use crate::program::Document;
+use crate::text::TextEdit;
+use std::ops::Range;
+use words::{Part, WordKind};
+
+/// What a language of programs says of its own text.
+trait Language {
+    /// What can stand at a byte, what is most likely first.
+    fn completions(&self, offset: usize) -> Vec<Completion>;
+
+    /// The form of the block that is written at a byte; `None` where none is.
+    fn signature(&self, offset: usize) -> Option<Signature>;
+
+    /// What the word at a range of bytes says in its block, in Markdown; `None` for what means nothing.
+    fn meaning(&self, word: Range<usize>) -> Option<String>;
+
+    /// The pieces of a line that begins at a byte; damaged lines are cut as far as that goes.
+    fn words(&self, line: &[u8], offset: usize) -> Vec<Part>;
+
+    /// The word at a byte and the one that belongs to it, where that is not a matter of the machine's way.
+    fn partner(&self, _: usize) -> Option<(Range<usize>, Range<usize>)> {
+        None
+    }
+
+    /// What may lead a block number.
+    fn letters_of_numbers(&self) -> &'static [char] {
+        &['N', 'n']
+    }
+
+    /// The edits that give a block another number.
+    fn renamed(
+        &self,
+        digits: Range<usize>,
+        old: u32,
+        name: &str,
+        new: u32,
+    ) -> Result<Vec<TextEdit>, String>;
+}
+
+fn of(document: &Document) -> &dyn Language {
+    match document {
+        Document::ThreeB(program) => program,
+        Document::Iso(program) => &**program,
+    }
+}
 
 /// What can stand at a byte, what is most likely first.
 pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion> {
-    match document {
-        Document::ThreeB(program) => three_b::completions(program, offset),
-        Document::Iso(program) => iso::completions(program, offset),
-    }
+    of(document).completions(offset)
 }
 
 /// The form of the block that is written at a byte; `None` where none is.
 pub(crate) fn signature(document: &Document, offset: usize) -> Option<Signature> {
-    match document {
-        Document::ThreeB(program) => three_b::signature(program, offset),
-        Document::Iso(program) => iso::signature(program, offset),
-    }
+    of(document).signature(offset)
 }

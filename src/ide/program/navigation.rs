@@ -1,6 +1,6 @@
 //! From one end of something to the other: pause to pause, way in to way out, first block of a contour to its last.
 
-use super::iso;
+use super::of;
 use crate::program::Document;
 use crate::program::path::Kind;
 use std::ops::Range;
@@ -36,9 +36,7 @@ pub(crate) fn pauses(document: &Document) -> Vec<Range<usize>> {
 }
 
 fn pair(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize>)> {
-    if let Document::Iso(program) = document
-        && let Some(pair) = iso::partner(program, offset)
-    {
+    if let Some(pair) = of(document).partner(offset) {
         return Some(pair);
     }
     let touching = document.steps_in(offset..offset);

@@ -1,7 +1,8 @@
 //! Block numbers: found, renamed.
 
+use super::of;
 use super::words::{WordKind, words_of};
-use crate::program::{Document, iso};
+use crate::program::Document;
 use crate::text::TextEdit;
 use std::ops::Range;
 
@@ -26,30 +27,12 @@ pub(crate) fn renamed(
 ) -> Result<Vec<TextEdit>, String> {
     let (digits, number) =
         number_at(document, offset).ok_or(say!(there_is_no_block_number_here))?;
-    if let Document::Iso(program) = document {
-        return iso::renamed(program, digits, number, name);
-    }
     let name = name.trim();
-    let name = name.strip_prefix(['N', 'n']).unwrap_or(name).trim();
+    let letters = of(document).letters_of_numbers();
+    let name = name.strip_prefix(letters).unwrap_or(name).trim();
     let is_number =
         !name.is_empty() && name.len() <= 8 && name.bytes().all(|byte| byte.is_ascii_digit());
-    let number: u32 = name
-        .parse()
-        .ok()
-        .filter(|_| is_number)
-        .ok_or_else(|| say!(is_no_block_number, name))?;
-    let line = document.text().line_of(offset);
-    let trace = document.trace();
-    if let Some(step) = trace
-        .steps
-        .iter()
-        .find(|step| step.number == Some(number) && step.line != line)
-    {
-        return Err(say!(
-            the_number_is_that_of_another_block,
-            number,
-            step.line + 1
-        ));
-    }
-    Ok(vec![TextEdit::new(digits, name)])
+    let new = name.parse().ok().filter(|_| is_number);
+    let new = new.ok_or_else(|| say!(is_no_block_number, name))?;
+    of(document).renamed(digits, number, name, new)
 }

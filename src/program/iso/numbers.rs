@@ -119,20 +119,9 @@ pub(crate) fn renamed(
     digits: Range<usize>,
     old: u32,
     name: &str,
+    new: u32,
 ) -> Result<Vec<TextEdit>, String> {
     refuse_unknown_calls(document)?;
-    let name = name.trim();
-    let name = name
-        .strip_prefix(['N', 'n', 'O', 'o'])
-        .unwrap_or(name)
-        .trim();
-    let is_number =
-        !name.is_empty() && name.len() <= 8 && name.bytes().all(|byte| byte.is_ascii_digit());
-    let new: u32 = name
-        .parse()
-        .ok()
-        .filter(|_| is_number)
-        .ok_or_else(|| say!(is_no_block_number, name))?;
     let (text, labels) = (document.text(), labels(document.text()));
     let own = text.line_of(digits.start);
     if let Some(line) = labels.get(&new).filter(|line| **line != own) {

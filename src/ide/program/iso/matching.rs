@@ -10,7 +10,7 @@ use std::ops::Range;
 ///
 /// Of G41 and G42, the G40 that ends it; of G40, the word that it ends; of a call, the line that it calls; of M99, where its
 /// subprogram begins; of `%`, the other one.
-pub(crate) fn partner(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize>)> {
+pub(super) fn partner(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize>)> {
     let text = document.text();
     let line = text.line_of(offset);
     let range = text.line_range(line);

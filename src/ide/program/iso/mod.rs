@@ -11,12 +11,83 @@ mod signature;
 mod tests;
 mod vocabulary;
 
-pub(crate) use completion::completions;
-pub(crate) use matching::partner;
-pub(crate) use meaning::meaning;
-pub(crate) use signature::signature;
-
+use super::{Completion, Language, Part, Signature, WordKind};
 use crate::program::iso::block::word_range;
+use crate::program::iso::{self, Document, Token, words};
+use crate::text::TextEdit;
+use std::ops::Range;
+
+impl Language for Document {
+    fn completions(&self, offset: usize) -> Vec<Completion> {
+        completion::completions(self, offset)
+    }
+
+    fn signature(&self, offset: usize) -> Option<Signature> {
+        signature::signature(self, offset)
+    }
+
+    fn meaning(&self, word: Range<usize>) -> Option<String> {
+        meaning::meaning(self, word)
+    }
+
+    fn words(&self, line: &[u8], offset: usize) -> Vec<Part> {
+        let mut parts = Vec::new();
+        words(line, 0, |token| {
+            // Part of a word that is read all the same.
+            if let Token::Fault { range, .. } = &token
+                && parts
+                    .last()
+                    .is_some_and(|last: &Part| offset + range.start < last.range.end)
+            {
+                return;
+            }
+            let (kind, range) = match token {
+                Token::Word { letter, range, .. } => (
+                    match letter {
+                        b'N' | b'O' => WordKind::Number,
+                        b'G' => WordKind::Motion,
+                        b'M' | b'T' => WordKind::Stop,
+                        b'X' | b'Y' | b'I' | b'J' | b'R' | b'U' | b'V' => WordKind::Length,
+                        _ => WordKind::Setting,
+                    },
+                    range,
+                ),
+                Token::Corner { range, .. } => (WordKind::Length, range),
+                Token::Definition { range, .. }
+                | Token::Sum { range, .. }
+                | Token::Foreign { range } => (WordKind::Setting, range),
+                Token::Comment { range } => (WordKind::Comment, range),
+                Token::Tape { range } | Token::Skip { range } => (WordKind::Lead, range),
+                Token::Fault { range, .. } => (WordKind::Strange, range),
+            };
+            if !range.is_empty() {
+                parts.push(Part {
+                    kind,
+                    range: offset + range.start..offset + range.end,
+                });
+            }
+        });
+        parts
+    }
+
+    fn partner(&self, offset: usize) -> Option<(Range<usize>, Range<usize>)> {
+        matching::partner(self, offset)
+    }
+
+    fn letters_of_numbers(&self) -> &'static [char] {
+        &['N', 'n', 'O', 'o']
+    }
+
+    fn renamed(
+        &self,
+        digits: Range<usize>,
+        old: u32,
+        name: &str,
+        new: u32,
+    ) -> Result<Vec<TextEdit>, String> {
+        iso::renamed(self, digits, old, name, new)
+    }
+}
 
 /// True where a word stands in a line.
 fn holds(line: &[u8], letter: u8, number: i64) -> bool {

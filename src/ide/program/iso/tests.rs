@@ -23,8 +23,8 @@ fn every_word_says_what_it_means() {
     fn check(text: &str, expected: &str) {
         let start = text.find('|').unwrap();
         let document = Document::read(text.replacen('|', "", 1).into_bytes());
-        let said = meaning(&document, start..text.len() - 1).unwrap_or_default();
-        let word = meaning(&document, start..start + 1).unwrap_or(said);
+        let said = document.meaning(start..text.len() - 1).unwrap_or_default();
+        let word = document.meaning(start..start + 1).unwrap_or(said);
         assert!(word.contains(expected), "{text}: {word}");
     }
     check("|G01 X1.5", "cuts along a straight line");
@@ -72,13 +72,13 @@ fn every_word_says_what_it_means() {
     check("|#1=5", "a matter of the machine");
     check("|%\n", "on tape");
     let document = Document::read(b"(only a comment)".to_vec());
-    assert_eq!(meaning(&document, 0..16), None);
+    assert_eq!(document.meaning(0..16), None);
 }
 
 #[track_caller]
 fn offers(text: &str, settings: &Effective, expected: &[(&str, &str)]) -> Vec<String> {
     let (document, offset) = at_cursor(text, settings);
-    let found = completions(&document, offset);
+    let found = document.completions(offset);
     for (label, about) in expected {
         assert!(
             found
@@ -228,7 +228,7 @@ fn the_form_of_a_block_shows_where_the_cursor_is() {
     #[track_caller]
     fn check(text: &str, expected: Option<(&str, &str, &str)>) {
         let (document, offset) = at_cursor(text, &Effective::default());
-        let found = signature(&document, offset);
+        let found = document.signature(offset);
         let found = found.map(|found| {
             (
                 found.label,
@@ -270,7 +270,7 @@ fn words_that_belong_together_are_found_from_both_ends() {
     #[track_caller]
     fn check(text: &str, expected: Option<&str>) {
         let (document, offset) = at_cursor(text, &Effective::default());
-        let found = partner(&document, offset).map(|(_, other)| {
+        let found = document.partner(offset).map(|(_, other)| {
             let line = document.text().line_of(other.start);
             format!(
                 "{}:{}",

@@ -6,6 +6,62 @@ mod completion;
 mod meaning;
 mod signature;
 
-pub(crate) use completion::completions;
-pub(crate) use meaning::meaning;
-pub(crate) use signature::signature;
+use super::{Completion, Language, Part, Signature, WordKind};
+use crate::program::path::Step;
+use crate::program::three_b::Document;
+use crate::program::three_b::pieces::{Field, Piece, pieces};
+use crate::text::TextEdit;
+use std::ops::Range;
+
+impl Language for Document {
+    fn completions(&self, offset: usize) -> Vec<Completion> {
+        completion::completions(self, offset)
+    }
+
+    fn signature(&self, offset: usize) -> Option<Signature> {
+        signature::signature(self, offset)
+    }
+
+    fn meaning(&self, word: Range<usize>) -> Option<String> {
+        meaning::meaning(self, word)
+    }
+
+    fn words(&self, line: &[u8], offset: usize) -> Vec<Part> {
+        let kind_of = |field: Field| match field {
+            Field::Number => WordKind::Number,
+            Field::Separator => WordKind::Lead,
+            Field::X | Field::Y | Field::J | Field::Radius => WordKind::Length,
+            Field::Axis | Field::Convexity => WordKind::Setting,
+            Field::Motion => WordKind::Motion,
+            Field::Pause | Field::End => WordKind::Stop,
+            Field::Coordinates | Field::StartPoint => WordKind::Stated,
+            Field::Comment => WordKind::Comment,
+            Field::Strange => WordKind::Strange,
+        };
+        let part = |piece: Piece| Part {
+            kind: kind_of(piece.field),
+            range: offset + piece.range.start..offset + piece.range.end,
+        };
+        let pieces = pieces(line, &self.words());
+        pieces.into_iter().map(part).collect()
+    }
+
+    fn renamed(
+        &self,
+        digits: Range<usize>,
+        _: u32,
+        name: &str,
+        new: u32,
+    ) -> Result<Vec<TextEdit>, String> {
+        let line = self.text().line_of(digits.start);
+        let other = |step: &&Step| step.number == Some(new) && step.line != line;
+        match self.trace().steps.iter().find(other) {
+            Some(step) => Err(say!(
+                the_number_is_that_of_another_block,
+                new,
+                step.line + 1
+            )),
+            None => Ok(vec![TextEdit::new(digits, name)]),
+        }
+    }
+}

@@ -244,13 +244,13 @@ fn blocks_are_numbered_and_calls_follow() {
         "GOTO",
     );
     let document = read("M98 P7\nM02\nN7 G01 X1\nN8 M99\n");
-    let edits = renamed(&document, 12..13, 7, "N70").unwrap();
+    let edits = renamed(&document, 12..13, 7, "70", 70).unwrap();
     assert_eq!(
         String::from_utf8(edited(document.text().bytes(), &edits).unwrap()).unwrap(),
         "M98 P70\nM02\nN70 G01 X1\nN8 M99\n"
     );
     assert_eq!(
-        renamed(&document, 12..13, 7, "8"),
+        renamed(&document, 12..13, 7, "8", 8),
         Err("N8 is the block in line 4".into())
     );
 }
