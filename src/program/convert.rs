@@ -4,7 +4,7 @@ use super::Format;
 use super::document::Document;
 use super::iso;
 use super::path::{self, Kind, Step, tolerance};
-use super::three_b::{Item, Words, read_line};
+use super::three_b::StatedPoint;
 use crate::drawing::{Drawing, Entity, EntityId, Geometry, Unit, Vertex};
 use crate::finding::Side;
 use crate::geometry::{Arc, Point, Segment};
@@ -395,26 +395,15 @@ fn polyline(segments: &[Segment], closed: bool) -> Option<Geometry> {
 
 /// The coordinates that stand behind the blocks of a 3B program, µm, by the byte at which the block begins.
 fn stated_ends(document: &Document) -> FxHashMap<usize, Point> {
-    let mut ends = FxHashMap::default();
     let Document::ThreeB(program) = document else {
-        return ends;
+        return FxHashMap::default();
     };
-    let text = program.text();
-    for line in 0..text.line_count() {
-        let range = text.line_range(line);
-        let start = range.start;
-        read_line(&text.bytes()[range], start, &Words::default(), |item| {
-            if let Item::Block {
-                range,
-                stated_end: Some(stated),
-                ..
-            } = item
-                && stated.decimals >= 3
-            {
-                let [x, y] = stated.at.map(|mm| (mm * 1e6).round() / 1e3);
-                ends.insert(range.start, Point::new(x, y));
-            }
-        });
-    }
-    ends
+    let fine = program
+        .stated_ends()
+        .filter(|(_, stated)| stated.decimals >= 3);
+    let point = |(at, stated): (usize, StatedPoint)| {
+        let [x, y] = stated.at.map(|mm| (mm * 1e6).round() / 1e3);
+        (at, Point::new(x, y))
+    };
+    fine.map(point).collect()
 }

@@ -1,7 +1,7 @@
 //! 3B text as an open document: what its lines say, where the machine goes, and what is wrong.
 //!
-//! The text is cut into runs of lines. What a line says hangs on no other line, so an edit reads again the runs that it touched;
-//! what hangs on the whole program (contours, numbers, the end) is made from a few sums of each run.
+//! The text is cut into stretches of lines. What a line says hangs on no other line, so an edit reads again the stretches that it touched;
+//! what hangs on the whole program (contours, numbers, the end) is made from a few sums of each stretch.
 
 mod cuts;
 mod fixes;
@@ -15,7 +15,7 @@ mod way;
 
 use super::entry::Entry;
 use super::rules::Limits;
-use super::run::{Run, Sum};
+use super::stretch::{Stretch, Sum};
 use super::words::Words;
 use crate::finding::Finding;
 use crate::geometry::Point;
@@ -31,7 +31,7 @@ pub struct Document {
     text: SourceText,
     words: OwnWords,
     limits: Limits,
-    runs: Chunks<Run>,
+    stretches: Chunks<Stretch>,
     view: Box<View>,
     /// What the search for crossings has seen.
     known: Box<Known>,
@@ -59,14 +59,14 @@ impl OwnWords {
     }
 }
 
-/// An entry by its run and its index in there.
+/// An entry by its stretch and its index in there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct At {
-    run: usize,
+    stretch: usize,
     entry: usize,
 }
 
-/// A part by its run and its index in there.
+/// A part by its stretch and its index in there.
 type PartAt = (usize, usize);
 
 /// Blocks between two words.
@@ -82,13 +82,13 @@ struct Cut {
 /// What hangs on the program as a whole.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct View {
-    /// Where the machine stands before each run, µm.
+    /// Where the machine stands before each stretch, µm.
     begins: Vec<Point>,
-    /// The cuts that reach over the end of a run, or begin or end the text, in their order. The others are parts of one run.
+    /// The cuts that reach over the end of a stretch, or begin or end the text, in their order. The others are parts of one stretch.
     outer: Vec<Cut>,
     /// Where the contours begin that do not close.
     open: Vec<PartAt>,
-    /// The parts in which an odd joint about the end of a run is told.
+    /// The parts in which an odd joint about the end of a stretch is told.
     odd: Vec<PartAt>,
     /// Where cuts begin that go on with the contour before them, behind the stop at its tab.
     tabs: Vec<PartAt>,
@@ -115,12 +115,12 @@ impl Document {
             words: words.words(),
             limits: &limits,
         };
-        let runs = Chunks::read(&reader, &text, 0..text.line_count());
+        let stretches = Chunks::read(&reader, &text, 0..text.line_count());
         let mut document = Document {
             text,
             words,
             limits,
-            runs,
+            stretches,
             view: Box::default(),
             known: Box::default(),
         };
@@ -155,17 +155,18 @@ impl Document {
             words: self.words.words(),
             limits: &self.limits,
         };
-        self.runs.edit(&reader, &mut self.text, range, replacement);
+        self.stretches
+            .edit(&reader, &mut self.text, range, replacement);
         self.look_again();
     }
 
     fn entry(&self, at: At) -> Option<&Entry> {
-        self.runs.get(at.run)?.entries.get(at.entry)
+        self.stretches.get(at.stretch)?.entries.get(at.entry)
     }
 
     /// Bytes of an entry in the text.
     fn range_of(&self, at: At) -> Range<usize> {
-        let byte = self.runs.byte(at.run);
+        let byte = self.stretches.byte(at.stretch);
         self.entry(at).map_or(0..0, |entry| {
             byte + entry.range().start..byte + entry.range().end
         })
@@ -176,13 +177,19 @@ impl Document {
         let mut calm = Vec::new();
         *self.view = self.look(&mut known, &mut calm);
         self.known = known;
-        // What a contour within one run comes to hangs on nothing else: it is not asked again.
-        for of_run in calm.chunk_by(|a, b| a.0 == b.0) {
-            let run = of_run.first().and_then(|(run, _)| self.runs.get_mut(*run));
-            let is_calm =
-                |part: &usize| of_run.binary_search_by_key(part, |(_, part)| *part).is_ok();
-            run.into_iter()
-                .for_each(|run| run.tangled.retain(|part| !is_calm(part)));
+        // What a contour within one stretch comes to hangs on nothing else: it is not asked again.
+        for of_stretch in calm.chunk_by(|a, b| a.0 == b.0) {
+            let stretch = of_stretch
+                .first()
+                .and_then(|(stretch, _)| self.stretches.get_mut(*stretch));
+            let is_calm = |part: &usize| {
+                of_stretch
+                    .binary_search_by_key(part, |(_, part)| *part)
+                    .is_ok()
+            };
+            stretch
+                .into_iter()
+                .for_each(|stretch| stretch.tangled.retain(|part| !is_calm(part)));
         }
     }
 }
@@ -196,7 +203,7 @@ struct Reader<'a> {
 impl Language for Reader<'_> {
     type State = ();
     type Begun = Range<usize>;
-    type Chunk = Run;
+    type Chunk = Stretch;
 
     const LINES: usize = 96;
 
@@ -206,8 +213,8 @@ impl Language for Reader<'_> {
         (lines, ())
     }
 
-    fn finish(&self, text: &SourceText, lines: Range<usize>) -> Run {
-        Run::read(
+    fn finish(&self, text: &SourceText, lines: Range<usize>) -> Stretch {
+        Stretch::read(
             text.bytes(),
             text.line_start(lines.start),
             lines.map(|line| text.line_range(line)),
@@ -216,9 +223,9 @@ impl Language for Reader<'_> {
         )
     }
 
-    fn before(_: &Run) {}
+    fn before(_: &Stretch) {}
 
-    fn after(_: &Run) {}
+    fn after(_: &Stretch) {}
 }
 
 #[cfg(test)]
@@ -228,7 +235,7 @@ mod tests {
     use crate::program::path::{Cut, cuts};
     use proptest::prelude::*;
 
-    /// Findings in one order, whatever runs the lines lie in.
+    /// Findings in one order, whatever stretches the lines lie in.
     fn sorted(document: &Document) -> Vec<String> {
         let mut findings: Vec<String> = document
             .findings()
@@ -269,7 +276,7 @@ mod tests {
             copies in 1_usize..12,
             edits in prop::collection::vec((0_usize..4000, 0_usize..60, REPLACEMENT), 1..6),
         ) {
-            // More lines than one run holds.
+            // More lines than one stretch holds.
             let mut document = Document::read(text.repeat(copies).into_bytes());
             for (start, length, replacement) in edits {
                 document.edit(start..start + length, &replacement);

@@ -142,7 +142,7 @@ pub(super) struct Entry {
 pub(super) const NO_NUMBER: u32 = u32::MAX;
 
 impl Entry {
-    /// Bytes from the run's first byte.
+    /// Bytes from the stretch's first byte.
     pub(crate) fn range(&self) -> Range<usize> {
         self.start as usize..(self.start + self.length) as usize
     }

@@ -20,12 +20,13 @@ mod proof;
 pub(in crate::program) mod refactor;
 mod repair;
 mod rules;
-mod run;
+mod stretch;
 #[cfg(test)]
 mod tests;
 pub(crate) mod words;
 mod write;
 
+pub(crate) use around::StatedPoint;
 pub use block::{Block, CountingAxis, Motion, Quadrant};
 pub use decode::decode;
 pub use document::Document;

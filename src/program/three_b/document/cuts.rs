@@ -1,7 +1,7 @@
 //! Where a program falls into contours and the ways between them: the blocks from one word to the next.
 
 use super::super::entry::{BlockEntry, Entry};
-use super::super::run::{Run, Sum, is_jump};
+use super::super::stretch::{Stretch, Sum, is_jump};
 use super::{At, Cut, Document, PartAt, View};
 use std::ops::Range;
 
@@ -9,13 +9,13 @@ impl Document {
     /// The word that ends the program: the first of the controller's own, else the last that ends programs elsewhere, else a pause
     /// with no block behind it.
     pub(super) fn end_word(&self) -> Option<At> {
-        let place = |run: usize, entry: Option<usize>| entry.map(|entry| At { run, entry });
-        let mut runs = self.runs.iter().enumerate();
-        let own = runs.find_map(|(run, of)| place(run, of.own_end));
-        let back = || self.runs.iter().enumerate().rev();
-        let foreign = || back().find_map(|(run, of)| place(run, of.last_end));
+        let place = |stretch: usize, entry: Option<usize>| entry.map(|entry| At { stretch, entry });
+        let mut stretches = self.stretches.iter().enumerate();
+        let own = stretches.find_map(|(stretch, of)| place(stretch, of.own_end));
+        let back = || self.stretches.iter().enumerate().rev();
+        let foreign = || back().find_map(|(stretch, of)| place(stretch, of.last_end));
         let pause = || {
-            let last = back().find_map(|(run, of)| place(run, of.last_word))?;
+            let last = back().find_map(|(stretch, of)| place(stretch, of.last_word))?;
             self.last_block(None)
                 .filter(|block| *block < last)
                 .map(|_| last)
@@ -23,41 +23,41 @@ impl Document {
         own.or_else(foreign).or_else(pause)
     }
 
-    /// What stands in a run.
-    pub(super) fn entries_in(&self, run: usize) -> &[Entry] {
-        self.runs.get(run).map_or(&[], |of| &of.entries)
+    /// What stands in a stretch.
+    pub(super) fn entries_in(&self, stretch: usize) -> &[Entry] {
+        self.stretches.get(stretch).map_or(&[], |of| &of.entries)
     }
 
-    /// What stands in some runs, in its order.
+    /// What stands in some stretches, in its order.
     pub(super) fn entries(
         &self,
-        runs: Range<usize>,
+        stretches: Range<usize>,
     ) -> impl DoubleEndedIterator<Item = (At, &Entry)> {
-        runs.flat_map(move |run| {
-            let entries = self.entries_in(run).iter().enumerate();
-            entries.map(move |(entry, what)| (At { run, entry }, what))
+        stretches.flat_map(move |stretch| {
+            let entries = self.entries_in(stretch).iter().enumerate();
+            entries.map(move |(entry, what)| (At { stretch, entry }, what))
         })
     }
 
     /// The entries from one on.
     pub(super) fn from(&self, at: At) -> impl Iterator<Item = (At, &Entry)> {
-        let all = self.entries(at.run..self.runs.len());
+        let all = self.entries(at.stretch..self.stretches.len());
         all.skip_while(move |(own, _)| *own < at)
     }
 
     /// The entries before one, the nearest first.
     pub(super) fn before(&self, at: At) -> impl Iterator<Item = (At, &Entry)> {
-        let all = self.entries(0..at.run + 1).rev();
+        let all = self.entries(0..at.stretch + 1).rev();
         all.skip_while(move |(own, _)| *own >= at)
     }
 
     /// The entry that a range lies in or before.
     pub(super) fn entry_at(&self, range: &Range<usize>) -> Option<At> {
-        let run = self.runs.at(range.start);
-        let entries = self.entries_in(run);
-        let local = range.start.checked_sub(self.runs.byte(run))?;
+        let stretch = self.stretches.at(range.start);
+        let entries = self.entries_in(stretch);
+        let local = range.start.checked_sub(self.stretches.byte(stretch))?;
         let entry = entries.partition_point(|entry| entry.range().end <= local);
-        (entry < entries.len()).then_some(At { run, entry })
+        (entry < entries.len()).then_some(At { stretch, entry })
     }
 
     /// The block that a range lies in or before.
@@ -68,7 +68,7 @@ impl Document {
 
     pub(super) fn last_block(&self, end: Option<At>) -> Option<At> {
         let mut blocks = self
-            .entries(0..self.runs.len())
+            .entries(0..self.stretches.len())
             .rev()
             .filter(|(_, what)| what.block().is_some());
         let (last, _) = blocks.find(|(at, _)| end.is_none_or(|end| *at < end))?;
@@ -78,28 +78,28 @@ impl Document {
     /// The blocks from a part on, up to the next word; `None` behind the end of the program.
     pub(super) fn cut_from(&self, start: PartAt, end: Option<At>) -> Option<Cut> {
         let mut cut: Option<Cut> = None;
-        let (mut run, mut index) = start;
-        while let Some(of) = self.runs.get(run) {
+        let (mut stretch, mut index) = start;
+        while let Some(of) = self.stretches.get(stretch) {
             for (nth, part) in of.parts.iter().enumerate().skip(index) {
                 if end.is_some_and(|end| {
                     end < At {
-                        run,
+                        stretch,
                         entry: part.entries.start,
                     }
                 }) {
                     return cut;
                 }
                 let own = cut.get_or_insert(Cut {
-                    parts: [(run, nth); 2],
+                    parts: [(stretch, nth); 2],
                     sum: Sum::default(),
                     is_jump: false,
                 });
-                own.parts[1] = (run, nth);
+                own.parts[1] = (stretch, nth);
                 own.sum = own.sum.then(&part.sum);
                 if part.word.is_some() {
                     let is_end = end
                         == Some(At {
-                            run,
+                            stretch,
                             entry: part.entries.end,
                         });
                     own.is_jump = start != (0, 0)
@@ -109,48 +109,48 @@ impl Document {
                     return cut;
                 }
             }
-            (run, index) = (run + 1, 0);
+            (stretch, index) = (stretch + 1, 0);
         }
         cut
     }
 
     /// Whether a word stands somewhere before a part at which a cut begins.
-    fn is_behind_word(&self, (run, part): PartAt) -> bool {
+    fn is_behind_word(&self, (stretch, part): PartAt) -> bool {
         part > 0
-            || self.runs[..run.min(self.runs.len())]
+            || self.stretches[..stretch.min(self.stretches.len())]
                 .iter()
                 .rev()
-                .any(|run| run.words > 0)
+                .any(|stretch| stretch.words > 0)
     }
 
     /// The part behind another one.
-    pub(super) fn part_behind(&self, (run, part): PartAt) -> PartAt {
+    pub(super) fn part_behind(&self, (stretch, part): PartAt) -> PartAt {
         if self
-            .runs
-            .get(run)
+            .stretches
+            .get(stretch)
             .is_some_and(|of| part + 1 < of.parts.len())
         {
-            (run, part + 1)
+            (stretch, part + 1)
         } else {
-            (run + 1, 0)
+            (stretch + 1, 0)
         }
     }
 
-    /// The cuts that are not parts of one run.
+    /// The cuts that are not parts of one stretch.
     pub(super) fn outer_cuts(&self, end: Option<At>) -> Vec<Cut> {
         let mut cuts = Vec::new();
         let mut next = Some((0, 0));
         while let Some(cut) = next.and_then(|start| self.cut_from(start, end)) {
-            let (run, _) = cut.parts[1];
+            let (stretch, _) = cut.parts[1];
             let ends_text = self
-                .runs
-                .get(run)
+                .stretches
+                .get(stretch)
                 .is_none_or(|of| cut.parts[1].1 + 1 >= of.parts.len());
             next = self
-                .runs
-                .get(run)
+                .stretches
+                .get(stretch)
                 .filter(|_| !ends_text)
-                .map(|of| (run, of.parts.len() - 1));
+                .map(|of| (stretch, of.parts.len() - 1));
             cuts.push(cut);
         }
         cuts
@@ -160,11 +160,11 @@ impl Document {
     pub(super) fn cut_of_part(&self, view: &View, part: PartAt) -> Option<Cut> {
         let mut cut = self.own_cut_of_part(view, part)?;
         while view.tabs.binary_search(&cut.parts[0]).is_ok() {
-            let (run, part) = cut.parts[0];
+            let (stretch, part) = cut.parts[0];
             // Its word stands at the end of the part before.
             let Some(before) = part
                 .checked_sub(1)
-                .and_then(|part| self.own_cut_of_part(view, (run, part)))
+                .and_then(|part| self.own_cut_of_part(view, (stretch, part)))
             else {
                 break;
             };
@@ -186,12 +186,14 @@ impl Document {
     }
 
     /// The cut that a part belongs to.
-    fn own_cut_of_part(&self, view: &View, (run, part): PartAt) -> Option<Cut> {
-        let of = self.runs.get(run)?;
+    fn own_cut_of_part(&self, view: &View, (stretch, part): PartAt) -> Option<Cut> {
+        let of = self.stretches.get(stretch)?;
         if part > 0 && part + 1 < of.parts.len() {
-            return self.cut_from((run, part), view.end);
+            return self.cut_from((stretch, part), view.end);
         }
-        let index = view.outer.partition_point(|cut| cut.parts[1] < (run, part));
+        let index = view
+            .outer
+            .partition_point(|cut| cut.parts[1] < (stretch, part));
         view.outer.get(index).cloned()
     }
 
@@ -209,41 +211,46 @@ impl Document {
         view.open.binary_search(&cut.parts[0]).is_err()
     }
 
-    /// Cuts within one run, of those that it names, up to the end of the program.
+    /// Cuts within one stretch, of those that it names, up to the end of the program.
     pub(super) fn inner_cuts<'a>(
         &'a self,
         end: Option<At>,
-        named: fn(&Run) -> &[usize],
+        named: fn(&Stretch) -> &[usize],
     ) -> impl Iterator<Item = Cut> + 'a {
-        let up_to = end.map_or(usize::MAX, |end| end.run);
-        let runs = self
-            .runs
+        let up_to = end.map_or(usize::MAX, |end| end.stretch);
+        let stretches = self
+            .stretches
             .iter()
             .enumerate()
-            .take_while(move |(run, _)| *run <= up_to);
-        runs.flat_map(move |(run, of)| {
+            .take_while(move |(stretch, _)| *stretch <= up_to);
+        stretches.flat_map(move |(stretch, of)| {
             named(of)
                 .iter()
-                .filter_map(move |part| self.cut_from((run, *part), end))
+                .filter_map(move |part| self.cut_from((stretch, *part), end))
         })
     }
 
     /// The entries of a cut in their order.
     pub(super) fn entries_of(&self, cut: &Cut) -> impl DoubleEndedIterator<Item = At> + '_ {
-        let [(first_run, first_part), (last_run, last_part)] = cut.parts;
-        let entries = |(run, part): PartAt| {
-            let parts = self.runs.get(run).and_then(|of| of.parts.get(part));
+        let [(first_stretch, first_part), (last_stretch, last_part)] = cut.parts;
+        let entries = |(stretch, part): PartAt| {
+            let parts = self
+                .stretches
+                .get(stretch)
+                .and_then(|of| of.parts.get(part));
             parts.map_or(0..0, |part| part.entries.clone())
         };
         let (first, last) = (
-            entries((first_run, first_part)),
-            entries((last_run, last_part)),
+            entries((first_stretch, first_part)),
+            entries((last_stretch, last_part)),
         );
         let is_within = move |at: &At| {
-            (at.run > first_run || at.entry >= first.start)
-                && (at.run < last_run || at.entry < last.end)
+            (at.stretch > first_stretch || at.entry >= first.start)
+                && (at.stretch < last_stretch || at.entry < last.end)
         };
-        let all = self.entries(first_run..last_run + 1).map(|(at, _)| at);
+        let all = self
+            .entries(first_stretch..last_stretch + 1)
+            .map(|(at, _)| at);
         all.filter(is_within)
     }
 
@@ -258,13 +265,13 @@ impl Document {
     }
 
     pub(super) fn cut_of(&self, at: At) -> Option<Cut> {
-        self.runs.get(at.run)?;
-        self.cut_of_part(&self.view, (at.run, self.part_of(at)))
+        self.stretches.get(at.stretch)?;
+        self.cut_of_part(&self.view, (at.stretch, self.part_of(at)))
     }
 
-    /// The part of its run that an entry lies in.
+    /// The part of its stretch that an entry lies in.
     pub(super) fn part_of(&self, at: At) -> usize {
-        self.runs.get(at.run).map_or(0, |of| {
+        self.stretches.get(at.stretch).map_or(0, |of| {
             of.parts
                 .partition_point(|part| part.entries.end <= at.entry)
         })

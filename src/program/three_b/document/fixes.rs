@@ -11,7 +11,7 @@ use super::super::rules::position_mismatch::Mismatched;
 use super::super::rules::{
     self, Site, TextFix, block_number, missing_end, position_mismatch, text_after_end,
 };
-use super::super::run::Sum;
+use super::super::stretch::Sum;
 use super::{At, Document};
 use crate::finding::{Detail, Fault, Finding, FixKind, Place};
 use crate::program::alike::{Alike, alike};

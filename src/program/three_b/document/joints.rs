@@ -1,9 +1,9 @@
 //! `spur` and `reversed-arc`: what is odd at the joints of blocks. Within a part that is known since its lines were read; here are the
-//! joints between runs of lines, and which of all of them count.
+//! joints between stretches of lines, and which of all of them count.
 
 use super::super::entry::{Entry, What};
 use super::super::rules::{Counts, TextFix};
-use super::super::run::{Edge, Local, shape};
+use super::super::stretch::{Edge, Local, shape};
 use super::{At, Cut, Document, View};
 use crate::finding::{Detail, Fault, Finding, FixKind};
 use crate::geometry::{Point, Segment, Vector};
@@ -11,33 +11,33 @@ use crate::program::path::{may_be_odd, odd_joint, tolerance};
 use crate::text::TextEdit;
 use std::ops::Range;
 
-/// Blocks on either side of the end of a run that tell its joints.
+/// Blocks on either side of the end of a stretch that tell its joints.
 const REACH: usize = 3;
 
 /// A spur whose two blocks lead this near to where it began goes without a trace, µm.
 const CLOSED: f64 = 2.0;
 
 impl Document {
-    /// The joints about the ends of runs.
+    /// The joints about the ends of stretches.
     pub(super) fn judge_joints(&self, view: &mut View) {
         let mut odd: Vec<(At, Fault)> = Vec::new();
         let mut before: Option<&Edge> = None;
-        for (run, of) in self.runs.iter().enumerate() {
+        for (stretch, of) in self.stretches.iter().enumerate() {
             if of.blocks == 0 && of.words == 0 {
                 continue;
             }
             if let (Some(last), Some(first)) = (before, &of.edges[0])
                 && (last.is_odd || first.is_odd || may_be_odd(&last.block, &first.block))
             {
-                odd.extend(self.odd_about(run));
+                odd.extend(self.odd_about(stretch));
             }
             before = of.edges[1].as_ref();
         }
-        // One joint may lie near the ends of several runs.
+        // One joint may lie near the ends of several stretches.
         odd.sort_by_key(|(at, _)| *at);
         odd.dedup_by_key(|(at, _)| *at);
         for (at, fault) in odd {
-            let part = (at.run, self.part_of(at));
+            let part = (at.stretch, self.part_of(at));
             let cut = self.cut_of_part(view, part);
             if cut.is_some_and(|cut| self.is_told(view, &cut, at, &fault)) {
                 view.odd.push(part);
@@ -46,13 +46,13 @@ impl Document {
         }
     }
 
-    /// The odd joints whose blocks lie on both sides of the beginning of a run.
-    fn odd_about(&self, run: usize) -> Vec<(At, Fault)> {
-        let entries = self.entries_in(run);
+    /// The odd joints whose blocks lie on both sides of the beginning of a stretch.
+    fn odd_about(&self, stretch: usize) -> Vec<(At, Fault)> {
+        let entries = self.entries_in(stretch);
         let Some(entry) = entries.iter().position(|entry| entry.block().is_some()) else {
             return Vec::new();
         };
-        let first = At { run, entry };
+        let first = At { stretch, entry };
         let placed = |(at, entry): (At, &Entry)| Some((at, shape(&entry.block()?.block)));
         let is_word = |entry: &Entry| matches!(entry.what, What::Word { .. });
         let before = self.before(first).take_while(|(_, entry)| !is_word(entry));
@@ -81,45 +81,45 @@ impl Document {
         cut.sum.errors == 0 && !(matches!(fault, Fault::Spur { .. }) && is_lead())
     }
 
-    /// The same of what was seen within a run.
-    pub(super) fn is_local_told(&self, view: &View, run: usize, local: &Local) -> bool {
+    /// The same of what was seen within a stretch.
+    pub(super) fn is_local_told(&self, view: &View, stretch: usize, local: &Local) -> bool {
         let (Some(cut), Some(at)) = (
-            self.cut_of_part(view, (run, local.part)),
-            self.entry_of(run, local),
+            self.cut_of_part(view, (stretch, local.part)),
+            self.entry_of(stretch, local),
         ) else {
             return false;
         };
         matches!(&local.detail, Detail::Program(fault) if self.is_told(view, &cut, at, fault))
     }
 
-    fn entry_of(&self, run: usize, local: &Local) -> Option<At> {
-        let entries = self.entries_in(run);
+    fn entry_of(&self, stretch: usize, local: &Local) -> Option<At> {
+        let entries = self.entries_in(stretch);
         let entry = entries.partition_point(|entry| entry.range().start < local.range.start);
-        Some(At { run, entry })
+        Some(At { stretch, entry })
     }
 
     /// Where the machine stands before an entry, µm.
     fn stands_before(&self, view: &View, at: At) -> Point {
         let travels = self
-            .entries_in(at.run)
+            .entries_in(at.stretch)
             .iter()
             .take(at.entry)
             .filter_map(Entry::block);
         let by = travels.map(|block| block.travel.machine);
-        let begin = view.begins.get(at.run).copied().unwrap_or_default();
+        let begin = view.begins.get(at.stretch).copied().unwrap_or_default();
         by.fold(begin, |at, [x, y]| at + Vector::new(x as f64, y as f64))
     }
 
     /// Whether an odd joint of a cut is told.
     pub(super) fn is_odd(&self, view: &View, cut: &Cut) -> bool {
-        let [(first_run, first), (last_run, last)] = cut.parts;
-        let of_run = |run: usize| {
-            let faults = self.runs.get(run).map_or(&[][..], |of| &of.faults);
+        let [(first_stretch, first), (last_stretch, last)] = cut.parts;
+        let of_stretch = |stretch: usize| {
+            let faults = self.stretches.get(stretch).map_or(&[][..], |of| &of.faults);
             faults.iter().any(|local| {
                 local.counts == Counts::IfAlone
-                    && (first_run, first) <= (run, local.part)
-                    && (run, local.part) <= (last_run, last)
-                    && self.is_local_told(view, run, local)
+                    && (first_stretch, first) <= (stretch, local.part)
+                    && (stretch, local.part) <= (last_stretch, last)
+                    && self.is_local_told(view, stretch, local)
             })
         };
         let first_odd = view.odd.partition_point(|part| *part < cut.parts[0]);
@@ -127,7 +127,7 @@ impl Document {
             .odd
             .get(first_odd)
             .is_some_and(|part| *part <= cut.parts[1]);
-        is_between || (first_run..=last_run).any(of_run)
+        is_between || (first_stretch..=last_stretch).any(of_stretch)
     }
 
     /// Out and back go, where they lead back to where they began.
@@ -145,7 +145,7 @@ impl Document {
             let line = self.text.line_of(self.range_of(at).start);
             let own = self.text.whole_line(line);
             let number = self.entry(at)?.line;
-            let entries = self.entries_in(at.run).iter();
+            let entries = self.entries_in(at.stretch).iter();
             if entries.filter(|entry| entry.line == number).count() > 1 {
                 return None;
             }
@@ -169,7 +169,7 @@ mod tests {
     const SPUR: &str = "B0B500B500GYL2\nB1000B0B1000GXL1\nB0B500B500GYL2\nB300B0B300GXL1\nB300B0B300GXL3\nB0B500B500GYL2\nB2000B0B2000GXL3\nB0B1000B1000GYL4\nB1000B0B1000GXL1\nB0B500B500GYL4\nDD\n";
     const REVERSED: &str = "B0B500B500GYL2\nB500B0B500GXL1\nB0B500B1000GXNR4\nB1000B0B1000GXL3\nB0B500B1000GXSR1\nB500B0B500GXL1\nB0B500B500GYL4\nDD\n";
 
-    /// Lines are read in runs: a joint is found once wherever one of them ends, and where each block is a run away from the next.
+    /// Lines are read in stretches: a joint is found once wherever one of them ends, and where each block is a stretch away from the next.
     #[test]
     fn an_odd_joint_is_found_wherever_runs_end() {
         for (text, odd) in [(SPUR, "spur"), (REVERSED, "reversed-arc")] {

@@ -5,7 +5,7 @@ use super::super::fields::fields_of;
 use super::super::parse::unexpected;
 use super::super::repair::FEWEST_BLAMED;
 use super::super::rules;
-use super::super::run::{Sum, may_cross_itself};
+use super::super::stretch::{Sum, may_cross_itself};
 use super::cuts::joined;
 use super::{Cut, Document, PartAt, View};
 use crate::finding::{Axis, Detail, Fault, Finding, Rule, Severity};
@@ -34,7 +34,7 @@ struct GoesOn {
 }
 
 impl Document {
-    /// `calm` takes the contours within one run of which is known now that they do not cross themselves, in their order.
+    /// `calm` takes the contours within one stretch of which is known now that they do not cross themselves, in their order.
     pub(super) fn look(&self, known: &mut Known, calm: &mut Vec<PartAt>) -> View {
         let mut view = View {
             begins: self.begins(),
@@ -56,9 +56,9 @@ impl Document {
 
     /// `units`: a whole program of a size that no wire cuts.
     fn judge_size(&self, view: &mut View) {
-        // Runs are laid behind each other as their parts are, by what blocks mean: where a run ends tells nothing.
+        // Stretches are laid behind each other as their parts are, by what blocks mean: where a stretch ends tells nothing.
         let (mut bounds, mut blocks, mut before) = (Bounds::EMPTY, 0, Move::default());
-        for of in self.runs.iter() {
+        for of in self.stretches.iter() {
             if let Some(own) = of.bounds {
                 let [x, y] = before.meant_um();
                 bounds.merge(&own.moved(Vector::new(x, y)));
@@ -67,7 +67,7 @@ impl Document {
             before = before.plus(of.travel);
         }
         let first = || {
-            let mut all = self.entries(0..self.runs.len());
+            let mut all = self.entries(0..self.stretches.len());
             let (at, _) = all.find(|(_, entry)| entry.block().is_some())?;
             Some(self.range_of(at))
         };
@@ -83,16 +83,16 @@ impl Document {
     fn judge_contours(&self, view: &mut View) {
         let is_open = |cut: &Cut| !cut.is_jump && !self.goes_round(cut);
         let mut candidates: Vec<Cut> = self
-            .inner_cuts(view.end, |run| &run.open)
+            .inner_cuts(view.end, |stretch| &stretch.open)
             .filter(is_open)
             .collect();
         candidates.extend(view.outer.iter().filter(|cut| is_open(cut)).cloned());
         // What would be a way to the next contour between two pauses is none before the end.
         let last = view.end.and_then(|end| {
             Some((
-                end.run,
-                self.runs
-                    .get(end.run)?
+                end.stretch,
+                self.stretches
+                    .get(end.stretch)?
                     .parts
                     .iter()
                     .position(|part| part.entries.end == end.entry)?,
@@ -136,10 +136,13 @@ impl Document {
         ends.go_round(twice_area, self.only_lay(cut), || self.way(cut))
     }
 
-    /// How a cut lies on itself that is one part of a run.
+    /// How a cut lies on itself that is one part of a stretch.
     fn only_lay(&self, cut: &Cut) -> Option<&Lay> {
-        let [(run, part), last] = cut.parts;
-        let of = self.runs.get(run).filter(|_| (run, part) == last)?;
+        let [(stretch, part), last] = cut.parts;
+        let of = self
+            .stretches
+            .get(stretch)
+            .filter(|_| (stretch, part) == last)?;
         of.parts.get(part).map(|part| &part.lay)
     }
 
@@ -176,10 +179,10 @@ impl Document {
 
     /// True for the way back to where the wire was threaded, behind a stop at the end of a closed contour.
     fn leads_out(&self, view: &View, cut: &Cut) -> bool {
-        let (run, part) = cut.parts[0];
+        let (stretch, part) = cut.parts[0];
         let before = part
             .checked_sub(1)
-            .and_then(|part| self.cut_of_part(view, (run, part)));
+            .and_then(|part| self.cut_of_part(view, (stretch, part)));
         before.is_some_and(|before| {
             let whole = before.sum.then(&cut.sum);
             !before.is_jump && whole.travel.is_within(tolerance(whole.arcs))
@@ -253,14 +256,14 @@ impl Document {
         };
         known.begin();
         let mut findings = Vec::new();
-        let tangled = self.inner_cuts(view.end, |run| &run.tangled);
+        let tangled = self.inner_cuts(view.end, |stretch| &stretch.tangled);
         let tangled = tangled.filter(|cut| !is_held(cut));
         let outer = view.outer.iter().filter(|cut| !is_held(cut));
         let cuts = tangled
             .map(|cut| (Cow::Owned(cut), Some(true)))
             .chain(outer.map(|cut| (Cow::Borrowed(cut), Some(false))))
             .chain(held.iter().map(|whole| (Cow::Borrowed(whole), None)));
-        // Whether a cut lies within one run; what stops before its tab is looked at as a whole.
+        // Whether a cut lies within one stretch; what stops before its tab is looked at as a whole.
         for (cut, is_inner) in cuts {
             if cut.is_jump || !may_cross_itself(&cut.sum) {
                 continue;
@@ -271,8 +274,8 @@ impl Document {
                 None
             };
             let mark = mixed(cut.sum.mark, stop.map_or(0, |blocks| blocks as u64 + 1));
-            let runs = cut.parts[1].0 - cut.parts[0].0 + 1;
-            let found = known.crossings(mark, runs, || self.way(&cut));
+            let stretches = cut.parts[1].0 - cut.parts[0].0 + 1;
+            let found = known.crossings(mark, stretches, || self.way(&cut));
             if found.is_clean() {
                 calm.extend((is_inner == Some(true)).then_some(cut.parts[0]));
             } else if !self.is_odd(view, &cut) {
@@ -289,7 +292,7 @@ impl Document {
             return;
         };
         let Some(end) = view.end else {
-            let blocks: usize = self.runs.iter().map(|run| run.blocks).sum();
+            let blocks: usize = self.stretches.iter().map(|stretch| stretch.blocks).sum();
             let fault = Fault::MissingEnd {
                 word: self.words.end.clone(),
             };
@@ -303,7 +306,7 @@ impl Document {
             return;
         };
         let is_text = |what: &What| !matches!(what, What::CommentedBlock { .. });
-        let behind = self.entries(end.run..self.runs.len());
+        let behind = self.entries(end.stretch..self.stretches.len());
         let mut texts = behind.filter(|(at, entry)| *at > end && is_text(&entry.what));
         if let Some((first, _)) = texts.next() {
             let word = self.range_of(end);
@@ -316,20 +319,23 @@ impl Document {
 
     /// Text that is no block is a heading before the first block, a fault between blocks.
     fn judge_texts(&self, view: &mut View) {
-        let mut blocks = self.entries(0..self.runs.len());
+        let mut blocks = self.entries(0..self.stretches.len());
         let first_block = blocks.find(|(_, entry)| entry.block().is_some());
         let first_block = first_block.map(|(at, _)| at);
         let mut findings = Vec::new();
-        let has_texts = |run: &usize| self.runs[*run].texts > 0;
-        let runs = (0..self.runs.len()).filter(has_texts);
-        let texts = runs
-            .flat_map(|run| self.entries(run..run + 1))
+        let has_texts = |stretch: &usize| self.stretches[*stretch].texts > 0;
+        let stretches = (0..self.stretches.len()).filter(has_texts);
+        let texts = stretches
+            .flat_map(|stretch| self.entries(stretch..stretch + 1))
             .filter_map(|(at, entry)| match entry.what {
                 What::Text { column } => Some((at, column, false)),
                 What::CommentedBlock { column } => Some((at, column, true)),
                 _ => None,
             });
-        let has_fault = self.runs.iter().any(|run| !run.faults.is_empty());
+        let has_fault = self
+            .stretches
+            .iter()
+            .any(|stretch| !stretch.faults.is_empty());
         let mut is_said = false;
         for (at, column, is_comment) in texts {
             let range = self.range_of(at);

@@ -148,7 +148,7 @@ impl Document {
 
     /// The usual step of the numbers, as the first of them tell it.
     fn number_step(&self) -> Option<u32> {
-        let blocks = self.entries(0..self.runs.len());
+        let blocks = self.entries(0..self.stretches.len());
         let numbers = blocks
             .filter(|(_, entry)| entry.block().is_some())
             .map(|(_, entry)| entry.number())

@@ -2,7 +2,7 @@
 
 use super::super::fields::fields_of;
 use super::super::rules::{self, Counts};
-use super::super::run::Local;
+use super::super::stretch::Local;
 use super::{Cut, Document};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::settings::{Effective, SideSetting};
@@ -10,7 +10,7 @@ use crate::settings::{Effective, SideSetting};
 /// Where a finding is kept.
 #[derive(Clone, Copy, Debug)]
 enum Kept {
-    InBlock { run: usize, index: usize },
+    InBlock { stretch: usize, index: usize },
     OnWhole { index: usize },
 }
 
@@ -19,7 +19,7 @@ impl Document {
     pub fn findings(&self) -> Vec<Finding> {
         let of_blocks = self
             .locals()
-            .map(|(run, local)| self.materialized(run, local));
+            .map(|(stretch, local)| self.materialized(stretch, local));
         of_blocks
             .chain(self.view.findings.iter().cloned())
             .collect()
@@ -29,8 +29,8 @@ impl Document {
     pub fn findings_under(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
         let severity = |rule: Rule, own: Severity| settings.severity_over(rule, own);
         let mut order: Vec<(Severity, usize, Rule, Kept)> = Vec::new();
-        for (run, of) in self
-            .runs
+        for (stretch, of) in self
+            .stretches
             .iter()
             .enumerate()
             .filter(|(_, of)| !of.faults.is_empty())
@@ -39,14 +39,14 @@ impl Document {
                 .faults
                 .iter()
                 .enumerate()
-                .filter(|(_, local)| self.counts(run, local))
+                .filter(|(_, local)| self.counts(stretch, local))
             {
-                if let Some(severity) = severity(local.rule, self.own_severity(run, local)) {
+                if let Some(severity) = severity(local.rule, self.own_severity(stretch, local)) {
                     order.push((
                         severity,
-                        local.range.start + self.runs.byte(run),
+                        local.range.start + self.stretches.byte(stretch),
                         local.rule,
-                        Kept::InBlock { run, index },
+                        Kept::InBlock { stretch, index },
                     ));
                 }
             }
@@ -63,8 +63,8 @@ impl Document {
         order.truncate(limit);
         let made = order.into_iter().filter_map(|(severity, _, _, which)| {
             let finding = match which {
-                Kept::InBlock { run, index } => {
-                    self.materialized(run, self.runs.get(run)?.faults.get(index)?)
+                Kept::InBlock { stretch, index } => {
+                    self.materialized(stretch, self.stretches.get(stretch)?.faults.get(index)?)
                 }
                 Kept::OnWhole { index } => self.view.findings.get(index)?.clone(),
             };
@@ -75,37 +75,37 @@ impl Document {
 
     fn locals(&self) -> impl Iterator<Item = (usize, &Local)> {
         let all = self
-            .runs
+            .stretches
             .iter()
             .enumerate()
-            .flat_map(|(run, of)| of.faults.iter().map(move |local| (run, local)));
-        all.filter(|(run, local)| self.counts(*run, local))
+            .flat_map(|(stretch, of)| of.faults.iter().map(move |local| (stretch, local)));
+        all.filter(|(stretch, local)| self.counts(*stretch, local))
     }
 
-    fn cut_of_local(&self, run: usize, local: &Local) -> Option<Cut> {
-        self.cut_of_part(&self.view, (run, local.part))
+    fn cut_of_local(&self, stretch: usize, local: &Local) -> Option<Cut> {
+        self.cut_of_part(&self.view, (stretch, local.part))
     }
 
-    fn is_unusual_only(&self, run: usize, local: &Local) -> bool {
+    fn is_unusual_only(&self, stretch: usize, local: &Local) -> bool {
         local.counts == Counts::MildIfClosed
             && self
-                .cut_of_local(run, local)
+                .cut_of_local(stretch, local)
                 .is_none_or(|cut| self.closes(&self.view, &cut))
     }
 
-    fn own_severity(&self, run: usize, local: &Local) -> Severity {
-        if self.is_unusual_only(run, local) {
+    fn own_severity(&self, stretch: usize, local: &Local) -> Severity {
+        if self.is_unusual_only(stretch, local) {
             Severity::Information
         } else {
             local.rule.default_severity()
         }
     }
 
-    fn counts(&self, run: usize, local: &Local) -> bool {
-        let cut = || self.cut_of_local(run, local);
+    fn counts(&self, stretch: usize, local: &Local) -> bool {
+        let cut = || self.cut_of_local(stretch, local);
         match local.counts {
             Counts::Always | Counts::MildIfClosed => true,
-            Counts::IfAlone => self.is_local_told(&self.view, run, local),
+            Counts::IfAlone => self.is_local_told(&self.view, stretch, local),
             Counts::IfOpen => cut().is_some_and(|cut| !self.closes(&self.view, &cut)),
             Counts::IfInside { turns_left } => cut().is_some_and(|cut| {
                 let runs_left = cut.sum.twice_area > 0.0;
@@ -115,8 +115,8 @@ impl Document {
         }
     }
 
-    fn materialized(&self, run: usize, local: &Local) -> Finding {
-        let base = self.runs.byte(run);
+    fn materialized(&self, stretch: usize, local: &Local) -> Finding {
+        let base = self.stretches.byte(stretch);
         let block = local.range.start + base..local.range.end + base;
         let range = match local.spot {
             rules::Spot::Block => block,
@@ -124,11 +124,11 @@ impl Document {
                 .map_or(block.clone(), |fields| spot.range(&fields, block)),
         };
         let detail = match &local.detail {
-            Detail::Program(fault) if self.is_unusual_only(run, local) => {
+            Detail::Program(fault) if self.is_unusual_only(stretch, local) => {
                 Detail::Program(Box::new(fault.as_unusual()))
             }
             detail => detail.clone(),
         };
-        Finding::in_text(local.rule, range, detail).with(self.own_severity(run, local))
+        Finding::in_text(local.rule, range, detail).with(self.own_severity(stretch, local))
     }
 }

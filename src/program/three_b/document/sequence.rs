@@ -9,42 +9,50 @@ use crate::finding::{Fault, Finding};
 impl Document {
     pub(super) fn judge_numbers(&self, view: &mut View) {
         let numbering = self
-            .runs
+            .stretches
             .iter()
-            .fold(Numbering::Empty, |before, run| before.then(run.numbering));
-        if numbering != Numbering::Irregular || self.runs.iter().all(|run| run.numbered == 0) {
+            .fold(Numbering::Empty, |before, stretch| {
+                before.then(stretch.numbering)
+            });
+        if numbering != Numbering::Irregular
+            || self.stretches.iter().all(|stretch| stretch.numbered == 0)
+        {
             return;
         }
         let end = view.end;
-        let runs = || 0..end.map_or(self.runs.len(), |end| end.run + 1);
-        let from = |run: usize| (run..runs().end).flat_map(|run| self.numbered_in(run, end));
+        let stretches = || 0..end.map_or(self.stretches.len(), |end| end.stretch + 1);
+        let from = |stretch: usize| {
+            (stretch..stretches().end).flat_map(|stretch| self.numbered_in(stretch, end))
+        };
         let head: Vec<Numbered> = from(0)
             .map(|(_, block)| block)
             .take(block_number::FIRST)
             .collect();
-        let first = runs()
-            .filter(|run| self.runs[*run].numbered > 0)
-            .flat_map(|run| self.numbered_in(run, end));
+        let first = stretches()
+            .filter(|stretch| self.stretches[*stretch].numbered > 0)
+            .flat_map(|stretch| self.numbered_in(stretch, end));
         let first = first.into_iter().find_map(|(_, block)| block.number);
         let Some(mut sequence) = Sequence::of(&head, first) else {
             return;
         };
-        for run in runs() {
-            // A run in which the numbers go on as before is not walked through.
-            let regular = match self.runs[run].numbering {
-                Numbering::Regular { first, last, step } if end.is_none_or(|end| run < end.run) => {
+        for stretch in stretches() {
+            // A stretch in which the numbers go on as before is not walked through.
+            let regular = match self.stretches[stretch].numbering {
+                Numbering::Regular { first, last, step }
+                    if end.is_none_or(|end| stretch < end.stretch) =>
+                {
                     Some((first, last, step))
                 }
                 _ => None,
             };
-            let count = self.runs[run].numbered;
+            let count = self.stretches[stretch].numbered;
             if regular.is_some_and(|(first, last, step)| sequence.skip(first, last, step, count)) {
                 continue;
             }
-            let mut blocks = self.numbered_in(run, end).peekable();
+            let mut blocks = self.numbered_in(stretch, end).peekable();
             let mut is_first = true;
             while let Some((at, block)) = blocks.next() {
-                let next = blocks.peek().copied().or_else(|| from(run + 1).next());
+                let next = blocks.peek().copied().or_else(|| from(stretch + 1).next());
                 sequence.push(&block, next.map(|(_, next)| next).as_ref(), at);
                 let rest = regular.filter(|_| std::mem::take(&mut is_first) && count > 1);
                 if rest.is_some_and(|(first, last, step)| {
@@ -61,30 +69,30 @@ impl Document {
 
     /// Blocks and numbered words up to the end, with their numbers.
     pub(super) fn numbered(&self, end: Option<At>) -> (Vec<At>, Vec<Numbered>) {
-        (0..self.runs.len())
-            .flat_map(|run| self.numbered_in(run, end))
+        (0..self.stretches.len())
+            .flat_map(|stretch| self.numbered_in(stretch, end))
             .unzip()
     }
 
-    /// Those of one run.
+    /// Those of one stretch.
     fn numbered_in(
         &self,
-        run: usize,
+        stretch: usize,
         end: Option<At>,
     ) -> impl Iterator<Item = (At, Numbered)> + '_ {
-        let entries = self.entries_in(run);
+        let entries = self.entries_in(stretch);
         let is_word = |entry: &Entry| matches!(entry.what, What::Word { .. });
         let mut is_after_pause = None;
         entries.iter().enumerate().filter_map(move |(entry, what)| {
             let follows_word = is_after_pause.unwrap_or_else(|| {
-                let before = self.runs[..run]
+                let before = self.stretches[..stretch]
                     .iter()
                     .rev()
                     .find_map(|of| of.entries.last());
                 before.is_some_and(is_word)
             });
             is_after_pause = Some(is_word(what));
-            let at = At { run, entry };
+            let at = At { stretch, entry };
             let (number, is_unread) = (what.number(), what.what == What::Unread);
             let counts = what.block().is_some() || is_unread || (is_word(what) && number.is_some());
             let is_in_program = end.is_none_or(|end| at <= end);
@@ -103,22 +111,34 @@ impl Document {
         let mut anchor = None;
         let (mut compared, mut ordinal) = (0, 0);
         let mut off: Vec<(usize, At, [f64; 2])> = Vec::new();
-        for (run, of) in self.runs.iter().enumerate() {
+        for (stretch, of) in self.stretches.iter().enumerate() {
             let positions = &of.positions;
             if let (Some(before), Some((entry, stated, travel))) = (&anchor, &positions.first) {
                 compared += 1;
                 off.extend(
-                    position_mismatch::mismatch(before, travel, stated)
-                        .map(|by| (ordinal, At { run, entry: *entry }, by)),
+                    position_mismatch::mismatch(before, travel, stated).map(|by| {
+                        (
+                            ordinal,
+                            At {
+                                stretch,
+                                entry: *entry,
+                            },
+                            by,
+                        )
+                    }),
                 );
             }
             compared += positions.compared;
-            off.extend(
-                positions
-                    .off
-                    .iter()
-                    .map(|(nth, entry, by)| (ordinal + nth, At { run, entry: *entry }, *by)),
-            );
+            off.extend(positions.off.iter().map(|(nth, entry, by)| {
+                (
+                    ordinal + nth,
+                    At {
+                        stretch,
+                        entry: *entry,
+                    },
+                    *by,
+                )
+            }));
             ordinal += of.blocks;
             anchor = positions.anchor.unwrap_or(anchor);
         }

@@ -1,8 +1,9 @@
 //! The machine on its way through a program.
 
+use super::super::around::StatedPoint;
 use super::super::decode::meant;
 use super::super::entry::{Entry, What};
-use super::super::run::is_jump;
+use super::super::stretch::is_jump;
 use super::{At, Document};
 use crate::geometry::{Point, Vector};
 use crate::program::path::{Kind, Step, Trace, Writing};
@@ -24,17 +25,38 @@ impl Document {
     /// The line of the first block of 4B, from 0.
     pub(in crate::program) fn first_four_b_line(&self) -> Option<usize> {
         let is_of_part = |entry: &Entry| entry.block().is_some_and(|block| block.part().is_some());
-        let mut all = self.entries(0..self.runs.len());
+        let mut all = self.entries(0..self.stretches.len());
         let (at, entry) = all.find(|(_, entry)| is_of_part(entry))?;
-        Some(self.runs.place(at.run).lines.start + entry.line as usize)
+        Some(self.stretches.place(at.stretch).lines.start + entry.line as usize)
     }
 
-    /// Where the machine stands before each run, µm.
+    /// The heading with the start, before the first block, and the start in mm.
+    fn heading(&self) -> Option<(At, [f64; 2])> {
+        let entries = self.entries(0..self.stretches.len());
+        let mut before = entries.take_while(|(_, entry)| entry.block().is_none());
+        before.find_map(|(at, entry)| match entry.what {
+            What::StartPoint(start) => Some((at, start)),
+            _ => None,
+        })
+    }
+
+    /// Bytes of that heading.
+    pub(in crate::program) fn header(&self) -> Option<Range<usize>> {
+        self.heading().map(|(at, _)| self.range_of(at))
+    }
+
+    /// The end points that stand behind blocks, each with the byte at which its block begins.
+    pub(in crate::program) fn stated_ends(&self) -> impl Iterator<Item = (usize, StatedPoint)> {
+        let all = self.entries(0..self.stretches.len());
+        all.filter_map(|(at, entry)| Some((self.range_of(at).start, entry.block()?.stated_end()?)))
+    }
+
+    /// Where the machine stands before each stretch, µm.
     pub(super) fn begins(&self) -> Vec<Point> {
         let (mut at, _) = self.begin();
-        let begins = self.runs.iter().map(|run| {
+        let begins = self.stretches.iter().map(|stretch| {
             let before = at;
-            let [x, y] = run.travel.machine;
+            let [x, y] = stretch.travel.machine;
             at += Vector::new(x as f64, y as f64);
             before
         });
@@ -52,37 +74,32 @@ impl Program for Document {
     }
 
     fn begin(&self) -> (Point, bool) {
-        let entries = self.entries(0..self.runs.len());
-        let mut heading = entries.take_while(|(_, entry)| entry.block().is_none());
-        let start = heading.find_map(|(_, entry)| match entry.what {
-            What::StartPoint(at) => Some(at),
-            _ => None,
-        });
+        let start = self.heading().map(|(_, start)| start);
         let [x, y] = start.unwrap_or([0.0, 0.0]).map(|mm| (mm * 1000.0).round());
         (Point::new(x, y), start.is_some())
     }
 
     fn chunk_count(&self) -> usize {
-        self.runs.len()
+        self.stretches.len()
     }
 
-    fn lines_of(&self, run: usize) -> Range<usize> {
-        self.runs.place(run).lines
+    fn lines_of(&self, stretch: usize) -> Range<usize> {
+        self.stretches.place(stretch).lines
     }
 
-    fn sum_of(&self, run: usize) -> Sum {
-        let is_behind_end = self.view.end.is_some_and(|end| end.run < run);
-        let Some(of) = self.runs.get(run).filter(|_| !is_behind_end) else {
+    fn sum_of(&self, stretch: usize) -> Sum {
+        let is_behind_end = self.view.end.is_some_and(|end| end.stretch < stretch);
+        let Some(of) = self.stretches.get(stretch).filter(|_| !is_behind_end) else {
             return Sum::default();
         };
         let tabs = &self.view.tabs;
-        let tabs_before = |run: usize| tabs.partition_point(|tab| tab.0 < run);
+        let tabs_before = |stretch: usize| tabs.partition_point(|tab| tab.0 < stretch);
         let own_tabs = match tabs.is_empty() || of.words == 0 {
             true => 0,
-            false => tabs_before(run + 1) - tabs_before(run),
+            false => tabs_before(stretch + 1) - tabs_before(stretch),
         };
         let may_be_jump = of.words == 0 && of.parts.first().is_some_and(|part| is_jump(&part.sum));
-        let is_rapid = may_be_jump && self.is_jump((run, 0));
+        let is_rapid = may_be_jump && self.is_jump((stretch, 0));
         Sum {
             moves: of.blocks,
             arcs: of.arcs,
@@ -93,16 +110,17 @@ impl Program for Document {
         }
     }
 
-    fn walk(&self, run: usize, contour: &mut usize, each: &mut dyn FnMut(Step)) {
-        let (Some(of), Some(&begin)) = (self.runs.get(run), self.view.begins.get(run)) else {
+    fn walk(&self, stretch: usize, contour: &mut usize, each: &mut dyn FnMut(Step)) {
+        let (Some(of), Some(&begin)) = (self.stretches.get(stretch), self.view.begins.get(stretch))
+        else {
             return;
         };
-        let first_line = self.runs.place(run).lines.start;
+        let first_line = self.stretches.place(stretch).lines.start;
         let mut start = begin;
         let mut part = 0;
-        let mut is_jump = self.is_jump((run, 0));
+        let mut is_jump = self.is_jump((stretch, 0));
         for (entry, what) in of.entries.iter().enumerate() {
-            let own = At { run, entry };
+            let own = At { stretch, entry };
             if self.view.end.is_some_and(|end| own > end) {
                 return;
             }
@@ -139,8 +157,8 @@ impl Program for Document {
             start = end;
             if let What::Word { .. } = what.what {
                 part += 1;
-                *contour += usize::from(!self.is_tab((run, part)));
-                is_jump = self.is_jump((run, part));
+                *contour += usize::from(!self.is_tab((stretch, part)));
+                is_jump = self.is_jump((stretch, part));
             }
         }
     }

@@ -7,15 +7,15 @@ use crate::geometry::{Point, Segment};
 use crate::program::path::{Blocks, Node, Part, PartedWay, Writing};
 use std::ops::Range;
 
-/// The blocks of a cut as its runs hold them.
+/// The blocks of a cut as its stretches hold them.
 struct Held<'a> {
     document: &'a Document,
     parts: Vec<HeldPart>,
 }
 
-/// The blocks of a cut in one part of a run.
+/// The blocks of a cut in one part of a stretch.
 struct HeldPart {
-    run: usize,
+    stretch: usize,
     entries: Range<usize>,
     start: Move,
 }
@@ -24,17 +24,21 @@ impl Document {
     pub(super) fn way(&self, cut: &Cut) -> PartedWay<'_> {
         let (mut held, mut parts) = (Vec::new(), Vec::new());
         let (mut at, mut count, mut stop) = (Move::default(), 0, None);
-        let [(first_run, first_part), (last_run, last_part)] = cut.parts;
-        let runs = self.runs.iter().enumerate();
-        for (run, of) in runs.take(last_run + 1).skip(first_run) {
-            let first = if run == first_run { first_part } else { 0 };
+        let [(first_stretch, first_part), (last_stretch, last_part)] = cut.parts;
+        let stretches = self.stretches.iter().enumerate();
+        for (stretch, of) in stretches.take(last_stretch + 1).skip(first_stretch) {
+            let first = if stretch == first_stretch {
+                first_part
+            } else {
+                0
+            };
             for (index, part) in of.parts.iter().enumerate().skip(first) {
-                if run == last_run && index > last_part {
+                if stretch == last_stretch && index > last_part {
                     break;
                 }
                 if part.sum.blocks > 0 {
                     held.push(HeldPart {
-                        run,
+                        stretch,
                         entries: part.entries.clone(),
                         start: at,
                     });
@@ -47,7 +51,7 @@ impl Document {
                     at = at.plus(part.sum.travel);
                     count += part.sum.blocks;
                 }
-                let is_within = part.word.is_some() && (run, index) != cut.parts[1];
+                let is_within = part.word.is_some() && (stretch, index) != cut.parts[1];
                 stop = stop.or(is_within.then_some(count));
             }
         }
@@ -63,8 +67,8 @@ impl Held<'_> {
     fn entries(&self, part: usize) -> impl Iterator<Item = &BlockEntry> {
         let part = self.parts.get(part);
         let entries = part.and_then(|part| {
-            let run = self.document.runs.get(part.run)?;
-            run.entries.get(part.entries.clone())
+            let stretch = self.document.stretches.get(part.stretch)?;
+            stretch.entries.get(part.entries.clone())
         });
         entries.unwrap_or_default().iter().filter_map(Entry::block)
     }
@@ -91,8 +95,13 @@ impl Blocks for Held<'_> {
     }
 
     fn range(&self, part: usize, nth: usize) -> Option<Range<usize>> {
-        let HeldPart { run, entries, .. } = self.parts.get(part)?;
-        let places = entries.clone().map(|entry| At { run: *run, entry });
+        let HeldPart {
+            stretch, entries, ..
+        } = self.parts.get(part)?;
+        let places = entries.clone().map(|entry| At {
+            stretch: *stretch,
+            entry,
+        });
         let is_block = |at: &At| {
             self.document
                 .entry(*at)

@@ -9,7 +9,6 @@
 //! The path is that of `wedm/generate` and proved as that is. It begins at the thread hole of the program and goes the same way round.
 //! Comments before the first block stay; others would stand at the wrong blocks and go.
 
-use super::rows::header;
 use super::{ThreeB, refuse_four_b};
 use crate::drawing::{self, Drawing, Entity, Geometry, Outline, Role, Unit, Vertex};
 use crate::geometry::Segment;
@@ -111,7 +110,7 @@ fn replaced(
         .max()
         .unwrap_or(0);
     let end = text.line_range(last).end;
-    let has_header = header(sheet.document, text.line_of(first)).is_some();
+    let has_header = sheet.document.header().is_some();
     // The header that stands there is right as well, and the start stays where it was.
     let blocks = match program.strip_prefix("; Start Point") {
         Some(rest) if has_header || !sheet.trace.start_is_known => {

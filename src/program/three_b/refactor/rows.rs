@@ -162,26 +162,3 @@ fn nodes(pieces: &[Way], contours: &[Contour]) -> Result<Vec<(Node, Node)>, Stri
 fn rounded(vector: Vector) -> Vector {
     Vector::new(vector.x.round(), vector.y.round())
 }
-
-/// The header with the start, before the first block.
-pub(super) fn header(document: &Document, first_line: usize) -> Option<Range<usize>> {
-    let (text, words) = (document.text(), document.words());
-    let mut header = None;
-    for line in 0..=first_line {
-        let range = text.line_range(line);
-        let mut is_before = true;
-        read_line(
-            &text.bytes()[range.clone()],
-            range.start,
-            &words,
-            |item| match item {
-                Item::Block { .. } => is_before = false,
-                Item::StartPoint { range, .. } if is_before => {
-                    header = header.clone().or(Some(range))
-                }
-                _ => {}
-            },
-        );
-    }
-    header
-}

@@ -1,6 +1,5 @@
 //! What is written in the place of a block.
 
-use super::rows::header;
 use super::{New, ThreeB};
 use crate::program::grid::Node;
 use crate::program::refactor::{Content, Rewrite, Sheet};
@@ -18,8 +17,7 @@ pub(super) fn edits(
 ) -> Result<Vec<TextEdit>, String> {
     let text = sheet.document.text();
     let mut edits = Vec::new();
-    let first_line = content.rows.first().map_or(0, |row| row.line);
-    if let (Some(start), Some(header)) = (rewrite.start, header(sheet.document, first_line)) {
+    if let (Some(start), Some(header)) = (rewrite.start, sheet.document.header()) {
         edits.push(new_header(text, &header, start)?);
     }
     for (&row, news) in &rewrite.rows {

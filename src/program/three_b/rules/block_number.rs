@@ -12,7 +12,7 @@ pub(in super::super) struct Numbered {
     pub(crate) is_unread: bool,
 }
 
-/// How the blocks of a run are numbered.
+/// How the blocks of a stretch are numbered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in super::super) enum Numbering {
     /// There is no block.
@@ -49,7 +49,7 @@ impl Numbering {
         }
     }
 
-    /// This run and then the next.
+    /// This stretch and then the next.
     pub fn then(self, next: Numbering) -> Numbering {
         match (self, next) {
             (Numbering::Empty, other) | (other, Numbering::Empty) => other,

@@ -1,7 +1,7 @@
 //! The rules on 3B programs: one file each, its check and its fixes.
 //!
 //! A rule on a single block sees that block alone ([`Seen`]) and is asked when its line is read; a rule on the whole program sees the
-//! runs of lines that have been read. Fixes are made when somebody asks for them, from the text as it stands then ([`Site`]).
+//! stretches of lines that have been read. Fixes are made when somebody asks for them, from the text as it stands then ([`Site`]).
 
 mod arc_without_radius;
 mod block_number_as_b;

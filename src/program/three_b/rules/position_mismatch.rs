@@ -37,16 +37,16 @@ pub(in super::super) fn mismatch(
     (is_far(meant) && is_far(machine)).then_some(meant)
 }
 
-/// The end points that stand behind the blocks of a run.
+/// The end points that stand behind the blocks of a stretch.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in super::super) struct Positions {
-    /// Pairs of end points in the run that were held against each other.
+    /// Pairs of end points in the stretch that were held against each other.
     pub compared: usize,
-    /// Those that are off, by the number of the block in the run, its entry, and by how much in µm.
+    /// Those that are off, by the number of the block in the stretch, its entry, and by how much in µm.
     pub off: Vec<(usize, usize, [f64; 2])>,
-    /// Entry, end point and displacement of the first block, where nothing in the run stands before it.
+    /// Entry, end point and displacement of the first block, where nothing in the stretch stands before it.
     pub first: Option<(usize, StatedPoint, Move)>,
-    /// What the next run's first end point is held against: `None` where nothing in this run says.
+    /// What the next stretch's first end point is held against: `None` where nothing in this stretch says.
     pub anchor: Option<Option<StatedPoint>>,
 }
 

@@ -1,6 +1,6 @@
-//! A run of consecutive lines: what they say, what is wrong in each block for itself, and where their blocks lead to in sum.
+//! A stretch of consecutive lines: what they say, what is wrong in each block for itself, and where their blocks lead to in sum.
 //!
-//! Places count from the run's first byte and line, so that an edit elsewhere changes nothing here.
+//! Places count from the stretch's first byte and line, so that an edit elsewhere changes nothing here.
 
 use super::around::StatedPoint;
 use super::block::{Block, Motion};
@@ -19,7 +19,7 @@ use crate::program::path::{
 };
 use std::ops::Range;
 
-/// Something found at bytes of the run.
+/// Something found at bytes of the stretch.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Local {
     pub(crate) range: Range<usize>,
@@ -31,7 +31,7 @@ pub(super) struct Local {
     pub(crate) part: usize,
 }
 
-/// What a stretch of blocks without a word between them comes to.
+/// What blocks without a word between them come to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Sum {
     pub(crate) blocks: usize,
@@ -43,7 +43,7 @@ pub(super) struct Sum {
     pub(crate) errors: usize,
     /// Blocks that could not be read: where the way leads is not known.
     pub(crate) unread: usize,
-    /// Tells two stretches apart: equal ways have equal marks.
+    /// Tells two of them apart: equal ways have equal marks.
     pub(crate) mark: u64,
     pub(crate) first: Option<Move>,
     pub(crate) second: Option<Move>,
@@ -51,7 +51,7 @@ pub(super) struct Sum {
 }
 
 impl Sum {
-    /// This stretch and then the next.
+    /// These blocks and then the next.
     pub(crate) fn then(&self, next: &Sum) -> Sum {
         if next.blocks == 0 {
             return Sum {
@@ -140,7 +140,7 @@ fn mark_of(entry: &BlockEntry) -> u64 {
     fields.into_iter().fold(POLYNOMIAL, mixed)
 }
 
-/// Blocks up to a word or to the end of the run.
+/// Blocks up to a word or to the end of the stretch.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Part {
     pub(crate) entries: Range<usize>,
@@ -159,12 +159,12 @@ fn nowhere() -> Segment {
     Segment::line(Point::origin(), Point::origin())
 }
 
-/// How a run begins or ends, as far as the joint with the next one tells.
+/// How a stretch begins or ends, as far as the joint with the next one tells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Edge {
     /// The outermost block, from the origin on.
     pub(crate) block: Segment,
-    /// Its joint with the other blocks of the run may be odd.
+    /// Its joint with the other blocks of the stretch may be odd.
     pub(crate) is_odd: bool,
 }
 
@@ -240,7 +240,7 @@ impl Open {
 
 /// Consecutive lines of a program.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Run {
+pub(super) struct Stretch {
     pub(crate) entries: Vec<Entry>,
     pub(crate) faults: Vec<Local>,
     pub(crate) parts: Vec<Part>,
@@ -260,7 +260,7 @@ pub(super) struct Run {
     pub(crate) own_end: Option<usize>,
     pub(crate) last_end: Option<usize>,
     pub(crate) last_word: Option<usize>,
-    /// Parts between two words of the run that hold no closed contour, and those that come near themselves, until it is known
+    /// Parts between two words of the stretch that hold no closed contour, and those that come near themselves, until it is known
     /// that they do not cross.
     pub(crate) open: Vec<usize>,
     pub(crate) tangled: Vec<usize>,
@@ -281,7 +281,7 @@ pub(super) fn may_cross_itself(sum: &Sum) -> bool {
     sum.blocks >= 4 && sum.errors == 0
 }
 
-impl Run {
+impl Stretch {
     /// Reads lines that begin at `offset` of the text. `lines` are ranges of the text without line ends, `bytes` all of it.
     pub(crate) fn read(
         text: &[u8],
@@ -289,19 +289,19 @@ impl Run {
         lines: impl Iterator<Item = Range<usize>>,
         words: &Words<'_>,
         limits: &Limits,
-    ) -> Run {
-        let mut run = Run::default();
+    ) -> Stretch {
+        let mut stretch = Stretch::default();
         let mut open = Open::at(0);
         for (line, range) in lines.enumerate() {
             let start = range.start;
             read_line(&text[range], start, words, |item| {
-                run.take(item, line as u32, offset, &mut open, limits)
+                stretch.take(item, line as u32, offset, &mut open, limits)
             });
         }
-        let end = run.entries.len();
-        run.close(open, end, None);
-        run.sum_up();
-        run
+        let end = stretch.entries.len();
+        stretch.close(open, end, None);
+        stretch.sum_up();
+        stretch
     }
 
     /// Ends a part: what is odd in it counts once its contour is known.
