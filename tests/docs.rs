@@ -15,8 +15,13 @@ fn read(path: &Path) -> String {
 }
 
 fn wedm(folder: &Path, arguments: &[&str]) -> Output {
+    wedm_in("C", folder, arguments)
+}
+
+fn wedm_in(language: &str, folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_wedm"))
         .args(arguments)
+        .env("LC_ALL", language)
         .current_dir(folder)
         .output()
         .unwrap()
@@ -29,11 +34,16 @@ fn pages() -> Vec<PathBuf> {
         .into_iter()
         .map(|entry| entry.unwrap().into_path());
     let pages = of_docs.filter(|path| path.extension().is_some_and(|ending| ending == "md"));
-    ["README.md", "CHANGELOG.md", "CONTRIBUTING.md"]
-        .map(|name| root().join(name))
-        .into_iter()
-        .chain(pages)
-        .collect()
+    [
+        "README.md",
+        "README.zh-CN.md",
+        "CHANGELOG.md",
+        "CONTRIBUTING.md",
+    ]
+    .map(|name| root().join(name))
+    .into_iter()
+    .chain(pages)
+    .collect()
 }
 
 /// Targets of all links and pictures of a page, what stands in fenced blocks and in code left out.
@@ -354,6 +364,20 @@ fn is_shown(shown: &str, line: &str) -> bool {
 
 #[test]
 fn the_commands_of_the_readme_do_what_it_shows() {
+    the_commands_do_what_is_shown("README.md", "C");
+}
+
+#[test]
+fn the_chinese_readme_shows_the_same_commands_which_answer_in_chinese() {
+    let of = |name: &str| -> Vec<(String, i32)> {
+        let shown = commands(&read(&root().join(name))).into_iter();
+        shown.map(|shown| (shown.command, shown.code)).collect()
+    };
+    assert_eq!(of("README.md"), of("README.zh-CN.md"));
+    the_commands_do_what_is_shown("README.zh-CN.md", "zh_CN.UTF-8");
+}
+
+fn the_commands_do_what_is_shown(page: &str, language: &str) {
     let folder = tempfile::tempdir().unwrap();
     let data = folder.path().join("tests/data");
     std::fs::create_dir_all(&data).unwrap();
@@ -363,7 +387,7 @@ fn the_commands_of_the_readme_do_what_it_shows() {
             std::fs::copy(&path, data.join(path.file_name().unwrap())).unwrap();
         }
     }
-    let shown = commands(&read(&root().join("README.md")));
+    let shown = commands(&read(&root().join(page)));
     let ours = shown.iter().filter_map(|shown| {
         let arguments = shown
             .command
@@ -373,7 +397,7 @@ fn the_commands_of_the_readme_do_what_it_shows() {
     });
     let mut count = 0;
     for (shown, arguments) in ours {
-        let output = wedm(folder.path(), &arguments);
+        let output = wedm_in(language, folder.path(), &arguments);
         let printed = [output.stdout, output.stderr]
             .map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
             .concat();
@@ -392,7 +416,7 @@ fn the_commands_of_the_readme_do_what_it_shows() {
         }
         count += 1;
     }
-    assert!(count >= 5, "the README shows {count} commands");
+    assert!(count >= 5, "{page} shows {count} commands");
 }
 
 /// Holds a picture against the committed one.

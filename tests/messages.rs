@@ -328,3 +328,36 @@ fn unbraced(wording: &str) -> String {
     }
     text
 }
+
+/// What the plugin of LibreCAD says, as Qt's `lupdate` has gathered it, and how that is said in Chinese.
+#[test]
+fn every_sentence_of_the_librecad_plugin_has_its_twin() {
+    let file =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("clients/librecad/translations/wedm_zh.ts");
+    let text = std::fs::read_to_string(file).unwrap();
+    let between = |text: &str, from: &str, to: &str| {
+        let (_, rest) = text.split_once(from)?;
+        Some(rest.split_once(to)?.0.to_owned())
+    };
+    let numbered = |sentence: &str| {
+        let mut found: Vec<String> = sentence
+            .split('%')
+            .skip(1)
+            .filter_map(|rest| rest.chars().next())
+            .filter(|mark| mark.is_ascii_digit() || *mark == 'n')
+            .map(String::from)
+            .collect();
+        found.sort_unstable();
+        found
+    };
+    let messages: Vec<&str> = text.split("<message").skip(1).collect();
+    assert!(messages.len() > 100, "{} sentences", messages.len());
+    for message in messages {
+        let source = between(message, "<source>", "</source>").unwrap();
+        let twin = between(message, "<numerusform>", "</numerusform>")
+            .or_else(|| between(message, "<translation>", "</translation>"))
+            .unwrap_or_else(|| panic!("{source:?} has no translation"));
+        assert!(!twin.trim().is_empty(), "{source:?}");
+        assert_eq!(numbered(&source), numbered(&twin), "{source:?}: {twin:?}");
+    }
+}
