@@ -114,7 +114,7 @@ translate! {
     diagnostics_are_left_after_all_fixes(left) => "全部修复后还剩 {left} 个诊断";
     lines_differ(differing) => "{differing} 行不同";
     a_verdict_is_not_ok => "有一项判定不是 ok";
-    the_drawing_is_clean_of_all_ok(segments, layer) => "图形已无问题：{layer} 的 {segments}，全部 ok。";
+    the_drawing_is_clean_of_all_ok(segments, layer) => "图形已无问题：{layer} 的 {segments}，全部正常。";
     of_lines_differ_every_other_byte_is_as_it_was(differing, old) => "{old} 行中 {differing} 行不同，其余字节一个未动。";
     now_the_3b_program => "现在生成 3B 程序";
     the_server_sent_no_program => "服务器没有给出程序";
@@ -149,7 +149,7 @@ translate! {
     a_controller_that_counts_j_drifts(x, y) => "；按 J 计数的控制器累计偏差 {x:.2}, {y:.2} µm";
     decoded_again(deviation, drift) => "重新解码：偏离切割路线最多 {deviation:.2} µm{drift}";
     all_of_them_can_be_cut => "全部可以切割";
-    not_ok(count) => "{count} 个不 ok";
+    not_ok(count) => "{count} 段有问题";
     drawing_units_of_mm_radius(unit) => "图形单位 {unit} mm，半径 mm";
     and_not_cut => "，不切割";
     on_layer(entity, handle, layer, closed, cut) => "图层 {layer} 上的 {entity} {handle}，{closed}{cut}";

@@ -74,7 +74,7 @@ translate! {
     count_g_j(letter, j) => "计数方向改为 G{letter}，J 改为 {j}";
     set_z_to(name) => "Z 改为 {name}";
     set_the_coordinates_to_where_the_block(x, y) => "坐标改为程序段的终点（{x:.3}, {y:.3}）";
-    change_the_block_to_end_at_its_coordinates => "把程序段改为终止于所注坐标";
+    change_the_block_to_end_at_its_coordinates => "程序段改到所注坐标为止";
     exchange_x_and_y => "X 与 Y 互换";
     write_the_block_as(block) => "程序段改为 {block}";
     delete_the_block_which_stands_twice => "删除重复的程序段";
@@ -155,10 +155,10 @@ translate! {
     which_is_this_contour_the_settings(side, is, wanted) => "{side}，即此轮廓的{is}：而设置为{wanted}，电极丝会切入工件";
     of_this_contour_but_it_comes_to_it_from_the_other_side(side) => "{side}，但它从另一侧来到此轮廓：会穿过工件的边";
     the_cut_does_not_close(hypot, x, y) => "切割不封闭：终点偏离起点 {hypot} mm（X {x:+.3}，Y {y:+.3}）";
-    is_a_matter_of_the_machine_it_is_kept_not(word) => "{word} 由机床决定：保留，不跟踪";
-    times_is_a_matter_of_the_machine_it_is_kept(word, count) => "{word}（{count} 次）由机床决定：保留，不跟踪";
-    subprogram_does_not_stand_in_this_text(number) => "本文中没有子程序 {number}：不跟踪";
-    the_subprograms_call_each_other_without_end_or => "子程序循环调用，或嵌套太深：不再跟踪";
+    is_a_matter_of_the_machine_it_is_kept_not(word) => "{word} 由机床决定：保留，不模拟";
+    times_is_a_matter_of_the_machine_it_is_kept(word, count) => "{word}（{count} 次）由机床决定：保留，不模拟";
+    subprogram_does_not_stand_in_this_text(number) => "本文中没有子程序 {number}：不模拟";
+    the_subprograms_call_each_other_without_end_or => "子程序循环调用，或嵌套太深：不再模拟";
     i_and_j_stand_beside_a_straight_cut => "直线切割带有 I 和 J：控制系统会略去，或停机；可能本想写圆弧（G02、G03）";
     stands_twice_in_this_line(letter) => "本行中 {letter} 出现两次：控制系统取最后一个，或停机";
     the_arc_runs_the_wrong_way_round => "圆弧方向反了：丝在此折返，换个方向则平顺相接";
@@ -167,7 +167,7 @@ translate! {
     the_block_stands_twice_the_wire => "程序段重复：电极丝走一整圈";
     the_block_stands_twice_the_wire_is_there => "程序段重复：电极丝已在终点";
     and_nothing_says_by_how_much(side) => "{side}，但没有说明补偿多少：应给出补偿号，如 D1";
-    from_here_on_in_the_middle_of_the_cut(side) => "从这里起{side}，而切割正在中途：会穿过轮廓";
+    from_here_on_in_the_middle_of_the_cut(side) => "从这里起 {side}，而切割正在中途：会穿过轮廓";
     the_program_ends_with_the_correction_on => "程序结束时补偿未取消：退出前应有 G40";
     subprogram_has_no_m99(number) => "子程序 {number} 没有 M99：控制系统会接着执行后面的内容，或停机";
     the_word_for_a_corner_finds_none_here_or => "这里没有拐角指令所说的拐角，或放不下：拐角仍是尖角，或控制系统停机";
@@ -177,7 +177,7 @@ translate! {
     has_not_decimals_as_all_other_numbers(word, usual) => "{word} 的小数不是 {usual} 位，与其余数不同：可能少了或多了一位";
     the_program_does_not_say_its_unit(size) => "程序没有说明单位（G20、G21），按 mm 读：工件长或宽就是 {size} mm，像是英寸（program.units）";
     the_program_is_mm_long_or_wide(size, what) => "程序长或宽 {size} mm，{what}：数值应是别的单位";
-    hangs_on_a_place_of_the_control_table_that_the_program_does(word) => "{word} 要用补偿表中的一项，程序没有给它赋值：不跟踪";
+    hangs_on_a_place_of_the_control_table_that_the_program_does(word) => "{word} 要用补偿表中的一项，程序没有给它赋值：不模拟";
     the_cut_does_not_close_and_it_would => "现在不封闭的切割就封闭";
     the_cut_would_be_sound => "切割就正确";
     may_be_missing_here_with(meant, comes_of_it) => "这里可能缺 {meant}：只加上它，{comes_of_it}";

@@ -97,7 +97,7 @@ translate! {
     laying_the_wires_path => "正在计算切割路线";
     drawing_the_picture => "正在画图";
     generating_the_program => "正在生成程序";
-    following_the_program => "正在跟踪程序";
+    following_the_program => "正在模拟程序";
     locating => "正在定位";
     simulate => "模拟";
     open_picture => "打开图片";
