@@ -21,7 +21,7 @@ const NOT_FOR_PEOPLE: [&str; 13] = [
 
 /// What looks like a sentence and is a word of a format: what serde and diff say, classes of SVG, shapes of JSON, descriptions in the
 /// schema, what the standard library puts behind a reason. The examples under the help of the command line stand with the rest of it, which `clap` takes from comments.
-const WORDS_OF_FORMATS: [&str; 11] = [
+const WORDS_OF_FORMATS: [&str; 14] = [
     "one of ",
     "\\\\ No newline at end of file\\n",
     "wire fault",
@@ -29,6 +29,10 @@ const WORDS_OF_FORMATS: [&str; 11] = [
     "{ uri, version, changes }",
     "{ uri, factor }",
     " (os error",
+    // Keys of settings, as the command line groups them.
+    "correction passes side",
+    "direction corner thread entry lead-in tab order layout compensation digits profile end pause",
+    "end pause",
     "wedm protocol",
     "Every message of the wedm/ name space, protocol {PROTOCOL}.",
     "A vertex [x, y, bulge] of a polyline; the bulge may be left out and is 0 then.",
