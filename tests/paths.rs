@@ -475,6 +475,28 @@ fn contours_are_cut_in_the_order_that_is_asked_for() {
     assert_eq!(ordered(Order::Nearest, Some(&["D", "B", "A", "C"])), "DBCA");
 }
 
+#[test]
+fn the_nearest_contour_is_not_the_one_whose_x_is_nearest() {
+    let opening = Some(Role::Opening);
+    for far in [-100.0, 0.0, 100.0] {
+        for side in [-1.0, 1.0] {
+            let hole = |x: f64, y: f64| circle(far + side * x, y, 2.0);
+            let (drawing, outlines) = drawing(&[
+                ("A", opening, hole(0.0, 0.0)),
+                ("B", opening, hole(-1.0, 30.0)),
+                ("C", opening, hole(10.0, 0.0)),
+            ]);
+            let nearest = Effective {
+                order: Order::Nearest,
+                ..settings()
+            };
+            let paths = plan(&drawing, &outlines, &nearest, None).unwrap();
+            let order = paths.iter().map(|path| along(&drawing, path)[0].clone());
+            assert_eq!(order.collect::<Vec<_>>().join(""), "ACB", "{far} {side}");
+        }
+    }
+}
+
 /// Points along a segment.
 fn samples(segment: &Segment) -> impl Iterator<Item = Point> {
     let segment = *segment;

@@ -637,6 +637,85 @@ fn chords_of_an_arc() {
     check(&round(301), None, Rule::ArcAsChords, 1, true);
 }
 
+/// More chords than one finding holds, behind two lines and up to an open end: one fix makes arcs of all.
+#[test]
+fn chords_without_number_are_made_arcs_by_one_fix() {
+    let corner = |at: usize| {
+        let angle = 1.9 * PI * at as f64 / 4300.0;
+        (20.0 * angle.cos(), 20.0 * angle.sin(), 0.0)
+    };
+    let mut vertices = vec![(30.0, 0.0, 0.0), (30.0, -10.0, 0.0)];
+    vertices.extend((0..=4300).map(corner));
+    let mut drawing = open(&vertices).as_polyline(None);
+    let (mut analysis, findings) = analysed(&drawing);
+    let finding = findings.iter().find(|its| its.rule == Rule::ArcAsChords);
+    let fixes = analysis.fixes(&drawing, finding.unwrap());
+    drawing.apply(&fixes[0].edit).unwrap();
+    assert_eq!(count(&analysed(&drawing).1, Rule::ArcAsChords), 0);
+    assert!(all_segments(&drawing) <= 5, "{}", all_segments(&drawing));
+}
+
+fn all_segments(drawing: &Drawing) -> usize {
+    drawing
+        .entities()
+        .map(|(_, entity)| entity.geometry.segments().count())
+        .sum()
+}
+
+/// Two sequences of chords that meet, each bent its own way: each is a finding, and a fix, of its own.
+#[test]
+fn chords_that_bend_the_other_way_are_another_arc() {
+    let bend = |middle: f64, from: f64, sweep: f64| {
+        (1..=10).map(move |at| {
+            let angle = from + sweep * f64::from(at) / 10.0;
+            (middle + 5.0 * angle.cos(), 5.0 * angle.sin(), 0.0)
+        })
+    };
+    let mut wave = vec![(-5.0, -10.0, 0.0), (-5.0, 0.0, 0.0)];
+    wave.extend(bend(0.0, PI, -PI));
+    wave.extend(bend(10.0, PI, PI));
+    wave.push((15.0, -10.0, 0.0));
+    check(&closed(&wave), None, Rule::ArcAsChords, 2, true);
+    let (_, findings) = analysed(&closed(&wave).as_polyline(None));
+    for finding in findings.iter().filter(|its| its.rule == Rule::ArcAsChords) {
+        let Detail::ArcAsChords { chords, radius, .. } = finding.detail else {
+            panic!("{finding:?}")
+        };
+        assert_eq!(chords, 10);
+        assert!((radius - 5.0).abs() < 1e-9, "{radius}");
+    }
+}
+
+/// Corners between chords of one arc are none, wherever the contour begins; those beside them are.
+#[test]
+fn corners_beside_chords_are_sharp_and_those_between_them_are_not() {
+    let corner = |at: usize| {
+        let angle = PI * at as f64 / 12.0;
+        (5.0 * angle.cos(), 5.0 * angle.sin(), 0.0)
+    };
+    let mut vertices: Vec<_> = (0..=12).map(corner).collect();
+    for _ in 0..vertices.len() {
+        vertices.rotate_left(1);
+        check(
+            &closed(&vertices),
+            Some(Role::Opening),
+            Rule::SharpCorner,
+            2,
+            false,
+        );
+        check(
+            &closed(&vertices),
+            Some(Role::Opening),
+            Rule::NearTangent,
+            0,
+            false,
+        );
+        let (_, findings) = analysed(&closed(&vertices).as_polyline(Some(Role::Opening)));
+        let is_error = |finding: &Finding| finding.severity == Severity::Error;
+        assert!(!findings.iter().any(is_error), "{findings:#?}");
+    }
+}
+
 #[test]
 fn segments_too_short_to_cut() {
     let mut vertices = SQUARE.to_vec();
@@ -644,6 +723,12 @@ fn segments_too_short_to_cut() {
     check(&closed(&vertices), None, Rule::ShortSegment, 1, true);
     vertices.insert(3, (10.0, 9.998, 0.0));
     check(&closed(&vertices), None, Rule::ShortSegment, 2, true);
+    // A crumb in a side has no direction that counts.
+    let mut vertices = SQUARE.to_vec();
+    vertices.splice(1..1, [(5.0, 0.0, 0.0), (5.000_2, 0.000_2, 0.0)]);
+    let crumb = closed(&vertices);
+    check(&crumb, Some(Role::Opening), Rule::SharpCorner, 4, false);
+    check(&crumb, Some(Role::Opening), Rule::NearTangent, 0, false);
     check(
         &open(&[(0.0, 0.0, 0.0), (0.003, 0.0, 0.0), (10.0, 0.0, 0.0)]),
         None,

@@ -249,6 +249,18 @@ mod tests {
     }
 
     #[test]
+    fn the_ends_are_reached_exactly_and_never_passed() {
+        let (start, end) = (Point::new(5.0, 0.1), Point::new(0.1, 5.0));
+        let arc = Arc::about(Point::origin(), start, end, true);
+        for share in [-0.3, 0.0] {
+            assert_eq!(arc.point_at(share), start);
+        }
+        for share in [1.0, 1.3] {
+            assert_eq!(arc.point_at(share), end);
+        }
+    }
+
+    #[test]
     fn bulge_and_centre_agree_at_every_sweep() {
         for step in 1..40 {
             for sign in [1.0, -1.0] {

@@ -394,6 +394,45 @@ mod tests {
     }
 
     #[test]
+    fn a_curve_takes_no_more_arcs_than_its_pieces_may() {
+        /// A wave of a thousand crests in one piece.
+        struct Wave;
+        impl Curve for Wave {
+            fn pieces(&self) -> Vec<(f64, f64)> {
+                vec![(0.0, 1000.0 * std::f64::consts::TAU)]
+            }
+            fn at(&self, _: usize, t: f64) -> (Point, Vector) {
+                (Point::new(t, t.sin()), Vector::new(1.0, t.cos()))
+            }
+            fn extent(&self) -> f64 {
+                7000.0
+            }
+        }
+        let most = |arcs: usize| Err(Unfit::TooManyArcs(arcs));
+        assert_eq!(fit(&Wave, 1e-3), most(MOST_ARCS + MOST_ARCS_OF_A_PIECE));
+        // An eighth of the tolerance takes twice as many.
+        assert_eq!(
+            fit(&Wave, 1.25e-4),
+            most(2 * (MOST_ARCS + MOST_ARCS_OF_A_PIECE))
+        );
+    }
+
+    #[test]
+    fn a_round_spline_begins_at_its_first_point_however_many_there_are() {
+        for count in 3..12 {
+            let angle = |point: usize| 1.0 + point as f64 * std::f64::consts::TAU / count as f64;
+            let points: Vec<Point> = (0..count)
+                .map(|point| Point::new(3.0 * angle(point).cos(), angle(point).sin()))
+                .collect();
+            let spline = Spline::round(&points).unwrap();
+            let curve = SplineCurve::from(&spline);
+            let (from, _) = curve.pieces()[0];
+            let off = (curve.at(0, from).0 - points[0]).norm();
+            assert!(off < 1e-9, "{off} of {count} points");
+        }
+    }
+
+    #[test]
     fn a_curve_that_stands_still_on_its_way_has_no_tiny_pieces() {
         // Four control points in one place: a whole span of the cubic is one point.
         let points = [

@@ -305,6 +305,85 @@ fn what_is_lost_in_a_block_is_put_back() {
 }
 
 #[test]
+fn a_block_that_cannot_be_read_is_put_right_by_its_coordinates_where_another_one_cannot_be_read_either()
+ {
+    let torn = with(
+        CHECKED,
+        "B   8000 B      0 B   8000 GX",
+        "B   8000 B      0 B GX",
+    );
+    let torn = with(
+        &torn,
+        "B      0 B   6000 B   6000 GY",
+        "B      0 B   6000 GY",
+    );
+    let mut document = read(Group::Compact, &torn);
+    let finding = &findings(&mut document)[0];
+    let first = document.fixes(finding).into_iter().next();
+    let FixKind::RestoreBlock { block } = first.expect("a fix").kind else {
+        panic!("of\n{torn}")
+    };
+    assert_eq!(tight(&block), "B8000B0B8000GXL1\n");
+}
+
+#[test]
+fn a_block_keeps_one_number_and_a_text_its_line_ends() {
+    check(CHECKED, "N    4:", "N    3:");
+    let windows = PLATE.replace('\n', "\r\n");
+    check(&windows, "DD\r\n", "");
+    let endless = with(&windows, "DD\r\n", "");
+    assert_eq!(fixed(&endless).trim_end(), windows.trim_end());
+}
+
+#[test]
+fn of_a_line_alone_both_ways_along_its_axis_are_offered() {
+    for (line, expected) in [
+        ("GXL2", ["L3", "L1"]),
+        ("GXL4", ["L1", "L3"]),
+        ("GYL1", ["L2", "L4"]),
+        ("GYL3", ["L4", "L2"]),
+    ] {
+        let text = format!("B0B0B5000{line}\nDD\n");
+        let mut document = read(Group::Compact, &text);
+        let offered: Vec<&str> = findings(&mut document)
+            .iter()
+            .flat_map(|finding| document.fixes(finding))
+            .filter_map(|fix| match fix.kind {
+                FixKind::SetMotion { name } => Some(name),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(offered, expected, "{text}");
+    }
+}
+
+#[test]
+fn what_nothing_but_the_quadrant_says_follows_from_what_closes() {
+    for line in [
+        "B8000B0B8000GXL1",
+        "B10000B0B10000GXL3",
+        "B0B6000B6000GYL2",
+        "B0B8000B8000GYL4",
+    ] {
+        let (length, motion) = (
+            line.split(['B', 'G']).nth(3).unwrap(),
+            &line[line.len() - 4..],
+        );
+        let bare = with(PLATE, line, &format!("B0B0B{length}{motion}"));
+        let other = if motion.starts_with("GX") {
+            "GXL2"
+        } else {
+            "GYL3"
+        };
+        check(
+            &bare,
+            &format!("B0B0B{length}{motion}"),
+            &format!("B0B0B{length}{other}"),
+        );
+    }
+}
+
+#[test]
 fn one_digit_of_one_number_is_put_right() {
     for (found, other) in [
         ("B8000B0B8000GXL1", "B80000B0B8000GXL1"),

@@ -185,6 +185,22 @@ fn outlines_cross_and_touch() {
         &[([-1.732, 1.], cross, Error)],
     );
     check_contacts(
+        "a corner on a circle, from within",
+        &[
+            circle([0., 0.], 2.),
+            ring(&[[0., 2.], [-0.5, 1.], [0.5, 1.]]),
+        ],
+        &[([0., 2.], touch, Error)],
+    );
+    check_contacts(
+        "a vertex on a circle, and on to the other side of it",
+        &[
+            circle([0., 0.], 2.),
+            ring(&[[0., 1.], [0., 2.], [0.5, 3.], [3., 3.], [3., 1.]]),
+        ],
+        &[([0., 2.], cross, Error), ([1.732, 1.], cross, Error)],
+    );
+    check_contacts(
         "a lead-in that ends on a side",
         &[square(0., 0., 4.), line([2., 2.], [4., 2.])],
         &[([4., 2.], touch, Warning)],

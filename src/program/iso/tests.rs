@@ -129,6 +129,15 @@ fn words_have_their_numbers_and_places() {
         ]
     );
     assert_eq!(tokens("é"), [fault(WordFault::NoWord, 10..12)]);
+    // A program's number as Fanuc's tapes have it, and the move of an upper end.
+    assert_eq!(
+        tokens(":0007 N1"),
+        [
+            word(b'O', 7, 0, false, 10..15),
+            word(b'N', 1, 0, false, 16..18)
+        ]
+    );
+    assert_eq!(tokens(": G01 X1"), [Token::Foreign { range: 10..18 }]);
 }
 
 /// A square of 10 mm with one rounded corner, cut from outside: absolute, from start to centre, µm.
@@ -273,6 +282,23 @@ fn each_fault_is_named_at_its_line() {
     );
 }
 
+#[test]
+fn a_fault_in_a_word_is_told_by_its_column_and_the_others_of_its_line_are_read() {
+    let text = "G92 X0 Y0\nG90\nG01 X1000 Y\nY1000\nX0 Y0\nM02\n";
+    let finding = &read(text).findings()[0];
+    assert_eq!(
+        finding::sentence(finding, 1.0),
+        "column 11: Y has no number"
+    );
+    // What is meant by these is plain, and the wire runs there.
+    let meant = "G92 X0. Y0.\nG90\nG01 X10. Y0.\nX10. Y10.\nX0. Y10.\nX0. Y0.\nM02\n";
+    for (plain, typed) in [("Y10.\nX0.", "Y1O.\nX0."), ("X10. Y10.", "X10,0 Y10.")] {
+        let typed = meant.replace(plain, typed);
+        assert_ne!(faults(&typed, &Effective::default()), [], "{typed}");
+        assert_eq!(way(&typed), way(meant), "{typed}");
+    }
+}
+
 /// The text after the fix with a title that begins so, of the finding of a rule.
 #[track_caller]
 fn fixed(text: &str, rule: &str, title: &str) -> String {
@@ -389,12 +415,57 @@ fn what_can_be_repaired_is_repaired_and_the_finding_goes() {
         "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\n",
         "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\nM02\n",
     );
+    // An arc that runs round the wrong way says so itself, in a block whose number could be taken for its word.
+    let rounded = |arc: &str| {
+        format!("N1 G92 X0. Y0.\nN2 {arc} X2. Y2. I0. J2.\nN3 G01 Y8.\nX-8.\nY0.\nX0.\nM02\n")
+    };
+    let rounded = |arc: &str| rounded(arc).replace("N2 ", "G90\nG01 X-1. Y0.\nX0.\nN2 ");
+    check("reversed-arc", "", &rounded("G02"), &rounded("G03"));
+    // A number without its point: thousandths, or a point that was forgotten.
+    let among = |number: &str| {
+        format!(
+            "G92 X0.000 Y0.000\nG90\nG01 X5.000 Y0.000\nX5.000 Y5.000\nX{number} Y5.000\nX25.000 Y-5.000\nX0.000 Y-5.000\nX0.000 Y0.000\nM02\n"
+        )
+    };
+    check(
+        "mixed-numbers",
+        "Write X25.000",
+        &among("25000"),
+        &among("25.000"),
+    );
     check(
         "text-after-end",
         "Delete",
         "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\nM02\nG01 X5\nX0\n",
         "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\nM02\n",
     );
+}
+
+#[test]
+fn no_line_is_offered_where_what_follows_would_be_cut_otherwise() {
+    // The line behind the stop is an arc because the one before it is.
+    let text = |next: &str| {
+        format!(
+            "G92 X0. Y0.\nG90\nG01 X5. Y0.\nX9. Y9.\nG03 X0. Y5. I-5. J0.\nM00\n{next}X-5. Y0. I0. J-5.\nG01 X0. Y5.\nM02\n"
+        )
+    };
+    for (next, offered) in [("", false), ("G03 ", true)] {
+        let text = text(next);
+        let document = read(&text);
+        let finding = document
+            .findings()
+            .into_iter()
+            .find(|finding| finding.rule.name() == "not-closed")
+            .expect(&text);
+        let is_close = |fix: &finding::TextFix| {
+            finding::title(&fix.kind, 1.0).starts_with("Close the contour with a line")
+        };
+        assert_eq!(
+            document.fixes(&finding).iter().any(is_close),
+            offered,
+            "{text}"
+        );
+    }
 }
 
 #[test]
@@ -462,6 +533,11 @@ fn programs_and_subprograms_number_their_blocks_for_themselves() {
     check(
         &format!("G92 X0 Y0\n{body}N20 X1000\nN40 X0\nM02\n"),
         &[(5, "block-number")],
+    );
+    // A number between those of its turn is no number that is lacking.
+    check(
+        "N10 G92 X0 Y0\nN20 G01 X1000\nN25 G01 Y1000\nN40 G01 X500\nN50 G01 X0 Y0\nM02\n",
+        &[],
     );
     // Heads and ends without numbers are usual, and so are programs that number some lines only.
     check(&format!("%\nG92 X0 Y0\n{body}M02\n%\n"), &[]);
@@ -975,6 +1051,39 @@ fn tables_are_reckoned_and_units_are_what_is_said() {
         ),
         []
     );
+}
+
+#[test]
+fn ways_that_come_back_are_no_faults() {
+    // The next pass, back along the same contour, has the wire on its other side: from where the first began.
+    check(
+        "G92 X0. Y0.\nG90\nG41 D1\nG01 X5. Y0.\nY5.\nX-5.\nY-5.\nX5.\nY0.\nG42 D1\nY-5.\nX-5.\nY5.\nX5.\nY0.\nG40\nX0.\nM02\n",
+        &[],
+    );
+    // A lens: two arcs about two centres, that turn back on each other all but.
+    check(
+        "G92 X99. Y-9.\nG90\nG01 X99. Y0.\nG03 X-99. Y0. I-99. J-4900.\nG03 X99. Y0. I99. J4900.\nG01 X108. Y9.\nM02\n",
+        &[],
+    );
+}
+
+#[test]
+fn lines_that_name_places_do_not_move_with_what_stands_before_them() {
+    // Steps move with what stands before them, places do not: where the one goes over into the other, all is read again.
+    for steps in (150..290).step_by(7) {
+        let places = (0..100).map(|line| format!("G01 X{line} Y{}\n", line % 7));
+        let text = format!(
+            "G92 X0 Y0\nG91\n{}G90\n{}M02\n",
+            "G01 X3 Y1\n".repeat(steps),
+            places.collect::<String>()
+        );
+        let mut document = read(&text);
+        let at = document.text().line_start(5) + "G01 X".len();
+        document.edit(at..at, "1");
+        let fresh = Document::read(document.text().bytes().to_vec());
+        assert_eq!(document.trace(), fresh.trace(), "{steps} steps");
+        assert_eq!(document.findings(), fresh.findings(), "{steps} steps");
+    }
 }
 
 /// Lines that programs are made of, with some that are damaged.

@@ -382,6 +382,18 @@ mod tests {
     }
 
     #[test]
+    fn ways_run_along_each_other_there_and_back_and_not_beside() {
+        use super::runs_along;
+        use crate::geometry::Vector;
+        let [lead, across, steep] = [[4.0, 5.0], [5.0, -4.0], [4.0, -5.0]].map(Vector::from);
+        for along in [2.0, 0.5, -1.0] {
+            assert!(runs_along(lead, lead * along));
+            assert!(!runs_along(lead, across * along));
+            assert!(!runs_along(lead, steep * along));
+        }
+    }
+
+    #[test]
     fn a_square_closes_behind_a_bent_way_in() {
         let square = [
             [9000, 2000],

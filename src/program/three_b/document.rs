@@ -231,6 +231,7 @@ impl Language for Reader<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::finding::Rule;
     use crate::program::path::Step;
     use crate::program::path::{Cut, cuts};
     use proptest::prelude::*;
@@ -268,6 +269,83 @@ mod tests {
         "B50000B0B50000GXL1\nD\n",
     ];
     const REPLACEMENT: &str = "(((N[0-9] )?B[0-9]{1,4}B[0-9]{1,4}B[0-9]{1,5}G[XY](L|SR|NR)[1-4]( ; [0-9]\\.[0-9]{3} , 1\\.0)?|BxB|[;DN1 ]|DD|D|E|text|Start Point = 1 , 2)|\r|\n| |7){0,3}";
+
+    #[test]
+    fn blocks_of_equal_numbers_that_lead_elsewhere_are_not_taken_for_each_other() {
+        // The third block crosses the first, until the second leads the other way.
+        let text = "B10000B0B10000GXL1\nB5000B5000B5000GXL2\nB0B10000B10000GYL4\nB5000B5000B5000GXL2\nDD\n";
+        let mut document = Document::read(text.into());
+        assert!(
+            sorted(&document)
+                .iter()
+                .any(|found| found.contains("PathCrossesItself"))
+        );
+        let at = text.find("GXL2").unwrap();
+        document.edit(at..at + 4, "GYL1");
+        assert_is_fresh(&document).unwrap();
+        assert!(
+            !sorted(&document)
+                .iter()
+                .any(|found| found.contains("PathCrossesItself"))
+        );
+    }
+
+    #[test]
+    fn an_arc_of_a_part_is_held_against_the_correction_where_the_wire_runs_inside() {
+        let (settings, _) = crate::settings::from_toml(
+            "correction = 0.1\nside = \"opening\"\n[program]\ncompensation = \"controller\"\n",
+        );
+        // A square with one rounded corner, in both directions, over more lines than one run holds.
+        for (radius, is_tight) in [(80, true), (120, false)] {
+            let (right, up) = (10_000 - radius, 10_000 - radius);
+            let steps = |length: i64, motion: &str| {
+                let step = |by: i64| match &motion[..1] {
+                    "X" => format!("B{by}B0B{by}G{motion}\n"),
+                    _ => format!("B0B{by}B{by}G{motion}\n"),
+                };
+                step(100).repeat(length as usize / 100 - 1) + &step(100 + length % 100)
+            };
+            let left_round = format!(
+                "{}{}B{radius}B0B{radius}GXNR1\n{}{}DD\n",
+                steps(10_000, "XL1"),
+                steps(up, "YL2"),
+                steps(right, "XL3"),
+                steps(10_000, "YL4"),
+            );
+            let right_round = format!(
+                "{}{}B0B{radius}B{radius}GYSR1\n{}{}DD\n",
+                steps(10_000, "YL2"),
+                steps(right, "XL1"),
+                steps(up, "YL4"),
+                steps(10_000, "XL3"),
+            );
+            for text in [left_round, right_round] {
+                let document =
+                    Document::read_with(text.clone().into_bytes(), &Effective::of(&settings));
+                let found: Vec<_> = document
+                    .findings()
+                    .iter()
+                    .map(|finding| finding.rule)
+                    .collect();
+                let expected = if is_tight {
+                    vec![Rule::SmallRadius]
+                } else {
+                    vec![]
+                };
+                assert_eq!(found, expected, "{text}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_turn_is_counted_with_the_tolerance_of_its_rounding() {
+        for (j, is_over) in [(4000, false), (4002, false), (4003, true)] {
+            let text = format!("B1000B0B{j}GYNR1\nDD\n");
+            let found = sorted(&Document::read(text.into_bytes()));
+            let said = found.iter().any(|finding| finding.contains("JOverTurn"));
+            assert_eq!(said, is_over, "{j}: {found:?}");
+        }
+    }
 
     proptest! {
         #[test]

@@ -348,6 +348,8 @@ mod tests {
         check("B5000B0B5000GXNR1", (-5000, 5000));
         check("B0B5000B5000GYSR1", (5000, -5000));
         check("B30000B40000B060000GXNR1", (-60000, 0));
+        // As far as two kilometres.
+        check("B2000000000B0B2000000000GXL1", (FARTHEST, 0));
     }
 
     #[test]

@@ -598,6 +598,16 @@ mod tests {
             "B40000BB040000GXL1 B1B9B090000GYL1 DD",
             "40000,0,40000 X L1 / 1,9,90000 Y L1 / End",
         );
+        // Commas that are none of numbers.
+        check(
+            "B0B21500B21500GYL2 ; hole,left pin,right",
+            "0,21500,21500 Y L2",
+        );
+        // The only way to part the digits is that in which J has its zero.
+        check(
+            "B17000B9234017000GXL1",
+            "! 0..17 a B of the block is missing / 17000,9234,17000 X L1",
+        );
         check("N13: DD ; the end", "N13 End");
         check("Start Point = -1.5 , 2", "start [-1.5, 2.0]");
         check("; Start Point = 1.50000 , 2.0 ; X , Y", "start [1.5, 2.0]");

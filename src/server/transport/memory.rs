@@ -51,3 +51,25 @@ pub(super) fn give_back() {
 /// Other allocators give back by themselves.
 #[cfg(not(all(target_os = "linux", target_env = "gnu")))]
 pub(super) fn give_back() {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn memory_is_given_back_behind_large_messages_and_behind_many_small_ones() {
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .enable_time()
+            .build()
+            .unwrap();
+        let memory = Memory::default();
+        let is_due = |memory: &Memory| memory.is_due.load(Ordering::Acquire);
+        memory.after_message(LARGE / 2, &runtime);
+        assert!(!is_due(&memory));
+        memory.after_message(LARGE / 2, &runtime);
+        assert!(is_due(&memory));
+        let memory = Memory::default();
+        memory.after_message(10 * LARGE, &runtime);
+        assert!(is_due(&memory));
+    }
+}

@@ -109,6 +109,25 @@ fn a_stated_point_that_is_not_the_blocks_own_stays() {
 }
 
 #[test]
+fn a_stated_point_may_lie_as_far_off_as_so_many_arcs_may_drift() {
+    // Nine half turns, whose end is said to lie 4 µm farther on; one line goes on from there.
+    let arcs = "B1000B0B2000GYNR1\n".repeat(8);
+    let text = format!("{arcs}B1000B0B2000GYNR1 ; -18.004 , 0.000\nB5000B0B5000GXL3\n");
+    let written: String = (1..=9)
+        .map(|arc| {
+            let x = -2 * arc;
+            let thousandths = if arc == 9 { 4 } else { 0 };
+            format!("N{arc:>5}: B   1000 B      0 B   2000 GY NR1 ; {x:>6}.{thousandths:03} ,      0.000\n")
+        })
+        .collect();
+    check(
+        Some(Layout::Checking),
+        &text,
+        &format!("{written}N   10: B   5000 B      0 B   5000 GX L3  ;    -23.004 ,      0.000\n"),
+    );
+}
+
+#[test]
 fn each_block_gets_its_line_and_the_line_end_of_the_text() {
     check(
         Some(Layout::Compact),

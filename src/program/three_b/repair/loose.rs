@@ -245,6 +245,21 @@ mod tests {
     }
 
     #[test]
+    fn what_is_missing_and_what_is_parted_cost_keys() {
+        let keys = |text: &str| {
+            let readings = loose(text.as_bytes()).unwrap().readings();
+            let mut keys: Vec<usize> = readings.iter().map(|reading| reading.keys).collect();
+            keys.sort_unstable();
+            keys.dedup();
+            keys
+        };
+        assert_eq!(keys("B9900B0B9900XL1"), [1]);
+        assert_eq!(keys("B9900B0B9900L1"), [2]);
+        // The B between two numbers, or a number of three.
+        assert_eq!(keys("B9900B9900XL1"), [2, 3]);
+    }
+
+    #[test]
     fn what_is_there_of_a_broken_block_is_read() {
         check(
             "B9900B0B9900XL1",

@@ -48,3 +48,37 @@ fn length_of(block: &Block) -> Length {
         is_certain: x == 0 || y == 0,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::three_b::block::Quadrant;
+
+    #[test]
+    fn the_length_in_j_is_told_by_x_and_y() {
+        let misfit = |is_certain: bool| Length::Misfit { is_certain };
+        for (numbers, expected) in [
+            ([3000, 5000, 5000], Length::Projection),
+            // On the axis that is counted, though it is the smaller one.
+            ([3000, 5000, 3000], Length::Projection),
+            ([0, 0, 700], Length::Projection),
+            ([3, 5, 5000], Length::Ratio),
+            ([3000, 4000, 5000], Length::Euclid),
+            ([3000, 5000, 4000], misfit(true)),
+            ([0, 5000, 7000], misfit(true)),
+            ([3000, 5000, 7000], misfit(false)),
+            ([0, 5000, 1], misfit(true)),
+        ] {
+            let [x, y, j] = numbers;
+            let (axis, motion) = (CountingAxis::X, Motion::Line(Quadrant::First));
+            let block = Block {
+                x,
+                y,
+                j,
+                axis,
+                motion,
+            };
+            assert_eq!(length_of(&block), expected, "{numbers:?}");
+        }
+    }
+}

@@ -13,6 +13,20 @@ impl Read for Trickle<'_> {
     }
 }
 
+#[test]
+fn a_body_over_the_limit_is_passed_over_and_said_by_its_length() {
+    let header = |length: u64| format!("Content-Length: {length}\r\n\r\n");
+    let input = header(BODY_CAP + 1) + "{}";
+    let mut frames = Frames::new(Trickle(input.as_bytes(), 7));
+    let expected = say!(a_body_is_over_the_limit, BODY_CAP + 1, BODY_CAP);
+    assert_eq!(frames.next(), Frame::Broken(expected));
+    // What is as long as the limit is only cut short here.
+    let input = header(BODY_CAP) + "{}";
+    let next = Frames::new(Trickle(input.as_bytes(), 7)).next();
+    let over = say!(a_body_is_over_the_limit, BODY_CAP, BODY_CAP);
+    assert_ne!(next, Frame::Broken(over));
+}
+
 fn frames(input: &str, broken_bodies: &[&str]) -> Vec<String> {
     let run = |step: usize| {
         let mut frames = Frames::new(Trickle(input.as_bytes(), step));
