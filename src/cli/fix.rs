@@ -49,8 +49,11 @@ struct Target {
     diff: bool,
 }
 
-/// The rules whose findings are repaired without asking, and what one of them is called.
-fn repaired_rules() -> [(Rule, fn(&usize) -> String); 6] {
+/// So many of what was repaired.
+type Counted = fn(&usize) -> String;
+
+/// The rules whose findings are repaired without asking, and what is said of how many there were.
+fn repaired_rules() -> [(Rule, Counted); 6] {
     [
         (Rule::SmallRadius, said::arcs),
         (Rule::DuplicateEntity, said::doubles),
