@@ -34,6 +34,7 @@ use crate::drawing::{ContourSegment, EntityId, Visibility};
 use crate::geometry::Point;
 use rustc_hash::FxHashSet;
 use std::ops::Range;
+use std::sync::Arc;
 
 impl From<&ContourSegment> for Place {
     fn from(segment: &ContourSegment) -> Place {
@@ -154,6 +155,11 @@ pub enum Detail {
     },
     /// A fault in a block or contour of a program.
     Program(Box<Fault>),
+    DoesNotFit(Box<Misfit>),
+    /// A contour of the workpiece `of` has no partner in another.
+    NoPartner {
+        of: Arc<str>,
+    },
     LeadIn(String),
     /// `kind` of entity, and how many of it; the place is the first.
     UnsupportedEntity {
@@ -163,7 +169,7 @@ pub enum Detail {
     },
     /// `count` entities are drawn on a layer that is not simply shown, or are invisible by themselves.
     Unseen {
-        layer: std::sync::Arc<str>,
+        layer: Arc<str>,
         visibility: Visibility,
         count: usize,
     },
@@ -180,6 +186,22 @@ pub enum Detail {
     More {
         count: usize,
     },
+}
+
+/// Two parts of a pair bind. Lengths in drawing units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Misfit {
+    /// On the outline that stands too far out.
+    pub at: Point,
+    /// What is left; below 0.
+    pub clearance: f64,
+    /// What there should be.
+    pub wanted: f64,
+    /// The part at whose segment the finding stands, and its partner: `punch` and `plate`, or names of workpieces.
+    pub of: Arc<str>,
+    pub partner: Arc<str>,
+    /// That of the two which stands too far out.
+    pub corner_of: Arc<str>,
 }
 
 #[derive(Clone, Debug, PartialEq)]

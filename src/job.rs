@@ -3,10 +3,15 @@
 //! One pipeline for both faces, which bring a document under its settings and show what comes of it; why nothing is made is decided and worded
 //! here. Nothing here reads or writes a file, or knows who asked.
 
+mod pair;
+
+pub use pair::{PartProgram, pair};
+
 use crate::document::{Document, Snapshot, Source};
 use crate::drawing::{Drawing, DrawingEdit, Entity};
 use crate::dxf;
 use crate::finding::{Detail, Edit, Finding, Place, Severity};
+use crate::fit::{self, Fit};
 use crate::program::convert::{self, Cuts};
 use crate::program::{Format, ProofError, ProvedProgram};
 use crate::rule::Rule;
@@ -182,6 +187,13 @@ pub(crate) fn paths(
     Ok(planned(snapshot, settings, handles, false, watch)?.paths)
 }
 
+/// Whether the parts of a drawing fit.
+pub fn fit(snapshot: &Snapshot, watch: &dyn Watch) -> Result<Fit, Refusal> {
+    let (drawing, outlines) = (&snapshot.drawing, &snapshot.outlines);
+    let goes_on = || watch.is_wanted();
+    Ok(fit::fit(drawing, outlines, &snapshot.settings, &goes_on)?)
+}
+
 fn planned(
     snapshot: &Snapshot,
     settings: &Effective,
@@ -196,6 +208,7 @@ fn planned(
 }
 
 /// What a program is asked for.
+#[derive(Clone, Copy)]
 pub struct Wanted<'a> {
     pub format: Format,
     /// Only the contours that hold one of these entities.

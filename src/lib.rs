@@ -14,6 +14,7 @@ pub mod document;
 pub mod drawing;
 pub mod dxf;
 pub mod finding;
+pub mod fit;
 pub mod geometry;
 pub mod ide;
 pub mod job;

@@ -98,6 +98,7 @@ rules! {
     SelfIntersection "self-intersection" Error a_contour_touches_or_crosses_itself_or_another Drawing;
     ArcAsChords "arc-as-chords" Hint an_arc_drawn_as_short_lines Drawing;
     UnprovedPath "unproved-path" Error no_path_of_the_wire_holds_its_proof_here Drawing;
+    DoesNotFit "does-not-fit" Error a_punch_does_not_go_into_its_plate Drawing;
     LeadIn "lead-in" Error the_lead_in_is_too_short_or_crosses_a_contour Drawing;
     PassOrder "pass-order" Error the_corrections_of_the_passes_do_not_fall_or_no_wire_is_so_thin Settings;
     UnsupportedEntity "unsupported-entity" Information something_in_the_drawing_is_not_cut Drawing;

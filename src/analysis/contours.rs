@@ -2,10 +2,14 @@
 
 use super::Analysis;
 use super::aside::{role_of_linetype, set_aside};
-use crate::drawing::{ContourKey, Drawing, EntityId, Outline, Role, nesting_depths};
+use crate::drawing::{
+    Contour, ContourIndex, ContourKey, Drawing, EntityId, Outline, Role, nesting_depths,
+};
 use crate::finding::Side;
+use crate::fit;
 use crate::settings::Effective;
 use rustc_hash::FxHashSet;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 impl Analysis {
@@ -66,6 +70,30 @@ impl Analysis {
         })
     }
 
+    /// How many contours of its own workpiece hold each.
+    fn depths_by_part(
+        &self,
+        drawing: &Drawing,
+        contours: &[(&Contour, &ContourIndex)],
+    ) -> Vec<usize> {
+        if self.settings.workpieces.is_empty() {
+            return nesting_depths(drawing, contours);
+        }
+        let mut parts: BTreeMap<u16, Vec<usize>> = BTreeMap::new();
+        for (at, (contour, _)) in contours.iter().enumerate() {
+            let part = fit::workpiece_of(drawing, contour, &self.settings);
+            parts.entry(part).or_default().push(at);
+        }
+        let mut depths = vec![0; contours.len()];
+        for of_part in parts.values() {
+            let own: Vec<_> = of_part.iter().map(|&at| contours[at]).collect();
+            for (&at, depth) in of_part.iter().zip(nesting_depths(drawing, &own)) {
+                depths[at] = depth;
+            }
+        }
+        depths
+    }
+
     /// The role of each contour: stated by an entity, by its layer, by the `side` setting, or by nesting.
     pub(super) fn roles(&self, drawing: &Drawing, keys: &[ContourKey]) -> Vec<Role> {
         let everywhere = self.settings.side.role();
@@ -76,7 +104,7 @@ impl Analysis {
                     .iter()
                     .filter_map(|key| Some((self.chains.get(*key)?, &self.known.get(key)?.index)))
                     .collect();
-                nesting_depths(drawing, &contours)
+                self.depths_by_part(drawing, &contours)
             }
         };
         let nested = |position: usize| {
@@ -123,6 +151,13 @@ pub(super) fn role_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> 
         .or_else(by_color)
 }
 
+/// The workpiece of an entity that is cut.
+pub(super) fn part_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> Option<u16> {
+    let layer = || Some(&*drawing.get(id)?.layer);
+    is_cut(drawing, settings, id)
+        .then(|| layer().map_or(0, |layer| settings.workpieces.of_layer(layer)))
+}
+
 /// True when an entity is part of a contour, which may be a lone line: it has segments, its role is not `ignore`, it is seen, or somebody
 /// has given it or its layer a role, and it is not set aside by its linetype or its layer. A colour or a handle alone does not bring back
 /// what is frozen.
@@ -133,6 +168,12 @@ pub(crate) fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> b
     else {
         return false;
     };
+    if settings
+        .only
+        .is_some_and(|only| settings.workpieces.of_layer(&entity.layer) != only)
+    {
+        return false;
+    }
     let is_asked_for = || entity.role.is_some() || settings.layers.contains_key(&*entity.layer);
     role_of(drawing, settings, id) != Some(Role::Ignore)
         && (drawing.visibility(id).is_seen() || is_asked_for())

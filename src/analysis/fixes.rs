@@ -12,6 +12,9 @@ impl Analysis {
         let Place::Segment { entity, segment } = &finding.place else {
             return Vec::new();
         };
+        if finding.rule == Rule::DoesNotFit {
+            return self.fit_fixes(drawing, finding);
+        }
         if finding.rule != Rule::SmallRadius {
             return self.checked(
                 drawing,

@@ -123,6 +123,7 @@ impl Analysis {
             &mut report,
         );
         self.pairs = pairs;
+        self.report_fits(drawing, &mut report);
         self.report_dead_ends(drawing, &ends, &mut report);
         self.report_set_aside(drawing, &mut report);
         if self.settings.side != SideSetting::Both || self.stated > 0 {
@@ -230,7 +231,9 @@ impl Analysis {
         else {
             return;
         };
+        let says_the_fit = self.says_the_fit(drawing, key, wire_side);
         if let Some((_, count)) = notable.faults.filter(|(side, _)| *side == wire_side)
+            && !says_the_fit
             && self.limits.last_correction == self.limits.correction
             && report.is_full(Rule::SmallRadius, None)
         {
@@ -247,7 +250,8 @@ impl Analysis {
                 continue;
             };
             count += 1;
-            let mildest = numbers.taken_by_skims.then_some(Severity::Warning);
+            let is_mild = numbers.taken_by_skims || says_the_fit;
+            let mildest = is_mild.then_some(Severity::Warning);
             if report.counts(Rule::SmallRadius, mildest) {
                 numbers.no_fix = self.answer(drawing, key, index);
                 let place = Place::from(&segment);

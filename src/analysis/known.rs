@@ -14,6 +14,8 @@ pub(crate) struct Known {
     pub(crate) index: ContourIndex,
     /// The role that an entity or a layer states.
     pub(crate) stated: Option<Role>,
+    /// The number of its workpiece.
+    pub(crate) part: u16,
     /// For each local rule, for each run of the index, what it has seen; nothing at all where it has seen nothing, as in
     /// most contours.
     observations: Vec<Vec<Vec<Observation>>>,
@@ -24,10 +26,11 @@ pub(crate) struct Known {
 }
 
 impl Known {
-    pub(crate) fn new(index: ContourIndex, stated: Option<Role>) -> Known {
+    pub(crate) fn new(index: ContourIndex, stated: Option<Role>, part: u16) -> Known {
         Known {
             index,
             stated,
+            part,
             observations: Vec::new(),
             counts: Vec::new(),
             runs: 0,
@@ -49,6 +52,7 @@ impl Known {
             contour,
             index: &self.index,
             limits,
+            part: self.part,
         };
         let (count, runs) = (contour.len(), self.index.run_count());
         let recounted = self.runs != runs;

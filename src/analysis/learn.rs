@@ -5,6 +5,7 @@ use super::contours::role_of;
 use super::known::Known;
 use super::{Analysis, MANY, Notable};
 use crate::drawing::{ContourIndex, ContourKey, Drawing, EntityId, RUN, stated_role};
+use crate::fit;
 use crate::rules::{CONTOUR_RULES, NEIGHBOURS, Outlook, units};
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
@@ -69,7 +70,11 @@ impl Analysis {
             let contour = self.chains.get(key)?;
             let index = ContourIndex::new(drawing, contour, tight);
             let stated = stated_role(contour, &|id| role_of(drawing, &self.settings, id));
-            let mut known = Known::new(index, stated);
+            let mut known = Known::new(
+                index,
+                stated,
+                fit::workpiece_of(drawing, contour, &self.settings),
+            );
             known.check(
                 drawing,
                 contour,
@@ -127,6 +132,7 @@ impl Analysis {
             self.answers.retain(|(other, _), _| *other != key);
         }
         self.lost.remove(&key);
+        self.forget_fits(key);
         let (Some(piece), Some(mut known)) = (self.chains.piece_of(entity), self.take_known(key))
         else {
             return false;

@@ -5,6 +5,7 @@ mod aside;
 mod compare;
 mod contours;
 mod dead_ends;
+mod fits;
 mod fixes;
 mod judge;
 mod known;
@@ -78,6 +79,8 @@ pub struct Analysis {
     answers: FxHashMap<(ContourKey, usize), (Option<NoFix>, Bounds)>,
     /// What the offset of a contour loses, for a side and with or without a neck.
     lost: FxHashMap<ContourKey, Answer>,
+    /// What was found between partners, or of a contour that is cut twice.
+    fits: FxHashMap<(ContourKey, ContourKey), fits::Answer>,
     order: OnceLock<Vec<ContourKey>>,
     outlines: OnceLock<Arc<Vec<Outline>>>,
     /// What there is to be said in all, once it has been asked for.
@@ -87,8 +90,8 @@ pub struct Analysis {
 impl Analysis {
     pub fn new(drawing: &Drawing, settings: Arc<Effective>) -> Analysis {
         let limits = Limits::new(&settings, settings.unit_of(drawing).mm);
-        let chains = Chains::new(drawing, limits.tolerances.join, &|id| {
-            is_cut(drawing, &settings, id)
+        let chains = Chains::of_parts(drawing, limits.tolerances.join, &|id| {
+            contours::part_of(drawing, &settings, id)
         });
         let mut analysis = Analysis {
             settings,
@@ -105,6 +108,7 @@ impl Analysis {
             pairs: Pairs::default(),
             answers: FxHashMap::default(),
             lost: FxHashMap::default(),
+            fits: FxHashMap::default(),
             order: OnceLock::new(),
             outlines: OnceLock::new(),
             tally: OnceLock::new(),
@@ -193,10 +197,10 @@ impl Analysis {
             let is_lone = key.is_some_and(|key| {
                 self.lone.contains_key(&key) || self.as_lone(drawing, key).is_some()
             });
+            let part = contours::part_of(drawing, &self.settings, entity);
             let stays = !is_lone
-                && self
-                    .chains
-                    .same_ends(drawing, entity, is_cut(drawing, &self.settings, entity));
+                && self.chains.same_ends(drawing, entity, part.is_some())
+                && part.is_none_or(|part| self.is_of_part(entity, part));
             let box_of = |analysis: &Analysis| key.and_then(|key| analysis.box_of(key));
             changed.extend(box_of(self).filter(|_| !self.lone.is_empty()));
             if !stays || !self.look_again(drawing, entity, vertices) {
@@ -211,9 +215,9 @@ impl Analysis {
         self.order = OnceLock::new();
         self.pairs.renumber();
         let settings = self.settings.clone();
-        let rechained = self
-            .chains
-            .update(drawing, &moved, &|id| is_cut(drawing, &settings, id));
+        let rechained = self.chains.update_parts(drawing, &moved, &|id| {
+            contours::part_of(drawing, &settings, id)
+        });
         // Thousands of contours with ends in one place are one group, and lie on each other: to forget each of them costs a look at all.
         let gone = rechained.gone.len();
         if gone > MANY && gone * 4 > self.known.len() {
@@ -239,6 +243,7 @@ impl Analysis {
     /// Forgets what has been seen of a contour.
     fn forget(&mut self, key: ContourKey) {
         self.lost.remove(&key);
+        self.forget_fits(key);
         self.notable.remove(&key);
         self.vast.remove(&key);
         if let Some(known) = self.take_known(key) {
@@ -265,6 +270,15 @@ impl Analysis {
         cut.sort_unstable();
         cut.dedup();
         self.learn(drawing, &cut);
+    }
+
+    /// True where the contour of an entity is of a workpiece, and for an entity in none.
+    fn is_of_part(&self, entity: EntityId, part: u16) -> bool {
+        let known = self
+            .chains
+            .contour_of(entity)
+            .and_then(|key| self.known.get(&key));
+        known.is_none_or(|known| known.part == part)
     }
 
     /// True for an entity that is a contour of its own, and in the way of nothing that has been seen of others.
@@ -323,11 +337,13 @@ impl Analysis {
 
     fn outlook<'a>(&'a self, drawing: &'a Drawing, key: ContourKey) -> Option<Outlook<'a>> {
         let contour = self.chains.get(key)?;
+        let known = self.known.get(&key)?;
         Some(Outlook {
             drawing,
             contour,
-            index: &self.known.get(&key)?.index,
+            index: &known.index,
             limits: &self.limits,
+            part: known.part,
         })
     }
 }

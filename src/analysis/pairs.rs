@@ -47,6 +47,8 @@ pub(crate) struct Pairs {
     is_disturbed: bool,
     /// What there is to tell of all that has been seen, while that stays.
     pub(super) told: Option<Arc<Told>>,
+    /// There are workpieces, which do not meet.
+    are_parts: bool,
 }
 
 impl Pairs {
@@ -196,6 +198,7 @@ impl Pairs {
             .filter(|(_, rule)| is_on(rule))
             .map(|(at, rule)| (at, (rule.reach)(limits)))
             .collect();
+        self.are_parts = !settings.workpieces.is_empty();
         self.reach = rules.iter().map(|(_, reach)| *reach).fold(0.0, f64::max);
         self.grid.reserve(runs.len());
         for &run in runs {
@@ -222,6 +225,7 @@ impl Pairs {
             rules: &rules,
             reach: self.reach,
             new: &new,
+            are_parts: self.are_parts,
         };
         let mut kept = Kept::new(outlook);
         let mut all_seen = Vec::new();
@@ -332,7 +336,7 @@ impl Pairs {
                             kept,
                             limits,
                             disc,
-                            each.own_disc.then_some(each.one.0),
+                            (each.one.0, each.own_disc),
                             &mut left,
                         )
                 });
@@ -348,23 +352,28 @@ impl Pairs {
         self.left_to_ask = left;
     }
 
-    /// True when some segment, of one contour or of all, reaches into a disc by more than rounding.
+    /// True when some segment, of one contour alone or of all of its workpiece, reaches into a disc by more than rounding.
     fn reaches_into(
         &self,
         kept: &mut Kept,
         limits: &Limits,
         (center, radius): (Point, f64),
-        of: Option<ContourKey>,
+        (of, is_own): (ContourKey, bool),
         left: &mut u64,
     ) -> bool {
         let radius = radius - (1e-6 * radius).max(limits.tolerances.clearance);
         let area = Bounds::of_disc(center, radius);
         let mut near = Vec::new();
         let looked = self.grid.near(&area, |run| {
-            if of.is_none_or(|key| run.0 == key) {
+            if run.0 == of || !is_own {
                 near.push(run);
             }
         });
+        if self.are_parts {
+            let part = |key: ContourKey| (kept.outlook)(key).map(|it| it.part);
+            let own = part(of);
+            near.retain(|run| part(run.0) == own);
+        }
         *left = left.saturating_sub(looked / BOXES_OF_A_LOOK);
         near.into_iter().any(|run| {
             kept.walls_of(run).is_some_and(|walls| {
@@ -386,6 +395,7 @@ struct Search<'a> {
     rules: &'a [(usize, f64)],
     reach: f64,
     new: &'a FxHashMap<RunId, usize>,
+    are_parts: bool,
 }
 
 /// What a look at one run has seen.
@@ -425,6 +435,9 @@ impl Search<'_> {
             }
         });
         looked.before = boxes / BOXES_OF_A_LOOK;
+        if self.are_parts {
+            near.retain(|other| (kept.outlook)(other.0).is_some_and(|it| it.part == own.part));
+        }
         let Some(walls) = kept.walls_of(run).filter(|_| !near.is_empty()) else {
             return looked;
         };

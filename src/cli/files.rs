@@ -7,7 +7,7 @@ use crate::disk::{self, Seen, plain};
 use crate::document::{Document, Snapshot, Source};
 use crate::drawing::Unit;
 use crate::finding;
-use crate::finding::{Detail, Finding, Place, Rule, Severity};
+use crate::finding::{Detail, Finding, Place, Severity};
 use crate::program::{self, Language};
 use crate::protocol::FindingData;
 use crate::settings::{Effective, Settings, SettingsError};
@@ -165,18 +165,16 @@ fn settings_for(
         let (level, errors) = settings::from_toml(&text);
         settings = settings.overlaid(&level);
         let source = SourceText::new(text.clone().into_bytes());
-        let by_itself = errors
-            .into_iter()
-            .filter(|error| error.rule == Rule::Settings);
+        let by_itself = errors.into_iter().filter(|error| !error.of_levels);
         rows.extend(by_itself.map(|error| settings_row(file, &source, error)));
         sources.push((file, text, source));
     }
     let settings = settings.overlaid(last);
     // What is wrong with the passes shows once all levels lie over each other: in the last file that speaks of them.
-    for error in settings.pass_errors(&|_| None) {
+    for error in settings.contradictions(&|_| None) {
         let place = |(file, text, source): &(&PathBuf, String, SourceText)| {
             let mut own = settings
-                .pass_errors(&|fault| settings::place_in(text, fault))
+                .contradictions(&|fault| settings::place_in(text, fault))
                 .into_iter();
             let own = own.find(|own| own.message == error.message && own.range.is_some())?;
             Some(settings_row(file, source, own))

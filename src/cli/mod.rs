@@ -13,6 +13,7 @@ mod demo;
 mod draw;
 mod explain;
 mod files;
+mod fit;
 mod fix;
 mod format;
 mod generate;
@@ -21,6 +22,7 @@ mod inspect;
 mod man;
 mod options;
 mod output;
+mod pair;
 mod report;
 mod serve;
 mod simulate;
@@ -76,6 +78,8 @@ enum Command {
     Fix(fix::Arguments),
     Format(format::Arguments),
     Generate(generate::Arguments),
+    Pair(pair::Arguments),
+    Fit(fit::Arguments),
     Inspect(inspect::Arguments),
     Draw(draw::Arguments),
     Contours(contours::Arguments),
@@ -192,6 +196,8 @@ pub fn run() -> ExitCode {
         Some(Command::Fix(arguments)) => fix::run(&arguments),
         Some(Command::Format(arguments)) => format::run(&arguments),
         Some(Command::Generate(arguments)) => generate::run(&arguments),
+        Some(Command::Pair(arguments)) => pair::run(&arguments),
+        Some(Command::Fit(arguments)) => fit::run(&arguments),
         Some(Command::Inspect(arguments)) => inspect::run(&arguments),
         Some(Command::Draw(arguments)) => draw::run(&arguments),
         Some(Command::Contours(arguments)) => contours::run(&arguments),

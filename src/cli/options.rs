@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::sync::LazyLock;
 
 /// Groups of options: their heading, the table whose keys they set, and their names.
-const GROUPS: [(&str, &str, &str); 3] = [
+const GROUPS: [(&str, &str, &str); 5] = [
     ("Settings", "", "correction passes side"),
     (
         "Program",
@@ -15,6 +15,8 @@ const GROUPS: [(&str, &str, &str); 3] = [
         "direction corner thread entry lead-in tab order layout compensation digits profile end pause",
     ),
     ("Words", "program.", "end pause"),
+    ("Pair", "pair.", "drawn-as clearance stripper holder"),
+    ("Pair", "", "wire-diameter gap"),
 ];
 
 /// `--passes` is the list of their corrections.
@@ -35,6 +37,22 @@ pub(crate) type Program = Keys<1>;
 
 /// Words of a program.
 pub(crate) type Words = Keys<2>;
+
+/// What is said of a pair.
+#[derive(Args, Clone, Debug, Default)]
+pub(crate) struct Pairing {
+    #[command(flatten)]
+    pair: Keys<3>,
+    #[command(flatten)]
+    wire: Keys<4>,
+}
+
+impl Pairing {
+    /// What the command line says with what it says of the pair: a correction that it states beside the wire holds.
+    pub(crate) fn beside(&self, settings: &Settings) -> Settings {
+        self.wire.0.overlaid(&self.pair.0).overlaid(settings)
+    }
+}
 
 /// What the options of a group set.
 #[derive(Clone, Debug, Default)]
@@ -177,7 +195,7 @@ mod tests {
     #[test]
     fn every_option_is_a_key_of_the_settings() {
         let all = (0..GROUPS.len()).flat_map(options);
-        assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 12);
+        assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 17);
         assert_eq!(row("program.corner").words, ["arc", "intersection"]);
     }
 }

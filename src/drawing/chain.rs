@@ -15,6 +15,7 @@ use super::{Contour, Drawing, EntityId, Piece, Role};
 use crate::geometry::Point;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeMap;
 
 /// Up to so many entities are put in order without a look at all others.
 const FEW: usize = 16;
@@ -66,6 +67,15 @@ pub struct Rechained {
 impl Chains {
     /// Chains every entity of `drawing` for which `is_cut` holds; `join` is the join tolerance in drawing units.
     pub fn new(drawing: &Drawing, join: f64, is_cut: &dyn Fn(EntityId) -> bool) -> Chains {
+        Chains::of_parts(drawing, join, &|id| is_cut(id).then_some(0))
+    }
+
+    /// The same where the entities are of several parts, which are not joined to each other: the number of its part for each that is cut.
+    pub fn of_parts(
+        drawing: &Drawing,
+        join: f64,
+        part_of: &dyn Fn(EntityId) -> Option<u16>,
+    ) -> Chains {
         let mut chains = Chains {
             cells: Cells::new(join),
             ends: None,
@@ -82,7 +92,7 @@ impl Chains {
             .order()
             .iter()
             .copied()
-            .filter(|&id| is_cut(id))
+            .filter(|&id| part_of(id).is_some())
             .collect();
         let ends: Vec<Ends> = entities
             .par_iter()
@@ -91,7 +101,7 @@ impl Chains {
         for (id, ends) in entities.iter().zip(ends) {
             chains.ends_of[id.0 as usize] = ends;
         }
-        chains.chain(drawing, &entities);
+        chains.chain(drawing, &entities, part_of);
         chains
     }
 
@@ -186,6 +196,17 @@ impl Chains {
         touched: &[EntityId],
         is_cut: &dyn Fn(EntityId) -> bool,
     ) -> Rechained {
+        self.update_parts(drawing, touched, &|id| is_cut(id).then_some(0))
+    }
+
+    /// The same of [`Chains::of_parts`].
+    pub fn update_parts(
+        &mut self,
+        drawing: &Drawing,
+        touched: &[EntityId],
+        part_of: &dyn Fn(EntityId) -> Option<u16>,
+    ) -> Rechained {
+        let is_cut = |id: EntityId| part_of(id).is_some();
         self.grow(drawing);
         let mut entities = FxHashSet::default();
         let distinct: FxHashSet<EntityId> = touched.iter().copied().collect();
@@ -255,7 +276,7 @@ impl Chains {
             }
         }
         let ordered = in_machining_order(drawing, entities);
-        rechained.new = self.chain(drawing, &ordered);
+        rechained.new = self.chain(drawing, &ordered, part_of);
         rechained
     }
 
@@ -299,9 +320,39 @@ impl Chains {
     }
 
     /// Groups and chains `entities`, which come in machining order and hold whole groups. Returns the new contours.
-    fn chain(&mut self, drawing: &Drawing, entities: &[EntityId]) -> Vec<Key> {
+    fn chain(
+        &mut self,
+        drawing: &Drawing,
+        entities: &[EntityId],
+        part_of: &dyn Fn(EntityId) -> Option<u16>,
+    ) -> Vec<Key> {
+        let mut parts: BTreeMap<Option<u16>, Vec<EntityId>> = BTreeMap::new();
+        let first = entities.first().and_then(|&id| part_of(id));
+        if entities.iter().any(|&id| part_of(id) != first) {
+            for &id in entities {
+                parts.entry(part_of(id)).or_default().push(id);
+            }
+        }
+        if parts.len() < 2 {
+            let joints = Joints::new(drawing, self.cells, entities, &self.ends_of);
+            let new = self.link(drawing, entities, &joints);
+            self.group(entities, &joints);
+            return new;
+        }
+        let mut new = Vec::new();
+        for of_part in parts.values() {
+            let joints = Joints::new(drawing, self.cells, of_part, &self.ends_of);
+            new.extend(self.link(drawing, of_part, &joints));
+        }
+        // What hangs together is chained again together, whatever it is of.
         let joints = Joints::new(drawing, self.cells, entities, &self.ends_of);
-        let linked = Linked::new(drawing, entities, &self.ends_of, &joints);
+        self.group(entities, &joints);
+        new
+    }
+
+    /// Makes contours of entities with these joints.
+    fn link(&mut self, drawing: &Drawing, entities: &[EntityId], joints: &Joints) -> Vec<Key> {
+        let linked = Linked::new(drawing, entities, &self.ends_of, joints);
         let mut new = Vec::with_capacity(linked.ways.len());
         for way in &linked.ways {
             let key = self.fresh_key();
@@ -324,10 +375,14 @@ impl Chains {
             );
             new.push(key);
         }
-        for (one, other) in self.neighbours(entities, &joints) {
+        new
+    }
+
+    /// Makes groups of the contours of entities.
+    fn group(&mut self, entities: &[EntityId], joints: &Joints) {
+        for (one, other) in self.neighbours(entities, joints) {
             self.unite(one, other);
         }
-        new
     }
 
     /// Contours with an end in one cell, or in cells beside each other near the border.

@@ -131,6 +131,11 @@ pub enum FixKind {
     Fillet {
         radius: f64,
     },
+    /// The corner of a part gets the least `radius` that fits, that of its partner the `other`, where it is drawn.
+    FitCorner {
+        radius: f64,
+        other: Option<f64>,
+    },
     /// The ends of an open contour are joined by a line of `length`, or become one where it is 0.
     Close {
         length: f64,

@@ -73,6 +73,15 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
                 mm(uncut * unit_mm)
             )
         }
+        Detail::DoesNotFit(misfit) => say!(
+            the_parts_bind_here,
+            misfit.of,
+            misfit.partner,
+            -misfit.clearance * unit_mm * 1e3,
+            misfit.corner_of,
+            misfit.wanted * unit_mm * 1e3
+        ),
+        Detail::NoPartner { of } => say!(the_contour_has_no_partner, of),
         Detail::OffsetCollapse {
             required,
             point: true,
@@ -222,6 +231,7 @@ pub(crate) fn related(finding: &Finding, handle: &str, segment: Option<usize>) -
         |segment| say!(segment, handle, segment),
     );
     match finding.detail {
+        Detail::DoesNotFit(ref misfit) => say!(its_partner, misfit.partner, place),
         Detail::NarrowSlot { .. } => say!(the_facing_wall, place),
         Detail::DeadEnd { .. } => say!(the_wire_comes_no_further_than_here, place),
         Detail::DuplicateEntity => say!(the_same_place, place),

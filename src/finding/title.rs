@@ -31,6 +31,23 @@ pub(crate) fn title(kind: &FixKind, unit_mm: f64) -> String {
         FixKind::Fillet { radius } => {
             say!(round_the_corner_with_r_mm, mm(radius * unit_mm))
         }
+        FixKind::FitCorner {
+            radius,
+            other: None,
+        } => {
+            say!(
+                give_the_corner_the_least_radius_that_fits,
+                mm(radius * unit_mm)
+            )
+        }
+        FixKind::FitCorner {
+            radius,
+            other: Some(other),
+        } => say!(
+            give_both_corners_radii_that_fit,
+            mm(radius * unit_mm),
+            mm(other * unit_mm)
+        ),
         FixKind::Close { length: 0.0 } => say!(close_the_contour).into(),
         FixKind::Close { length } => {
             say!(close_the_contour_with_a_line_of_mm, mm(length * unit_mm))

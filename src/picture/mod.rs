@@ -8,6 +8,7 @@
 //! written about it, `fine` what is too small to be seen at this size. What stands for a segment says so in `data-handle` and `data-segment`.
 
 mod figure;
+mod fit;
 mod lens;
 mod marks;
 mod program;
@@ -15,6 +16,7 @@ mod sheet;
 mod style;
 mod subject;
 
+pub(crate) use fit::fit_svg;
 pub(crate) use program::program_svg;
 
 use crate::drawing::{Drawing, Outline};

@@ -64,12 +64,12 @@ pub(crate) struct FindingData {
     /// The point where two segments meet, or near which a part is lost.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) at: Option<Point>,
-    /// Width of a slot, distance of two ends, or deviation of chords from their circle.
+    /// Width of a slot, distance of two ends, deviation of chords from their circle, or the clearance left between two parts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) distance: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) length: Option<f64>,
-    /// Kind of entity that is not cut.
+    /// Kind of entity that is not cut, or the part of a pair.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) kind: Option<String>,
     /// How many the finding stands for.
@@ -144,6 +144,13 @@ impl FindingData {
             Detail::OpenContour { distance } | Detail::Gap { distance } => {
                 data.distance = Some(*distance)
             }
+            Detail::DoesNotFit(misfit) => {
+                data.at = Some(misfit.at.into());
+                data.distance = Some(misfit.clearance);
+                data.required = Some(misfit.wanted);
+                data.kind = Some(misfit.of.to_string());
+            }
+            Detail::NoPartner { of } => data.kind = Some(of.to_string()),
             Detail::Unwritable(_) => {}
             Detail::NotJudged(what) => data.count = left_out(what),
             Detail::DuplicateEntity => {}

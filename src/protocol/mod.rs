@@ -8,6 +8,7 @@ mod contours;
 mod data;
 mod diagnostic;
 mod drawing;
+mod fit;
 mod generate;
 mod in_force;
 mod inspection;
@@ -27,6 +28,7 @@ pub(crate) use diagnostic::{
     CodeDescription, Diagnostic, Location, Position, Range, RelatedInformation, severity_number,
 };
 pub(crate) use drawing::Drawing;
+pub(crate) use fit::{Fit, FitAlone, FitPlace, PairProgram, PairPrograms};
 pub(crate) use generate::{Generate, Program, Refused};
 pub(crate) use in_force::{CorrectionSource, SettingsInForce};
 pub use inspection::Inspection;
@@ -57,6 +59,8 @@ pub(crate) mod method {
     pub(crate) const CONTOURS: &str = "wedm/contours";
     pub(crate) const TOOLPATH: &str = "wedm/toolpath";
     pub(crate) const PICTURE: &str = "wedm/picture";
+    pub(crate) const FIT: &str = "wedm/fit";
+    pub(crate) const PAIR: &str = "wedm/pair";
     pub(crate) const SIMULATE: &str = "wedm/simulate";
     pub(crate) const LOCATE: &str = "wedm/locate";
     pub(crate) const SETTINGS: &str = "wedm/settings";

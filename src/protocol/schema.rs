@@ -19,6 +19,12 @@ pub fn schema() -> Value {
         method::CONTOURS: { "params": of::<DrawingName>(&mut types), "result": of::<Contours>(&mut types) },
         method::TOOLPATH: { "params": of::<OptionsOf>(&mut types), "result": of::<Toolpath>(&mut types) },
         method::PICTURE: { "params": of::<OptionsOf>(&mut types), "result": of::<Picture>(&mut types) },
+        method::FIT: { "params": of::<OptionsOf>(&mut types), "result": of::<Fit>(&mut types), "errorData": of::<Refused>(&mut types) },
+        method::PAIR: {
+            "params": of::<Generate>(&mut types),
+            "result": of::<PairPrograms>(&mut types),
+            "errorData": of::<Refused>(&mut types),
+        },
         method::SIMULATE: { "params": of::<Simulate>(&mut types), "result": of::<Simulation>(&mut types) },
         method::LOCATE: { "params": of::<Locate>(&mut types), "result": of::<Option<Located>>(&mut types) },
         method::SETTINGS: { "params": of::<DrawingName>(&mut types), "result": of::<SettingsInForce>(&mut types) },
@@ -120,6 +126,7 @@ fn place_of(row: &Row) -> (&'static str, &str) {
         Some(("passes", key)) => ("Passes", key),
         Some(("program", key)) => ("ProgramSettings", key),
         Some(("job", key)) => ("JobSettings", key),
+        Some(("pair", key)) => ("PairSettings", key),
         Some((_, key)) => ("ProfileSettings", key),
         None => ("Settings", row.key.as_str()),
     }

@@ -79,6 +79,8 @@ pub(crate) struct Outlook<'a> {
     pub(crate) contour: &'a Contour,
     pub(crate) index: &'a ContourIndex,
     pub(crate) limits: &'a Limits,
+    /// The number of its workpiece: contours of others do not meet it.
+    pub(crate) part: u16,
 }
 
 impl Outlook<'_> {

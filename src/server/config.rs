@@ -1,6 +1,5 @@
 //! The levels of settings, and which `wedm.toml` holds for which document.
 
-use crate::finding::Rule;
 use crate::settings::{
     Effective, FILE_NAME, Settings, SettingsError, from_json, from_toml, place_in,
     read_file as read_settings,
@@ -74,8 +73,8 @@ impl Config {
             Level::Pushed => self.pushed = settings,
             Level::Pulled => self.pulled = settings,
         }
-        errors.retain(|error| error.rule == Rule::Settings);
-        errors.extend(self.settings_for(None).pass_errors(&|_| None));
+        errors.retain(|error| !error.of_levels);
+        errors.extend(self.settings_for(None).contradictions(&|_| None));
         let sentences: Vec<String> = errors
             .iter()
             .map(|error| say!(settings_in, level.name(), error.message))
@@ -131,10 +130,10 @@ impl Config {
     /// What is wrong in a project's file whose text is `text`, by itself and beside what the client says.
     pub(crate) fn errors_in(&self, text: &str) -> Vec<SettingsError> {
         let (settings, mut errors) = from_toml(text);
-        errors.retain(|error| error.rule == Rule::Settings);
+        errors.retain(|error| !error.of_levels);
         let all = self.settings_for(None).overlaid(&settings);
         errors.extend(
-            all.pass_errors(&|fault| place_in(text, fault))
+            all.contradictions(&|fault| place_in(text, fault))
                 .into_iter()
                 .filter(|error| error.range.is_some()),
         );

@@ -10,7 +10,7 @@ use super::token_memory::TokenMemory;
 use super::transport::panic_text;
 use crate::document::{self, Document, Source};
 use crate::dxf;
-use crate::finding::{Rule, Severity};
+use crate::finding::Severity;
 use crate::ide::Whole;
 use crate::ide::dxf::{Name, name_at};
 use crate::program;
@@ -427,7 +427,7 @@ fn with_options(
     let misfit =
         |error: &SettingsError| Err(Error::invalid_params(format!("options: {}", error.message)));
     let (settings, errors) = from_json(options);
-    if let Some(error) = errors.iter().find(|error| error.rule == Rule::Settings) {
+    if let Some(error) = errors.iter().find(|error| !error.of_levels) {
         return misfit(error);
     }
     let file = state.file_for(uri);
@@ -437,11 +437,11 @@ fn with_options(
     // What is wrong without the options is said elsewhere.
     let is_wrong_already = || {
         of_document
-            .pass_errors(&|_| None)
+            .contradictions(&|_| None)
             .iter()
             .any(|error| is_error(&error))
     };
-    match all.pass_errors(&|_| None).iter().find(is_error) {
+    match all.contradictions(&|_| None).iter().find(is_error) {
         Some(error) if !is_wrong_already() => misfit(error),
         _ => Ok(Some(Arc::new(Effective::of_document(
             &all,

@@ -76,6 +76,8 @@ own_requests! {
     toolpath: method::TOOLPATH, protocol::DrawingName, Document, laying_the_wires_path => toolpath::toolpath;
     picture: method::PICTURE, protocol::DrawingName, Document, drawing_the_picture => picture::picture;
     generate: method::GENERATE, generate::Params, Long, generating_the_program => generate::generate;
+    fit: method::FIT, protocol::DrawingName, Document, holding_the_parts_in_each_other => pair::fit;
+    pair: method::PAIR, generate::Params, Long, generating_the_programs => pair::pair;
     simulate: method::SIMULATE, protocol::Simulate, Document, following_the_program => simulate::simulate;
     locate: method::LOCATE, protocol::Locate, Place, locating => locate::locate;
 }

@@ -1,8 +1,9 @@
 //! Settings with every default filled in.
 
 use super::{
-    Budget, Compensation, Corner, Direction, JobSettings, Jumps, Layout, Order, Passes,
-    PointSetting, Profile, RuleSeverity, Sequence, Settings, SideSetting, SkimCorner, UnitSetting,
+    Budget, Compensation, Corner, Direction, JobSettings, Jumps, Layout, Order, PairSettings,
+    Passes, PointSetting, Profile, RuleSeverity, Sequence, Settings, SideSetting, SkimCorner,
+    UnitSetting, Workpieces,
 };
 use crate::drawing::{Color, Role, Unit};
 use crate::finding::{Finding, Rule, Severity};
@@ -61,6 +62,11 @@ pub struct Effective {
     /// mm past the start.
     pub closing_overlap: f64,
     pub job: JobSettings,
+    /// What is set of a pair.
+    pub pair: PairSettings,
+    pub workpieces: Workpieces,
+    /// Nothing but this workpiece is cut.
+    pub only: Option<u16>,
     pub order: Order,
     pub jumps: Jumps,
     /// The wire stays threaded on the way from one contour to the next: that way cuts, too. A format says so whose programs do not stop.
@@ -168,6 +174,9 @@ impl Effective {
             tab_stop: program.tab_stop.clone(),
             closing_overlap: program.closing_overlap(),
             job: settings.job.clone().unwrap_or_default(),
+            pair: settings.pair.clone().unwrap_or_default(),
+            workpieces: Workpieces::of(settings),
+            only: None,
             order: program.order(),
             jumps: program.jumps(),
             stays_threaded: false,

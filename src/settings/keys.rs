@@ -7,8 +7,9 @@ use super::row::{Range, Row};
 use super::table::{Overlay, as_toml, kebab_case};
 use super::value::Node;
 use super::{
-    CenterRule, Compensation, Coordinates, Corner, Direction, Jumps, Layout, LineEnd, NumberUnit,
-    Order, PointSetting, RuleSeverity, Sequence, SideSetting, SkimCorner, UnitSetting, Zero,
+    CenterRule, Compensation, Coordinates, Corner, Direction, DrawnAs, Jumps, Layout, LineEnd,
+    NumberUnit, Order, PointSetting, RuleSeverity, Sequence, SideSetting, SkimCorner, UnitSetting,
+    Zero,
 };
 use crate::drawing::Role;
 use schemars::JsonSchema;
@@ -76,6 +77,12 @@ tables! {
         program: ProgramSettings => table;
         /// The workpiece.
         job: JobSettings => table;
+        /// A punch and its plate.
+        pair: PairSettings => table;
+        /// Parts that are drawn in one place and never meet in one rule, each by its name with the layers it is drawn on; what is on no layer
+        /// of them is a part of its own. With `pair.clearance`, parts are held against each other:
+        /// [`does-not-fit`](rules/does-not-fit.md).
+        workpieces: BTreeMap<String, Vec<String>> => layers_by_name;
         /// [Profiles](programs.md#profiles) of ISO programs of your own, by name.
         profiles: BTreeMap<String, ProfileSettings> => tables;
     }
@@ -166,6 +173,20 @@ tables! {
         slug_limit: f64 => number in Range::FROM_ZERO;
     }
 
+    /// A punch and its plate: corrections that follow from their clearance, and the fit.
+    PairSettings() {
+        /// The part whose size is drawn where each contour is cut twice, once from outside as the punch and once from inside as the plate.
+        #[serde(alias = "drawn-as")]
+        drawn_as: DrawnAs => name;
+        /// Clearance between punch and plate, mm a side. The part that is not drawn is cut with a correction smaller by it. It asks for the
+        /// fit, [`does-not-fit`](rules/does-not-fit.md), which needs `wire-diameter` and `gap`.
+        clearance: f64 => number in Range::ABOVE_ZERO;
+        /// Clearance of the stripper about the punch, mm a side.
+        stripper: f64 => number in Range::FROM_ZERO;
+        /// By how much the holder is tighter than the punch, mm a side.
+        holder: f64 => number in Range::FROM_ZERO;
+    }
+
     /// What somebody has set of a profile.
     ProfileSettings(as Profile, name: String) {
         /// The profile whose values hold where none is set: one that ships, `generic` by default.
@@ -212,12 +233,13 @@ tables! {
 
 /// Every key, in the order of the documentation.
 pub fn rows() -> Vec<Row> {
-    let tables = ["passes", "program", "job"];
+    let tables = ["passes", "program", "job", "pair"];
     let mut rows = Settings::rows("");
     rows.retain(|row| !tables.contains(&row.key.as_str()));
     rows.extend(Passes::rows("passes."));
     rows.extend(ProgramSettings::rows("program."));
     rows.extend(JobSettings::rows("job."));
+    rows.extend(PairSettings::rows("pair."));
     rows.extend(DrawingSettings::rows("drawings.NAME."));
     rows.extend(ProfileSettings::rows("profiles.NAME."));
     rows

@@ -11,6 +11,7 @@ mod from_toml;
 mod table;
 mod keep;
 mod keys;
+mod pair;
 mod passes;
 mod profile;
 mod reader;
@@ -23,8 +24,11 @@ pub(crate) use from_json::from_json;
 pub use from_toml::from_toml;
 pub(crate) use from_toml::{FILE_NAME, place_in, read_file};
 pub(crate) use keep::{as_lines, keep, table_of_suppressions};
-pub(crate) use keys::{JobSettings, Passes, Profile, ProfileSettings, ProgramSettings};
+pub(crate) use keys::{
+    JobSettings, PairSettings, Passes, Profile, ProfileSettings, ProgramSettings,
+};
 pub use keys::{Settings, rows};
+pub(crate) use pair::{MissingForFit, Partners, Use, Workpieces};
 pub(crate) use passes::{PassFault, pass_faults, passes_table};
 pub use profile::shipped_profiles;
 pub(crate) use profile::{CenterRule, Coordinates, LineEnd, NumberUnit, Zero};
@@ -159,6 +163,16 @@ pub enum SkimCorner {
     ConstantStock,
 }
 
+/// Which part of a pair is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum DrawnAs {
+    /// What is drawn is the punch.
+    Punch,
+    /// What is drawn is the opening of the plate.
+    Plate,
+}
+
 /// Where the correction is applied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -205,7 +219,7 @@ pub enum PointSetting {
 
 plain! {
     bool, f64, u8, u32, String, Vec<f64>, Vec<String>, Role, RuleSeverity, PointSetting, SideSetting, UnitSetting, Layout, Direction,
-    Corner, Order, Jumps, Sequence, SkimCorner, Compensation, CenterRule, Coordinates, Zero, NumberUnit, LineEnd,
+    Corner, Order, Jumps, Sequence, SkimCorner, Compensation, DrawnAs, CenterRule, Coordinates, Zero, NumberUnit, LineEnd,
 }
 
 impl Settings {
@@ -225,8 +239,22 @@ impl Settings {
         laid
     }
 
-    /// What is wrong with the corrections of the passes once all levels are laid over each other. `place` says where a text speaks of it.
-    pub(crate) fn pass_errors(
+    /// What contradicts itself once all levels are laid over each other: the corrections of the passes, and what is said of a pair. `place`
+    /// says where a text speaks of it.
+    pub(crate) fn contradictions(
+        &self,
+        place: &dyn Fn(&PassFault) -> Option<std::ops::Range<usize>>,
+    ) -> Vec<SettingsError> {
+        let of_pair = pair::faults(self).into_iter().map(|fault| SettingsError {
+            of_levels: true,
+            ..SettingsError::new(fault.key, fault.message.clone(), place(&fault))
+        });
+        let mut errors = self.pass_errors(place);
+        errors.extend(of_pair);
+        errors
+    }
+
+    fn pass_errors(
         &self,
         place: &dyn Fn(&PassFault) -> Option<std::ops::Range<usize>>,
     ) -> Vec<SettingsError> {
@@ -249,6 +277,7 @@ impl Settings {
             message: fault.message,
             rule,
             severity,
+            of_levels: true,
         };
         faults.into_iter().map(error).collect()
     }
@@ -265,6 +294,8 @@ pub struct SettingsError {
     /// What it is reported as: `settings`, or `pass-order`.
     pub(crate) rule: Rule,
     pub(crate) severity: Severity,
+    /// It shows only once all levels are laid over each other: of one level alone it says nothing.
+    pub(crate) of_levels: bool,
 }
 
 impl SettingsError {
@@ -280,6 +311,7 @@ impl SettingsError {
             range,
             rule: Rule::Settings,
             severity: Rule::Settings.default_severity(),
+            of_levels: false,
         }
     }
 }

@@ -22,7 +22,7 @@ pub(super) trait Table: Default {
 pub(super) fn read(root: &Node) -> (Settings, Vec<SettingsError>) {
     let mut reader = Reader::default();
     let mut settings: Settings = reader.table("", root).unwrap_or_default();
-    let errors = settings.pass_errors(&|fault| place_of(root, fault));
+    let errors = settings.contradictions(&|fault| place_of(root, fault));
     reader.errors.extend(errors);
     reader.refuse_unknown_profile(&mut settings, root);
     (settings, reader.errors)
@@ -127,6 +127,21 @@ impl Reader {
             return self.complain(key, node, say!(is_empty_expected, key, expected));
         }
         Some(reason)
+    }
+
+    /// Names of layers by a name.
+    pub fn layers_by_name(
+        &mut self,
+        key: &str,
+        node: &Node,
+    ) -> Option<BTreeMap<String, Vec<String>>> {
+        let misfit = |_: &str| None;
+        self.by_name(key, node, misfit, |reader, key, node| {
+            let expected = say!(a_list_of_layers);
+            reader.texts(key, node, expected, |reader, key, node| {
+                reader.text(key, node, say!(the_name_of_a_layer))
+            })
+        })
     }
 
     /// Values by name. `misfit` says which names are expected where one is not known.
@@ -451,8 +466,17 @@ fn distance(one: &str, other: &str) -> usize {
 
 /// The value that a fault of the passes speaks of, else what else the tree says about the passes.
 pub(super) fn place_of(root: &Node, fault: &PassFault) -> Option<std::ops::Range<usize>> {
-    let named = fault.key.rsplit('.').next().unwrap_or_default();
-    let list = entry_of(root, "passes").and_then(|entry| entry_of(&entry.node, named));
+    let (table, named) = fault.key.split_once('.').unwrap_or(("passes", fault.key));
+    let named = snake_case(named);
+    let list = entry_of(root, table).and_then(|entry| match fault.pass {
+        // A key of its own, of which there is one value.
+        usize::MAX if table == "pair" => entry_of(&entry.node, &named),
+        _ if table == "workpieces" => Some(entry),
+        _ => entry_of(&entry.node, &named),
+    });
+    if ["pair", "workpieces"].contains(&table) {
+        return list.and_then(|entry| entry.key_range.clone());
+    }
     let of_list = list.and_then(|entry| match &entry.node.value {
         Value::List(items) => items.get(fault.pass).unwrap_or(&entry.node).range.clone(),
         _ => None,

@@ -5,7 +5,7 @@ use crate::geometry::{
 };
 
 /// Walls in boxes of boxes over their order along the contour, in which neighbours lie together.
-pub(super) struct Walls {
+pub(crate) struct Walls {
     segments: Vec<Segment>,
     /// Boxes of `FAN` segments, then boxes of `FAN` of those, up to one.
     levels: Vec<Vec<Bounds>>,
@@ -103,7 +103,7 @@ impl Walls {
 }
 
 /// Smallest distance between two segments, 0 where they cross or touch.
-pub(super) fn distance_between(a: &Segment, b: &Segment) -> f64 {
+pub(crate) fn distance_between(a: &Segment, b: &Segment) -> f64 {
     let ends = a
         .distance_to(b.start())
         .min(a.distance_to(b.end()))

@@ -14,6 +14,7 @@ mod leads;
 mod loops;
 mod offset;
 mod order;
+mod part;
 mod path;
 mod paths;
 mod proof;
@@ -22,7 +23,9 @@ mod tab;
 mod tests;
 mod wanted;
 
+pub(crate) use clearance::{Walls, distance_between};
 pub(crate) use finished::Finished;
+pub(crate) use part::{Cutting, Part, part};
 pub use path::{PathSegment, Refusal, Source, WirePath};
 
 use crate::drawing::{Drawing, EntityId, Outline};

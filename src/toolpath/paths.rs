@@ -360,7 +360,7 @@ impl Job<'_> {
     }
 
     /// The path of a pass behind the first: beside the contour, or where the corners are to have a constant stock beside the first path.
-    fn skim(
+    pub(super) fn skim(
         &self,
         walls: &[Wall],
         own: &Walls,

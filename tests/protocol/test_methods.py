@@ -109,6 +109,9 @@ FORMAT = {"options": {"tabSize": 4, "insertSpaces": True}}
 #: The line, from 0, of the bulge at fault in tight_fillet.dxf.
 BULGE = 41
 
+#: A contour that is cut twice.
+PAIR = {"side": "both", "wireDiameter": 0.18, "gap": 0.01, "pair": {"drawnAs": "punch", "clearance": 0.01}}
+
 CASES = [
     Case("textDocument/hover", DXF, {"contents": anything, "range": anything}, at(BULGE, 2)),
     Case("textDocument/hover", PROGRAM, {"contents": anything}, at(2, 6)),
@@ -159,6 +162,8 @@ CASES = [
     Case("wedm/rulePage", DXF, {"text": anything}, {"rule": "small-radius"}),
     Case("wedm/settings", DXF, {"correction": near(0.1), "correctionFrom": "default", "side": "both"}),
     Case("wedm/generate", "cad:clean", {"program": text("B", "DD"), "blocks": anything, "warnings": some({"code": "sharp-corner"})}, {"format": "3b"}),
+    Case("wedm/fit", DXF, {"fits": False, "clearance": near(0.01), "places": some({"handle": "2A", "of": "plate"}), "svg": text("<svg")}, {"options": PAIR}),
+    Case("wedm/pair", DXF, {"programs": [{"part": "punch", "corrections": [near(0.1)]}, {"part": "plate", "program": text("DD")}]}, {"format": "3b", "force": True, "options": PAIR}),
     Case("wedm/simulate", PROGRAM, {"blocks": anything}),
 ]
 
@@ -287,6 +292,9 @@ REFUSALS = [
     ("wedm/contours", {"uri": PROGRAM}, -32803, "is a program, expected a drawing"),
     ("wedm/picture", {"uri": CAD, "options": {"correction": "wide"}}, -32602, "correction"),
     ("wedm/picture", {"uri": CAD, "options": {"nosuch": 1}}, -32602, "nosuch"),
+    ("wedm/fit", {"uri": CAD}, -32803, "expected pair.drawn-as, pair.clearance, wire-diameter and gap to be set"),
+    ("wedm/fit", {"uri": CAD, "options": {"pair": {"clearance": 0.01, "drawnAs": "punch"}}}, -32602, "expected wire-diameter and gap beside it"),
+    ("wedm/pair", {"uri": DXF, "format": "3b", "options": PAIR}, -32803, "error"),
     ("wedm/simulate", {"uri": CAD}, -32803, "is a drawing, expected a program"),
     ("wedm/simulate", {"uri": PROGRAM, "feed": "fast"}, -32602, "fast"),
     ("wedm/simulate", {"uri": PROGRAM, "feed": -1}, -32602, "feed is -1, expected mm/min above 0"),

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from wedm_client import Outdated, Polyline, Put, Refused, RequestFailed, Server, TextDocument
+from wedm_client import Outdated, Polyline, Put, Refused, RequestFailed, Server, Settings, TextDocument
 
 from .plates import ROUND, TIGHT
 
@@ -110,6 +110,25 @@ def test_the_settings_in_force(data: Path, tmp_path: Path) -> None:
         assert found.file == (tmp_path / "below/wedm.toml").as_uri()
 
 
+PAIR: Settings = {"side": "both", "wire_diameter": 0.18, "gap": 0.01, "pair": {"drawn_as": "punch", "clearance": 0.01}}
+
+
+def test_a_pair_has_a_fit_and_programs_of_both_parts() -> None:
+    with Server() as server:
+        sharp = server.open([Polyline([(0, 0), (20, 0), (20, 10), (0, 10)], handle="2A")])
+        fit = server.fit(sharp, PAIR)
+        assert not fit.fits and len(fit.places) == 4 and fit.svg.startswith("<svg")
+        assert fit.least == pytest.approx(0.01 - 0.4142136 * 0.09, abs=1e-7)
+        assert {(place.handle, place.of) for place in fit.places} == {("2A", "plate")}
+        with pytest.raises(Refused):
+            server.pair(sharp, options=PAIR)
+        with pytest.raises(Refused, match="pair.clearance"):
+            server.fit(sharp)
+        parts = server.pair(sharp, options=PAIR, force=True)
+        assert [(part.part, part.corrections) for part in parts] == [("punch", pytest.approx([0.1])), ("plate", pytest.approx([0.09]))]
+        assert all(part.text and part.blocks for part in parts)
+
+
 # The call for each method that a client asks. What else there is, opening, changing and closing, is tested with the drawings.
 CALLS: dict[str, Callable[[Server, dict[str, Any]], Any]] = {
     "wedm/inspect": lambda server, open: server.inspect(open["drawing"]),
@@ -118,6 +137,8 @@ CALLS: dict[str, Callable[[Server, dict[str, Any]], Any]] = {
     "wedm/picture": lambda server, open: server.picture(open["drawing"]),
     "wedm/simulate": lambda server, open: server.simulate(open["program"]),
     "wedm/locate": lambda server, open: server.locate(open["text"], 1),
+    "wedm/fit": lambda server, open: server.fit(open["drawing"], PAIR),
+    "wedm/pair": lambda server, open: server.pair(open["drawing"], options=PAIR),
     "wedm/settings": lambda server, open: server.settings(open["drawing"]),
     "wedm/generate": lambda server, open: server.generate(open["drawing"]),
     "wedm/rulePage": lambda server, open: server.rule_page("small-radius"),

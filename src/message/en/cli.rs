@@ -13,6 +13,15 @@ declare! {
     its_name_has_no_ending(endings, last) => "its name has no ending, expected {endings} or {last}";
     its_name_ends_otherwise(ending) => "its name ends with .{ending}, expected .dxf, .3b, .iso or .nc";
     note => "note:";
+    the_fit_is_drawn_as_svg => "the fit is drawn as .svg";
+    the_fit_is_not_known(path, errors) => "{path}: whether the parts fit is not known, the drawing has {errors}";
+    heading_of_the_fit => "   µm left  part       handle     segment  at";
+    a_contour_has_no_partner(handle, name) => "contour {handle} of workpiece {name} has no partner";
+    it_fits(fits, least, wanted, places) => "{fits}: {least:.1} µm of {wanted:.1} are left where it is tightest, clearance is missing at {places}";
+    it_does_not_fit(fits, least, wanted, places) => "{fits}: {least:.1} µm of {wanted:.1} are left where it is tightest, clearance is missing at {places}";
+    the_program_is_there_already => "it is there already, expected a folder without it, or --overwrite";
+    the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}: {part}, correction {corrections} mm, {blocks}, {length:.3} mm";
+    the_wire_runs_on_the_other_side(part) => "      {part}: the clearance is larger than the correction, so the wire runs on the other side of what is drawn";
     drawn_without_the_path(note, reason) => "{note} drawn without the path of the wire: {reason}";
     a_program_is_drawn_as_svg(path, word) => "{path}: a program is drawn as .svg; as a drawing: wedm convert {word} -o OUT.dxf";
     a_picture_that_is_not_written(ending) => ".{ending} is not written, expected .svg or .dxf";

@@ -48,6 +48,7 @@ declare! {
     suppress_here_with_a_reason(rule) => "Suppress {rule} here, with a reason (wedm.toml)";
     ignore_the_layer(layer) => "Ignore layer {layer} (wedm.toml)";
     segment(handle, segment) => "{handle}, segment {segment}";
+    its_partner(partner, place) => "the {partner}: {place}";
     the_facing_wall(place) => "the facing wall: {place}";
     the_wire_comes_no_further_than_here(place) => "the wire comes no further than here: {place}";
     the_same_place(place) => "the same place: {place}";
@@ -60,6 +61,8 @@ declare! {
     arc => "arc";
     replace_arcs_by_one_of_r(what, radius, moved) => "Replace the {what} by one of R {radius} mm (moves the contour by {moved} mm)";
     keep_the_end_points_change_only_the_bulge_to_r(radius, kink) => "Keep the end points, change only the bulge to R {radius} mm (kinks the contour by {kink:.1}° at each end, does not reduce the overcut)";
+    give_the_corner_the_least_radius_that_fits(radius) => "Give the corner R {radius} mm, the least that fits";
+    give_both_corners_radii_that_fit(radius, other) => "Give the corners R {radius} mm and R {other} mm, the least that fit";
     round_the_corner_with_r_mm(radius) => "Round the corner with R {radius} mm";
     close_the_contour => "Close the contour";
     close_the_contour_with_a_line_of_mm(length) => "Close the contour with a line of {length} mm";
@@ -198,6 +201,8 @@ declare! {
     there_is_no_neighbour_on_both_sides_that_a_larger => "; there is no neighbour on both sides that a larger arc could be tangent to";
     repair_it_in_the_drawing_and_make_the_program_again => "; repair it in the drawing, and make the program again";
     it_is_part_of_an_entity_that_cannot_be_edited_here => "; it is part of an entity that cannot be edited here";
+    the_parts_bind_here(of, partner, depth, corner_of, wanted) => "{of} and {partner} bind here by {depth:.1} µm: the wire leaves too much in this corner of the {corner_of} for a clearance of {wanted:.1} µm";
+    the_contour_has_no_partner(of) => "no contour of another workpiece runs beside this one of {of} within five clearances: it has no partner";
     touches_itself_or_another => "touches itself or another";
     crosses_itself_or_another => "crosses itself or another";
     line => "line";

@@ -94,6 +94,16 @@ declare! {
     leads_nowhere => "leads nowhere";
     listing_radii => "Listing radii";
     listing_contours => "Listing contours";
+    holding_the_parts_in_each_other => "Holding the parts in each other";
+    generating_the_programs => "Generating the programs";
+    the_parts_fit => "The parts fit";
+    the_parts_do_not_fit => "The parts do not fit";
+    facts_of_the_fit(least, wanted, places) => "{least:.1} µm of {wanted:.1} µm left where it is tightest · clearance missing at {places} places";
+    the_plate_as_it_is_left => "plate, as the wire leaves it";
+    the_punch_as_it_is_left => "punch, as the wire leaves it";
+    clearance_is_missing => "clearance is missing";
+    um_left_of_um(left, wanted) => "{left:+.1} µm left of {wanted:.1}";
+    the_corner_of_a_part(of, partner) => "corner of the {of}, against the {partner}";
     laying_the_wires_path => "Laying the wire's path";
     drawing_the_picture => "Drawing the picture";
     generating_the_program => "Generating the program";

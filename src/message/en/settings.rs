@@ -32,6 +32,16 @@ declare! {
     is_expected_at_most_that_of_the_pass_before(pass, correction, before) => "{pass} is {correction}, expected at most {before}, that of the pass before: corrections fall";
     is_of_passes_expected_one_for_each(key, count, passes) => "{key} is a list of {count}, expected one for each of the {passes} passes";
     is_expected_at_least_the_wire_radius(pass, correction, radius) => "{pass} is {correction}, expected at least the wire's radius {radius}: the wire would cut into the part";
+    a_list_of_layers => "a list of names of layers such as [\"PUNCH\"]";
+    the_name_of_a_layer => "the name of a layer";
+    a_fit_needs(key, missing) => "{key} asks whether the parts fit: expected {missing} beside it";
+    a_pair_without_partner(key) => "{key} has no pair: expected pair.drawn-as where a contour is cut twice, or two workpieces where both parts are drawn";
+    a_pair_without_clearance(key) => "{key} says nothing without pair.clearance: expected the clearance, mm a side";
+    a_pair_drawn_and_cut_twice(key) => "{key} says that each contour is cut twice, workpieces that both parts are drawn: expected one of the two";
+    a_pair_on_one_side(key, side) => "{key} says that each contour is cut from both sides, but side is {side}: expected both";
+    an_extra_needs_a_drawn_part(key) => "{key} needs a contour that is cut for several parts: expected pair.drawn-as beside it";
+    a_layer_in_two_workpieces(layer, one, other) => "the layer {layer} is of the workpieces {one} and {other}: expected one of them";
+    and(one, other) => "{one} and {other}";
     the_file_has_bytes_expected_at_most(bytes, most) => "the file has {bytes} bytes, expected at most {most}: none of it holds";
     not_toml(reason) => "not TOML: {reason}";
 }

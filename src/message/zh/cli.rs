@@ -1,6 +1,15 @@
 //! The command line.
 
 translate! {
+    the_fit_is_drawn_as_svg => "配合图只写成 .svg";
+    the_fit_is_not_known(path, errors) => "{path}：不知道是否配合，图纸有{errors}";
+    heading_of_the_fit => "  剩余 µm  零件       句柄         线段  位置";
+    a_contour_has_no_partner(handle, name) => "工件 {name} 的轮廓 {handle} 没有配对的轮廓";
+    it_fits(fits, least, wanted, places) => "{fits}：最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm，间隙不足 {places}";
+    it_does_not_fit(fits, least, wanted, places) => "{fits}：最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm，间隙不足 {places}";
+    the_program_is_there_already => "文件已存在，应换没有它的文件夹，或加 --overwrite";
+    the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}：{part}，补偿量 {corrections} mm，{blocks}，{length:.3} mm";
+    the_wire_runs_on_the_other_side(part) => "      {part}：间隙大于补偿量，电极丝走在图线的另一侧";
     the_edits_overlap => "各处修改相互重叠";
     more_errors_than_before => "修复后错误反而更多；未写入任何文件";
     no_program_is_written => "未写出程序";

@@ -1,6 +1,11 @@
 //! What is found, and how it is repaired.
 
 translate! {
+    the_parts_bind_here(of, partner, depth, corner_of, wanted) => "{of} 与 {partner} 在此卡住 {depth:.1} µm：{corner_of} 的这个角残留过多，留不出 {wanted:.1} µm 的间隙";
+    the_contour_has_no_partner(of) => "{of} 的这个轮廓在五倍间隙内没有其他工件的轮廓与它并行：没有配对";
+    its_partner(partner, place) => "{partner}：{place}";
+    give_the_corner_the_least_radius_that_fits(radius) => "把角改为 R {radius} mm，即能配合的最小圆角";
+    give_both_corners_radii_that_fit(radius, other) => "把两个角改为 R {radius} mm 和 R {other} mm，即能配合的最小圆角";
     is_not_cut(kind, why) => "{kind} 不切割：{why}";
     of_them_is_not_cut(kind, count, why) => "{kind}（共 {count} 个）不切割：{why}";
     corner_of_degrees_is_left_with_r_mm(turn, radius, uncut) => "{turn:.1}° 的拐角会留下 R {radius} mm 的圆角：{uncut} mm 切不到";

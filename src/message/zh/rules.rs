@@ -1,6 +1,7 @@
 //! What each rule is called in lists.
 
 translate! {
+    a_punch_does_not_go_into_its_plate => "凸模装不进凹模";
     an_arc_is_tighter_than_the_correction_the_wire_cannot_follow_it => "圆弧半径小于补偿量：电极丝走不出来";
     a_corner_that_the_wire_leaves_rounded => "电极丝切不出的尖角，会留圆角";
     a_slot_narrower_than_the_wire_s_way_through_it => "槽太窄，电极丝过不去";

@@ -32,6 +32,16 @@ translate! {
     is_expected_at_most_that_of_the_pass_before(pass, correction, before) => "{pass} 是 {correction}，最多应为上一次切割的 {before}：补偿量须逐次减小";
     is_of_passes_expected_one_for_each(key, count, passes) => "{key} 列出 {count} 个，应与切割次数一致，共 {passes} 个";
     is_expected_at_least_the_wire_radius(pass, correction, radius) => "{pass} 是 {correction}，不得小于电极丝半径 {radius}：否则丝会切入工件";
+    a_list_of_layers => "图层名的列表，如 [\"PUNCH\"]";
+    the_name_of_a_layer => "图层名";
+    a_fit_needs(key, missing) => "{key} 要求检查配合：同时须设置 {missing}";
+    a_pair_without_partner(key) => "{key} 没有成对的零件：同一轮廓切两次时应设 pair.drawn-as，两个零件都画出时应有两个 workpieces";
+    a_pair_without_clearance(key) => "没有 pair.clearance，{key} 不起作用：应设单边间隙，mm";
+    a_pair_drawn_and_cut_twice(key) => "{key} 表示每个轮廓切两次，workpieces 表示两个零件都已画出：只能取其一";
+    a_pair_on_one_side(key, side) => "{key} 表示每个轮廓两侧都切，而 side 是 {side}：应为 both";
+    an_extra_needs_a_drawn_part(key) => "{key} 需要为多个零件切割的轮廓：同时应设 pair.drawn-as";
+    a_layer_in_two_workpieces(layer, one, other) => "图层 {layer} 同时属于工件 {one} 和 {other}：只能属于一个";
+    and(one, other) => "{one} 和 {other}";
     the_file_has_bytes_expected_at_most(bytes, most) => "文件有 {bytes} 字节，最多允许 {most}：整个文件无效";
     not_toml(reason) => "不是 TOML：{reason}";
 }

@@ -21,20 +21,28 @@ pub(in crate::server) struct Params {
     force: Option<bool>,
 }
 
-pub(in crate::server) fn generate(context: &RequestContext, params: Params) -> Result<Program> {
-    let format = Format::of(&params.format).map_err(Error::invalid_params)?;
-    let task = Task::of(context)?;
-    for handle in params.handles.iter().flatten() {
-        if task.snapshot.drawing.find(handle).is_none() {
-            return Err(no_entity(handle));
+impl Params {
+    /// What is asked for of a drawing.
+    pub(super) fn wanted(&self, task: &Task) -> Result<Wanted<'_>> {
+        for handle in self.handles.iter().flatten() {
+            if task.snapshot.drawing.find(handle).is_none() {
+                return Err(no_entity(handle));
+            }
         }
+        Ok(Wanted {
+            format: Format::of(&self.format).map_err(Error::invalid_params)?,
+            handles: self.handles.as_deref(),
+            layers: self.layers.as_deref(),
+            force: self.force.unwrap_or(false),
+        })
     }
-    let wanted = Wanted {
-        format,
-        handles: params.handles.as_deref(),
-        layers: params.layers.as_deref(),
-        force: params.force.unwrap_or(false),
-    };
+}
+
+pub(in crate::server) fn generate(context: &RequestContext, params: Params) -> Result<Program> {
+    // A format that is not known says so of any document.
+    Format::of(&params.format).map_err(Error::invalid_params)?;
+    let task = Task::of(context)?;
+    let wanted = params.wanted(&task)?;
     let made = job::generate(&task.snapshot, findings(&task), &wanted, context);
     context.check()?;
     let Generated {
@@ -49,7 +57,7 @@ pub(in crate::server) fn generate(context: &RequestContext, params: Params) -> R
 }
 
 /// What the reader of the text found, and what the rules say under the request's options.
-fn findings(task: &Task) -> Vec<Finding> {
+pub(super) fn findings(task: &Task) -> Vec<Finding> {
     let of_rules = task.findings();
     if Arc::ptr_eq(&task.document, &task.subject) {
         return of_rules;

@@ -14,6 +14,7 @@ pub(super) mod lenses;
 pub(super) mod lifecycle;
 pub(super) mod locate;
 pub(super) mod navigation;
+pub(super) mod pair;
 mod params;
 pub(super) mod picture;
 #[cfg(feature = "testing")]

@@ -35,11 +35,16 @@ from .results import (
     ContourPiece,
     Contours,
     Diagnostic,
+    Fit,
+    FitAlone,
+    FitPlace,
     Fixed,
     Gap,
     InspectedEntity,
     Inspection,
     Located,
+    PairProgram,
+    PairPrograms,
     PathPiece,
     Picture,
     Program,
@@ -51,7 +56,7 @@ from .results import (
     WirePath,
 )
 from .server import Action, Server
-from .settings import Passes, ProgramSettings, Settings
+from .settings import Pair, Passes, ProgramSettings, Settings
 
 __version__ = "0.1.0"
 
@@ -72,6 +77,9 @@ __all__ = [
     "DoesNotApply",
     "Drawing",
     "Entity",
+    "Fit",
+    "FitAlone",
+    "FitPlace",
     "Fixed",
     "Gap",
     "InspectedEntity",
@@ -81,6 +89,9 @@ __all__ = [
     "NoAnswer",
     "NotOpen",
     "Outdated",
+    "Pair",
+    "PairProgram",
+    "PairPrograms",
     "Passes",
     "PathPiece",
     "Picture",

@@ -230,6 +230,60 @@ class Program:
 
 
 @dataclass(frozen=True)
+class FitPlace:
+    """A place where clearance is missing: what is left, mm, below 0 where the parts bind; ``at`` is drawing units.
+
+    ``of`` is the part that stands too far out: ``punch`` or ``plate``, or the name of a workpiece.
+    """
+
+    at: Point
+    clearance: float
+    handle: str
+    segment: int
+    of: str
+
+
+@dataclass(frozen=True)
+class FitAlone:
+    """A contour of a workpiece that has no partner."""
+
+    handle: str
+    of: str
+
+
+@dataclass(frozen=True)
+class Fit:
+    """Punch and plate as the wire leaves them, one laid in the other. ``clearance`` and ``least`` are mm a side."""
+
+    fits: bool
+    clearance: float
+    least: float
+    places: list[FitPlace]
+    svg: str
+    alone: list[FitAlone] = field(default_factory=list)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the picture beside ``path`` and renames it."""
+        write_beside(Path(path), self.svg.encode("utf-8"))
+
+
+@dataclass(frozen=True)
+class PairProgram(Program):
+    """The program of one part of a pair: ``punch``, ``plate``, ``stripper``, ``holder``, or the name of a workpiece."""
+
+    part: str = ""
+    # Of each pass, mm.
+    corrections: list[float] = field(default_factory=list)
+    # The wire runs on the other side of what is drawn.
+    other_side: bool = False
+
+
+@dataclass(frozen=True)
+class PairPrograms:
+    programs: list[PairProgram]
+
+
+@dataclass(frozen=True)
 class SimulatedBlock:
     """A block or word of a program and where it takes the machine; points and deviation are µm, ``line`` counts from 1.
 
@@ -356,7 +410,7 @@ def _umask() -> int:
 
 
 # Where a key of the protocol is not the camelCase form of the field.
-_KEYS = {("WirePath", "pass_number"): "pass", ("Program", "text"): "program"}
+_KEYS = {("WirePath", "pass_number"): "pass", ("Program", "text"): "program", ("PairProgram", "text"): "program"}
 
 
 def _camel(name: str) -> str:

@@ -31,9 +31,12 @@ from .restarts import MOST_ENDS, Restarts
 from .results import (
     Contours,
     Diagnostic,
+    Fit,
     Fixed,
     Inspection,
     Located,
+    PairProgram,
+    PairPrograms,
     Picture,
     Program,
     SettingsInForce,
@@ -281,6 +284,18 @@ class Server:
         :param force: also with errors in the drawing.
         :raises Refused: errors stand in the drawing (its ``diagnostics``), or no path can be made.
         """
+        params = self._wanted(document, format, handles, layers, options, force)
+        return from_json(self._ask(document, "wedm/generate", params), Program)
+
+    def _wanted(
+        self,
+        document: Document,
+        format: str,
+        handles: Sequence[str] | None,
+        layers: Sequence[str] | None,
+        options: Settings | None,
+        force: bool,
+    ) -> dict[str, Any]:
         params = self._with(document, options)
         params["format"] = format
         if handles is not None:
@@ -289,7 +304,31 @@ class Server:
             params["layers"] = list(layers)
         if force:
             params["force"] = True
-        return from_json(self._ask(document, "wedm/generate", params), Program)
+        return params
+
+    def fit(self, document: Document, options: Settings | None = None) -> Fit:
+        """Whether punch and plate fit, as the wire leaves them.
+
+        :raises Refused: a key of the settings is missing (the message names it), or a part has no path.
+        """
+        return from_json(self._ask(document, "wedm/fit", self._with(document, options)), Fit)
+
+    def pair(
+        self,
+        document: Document,
+        format: str = "3b",
+        *,
+        handles: Sequence[str] | None = None,
+        layers: Sequence[str] | None = None,
+        options: Settings | None = None,
+        force: bool = False,
+    ) -> list[PairProgram]:
+        """The programs of all parts of a pair, such as punch and plate; as :meth:`generate`.
+
+        :raises Refused: the parts do not fit (its ``diagnostics``), a key is missing, or no path can be made.
+        """
+        params = self._wanted(document, format, handles, layers, options, force)
+        return from_json(self._ask(document, "wedm/pair", params), PairPrograms).programs
 
     def simulate(self, document: Document, feed: float | None = None) -> Simulation:
         """Where the program in the document takes the machine, block by block; with ``feed`` (mm/min) also how long it takes."""

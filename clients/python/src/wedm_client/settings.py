@@ -30,6 +30,15 @@ class Job(TypedDict, total=False):
     slug_limit: float
 
 
+class Pair(TypedDict, total=False):
+    """A punch and its plate."""
+
+    drawn_as: Literal["punch", "plate"]
+    clearance: float
+    stripper: float
+    holder: float
+
+
 class ProgramSettings(TypedDict, total=False):
     """How a program is written."""
 
@@ -95,12 +104,14 @@ class Settings(TypedDict, total=False):
     profiles: Mapping[str, Profile]
     passes: Passes
     job: Job
+    pair: Pair
+    workpieces: Mapping[str, Sequence[str]]
     program: ProgramSettings
 
 
 def to_json(settings: Settings) -> dict[str, Any]:
     """The settings with the keys of the protocol. Names of layers, rules and handles stay as they are."""
-    written = _camel(settings, {"passes", "program", "job"})
+    written = _camel(settings, {"passes", "program", "job", "pair"})
     if "profiles" in written:
         written["profiles"] = {name: _camel(profile, set()) for name, profile in written["profiles"].items()}
     return written

@@ -1,0 +1,394 @@
+//! Punches that do not go into their plates: `does-not-fit`.
+
+use super::Analysis;
+use super::report::Report;
+use crate::drawing::{ContourKey, Drawing, DrawingEdit, Outline};
+use crate::finding::{Detail, Finding, Fix, FixKind, Misfit, Place, Rule, Severity, Side};
+use crate::fit::{self, Pair, SegmentOf, Spot};
+use crate::rules::small_radius::{self, Travel};
+use crate::settings::{Compensation, Partners};
+use std::sync::Arc;
+
+/// A contour of more segments is not held against its partner at every edit.
+const MOST_SEGMENTS: usize = 100_000;
+
+/// What is known of two contours, or of one that is cut twice.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// `None` where one of the two has no path, of which others speak.
+    pub pair: Option<Arc<Pair>>,
+}
+
+impl Analysis {
+    /// Forgets what was found between a contour and its partner.
+    pub(super) fn forget_fits(&mut self, key: ContourKey) {
+        self.fits
+            .retain(|(one, other), _| *one != key && *other != key);
+    }
+
+    /// Where parts of pairs bind.
+    pub(super) fn report_fits(&mut self, drawing: &Drawing, report: &mut Report) {
+        let Ok((partners, _)) = self.settings.fit() else {
+            return;
+        };
+        // Fixes are held against each other by what is cheap to know.
+        if !report.shows_findings() || self.settings.severity(Rule::DoesNotFit).is_none() {
+            return;
+        }
+        let outlines = self.outlines(drawing).clone();
+        let keys = self.in_machining_order(drawing).to_vec();
+        if keys.len() != outlines.len() {
+            return;
+        }
+        match partners {
+            Partners::CutTwice(_) => {
+                for (&key, outline) in keys.iter().zip(outlines.iter()) {
+                    if fit::is_cut_twice(outline) {
+                        self.report_pair(drawing, [(key, outline); 2], report);
+                    }
+                }
+            }
+            Partners::Drawn => {
+                let drawn = fit::partners(drawing, &outlines, &self.settings);
+                for &[punch, plate] in &drawn.pairs {
+                    let both = [punch, plate].map(|index| (keys[index], &outlines[index]));
+                    self.report_pair(drawing, both, report);
+                }
+                for &index in &drawn.alone {
+                    self.report_alone(drawing, &outlines[index], report);
+                }
+            }
+        }
+    }
+
+    fn report_alone(&self, drawing: &Drawing, outline: &Outline, report: &mut Report) {
+        let mildest = Some(Severity::Warning);
+        if report.counts(Rule::DoesNotFit, mildest)
+            && let Some(first) = outline.contour.segment(drawing, 0)
+        {
+            let of = fit::name_of(drawing, &outline.contour, &self.settings);
+            let (place, detail) = (Place::from(&first), Detail::NoPartner { of });
+            report.add(Rule::DoesNotFit, mildest, place, detail, Vec::new());
+        }
+    }
+
+    /// What is known of two partners; worked out where it is not yet.
+    pub(super) fn fit_of(
+        &mut self,
+        drawing: &Drawing,
+        both: [(ContourKey, &Outline); 2],
+    ) -> Option<Arc<Pair>> {
+        let [(one, punch), (other, plate)] = both;
+        if let Some(answer) = self.fits.get(&(one, other)) {
+            return answer.pair.clone();
+        }
+        let is_small = punch.contour.len().max(plate.contour.len()) <= MOST_SEGMENTS;
+        let pair = is_small.then(|| self.pair(drawing, punch, plate)).flatten();
+        let pair = pair.map(Arc::new);
+        self.fits
+            .insert((one, other), Answer { pair: pair.clone() });
+        pair
+    }
+
+    /// Two outlines, or one that is cut twice, laid in each other.
+    pub(super) fn pair(&self, drawing: &Drawing, punch: &Outline, plate: &Outline) -> Option<Pair> {
+        let goes_on = || true;
+        let settings = &self.settings;
+        match self.settings.partners()? {
+            Partners::CutTwice(_) => fit::cut_twice(drawing, punch, settings, &goes_on).ok(),
+            Partners::Drawn => fit::drawn_pair(drawing, punch, plate, settings, &goes_on).ok(),
+        }
+    }
+
+    fn report_pair(
+        &mut self,
+        drawing: &Drawing,
+        both: [(ContourKey, &Outline); 2],
+        report: &mut Report,
+    ) {
+        let is_cut_twice = both[0].0 == both[1].0;
+        let crossed = self.pairs.contours_with(Rule::SelfIntersection);
+        if both.iter().any(|(key, _)| crossed.contains(key)) {
+            return;
+        }
+        let Some(pair) = self.fit_of(drawing, both) else {
+            return;
+        };
+        let (rounding, wanted) = (
+            self.limits.tolerances.report,
+            self.settings.pair.clearance.unwrap_or(0.0) / self.limits.unit_mm,
+        );
+        for spot in pair.spots.iter().filter(|spot| spot.clearance < -rounding) {
+            let mut add = |at: SegmentOf, other: SegmentOf, of: &Arc<str>, partner: &Arc<str>| {
+                if report.counts(Rule::DoesNotFit, None) {
+                    let misfit = Misfit {
+                        at: spot.at,
+                        clearance: spot.clearance,
+                        wanted,
+                        of: of.clone(),
+                        partner: partner.clone(),
+                        corner_of: spot.of.clone(),
+                    };
+                    let detail = Detail::DoesNotFit(Box::new(misfit));
+                    report.add(
+                        Rule::DoesNotFit,
+                        None,
+                        place(at),
+                        detail,
+                        vec![place(other)],
+                    );
+                }
+            };
+            add(spot.segment, spot.other, &spot.of, &spot.partner);
+            if !is_cut_twice {
+                add(spot.other, spot.segment, &spot.partner, &spot.of);
+            }
+        }
+    }
+
+    /// True where whether the wire leaves too much in the arcs of a contour says the fit.
+    pub(super) fn says_the_fit(
+        &self,
+        drawing: &Drawing,
+        key: ContourKey,
+        wire_side: Option<Side>,
+    ) -> bool {
+        let Some(contour) = self.chains.get(key).filter(|contour| contour.closed) else {
+            return false;
+        };
+        if self.settings.compensation != Compensation::Path
+            || self.settings.severity(Rule::DoesNotFit).is_none()
+        {
+            return false;
+        }
+        match self.settings.fit() {
+            Ok((Partners::CutTwice(_), _)) => wire_side.is_none(),
+            Ok((Partners::Drawn, _)) => fit::workpiece_of(drawing, contour, &self.settings) != 0,
+            Err(_) => false,
+        }
+    }
+
+    /// The repair of a corner in which two parts bind: the least radius with which they do not, and the clearance more where the other is
+    /// drawn, too.
+    pub(super) fn fit_fixes(&self, drawing: &Drawing, finding: &Finding) -> Vec<Fix> {
+        self.fit_fix(drawing, finding).into_iter().collect()
+    }
+
+    fn fit_fix(&self, drawing: &Drawing, finding: &Finding) -> Option<Fix> {
+        let Place::Segment { entity, segment } = finding.place else {
+            return None;
+        };
+        let (_, clearance) = self.settings.fit().ok()?;
+        let before = self.pair_at(drawing, (entity, segment))?;
+        let spot = spot_at(&before.spots, (entity, segment)).filter(|spot| spot.turn > 0.0)?;
+        let corner = Corner {
+            before: &before,
+            spot,
+            clearance: clearance / self.limits.unit_mm,
+            is_drawn: self.chains.contour_of(spot.segment.0)
+                != self.chains.contour_of(spot.other.0),
+        };
+        let enough = self
+            .settings
+            .correction
+            .max(self.settings.half_kerf(0).unwrap_or(0.0));
+        let margin = self.settings.margin / self.limits.unit_mm;
+        let most = enough / self.limits.unit_mm + corner.clearance + margin;
+        let left = |radius: f64| Some(self.with_corner(drawing, &corner, radius)?.1);
+        let rounding = self.limits.tolerances.report;
+        let mut radius = most;
+        let steep = 1.0 / (spot.turn / 2.0).cos() - 1.0;
+        // What is left grows evenly with the radius between straight walls.
+        let mut found = None;
+        for _ in 0..6 {
+            let found_left = left(radius);
+            match found_left {
+                Some(more) if more.abs() <= 0.1 * rounding => {
+                    found = Some(radius);
+                    break;
+                }
+                Some(more) => radius -= more / steep,
+                None => break,
+            }
+            if !(radius > 0.0 && radius <= most) {
+                break;
+            }
+        }
+        let found = found.or_else(|| {
+            let (mut least, mut most) = (0.0, most);
+            left(most).filter(|left| *left >= 0.0)?;
+            for _ in 0..24 {
+                let middle = (least + most) / 2.0;
+                match left(middle) {
+                    Some(left) if left >= 0.0 => most = middle,
+                    _ => least = middle,
+                }
+            }
+            Some(most)
+        })?;
+        let radius = found + margin;
+        let (edit, left) = self.with_corner(drawing, &corner, radius)?;
+        let kind = FixKind::FitCorner {
+            radius,
+            other: corner.is_drawn.then_some(radius + corner.clearance),
+        };
+        (left >= -rounding).then_some(Fix {
+            kind,
+            preferred: true,
+            in_fix_all: false,
+            edit,
+        })
+    }
+
+    /// What is known of the pair that a segment is of.
+    fn pair_at(&self, drawing: &Drawing, (entity, segment): SegmentOf) -> Option<Arc<Pair>> {
+        let (key, _) = self.chains.index_of(entity, segment)?;
+        let outlines = self.outlines(drawing);
+        let keys = self.in_machining_order(drawing);
+        let at = keys.iter().position(|other| *other == key)?;
+        let both = match self.settings.partners()? {
+            Partners::CutTwice(_) => [at, at],
+            Partners::Drawn => {
+                let drawn = fit::partners(drawing, outlines, &self.settings);
+                drawn.pairs.into_iter().find(|pair| pair.contains(&at))?
+            }
+        };
+        if let Some(answer) = self.fits.get(&(keys[both[0]], keys[both[1]])) {
+            return answer.pair.clone();
+        }
+        let [punch, plate] = both.map(|index| &outlines[index]);
+        self.pair(drawing, punch, plate).map(Arc::new)
+    }
+
+    /// The edit that gives a corner a radius, and what is left of the clearance there behind it: at most what there should be. `None` where
+    /// it cannot be made, or where it brings errors.
+    fn with_corner(
+        &self,
+        drawing: &Drawing,
+        corner: &Corner,
+        radius: f64,
+    ) -> Option<(DrawingEdit, f64)> {
+        let of = |at: SegmentOf, radius: f64| self.corner_edits(drawing, corner, at, radius);
+        let spot = corner.spot;
+        let edits = match corner.is_drawn {
+            false => of(spot.segment, radius),
+            true => {
+                let partner = of(spot.other, radius);
+                let own = of(spot.segment, radius + corner.clearance);
+                let both = own.into_iter().flat_map(|own| {
+                    partner.clone().into_iter().map(move |partner| {
+                        let changes = own.changes.iter().cloned().chain(partner.changes);
+                        DrawingEdit {
+                            changes: changes.collect(),
+                        }
+                    })
+                });
+                both.collect()
+            }
+        };
+        let tried = edits.into_iter().filter_map(|edit| {
+            let left = self.left_behind(drawing, corner, &edit)?;
+            Some((edit, left))
+        });
+        tried.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// Edits that may give a part of a pair a radius near one of its segments: in place of the arcs there, or at the corner where the
+    /// segment begins or ends.
+    fn corner_edits(
+        &self,
+        drawing: &Drawing,
+        corner: &Corner,
+        (entity, segment): SegmentOf,
+        radius: f64,
+    ) -> Vec<DrawingEdit> {
+        let place = || {
+            let (key, index) = self.chains.index_of(entity, segment)?;
+            Some((self.outlook(drawing, key)?, index))
+        };
+        let Some((outlook, index)) = place() else {
+            return Vec::new();
+        };
+        // Both parts are rounded about one point, which lies where the wire of the one turned.
+        let inside = match outlook.index.twice_area() > 0.0 {
+            true => Side::Left,
+            false => Side::Right,
+        };
+        let side = match corner.is_of_plate() {
+            true => inside,
+            false => inside.reversed(),
+        };
+        let travel = Travel {
+            drawing,
+            contour: outlook.contour,
+            index: outlook.index,
+            side,
+        };
+        let mut limits = self.limits;
+        limits.fix_radius = radius;
+        let position = travel.position_of(index);
+        let arcs = small_radius::run_of(&travel, position, &limits).and_then(|run| {
+            let replacement = small_radius::refillet(&travel, &run, &limits)
+                .outcome
+                .ok()?;
+            small_radius::drawing_edit(drawing, &[(travel, replacement)])
+        });
+        match arcs {
+            Some(edit) => vec![edit],
+            None => [position - 1, position]
+                .into_iter()
+                .filter_map(|before| small_radius::fillet(&travel, before, &limits))
+                .collect(),
+        }
+    }
+
+    fn left_behind(&self, drawing: &Drawing, corner: &Corner, edit: &DrawingEdit) -> Option<f64> {
+        let mut edited = drawing.clone();
+        let delta = edited.apply(edit).ok()?;
+        let mut after = self.updated(&edited, &delta);
+        if after.tally(&edited).errors > self.tallied(drawing).errors {
+            return None;
+        }
+        let spot = corner.spot;
+        let place = (spot.segment.0, 0);
+        let pair = after.pair_at(&edited, place)?;
+        let wide = 2.0 * self.limits.correction.max(corner.clearance) + (spot.clearance).abs();
+        let near = |other: &&Spot| (other.at - spot.at).norm() <= wide;
+        let left = pair.spots.iter().filter(near).map(|spot| spot.clearance);
+        let binding = |pair: &Pair| {
+            pair.spots
+                .iter()
+                .filter(|spot| spot.clearance < 0.0)
+                .count()
+        };
+        let left = left.fold(corner.clearance, f64::min);
+        (left < 0.0 || binding(&pair) < binding(corner.before)).then_some(left)
+    }
+}
+
+/// A corner in which two parts bind.
+struct Corner<'a> {
+    before: &'a Pair,
+    spot: &'a Spot,
+    clearance: f64,
+    /// Both parts are drawn.
+    is_drawn: bool,
+}
+
+impl Corner<'_> {
+    /// It is the plate that stands too far out.
+    fn is_of_plate(&self) -> bool {
+        self.spot.is_of_plate
+    }
+}
+
+fn place((entity, segment): SegmentOf) -> Place {
+    Place::Segment { entity, segment }
+}
+
+/// The place that a finding speaks of, where the spots of a pair are.
+pub(super) fn spot_at<'a>(spots: &'a [Spot], at: SegmentOf) -> Option<&'a Spot> {
+    let is_there = |spot: &&Spot| spot.segment == at || spot.other == at;
+    let there = spots.iter().filter(is_there);
+    there.min_by(|a, b| a.clearance.total_cmp(&b.clearance))
+}

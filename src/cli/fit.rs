@@ -1,0 +1,120 @@
+//! `wedm fit`: whether a punch goes into its plate.
+
+use super::options::{Common, Pairing, Program};
+use super::output::{self, counted, styled};
+use super::{Failure, Verdict, files, inspect, report};
+use crate::geometry::Xy;
+use crate::job;
+use crate::message::readable;
+use crate::picture;
+use crate::protocol::Fit;
+use clap::Args;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// Hold punch and plate in each other, as the wire leaves them
+///
+/// Ends with 1 where they bind. The parts are a contour that is cut twice (pair.drawn-as), or two workpieces ([workpieces]).
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  wedm fit washer.dxf --drawn-as punch --clearance 0.01 --wire-diameter 0.18 --gap 0.01
+  wedm fit washer.dxf -o washer-fit.svg")]
+pub struct Arguments {
+    /// The drawing
+    #[arg(value_name = "PATH")]
+    path: PathBuf,
+    /// Write the picture there, as .svg
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<PathBuf>,
+    /// Form of what is printed
+    #[arg(long, value_enum, default_value_t = inspect::Format::Text)]
+    format: inspect::Format,
+    #[command(flatten)]
+    pairing: Pairing,
+    #[command(flatten)]
+    program: Program,
+    #[command(flatten)]
+    common: Common,
+}
+
+pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+    let path = &arguments.path;
+    if let Some(target) = &arguments.output {
+        output::refuse_input(target, path)?;
+        let ending = target.extension().unwrap_or_default().to_string_lossy();
+        if !ending.eq_ignore_ascii_case("svg") {
+            return Err(Failure::of(target, say!(the_fit_is_drawn_as_svg)));
+        }
+    }
+    let last = arguments
+        .pairing
+        .beside(&arguments.common.settings_with(&arguments.program));
+    let opened = files::open_to_use(path, &arguments.common, &last)?;
+    let snapshot = opened.snapshot()?;
+    let unit_mm = opened.document.unit_mm();
+    let fit = match job::fit(&snapshot, &()) {
+        Ok(fit) => fit,
+        Err(refusal) => {
+            let advice = |errors| say!(the_fit_is_not_known, path.display(), errors);
+            return report::refuse(path, &opened.document, &refusal, advice);
+        }
+    };
+    let svg = picture::fit_svg(&fit, unit_mm);
+    if let Some(target) = &arguments.output {
+        output::write(Some(target), svg.as_bytes())?;
+    }
+    let printed = Fit::new(&snapshot.drawing, &fit, svg, unit_mm);
+    match arguments.format {
+        inspect::Format::Text => output::print(table(&printed))?,
+        inspect::Format::Json => output::print_json(&printed)?,
+    }
+    Ok(Verdict::of_errors(!printed.fits))
+}
+
+fn table(fit: &Fit) -> String {
+    let mut text = String::new();
+    if !fit.places.is_empty() {
+        let _ = writeln!(text, "{}", styled(output::STRONG, say!(heading_of_the_fit)));
+    }
+    for place in &fit.places {
+        let Xy(x, y) = place.at;
+        let um = format!("{:+.1}", place.clearance * 1e3);
+        let um = match place.clearance < 0.0 {
+            true => styled(output::ERROR, format!("{um:>10}")),
+            false => format!("{um:>10}"),
+        };
+        let _ = writeln!(
+            text,
+            "{um}  {:<10} {:<10} {:>7}  {x:.4}, {y:.4}",
+            readable(&place.of),
+            readable(&place.handle),
+            place.segment
+        );
+    }
+    for alone in &fit.alone {
+        let line = say!(a_contour_has_no_partner, alone.handle, alone.of);
+        let _ = writeln!(text, "{}", readable(&line));
+    }
+    let (least, wanted) = (fit.least * 1e3, fit.clearance * 1e3);
+    let places = counted(fit.places.len(), "place");
+    let _ = match fit.fits {
+        true => writeln!(
+            text,
+            "{}",
+            say!(it_fits, styled(output::GOOD, "fits"), least, wanted, places)
+        ),
+        false => writeln!(
+            text,
+            "{}",
+            say!(
+                it_does_not_fit,
+                styled(output::ERROR, say!(does_not_fit)),
+                least,
+                wanted,
+                places
+            )
+        ),
+    };
+    text
+}

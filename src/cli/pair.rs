@@ -1,0 +1,117 @@
+//! `wedm pair`: the programs of all parts of a pair.
+
+use super::options::{Common, Pairing, Program};
+use super::output::{self, counted, styled};
+use super::{Failure, Verdict, files, report};
+use crate::job::{self, Wanted};
+use crate::program::Format;
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Write the programs of punch, plate, stripper and holder
+///
+/// The corrections follow from the clearance. Each program is decoded again and held against its path before anything is written, and no
+/// file that is there already is written over, unless --overwrite says so.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  wedm pair washer.dxf --drawn-as plate --clearance 0.09 --wire-diameter 0.18 --gap 0.01
+  wedm pair washer.dxf --format iso -o programs        programs/washer-punch.iso and so on")]
+pub struct Arguments {
+    /// The drawing
+    #[arg(value_name = "PATH")]
+    path: PathBuf,
+    /// Language of the programs: 3b, 4b, iso
+    #[arg(long, default_value = "3b", value_parser = Format::of)]
+    format: Format,
+    /// Write the programs into that folder [default: that of the drawing]
+    #[arg(short, long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
+    /// Write over programs that are there already
+    #[arg(long)]
+    overwrite: bool,
+    /// Only the contour that holds this entity; may be given several times
+    #[arg(long, value_name = "HANDLE")]
+    handle: Vec<String>,
+    /// Write them although the drawing has errors
+    #[arg(long)]
+    force: bool,
+    #[command(flatten)]
+    pairing: Pairing,
+    #[command(flatten)]
+    program: Program,
+    #[command(flatten)]
+    common: Common,
+}
+
+pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+    let path = &arguments.path;
+    let last = arguments
+        .pairing
+        .beside(&arguments.common.settings_with(&arguments.program));
+    let opened = files::open_to_use(path, &arguments.common, &last)?;
+    let snapshot = opened.snapshot()?;
+    let document = &opened.document;
+    let wanted = Wanted {
+        format: arguments.format,
+        handles: (!arguments.handle.is_empty()).then_some(&arguments.handle),
+        layers: None,
+        force: arguments.force,
+    };
+    let made = match job::pair(&snapshot, &document.all_findings(), &wanted, &()) {
+        Ok(made) => made,
+        Err(refusal) => {
+            let advice = |errors| say!(no_program_of_a_drawing_with, path.display(), errors);
+            return report::refuse(path, document, &refusal, advice);
+        }
+    };
+    let folder = match (&arguments.output, path.parent()) {
+        (Some(folder), _) => folder.clone(),
+        (None, Some(folder)) => folder.to_path_buf(),
+        (None, None) => PathBuf::new(),
+    };
+    let target = |part: &str| folder.join(file_name(path, part, arguments.format));
+    let targets: Vec<PathBuf> = made.iter().map(|part| target(&part.part)).collect();
+    for target in &targets {
+        output::refuse_input(target, path)?;
+        if target.exists() && !arguments.overwrite {
+            return Err(Failure::of(target, say!(the_program_is_there_already)));
+        }
+    }
+    if !folder.as_os_str().is_empty() {
+        std::fs::create_dir_all(&folder).map_err(|error| Failure::of(&folder, error))?;
+    }
+    for (part, target) in made.iter().zip(&targets) {
+        let program = &part.made.program;
+        output::write(Some(target), program.text.as_bytes())?;
+        let corrections: Vec<String> = part
+            .corrections
+            .iter()
+            .map(|correction| format!("{correction:.4}"))
+            .collect();
+        output::say(&say!(
+            the_program_of_a_part_is_written,
+            styled(output::GOOD, "written"),
+            output::target_name(Some(target)),
+            part.part,
+            corrections.join(" / "),
+            counted(program.blocks, "block"),
+            program.length
+        ));
+        if part.is_other_side {
+            output::say(&say!(the_wire_runs_on_the_other_side, part.part));
+        }
+    }
+    Ok(Verdict::Clean)
+}
+
+/// `washer-punch.3b`; what cannot stand in the name of a file becomes `_`.
+fn file_name(drawing: &Path, part: &str, format: Format) -> String {
+    let stem = drawing.file_stem().unwrap_or_default().to_string_lossy();
+    let safe = |letter: char| match letter {
+        letter if letter.is_alphanumeric() || "-_.".contains(letter) => letter,
+        _ => '_',
+    };
+    let part: String = part.chars().map(safe).collect();
+    format!("{stem}-{part}.{}", format.name())
+}

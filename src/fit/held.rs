@@ -1,0 +1,285 @@
+//! Two outlines, one held in the other.
+//!
+//! A place of the punch binds where it is farther from the way of the wire that cut the plate than half a kerf, and the other way round. Along
+//! walls that both wires follow the clearance is what the kerfs leave. It is missing where a wire turned in a point and left its own
+//! radius: there the farthest place of the other part that is nearest to that point says how much.
+
+use super::{Pair, Spot, segments};
+use crate::geometry::{Bounds, Point, Segment, Vector, cross};
+use crate::toolpath::{Part, distance_between};
+use std::sync::Arc;
+
+/// What the clearance is held against. Drawing units.
+pub(super) struct Limits {
+    pub clearance: f64,
+    pub rounding: f64,
+    /// What is left beside walls that are followed on both sides; `None` where both parts are drawn, and each place is looked at.
+    pub along_walls: Option<f64>,
+}
+
+/// A corner is looked round up to so many half kerfs from where the wire turned.
+const FARTHEST: f64 = 16.0;
+
+/// The most looks at one edge for how deep it stands in the other part.
+const MOST: usize = 2_000;
+
+/// Lays the punch in the plate. `names` are what the two are called.
+pub(super) fn held(punch: Part, plate: Part, names: [Arc<str>; 2], limits: &Limits) -> Pair {
+    let mut spots = corners([&punch, &plate], &names, false, limits);
+    let [of_punch, of_plate] = names;
+    let turned = [of_plate.clone(), of_punch.clone()];
+    spots.extend(corners([&plate, &punch], &turned, true, limits));
+    let mut least = limits.clearance;
+    match limits.along_walls {
+        Some(apart) if apart < limits.clearance - limits.rounding => {
+            least = apart;
+            let first = punch.edges.first().map(|edge| edge.geometry.point_at(0.5));
+            if let Some(at) = first
+                && let (Some(segment), Some(other)) =
+                    (punch.segment_at(0, at), segment_near(&plate, at))
+            {
+                spots.insert(
+                    0,
+                    Spot {
+                        at,
+                        turn: 0.0,
+                        clearance: apart,
+                        is_of_plate: false,
+                        segment,
+                        of: of_punch,
+                        other,
+                        partner: of_plate,
+                    },
+                );
+            }
+        }
+        Some(_) => {}
+        None => spots.extend(walls(&punch, &plate, [of_punch, of_plate], limits)),
+    }
+    least = spots
+        .iter()
+        .map(|spot| spot.clearance)
+        .fold(least, f64::min);
+    Pair {
+        least,
+        spots,
+        punch: segments(&punch),
+        plate: segments(&plate),
+    }
+}
+
+/// The places where the wire turned in a point, and left less than the clearance to the other part.
+fn corners(
+    [one, other]: [&Part; 2],
+    names: &[Arc<str>; 2],
+    is_of_plate: bool,
+    limits: &Limits,
+) -> Vec<Spot> {
+    let spot = |(index, turned): (usize, Point)| {
+        let (far, at, on) = farthest(one, index, turned, other, limits)?;
+        let at_own = turned + (at - turned) * (one.half / far);
+        Some(Spot {
+            at: at_own,
+            turn: one.edges[index].geometry.as_arc()?.sweep.abs(),
+            clearance: one.half - far,
+            is_of_plate,
+            segment: one.segment_at(index, at_own)?,
+            of: names[0].clone(),
+            other: other.segment_at(on, at)?,
+            partner: names[1].clone(),
+        })
+    };
+    let turns = one.edges.iter().enumerate();
+    turns
+        .filter_map(|(index, edge)| Some((index, edge.turned_about?)))
+        .filter_map(spot)
+        .collect()
+}
+
+/// Of the places of the other part that are nearest to where the wire turned the farthest: how far, where, and on which edge. `None` where
+/// the clearance is kept.
+fn farthest(
+    one: &Part,
+    index: usize,
+    turned: Point,
+    other: &Part,
+    limits: &Limits,
+) -> Option<(f64, Point, usize)> {
+    let arc = one.edges[index].geometry.as_arc()?;
+    let (from, to) = (arc.start - turned, arc.end - turned);
+    let sense = arc.sweep.signum();
+    let is_whole = arc.is_full_turn();
+    let slack = limits.rounding * one.half;
+    let is_within = |way: Vector| {
+        is_whole || cross(from, way) * sense >= -slack && cross(way, to) * sense >= -slack
+    };
+    let kept = one.half - limits.clearance + limits.rounding;
+    let widest = (arc.sweep / 2.0).cos().max(1.0 / FARTHEST);
+    let reach = (one.half + 2.0 * limits.clearance) / widest;
+    let mut places: Vec<(f64, Point, usize)> = Vec::new();
+    other.near.find(&Bounds::of_disc(turned, reach), |edge| {
+        let geometry = &other.edges[edge].geometry;
+        let mut shares = vec![0.0, 1.0];
+        if !is_whole {
+            shares.extend(
+                [from, to]
+                    .into_iter()
+                    .flat_map(|ray| crossed(geometry, turned, ray)),
+            );
+        }
+        if let Segment::Arc(round) = geometry
+            && let Some(axis) = (round.center - turned).try_normalize(0.0)
+        {
+            shares.extend(
+                [axis, -axis].map(|axis| round.share_of(round.center + axis * round.radius)),
+            );
+        }
+        for share in shares
+            .into_iter()
+            .filter(|share| (0.0..=1.0).contains(share))
+        {
+            let at = geometry.point_at(share);
+            let far = (at - turned).norm();
+            if far > kept && is_within(at - turned) {
+                places.push((far, at, edge));
+            }
+        }
+        false
+    });
+    places.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.2.cmp(&b.2)));
+    let is_nearest =
+        |&(far, at, _): &(f64, Point, usize)| one.path.nearer(at, far - limits.rounding).is_none();
+    places.into_iter().find(is_nearest)
+}
+
+/// Where a segment meets a ray, as shares of the segment; some may lie beyond its ends.
+fn crossed(segment: &Segment, from: Point, ray: Vector) -> Vec<f64> {
+    let found = match segment {
+        Segment::Line(line) => {
+            crate::geometry::line_line(line.start, line.end - line.start, from, ray)
+                .into_iter()
+                .collect()
+        }
+        Segment::Arc(arc) => crate::geometry::line_circle(from, ray, arc.center, arc.radius),
+    };
+    found.into_iter().map(|at| segment.share_of(at)).collect()
+}
+
+/// Walls of two drawn parts that lie too near to each other, or run into each other.
+fn walls(punch: &Part, plate: &Part, names: [Arc<str>; 2], limits: &Limits) -> Vec<Spot> {
+    let mut spots = Vec::new();
+    let plain = |part: &Part, index: usize| part.edges[index].turned_about.is_none();
+    for (index, edge) in punch
+        .edges
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| plain(punch, *index))
+    {
+        let geometry = &edge.geometry;
+        let mut nearest = (limits.clearance - limits.rounding, None);
+        plate
+            .near
+            .find(&geometry.bounds().grown(limits.clearance), |other| {
+                if plain(plate, other) {
+                    let apart = distance_between(geometry, &plate.edges[other].geometry);
+                    if apart < nearest.0 {
+                        nearest = (apart, Some(other));
+                    }
+                }
+                false
+            });
+        let depth = |at: Point| plate.path.distance_to(at, plate.half) - plate.half;
+        // What lies beyond the other's edge, or crosses it, is as deep as it is away from what the wire has cut.
+        let is_deep = |at: Point| {
+            plate
+                .path
+                .nearer(at, plate.half + limits.rounding)
+                .is_none()
+        };
+        let deepest =
+            if nearest.1.is_some() && nearest.0 <= limits.rounding || is_deep(geometry.start()) {
+                deepest(geometry, &depth, limits.rounding)
+            } else {
+                None
+            };
+        let (clearance, at, other) = match (deepest, nearest) {
+            (Some((depth, at)), (_, other)) => (-depth, at, other),
+            (None, (apart, Some(other))) => {
+                let at = nearest_place(geometry, &plate.edges[other].geometry);
+                (apart, at, Some(other))
+            }
+            (None, (_, None)) => continue,
+        };
+        let other = other.and_then(|other| plate.segment_at(other, at));
+        if let (Some(segment), Some(other)) = (
+            punch.segment_at(index, at),
+            other.or_else(|| segment_near(plate, at)),
+        ) {
+            spots.push(Spot {
+                at,
+                turn: 0.0,
+                clearance,
+                is_of_plate: false,
+                segment,
+                of: names[0].clone(),
+                other,
+                partner: names[1].clone(),
+            });
+        }
+    }
+    spots
+}
+
+/// The drawn segment of the edge that is nearest to a point.
+fn segment_near(part: &Part, at: Point) -> Option<super::SegmentOf> {
+    let away = |index: &usize| part.edges[*index].geometry.distance_to(at);
+    let nearest = (0..part.edges.len()).min_by(|a, b| away(a).total_cmp(&away(b)))?;
+    part.segment_at(nearest, at)
+}
+
+/// The point of a segment that is nearest to another one, of the ends of both.
+fn nearest_place(segment: &Segment, other: &Segment) -> Point {
+    let feet = [other.start(), other.end()]
+        .map(|end| segment.point_at(segment.share_of(end).clamp(0.0, 1.0)));
+    let ends = [segment.start(), segment.end()];
+    let places = ends.into_iter().chain(feet);
+    places
+        .min_by(|a, b| other.distance_to(*a).total_cmp(&other.distance_to(*b)))
+        .unwrap_or_else(|| segment.start())
+}
+
+/// The deepest place of a segment: `depth` changes by no more than the way along it. `None` where nothing of it is deep.
+fn deepest(
+    segment: &Segment,
+    depth: &dyn Fn(Point) -> f64,
+    tolerance: f64,
+) -> Option<(f64, Point)> {
+    let length = segment.length();
+    let mut worst: Option<(f64, Point)> = None;
+    let mut look = |share: f64| {
+        let at = segment.point_at(share);
+        let found = depth(at);
+        if found > tolerance && worst.is_none_or(|(most, _)| found > most) {
+            worst = Some((found, at));
+        }
+        (found, worst.map_or(0.0, |(most, _)| most))
+    };
+    let ends = (look(0.0).0, look(1.0).0);
+    let mut waiting = vec![(0.0, ends.0, 1.0, ends.1)];
+    for _ in 0..MOST {
+        let Some((from, at_from, to, at_to)) = waiting.pop() else {
+            break;
+        };
+        let middle = (from + to) / 2.0;
+        let (at_middle, most) = look(middle);
+        for (from, at_from, to, at_to) in [
+            (from, at_from, middle, at_middle),
+            (middle, at_middle, to, at_to),
+        ] {
+            if (at_from + at_to + (to - from) * length) / 2.0 > most + tolerance.max(1e-5) {
+                waiting.push((from, at_from, to, at_to));
+            }
+        }
+    }
+    worst
+}

@@ -1,0 +1,226 @@
+//! Whether a punch goes into its plate: both outlines as the wire leaves them, one laid in the other.
+//!
+//! A contour that is cut twice is held against itself, by the corrections of its two uses. Where both parts are drawn, each contour of one
+//! workpiece is held against that of another which lies so near that it can only be its partner. Everything is in drawing units.
+
+mod held;
+mod partners;
+
+pub use partners::Drawn;
+pub(crate) use partners::partners;
+
+use crate::drawing::{Contour, Drawing, EntityId, Outline, Role, wire_side};
+use crate::geometry::{Point, Segment, Side};
+use crate::settings::{Effective, Partners, Use};
+use crate::toolpath::{Cutting, Part, Refusal, part};
+use std::sync::Arc;
+
+/// A segment of a drawing.
+pub type SegmentOf = (EntityId, usize);
+
+/// A place where clearance is missing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spot {
+    /// On the outline that stands too far out.
+    pub at: Point,
+    /// By how much the way of the wire turns there, radians; 0 at walls.
+    pub turn: f64,
+    /// What is left of the clearance; below 0 where the two bind.
+    pub clearance: f64,
+    /// It is the plate that stands too far out, not the punch.
+    pub is_of_plate: bool,
+    /// The drawn segment of the part that stands too far out.
+    pub segment: SegmentOf,
+    /// That part: `punch` or `plate`, or the name of its workpiece.
+    pub of: Arc<str>,
+    /// The drawn segment of its partner there.
+    pub other: SegmentOf,
+    /// The partner.
+    pub partner: Arc<str>,
+}
+
+/// One part laid in the other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pair {
+    /// The least clearance all round.
+    pub least: f64,
+    /// Where less is left than there should be, in the order of the outline of the punch, then of that of the plate.
+    pub spots: Vec<Spot>,
+    /// Outlines as the wire leaves them.
+    pub punch: Vec<Segment>,
+    pub plate: Vec<Segment>,
+}
+
+/// What there is to say of all pairs of a drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit {
+    /// The clearance that there should be.
+    pub clearance: f64,
+    pub pairs: Vec<Pair>,
+    /// Contours of workpieces without a partner, by their first segment, with the name of the workpiece.
+    pub alone: Vec<(SegmentOf, Arc<str>)>,
+    /// How far two outlines may overlap by rounding.
+    pub rounding: f64,
+}
+
+impl Fit {
+    pub fn least(&self) -> f64 {
+        let all = self.pairs.iter().map(|pair| pair.least);
+        all.fold(self.clearance, f64::min)
+    }
+
+    pub fn fits(&self) -> bool {
+        self.least() >= -self.rounding && !self.pairs.is_empty()
+    }
+
+    pub fn spots(&self) -> impl Iterator<Item = &Spot> {
+        self.pairs.iter().flat_map(|pair| &pair.spots)
+    }
+}
+
+/// The fit of all pairs of a drawing. A sentence says which keys are missing.
+pub fn fit(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &Effective,
+    goes_on: &dyn Fn() -> bool,
+) -> Result<Fit, Refusal> {
+    let (partners_are, clearance) = settings
+        .fit()
+        .map_err(|missing| Refusal::Sentence(say!(whether_it_fits_needs, missing.listed())))?;
+    let unit_mm = settings.unit_of(drawing).mm;
+    let mut fit = Fit {
+        clearance: clearance / unit_mm,
+        pairs: Vec::new(),
+        alone: Vec::new(),
+        rounding: settings.tolerances.report / unit_mm,
+    };
+    match partners_are {
+        Partners::CutTwice(_) => {
+            let twice = outlines.iter().filter(|outline| is_cut_twice(outline));
+            for outline in twice {
+                fit.pairs
+                    .push(cut_twice(drawing, outline, settings, goes_on)?);
+            }
+        }
+        Partners::Drawn => {
+            let drawn = partners(drawing, outlines, settings);
+            for &[punch, plate] in &drawn.pairs {
+                let (punch, plate) = (&outlines[punch], &outlines[plate]);
+                fit.pairs
+                    .push(drawn_pair(drawing, punch, plate, settings, goes_on)?);
+            }
+            let first = |index: &usize| {
+                let segment = outlines[*index].contour.segment(drawing, 0)?;
+                let place = (segment.entity, segment.segment);
+                Some((place, name_of(drawing, &outlines[*index].contour, settings)))
+            };
+            fit.alone = drawn.alone.iter().filter_map(first).collect();
+        }
+    }
+    if fit.pairs.is_empty() && fit.alone.is_empty() {
+        return Err(Refusal::Sentence(say!(no_contour_is_of_a_pair).into()));
+    }
+    Ok(fit)
+}
+
+/// True for a contour that is cut once from inside and once from outside.
+pub(crate) fn is_cut_twice(outline: &Outline) -> bool {
+    outline.contour.closed
+        && outline.role == Role::Both
+        && outline.twice_area != 0.0
+        && outline.contour.double_of.is_none()
+}
+
+/// The punch and the plate that are cut along one contour, one laid in the other.
+pub(crate) fn cut_twice(
+    drawing: &Drawing,
+    outline: &Outline,
+    settings: &Effective,
+    goes_on: &dyn Fn() -> bool,
+) -> Result<Pair, Refusal> {
+    let part_of = |of: Use| {
+        let (own, is_other) = settings.of_use(of).ok_or_else(|| {
+            Refusal::Sentence(say!(passes_run_on_both_sides_of_the_contour, of.name()))
+        })?;
+        let side = side_of(outline, of.role())?;
+        let cutting = Cutting {
+            side,
+            is_other,
+            settings: &own,
+        };
+        part(drawing, &outline.contour, cutting, goes_on)
+    };
+    let (punch, plate) = (part_of(Use::Punch)?, part_of(Use::Plate)?);
+    let names = [Use::Punch.name().into(), Use::Plate.name().into()];
+    let unit_mm = settings.unit_of(drawing).mm;
+    let clearance = settings.pair.clearance.unwrap_or(0.0) / unit_mm;
+    // Beside straight walls the two lie as far apart as their kerfs leave it.
+    let along_walls = punch_and_plate_apart(settings).map_or(clearance, |mm| mm / unit_mm);
+    let limits = held::Limits {
+        clearance,
+        rounding: settings.tolerances.report / unit_mm,
+        along_walls: Some(along_walls),
+    };
+    Ok(held::held(punch, plate, names, &limits))
+}
+
+/// How far apart the walls of the two parts lie that are cut along one contour, mm.
+fn punch_and_plate_apart(settings: &Effective) -> Option<f64> {
+    let half = settings.half_kerf(settings.each_correction().len() - 1)?;
+    let within = |of: Use| {
+        let (own, is_other) = settings.of_use(of)?;
+        let last = own.corrections.last().copied()?;
+        Some(if is_other { -last } else { last })
+    };
+    Some(2.0 * half - within(Use::Punch)? - within(Use::Plate)?)
+}
+
+/// Two drawn parts, one laid in the other.
+pub(crate) fn drawn_pair(
+    drawing: &Drawing,
+    punch: &Outline,
+    plate: &Outline,
+    settings: &Effective,
+    goes_on: &dyn Fn() -> bool,
+) -> Result<Pair, Refusal> {
+    let part_of = |outline: &Outline, role: Role| {
+        let cutting = Cutting {
+            side: side_of(outline, role)?,
+            is_other: false,
+            settings,
+        };
+        part(drawing, &outline.contour, cutting, goes_on)
+    };
+    let names = [&punch.contour, &plate.contour].map(|it| name_of(drawing, it, settings));
+    let unit_mm = settings.unit_of(drawing).mm;
+    let limits = held::Limits {
+        clearance: settings.pair.clearance.unwrap_or(0.0) / unit_mm,
+        rounding: settings.tolerances.report / unit_mm,
+        along_walls: None,
+    };
+    let parts = (part_of(punch, Role::Punch)?, part_of(plate, Role::Opening)?);
+    Ok(held::held(parts.0, parts.1, names, &limits))
+}
+
+fn side_of(outline: &Outline, role: Role) -> Result<Side, Refusal> {
+    wire_side(role, outline.contour.closed, outline.twice_area)
+        .ok_or_else(|| Refusal::Sentence(say!(no_path_can_be_made).into()))
+}
+
+/// The workpiece of a contour: that of the layer of its first entity.
+pub(crate) fn workpiece_of(drawing: &Drawing, contour: &Contour, settings: &Effective) -> u16 {
+    let first = contour.pieces.first();
+    let entity = first.and_then(|piece| drawing.get(piece.entity));
+    entity.map_or(0, |entity| settings.workpieces.of_layer(&entity.layer))
+}
+
+pub(crate) fn name_of(drawing: &Drawing, contour: &Contour, settings: &Effective) -> Arc<str> {
+    let number = workpiece_of(drawing, contour, settings);
+    settings.workpieces.name(number).unwrap_or_default().into()
+}
+
+/// The outlines of a part as segments.
+fn segments(part: &Part) -> Vec<Segment> {
+    part.edges.iter().map(|edge| edge.geometry).collect()
+}

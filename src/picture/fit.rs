@@ -1,0 +1,198 @@
+//! A punch in its plate, as the wire leaves them: the places where clearance is missing, marked and enlarged.
+
+use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped, number, path_data};
+use super::style;
+use crate::fit::{Fit, Spot};
+use crate::geometry::{Bounds, Point, Segment};
+
+/// Places that are enlarged, the worst first.
+const MOST: usize = 6;
+const COLUMNS: usize = 3;
+const GAP: f64 = 16.0;
+const WIDTH: f64 = (SHEET_WIDTH - 2.0 * MARGIN - GAP * (COLUMNS as f64 - 1.0)) / COLUMNS as f64;
+const WINDOW: f64 = 200.0;
+const CAPTION: f64 = 56.0;
+/// More places than this are dots without a number.
+const NUMBERED: usize = 24;
+
+/// One outline in the other as one SVG, in mm.
+pub fn fit_svg(fit: &Fit, unit_mm: f64) -> String {
+    let mut bounds = Bounds::EMPTY;
+    for pair in &fit.pairs {
+        let all = pair.punch.iter().chain(&pair.plate);
+        all.for_each(|segment| bounds.merge(&segment.bounds()));
+    }
+    if bounds.is_empty() {
+        return style::empty(say!(no_contour_is_of_a_pair));
+    }
+    let frame = Frame::fitting(&bounds);
+    let mut worst: Vec<&Spot> = fit.spots().collect();
+    worst.sort_by(|a, b| a.clearance.total_cmp(&b.clearance));
+    let enlarged = &worst[..worst.len().min(MOST)];
+    let lenses_top = frame.bottom + 40.0;
+    let legend_top = lenses_top + enlarged.len().div_ceil(COLUMNS) as f64 * (WINDOW + CAPTION);
+    let um = |length: f64| length * unit_mm * 1e3;
+    let title = match fit.fits() {
+        true => say!(the_parts_fit),
+        false => say!(the_parts_do_not_fit),
+    };
+    let mut sheet = style::opening(legend_top + 48.0, title);
+    let facts = say!(
+        facts_of_the_fit,
+        um(fit.least()),
+        um(fit.clearance),
+        worst.len()
+    );
+    sheet.heading(title, &facts);
+    sheet.line(format_args!(
+        "<g class=\"figure\">{}",
+        frame.opening_of_drawing(unit_mm)
+    ));
+    outlines(&mut sheet, fit, &frame);
+    sheet.line(format_args!("</g>"));
+    for (index, spot) in worst.iter().enumerate().rev() {
+        mark(&mut sheet, frame.on_sheet(spot.at), index);
+    }
+    sheet.line(format_args!("</g>"));
+    for (index, spot) in enlarged.iter().enumerate() {
+        let left = MARGIN + (index % COLUMNS) as f64 * (WIDTH + GAP);
+        let top = lenses_top + (index / COLUMNS) as f64 * (WINDOW + CAPTION);
+        lens(&mut sheet, fit, spot, (index, left, top), unit_mm);
+    }
+    sheet.line(format_args!("<g class=\"chrome\">"));
+    let mut entries = vec![
+        (
+            r#"<path class="wire" d="M0 0h24"/>"#,
+            say!(the_plate_as_it_is_left),
+        ),
+        (
+            r#"<path class="contour" d="M0 0h24"/>"#,
+            say!(the_punch_as_it_is_left),
+        ),
+    ];
+    if !worst.is_empty() {
+        let dot = r#"<circle class="badge" cx="12" cy="0" r="6"/>"#;
+        entries.push((dot, say!(clearance_is_missing)));
+    }
+    style::legend(&mut sheet, legend_top + 12.0, &entries);
+    let right = SHEET_WIDTH - MARGIN;
+    style::scale_bar(&mut sheet, right, legend_top + 12.0, frame.scale / unit_mm);
+    sheet.line(format_args!("</g>\n</svg>"));
+    sheet.0
+}
+
+/// The plate as ground with its opening, the punch in it.
+fn outlines(sheet: &mut Sheet, fit: &Fit, frame: &Frame) {
+    for pair in &fit.pairs {
+        for (attributes, outline) in [
+            (r#"class="void""#, &pair.plate),
+            (r#"class="ground""#, &pair.punch),
+            (r#"class="wire""#, &pair.plate),
+            (r#"class="contour""#, &pair.punch),
+        ] {
+            sheet.path(
+                attributes,
+                &path_data(frame, outline.iter().copied(), true),
+                "",
+            );
+        }
+    }
+}
+
+fn mark(sheet: &mut Sheet, at: (f64, f64), index: usize) {
+    if index >= NUMBERED {
+        sheet.circle(r#"class="badge""#, at, 3.0, "");
+        return;
+    }
+    sheet.circle(r#"class="badge""#, at, 9.0, "");
+    let [x, y] = [at.0, at.1 + 4.0].map(number);
+    let count = index + 1;
+    sheet.line(format_args!(
+        r#"<text class="count" x="{x}" y="{y}">{count}</text>"#
+    ));
+}
+
+/// One place as large as its clearance asks for, with what is left of it.
+fn lens(
+    sheet: &mut Sheet,
+    fit: &Fit,
+    spot: &Spot,
+    (index, left, top): (usize, f64, f64),
+    unit_mm: f64,
+) {
+    let seen = 14.0 * fit.clearance.max((fit.clearance - spot.clearance).abs());
+    let scale = WIDTH / seen;
+    if !scale.is_finite() || scale <= 0.0 {
+        return;
+    }
+    let frame = Frame {
+        origin: spot.at,
+        scale,
+        left: left + WIDTH / 2.0,
+        bottom: top + WINDOW / 2.0,
+    };
+    let window = Bounds {
+        min: spot.at,
+        max: spot.at,
+    }
+    .grown(seen);
+    let [x, y, width, height] = [left, top, WIDTH, WINDOW].map(number);
+    let rectangle = format!(r#"x="{x}" y="{y}" width="{width}" height="{height}" rx="6""#);
+    sheet.line(format_args!(
+        r##"<g class="lens"><clipPath id="fit{index}"><rect {rectangle}/></clipPath><g clip-path="url(#fit{index})"><rect class="ground" {rectangle}/>{}"##,
+        frame.opening()
+    ));
+    let reaches = |segments: &[Segment]| {
+        let near = |segment: &&Segment| segment.bounds().touches(&window);
+        segments.iter().filter(near).copied().collect::<Vec<_>>()
+    };
+    for pair in &fit.pairs {
+        for (class, outline) in [("wire", &pair.plate), ("contour", &pair.punch)] {
+            for segment in reaches(outline) {
+                let data = path_data(&frame, flat(segment, spot.at, seen), false);
+                sheet.path(&format!(r#"class="{class}""#), &data, "");
+            }
+        }
+    }
+    sheet.circle(r#"class="dot""#, (0.0, 0.0), 2.6, "");
+    sheet.line(format_args!(
+        r#"</g></g><rect class="window" {rectangle}/>"#
+    ));
+    let figures = say!(
+        um_left_of_um,
+        spot.clearance * unit_mm * 1e3,
+        fit.clearance * unit_mm * 1e3
+    );
+    let [figures, place] =
+        [figures, say!(the_corner_of_a_part, spot.of, spot.partner)].map(|text| escaped(&text));
+    mark(sheet, (left + 10.0, top + WINDOW + 20.0), index);
+    let [x, first, second] = [left + 26.0, top + WINDOW + 18.0, top + WINDOW + 34.0].map(number);
+    sheet.line(format_args!(
+        r#"<text class="figures" x="{x}" y="{first}">{figures}</text><text class="place" x="{x}" y="{second}">{place}</text></g>"#
+    ));
+    style::scale_bar(
+        sheet,
+        left + WIDTH - 12.0,
+        top + WINDOW - 24.0,
+        scale / unit_mm,
+    );
+}
+
+/// What of a segment lies near a point, for viewers that lose digits on what is enlarged thousands of times.
+fn flat(segment: Segment, at: Point, seen: f64) -> Vec<Segment> {
+    let length = segment.length();
+    let near = segment.share_of(at);
+    if length <= 0.0 || !near.is_finite() {
+        return vec![segment];
+    }
+    let reach = 2.0 * seen / length;
+    let (from, to) = (
+        (near - reach).clamp(0.0, 1.0),
+        (near + reach).clamp(0.0, 1.0),
+    );
+    match segment.as_arc() {
+        Some(arc) if arc.is_full_turn() => vec![segment],
+        _ if to > from => vec![segment.part(from, to)],
+        _ => Vec::new(),
+    }
+}

@@ -1,0 +1,43 @@
+//! `wedm/fit` and `wedm/pair`: whether the parts of a pair fit, and the program of each.
+
+use super::{Task, generate};
+use crate::job;
+use crate::picture;
+use crate::protocol::{DrawingName, Fit, PairProgram, PairPrograms, Program};
+use crate::server::context::RequestContext;
+use crate::server::convert;
+use tower_lsp::jsonrpc::Result;
+
+pub(in crate::server) fn fit(context: &RequestContext, _: DrawingName) -> Result<Fit> {
+    let task = Task::of(context)?;
+    let fit =
+        job::fit(&task.snapshot, context).map_err(|refusal| task.refused(context, &refusal))?;
+    let drawing = &task.snapshot.drawing;
+    let svg = picture::fit_svg(&fit, task.unit_mm());
+    Ok(Fit::new(drawing, &fit, svg, task.unit_mm()))
+}
+
+pub(in crate::server) fn pair(
+    context: &RequestContext,
+    params: generate::Params,
+) -> Result<PairPrograms> {
+    let task = Task::of(context)?;
+    let wanted = params.wanted(&task)?;
+    let made = job::pair(&task.snapshot, &generate::findings(&task), &wanted, context);
+    context.check()?;
+    let made = made.map_err(|refusal| task.refused(context, &refusal))?;
+    let programs = made.into_iter().map(|part| {
+        let warnings = &part.made.warnings;
+        let shown = &warnings[..warnings.len().min(convert::PUBLISH_LIMIT)];
+        let warnings = convert::diagnostics(&task.subject, shown, context.encoding);
+        PairProgram {
+            part: part.part,
+            corrections: part.corrections,
+            other_side: part.is_other_side,
+            program: Program::new(part.made.program, part.made.finished, warnings),
+        }
+    });
+    Ok(PairPrograms {
+        programs: programs.collect(),
+    })
+}

@@ -1,0 +1,276 @@
+//! What is said of a pair of parts: the correction of each, who is held against whom, and what contradicts itself.
+
+use super::effective::Effective;
+use super::{DrawnAs, PassFault, Settings, SideSetting};
+use crate::drawing::Role;
+use std::collections::BTreeMap;
+
+/// Two lengths in mm that differ by less are equal.
+const ROUNDING: f64 = 1e-9;
+
+/// A part that is cut along a drawn contour of a pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Use {
+    Punch,
+    Plate,
+    /// The plate that strips the strip from the punch, with a clearance of its own.
+    Stripper,
+    /// The plate that holds the punch, tighter than the punch.
+    Holder,
+}
+
+impl Use {
+    pub const ALL: [Use; 4] = [Use::Punch, Use::Plate, Use::Stripper, Use::Holder];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Use::Punch => "punch",
+            Use::Plate => "plate",
+            Use::Stripper => "stripper",
+            Use::Holder => "holder",
+        }
+    }
+
+    pub fn role(self) -> Role {
+        match self {
+            Use::Punch => Role::Punch,
+            Use::Plate | Use::Stripper | Use::Holder => Role::Opening,
+        }
+    }
+}
+
+impl From<DrawnAs> for Use {
+    fn from(drawn_as: DrawnAs) -> Use {
+        match drawn_as {
+            DrawnAs::Punch => Use::Punch,
+            DrawnAs::Plate => Use::Plate,
+        }
+    }
+}
+
+/// Parts by the layers they are drawn on.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Workpieces {
+    /// In the order of their names.
+    names: Vec<String>,
+    by_layer: BTreeMap<String, u16>,
+}
+
+impl Workpieces {
+    pub(super) fn of(settings: &Settings) -> Workpieces {
+        let mut workpieces = Workpieces::default();
+        for (name, layers) in settings.workpieces.iter().flatten() {
+            workpieces.names.push(name.clone());
+            let number = u16::try_from(workpieces.names.len()).unwrap_or(u16::MAX);
+            for layer in layers {
+                workpieces.by_layer.entry(layer.clone()).or_insert(number);
+            }
+        }
+        workpieces
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.names.is_empty()
+    }
+
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The number of the part that a layer is of, from 1; 0 for what is of none.
+    pub fn of_layer(&self, layer: &str) -> u16 {
+        self.by_layer.get(layer).copied().unwrap_or(0)
+    }
+
+    /// The name of a part by its number.
+    pub fn name(&self, number: u16) -> Option<&str> {
+        let index = usize::from(number).checked_sub(1)?;
+        self.names.get(index).map(String::as_str)
+    }
+}
+
+/// What is held against what.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Partners {
+    /// Each contour that the wire runs on both sides of, as punch and as plate.
+    CutTwice(DrawnAs),
+    /// Contours of different workpieces.
+    Drawn,
+}
+
+/// Keys that are missing where a fit is asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MissingForFit(pub Vec<&'static str>);
+
+impl MissingForFit {
+    /// The keys as a person reads them.
+    pub fn listed(&self) -> String {
+        match self.0.as_slice() {
+            [first @ .., last] if !first.is_empty() => say!(and, first.join(", "), last),
+            keys => keys.concat(),
+        }
+    }
+}
+
+impl Effective {
+    /// What is drawn of a pair; `None` where nothing says so.
+    pub fn partners(&self) -> Option<Partners> {
+        match self.pair.drawn_as {
+            Some(drawn_as) => Some(Partners::CutTwice(drawn_as)),
+            None if self.workpieces.names.len() > 1 => Some(Partners::Drawn),
+            None => None,
+        }
+    }
+
+    /// The partners and their clearance in mm, where a fit is asked for and all is known that it takes.
+    pub fn fit(&self) -> Result<(Partners, f64), MissingForFit> {
+        let mut missing = Vec::new();
+        let partners = self.partners();
+        if partners.is_none() {
+            missing.push("pair.drawn-as");
+        }
+        if self.pair.clearance.is_none() {
+            missing.push("pair.clearance");
+        }
+        if self.wire_diameter.is_none() {
+            missing.push("wire-diameter");
+        }
+        if self.passes.gaps.is_none() && self.gap.is_none() {
+            missing.push("gap");
+        }
+        match (partners, self.pair.clearance) {
+            (Some(partners), Some(clearance)) if missing.is_empty() => Ok((partners, clearance)),
+            _ => Err(MissingForFit(missing)),
+        }
+    }
+
+    /// The parts that are cut along each drawn contour.
+    pub fn uses(&self) -> Vec<Use> {
+        let is_cut = |of: &Use| match of {
+            Use::Punch | Use::Plate => true,
+            Use::Stripper => self.pair.stripper.is_some(),
+            Use::Holder => self.pair.holder.is_some(),
+        };
+        Use::ALL.into_iter().filter(is_cut).collect()
+    }
+
+    /// By how much the correction of a part is above that of what is drawn, mm; `None` where the pair does not say.
+    fn shift_of(&self, of: Use) -> Option<f64> {
+        let clearance = self.pair.clearance?;
+        let drawn_as = self.pair.drawn_as?;
+        // The outline of the punch lies so far within what is drawn.
+        let within = match drawn_as {
+            DrawnAs::Punch => 0.0,
+            DrawnAs::Plate => clearance,
+        };
+        Some(match of {
+            Use::Punch => -within,
+            Use::Plate => within - clearance,
+            Use::Stripper => within - self.pair.stripper?,
+            Use::Holder => within + self.pair.holder?,
+        })
+    }
+
+    /// The settings under which one part of a pair is cut along what is drawn. Where its correction falls to 0 or below the wire runs on the
+    /// other side of the contour, so far from it: the flag says so. `None` where the pair does not say, and where some passes run on the one
+    /// side, some on the other.
+    pub fn of_use(&self, of: Use) -> Option<(Effective, bool)> {
+        let shift = self.shift_of(of)?;
+        let signed = |correction: f64| correction + shift;
+        let all: Vec<f64> = self.corrections.iter().copied().map(signed).collect();
+        let is_other = all.iter().all(|correction| *correction <= ROUNDING);
+        if !is_other && all.iter().any(|correction| *correction <= ROUNDING) {
+            return None;
+        }
+        let role = match (of.role(), is_other) {
+            (Role::Punch, false) | (Role::Opening, true) => SideSetting::Punch,
+            _ => SideSetting::Opening,
+        };
+        let corrections: Vec<f64> = all.iter().map(|correction| correction.abs()).collect();
+        let correction = corrections.iter().copied().fold(0.0, f64::max);
+        let mut settings = Effective {
+            correction,
+            pass: self.pass,
+            side: role,
+            ..self.clone()
+        };
+        settings.passes.corrections = self
+            .passes
+            .corrections
+            .as_ref()
+            .map(|_| corrections.clone());
+        settings.corrections = corrections;
+        settings.pair.drawn_as = None;
+        settings.pair.clearance = None;
+        Some((settings, is_other))
+    }
+
+    /// The settings under which one of the drawn workpieces is cut, and nothing else.
+    pub fn of_workpiece(&self, number: u16) -> Effective {
+        let mut settings = Effective {
+            only: Some(number),
+            ..self.clone()
+        };
+        settings.pair.clearance = None;
+        settings
+    }
+}
+
+/// What contradicts itself of a pair, or says nothing.
+pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
+    let pair = settings.pair.clone().unwrap_or_default();
+    let workpieces = settings.workpieces.clone().unwrap_or_default();
+    let mut faults = Vec::new();
+    let mut complain = |key: &'static str, message: String| {
+        faults.push(PassFault {
+            key,
+            pass: usize::MAX,
+            message,
+        });
+    };
+    let mut layers: BTreeMap<&str, &str> = BTreeMap::new();
+    for (name, of) in &workpieces {
+        for layer in of {
+            if let Some(other) = layers.insert(layer, name)
+                && other != name
+            {
+                let message = say!(a_layer_in_two_workpieces, layer, other, name);
+                complain("workpieces.layers", message);
+            }
+        }
+    }
+    if pair.drawn_as.is_some() {
+        let key = "pair.drawn-as";
+        let side = settings.side();
+        if workpieces.len() > 1 {
+            complain(key, say!(a_pair_drawn_and_cut_twice, key));
+        } else if side != SideSetting::Both {
+            let side = serde_json::to_string(&side).unwrap_or_default();
+            complain(key, say!(a_pair_on_one_side, key, side.replace('"', "")));
+        }
+        if pair.clearance.is_none() {
+            complain(key, say!(a_pair_without_clearance, key));
+        }
+    } else {
+        for (key, is_set) in [
+            ("pair.stripper", pair.stripper.is_some()),
+            ("pair.holder", pair.holder.is_some()),
+        ] {
+            if is_set {
+                complain(key, say!(an_extra_needs_a_drawn_part, key));
+            }
+        }
+    }
+    if pair.clearance.is_some() {
+        let key = "pair.clearance";
+        let effective = Effective::of(settings);
+        match effective.fit() {
+            Ok(_) => {}
+            Err(_) if effective.partners().is_none() => {
+                complain(key, say!(a_pair_without_partner, key));
+            }
+            Err(missing) => complain(key, say!(a_fit_needs, key, missing.listed())),
+        }
+    }
+    faults
+}

@@ -1,0 +1,220 @@
+//! The outline of a part as the wire leaves it: all that the last pass comes as near to as half its kerf is gone.
+//!
+//! The path of the last pass is laid beside the contour, and the outline as far beside the path on the side of the part. Where the path
+//! turns in a point the wire leaves its own radius: such an edge remembers the point.
+
+use super::clearance::Walls;
+use super::corners::{Element, elements};
+use super::job::Job;
+use super::laid::{Along, Laid};
+use super::offset::{Wall, walls};
+use super::path::{Refusal, Source};
+use super::paths::Pass;
+use crate::drawing::{Contour, Drawing, EntityId};
+use crate::geometry::{Arc, Point, Segment, Side};
+use crate::settings::{Corner, Effective, SkimCorner};
+use rustc_hash::FxHashMap;
+
+/// One edge of the outline of a part.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Edge {
+    pub geometry: Segment,
+    /// Where the wire turned, and left its own radius.
+    pub turned_about: Option<Point>,
+    /// The walls that the path follows before and behind, by index.
+    walls: [usize; 2],
+}
+
+/// A part as the wire leaves it. Lengths in drawing units.
+pub(crate) struct Part {
+    /// Along the contour.
+    pub edges: Vec<Edge>,
+    /// The edges, to ask what is near.
+    pub near: Walls,
+    /// The way of the wire's centre in the last pass, to ask what is near.
+    pub path: Walls,
+    /// Half the kerf of the last pass.
+    pub half: f64,
+    /// The contour as it is drawn.
+    drawn: Vec<Wall>,
+}
+
+impl Part {
+    /// The segment of the drawing that an edge stands for at a point of it: of those that the wire does not follow the nearest, else the
+    /// one behind the corner.
+    pub fn segment_at(&self, edge: usize, at: Point) -> Option<(EntityId, usize)> {
+        let [before, behind] = self.edges[edge].walls;
+        let count = self.drawn.len();
+        let skipped = (behind + count - before) % count;
+        let between = (1..skipped).map(|step| (before + step) % count);
+        let nearest = between.min_by(|&a, &b| {
+            let away = |wall: usize| self.drawn[wall].geometry.distance_to(at);
+            away(a).total_cmp(&away(b))
+        });
+        match self.drawn.get(nearest.unwrap_or(behind))?.source {
+            Source::Segment { entity, segment } => Some((entity, segment)),
+            _ => None,
+        }
+    }
+}
+
+/// How a part is cut out of a contour.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cutting<'a> {
+    /// The side of the contour's own direction that the part does not lie on.
+    pub side: Side,
+    /// The wire runs on the side of the part.
+    pub is_other: bool,
+    pub settings: &'a Effective,
+}
+
+/// The part that all passes leave of a closed contour.
+pub(crate) fn part(
+    drawing: &Drawing,
+    contour: &Contour,
+    cutting: Cutting,
+    goes_on: &dyn Fn() -> bool,
+) -> Result<Part, Refusal> {
+    let Cutting {
+        side,
+        is_other,
+        settings,
+    } = cutting;
+    let job = Job {
+        drawing,
+        outlines: &[],
+        settings,
+        picks: FxHashMap::default(),
+        unit_mm: settings.unit_of(drawing).mm,
+        finishes: false,
+        goes_on,
+    };
+    let passes = settings.each_correction();
+    let half = settings.half_kerf(passes.len() - 1);
+    let (Some(&last), Some(half)) = (passes.last(), half) else {
+        return Err(Refusal::Sentence(say!(no_path_can_be_made).into()));
+    };
+    let (last, half) = (job.units(last), job.units(half));
+    let away = if is_other { side.reversed() } else { side };
+    let (drawn, path) = job.last_path(contour, away, last)?;
+    let beside: Vec<Wall> = path
+        .iter()
+        .map(|element| Wall {
+            geometry: element.geometry,
+            source: drawn[element.wall].source,
+        })
+        .collect();
+    let near_path = Walls::new(beside.iter().map(|wall| wall.geometry).collect());
+    if let [Segment::Line(stand)] = beside
+        .iter()
+        .map(|wall| wall.geometry)
+        .collect::<Vec<_>>()
+        .as_slice()
+    {
+        // The wire only stands, and leaves a hole as large as its kerf.
+        let start = stand.start + crate::geometry::direction(0.0) * half;
+        let circle = Segment::Arc(Arc::about(stand.start, start, start, true));
+        return Ok(Part {
+            edges: vec![Edge {
+                geometry: circle,
+                turned_about: Some(stand.start),
+                walls: [path[0].wall; 2],
+            }],
+            near: Walls::new(vec![circle]),
+            path: near_path,
+            half,
+            drawn,
+        });
+    }
+    let back = Along {
+        side: -side.sign(),
+        correction: half,
+        corner: Corner::Arc,
+    };
+    let outline = match job.laid(&beside, &near_path, back)? {
+        Ok(Laid::Path(outline)) => outline,
+        Ok(Laid::Point(_)) => {
+            let fault = super::laid::Fault::Nothing;
+            return Err(Refusal::Findings(vec![job.no_path(&fault, &beside, half)]));
+        }
+        Err(fault) => {
+            return Err(Refusal::Findings(vec![job.no_path(&fault, &beside, half)]));
+        }
+    };
+    let edge = |element: &Element| {
+        let is_turn = matches!(element.source, Source::Corner { .. });
+        let next = (element.wall + 1) % path.len();
+        let before = path[element.wall].wall;
+        Edge {
+            geometry: element.geometry,
+            turned_about: element
+                .geometry
+                .as_arc()
+                .filter(|_| is_turn)
+                .map(|arc| arc.center),
+            walls: [before, if is_turn { path[next].wall } else { before }],
+        }
+    };
+    let edges: Vec<Edge> = outline.iter().map(edge).collect();
+    Ok(Part {
+        near: Walls::new(edges.iter().map(|edge| edge.geometry).collect()),
+        edges,
+        path: near_path,
+        half,
+        drawn,
+    })
+}
+
+impl Job<'_> {
+    /// The walls of a closed contour, and the path of the last pass along them on a side; one line without length where the wire can only
+    /// stand.
+    fn last_path(
+        &self,
+        contour: &Contour,
+        side: Side,
+        last: f64,
+    ) -> Result<(Vec<Wall>, Vec<Element>), Refusal> {
+        let settings = self.settings;
+        let rough = self.units(settings.correction);
+        let is_beside_rough = settings.passes.skim_corner() == SkimCorner::ConstantStock
+            && rough > last
+            && settings.corrections.len() > 1;
+        if last <= self.units(super::job::ROUNDING) {
+            let zero_length = self.units(settings.tolerances.zero_length);
+            let walls = walls(contour.segments(self.drawing), true, zero_length);
+            let path = elements(&walls);
+            return Ok((walls, path));
+        }
+        let first = if is_beside_rough { rough } else { last };
+        let (walls, own, laid) = self.along(contour, side.sign(), first)?;
+        let laid = match (laid, is_beside_rough) {
+            (Ok(Laid::Path(path)), true) => {
+                let rough = Pass {
+                    correction: rough,
+                    path,
+                    element: 0,
+                    begin: Point::origin(),
+                };
+                let along = Along {
+                    side: side.sign(),
+                    correction: last,
+                    corner: settings.corner,
+                };
+                self.skim(&walls, &own, &rough, along)?
+            }
+            (laid, _) => laid,
+        };
+        match laid {
+            Ok(Laid::Path(path)) => Ok((walls, path)),
+            Ok(Laid::Point(stand)) => {
+                let element = Element {
+                    geometry: Segment::line(stand, stand),
+                    source: Source::Tab,
+                    wall: 0,
+                };
+                Ok((walls, vec![element]))
+            }
+            Err(fault) => Err(Refusal::Findings(vec![self.no_path(&fault, &walls, first)])),
+        }
+    }
+}
