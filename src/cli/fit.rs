@@ -1,7 +1,7 @@
 //! `wedm fit`: whether a punch goes into its plate.
 
 use super::options::{Common, Pairing, Program};
-use super::output::{self, counted, styled};
+use super::output::{self, styled};
 use super::{Failure, Verdict, files, inspect, report};
 use crate::geometry::Xy;
 use crate::job;
@@ -97,12 +97,18 @@ fn table(fit: &Fit) -> String {
         let _ = writeln!(text, "{}", readable(&line));
     }
     let (least, wanted) = (fit.least * 1e3, fit.clearance * 1e3);
-    let places = counted(fit.places.len(), "place");
+    let places = say!(places, fit.places.len());
     let _ = match fit.fits {
         true => writeln!(
             text,
             "{}",
-            say!(it_fits, styled(output::GOOD, "fits"), least, wanted, places)
+            say!(
+                it_fits,
+                styled(output::GOOD, say!(fits)),
+                least,
+                wanted,
+                places
+            )
         ),
         false => writeln!(
             text,

@@ -1,7 +1,7 @@
 //! `wedm pair`: the programs of all parts of a pair.
 
 use super::options::{Common, Pairing, Program};
-use super::output::{self, counted, styled};
+use super::output::{self, styled};
 use super::{Failure, Verdict, files, report};
 use crate::job::{self, Wanted};
 use crate::program::Format;
@@ -95,7 +95,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             output::target_name(Some(target)),
             part.part,
             corrections.join(" / "),
-            counted(program.blocks, "block"),
+            say!(blocks, program.blocks),
             program.length
         ));
         if part.is_other_side {

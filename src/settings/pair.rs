@@ -106,7 +106,7 @@ impl MissingForFit {
     /// The keys as a person reads them.
     pub fn listed(&self) -> String {
         match self.0.as_slice() {
-            [first @ .., last] if !first.is_empty() => say!(and, first.join(", "), last),
+            [first @ .., last] if !first.is_empty() => first.join(say!(comma)) + say!(and) + last,
             keys => keys.concat(),
         }
     }

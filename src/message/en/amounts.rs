@@ -17,6 +17,7 @@ declare! {
     new_numbers(count: usize) => { counted(*count, "new number", "new numbers") };
     notes(count: usize) => { counted(*count, "note", "notes") };
     overlaps(count: usize) => { counted(*count, "overlap", "overlaps") };
+    places(count: usize) => { counted(*count, "place", "places") };
     programs(count: usize) => { counted(*count, "program", "programs") };
     segments(count: usize) => { counted(*count, "segment", "segments") };
     short_segments(count: usize) => { counted(*count, "short segment", "short segments") };

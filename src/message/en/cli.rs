@@ -17,6 +17,7 @@ declare! {
     the_fit_is_not_known(path, errors) => "{path}: whether the parts fit is not known, the drawing has {errors}";
     heading_of_the_fit => "   µm left  part       handle     segment  at";
     a_contour_has_no_partner(handle, name) => "contour {handle} of workpiece {name} has no partner";
+    fits => "fits";
     it_fits(fits, least, wanted, places) => "{fits}: {least:.1} µm of {wanted:.1} are left where it is tightest, clearance is missing at {places}";
     it_does_not_fit(fits, least, wanted, places) => "{fits}: {least:.1} µm of {wanted:.1} are left where it is tightest, clearance is missing at {places}";
     the_program_is_there_already => "it is there already, expected a folder without it, or --overwrite";

@@ -41,7 +41,6 @@ declare! {
     a_pair_on_one_side(key, side) => "{key} says that each contour is cut from both sides, but side is {side}: expected both";
     an_extra_needs_a_drawn_part(key) => "{key} needs a contour that is cut for several parts: expected pair.drawn-as beside it";
     a_layer_in_two_workpieces(layer, one, other) => "the layer {layer} is of the workpieces {one} and {other}: expected one of them";
-    and(one, other) => "{one} and {other}";
     the_file_has_bytes_expected_at_most(bytes, most) => "the file has {bytes} bytes, expected at most {most}: none of it holds";
     not_toml(reason) => "not TOML: {reason}";
 }

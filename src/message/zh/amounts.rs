@@ -17,6 +17,7 @@ translate! {
     new_numbers(count: usize) => { format!("{count} 个数值") };
     notes(count: usize) => { format!("{count} 个提示") };
     overlaps(count: usize) => { format!("{count} 处重叠") };
+    places(count: usize) => { format!("{count} 处") };
     programs(count: usize) => { format!("{count} 个程序") };
     segments(count: usize) => { format!("{count} 段") };
     short_segments(count: usize) => { format!("{count} 段短线段") };

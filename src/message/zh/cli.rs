@@ -5,6 +5,7 @@ translate! {
     the_fit_is_not_known(path, errors) => "{path}：不知道是否配合，图纸有{errors}";
     heading_of_the_fit => "  剩余 µm  零件       句柄         线段  位置";
     a_contour_has_no_partner(handle, name) => "工件 {name} 的轮廓 {handle} 没有配对的轮廓";
+    fits => "能够配合";
     it_fits(fits, least, wanted, places) => "{fits}：最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm，间隙不足 {places}";
     it_does_not_fit(fits, least, wanted, places) => "{fits}：最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm，间隙不足 {places}";
     the_program_is_there_already => "文件已存在，应换没有它的文件夹，或加 --overwrite";
