@@ -52,7 +52,7 @@ pub enum Refusal {
 
 impl Refusal {
     /// The refusal for a person; `unit_mm` is that of the lengths in findings.
-    pub(crate) fn sentence(&self, unit_mm: f64) -> String {
+    pub fn sentence(&self, unit_mm: f64) -> String {
         match self {
             Refusal::Sentence(sentence)
             | Refusal::Unproved(sentence, _)

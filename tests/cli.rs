@@ -1208,6 +1208,78 @@ fn a_program_decodes_to_where_it_began_and_lands_in_its_file() {
 }
 
 /// Errors of contours that are not cut do not stand in the way of those that are.
+/// tight_fillet.dxf as a pair: it does not fit, and fits with a thinner wire; then there are two programs, which stay as they are.
+#[test]
+fn a_pair_is_held_in_each_other_and_its_programs_are_written_once() {
+    let desk = Desk::new();
+    let pair = "--drawn-as punch --clearance 0.01";
+    let thick = format!("{pair} --wire-diameter 0.18 --gap 0.01");
+    let thin = format!("{pair} --wire-diameter 0.1 --gap 0.01");
+    let bound = desk.run(&format!("fit tight_fillet.dxf {thick} -o fit.svg"));
+    assert_eq!(bound.code, Some(1), "{bound:?}");
+    assert!(
+        bound.stdout.contains("does not fit: -6.6 µm of 10.0"),
+        "{bound:?}"
+    );
+    let svg = String::from_utf8(desk.read("fit.svg")).unwrap();
+    assert!(
+        svg.contains("-6.6 µm left of 10.0") && svg.ends_with("</svg>\n"),
+        "{svg}"
+    );
+    let json = desk.run(&format!("fit tight_fillet.dxf {thin} --format json"));
+    let fit: Value = serde_json::from_str(&json.stdout).unwrap();
+    assert_eq!((json.code, &fit["fits"]), (Some(0), &Value::Bool(true)));
+    let refused = desk.run(&format!("pair tight_fillet.dxf {thick}"));
+    assert!(
+        refused.code == Some(1) && refused.stderr.contains("does-not-fit"),
+        "{refused:?}"
+    );
+    assert!(!desk.path("tight_fillet-punch.3b").exists());
+    let written = desk.run(&format!("pair tight_fillet.dxf {thin} --holder 0.005"));
+    assert_eq!(written.code, Some(0), "{written:?}");
+    for (part, correction) in [
+        ("punch", "0.0600"),
+        ("plate", "0.0500"),
+        ("holder", "0.0650"),
+    ] {
+        assert!(desk.path(&format!("tight_fillet-{part}.3b")).is_file());
+        assert!(
+            written
+                .stderr
+                .contains(&format!("{part}, correction {correction} mm")),
+            "{written:?}"
+        );
+    }
+    desk.write("tight_fillet-plate.3b", "mine");
+    let again = desk.run(&format!("pair tight_fillet.dxf {thin}"));
+    assert!(
+        again.code == Some(2) && again.stderr.contains("it is there already"),
+        "{again:?}"
+    );
+    assert_eq!(desk.read("tight_fillet-plate.3b"), b"mine");
+    assert_eq!(
+        desk.run(&format!("pair tight_fillet.dxf {thin} --overwrite"))
+            .code,
+        Some(0)
+    );
+    let missing = desk.run("pair tight_fillet.dxf --drawn-as plate");
+    assert!(
+        missing.code == Some(2)
+            && missing
+                .stderr
+                .contains("says nothing without pair.clearance"),
+        "{missing:?}"
+    );
+    let missing = desk.run("fit tight_fillet.dxf");
+    assert!(
+        missing.code == Some(1)
+            && missing
+                .stderr
+                .contains("pair.drawn-as, pair.clearance, wire-diameter and gap"),
+        "{missing:?}"
+    );
+}
+
 #[test]
 fn only_what_is_cut_refuses_a_program() {
     let desk = Desk::new();

@@ -246,6 +246,7 @@ fn rules_are_found_where_the_table_says() {
 fn every_rule_of_drawings_has_a_picture_that_shows_it() {
     // These are said of settings, of damage, or when a path is asked for.
     let elsewhere = [
+        Rule::DoesNotFit,
         Rule::LeadIn,
         Rule::UnprovedPath,
         Rule::Syntax,

@@ -132,7 +132,7 @@ pub(crate) fn is_cut_twice(outline: &Outline) -> bool {
         && outline.contour.double_of.is_none()
 }
 
-/// The punch and the plate that are cut along one contour, one laid in the other.
+/// The punch and the plate that are cut along one contour, one laid in the other. Both are made at once.
 pub(crate) fn cut_twice(
     drawing: &Drawing,
     outline: &Outline,
@@ -143,15 +143,17 @@ pub(crate) fn cut_twice(
         let (own, is_other) = settings.of_use(of).ok_or_else(|| {
             Refusal::Sentence(say!(passes_run_on_both_sides_of_the_contour, of.name()))
         })?;
-        let side = side_of(outline, of.role())?;
         let cutting = Cutting {
-            side,
+            side: side_of(outline, of.role())?,
             is_other,
             settings: &own,
         };
-        part(drawing, &outline.contour, cutting, goes_on)
+        part(drawing, &outline.contour, cutting, &|| true)
     };
-    let (punch, plate) = (part_of(Use::Punch)?, part_of(Use::Plate)?);
+    let parts = rayon::join(|| part_of(Use::Punch), || part_of(Use::Plate));
+    if !goes_on() {
+        return Err(Refusal::Cancelled);
+    }
     let names = [Use::Punch.name().into(), Use::Plate.name().into()];
     let unit_mm = settings.unit_of(drawing).mm;
     let clearance = settings.pair.clearance.unwrap_or(0.0) / unit_mm;
@@ -162,7 +164,7 @@ pub(crate) fn cut_twice(
         rounding: settings.tolerances.report / unit_mm,
         along_walls: Some(along_walls),
     };
-    Ok(held::held(punch, plate, names, &limits))
+    Ok(held::held(parts.0?, parts.1?, names, &limits))
 }
 
 /// How far apart the walls of the two parts lie that are cut along one contour, mm.
@@ -190,7 +192,7 @@ pub(crate) fn drawn_pair(
             is_other: false,
             settings,
         };
-        part(drawing, &outline.contour, cutting, goes_on)
+        part(drawing, &outline.contour, cutting, &|| true)
     };
     let names = [&punch.contour, &plate.contour].map(|it| name_of(drawing, it, settings));
     let unit_mm = settings.unit_of(drawing).mm;
@@ -199,8 +201,14 @@ pub(crate) fn drawn_pair(
         rounding: settings.tolerances.report / unit_mm,
         along_walls: None,
     };
-    let parts = (part_of(punch, Role::Punch)?, part_of(plate, Role::Opening)?);
-    Ok(held::held(parts.0, parts.1, names, &limits))
+    let parts = rayon::join(
+        || part_of(punch, Role::Punch),
+        || part_of(plate, Role::Opening),
+    );
+    if !goes_on() {
+        return Err(Refusal::Cancelled);
+    }
+    Ok(held::held(parts.0?, parts.1?, names, &limits))
 }
 
 fn side_of(outline: &Outline, role: Role) -> Result<Side, Refusal> {

@@ -288,9 +288,9 @@ impl Settings {
 pub struct SettingsError {
     /// Dotted key, as written.
     pub(crate) key: String,
-    pub(crate) message: String,
+    pub message: String,
     /// Bytes in the source text, where there is one.
-    pub(crate) range: Option<std::ops::Range<usize>>,
+    pub range: Option<std::ops::Range<usize>>,
     /// What it is reported as: `settings`, or `pass-order`.
     pub(crate) rule: Rule,
     pub(crate) severity: Severity,

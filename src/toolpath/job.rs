@@ -19,6 +19,8 @@ pub(super) struct Job<'a> {
     pub(crate) unit_mm: f64,
     /// What all passes leave is worked out, too.
     pub(crate) finishes: bool,
+    /// A loop that is everywhere at its distance will do: whether the offset has others is not asked.
+    pub(crate) a_loop_will_do: bool,
     pub(crate) goes_on: &'a dyn Fn() -> bool,
 }
 

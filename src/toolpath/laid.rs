@@ -193,6 +193,9 @@ impl Job<'_> {
                 return Ok(Err(fault));
             }
         }
+        if self.a_loop_will_do {
+            return Ok(Ok(()));
+        }
         let mut by_raw = path.to_vec();
         let share = |(raw, piece): &(usize, Element)| {
             proof.raw.elements[*raw]

@@ -152,6 +152,7 @@ pub(crate) fn plan_while(
         picks,
         unit_mm: settings.unit_of(drawing).mm,
         finishes,
+        a_loop_will_do: false,
         goes_on,
     };
     job.go_on()?;
@@ -212,6 +213,7 @@ pub(crate) fn misfit(
         picks: FxHashMap::default(),
         unit_mm: settings.unit_of(drawing).mm,
         finishes: false,
+        a_loop_will_do: false,
         goes_on: &|| true,
     };
     let correction = job.units(settings.correction);

@@ -87,6 +87,7 @@ pub(crate) fn part(
         picks: FxHashMap::default(),
         unit_mm: settings.unit_of(drawing).mm,
         finishes: false,
+        a_loop_will_do: true,
         goes_on,
     };
     let passes = settings.each_correction();

@@ -6,6 +6,7 @@
 mod client;
 mod copy;
 mod narrator;
+mod pair;
 mod plate;
 mod proof;
 mod punch;
@@ -68,6 +69,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let mut client = start(&mut narrator, correction)?;
     let made = plate::session(&mut narrator, &mut client, correction)?;
     punch::session(&mut narrator, &mut client, correction)?;
+    pair::session(&mut narrator, &mut client, correction)?;
     client.end()?;
 
     // The levels of the session that was played, so that commands in this folder see the drawing as it did.

@@ -40,7 +40,7 @@ pub(crate) fn session(
     narrator.say(&say!(two_of_its_10_vertices_are_spliced, tight));
     let splice = json!({ "handle": "9F", "vertices": { "start": 4, "deleteCount": 2, "insert": fillet(tight) } });
     let begun = Instant::now();
-    change(client, 2, json!([splice]))?;
+    change(client, (URI, 2), json!([splice]))?;
     let diagnostics = client.diagnostics(URI, 2)?;
     narrator.say(&say!(
         version_2_after_the_splice,
@@ -55,8 +55,8 @@ pub(crate) fn session(
     };
     narrator.diagnostic(diagnostic, Behind::Nothing);
 
-    let edit = ask_for_edit(narrator, client, diagnostic)?;
-    change(client, 3, edit["changes"].clone())?;
+    let edit = ask_for_edit(narrator, client, diagnostic, (URI, 2))?;
+    change(client, (URI, 3), edit["changes"].clone())?;
     let left = client.diagnostics(URI, 3)?.len();
     holds(left == first, || {
         say!(diagnostics_are_left_in_the_punch, left)
@@ -73,21 +73,26 @@ fn fillet(radius: f64) -> [Value; 2] {
     ]
 }
 
-fn change(client: &mut Client, version: i64, changes: Value) -> Result<(), Failure> {
+pub(super) fn change(
+    client: &mut Client,
+    (uri, version): (&str, i64),
+    changes: Value,
+) -> Result<(), Failure> {
     client.notify(
         "wedm/didChangeDrawing",
-        json!({ "drawing": { "uri": URI, "version": version }, "changes": changes }),
+        json!({ "drawing": { "uri": uri, "version": version }, "changes": changes }),
     )
 }
 
 /// Runs the preferred fix's command; the server asks the CAD program to apply its edit, which it does.
-fn ask_for_edit(
+pub(super) fn ask_for_edit(
     narrator: &mut Narrator,
     client: &mut Client,
     diagnostic: &Value,
+    (uri, version): (&str, i64),
 ) -> Result<Value, Failure> {
     let params = json!({
-        "textDocument": { "uri": URI },
+        "textDocument": { "uri": uri },
         "range": diagnostic["range"],
         "context": { "diagnostics": [diagnostic], "only": ["quickfix"] },
     });
@@ -100,7 +105,7 @@ fn ask_for_edit(
     )?;
     let (asked, mut params) = client.asked("wedm/applyDrawingEdit")?;
     let edit = params["edit"].take();
-    holds(edit["version"] == 2 && edit["uri"] == URI, || {
+    holds(edit["version"] == version && edit["uri"] == uri, || {
         say!(the_edit_is, edit)
     })?;
     client.answer(&asked, json!({ "applied": true }))?;

@@ -141,6 +141,11 @@ declare! {
     block_leads_nowhere(number, fault) => "block {number} leads nowhere: {fault}";
     the_program_has_no_end => "the program has no end";
     the_same_from_a_cad_program => "The same from a CAD program: a punch, no text behind it (wedm/didOpenDrawing)";
+    one_contour_for_punch_and_plate => "One contour, cut once as the punch and once as the plate: does one go into the other? (wedm/fit)";
+    the_pair_that_binds_gets_no_diagnostic => "the pair that binds gets no diagnostic";
+    the_fit_is_of(least) => "{least:.1} µm are left";
+    what_is_left_of_the_clearance(least, clearance) => "Of {clearance:.1} µm clearance {least:.1} µm are left where it is tightest.";
+    the_program_of_a_part(part, correction, blocks) => "program of the {part}: correction {correction:.4} mm, {blocks} (wedm/pair)";
     two_of_its_10_vertices_are_spliced(tight) => "Two of its 10 vertices are spliced: the fillet in the slot becomes R {tight:.3}.";
     version_2_after_the_splice(diagnostics, elapsed) => "version 2: {diagnostics}, {elapsed} after the splice";
     the_splice_gets_no_diagnostic => "the splice gets no diagnostic";

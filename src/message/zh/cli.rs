@@ -141,6 +141,11 @@ translate! {
     block_leads_nowhere(number, fault) => "程序段 {number} 没有去向：{fault}";
     the_program_has_no_end => "程序没有结束码";
     the_same_from_a_cad_program => "同样的事，来自 CAD 程序：一个凸模，背后没有文本（wedm/didOpenDrawing）";
+    one_contour_for_punch_and_plate => "同一轮廓切两次，一次作凸模，一次作凹模：能装进去吗？（wedm/fit）";
+    the_pair_that_binds_gets_no_diagnostic => "卡住的一对没有得到诊断";
+    the_fit_is_of(least) => "剩 {least:.1} µm";
+    what_is_left_of_the_clearance(least, clearance) => "间隙 {clearance:.1} µm，最紧处剩 {least:.1} µm。";
+    the_program_of_a_part(part, correction, blocks) => "{part} 的程序：补偿量 {correction:.4} mm，{blocks}（wedm/pair）";
     two_of_its_10_vertices_are_spliced(tight) => "10 个顶点中替换两个：槽内圆角变为 R {tight:.3}。";
     version_2_after_the_splice(diagnostics, elapsed) => "版本 2：{diagnostics}，替换后 {elapsed}";
     the_splice_gets_no_diagnostic => "替换没有得到诊断";

@@ -30,15 +30,6 @@ class Job(TypedDict, total=False):
     slug_limit: float
 
 
-class Pair(TypedDict, total=False):
-    """A punch and its plate."""
-
-    drawn_as: Literal["punch", "plate"]
-    clearance: float
-    stripper: float
-    holder: float
-
-
 class ProgramSettings(TypedDict, total=False):
     """How a program is written."""
 
@@ -101,11 +92,10 @@ class Settings(TypedDict, total=False):
     arc_fit: float
     rules: Mapping[str, Literal["error", "warning", "information", "hint", "off"]]
     docs_url: str
+    workpieces: Mapping[str, Literal[]]
     profiles: Mapping[str, Profile]
     passes: Passes
     job: Job
-    pair: Pair
-    workpieces: Mapping[str, Sequence[str]]
     program: ProgramSettings
 
 
