@@ -1,16 +1,6 @@
 //! The command line.
 
 translate! {
-    the_fit_is_drawn_as_svg => "配合图只写成 .svg";
-    the_fit_is_not_known(path, errors) => "{path}：不知道是否配合，图纸有{errors}";
-    heading_of_the_fit => "  剩余 µm  零件       句柄         线段  位置";
-    a_contour_has_no_partner(handle, name) => "工件 {name} 的轮廓 {handle} 没有配对的轮廓";
-    fits => "能够配合";
-    it_fits(fits, least, wanted, places) => "{fits}：最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm，间隙不足 {places}";
-    it_does_not_fit(fits, least, wanted, places) => "{fits}：最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm，间隙不足 {places}";
-    the_program_is_there_already => "文件已存在，应换没有它的文件夹，或加 --overwrite";
-    the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}：{part}，补偿量 {corrections} mm，{blocks}，{length:.3} mm";
-    the_wire_runs_on_the_other_side(part) => "      {part}：间隙大于补偿量，电极丝走在图线的另一侧";
     the_edits_overlap => "各处修改相互重叠";
     more_errors_than_before => "修复后错误反而更多；未写入任何文件";
     no_program_is_written => "未写出程序";
@@ -23,6 +13,16 @@ translate! {
     its_name_has_no_ending(endings, last) => "文件名没有扩展名，应为 {endings} 或 {last}";
     its_name_ends_otherwise(ending) => "文件扩展名是 .{ending}，应为 .dxf、.3b、.iso 或 .nc";
     note => "注意：";
+    the_fit_is_drawn_as_svg => "配合图只写成 .svg";
+    the_fit_is_not_known(path, errors) => "{path}：不知道是否配合，图纸有{errors}";
+    heading_of_the_fit => "  剩余 µm  零件       句柄         线段  位置";
+    a_contour_has_no_partner(handle, name) => "工件 {name} 的轮廓 {handle} 没有配对的轮廓";
+    fits => "能够配合";
+    it_fits(fits, least, wanted, places) => "{fits}：最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm，间隙不足 {places}";
+    it_does_not_fit(fits, least, wanted, places) => "{fits}：最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm，间隙不足 {places}";
+    the_program_is_there_already => "文件已存在，应换没有它的文件夹，或加 --overwrite";
+    the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}：{part}，补偿量 {corrections} mm，{blocks}，{length:.3} mm";
+    the_wire_runs_on_the_other_side(part) => "      {part}：间隙大于补偿量，电极丝走在图线的另一侧";
     drawn_without_the_path(note, reason) => "{note}只画轮廓，没有切割路线：{reason}";
     a_program_is_drawn_as_svg(path, word) => "{path}：程序画成 .svg；要画成图形：wedm convert {word} -o OUT.dxf";
     a_picture_that_is_not_written(ending) => "不能写出 .{ending}，应为 .svg 或 .dxf";

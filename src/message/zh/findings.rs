@@ -1,11 +1,6 @@
 //! What is found, and how it is repaired.
 
 translate! {
-    the_parts_bind_here(of, partner, depth, corner_of, wanted) => "{of} 与 {partner} 在此卡住 {depth:.1} µm：{corner_of} 的这个角残留过多，留不出 {wanted:.1} µm 的间隙";
-    the_contour_has_no_partner(of) => "{of} 的这个轮廓在五倍间隙内没有其他工件的轮廓与它并行：没有配对";
-    its_partner(partner, place) => "{partner}：{place}";
-    give_the_corner_the_least_radius_that_fits(radius) => "把角改为 R {radius} mm，即能配合的最小圆角";
-    give_both_corners_radii_that_fit(radius, other) => "把两个角改为 R {radius} mm 和 R {other} mm，即能配合的最小圆角";
     is_not_cut(kind, why) => "{kind} 不切割：{why}";
     of_them_is_not_cut(kind, count, why) => "{kind}（共 {count} 个）不切割：{why}";
     corner_of_degrees_is_left_with_r_mm(turn, radius, uncut) => "{turn:.1}° 的拐角会留下 R {radius} mm 的圆角：{uncut} mm 切不到";
@@ -53,6 +48,7 @@ translate! {
     suppress_here_with_a_reason(rule) => "在此忽略 {rule}，须写明理由（wedm.toml）";
     ignore_the_layer(layer) => "忽略图层 {layer}（wedm.toml）";
     segment(handle, segment) => "{handle} 段 {segment}";
+    its_partner(partner, place) => "{partner}：{place}";
     the_facing_wall(place) => "对面的槽壁：{place}";
     the_wire_comes_no_further_than_here(place) => "丝最多走到这里：{place}";
     the_same_place(place) => "同一位置：{place}";
@@ -65,6 +61,8 @@ translate! {
     arc => "圆弧";
     replace_arcs_by_one_of_r(what, radius, moved) => "{what}换成一段 R {radius} mm 的圆弧（轮廓移动 {moved} mm）";
     keep_the_end_points_change_only_the_bulge_to_r(radius, kink) => "端点不动，只把凸度改为 R {radius} mm（两端各折 {kink:.1}°，过切不减）";
+    give_the_corner_the_least_radius_that_fits(radius) => "把角改为 R {radius} mm，即能配合的最小圆角";
+    give_both_corners_radii_that_fit(radius, other) => "把两个角改为 R {radius} mm 和 R {other} mm，即能配合的最小圆角";
     round_the_corner_with_r_mm(radius) => "拐角倒圆 R {radius} mm";
     close_the_contour => "封闭轮廓";
     close_the_contour_with_a_line_of_mm(length) => "用 {length} mm 的直线封闭轮廓";
@@ -203,6 +201,8 @@ translate! {
     there_is_no_neighbour_on_both_sides_that_a_larger => "；两侧没有能与更大圆弧相切的相邻段";
     repair_it_in_the_drawing_and_make_the_program_again => "；请在图形中修好，再重新生成程序";
     it_is_part_of_an_entity_that_cannot_be_edited_here => "；它属于此处不能修改的图元";
+    the_parts_bind_here(of, partner, depth, corner_of, wanted) => "{of} 与 {partner} 在此卡住 {depth:.1} µm：{corner_of} 的这个角残留过多，留不出 {wanted:.1} µm 的间隙";
+    the_contour_has_no_partner(of) => "{of} 的这个轮廓在五倍间隙内没有其他工件的轮廓与它并行：没有配对";
     touches_itself_or_another => "与自身或其他轮廓相碰";
     crosses_itself_or_another => "与自身或其他轮廓相交";
     line => "直线";

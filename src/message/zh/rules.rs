@@ -1,7 +1,6 @@
 //! What each rule is called in lists.
 
 translate! {
-    a_punch_does_not_go_into_its_plate => "凸模装不进凹模";
     an_arc_is_tighter_than_the_correction_the_wire_cannot_follow_it => "圆弧半径小于补偿量：电极丝走不出来";
     a_corner_that_the_wire_leaves_rounded => "电极丝切不出的尖角，会留圆角";
     a_slot_narrower_than_the_wire_s_way_through_it => "槽太窄，电极丝过不去";
@@ -16,6 +15,7 @@ translate! {
     a_contour_touches_or_crosses_itself_or_another => "轮廓与自身或其他轮廓相碰、相交";
     an_arc_drawn_as_short_lines => "圆弧画成了短直线";
     no_path_of_the_wire_holds_its_proof_here => "此处的切割路线通不过校核";
+    a_punch_does_not_go_into_its_plate => "凸模装不进凹模";
     the_lead_in_is_too_short_or_crosses_a_contour => "引入线太短，或与轮廓相交";
     the_corrections_of_the_passes_do_not_fall_or_no_wire_is_so_thin => "各次切割的补偿量不递减，或没有这么细的丝";
     something_in_the_drawing_is_not_cut => "图形中有不切割的内容";

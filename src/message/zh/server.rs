@@ -1,16 +1,6 @@
 //! What the server answers, and what stands in a picture.
 
 translate! {
-    holding_the_parts_in_each_other => "正在检查凸模与凹模的配合";
-    generating_the_programs => "正在生成各零件的程序";
-    the_parts_fit => "能够配合";
-    the_parts_do_not_fit => "不能配合";
-    facts_of_the_fit(least, wanted, places) => "最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm · {places} 处间隙不足";
-    the_plate_as_it_is_left => "切出的凹模";
-    the_punch_as_it_is_left => "切出的凸模";
-    clearance_is_missing => "间隙不足";
-    um_left_of_um(left, wanted) => "{wanted:.1} µm 剩 {left:+.1}";
-    the_corner_of_a_part(of, partner) => "{of} 的角，对 {partner}";
     the_document_has_changed_meanwhile => "文档在此期间已改变";
     no_path_can_be_made => "得不出切割路线";
     internal_error(panic_text) => "内部错误：{panic_text}";
@@ -104,6 +94,16 @@ translate! {
     leads_nowhere => "没有去向";
     listing_radii => "正在列出半径";
     listing_contours => "正在列出轮廓";
+    holding_the_parts_in_each_other => "正在检查凸模与凹模的配合";
+    generating_the_programs => "正在生成各零件的程序";
+    the_parts_fit => "能够配合";
+    the_parts_do_not_fit => "不能配合";
+    facts_of_the_fit(least, wanted, places) => "最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm · {places} 处间隙不足";
+    the_plate_as_it_is_left => "切出的凹模";
+    the_punch_as_it_is_left => "切出的凸模";
+    clearance_is_missing => "间隙不足";
+    um_left_of_um(left, wanted) => "{wanted:.1} µm 剩 {left:+.1}";
+    the_corner_of_a_part(of, partner) => "{of} 的角，对 {partner}";
     laying_the_wires_path => "正在计算切割路线";
     drawing_the_picture => "正在画图";
     generating_the_program => "正在生成程序";
