@@ -626,24 +626,22 @@ impl Cloud {
     }
 }
 
-/// Where the wire's centre may run on one side of a contour (+1: left), as points, by sampling alone; where that ends, to a micrometre.
-fn eroded(contour: &[(Point, Vector)], walls: &Cloud, side: f64, correction: f64) -> Vec<Point> {
-    let beside = |point: Point, normal: Vector| point + normal * (side * correction);
-    let is_free = |at: Point| walls.distance(at) >= correction - 2e-5;
+/// Places beside a contour (to the left where `off` is above 0) that are not nearer than `least` to any point of a cloud, by sampling alone;
+/// where they end, to a micrometre.
+fn beside(contour: &[(Point, Vector)], cloud: &Cloud, off: f64, least: f64) -> Vec<Point> {
+    let is_free = |at: Point| cloud.distance(at) >= least;
     let mut free = Vec::new();
     for (at, &(point, normal)) in contour.iter().enumerate() {
         let (next, next_normal) = contour[(at + 1) % contour.len()];
-        let is_here = is_free(beside(point, normal));
+        let between = |share: f64| {
+            let normal = normal + (next_normal - normal) * share;
+            point + (next - point) * share + normal.try_normalize(0.0).unwrap_or(normal) * off
+        };
+        let is_here = is_free(between(0.0));
         if is_here {
-            free.push(beside(point, normal));
+            free.push(between(0.0));
         }
-        if is_here != is_free(beside(next, next_normal)) {
-            let between = |share: f64| {
-                beside(
-                    point + (next - point) * share,
-                    (normal + (next_normal - normal) * share).normalize(),
-                )
-            };
+        if is_here != is_free(between(1.0)) {
             let (mut low, mut high) = (0.0, 1.0);
             for _ in 0..14 {
                 let middle = (low + high) / 2.0;
@@ -665,24 +663,22 @@ fn depth_by_sampling(contour: &[(Point, Vector)], corrections: [f64; 2], half: f
     // Counter-clockwise: the punch's wire runs on the right, the plate's on the left.
     let ways = [-1.0, 1.0].map(|side| {
         let correction = corrections[usize::from(side > 0.0)];
-        Cloud::new(eroded(contour, &walls, side, correction).into_iter(), 0.01)
+        let way = beside(contour, &walls, side * correction, correction - 2e-5);
+        Cloud::new(way.into_iter(), 0.01)
     });
     let mut deepest = f64::NEG_INFINITY;
     for (own, side) in [(0, -1.0), (1, 1.0)] {
         // What a wire leaves of its part lies at half a kerf from its way, and nowhere nearer.
-        let beyond = corrections[own] - half;
-        for (point, normal) in contour {
-            let edge = point + normal * (side * beyond);
-            if ways[own].distance(edge) >= half - 3e-5 {
-                deepest = deepest.max(ways[1 - own].distance(edge) - half);
-            }
+        let off = side * (corrections[own] - half);
+        for edge in beside(contour, &ways[own], off, half - 3e-5) {
+            deepest = deepest.max(ways[1 - own].distance(edge) - half);
         }
     }
     deepest
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(6), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(6), ..ProptestConfig::default() })]
 
     /// Every misfit is found, and none invented.
     #[test]

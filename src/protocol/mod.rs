@@ -28,7 +28,7 @@ pub(crate) use diagnostic::{
     CodeDescription, Diagnostic, Location, Position, Range, RelatedInformation, severity_number,
 };
 pub(crate) use drawing::Drawing;
-pub(crate) use fit::{Fit, FitAlone, FitPlace, PairProgram, PairPrograms};
+pub(crate) use fit::{Fit, PairProgram, PairPrograms};
 pub(crate) use generate::{Generate, Program, Refused};
 pub(crate) use in_force::{CorrectionSource, SettingsInForce};
 pub use inspection::Inspection;

@@ -28,7 +28,7 @@ pub(crate) use keys::{
     JobSettings, PairSettings, Passes, Profile, ProfileSettings, ProgramSettings,
 };
 pub use keys::{Settings, rows};
-pub(crate) use pair::{MissingForFit, Partners, Use, Workpieces};
+pub(crate) use pair::{Partners, Use, Workpieces};
 pub(crate) use passes::{PassFault, pass_faults, passes_table};
 pub use profile::shipped_profiles;
 pub(crate) use profile::{CenterRule, Coordinates, LineEnd, NumberUnit, Zero};

@@ -70,6 +70,10 @@ export type Jumps = "blocks" | "none";
  */
 export type Compensation = "path" | "controller" | "none";
 /**
+ * Which part of a pair is drawn.
+ */
+export type DrawnAs = "punch" | "plate";
+/**
  * G90 or G91.
  */
 export type Coordinates = "absolute" | "incremental";
@@ -91,6 +95,10 @@ export type LineEnd = "lf" | "crlf";
  */
 export type PathSource = ("segment" | "lead-in" | "lead-out") | "corner" | "tab" | "cut-off" | "overlap";
 /**
+ * Side of the entity's own direction on which the wire runs.
+ */
+export type SideName = "left" | "right";
+/**
  * What a step of the program does.
  */
 export type StepKind = ("line" | "arc" | "pause" | "end") | "rapid";
@@ -98,10 +106,6 @@ export type StepKind = ("line" | "arc" | "pause" | "end") | "rapid";
  * The level that has the last word on the correction.
  */
 export type CorrectionSource = "default" | "client" | "file";
-/**
- * Side of the entity's own direction on which the wire runs.
- */
-export type SideName = "left" | "right";
 
 /**
  * Params and result of each request.
@@ -122,6 +126,14 @@ export interface Methods {
   "wedm/picture": {
     params: OptionsOf;
     result: Picture;
+  };
+  "wedm/fit": {
+    params: OptionsOf;
+    result: Fit;
+  };
+  "wedm/pair": {
+    params: Generate;
+    result: PairPrograms;
   };
   "wedm/simulate": {
     params: Simulate;
@@ -382,6 +394,16 @@ export interface Settings {
    */
   job?: JobSettings;
   /**
+   * A punch and its plate.
+   */
+  pair?: PairSettings;
+  /**
+   * Parts that are drawn in one place and never meet in one rule, each by its name with the layers it is drawn on; what is on no layer of them is a part of its own. With `pair.clearance`, parts are held against each other: `does-not-fit`.
+   */
+  workpieces?: {
+    [k: string]: string[];
+  };
+  /**
    * Profiles of ISO programs of your own, by name.
    */
   profiles?: {
@@ -498,6 +520,27 @@ export interface JobSettings {
    * Mass of a slug in g above which an opening keeps a tab of the length `program.tab`. It needs `thickness`: 7.85 g/cm³ × area × thickness.
    */
   slugLimit?: number;
+}
+/**
+ * A punch and its plate: corrections that follow from their clearance, and the fit.
+ */
+export interface PairSettings {
+  /**
+   * The part whose size is drawn where each contour is cut twice, once from outside as the punch and once from inside as the plate.
+   */
+  drawnAs?: DrawnAs;
+  /**
+   * Clearance between punch and plate, mm a side. The part that is not drawn is cut with a correction smaller by it. It asks for the fit, `does-not-fit`, which needs `wire-diameter` and `gap`.
+   */
+  clearance?: number;
+  /**
+   * Clearance of the stripper about the punch, mm a side.
+   */
+  stripper?: number;
+  /**
+   * By how much the holder is tighter than the punch, mm a side.
+   */
+  holder?: number;
 }
 /**
  * What somebody has set of a profile.
@@ -641,6 +684,291 @@ export interface Picture {
   svg: string;
 }
 /**
+ * Result of `wedm/fit`: each outline as the wire leaves it, laid in the other.
+ */
+export interface Fit {
+  /**
+   * Nowhere do two parts of a pair bind.
+   */
+  fits: boolean;
+  /**
+   * Clearance that there should be, mm a side.
+   */
+  clearance: number;
+  /**
+   * The least clearance that is left anywhere, mm; below 0 where two parts bind.
+   */
+  least: number;
+  /**
+   * Every place where less is left than there should be.
+   */
+  places: FitPlace[];
+  /**
+   * Contours of workpieces that have no partner.
+   */
+  alone?: FitAlone[];
+  /**
+   * One outline in the other, the places marked.
+   */
+  svg: string;
+}
+/**
+ * A place where clearance is missing.
+ */
+export interface FitPlace {
+  /**
+   * On the outline that stands too far out, drawing units.
+   */
+  at: Point;
+  /**
+   * What is left there, mm; below 0 where the parts bind.
+   */
+  clearance: number;
+  handle: string;
+  /**
+   * Index within the entity.
+   */
+  segment: number;
+  /**
+   * The part that stands too far out, of which the segment is: `punch`, `plate`, or the name of a workpiece.
+   */
+  of: string;
+}
+/**
+ * A contour without a partner.
+ */
+export interface FitAlone {
+  handle: string;
+  /**
+   * Its workpiece.
+   */
+  of: string;
+}
+/**
+ * Params of `wedm/generate`.
+ */
+export interface Generate {
+  uri: string;
+  /**
+   * Language of the program: `3b`, `4b` or `iso`.
+   */
+  format: string;
+  /**
+   * Only the contours that hold one of these entities.
+   */
+  handles?: string[];
+  /**
+   * Only the contours that have an entity on one of these layers; beside `handles` those of both.
+   */
+  layers?: string[];
+  /**
+   * Laid over every other level of settings for this request.
+   */
+  options?: Settings;
+  /**
+   * Make the program although errors stand in the drawing.
+   */
+  force?: boolean;
+}
+/**
+ * Result of `wedm/pair`: a program for each part.
+ */
+export interface PairPrograms {
+  programs: PairProgram[];
+}
+/**
+ * The program of one part of a pair.
+ */
+export interface PairProgram {
+  /**
+   * `punch`, `plate`, `stripper`, `holder`, or the name of a workpiece.
+   */
+  part: string;
+  /**
+   * Correction of each pass, mm.
+   */
+  corrections: number[];
+  /**
+   * The clearance is larger than the correction: the wire runs on the other side of what is drawn.
+   */
+  otherSide: boolean;
+  program: string;
+  /**
+   * Number of blocks.
+   */
+  blocks: number;
+  /**
+   * Length of the path in mm.
+   */
+  length: number;
+  closure: Closure;
+  /**
+   * Largest distance in µm of the decoded blocks from the path, over their whole length.
+   */
+  deviation: number;
+  /**
+   * What all passes leave of the contours, where several are cut.
+   */
+  finished?: FinishedPart;
+  warnings: Diagnostic[];
+}
+/**
+ * Drift that a controller which only counts J accumulates on the way round, µm.
+ */
+export interface Closure {
+  x: number;
+  y: number;
+}
+/**
+ * The largest deviations of the part that all passes leave from its drawing.
+ */
+export interface FinishedPart {
+  /**
+   * What stays beyond the contour where it stays thickest, mm.
+   */
+  uncut: number;
+  /**
+   * Where that is, drawing units.
+   */
+  at: Point;
+  /**
+   * How far the wire cuts beyond the contour, mm.
+   */
+  overcut: number;
+}
+/**
+ * One finding. In a drawing's diagnostics the line is the segment's index within its entity.
+ */
+export interface Diagnostic {
+  range: Range;
+  /**
+   * 1 error, 2 warning, 3 information, 4 hint.
+   */
+  severity: number;
+  /**
+   * Name of the rule.
+   */
+  code: string;
+  codeDescription?: CodeDescription;
+  /**
+   * Always `wedm`.
+   */
+  source: string;
+  message: string;
+  /**
+   * Sent to clients that can show it.
+   */
+  relatedInformation?: RelatedInformation[];
+  data?: FindingData;
+}
+export interface Range {
+  start: Position;
+  end: Position;
+}
+/**
+ * Zero-based line and character, counted as the client and the server agreed on in the handshake.
+ */
+export interface Position {
+  line: number;
+  character: number;
+}
+export interface CodeDescription {
+  /**
+   * The rule's page of documentation.
+   */
+  href: string;
+}
+/**
+ * Another place that a finding concerns, and what is there.
+ */
+export interface RelatedInformation {
+  location: Location;
+  message: string;
+}
+export interface Location {
+  uri: string;
+  range: Range;
+}
+/**
+ * What a finding is about, in drawing units and degrees. Only what the finding has is there.
+ */
+export interface FindingData {
+  handle?: string;
+  /**
+   * Index of the segment within its entity: that of the vertex it starts in.
+   */
+  segment?: number;
+  radius?: number;
+  /**
+   * The correction that the radius is held against.
+   */
+  required?: number;
+  center?: Point;
+  start?: Point;
+  end?: Point;
+  /**
+   * Degrees, positive counter-clockwise.
+   */
+  sweep?: number;
+  side?: SideName;
+  /**
+   * What an untrimmed offset cuts beyond the wire's contour.
+   */
+  overcut?: number;
+  /**
+   * What stays when the control trims; left out where it is without bound.
+   */
+  stockLeft?: number;
+  /**
+   * 1-based number of the pass with the largest correction, where several are set.
+   */
+  pass?: number;
+  /**
+   * Why no fix is offered: `narrow-slot`, `seals-contour`, `short-segment`, `spoils`, `no-neighbour`, `not-editable` or `program`.
+   */
+  noFix?: string;
+  /**
+   * Degrees by which the contour turns at a corner, positive counter-clockwise in the entity's own direction.
+   */
+  turn?: number;
+  /**
+   * How much the wire leaves standing in a corner, or of a part that it does not reach: the distance of the farthest point from
+   * what is cut.
+   */
+  uncut?: number;
+  /**
+   * The point where two segments meet, or near which a part is lost.
+   */
+  at?: Point;
+  /**
+   * Width of a slot, distance of two ends, deviation of chords from their circle, or the clearance left between two parts.
+   */
+  distance?: number;
+  length?: number;
+  /**
+   * Kind of entity that is not cut, or the part of a pair.
+   */
+  kind?: string;
+  /**
+   * How many the finding stands for.
+   */
+  count?: number;
+  /**
+   * The other segment or entity, where two are concerned.
+   */
+  related?: RelatedPlace[];
+}
+/**
+ * Another place that a finding concerns.
+ */
+export interface RelatedPlace {
+  handle: string;
+  /**
+   * Index of the segment within its entity; not there where the entity as a whole is meant.
+   */
+  segment?: number;
+}
+/**
  * Params of `wedm/simulate`.
  */
 export interface Simulate {
@@ -718,13 +1046,6 @@ export interface SimulatedBlock {
   contour: number;
 }
 /**
- * Drift that a controller which only counts J accumulates on the way round, µm.
- */
-export interface Closure {
-  x: number;
-  y: number;
-}
-/**
  * A box, µm.
  */
 export interface SimulatedBounds {
@@ -750,13 +1071,6 @@ export interface Locate {
   segment?: number;
 }
 /**
- * Zero-based line and character, counted as the client and the server agreed on in the handshake.
- */
-export interface Position {
-  line: number;
-  character: number;
-}
-/**
  * Result of `wedm/locate`; null where nothing with geometry is written.
  */
 export interface Located {
@@ -769,10 +1083,6 @@ export interface Located {
    * The number that a finding on the segment stands at, or the entity's name.
    */
   range: Range;
-}
-export interface Range {
-  start: Position;
-  end: Position;
 }
 /**
  * Result of `wedm/settings`.
@@ -812,32 +1122,6 @@ export interface RulePageText {
   text: string;
 }
 /**
- * Params of `wedm/generate`.
- */
-export interface Generate {
-  uri: string;
-  /**
-   * Language of the program: `3b`, `4b` or `iso`.
-   */
-  format: string;
-  /**
-   * Only the contours that hold one of these entities.
-   */
-  handles?: string[];
-  /**
-   * Only the contours that have an entity on one of these layers; beside `handles` those of both.
-   */
-  layers?: string[];
-  /**
-   * Laid over every other level of settings for this request.
-   */
-  options?: Settings;
-  /**
-   * Make the program although errors stand in the drawing.
-   */
-  force?: boolean;
-}
-/**
  * Result of `wedm/generate`: a program that has been decoded again and held against its path.
  */
 export interface Program {
@@ -860,142 +1144,4 @@ export interface Program {
    */
   finished?: FinishedPart;
   warnings: Diagnostic[];
-}
-/**
- * The largest deviations of the part that all passes leave from its drawing.
- */
-export interface FinishedPart {
-  /**
-   * What stays beyond the contour where it stays thickest, mm.
-   */
-  uncut: number;
-  /**
-   * Where that is, drawing units.
-   */
-  at: Point;
-  /**
-   * How far the wire cuts beyond the contour, mm.
-   */
-  overcut: number;
-}
-/**
- * One finding. In a drawing's diagnostics the line is the segment's index within its entity.
- */
-export interface Diagnostic {
-  range: Range;
-  /**
-   * 1 error, 2 warning, 3 information, 4 hint.
-   */
-  severity: number;
-  /**
-   * Name of the rule.
-   */
-  code: string;
-  codeDescription?: CodeDescription;
-  /**
-   * Always `wedm`.
-   */
-  source: string;
-  message: string;
-  /**
-   * Sent to clients that can show it.
-   */
-  relatedInformation?: RelatedInformation[];
-  data?: FindingData;
-}
-export interface CodeDescription {
-  /**
-   * The rule's page of documentation.
-   */
-  href: string;
-}
-/**
- * Another place that a finding concerns, and what is there.
- */
-export interface RelatedInformation {
-  location: Location;
-  message: string;
-}
-export interface Location {
-  uri: string;
-  range: Range;
-}
-/**
- * What a finding is about, in drawing units and degrees. Only what the finding has is there.
- */
-export interface FindingData {
-  handle?: string;
-  /**
-   * Index of the segment within its entity: that of the vertex it starts in.
-   */
-  segment?: number;
-  radius?: number;
-  /**
-   * The correction that the radius is held against.
-   */
-  required?: number;
-  center?: Point;
-  start?: Point;
-  end?: Point;
-  /**
-   * Degrees, positive counter-clockwise.
-   */
-  sweep?: number;
-  side?: SideName;
-  /**
-   * What an untrimmed offset cuts beyond the wire's contour.
-   */
-  overcut?: number;
-  /**
-   * What stays when the control trims; left out where it is without bound.
-   */
-  stockLeft?: number;
-  /**
-   * 1-based number of the pass with the largest correction, where several are set.
-   */
-  pass?: number;
-  /**
-   * Why no fix is offered: `narrow-slot`, `seals-contour`, `short-segment`, `spoils`, `no-neighbour`, `not-editable` or `program`.
-   */
-  noFix?: string;
-  /**
-   * Degrees by which the contour turns at a corner, positive counter-clockwise in the entity's own direction.
-   */
-  turn?: number;
-  /**
-   * How much the wire leaves standing in a corner, or of a part that it does not reach: the distance of the farthest point from
-   * what is cut.
-   */
-  uncut?: number;
-  /**
-   * The point where two segments meet, or near which a part is lost.
-   */
-  at?: Point;
-  /**
-   * Width of a slot, distance of two ends, or deviation of chords from their circle.
-   */
-  distance?: number;
-  length?: number;
-  /**
-   * Kind of entity that is not cut.
-   */
-  kind?: string;
-  /**
-   * How many the finding stands for.
-   */
-  count?: number;
-  /**
-   * The other segment or entity, where two are concerned.
-   */
-  related?: RelatedPlace[];
-}
-/**
- * Another place that a finding concerns.
- */
-export interface RelatedPlace {
-  handle: string;
-  /**
-   * Index of the segment within its entity; not there where the entity as a whole is meant.
-   */
-  segment?: number;
 }
