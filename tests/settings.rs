@@ -113,6 +113,9 @@ fn type_of(row: &Row, schema: &Value) -> String {
         Some("object") if ["profiles", "drawings"].contains(&row.key.as_str()) => {
             "table of tables by name".into()
         }
+        Some("object") if schema["additionalProperties"]["type"] == "array" => {
+            "table of lists of texts by name".into()
+        }
         Some("object") => format!(
             "table of {} by name",
             listed(words(&schema["additionalProperties"]))
@@ -180,6 +183,11 @@ fn the_readme_shows_every_key_with_its_default() {
         "job.thickness" => "40",
         "job.slug-limit" => "100",
         "linetypes" => "{ DASHED = \"punch\" }",
+        "pair.drawn-as" => "\"punch\"",
+        "pair.clearance" => "0.01",
+        "pair.stripper" => "0.02",
+        "pair.holder" => "0.005",
+        "workpieces" => "{ PUNCH = [\"PUNCH\"] }",
         "layers" => "{ DIE = \"opening\", FRAME = \"ignore\" }",
         "colors" => "{ red = \"punch\" }",
         "contours" => "{ 2A = \"punch\" }",
@@ -282,10 +290,13 @@ fn editor_schema(row: &Row, schema: &Value, is_root: bool) -> Value {
             of.insert("items".into(), items);
         }
         Some("object") => {
-            let names: Vec<&str> = words(&schema["additionalProperties"])
-                .iter()
-                .map(|(name, _)| *name)
-                .collect();
+            let of_each = &schema["additionalProperties"];
+            if of_each["type"] == "array" {
+                let list = json!({ "type": "array", "items": { "type": "string" } });
+                of.insert("additionalProperties".into(), list);
+                return Value::Object(of);
+            }
+            let names: Vec<&str> = words(of_each).iter().map(|(name, _)| *name).collect();
             of.insert(
                 "additionalProperties".into(),
                 json!({ "type": "string", "enum": names }),

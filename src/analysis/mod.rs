@@ -17,6 +17,7 @@ mod repair;
 mod report;
 mod suppressed;
 
+#[cfg(test)]
 pub(crate) use contours::is_cut;
 
 use crate::drawing::{
