@@ -158,6 +158,10 @@ impl SourceText {
         self.bytes.len()
     }
 
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     pub fn line_count(&self) -> usize {
         self.line_starts.len()
     }

@@ -78,6 +78,7 @@ pub(crate) struct VertexLines {
 }
 
 #[derive(Debug)]
+#[expect(clippy::large_enum_variant, reason = "nearly all are entities")]
 pub(super) enum Outcome {
     Entity(Read),
     /// A reference to a block.

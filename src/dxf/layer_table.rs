@@ -83,12 +83,15 @@ impl LayerEntry {
     }
 }
 
+/// Whether a layer is shown, and its linetype.
+type LayerState = (Visibility, Option<Arc<str>>);
+
 /// What the table says of each layer that is not simply shown, or has a linetype. Names are the same in upper and in lower case.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LayerStates {
-    unlike: FxHashMap<String, (Visibility, Option<Arc<str>>)>,
+    unlike: FxHashMap<String, LayerState>,
     /// The layer that was asked for last: neighbours lie on the same.
-    last: Option<(Arc<str>, (Visibility, Option<Arc<str>>))>,
+    last: Option<(Arc<str>, LayerState)>,
 }
 
 impl LayerStates {
@@ -114,7 +117,7 @@ impl LayerStates {
         })
     }
 
-    fn state(&mut self, layer: &Arc<str>) -> Option<&(Visibility, Option<Arc<str>>)> {
+    fn state(&mut self, layer: &Arc<str>) -> Option<&LayerState> {
         if self.unlike.is_empty() {
             return None;
         }

@@ -73,7 +73,7 @@ pub struct Cuts {
 pub fn cuts(document: &Document) -> Cuts {
     let trace = document.trace();
     let spans = path::cuts(&trace);
-    let trace = trace.as_meant();
+    let trace = trace.into_meant();
     let stated = stated_ends(document);
     let mut cuts = Cuts::default();
     match document {

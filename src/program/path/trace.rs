@@ -91,7 +91,7 @@ impl Trace {
 
     /// The same program as its blocks mean it: every step begins where the one before means to end, not where a counting machine has
     /// drifted to.
-    pub(crate) fn as_meant(mut self) -> Trace {
+    pub(crate) fn into_meant(mut self) -> Trace {
         let mut at = self.start;
         for step in &mut self.steps {
             let by = at - step.start;

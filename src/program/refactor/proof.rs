@@ -84,7 +84,7 @@ pub(super) fn same_way<N: Notation>(
     let bytes =
         edited(sheet.document.text().bytes(), &edits).ok_or(say!(the_edits_lie_on_each_other))?;
     let after = N::read(bytes, sheet.settings);
-    if way(&trace(&after).as_meant()) != way(&sheet.trace) {
+    if way(&trace(&after).into_meant()) != way(&sheet.trace) {
         return Err(say!(the_numbers_are_part_of_what_the_machine_does).into());
     }
     refuse_new_errors::<N>(sheet.document, &after)?;

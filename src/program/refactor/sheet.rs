@@ -66,7 +66,7 @@ impl<'a, N: Notation> Sheet<'a, N> {
         settings: &'a Effective,
         selection: Range<usize>,
     ) -> Sheet<'a, N> {
-        let trace = trace(document).as_meant();
+        let trace = trace(document).into_meant();
         let (contours, pauses) = contours(&trace);
         let moves = trace.steps.iter().filter(|step| step.moves()).count();
         let content = N::rows(document, &trace, &contours).and_then(|rows| {

@@ -278,7 +278,7 @@ fn with_settings(
     let file = context.settings_file()?;
     let text = file.text.as_str_lossy();
     let edits = vec![settings::keep(&text, keeps)?];
-    let edit = context.settings_edit(&file, edits)?;
+    let edit = context.settings_edit(file, edits)?;
     Some(CodeAction {
         edit: Some(edit),
         ..action
