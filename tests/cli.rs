@@ -212,8 +212,8 @@ fn commands_print_and_end_as_they_say() {
             1,
             &["narrow-slot", "2 errors, 1 warning"],
         ),
-        ("check no_unit.dxf", 0, &["information[units]", "1 note"]),
-        ("check no_unit.dxf --deny warning", 0, &["1 note"]),
+        ("check no_unit.dxf", 0, &["information[units]", "2 notes"]),
+        ("check no_unit.dxf --deny warning", 0, &["2 notes"]),
         ("check clean.dxf --deny warning", 0, &[]),
         ("check garbage.dxf", 1, &["1 error\n"]),
         (
@@ -311,6 +311,16 @@ fn commands_print_and_end_as_they_say() {
             "generate clean.dxf --side punch --thread 3",
             2,
             &["!such as -115,-10"],
+        ),
+        (
+            "generate clean.dxf --side punch --corner intersection",
+            0,
+            &["DD"],
+        ),
+        (
+            "generate clean.dxf --side punch --end M.2",
+            2,
+            &["!program.end is \"M.2\", expected a word of letters and digits"],
         ),
         ("generate clean.dxf --side punch --handle 99", 1, &["!99"]),
         (
