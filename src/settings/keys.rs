@@ -2,8 +2,9 @@
 //!
 //! Any level may set any key. A key that is added here is read, overlaid and documented; what is to be done with it is its user's matter.
 
-use super::reader::{Reader, Table, words_of};
+use super::reader::{Reader, Table};
 use super::row::{Range, Row};
+use super::spelling::words_of;
 use super::table::{Overlay, as_toml, kebab_case};
 use super::value::Node;
 use super::{

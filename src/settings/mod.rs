@@ -16,6 +16,7 @@ mod passes;
 mod profile;
 mod reader;
 mod row;
+mod spelling;
 mod value;
 
 pub use budget::Budget;

@@ -1,12 +1,12 @@
 //! One level of settings out of a tree of values: each key is held against what it may be, a misfit is left out and named.
 
 use super::row::{Range, Row};
+use super::spelling::{listed, named, nearest, snake_case};
 use super::value::{Entry, Node, Value};
 use super::{PassFault, PointSetting, RuleSeverity, Settings, SettingsError, shipped_profiles};
 use crate::drawing::{Color, Role};
 use crate::finding::Rule;
-use serde::de::value::{Error, StrDeserializer};
-use serde::de::{DeserializeOwned, IntoDeserializer};
+use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 
 /// A table with declared keys.
@@ -427,43 +427,6 @@ impl Reader {
     }
 }
 
-/// The one of some words in a list that somebody has most likely meant: a few letters differ, no more than a third of them.
-fn nearest<'a>(word: &str, words: &'a str) -> Option<&'a str> {
-    let plain = |word: &str| snake_case(word).to_lowercase();
-    let (word, most) = (plain(word), word.chars().count() / 3);
-    let letter = |letter: char| !(letter.is_alphanumeric() || letter == '-');
-    let near = words
-        .split(letter)
-        .filter(|known| known.chars().count() > 1)
-        .map(|known| (distance(&word, &plain(known)), known))
-        .filter(|(distance, _)| (1..=most).contains(distance));
-    near.min_by_key(|(distance, _)| *distance)
-        .map(|(_, known)| known)
-}
-
-/// Letters that come, go, change or change places between two words.
-fn distance(one: &str, other: &str) -> usize {
-    let other: Vec<char> = other.chars().collect();
-    let mut before: Vec<usize> = Vec::new();
-    let mut row: Vec<usize> = (0..=other.len()).collect();
-    let mut last = None;
-    for (at, letter) in one.chars().enumerate() {
-        let mut next = vec![at + 1];
-        for (column, &their) in other.iter().enumerate() {
-            let changed = row[column] + usize::from(letter != their);
-            let mut best = changed.min(row[column + 1] + 1).min(next[column] + 1);
-            let turned = column > 0 && last == Some(their) && other[column - 1] == letter;
-            if let Some(two_back) = before.get(column.wrapping_sub(1)).filter(|_| turned) {
-                best = best.min(two_back + 1);
-            }
-            next.push(best);
-        }
-        before = std::mem::replace(&mut row, next);
-        last = Some(letter);
-    }
-    row[other.len()]
-}
-
 /// The value that a fault of the passes speaks of, else what else the tree says about the passes.
 pub(super) fn place_of(root: &Node, fault: &PassFault) -> Option<std::ops::Range<usize>> {
     let (table, named) = fault.key.split_once('.').unwrap_or(("passes", fault.key));
@@ -491,49 +454,6 @@ fn entry_of<'a>(root: &'a Node, key: &str) -> Option<&'a Entry> {
     match &root.value {
         Value::Table(entries) => entries.iter().find(|entry| snake_case(&entry.key) == key),
         _ => None,
-    }
-}
-
-/// The words that a type out of a closed set has.
-pub(super) fn words_of<T: DeserializeOwned>() -> Vec<String> {
-    let names = named::<T>("").err().unwrap_or_default();
-    let names = names.trim_start_matches("one of ");
-    let names = names.split(", ").flat_map(|names| names.split(" or "));
-    names.map(str::to_owned).collect()
-}
-
-/// A word out of a closed set; the error says which words there are.
-fn named<T: DeserializeOwned>(word: &str) -> Result<T, String> {
-    let deserializer: StrDeserializer<'_, Error> = word.into_deserializer();
-    T::deserialize(deserializer).map_err(|error| {
-        let error = error.to_string();
-        let names = error.split_once("expected ").map_or("", |(_, names)| names);
-        names.replace('`', "")
-    })
-}
-
-/// `wireDiameter` and `wire-diameter` as `wire_diameter`; both spellings are taken everywhere.
-fn snake_case(key: &str) -> String {
-    let mut snake = String::with_capacity(key.len() + 2);
-    for letter in key.chars() {
-        match letter {
-            '-' => snake.push('_'),
-            'A'..='Z' => snake.extend(['_', letter.to_ascii_lowercase()]),
-            // The name of a field is no spelling of its key.
-            '_' => snake.push('-'),
-            _ => snake.push(letter),
-        }
-    }
-    snake
-}
-
-/// `one, two or three`.
-fn listed(keys: &[String]) -> String {
-    match keys {
-        [first @ .., last] if !first.is_empty() => {
-            say!(one_or_other, first.join(", "), last)
-        }
-        keys => keys.concat(),
     }
 }
 
