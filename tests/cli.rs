@@ -877,6 +877,73 @@ fn the_radius_list_names_vertex_radius_and_verdict() {
     );
 }
 
+/// Every command that a hint names, as it is said, in the folder that it is said in.
+#[test]
+fn commands_in_hints_run() {
+    let desk = Desk::new();
+    let odd = "my plate's.dxf";
+    desk.write(odd, desk.read("tight.dxf"));
+    let shell = |line: &str| {
+        let path = Path::new(env!("CARGO_BIN_EXE_wedm")).parent().unwrap();
+        let paths = std::env::var("PATH").unwrap_or_default();
+        let mut command = Command::new("sh");
+        command
+            .args(["-c", line])
+            .current_dir(desk.0.path())
+            .stdin(Stdio::null());
+        command.env("PATH", format!("{}:{paths}", path.display()));
+        Ended::of(command.output().unwrap())
+    };
+    let said = |arguments: &[&str]| {
+        let output = desk.command("").args(arguments).output().unwrap();
+        let ended = Ended::of(output);
+        format!("{}{}", ended.stdout, ended.stderr)
+    };
+    let program = [
+        "generate",
+        "clean.dxf",
+        "--side",
+        "opening",
+        "--compensation",
+        "controller",
+    ];
+    desk.run("generate clean.dxf --side opening --format iso --compensation controller -o g41.iso");
+    let hints = [
+        said(&["check", "tight.dxf"]),
+        said(&["check", odd]),
+        said(&["generate", odd, "--side", "opening"]),
+        said(&["draw", "hole.3b", "-o", "hole.dxf"]),
+        said(&program),
+        said(&["convert", "g41.iso", "-o", "g41.3b"]),
+    ];
+    let mut run = 0;
+    for hint in &hints {
+        for command in hint.split("wedm ").skip(1) {
+            let end = command.find([')', '\n', ';', ',']).unwrap_or(command.len());
+            let line = format!("wedm {}", command[..end].trim()).replace("OUT.dxf", "out.dxf");
+            let ended = shell(&line);
+            assert!(ended.code == Some(0), "{line}: {ended:?}");
+            run += 1;
+        }
+    }
+    assert!(run >= 4, "{hints:?}");
+    // What a hint says to set, it may be set to.
+    assert!(
+        hints[4].contains("set compensation to path"),
+        "{}",
+        hints[4]
+    );
+    check(
+        &desk,
+        "generate clean.dxf --side opening --compensation path",
+        0,
+        &["DD\n"],
+    );
+    assert!(hints[5].contains("convert it to .dxf"), "{}", hints[5]);
+    check(&desk, "convert g41.iso -o g41.dxf", 0, &[]);
+    check(&desk, "generate g41.dxf --side opening", 0, &["DD\n"]);
+}
+
 #[test]
 fn what_is_suppressed_with_a_reason_is_told_where_it_is_asked_for() {
     let desk = Desk::new();

@@ -839,6 +839,35 @@ fn contours_that_are_open() {
     }
 }
 
+/// Of two open contours that cross each is an error of its own; the crossing of one with a closed contour is told.
+#[test]
+fn a_crossing_of_open_contours_is_told_by_their_openings() {
+    let open = |corners: [(f64, f64); 3]| Geometry::Polyline {
+        closed: false,
+        vertices: corners
+            .iter()
+            .map(|&(x, y)| Vertex::new(x, y, 0.0))
+            .collect(),
+    };
+    let one = || open([(0.0, 0.0), (10.0, 0.0), (10.0, 8.0)]);
+    let other = || open([(5.0, -3.0), (5.0, 3.0), (2.0, 9.0)]);
+    let ring = Geometry::Circle {
+        center: Point::new(10.0, 4.0),
+        radius: 2.0,
+    };
+    for (geometries, openings, crossings) in
+        [(vec![one(), other()], 2, 0), (vec![one(), ring], 1, 2)]
+    {
+        let mut drawing = Drawing::new(None);
+        for geometry in geometries {
+            drawing.push(entity(geometry, None));
+        }
+        let (_, findings) = analysed(&drawing);
+        let told = [Rule::OpenContour, Rule::SelfIntersection].map(|rule| count(&findings, rule));
+        assert_eq!(told, [openings, crossings], "{findings:?}");
+    }
+}
+
 /// What cannot be measured on the part is not said; an error is.
 #[test]
 fn what_is_below_the_resolution_is_not_said() {

@@ -128,7 +128,7 @@ impl Pairs {
     ) {
         let told = match self.told.take().filter(|told| told.holds(wire_side)) {
             Some(told) => told,
-            None => Arc::new(self.told(drawing, outlook, wire_side, report.is_for_a_path())),
+            None => Arc::new(self.told(drawing, outlook, wire_side, report)),
         };
         if !self.uncompared.is_empty()
             && report.counts(Rule::NotJudged, None)
@@ -150,6 +150,9 @@ impl Pairs {
             let rule = PAIR_RULES[rule].rule;
             report.count(rule, mildest, count);
             kinds.push((rule, mildest, !report.is_full(rule, mildest)));
+        }
+        for (&(rule, mildest), &count) in &told.absorbed {
+            report.weigh(PAIR_RULES[rule].rule, mildest, count);
         }
         for each in &told.pairs {
             let (_, mildest, is_open) = kinds[each.kind];
@@ -184,8 +187,9 @@ impl Pairs {
         drawing: &Drawing,
         outlook: Outlooks,
         wire_side: &dyn Fn(ContourKey) -> Option<Side>,
-        is_for_a_path: bool,
+        report: &Report,
     ) -> Told {
+        let is_for_a_path = report.is_for_a_path();
         type Ends = ((EntityId, usize), (EntityId, usize));
         let mut told = Told {
             uncompared: self.first_uncompared(drawing, outlook),
@@ -240,6 +244,22 @@ impl Pairs {
             &seen.iter().map(|(_, _, each)| *each).collect::<Vec<_>>(),
             &|key| outlook(key).map(|it| it.contour.len()),
         );
+        // Two open contours that cross or touch are each an error of its own: closed, they are asked again.
+        let doubled: FxHashSet<EntityId> = doubles
+            .iter()
+            .flat_map(|(one, other)| [*one, *other])
+            .collect();
+        let is_told_open = |key: ContourKey| {
+            let contour = outlook(key).map(|it| it.contour);
+            contour.is_some_and(|it| {
+                !it.closed
+                    && !it
+                        .pieces
+                        .iter()
+                        .all(|piece| doubled.contains(&piece.entity))
+            })
+        };
+        let open_is_an_error = report.is_an_error(Rule::OpenContour);
         for (at, (number, ends, each)) in seen.iter().enumerate() {
             let rule = &PAIR_RULES[*number];
             if rule.silent_for_doubles && doubles.contains(&(ends.0.0, ends.1.0))
@@ -263,6 +283,16 @@ impl Pairs {
             } else {
                 each.mildest
             };
+            let is_absorbed = rule.rule == Rule::SelfIntersection
+                && !is_for_a_path
+                && open_is_an_error
+                && each.one.0 != each.other.0
+                && is_told_open(each.one.0)
+                && is_told_open(each.other.0);
+            if is_absorbed {
+                *told.absorbed.entry((*number, mildest)).or_default() += 1;
+                continue;
+            }
             *told.counts.entry((*number, mildest)).or_default() += 1;
             told.pairs.push(ToldPair {
                 rule: *number,
@@ -291,6 +321,8 @@ pub(super) struct Told {
     pairs: Vec<ToldPair>,
     /// How many there are of each rule and severity.
     counts: BTreeMap<(usize, Option<Severity>), usize>,
+    /// How many other findings stand for.
+    absorbed: BTreeMap<(usize, Option<Severity>), usize>,
 }
 
 #[derive(Debug)]

@@ -124,6 +124,22 @@ impl Report {
             return;
         };
         self.count += count;
+        self.enter(rule, severity, count);
+    }
+
+    /// What another finding stands for: it weighs where drawings are held against each other, and is not told.
+    pub(crate) fn weigh(&mut self, rule: Rule, mildest: Option<Severity>, count: usize) {
+        if let Some(severity) = self.severity(rule, mildest) {
+            self.enter(rule, severity, count);
+        }
+    }
+
+    /// True where a rule says errors.
+    pub(crate) fn is_an_error(&self, rule: Rule) -> bool {
+        self.severity(rule, None) == Some(Severity::Error)
+    }
+
+    fn enter(&mut self, rule: Rule, severity: Severity, count: usize) {
         match severity {
             Severity::Error => self.tally.errors += count,
             Severity::Warning => self.tally.warnings += count,

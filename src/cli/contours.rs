@@ -83,7 +83,7 @@ fn list(contours: &Contours) -> String {
     text
 }
 
-fn heading(index: usize, contour: &ContoursContour, unit_mm: f64) -> String {
+pub(super) fn heading(index: usize, contour: &ContoursContour, unit_mm: f64) -> String {
     let shape = match (contour.closed, contour.direction) {
         (false, _) => say!(open),
         (true, Some(Direction::Ccw)) => say!(closed_counter_clockwise),

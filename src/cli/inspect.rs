@@ -1,15 +1,22 @@
 //! `wedm inspect`: the radius list, every segment with its verdict.
 
+use super::contours;
 use super::files::{self, Opened};
 use super::options::Common;
 use super::output::{self, flush_left, flush_right, styled};
 use super::report::{self, Row};
 use super::{Failure, Verdict};
+use crate::document::Snapshot;
+use crate::drawing::Outline;
 use crate::finding::Severity;
+use crate::geometry::Bounds;
 use crate::message::readable;
-use crate::protocol::{InspectedEntity, InspectedSegment, Inspection, SegmentKind};
+use crate::protocol::{
+    Contours, ContoursContour, InspectedEntity, InspectedSegment, Inspection, SegmentKind,
+};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -47,7 +54,78 @@ struct Printed {
     #[serde(flatten)]
     inspection: Inspection,
     diagnostics: Vec<Row>,
+    #[serde(skip)]
+    contours: Vec<Measured>,
 }
+
+/// A contour with its extents.
+struct Measured {
+    listed: ContoursContour,
+    bounds: Bounds,
+    layers: BTreeSet<String>,
+}
+
+impl Measured {
+    fn all(snapshot: &Snapshot) -> Vec<Measured> {
+        let Snapshot {
+            drawing,
+            outlines,
+            settings,
+        } = snapshot;
+        let listed = Contours::new(drawing, outlines, settings).contours;
+        let measured = |(listed, outline): (ContoursContour, &Outline)| {
+            let pieces = outline.contour.pieces.iter();
+            let layers =
+                pieces.filter_map(|piece| Some(drawing.get(piece.entity)?.layer.to_string()));
+            Measured {
+                listed,
+                bounds: outline.contour.bounds(drawing),
+                layers: layers.collect(),
+            }
+        };
+        listed
+            .into_iter()
+            .zip(outlines.iter())
+            .map(measured)
+            .collect()
+    }
+
+    /// Extents, smallest radius, handles.
+    fn measures(&self, unit_mm: f64) -> String {
+        let corner = self.bounds.min;
+        let extents = say!(
+            extents_from,
+            self.bounds.width() * unit_mm,
+            self.bounds.height() * unit_mm,
+            corner.x,
+            corner.y
+        );
+        let radii = self.listed.segments.iter();
+        let smallest = radii
+            .filter_map(|piece| piece.shape.radius)
+            .fold(f64::INFINITY, f64::min);
+        let smallest = match smallest.is_finite() {
+            true => say!(smallest_radius, smallest * unit_mm),
+            false => String::new(),
+        };
+        let mut handles: Vec<&str> = self
+            .listed
+            .segments
+            .iter()
+            .map(|piece| piece.handle.as_str())
+            .collect();
+        handles.dedup();
+        let more = if handles.len() > LISTED { " …" } else { "" };
+        handles.truncate(LISTED);
+        let handles = handles.join(" ");
+        let layers: Vec<&str> = self.layers.iter().map(String::as_str).collect();
+        let layers = say!(on_layers, readable(&layers.join(say!(comma))));
+        format!("{extents}{smallest}{layers}: {}{more}", readable(&handles))
+    }
+}
+
+/// Handles of a contour that are named at most.
+const LISTED: usize = 12;
 
 impl Printed {
     fn of(inspection: Option<Inspection>, diagnostics: Vec<Row>) -> Printed {
@@ -58,6 +136,7 @@ impl Printed {
         Printed {
             inspection: inspection.unwrap_or(nothing),
             diagnostics,
+            contours: Vec::new(),
         }
     }
 }
@@ -88,20 +167,55 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 fn inspected(arguments: &Arguments, mut opened: Opened) -> Printed {
     let mut diagnostics = opened.settings_rows;
     diagnostics.extend(report::rows(&arguments.path, &mut opened.document));
-    Printed::of(
-        Inspection::of(&opened.document, arguments.handle.as_deref()),
-        diagnostics,
-    )
+    let inspection = Inspection::of(&opened.document, arguments.handle.as_deref());
+    let mut printed = Printed::of(inspection, diagnostics);
+    if arguments.output == Format::Text
+        && let Some(snapshot) = opened.document.snapshot()
+    {
+        printed.contours = Measured::all(&snapshot);
+    }
+    printed
 }
 
+/// A table for each contour, then one for each entity that is in none.
 fn table(printed: &Printed) -> String {
     let mut text = String::new();
     let unit = printed.inspection.units_to_mm;
-    for entity in &printed.inspection.entities {
+    let mut segments_of: BTreeMap<(&str, usize), VecDeque<&InspectedSegment>> = BTreeMap::new();
+    for entity in printed.inspection.entities.iter().filter(|it| it.cut) {
+        for segment in &entity.segments {
+            let named = (entity.handle.as_str(), segment.index);
+            segments_of.entry(named).or_default().push_back(segment);
+        }
+    }
+    for (index, contour) in printed.contours.iter().enumerate() {
+        let lines: Vec<String> = contour
+            .listed
+            .segments
+            .iter()
+            .filter_map(|piece| {
+                let named = (piece.handle.as_str(), piece.segment);
+                let segment = segments_of.get_mut(&named)?.pop_front()?;
+                Some(line(&piece.handle, segment, unit))
+            })
+            .collect();
+        if lines.is_empty() {
+            continue;
+        }
+        let heading = contours::heading(index, &contour.listed, unit);
+        let _ = writeln!(text, "{}", styled(output::STRONG, heading));
+        let _ = writeln!(text, "{}", contour.measures(unit));
+        let _ = writeln!(text, "{}", styled(output::FAINT, columns()));
+        lines.iter().for_each(|line| {
+            let _ = writeln!(text, "{line}");
+        });
+        text.push('\n');
+    }
+    for entity in printed.inspection.entities.iter().filter(|it| !it.cut) {
         let _ = writeln!(text, "{}", styled(output::STRONG, heading(entity)));
         let _ = writeln!(text, "{}", styled(output::FAINT, columns()));
         for segment in &entity.segments {
-            let _ = writeln!(text, "{}", line(segment, unit));
+            let _ = writeln!(text, "{}", line(&entity.handle, segment, unit));
         }
         text.push('\n');
     }
@@ -159,7 +273,8 @@ fn heading(entity: &InspectedEntity) -> String {
 
 fn columns() -> String {
     format!(
-        "{} {:>13} {:>13}  {} {} {}  {}",
+        "{} {} {:>13} {:>13}  {} {} {}  {}",
+        flush_left(say!(column_of_handles), 8),
         flush_right(say!(vertex), 7),
         "x",
         "y",
@@ -170,7 +285,7 @@ fn columns() -> String {
     )
 }
 
-fn line(segment: &InspectedSegment, unit_mm: f64) -> String {
+fn line(handle: &str, segment: &InspectedSegment, unit_mm: f64) -> String {
     let shape = &segment.shape;
     let kind = match shape.kind {
         SegmentKind::Line => say!(line),
@@ -184,8 +299,9 @@ fn line(segment: &InspectedSegment, unit_mm: f64) -> String {
         .sweep
         .map_or_else(String::new, |sweep| format!("{sweep:.2}"));
     let kind = flush_left(kind, 7);
+    let handle = flush_left(&readable(handle), 8);
     let row = format!(
-        "{:>7} {:>13.4} {:>13.4}  {kind} {radius:>10} {sweep:>9}  ",
+        "{handle} {:>7} {:>13.4} {:>13.4}  {kind} {radius:>10} {sweep:>9}  ",
         segment.index, shape.start.0, shape.start.1
     );
     let style = if segment.verdict == "ok" {

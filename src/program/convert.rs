@@ -182,6 +182,9 @@ impl Cuts {
                 line + 1
             ));
         }
+        if format == Format::ThreeB && self.cuts.iter().any(|cut| cut.side.is_some()) {
+            return Some(say!(the_control_adds_the_correction_of_the_program).into());
+        }
         let differs = |correction: &f64| (correction.abs() - settings.correction).abs() > 5e-4;
         let own = self
             .corrections

@@ -3,7 +3,7 @@
 use super::super::Document;
 use super::super::entities::mirror;
 use super::super::lexer::Tag;
-use super::super::number::{self, Code};
+use super::super::number::{self, Code, Number};
 use super::super::place::{own_tags, vertex_tags};
 use super::super::record::{DECIMALS, Style};
 use super::Wanted;
@@ -13,6 +13,9 @@ use std::ops::Range;
 
 /// Decimals of bulges.
 const BULGE_DECIMALS: usize = 15;
+
+/// Bulges that differ by no more are one: by less than a millionth of a µm over a chord of a metre.
+const SAME_BULGE: f64 = 1e-12;
 
 impl Document {
     /// Sets or clears the bit of group code 70 that says that a polyline is closed.
@@ -130,7 +133,13 @@ fn set_vertex(pen: &mut Pen, range: Range<usize>, vertex: Vertex) -> Result<(), 
     let tags: Vec<Tag> = vertex_tags(pen.lines, range).collect();
     pen.set_length(&tags, 10, vertex.point.x)?;
     pen.set_length(&tags, 20, vertex.point.y)?;
-    if last(&tags, 42).is_some() {
+    if let Some(tag) = last(&tags, 42) {
+        // Digits that the writer of the file did not have are no other arc.
+        let present = number::number(pen.lines.content(tag.value_line()));
+        if matches!(present, Number::Exact(present) if (present - vertex.bulge).abs() <= SAME_BULGE)
+        {
+            return Ok(());
+        }
         return pen.set(&tags, 42, vertex.bulge, BULGE_DECIMALS);
     }
     if vertex.bulge == 0.0 {

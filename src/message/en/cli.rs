@@ -211,4 +211,8 @@ declare! {
     written => "written";
     suppressed_since(reason) => "suppressed: {reason}";
     and_so_many_suppressed(count) => ", {count} suppressed";
+    column_of_handles => "handle";
+    extents_from(width, height, x, y) => "{width:.3} × {height:.3} mm from {x:.3}, {y:.3}";
+    smallest_radius(radius) => ", smallest R {radius:.3} mm";
+    on_layers(layers) => ", layer {layers}";
 }

@@ -3,6 +3,7 @@
 declare! {
     a_4b_program_holds_the_contour_of_the_part(line) => "line {line}: a 4B program holds the part's contour, and its controller adds the correction; the side and the correction would be lost";
     the_correction_is_switched_within_the_contour(line) => "line {line}: the correction is switched within the contour, expected one side all the way round";
+    the_control_adds_the_correction_of_the_program => "the control adds the correction of this program (G41, G42), which none of 3B does: convert it to .dxf, and generate the 3B program of that drawing";
     the_correction_of_the_program_is_not_that_of_the_settings(name, correction, of_settings) => "the program's own correction {name} is {correction:.3} mm, that of the settings {of_settings:.3} mm: the transition arcs of 4B hang on it, set correction to the one that the machine has";
     not_written_the_corrections_of_the_program(corrections) => "not written: the program's own corrections, {corrections}; set them at the machine";
     not_written_the_taper(taper) => "not written: the taper; {taper}";

@@ -211,4 +211,8 @@ translate! {
     written => "已写出";
     suppressed_since(reason) => "已忽略：{reason}";
     and_so_many_suppressed(count) => "，已忽略 {count} 个";
+    column_of_handles => "句柄";
+    extents_from(width, height, x, y) => "范围 {width:.3} × {height:.3} mm，自 {x:.3}, {y:.3}";
+    smallest_radius(radius) => "，最小 R {radius:.3} mm";
+    on_layers(layers) => "，图层 {layers}";
 }
