@@ -22,6 +22,7 @@ mod inspect;
 mod man;
 mod options;
 mod output;
+mod pages;
 mod pair;
 mod report;
 mod serve;
@@ -85,6 +86,7 @@ enum Command {
     Contours(contours::Arguments),
     Convert(convert::Arguments),
     Simulate(simulate::Arguments),
+    Report(pages::Arguments),
     Explain(explain::Arguments),
     Init(init::Arguments),
     Config(config::Arguments),
@@ -203,6 +205,7 @@ pub fn run() -> ExitCode {
         Some(Command::Contours(arguments)) => contours::run(&arguments),
         Some(Command::Convert(arguments)) => convert::run(&arguments),
         Some(Command::Simulate(arguments)) => simulate::run(&arguments),
+        Some(Command::Report(arguments)) => pages::run(&arguments),
         Some(Command::Explain(arguments)) => explain::run(&arguments),
         Some(Command::Init(arguments)) => init::run(&arguments),
         Some(Command::Config(arguments)) => config::run(&arguments),

@@ -18,6 +18,7 @@ mod subject;
 
 pub(crate) use fit::fit_svg;
 pub(crate) use program::program_svg;
+pub(crate) use sheet::escaped;
 
 use crate::drawing::{Drawing, Outline};
 use crate::finding::Finding;

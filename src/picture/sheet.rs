@@ -189,7 +189,7 @@ pub(super) fn number(value: f64) -> String {
 }
 
 /// Text for XML: markup characters replaced, characters that XML forbids left out.
-pub(super) fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for character in text.chars() {
         match character {

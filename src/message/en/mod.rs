@@ -8,6 +8,7 @@ mod files;
 mod findings;
 mod ide;
 mod job;
+mod pages;
 mod program;
 mod rules;
 mod server;
@@ -15,15 +16,15 @@ mod settings;
 mod toolpath;
 
 pub(super) use {
-    amounts::*, cli::*, codes::*, drawing::*, files::*, findings::*, ide::*, job::*, program::*,
-    rules::*, server::*, settings::*, toolpath::*,
+    amounts::*, cli::*, codes::*, drawing::*, files::*, findings::*, ide::*, job::*, pages::*,
+    program::*, rules::*, server::*, settings::*, toolpath::*,
 };
 
 /// Every sentence, in the language that is spoken.
 pub(crate) mod said {
     pub(crate) use super::{
         amounts::said::*, cli::said::*, codes::said::*, drawing::said::*, files::said::*,
-        findings::said::*, ide::said::*, job::said::*, program::said::*, rules::said::*,
-        server::said::*, settings::said::*, toolpath::said::*,
+        findings::said::*, ide::said::*, job::said::*, pages::said::*, program::said::*,
+        rules::said::*, server::said::*, settings::said::*, toolpath::said::*,
     };
 }

@@ -8,6 +8,7 @@ mod files;
 mod findings;
 mod ide;
 mod job;
+mod pages;
 mod program;
 mod rules;
 mod server;
@@ -15,6 +16,6 @@ mod settings;
 mod toolpath;
 
 pub(super) use {
-    amounts::*, cli::*, codes::*, drawing::*, files::*, findings::*, ide::*, job::*, program::*,
-    rules::*, server::*, settings::*, toolpath::*,
+    amounts::*, cli::*, codes::*, drawing::*, files::*, findings::*, ide::*, job::*, pages::*,
+    program::*, rules::*, server::*, settings::*, toolpath::*,
 };

@@ -1,0 +1,90 @@
+//! The little HTML that a page is made of: what is put in is text, and shown as it is.
+
+use crate::message::readable;
+use crate::picture::escaped;
+use std::fmt::Display;
+
+/// Colours of light and dark viewers, and A4.
+const STYLE: &str = "\
+:root{color-scheme:light dark;--ink:#24292f;--faint:#57606a;--ground:#fff;--line:#d0d7de;--band:#f3f5f7;--error:#b3261e;--warning:#8a5a00;--good:#1a7f37}
+@media (prefers-color-scheme:dark){:root{--ink:#e6edf3;--faint:#9da7b3;--ground:#0d1117;--line:#30363d;--band:#161b22;--error:#ff8a82;--warning:#e3b341;--good:#57d364}}
+@page{size:A4;margin:14mm}
+body{margin:0 auto;max-width:64rem;padding:1.5rem;background:var(--ground);color:var(--ink);font:14px/1.45 system-ui,'Segoe UI',Helvetica,Arial,'Noto Sans CJK SC','Microsoft YaHei',sans-serif}
+h1{font-size:1.5rem;margin:0 0 .2rem}h2{font-size:1.1rem;margin:1.6rem 0 .4rem}h3{font-size:1rem;margin:1rem 0 .2rem}
+p.under{margin:0 0 1rem;color:var(--faint)}
+svg{max-width:100%;height:auto;border:1px solid var(--line)}
+table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}
+th,td{text-align:left;padding:.2rem .6rem .2rem 0;border-bottom:1px solid var(--line);vertical-align:top}
+th{color:var(--faint);font-weight:600}td.number,th.number{text-align:right;white-space:nowrap}span{white-space:nowrap}
+.error{color:var(--error)}.warning{color:var(--warning)}.good{color:var(--good)}.faint{color:var(--faint)}
+pre{background:var(--band);padding:.6rem;overflow:auto;font-size:12px;white-space:pre-wrap;overflow-wrap:anywhere}
+a{color:inherit}tr,h2,h3{break-inside:avoid}h2,h3{break-after:avoid}
+@media print{body{max-width:none;padding:0;font-size:11px}details:not([open])>pre{display:none}}
+";
+
+/// Text as HTML shows it; nothing in it is obeyed.
+pub(super) fn text(text: impl Display) -> String {
+    escaped(&readable(&text.to_string()))
+}
+
+/// A whole page.
+pub(super) fn page(language: &str, title: &str, body: &str) -> String {
+    let title = text(title);
+    format!(
+        "<!doctype html>\n<html lang=\"{language}\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n\
+         <body>\n{body}</body>\n</html>\n"
+    )
+}
+
+/// A cell: its class, and what stands in it.
+pub(super) type Cell = (&'static str, String);
+
+pub(super) fn cell(content: impl Display) -> Cell {
+    ("", text(content))
+}
+
+pub(super) fn number(content: impl Display) -> Cell {
+    ("number", text(content))
+}
+
+/// A table with a heading over each column; nothing where there are no rows.
+pub(super) fn table(heads: &[&str], rows: impl IntoIterator<Item = Vec<Cell>>) -> String {
+    let rows: Vec<Vec<Cell>> = rows.into_iter().collect();
+    let Some(first) = rows.first() else {
+        return String::new();
+    };
+    let heads: String = heads
+        .iter()
+        .zip(first)
+        .map(|(head, (class, _))| match *class {
+            "number" => format!("<th class=\"number\">{}</th>", text(head)),
+            _ => format!("<th>{}</th>", text(head)),
+        })
+        .collect();
+    let row = |cells: &Vec<Cell>| {
+        let cells: String = cells
+            .iter()
+            .map(|(class, content)| format!("<td class=\"{class}\">{content}</td>"))
+            .collect();
+        format!("<tr>{cells}</tr>\n")
+    };
+    let rows: String = rows.iter().map(row).collect();
+    format!("<table>\n<thead><tr>{heads}</tr></thead>\n<tbody>\n{rows}</tbody>\n</table>\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_a_drawing_are_text() {
+        let table = table(&["a"], [vec![cell("<script>alert(1)</script>\u{202e}")]]);
+        assert!(
+            table.contains("&lt;script&gt;") && !table.contains("<script>"),
+            "{table}"
+        );
+        assert!(!table.contains('\u{202e}'), "{table}");
+        assert!(page("en", "</title>", "").contains("&lt;/title&gt;"));
+    }
+}

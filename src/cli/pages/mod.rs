@@ -1,0 +1,108 @@
+//! `wedm report`: a page for each drawing and an index, for the workshop and for the file.
+
+mod html;
+mod page;
+
+use super::options::{Common, Program};
+use super::output::{self, styled};
+use super::{Failure, Verdict, files};
+use crate::program::Format;
+use clap::Args;
+use page::Page;
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+
+/// Write a page for each drawing, and an index: picture, contours, radius list, findings, program
+///
+/// Each page is one HTML file that needs nothing beside it, light or dark as its viewer likes, and prints on A4.
+/// Ends with 1 when a drawing has errors; its page is written all the same.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  wedm report plate.dxf -o report
+  wedm report --side opening drawings/ -o report
+  wedm report plate.dxf --side punch --format iso --profile robofil --compensation controller -o report")]
+pub(crate) struct Arguments {
+    /// Drawings, or folders of them
+    #[arg(value_name = "PATH", default_value = ".")]
+    paths: Vec<PathBuf>,
+    /// The folder for the pages; it is made where it is not there
+    #[arg(short, long, value_name = "FOLDER", default_value = "report")]
+    output: PathBuf,
+    /// Language of the programs: 3b, 4b, iso
+    #[arg(long, default_value = "3b", value_parser = Format::of)]
+    format: Format,
+    #[command(flatten)]
+    program: Program,
+    #[command(flatten)]
+    common: Common,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+    let found = files::search(&arguments.paths, &files::Search::default());
+    let mut verdict = Verdict::Clean;
+    for failure in &found.failures {
+        output::complain(&failure.0);
+        verdict = Verdict::Failed;
+    }
+    let drawings: Vec<&PathBuf> = found.files.iter().filter(|path| is_drawing(path)).collect();
+    if drawings.is_empty() {
+        return Err(Failure(say!(no_drawing_to_report_of).into()));
+    }
+    let folder = &arguments.output;
+    std::fs::create_dir_all(folder)
+        .map_err(|error| Failure::of(folder, crate::disk::plain(&error)))?;
+    let last = arguments.common.settings_with(&arguments.program);
+    let (mut names, mut lines) = (HashSet::new(), Vec::new());
+    for path in drawings {
+        let page = files::open_to_use(path, &arguments.common, &last)
+            .and_then(|opened| Page::of(opened, arguments.format));
+        match page {
+            Ok(page) => {
+                let name = name_of(path, &mut names);
+                output::write(Some(&folder.join(&name)), page.html().as_bytes())?;
+                verdict = verdict.max(Verdict::of_errors(page.has_errors()));
+                lines.push((name, page.line));
+            }
+            Err(Failure(sentence)) => {
+                output::complain(&sentence);
+                verdict = Verdict::Failed;
+            }
+        }
+    }
+    let index = folder.join("index.html");
+    output::write(Some(&index), page::index(&lines).as_bytes())?;
+    output::say(&say!(
+        pages_are_written,
+        styled(output::GOOD, say!(written)),
+        say!(pages, lines.len()),
+        output::name(&index)
+    ));
+    Ok(verdict)
+}
+
+fn is_drawing(path: &Path) -> bool {
+    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+    ["dxf", "dxb", "dxfb"].iter().any(|known| ending == *known)
+}
+
+/// A name for the page of a drawing that none has yet.
+fn name_of(path: &Path, names: &mut HashSet<String>) -> String {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let plain = |letter: char| match letter {
+        letter if letter.is_alphanumeric() || "-_.+".contains(letter) => letter,
+        _ => '_',
+    };
+    let stem: String = stem.chars().map(plain).collect();
+    let numbered = (1..).map(|number| match number {
+        1 => format!("{stem}.html"),
+        _ => format!("{stem}-{number}.html"),
+    });
+    let is_free = |name: &String| {
+        let name = name.to_lowercase();
+        name != "index.html" && !names.contains(&name)
+    };
+    let name = numbered.into_iter().find(is_free).unwrap_or_default();
+    names.insert(name.to_lowercase());
+    name
+}

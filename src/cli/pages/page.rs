@@ -1,0 +1,381 @@
+//! What stands on the page of a drawing, and on the index.
+
+use super::super::files::Opened;
+use super::super::report::{self, Row};
+use super::super::{Failure, output};
+use super::html::{self, Cell, cell, number, table, text};
+use crate::document::Snapshot;
+use crate::drawing::Role;
+use crate::finding::{Rule, Severity};
+use crate::job::{self, Generated, Wanted};
+use crate::message::spoken;
+use crate::picture;
+use crate::program::Format;
+use crate::protocol::{Contours, Inspection, SegmentKind};
+use crate::toolpath::WirePath;
+use std::collections::BTreeMap;
+
+/// Arcs of the radius list, and findings of one rule, that a page shows: who wants all asks for them.
+const MOST_ARCS: usize = 100;
+const MOST_OF_A_RULE: usize = 50;
+
+/// All that a page tells.
+pub(super) struct Page {
+    /// Its line of the index.
+    pub(super) line: Line,
+    unit_mm: f64,
+    picture: String,
+    contours: Contours,
+    arcs: Vec<Arc>,
+    rows: Vec<Row>,
+    paths: Vec<WirePath>,
+    /// The program, or why there is none.
+    program: Result<Generated, String>,
+    format: Format,
+}
+
+/// What the index says of a drawing.
+pub(super) struct Line {
+    name: String,
+    contours: usize,
+    smallest_mm: Option<f64>,
+    errors: usize,
+    warnings: usize,
+    blocks: Option<usize>,
+}
+
+/// An arc of the radius list.
+struct Arc {
+    handle: String,
+    segment: usize,
+    radius_mm: f64,
+    degrees: f64,
+    verdict: String,
+}
+
+impl Page {
+    pub(super) fn of(mut opened: Opened, format: Format) -> Result<Page, Failure> {
+        let snapshot = opened.snapshot()?;
+        let rows = report::rows(&opened.path, &mut opened.document);
+        let unit_mm = opened.document.unit_mm();
+        let findings = opened.document.all_findings();
+        let paths = job::paths(&snapshot, &snapshot.settings, None, &()).unwrap_or_default();
+        let picture = picture::svg(
+            &snapshot.drawing,
+            &snapshot.outlines,
+            &findings,
+            &paths,
+            unit_mm,
+        );
+        let arcs = arcs_of(Inspection::of(&opened.document, None), unit_mm);
+        let wanted = Wanted {
+            format,
+            handles: None,
+            layers: None,
+            force: false,
+        };
+        let program = job::generate(&snapshot, findings.to_vec(), &wanted, &())
+            .map_err(|refusal| refusal.sentence(unit_mm));
+        let count = |severity| rows.iter().filter(|row| row.severity == severity).count();
+        let Snapshot {
+            drawing,
+            outlines,
+            settings,
+            ..
+        } = &snapshot;
+        Ok(Page {
+            line: Line {
+                name: output::name(&opened.path),
+                contours: outlines.len(),
+                smallest_mm: arcs.first().map(|arc| arc.radius_mm),
+                errors: count(Severity::Error),
+                warnings: count(Severity::Warning),
+                blocks: program.as_ref().ok().map(|made| made.program.blocks),
+            },
+            unit_mm,
+            picture,
+            contours: Contours::new(drawing, outlines, settings),
+            arcs,
+            rows,
+            paths,
+            program,
+            format,
+        })
+    }
+
+    pub(super) fn has_errors(&self) -> bool {
+        self.line.errors > 0
+    }
+
+    pub(super) fn html(&self) -> String {
+        let Line {
+            name,
+            errors,
+            warnings,
+            ..
+        } = &self.line;
+        let counts = match (errors, warnings) {
+            (0, 0) => span("good", say!(nothing_found)),
+            _ => counts(*errors, *warnings),
+        };
+        let parts = [
+            format!("<h1>{}</h1>\n<p class=\"under\">{counts}</p>\n", text(name)),
+            self.picture.clone(),
+            section(say!(head_contours), self.contour_table()),
+            section(say!(head_findings), self.findings()),
+            section(say!(head_radius_list), self.radius_list()),
+            section(say!(head_passes), self.passes()),
+            section(say!(head_program), self.program()),
+        ];
+        html::page(spoken().tag(), name, &parts.concat())
+    }
+
+    fn contour_table(&self) -> String {
+        let heads = [
+            say!(column_number),
+            say!(column_kind),
+            say!(column_role),
+            say!(column_length),
+            say!(column_area),
+            say!(column_order),
+        ];
+        let row = |(index, contour): (usize, &crate::protocol::ContoursContour)| {
+            let kind = if contour.closed {
+                say!(closed)
+            } else {
+                say!(open)
+            };
+            let role = match contour.role {
+                Role::Opening => say!(opening),
+                Role::Punch => say!(punch),
+                Role::Both => say!(both_sides),
+                Role::Ignore => say!(not_cut),
+            };
+            let area = contour
+                .area
+                .map(|area| format!("{:.3}", area * self.unit_mm * self.unit_mm));
+            let order = contour.order.map(|order| (order + 1).to_string());
+            vec![
+                number(index),
+                cell(kind),
+                cell(role),
+                number(format!("{:.3}", contour.length * self.unit_mm)),
+                number(area.unwrap_or_default()),
+                number(order.unwrap_or_default()),
+            ]
+        };
+        table(&heads, self.contours.contours.iter().enumerate().map(row))
+    }
+
+    fn findings(&self) -> String {
+        let mut by_rule: BTreeMap<(Severity, Rule), Vec<&Row>> = BTreeMap::new();
+        for row in &self.rows {
+            by_rule
+                .entry((row.severity, row.rule))
+                .or_default()
+                .push(row);
+        }
+        let group = |((severity, rule), rows): ((Severity, Rule), Vec<&Row>)| {
+            let shown = rows.iter().take(MOST_OF_A_RULE).map(|row| {
+                let place = row.whereabouts().unwrap_or_default();
+                vec![cell(&row.message), cell(place)]
+            });
+            let head = span(
+                class_of(severity),
+                format!("{} · {}", rule.name(), rows.len()),
+            );
+            let more = more(rows.len(), MOST_OF_A_RULE);
+            let table = table(&[say!(column_found), say!(column_place)], shown);
+            format!("<h3>{head}</h3>\n{table}{more}")
+        };
+        by_rule.into_iter().map(group).collect()
+    }
+
+    fn radius_list(&self) -> String {
+        let heads = [
+            "R mm",
+            say!(column_turn),
+            say!(column_entity),
+            say!(column_segment),
+            say!(column_verdict),
+        ];
+        let row = |arc: &Arc| {
+            let verdict: Cell = match arc.verdict.as_str() {
+                "ok" => ("good", "ok".into()),
+                verdict => ("error", text(verdict)),
+            };
+            vec![
+                number(format!("{:.4}", arc.radius_mm)),
+                number(format!("{:.1}", arc.degrees)),
+                cell(&arc.handle),
+                number(arc.segment),
+                verdict,
+            ]
+        };
+        let shown = self.arcs.iter().take(MOST_ARCS).map(row);
+        table(&heads, shown) + &more(self.arcs.len(), MOST_ARCS)
+    }
+
+    /// The way of the wire, pass by pass.
+    fn passes(&self) -> String {
+        let mut passes: BTreeMap<(bool, usize), (f64, f64, usize)> = BTreeMap::new();
+        for path in &self.paths {
+            let length: f64 = path
+                .segments
+                .iter()
+                .map(|segment| segment.geometry.length())
+                .sum();
+            let pass = passes.entry((path.cut_off, path.pass)).or_default();
+            *pass = (path.correction, pass.1 + length, pass.2 + 1);
+        }
+        let heads = [
+            say!(column_pass),
+            say!(column_correction),
+            say!(column_contours),
+            say!(column_length_with_leads),
+        ];
+        let row = |((cut_off, pass), (correction, length, count)): (_, (f64, f64, usize))| {
+            let name: String = match (cut_off, pass) {
+                (false, pass) => usize::to_string(&pass),
+                (true, pass) => say!(cut_off_in_pass, pass),
+            };
+            vec![
+                cell(name),
+                number(format!("{:.4}", correction * self.unit_mm)),
+                number(count),
+                number(format!("{:.3}", length * self.unit_mm)),
+            ]
+        };
+        table(&heads, passes.into_iter().map(row))
+    }
+
+    fn program(&self) -> String {
+        match &self.program {
+            Err(reason) => format!("<p class=\"error\">{}</p>\n", text(reason)),
+            Ok(made) => {
+                let program = &made.program;
+                let facts = say!(
+                    a_program_and_its_proof,
+                    self.format.name(),
+                    say!(blocks, program.blocks),
+                    say!(contours, made.contours),
+                    program.length,
+                    program.deviation
+                );
+                let finished = made.finished.as_ref().map(|finished| {
+                    say!(
+                        the_finished_part_deviates,
+                        finished.uncut,
+                        finished.at.x,
+                        finished.at.y,
+                        finished.overcut
+                    )
+                });
+                let lines: Vec<String> = program.text.lines().map(text).collect();
+                format!(
+                    "<p>{}</p>\n<p class=\"faint\">{}</p>\n<details><summary>{}</summary>\n<pre>{}</pre>\n</details>\n",
+                    text(facts),
+                    text(finished.unwrap_or_default()),
+                    text(say!(its_text)),
+                    lines.join("\n")
+                )
+            }
+        }
+    }
+}
+
+/// Every arc, the smallest first.
+fn arcs_of(inspection: Option<Inspection>, unit_mm: f64) -> Vec<Arc> {
+    let entities = inspection.map(|inspection| inspection.entities);
+    let mut arcs: Vec<Arc> = Vec::new();
+    for entity in entities.into_iter().flatten().filter(|entity| entity.cut) {
+        let of_entity = entity.segments.into_iter().filter_map(|segment| {
+            let radius = segment.shape.radius?;
+            (segment.shape.kind != SegmentKind::Line).then(|| Arc {
+                handle: entity.handle.clone(),
+                segment: segment.index,
+                radius_mm: radius * unit_mm,
+                degrees: segment.shape.sweep.map_or(360.0, f64::abs),
+                verdict: segment.verdict,
+            })
+        });
+        arcs.extend(of_entity);
+    }
+    arcs.sort_by(|one, other| one.radius_mm.total_cmp(&other.radius_mm));
+    arcs
+}
+
+/// The index of all pages.
+pub(super) fn index(lines: &[(String, Line)]) -> String {
+    let heads = [
+        say!(column_drawing),
+        say!(head_contours),
+        say!(column_smallest_radius),
+        say!(head_findings),
+        say!(column_blocks),
+    ];
+    let row = |(page, line): &(String, Line)| {
+        let link = format!("<a href=\"{}\">{}</a>", text(page), text(&line.name));
+        let smallest = line.smallest_mm.map(|radius| format!("{radius:.4}"));
+        let found = match (line.errors, line.warnings) {
+            (0, 0) => span("good", say!(nothing_found)),
+            (errors, warnings) => counts(errors, warnings),
+        };
+        vec![
+            ("", link),
+            number(line.contours),
+            number(smallest.unwrap_or_default()),
+            ("", found),
+            number(
+                line.blocks
+                    .map(|blocks| blocks.to_string())
+                    .unwrap_or_default(),
+            ),
+        ]
+    };
+    let title = say!(report_of_drawings, lines.len());
+    let body = format!(
+        "<h1>{}</h1>\n{}",
+        text(&title),
+        table(&heads, lines.iter().map(row))
+    );
+    html::page(spoken().tag(), &title, &body)
+}
+
+/// A part of the page under its heading; nothing where there is nothing in it.
+fn section(title: &str, content: String) -> String {
+    match content.is_empty() {
+        true => content,
+        false => format!("<h2>{}</h2>\n{content}", text(title)),
+    }
+}
+
+fn span(class: &str, content: impl std::fmt::Display) -> String {
+    format!("<span class=\"{class}\">{}</span>", text(content))
+}
+
+fn counts(errors: usize, warnings: usize) -> String {
+    let told = [
+        (errors > 0).then(|| span("error", say!(errors, errors))),
+        (warnings > 0).then(|| span("warning", say!(warnings, warnings))),
+    ];
+    told.into_iter().flatten().collect::<Vec<_>>().join(" · ")
+}
+
+fn class_of(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Information | Severity::Hint => "faint",
+    }
+}
+
+fn more(count: usize, shown: usize) -> String {
+    match count.saturating_sub(shown) {
+        0 => String::new(),
+        more => format!(
+            "<p class=\"faint\">{}</p>\n",
+            text(say!(and_more_of_them, more))
+        ),
+    }
+}
