@@ -154,10 +154,6 @@ impl SourceText {
         String::from_utf8_lossy(self.bytes())
     }
 
-    #[expect(
-        clippy::len_without_is_empty,
-        reason = "nobody asks whether a text is empty"
-    )]
     pub fn len(&self) -> usize {
         self.bytes.len()
     }
