@@ -31,6 +31,7 @@ const WORDS_OF_FORMATS: [&str; 14] = [
     " (os error",
     // Keys of settings, as the command line groups them.
     "correction passes side",
+    "drawn-as clearance stripper holder",
     "direction corner thread entry lead-in tab order layout compensation digits profile end pause",
     "end pause",
     "wedm protocol",

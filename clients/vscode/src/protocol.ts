@@ -185,7 +185,8 @@ export interface InspectedEntity {
   layer: string;
   closed: boolean;
   /**
-   * False where it is no part of a contour: its layer is frozen or switched off, its role is `ignore`, or it is a point.
+   * False where it is no part of a contour: its layer is frozen or switched off, its role is `ignore`, it is drawn to be read (as centre
+   * lines are) and not to be cut, or it is a point.
    */
   cut: boolean;
   segments: InspectedSegment[];
@@ -360,6 +361,12 @@ export interface Settings {
     [k: string]: Role;
   };
   /**
+   * Role of what is drawn in a linetype, by itself or by its layer: by the name of the linetype, before layers and colours; in DXF. Without one, what is drawn in CENTER, HIDDEN, PHANTOM and their like is not cut: see `unsupported-entity`.
+   */
+  linetypes?: {
+    [k: string]: Role;
+  };
+  /**
    * Role of the contour that holds an entity, by the entity's handle, before layers and colours. Handles are those of one drawing: in a `wedm.toml` that holds for several they mean each one's own entity of that name.
    */
   contours?: {
@@ -370,6 +377,12 @@ export interface Settings {
    */
   colors?: {
     [k: string]: Role;
+  };
+  /**
+   * What is said of one drawing, by the name of its file: `[drawings."plate.dxf".suppress.2A]`.
+   */
+  drawings?: {
+    [k: string]: DrawingSettings;
   };
   /**
    * How near the arcs lie to the ellipses and splines that they stand for, mm.
@@ -436,6 +449,19 @@ export interface Passes {
   skimCorner?: SkimCorner;
 }
 /**
+ * What is said of one drawing.
+ */
+export interface DrawingSettings {
+  /**
+   * Findings that somebody has looked at and lets stand, by the handle of the entity at which they are told and the name of the rule, with the reason: suppressions.
+   */
+  suppress?: {
+    [k: string]: {
+      [k: string]: string;
+    };
+  };
+}
+/**
  * How a program is written.
  */
 export interface ProgramSettings {
@@ -452,11 +478,11 @@ export interface ProgramSettings {
    */
   corner?: Corner;
   /**
-   * Thread hole `[x, y]` in drawing units, or a table of them by handle. Else the TEXT or MTEXT "O", or the POINT, nearest to the contour, else the centre of a round opening where neither entry nor `lead-in` is set, else found from the entry. An "O" on the part's side, or within the correction of the contour, is not the hole but the entry beside it.
+   * Thread hole `[x, y]` in drawing units. A table has them by handle. Else the TEXT or MTEXT "O", or the POINT, nearest to the contour, else the centre of a round opening where neither entry nor `lead-in` is set, else found from the entry. An "O" on the part's side, or within the correction of the contour, is not the hole but the entry beside it.
    */
   thread?: PointSetting;
   /**
-   * Point `[x, y]` of the contour where the cut begins, in drawing units, or a table of them by handle. Else the point beside an "O" that means it, under `as-picked` the begin of the entity picked first, the point nearest to the thread hole, else the middle of the longest line, else the point of the longest arc with the largest x.
+   * Point `[x, y]` of the contour where the cut begins, in drawing units. A table has them by handle. Else the point beside an "O" that means it, under `as-picked` the begin of the entity picked first, the point nearest to the thread hole, else the middle of the longest line, else the point of the longest arc with the largest x.
    */
   entry?: PointSetting;
   /**
