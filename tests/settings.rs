@@ -378,28 +378,45 @@ fn the_settings_page_of_vs_code_has_every_key() {
 
 fn python_type(row: &Row, schema: &Value) -> String {
     let own = words(schema);
-    let literal = |words: Vec<(&str, &str)>| {
-        let names: Vec<String> = words
-            .iter()
-            .map(|(name, _)| format!("\"{name}\""))
-            .collect();
-        format!("Literal[{}]", names.join(", "))
-    };
     match schema["type"].as_str() {
-        _ if !own.is_empty() => literal(own),
+        _ if !own.is_empty() => {
+            let names: Vec<String> = own.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+            format!("Literal[{}]", names.join(", "))
+        }
         Some("number") => "float".into(),
         Some("integer") => "int".into(),
         Some("boolean") => "bool".into(),
         Some("string") => "str".into(),
-        Some("array") if schema["items"]["type"] == "number" => "Sequence[float]".into(),
-        Some("array") => "Sequence[str]".into(),
-        Some("object") if row.key == "profiles" => "Mapping[str, Profile]".into(),
-        Some("object") => format!(
-            "Mapping[str, {}]",
-            literal(words(&schema["additionalProperties"]))
-        ),
+        Some("array") => format!("Sequence[{}]", python_type(row, &schema["items"])),
+        Some("object") if schema["properties"].is_object() => match row.key.as_str() {
+            "profiles" => "Profile".into(),
+            "drawings" => "DrawingSettings".into(),
+            key => panic!("no class of the Python client is named for {key}"),
+        },
+        Some("object") => {
+            let each = resolved(&wedm::protocol::schema(), &schema["additionalProperties"]);
+            format!("Mapping[str, {}]", python_type(row, &each))
+        }
         _ => "Place".into(),
     }
+}
+
+/// The keys of one drawing, whose tables are not rows of their own.
+fn python_class_of_drawings() -> String {
+    let rows = rows();
+    let row = rows.iter().find(|row| row.key == "drawings").unwrap();
+    let schema = schema_of(row)["additionalProperties"].clone();
+    let keys = schema["properties"].as_object().unwrap().iter();
+    keys.map(|(key, schema)| {
+        let snake = key.chars().map(|c| match c.is_uppercase() {
+            true => format!("_{}", c.to_lowercase()),
+            false => c.to_string(),
+        });
+        let schema = resolved(&wedm::protocol::schema(), schema);
+        let kind = python_type(row, &schema);
+        format!("    {}: {kind}\n", snake.collect::<String>())
+    })
+    .collect()
 }
 
 #[test]
@@ -408,6 +425,7 @@ fn the_python_client_has_every_key() {
     let classes = [
         ("Passes", "passes.", "Several passes."),
         ("Job", "job.", "The workpiece."),
+        ("Pair", "pair.", "A punch and its plate."),
         ("ProgramSettings", "program.", "How a program is written."),
         (
             "Profile",
@@ -415,14 +433,32 @@ fn the_python_client_has_every_key() {
             "How ISO programs are written for one kind of machine.",
         ),
         (
+            "DrawingSettings",
+            "drawings.NAME.",
+            "What is said of one drawing.",
+        ),
+        (
             "Settings",
             "",
             "Only what is set counts; lengths are mm, thread and entry are drawing units.",
         ),
     ];
+    let rows = rows();
+    for row in &rows {
+        let (of, _) = row.key.rsplit_once('.').unwrap_or_default();
+        let is_held = of.starts_with("drawings.")
+            || classes
+                .iter()
+                .any(|(_, prefix, _)| prefix.trim_end_matches('.') == of);
+        assert!(is_held, "no class of the Python client has {}", row.key);
+    }
     for (name, prefix, about) in classes {
         text += &format!("\n\nclass {name}(TypedDict, total=False):\n    \"\"\"{about}\"\"\"\n\n");
-        for row in rows() {
+        if name == "DrawingSettings" {
+            text += &python_class_of_drawings();
+            continue;
+        }
+        for row in &rows {
             let Some(key) = row
                 .key
                 .strip_prefix(prefix)
@@ -430,11 +466,12 @@ fn the_python_client_has_every_key() {
             else {
                 continue;
             };
-            let kind = python_type(&row, &schema_of(&row));
+            let kind = python_type(row, &schema_of(row));
             text += &format!("    {}: {kind}\n", key.replace('-', "_"));
         }
         if prefix.is_empty() {
-            text += "    passes: Passes\n    job: Job\n    program: ProgramSettings\n";
+            text +=
+                "    passes: Passes\n    job: Job\n    pair: Pair\n    program: ProgramSettings\n";
         }
     }
     hold(

@@ -30,6 +30,15 @@ class Job(TypedDict, total=False):
     slug_limit: float
 
 
+class Pair(TypedDict, total=False):
+    """A punch and its plate."""
+
+    drawn_as: Literal["punch", "plate"]
+    clearance: float
+    stripper: float
+    holder: float
+
+
 class ProgramSettings(TypedDict, total=False):
     """How a program is written."""
 
@@ -74,6 +83,12 @@ class Profile(TypedDict, total=False):
     end: Sequence[str]
 
 
+class DrawingSettings(TypedDict, total=False):
+    """What is said of one drawing."""
+
+    suppress: Mapping[str, Mapping[str, str]]
+
+
 class Settings(TypedDict, total=False):
     """Only what is set counts; lengths are mm, thread and entry are drawing units."""
 
@@ -88,14 +103,15 @@ class Settings(TypedDict, total=False):
     linetypes: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
     contours: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
     colors: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
-    drawings: Mapping[str, Literal[]]
+    drawings: Mapping[str, DrawingSettings]
     arc_fit: float
     rules: Mapping[str, Literal["error", "warning", "information", "hint", "off"]]
     docs_url: str
-    workpieces: Mapping[str, Literal[]]
+    workpieces: Mapping[str, Sequence[str]]
     profiles: Mapping[str, Profile]
     passes: Passes
     job: Job
+    pair: Pair
     program: ProgramSettings
 
 
