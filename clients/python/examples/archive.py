@@ -24,8 +24,7 @@ def main() -> int:
     print(file=sys.stderr)
     for file in checked:
         if not file.ok:
-            errors = [diagnostic for diagnostic in file.diagnostics if diagnostic.severity == "error"]
-            print(f"{file.path}: {file.error or f'{len(errors)} errors, the first: {errors[0]}'}")
+            print(f"{file.path}: {file.error or f'{len(file.errors)} errors, the first: {file.errors[0]}'}")
     bad = sum(not file.ok for file in checked)
     print(f"{len(checked)} files, {bad} of them with errors, {len(checked) / took:.0f} files/s")
     return 1 if bad else 0

@@ -8,23 +8,23 @@ quarter = 0.41421356237309503
 opening = Polyline([(0, 0), (5.92, 0, quarter), (6, 0.08), (6, 4), (0, 4)], handle="2A", role="opening")
 drawing = server.open([opening])
 
-# %% What is wrong with it
-server.diagnostics(drawing)
+# %% What is wrong with it, as a table
+drawing.diagnostics()
 
 # %% A drawing shows itself: contours, faults under lenses, the wire's path where there is one
 drawing
 
-# %% The radii
-[(segment.index, segment.kind, segment.radius, segment.verdict) for segment in server.inspect(drawing).entities[0].segments]
+# %% The radii, as a table
+drawing.inspect()
 
 # %% Repaired; the rest are hints
-server.fix(drawing).after
+drawing.fix()
 
 # %% The wire's path runs inside now
-server.picture(drawing, {"program": {"thread": (3, 2)}})
+drawing.picture({"program": {"thread": (3, 2)}})
 
 # %% The program
-print(server.generate(drawing, "3b", options={"program": {"thread": (3, 2), "layout": "checking"}}))
+print(drawing.generate("3b", options={"program": {"thread": (3, 2), "layout": "checking"}}))
 
 # %%
 server.close()

@@ -26,13 +26,13 @@ def main() -> None:
     target = sys.argv[1] if len(sys.argv) > 1 else "plate.3b"
     with Server(settings={"correction": 0.12}) as server:
         drawing = server.open([OPENING, DOWEL, *THREAD_HOLES])
-        for diagnostic in server.diagnostics(drawing):
+        for diagnostic in drawing.diagnostics():
             print(diagnostic)
 
-        fixed = server.fix(drawing)
+        fixed = drawing.fix()
         print(f"{len(fixed.before) - len(fixed.after)} repaired, {len(fixed.after)} left")
 
-        program = server.generate(drawing, "3b")
+        program = drawing.generate("3b")
         program.save(target)
         print(f"{target}: {program.blocks} blocks, wire path {program.length:.3f} mm, at most {program.deviation:.2f} µm from it")
 

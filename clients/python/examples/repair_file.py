@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sys
 
-from wedm_client import Server, TextDocument
+from wedm_client import Server
 
 
 def main() -> int:
@@ -15,13 +15,12 @@ def main() -> int:
     correction = float(sys.argv[3]) if len(sys.argv) > 3 else 0.10
     with Server(settings={"correction": correction}) as server:
         document = server.open(source)
-        assert isinstance(document, TextDocument)
-        fixed = server.fix(document)
+        fixed = document.fix()
         document.save(target)
         for diagnostic in fixed.after:
             print(diagnostic)
     print(f"{target}: {len(fixed.before)} findings before, {len(fixed.after)} after")
-    return 1 if any(diagnostic.severity == "error" for diagnostic in fixed.after) else 0
+    return 1 if fixed.after.errors else 0
 
 
 if __name__ == "__main__":

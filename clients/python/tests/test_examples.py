@@ -52,7 +52,7 @@ def test_with_ezdxf(tmp_path: Path) -> None:
 def test_archive(tmp_path: Path, data: Path) -> None:
     code, said = run(tmp_path, "archive.py", data)
     assert code == 1
-    files = len([path for path in data.rglob("*") if path.suffix in (".dxf", ".dxb", ".3b", ".iso", ".nc")])
+    files = len([path for path in data.rglob("*") if path.suffix in (".dxf", ".dxb", ".3b", ".4b", ".iso", ".nc")])
     assert f"{files} files, " in said and "tight.dxf: 1 errors, the first: error[small-radius]" in said
 
 
@@ -79,8 +79,9 @@ def test_notebook() -> None:
     assert [one.rule for one in seen[1]][0] == "small-radius"
     for picture in (seen[2], seen[5]):
         assert ElementTree.fromstring(picture).tag.endswith("svg")
-    assert (1, "arc", pytest.approx(0.08), "small-radius") in seen[3]
-    assert all(one.severity != "error" for one in seen[4])
+    assert [(row["segment"], row["radius"]) for row in seen[3].rows() if row["verdict"] == "small-radius"] == [(1, pytest.approx(0.08))]
+    assert seen[4].after.errors == []
+    assert all("<table>" in seen[cell]._repr_html_() for cell in (1, 3, 4))
     assert seen[6].rstrip().endswith("DD")
     assert names["drawing"]._repr_svg_() is None, "a closed drawing has no picture, and breaks no notebook"
 

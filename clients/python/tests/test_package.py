@@ -13,6 +13,7 @@ from typing import Any, get_args, get_type_hints
 
 import pytest
 
+import wedm_client
 from wedm_client import results, settings
 from wedm_client.results import _KEYS, _camel
 
@@ -47,7 +48,13 @@ RESULTS = [
     ("SimulatedBlock", "SimulatedBlock"),
     ("Bounds", "SimulatedBounds"),
     ("SettingsInForce", "SettingsInForce"),
+    ("FinishedPart", "FinishedPart"),
 ]
+# Read by code of the package's own: findings and places, whose lines and columns it counts from 1, and what is handed out bare.
+READ_OTHERWISE = {
+    *("Diagnostic", "CodeDescription", "FindingData", "RelatedInformation", "RelatedPlace", "Location", "Located", "Range", "Position"),
+    *("Point", "RulePageText", "Refused"),
+}
 
 
 @pytest.mark.parametrize(("ours", "theirs"), RESULTS)
@@ -56,9 +63,61 @@ def test_results_have_every_key_of_the_schema(schema: dict[str, Any], ours: str,
     assert held >= set(schema["$defs"][theirs]["properties"])
 
 
-@pytest.mark.parametrize("name", ["Settings", "Passes", "ProgramSettings"])
-def test_settings_have_the_keys_of_the_schema(schema: dict[str, Any], name: str) -> None:
-    assert {_camel(key) for key in get_type_hints(getattr(settings, name))} == set(schema["$defs"][name]["properties"])
+def _reached(schema: dict[str, Any], value: Any, found: set[str]) -> set[str]:
+    """The definitions that a part of the schema refers to, and what they refer to."""
+    if isinstance(value, dict):
+        name = str(value.get("$ref", "")).rpartition("/")[2]
+        if name and name not in found:
+            found.add(name)
+            _reached(schema, schema["$defs"][name], found)
+    for one in value.values() if isinstance(value, dict) else value if isinstance(value, list) else []:
+        _reached(schema, one, found)
+    return found
+
+
+def test_whatever_the_server_answers_has_its_type(schema: dict[str, Any]) -> None:
+    answers = [method.get(part) for method in schema["methods"].values() if method.get("sentBy") != "server" for part in ("result", "errorData")]
+    named = {name for name in _reached(schema, answers, set()) if "properties" in schema["$defs"][name]}
+    assert named == {theirs for _, theirs in RESULTS} | (READ_OTHERWISE - {"Point"})
+
+
+@pytest.mark.parametrize(("ours", "theirs"), RESULTS)
+def test_words_of_results_are_those_of_the_schema(schema: dict[str, Any], ours: str, theirs: str) -> None:
+    hints = get_type_hints(getattr(results, ours))
+    for field in hints:
+        key = _KEYS.get((ours, field), _camel(field))
+        words = _words_of(schema, schema["$defs"][theirs]["properties"].get(key, {}))
+        if words:
+            held = {word for one in (hints[field], *get_args(hints[field])) for word in get_args(one) if isinstance(word, str)}
+            assert held == words, f"{ours}.{field}"
+
+
+def _words_of(schema: dict[str, Any], value: dict[str, Any]) -> set[str]:
+    if "$ref" in value:
+        return _words(schema["$defs"][value["$ref"].rpartition("/")[2]])
+    return set().union(*(_words_of(schema, one) for one in value.get("anyOf", [])))
+
+
+@pytest.mark.parametrize(
+    ("ours", "theirs"),
+    [
+        ("Settings", "Settings"),
+        ("Passes", "Passes"),
+        ("ProgramSettings", "ProgramSettings"),
+        ("Pair", "PairSettings"),
+        ("Job", "JobSettings"),
+        ("Profile", "ProfileSettings"),
+        ("DrawingSettings", "DrawingSettings"),
+    ],
+)
+def test_settings_have_the_keys_of_the_schema(schema: dict[str, Any], ours: str, theirs: str) -> None:
+    assert {_camel(key) for key in get_type_hints(getattr(settings, ours))} == set(schema["$defs"][theirs]["properties"])
+
+
+def test_all_that_the_package_has_is_named_at_its_front_door() -> None:
+    for module in (results, settings):
+        own = {name for name, value in vars(module).items() if isinstance(value, type) and value.__module__ == module.__name__}
+        assert {name for name in own if not name.startswith("_")} <= set(wedm_client.__all__)
 
 
 @pytest.mark.parametrize(
@@ -75,6 +134,8 @@ def _words(definition: dict[str, Any]) -> set[str]:
 
 
 def test_settings_reach_the_protocol_in_its_spelling() -> None:
+    named = settings.to_json({"drawings": {"my_plate.dxf": {"suppress": {"2A": {"gap": "as the customer drew it"}}}}, "pair": {"drawn_as": "punch"}})
+    assert named == {"drawings": {"my_plate.dxf": {"suppress": {"2A": {"gap": "as the customer drew it"}}}}, "pair": {"drawnAs": "punch"}}
     written = settings.to_json(
         {"wire_diameter": 0.2, "layers": {"MY_LAYER": "punch"}, "program": {"lead_in": 2, "thread": {"A_1": (1, 2)}}, "passes": {"corrections": [0.1]}}
     )

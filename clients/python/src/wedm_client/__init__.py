@@ -6,11 +6,14 @@
         drawing = server.open([Polyline([(0, 0), (19.92, 0, 0.41421356237), (20, 0.08), (20, 10), (0, 10)], handle="2A")])
         for diagnostic in server.diagnostics(drawing):
             print(diagnostic)
-        server.fix(drawing)
-        server.generate(drawing, "3b", options={"side": "opening"}).save("plate.3b")
+        drawing.fix()
+        drawing.generate("3b", options={"side": "opening"}).save("plate.3b")
 """
 
-from .archive import Checked, check_many
+import sys
+import warnings
+
+from .archive import Checked, check_many, report
 from .cad import UnsupportedEntity, UnsupportedUnits
 from .documents import Document, Drawing, TextDocument, write_back
 from .entities import Arc, Change, Circle, Delete, Entity, Line, Point, Polyline, Put, Splice, Text, Vertex
@@ -18,6 +21,7 @@ from .errors import (
     DoesNotApply,
     NoAnswer,
     NotOpen,
+    NotSaved,
     Outdated,
     Refused,
     RequestFailed,
@@ -35,6 +39,8 @@ from .results import (
     ContourPiece,
     Contours,
     Diagnostic,
+    Findings,
+    FinishedPart,
     Fit,
     FitAlone,
     FitPlace,
@@ -56,9 +62,14 @@ from .results import (
     WirePath,
 )
 from .server import Action, Server
-from .settings import Pair, Passes, ProgramSettings, Settings
+from .settings import DrawingSettings, Job, Pair, Passes, Profile, ProgramSettings, Settings
+from .shown import Rows
 
 __version__ = "0.1.0"
+
+# Python passes over warnings of forgotten things unless it is told otherwise; a repair that is lost is worth a line.
+if not sys.warnoptions:
+    warnings.simplefilter("default", NotSaved)
 
 __all__ = [
     "Action",
@@ -76,7 +87,10 @@ __all__ = [
     "Document",
     "DoesNotApply",
     "Drawing",
+    "DrawingSettings",
     "Entity",
+    "Findings",
+    "FinishedPart",
     "Fit",
     "FitAlone",
     "FitPlace",
@@ -84,10 +98,12 @@ __all__ = [
     "Gap",
     "InspectedEntity",
     "Inspection",
+    "Job",
     "Line",
     "Located",
     "NoAnswer",
     "NotOpen",
+    "NotSaved",
     "Outdated",
     "Pair",
     "PairProgram",
@@ -97,11 +113,13 @@ __all__ = [
     "Picture",
     "Point",
     "Polyline",
+    "Profile",
     "Program",
     "ProgramSettings",
     "Put",
     "Refused",
     "RequestFailed",
+    "Rows",
     "Segment",
     "SimulatedBlock",
     "Simulation",
@@ -123,5 +141,6 @@ __all__ = [
     "WrongSettings",
     "check_many",
     "find",
+    "report",
     "write_back",
 ]

@@ -16,28 +16,52 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
-from .errors import WedmError
+from .errors import NoAnswer, WedmError
 from .find import find
-from .results import Diagnostic
+from .results import Diagnostic, Findings
+from .settings import Side
+from .shown import Rows, Value
 
 #: Files that one call of ``wedm check`` looks at: few enough to share the work out, many enough to make the start cheap.
 CHUNK = 16
 
-_SUFFIXES = frozenset({".dxf", ".dxb", ".3b", ".iso", ".nc"})
+_SUFFIXES = frozenset({".dxf", ".dxb", ".3b", ".4b", ".iso", ".nc"})
 
 
 @dataclass(frozen=True)
-class Checked:
+class Checked(Value):
     """What was found in one file; ``error`` says why it could not be looked at."""
 
     path: str
-    diagnostics: list[Diagnostic] = field(default_factory=list)
+    diagnostics: Findings = field(default_factory=Findings)
     error: str | None = None
+
+    @property
+    def errors(self) -> list[Diagnostic]:
+        """What spoils the part: no program is made while it stands."""
+        return self.diagnostics.errors
+
+    @property
+    def warnings(self) -> list[Diagnostic]:
+        """What to look at before it is cut."""
+        return self.diagnostics.warnings
+
+    def row(self) -> dict[str, Any]:
+        """What a table shows of it."""
+        first = self.error or (str((self.errors or self.diagnostics)[0]) if self.diagnostics else None)
+        return {"file": self.path, "ok": self.ok, "errors": len(self.errors), "warnings": len(self.warnings), "first": first}
+
+    def _repr_html_(self) -> str | None:
+        return self.diagnostics._repr_html_() if self.error is None else None
+
+    def __repr__(self) -> str:
+        said = self.error or f"{len(self.errors)} errors, {len(self.warnings)} warnings, {len(self.diagnostics)} findings"
+        return f"<Checked {self.path}: {said}>"
 
     @property
     def ok(self) -> bool:
         """The file was read, and holds no error."""
-        return self.error is None and all(diagnostic.severity != "error" for diagnostic in self.diagnostics)
+        return self.error is None and not self.errors
 
 
 def check_many(
@@ -45,14 +69,14 @@ def check_many(
     executor: Executor | None = None,
     *,
     correction: float | None = None,
-    side: Literal["both", "auto", "opening", "punch"] | None = None,
+    side: Side | None = None,
     config: str | os.PathLike[str] | None = None,
     command: str | os.PathLike[str] | Sequence[str | os.PathLike[str]] | None = None,
     chunk: int = CHUNK,
     timeout: float = 60.0,
     progress: Callable[[int, int], None] | None = None,
-) -> list[Checked]:
-    """Checks many files and returns what was found, in their order.
+) -> Rows[Checked]:
+    """Checks many files and returns what was found, in their order; a notebook shows it as a table.
 
     :param paths: files and folders; of a folder all drawings and programs below it.
     :param executor: any executor of :mod:`concurrent.futures`: processes, or a Dask or Ray cluster. Without one, a thread for
@@ -68,13 +92,7 @@ def check_many(
     """
     if chunk < 1:
         raise ValueError(f"chunk is {chunk}, expected 1 or more")
-    options: list[str] = []
-    if correction is not None:
-        options += ["--correction", repr(float(correction))]
-    if side is not None:
-        options += ["--side", side]
-    if config is not None:
-        options += ["--config", os.fspath(Path(config).resolve())]
+    options = _options(correction, side, config)
     named = list(_files(paths))
     program = None if command is None and executor is not None else find(command)
     chunks = [named[start : start + chunk] for start in range(0, len(named), chunk)]
@@ -82,6 +100,45 @@ def check_many(
         return _gather(executor, chunks, program, options, timeout, progress)
     with ThreadPoolExecutor(max_workers=os.cpu_count() or 1, thread_name_prefix="wedm-check") as threads:
         return _gather(threads, chunks, program, options, timeout, progress)
+
+
+def report(
+    paths: Iterable[str | os.PathLike[str]] | str | os.PathLike[str],
+    folder: str | os.PathLike[str] = "report",
+    *,
+    format: Literal["3b", "4b", "iso"] = "3b",
+    correction: float | None = None,
+    side: Side | None = None,
+    config: str | os.PathLike[str] | None = None,
+    command: str | os.PathLike[str] | Sequence[str | os.PathLike[str]] | None = None,
+    timeout: float = 600.0,
+) -> Path:
+    """Writes a page for each drawing, and an index of them, whose path it returns: picture, contours, radius list, findings, program.
+
+    A drawing with errors has its page too.
+
+    :param paths: drawings, and folders of them.
+    :param folder: where the pages are written; made where it is not there.
+    :param format: the language of the programs.
+    :param timeout: seconds for all of them.
+    :raises WedmError: the pages could not be written; the message says why.
+    """
+    named = [paths] if isinstance(paths, (str, os.PathLike)) else list(paths)
+    words = [*find(command), "report", "--output", os.fspath(folder), "--format", format, *_options(correction, side, config), "--"]
+    try:
+        ended = subprocess.run([*words, *(os.fspath(path) for path in named)], capture_output=True, stdin=subprocess.DEVNULL, timeout=timeout, check=False)
+    except subprocess.TimeoutExpired:
+        raise NoAnswer(f"wedm report did not end within {timeout:g} s") from None
+    if ended.returncode not in (0, 1):
+        said = ended.stderr.decode("utf-8", "replace").strip()
+        raise WedmError(f"wedm report ended with code {ended.returncode}: {said or 'it said nothing'}")
+    return Path(folder, "index.html")
+
+
+def _options(correction: float | None, side: Side | None, config: str | os.PathLike[str] | None) -> list[str]:
+    options = ["--correction", repr(float(correction))] if correction is not None else []
+    options += ["--side", side] if side is not None else []
+    return options + (["--config", os.fspath(Path(config).resolve())] if config is not None else [])
 
 
 def _files(paths: Iterable[str | os.PathLike[str]] | str | os.PathLike[str]) -> Iterator[str]:
@@ -101,7 +158,7 @@ def _gather(
     options: list[str],
     timeout: float,
     progress: Callable[[int, int], None] | None,
-) -> list[Checked]:
+) -> Rows[Checked]:
     futures: list[Future[list[Checked]]] = [executor.submit(check_chunk, chunk, program, options, timeout) for chunk in chunks]
     if progress is not None:
         sizes = {id(future): len(chunk) for future, chunk in zip(futures, chunks, strict=True)}
@@ -109,7 +166,7 @@ def _gather(
         for future in as_completed(futures):
             done += sizes[id(future)]
             progress(done, total)
-    checked: list[Checked] = []
+    checked: Rows[Checked] = Rows()
     for future, chunk in zip(futures, chunks, strict=True):
         try:
             checked.extend(future.result())
@@ -139,7 +196,7 @@ def _run(command: list[str], paths: list[str], options: list[str], timeout: floa
     said = ended.stderr.decode("utf-8", "replace").strip()
     if ended.returncode not in (0, 1, 2) or not ended.stdout:
         raise ValueError(f"wedm check ended with code {ended.returncode}: {said or 'it said nothing'}")
-    found: dict[str, list[Diagnostic]] = {path: [] for path in paths}
+    found = {path: Findings() for path in paths}
     for written in json.loads(ended.stdout)["diagnostics"]:
         found[written["path"]].append(_diagnostic(written))
     if ended.returncode != 2:

@@ -40,7 +40,7 @@ def converted(
     suffixes = [suffix for suffix, language in LANGUAGES.items() if language == program.language]
     with tempfile.TemporaryDirectory(prefix="wedm-client-") as folder:
         source, target = Path(folder, f"program{suffixes[0]}"), Path(folder, f"converted.{to}")
-        source.write_bytes(program.text.encode("utf-8"))
+        source.write_bytes(program._told().encode("utf-8"))
         try:
             ended = subprocess.run(
                 [command[0], "convert", *words, "-o", str(target), "--", str(source)],

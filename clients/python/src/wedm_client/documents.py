@@ -11,8 +11,9 @@ from typing import Any, Protocol
 from .cad import write_back_to
 from .entities import Change, Delete, Entity, Polyline, Put, Splice, Vertex
 from .errors import DoesNotApply, WedmError
-from .results import Picture, write_beside
-from .settings import Units
+from .results import Contours, Diagnostic, Findings, Fit, Fixed, Inspection, PairProgram, Picture, Program, SettingsInForce, Toolpath, write_beside
+from .settings import Settings, Units
+from .shown import Rows, counted
 
 #: Kind of text by the end of a file's name.
 LANGUAGES = {".dxf": "dxf", ".3b": "3b", ".4b": "3b", ".iso": "wire-iso", ".nc": "wire-iso"}
@@ -21,20 +22,119 @@ _LINE_END = re.compile(rb"\r\n|\n|\r")
 _CODE_PAGE = re.compile(rb"\$DWGCODEPAGE\s+3\s+(\S+)")
 
 
-class Draws(Protocol):
-    """What draws a document: the server that it is open in."""
+class Asked(Protocol):
+    """What a document asks of the server that it is open in."""
 
-    def picture(self, document: Document) -> Picture: ...
+    def diagnostics(self, document: Document) -> Findings: ...
+    def fix(self, document: Document, diagnostic: Diagnostic | None = None) -> Fixed: ...
+    def inspect(self, document: Document, handle: str | None = None) -> Inspection: ...
+    def contours(self, document: Document) -> Contours: ...
+    def toolpath(self, document: Document, options: Settings | None = None) -> Toolpath: ...
+    def picture(self, document: Document, options: Settings | None = None) -> Picture: ...
+    def fit(self, document: Document, options: Settings | None = None) -> Fit: ...
+    def settings(self, document: Document) -> SettingsInForce: ...
+    def close_document(self, document: Document) -> None: ...
+
+    def generate(
+        self,
+        document: Document,
+        format: str = "3b",
+        *,
+        handles: Sequence[str] | None = None,
+        layers: Sequence[str] | None = None,
+        options: Settings | None = None,
+        force: bool = False,
+    ) -> Program: ...
+
+    def pair(
+        self,
+        document: Document,
+        format: str = "3b",
+        *,
+        handles: Sequence[str] | None = None,
+        layers: Sequence[str] | None = None,
+        options: Settings | None = None,
+        force: bool = False,
+    ) -> Rows[PairProgram]: ...
 
 
 class Document:
-    """Something that is open in a server. In a notebook it shows its picture."""
+    """Something that is open in a server. In a notebook it shows its picture.
 
-    def __init__(self, server: Draws, uri: str) -> None:
+    What the server can be asked about it, it can be asked itself: ``drawing.fix()`` is ``server.fix(drawing)``.
+    """
+
+    def __init__(self, server: Asked, uri: str) -> None:
         self._server = server
         self.uri = uri
         #: Counts the states; a repair that was made for an older one is refused.
         self.version = 1
+        # The server has changed it since it was opened or saved.
+        self._repaired = False
+
+    def diagnostics(self) -> Findings:
+        """See :meth:`Server.diagnostics`."""
+        return self._server.diagnostics(self)
+
+    def fix(self, diagnostic: Diagnostic | None = None) -> Fixed:
+        """See :meth:`Server.fix`."""
+        return self._server.fix(self, diagnostic)
+
+    def inspect(self, handle: str | None = None) -> Inspection:
+        """See :meth:`Server.inspect`."""
+        return self._server.inspect(self, handle)
+
+    def contours(self) -> Contours:
+        """See :meth:`Server.contours`."""
+        return self._server.contours(self)
+
+    def toolpath(self, options: Settings | None = None) -> Toolpath:
+        """See :meth:`Server.toolpath`."""
+        return self._server.toolpath(self, options)
+
+    def picture(self, options: Settings | None = None) -> Picture:
+        """See :meth:`Server.picture`."""
+        return self._server.picture(self, options)
+
+    def generate(
+        self,
+        format: str = "3b",
+        *,
+        handles: Sequence[str] | None = None,
+        layers: Sequence[str] | None = None,
+        options: Settings | None = None,
+        force: bool = False,
+    ) -> Program:
+        """See :meth:`Server.generate`."""
+        return self._server.generate(self, format, handles=handles, layers=layers, options=options, force=force)
+
+    def fit(self, options: Settings | None = None) -> Fit:
+        """See :meth:`Server.fit`."""
+        return self._server.fit(self, options)
+
+    def pair(
+        self,
+        format: str = "3b",
+        *,
+        handles: Sequence[str] | None = None,
+        layers: Sequence[str] | None = None,
+        options: Settings | None = None,
+        force: bool = False,
+    ) -> Rows[PairProgram]:
+        """See :meth:`Server.pair`."""
+        return self._server.pair(self, format, handles=handles, layers=layers, options=options, force=force)
+
+    def settings(self) -> SettingsInForce:
+        """See :meth:`Server.settings`."""
+        return self._server.settings(self)
+
+    def close(self) -> None:
+        """See :meth:`Server.close_document`."""
+        self._server.close_document(self)
+
+    def _forgotten(self) -> str | None:
+        """What was forgotten about a document that is closed now."""
+        return None
 
     def _repr_svg_(self) -> str | None:
         try:
@@ -47,7 +147,7 @@ class Document:
 class Drawing(Document):
     """Geometry without text behind it: entities by handle, in machining order."""
 
-    def __init__(self, server: Draws, uri: str, entities: Iterable[Entity], units: Units | None) -> None:
+    def __init__(self, server: Asked, uri: str, entities: Iterable[Entity], units: Units | None) -> None:
         super().__init__(server, uri)
         self.units = units
         self._entities = {entity.handle: entity for entity in entities}
@@ -64,6 +164,14 @@ class Drawing(Document):
 
     def __len__(self) -> int:
         return len(self._entities)
+
+    def __repr__(self) -> str:
+        return f"<Drawing {self.uri}: {counted(len(self), 'entity', 'entities')}, version {self.version}>"
+
+    def _forgotten(self) -> str | None:
+        if not self._repaired or not self.sources:
+            return None
+        return f"what was repaired in {self.uri} was not given to its entities of ezdxf: call write_back(drawing)"
 
     def to_json(self) -> dict[str, Any]:
         """The drawing as the protocol writes it."""
@@ -92,6 +200,7 @@ def write_back(drawing: Drawing) -> int:
 
     Those that a repair has deleted are destroyed. Handles, layers, colours and all else stay. Returns how many were changed.
     """
+    drawing._repaired = False
     return write_back_to(drawing._entities, drawing.sources)
 
 
@@ -135,7 +244,7 @@ def _splice(entity: Entity, splice: Splice) -> Polyline:
 class TextDocument(Document):
     """A text: DXF, 3B or wire ISO. ``path`` is the file that it came from, if any."""
 
-    def __init__(self, server: Draws, uri: str, text: str, language: str, path: Path | None = None, encoding: str = "utf-8") -> None:
+    def __init__(self, server: Asked, uri: str, text: str, language: str, path: Path | None = None, encoding: str = "utf-8") -> None:
         super().__init__(server, uri)
         self.language = language
         self.path = path
@@ -145,8 +254,22 @@ class TextDocument(Document):
 
     @property
     def text(self) -> str:
-        """The text as it is now, repairs included."""
+        """The text as it is now, repairs included. Who takes it has it: closing the document no longer warns that it was not saved."""
+        self._repaired = False
+        return self._told()
+
+    def _told(self) -> str:
         return self._bytes.decode("utf-8")
+
+    def __repr__(self) -> str:
+        name = self.path.name if self.path is not None else self.uri
+        repaired = ", changed and not saved" if self._repaired else ""
+        return f"<TextDocument {name}: {self.language}, {counted(len(self._lines()), 'line')}, version {self.version}{repaired}>"
+
+    def _forgotten(self) -> str | None:
+        if not self._repaired or self.path is None:
+            return None
+        return f"what was changed in {self.path} was not saved: call document.save()"
 
     def save(self, path: str | os.PathLike[str] | None = None) -> Path:
         """Writes the text to ``path``, without one to the file that it came from; in that file's encoding.
@@ -156,7 +279,8 @@ class TextDocument(Document):
         target = Path(path) if path is not None else self.path
         if target is None:
             raise ValueError("the text came from no file: say where to save it")
-        write_beside(target, self.text.encode(self.encoding))
+        write_beside(target, self._told().encode(self.encoding))
+        self._repaired = False
         return target
 
     def _lines(self) -> list[bytes]:

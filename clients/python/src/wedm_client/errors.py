@@ -8,6 +8,10 @@ if TYPE_CHECKING:
     from .results import Diagnostic
 
 
+class NotSaved(ResourceWarning):
+    """A document was closed whose repairs nobody has saved. Python says it where no ``-W`` and no PYTHONWARNINGS say otherwise."""
+
+
 class WedmError(Exception):
     """Everything that this package raises by itself."""
 

@@ -11,20 +11,29 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, TypeVar, Union
+from typing import Any, Literal, TypeVar, Union, get_origin
 
 import cattrs
 from cattrs.gen import make_dict_structure_fn, override
 
 from .entities import Point
+from .settings import Role, Side
+from .shown import Rows, Tabled, Value, counted, listed, plain, table
 
-SEVERITIES = {1: "error", 2: "warning", 3: "information", 4: "hint"}
+Severity = Literal["error", "warning", "information", "hint"]
+SegmentKind = Literal["line", "arc", "circle"]
+Direction = Literal["ccw", "cw"]
+PathSource = Literal["segment", "lead-in", "lead-out", "corner", "tab", "cut-off", "overlap"]
+StepKind = Literal["line", "arc", "pause", "end", "rapid"]
+CorrectionSource = Literal["default", "client", "file"]
+
+SEVERITIES: dict[int, Severity] = {1: "error", 2: "warning", 3: "information", 4: "hint"}
 
 T = TypeVar("T")
 
 
 @dataclass(frozen=True)
-class Diagnostic:
+class Diagnostic(Value):
     """A finding: the rule, its numbers, and the place.
 
     ``line`` and ``column`` count from 1 and are there for text documents; in a drawing ``handle`` and ``segment`` say the place.
@@ -32,7 +41,7 @@ class Diagnostic:
     """
 
     rule: str
-    severity: str
+    severity: Severity
     message: str
     line: int | None = None
     column: int | None = None
@@ -67,6 +76,14 @@ class Diagnostic:
         value = self.data.get(key)
         return float(value) if isinstance(value, (int, float)) else None
 
+    def row(self) -> dict[str, Any]:
+        """What a table shows of it."""
+        named = {"severity": self.severity, "rule": self.rule, "line": self.line, "handle": self.handle, "segment": self.segment}
+        return {**named, "radius": self.radius, "required": self.required, "message": self.message}
+
+    def __repr__(self) -> str:
+        return f"<{self}>"
+
     def __str__(self) -> str:
         place = f"line {self.line}: " if self.line is not None else ""
         if self.handle is not None:
@@ -74,12 +91,29 @@ class Diagnostic:
         return f"{self.severity}[{self.rule}] {place}{self.message}"
 
 
+class Findings(Rows[Diagnostic]):
+    """The findings of a document: a list, which a notebook shows as a table."""
+
+    @property
+    def errors(self) -> list[Diagnostic]:
+        """Those that spoil the part: no program is made while they stand."""
+        return [one for one in self if one.severity == "error"]
+
+    @property
+    def warnings(self) -> list[Diagnostic]:
+        """Those to look at before it is cut."""
+        return [one for one in self if one.severity == "warning"]
+
+    def __str__(self) -> str:
+        return "\n".join(map(str, self)) or "nothing found"
+
+
 @dataclass(frozen=True)
-class Segment:
+class Segment(Value):
     """A line, arc or circle of an entity, with the names of the rules at fault or ``ok``."""
 
     index: int
-    kind: str
+    kind: SegmentKind
     start: Point
     end: Point
     length: float
@@ -91,7 +125,7 @@ class Segment:
 
 
 @dataclass(frozen=True)
-class InspectedEntity:
+class InspectedEntity(Value):
     handle: str
     type: str
     layer: str
@@ -101,21 +135,44 @@ class InspectedEntity:
 
 
 @dataclass(frozen=True)
-class Inspection:
+class Inspection(Tabled):
     """Every segment of a drawing with its radius and its verdict: the list of the "R minimum" tool."""
 
     units_to_mm: float
     entities: list[InspectedEntity]
 
+    def rows(self) -> list[dict[str, Any]]:
+        """A row for each segment."""
+        return [
+            {
+                "handle": entity.handle,
+                "layer": entity.layer,
+                "segment": one.index,
+                "kind": one.kind,
+                "start": one.start,
+                "radius": one.radius,
+                "sweep": one.sweep,
+                "length": one.length,
+                "verdict": one.verdict,
+            }
+            for entity in self.entities
+            for one in entity.segments
+        ]
+
+    def __repr__(self) -> str:
+        segments = [one for entity in self.entities for one in entity.segments]
+        bad = sum(one.verdict != "ok" for one in segments)
+        return f"<Inspection: {counted(len(self.entities), 'entity', 'entities')}, {counted(len(segments), 'segment')}, {bad} not ok>"
+
 
 @dataclass(frozen=True)
-class ContourPiece:
+class ContourPiece(Value):
     """A segment as the contour travels it; ``reversed`` is against its entity's own direction."""
 
     handle: str
     segment: int
     reversed: bool
-    kind: str
+    kind: SegmentKind
     start: Point
     end: Point
     length: float
@@ -126,7 +183,7 @@ class ContourPiece:
 
 
 @dataclass(frozen=True)
-class Gap:
+class Gap(Value):
     """Two ends that lay apart and were taken as one, behind the segment with index ``after``."""
 
     after: int
@@ -134,32 +191,57 @@ class Gap:
 
 
 @dataclass(frozen=True)
-class Contour:
+class Contour(Value):
     """``order`` is its place among the cuts, from 0; ``mark`` the start mark that leads to it."""
 
     closed: bool
-    role: str
+    role: Role
     length: float
     segments: list[ContourPiece]
     gaps: list[Gap]
-    direction: str | None = None
+    direction: Direction | None = None
     area: float | None = None
     order: int | None = None
     mark: Point | None = None
 
 
 @dataclass(frozen=True)
-class Contours:
+class Contours(Tabled):
     units_to_mm: float
     contours: list[Contour]
 
+    def rows(self) -> list[dict[str, Any]]:
+        """A row for each contour."""
+        return [
+            {
+                "contour": number,
+                "order": one.order,
+                "closed": one.closed,
+                "direction": one.direction,
+                "role": one.role,
+                "length": one.length,
+                "area": one.area,
+                "segments": len(one.segments),
+                "handles": list(dict.fromkeys(piece.handle for piece in one.segments)),
+                "gaps": len(one.gaps) or None,
+            }
+            for number, one in enumerate(self.contours)
+        ]
+
+    def __repr__(self) -> str:
+        left_open = sum(not one.closed for one in self.contours)
+        return f"<Contours: {len(self.contours)}, {left_open} of them open>"
+
 
 @dataclass(frozen=True)
-class PathPiece:
-    """A piece of the wire's path; ``source`` is ``lead-in``, ``segment``, ``corner`` or ``lead-out``."""
+class PathPiece(Value):
+    """A piece of the wire's path; ``source`` is what it follows: a ``segment`` of the drawing, the way round a ``corner`` of the part, the
+    ``lead-in`` and the ``lead-out``, the ``overlap`` past the place where the contour is closed; ``tab`` leads from one pass to the next at
+    the end of a tab, and ``cut-off`` runs along the tab.
+    """
 
-    source: str
-    kind: str
+    source: PathSource
+    kind: SegmentKind
     start: Point
     end: Point
     length: float
@@ -172,7 +254,7 @@ class PathPiece:
 
 
 @dataclass(frozen=True)
-class WirePath:
+class WirePath(Value):
     """The way of the wire's centre along one contour. ``correction`` is mm."""
 
     contour: int
@@ -182,18 +264,43 @@ class WirePath:
     segments: list[PathPiece]
     # `pass` in the protocol.
     pass_number: int = 1
-    # "ccw" or "cw" of a closed contour.
-    direction: str | None = None
+    # Of a closed contour.
+    direction: Direction | None = None
+
+    @property
+    def cuts_off(self) -> bool:
+        """It cuts off the tab that the passes before it have left standing."""
+        return any(piece.source == "cut-off" for piece in self.segments)
+
+    def row(self) -> dict[str, Any]:
+        """What a table shows of it."""
+        return {
+            "contour": self.contour,
+            "pass": self.pass_number,
+            "cuts off": self.cuts_off or None,
+            "direction": self.direction,
+            "correction": self.correction,
+            "thread hole": self.thread_hole,
+            "length": self.length,
+            "pieces": len(self.segments),
+        }
 
 
 @dataclass(frozen=True)
-class Toolpath:
+class Toolpath(Tabled):
     units_to_mm: float
     paths: list[WirePath]
 
+    def rows(self) -> list[dict[str, Any]]:
+        """A row for each path."""
+        return [one.row() for one in self.paths]
+
+    def __repr__(self) -> str:
+        return f"<Toolpath: {counted(len(self.paths), 'path')}, {sum(one.length for one in self.paths) * self.units_to_mm:.3f} mm>"
+
 
 @dataclass(frozen=True)
-class Closure:
+class Closure(Value):
     """What a controller that counts J has drifted at the end of a program, µm."""
 
     x: float
@@ -201,7 +308,7 @@ class Closure:
 
 
 @dataclass(frozen=True)
-class FinishedPart:
+class FinishedPart(Value):
     """What all passes leave of a drawing's contours: mm that stay beyond them at most, and where, and mm cut beyond them."""
 
     uncut: float
@@ -210,7 +317,7 @@ class FinishedPart:
 
 
 @dataclass(frozen=True)
-class Program:
+class Program(Value):
     """A program for the machine, decoded again by the server before it was handed out. ``length`` is mm, ``deviation`` µm."""
 
     text: str
@@ -225,12 +332,23 @@ class Program:
         """Writes the program beside ``path`` and renames it."""
         write_beside(Path(path), self.text.encode("utf-8"))
 
+    def row(self) -> dict[str, Any]:
+        """What a table shows of it."""
+        shown = {"blocks": self.blocks, "length": self.length, "deviation µm": self.deviation, "warnings": len(self.warnings)}
+        left = {"uncut": self.finished.uncut, "overcut": self.finished.overcut} if self.finished is not None else {}
+        return {**shown, **left}
+
+    def __repr__(self) -> str:
+        warned = counted(len(self.warnings), "warning") if self.warnings else ""
+        said = listed([counted(self.blocks, "block"), f"wire path {self.length:.3f} mm", f"at most {self.deviation:.2f} µm beside it", warned])
+        return f"<{type(self).__name__}: {said}>"
+
     def __str__(self) -> str:
         return self.text
 
 
 @dataclass(frozen=True)
-class FitPlace:
+class FitPlace(Value):
     """A place where clearance is missing: what is left, mm, below 0 where the parts bind; ``at`` is drawing units.
 
     ``of`` is the part that stands too far out: ``punch`` or ``plate``, or the name of a workpiece.
@@ -244,7 +362,7 @@ class FitPlace:
 
 
 @dataclass(frozen=True)
-class FitAlone:
+class FitAlone(Value):
     """A contour of a workpiece that has no partner."""
 
     handle: str
@@ -252,7 +370,7 @@ class FitAlone:
 
 
 @dataclass(frozen=True)
-class Fit:
+class Fit(Tabled):
     """Punch and plate as the wire leaves them, one laid in the other. ``clearance`` and ``least`` are mm a side."""
 
     fits: bool
@@ -261,6 +379,17 @@ class Fit:
     places: list[FitPlace]
     svg: str
     alone: list[FitAlone] = field(default_factory=list)
+
+    def rows(self) -> list[dict[str, Any]]:
+        """A row for each place where clearance is missing, and for each contour without a partner."""
+        return [plain(one) for one in (*self.places, *self.alone)]
+
+    def _repr_html_(self) -> str:
+        return self.svg + (table(self.rows()) if self.places or self.alone else "")
+
+    def __repr__(self) -> str:
+        said = "fits" if self.fits else "does not fit"
+        return f"<Fit: {said}, {self.least:.4f} mm of {self.clearance:.4f} mm a side at the tightest, {counted(len(self.places), 'place')}>"
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the picture beside ``path`` and renames it."""
@@ -277,14 +406,21 @@ class PairProgram(Program):
     # The wire runs on the other side of what is drawn.
     other_side: bool = False
 
+    def row(self) -> dict[str, Any]:
+        """What a table shows of it."""
+        return {"part": self.part, "corrections": self.corrections, "other side": self.other_side, **super().row()}
+
+    def __repr__(self) -> str:
+        return f"<PairProgram of the {self.part}: {super().__repr__().partition(': ')[2]}"
+
 
 @dataclass(frozen=True)
-class PairPrograms:
+class PairPrograms(Value):
     programs: list[PairProgram]
 
 
 @dataclass(frozen=True)
-class SimulatedBlock:
+class SimulatedBlock(Value):
     """A block or word of a program and where it takes the machine; points and deviation are µm, ``line`` counts from 1.
 
     ``kind`` is ``line``, ``arc``, ``rapid``, ``pause`` or ``end``. ``end`` is where the machine stops, ``ideal_end`` where the line or
@@ -292,7 +428,7 @@ class SimulatedBlock:
     """
 
     line: int
-    kind: str
+    kind: StepKind
     start: Point
     end: Point
     deviation: float
@@ -305,7 +441,7 @@ class SimulatedBlock:
 
 
 @dataclass(frozen=True)
-class Bounds:
+class Bounds(Value):
     """A box, µm."""
 
     min: Point
@@ -313,7 +449,7 @@ class Bounds:
 
 
 @dataclass(frozen=True)
-class Simulation:
+class Simulation(Tabled):
     """Where a program takes the machine. ``length`` is mm, ``deviation`` the largest of a block in µm."""
 
     blocks: list[SimulatedBlock]
@@ -324,9 +460,17 @@ class Simulation:
     bounds: Bounds | None = None
     minutes: float | None = None
 
+    def rows(self) -> list[dict[str, Any]]:
+        """A row for each block."""
+        return [plain(one) for one in self.blocks]
+
+    def __repr__(self) -> str:
+        takes = f"{self.minutes:.1f} minutes" if self.minutes is not None else ""
+        return f"<Simulation: {listed([counted(len(self.blocks), 'block'), f'{self.length:.3f} mm', takes])}>"
+
 
 @dataclass(frozen=True)
-class Located:
+class Located(Value):
     """Where a segment, or an entity, is written in a text. Lines and columns count from 1."""
 
     handle: str
@@ -339,21 +483,21 @@ class Located:
 
 
 @dataclass(frozen=True)
-class SettingsInForce:
+class SettingsInForce(Value):
     """The correction that radii of a document are held against, mm, and which level of settings it comes from."""
 
     correction: float
     #: That of each pass.
     corrections: list[float]
     #: ``default``, ``client`` or ``file``.
-    correction_from: str
-    side: str
+    correction_from: CorrectionSource
+    side: Side
     #: URI of the ``wedm.toml`` that holds, if there is one.
     file: str | None = None
 
 
 @dataclass(frozen=True)
-class Picture:
+class Picture(Value):
     """Contours, faults and, where it can be made, the wire's path, as SVG. A notebook shows it as it is."""
 
     svg: str
@@ -365,13 +509,24 @@ class Picture:
     def _repr_svg_(self) -> str:
         return self.svg
 
+    def __repr__(self) -> str:
+        return f"<Picture: SVG of {len(self.svg):,} characters>"
+
 
 @dataclass(frozen=True)
-class Fixed:
+class Fixed(Tabled):
     """What stood in the document before and after the repairs."""
 
-    before: list[Diagnostic]
-    after: list[Diagnostic]
+    before: Findings
+    after: Findings
+
+    def rows(self) -> list[dict[str, Any]]:
+        """A row for each finding, those that are left behind those that are gone."""
+        gone = [one for one in self.before if one not in self.after]
+        return [{"is": "repaired", **one.row()} for one in gone] + [{"is": "left", **one.row()} for one in self.after]
+
+    def __repr__(self) -> str:
+        return f"<Fixed: {len(self.before)} findings before, {len(self.after)} after>"
 
     @property
     def changed(self) -> bool:
@@ -418,6 +573,10 @@ def _camel(name: str) -> str:
     return first + "".join(word.capitalize() for word in rest)
 
 
+def _is_literal(cls: Any) -> bool:
+    return get_origin(cls) is Literal
+
+
 @lru_cache(maxsize=1)
 def _converter() -> cattrs.Converter:
     converter = cattrs.Converter()
@@ -428,6 +587,8 @@ def _converter() -> cattrs.Converter:
 
     converter.register_structure_hook_factory(is_dataclass, structure)
     converter.register_structure_hook(Point, lambda value, _: Point(float(value[0]), float(value[1])))
+    # A word that a newer server knows is handed on.
+    converter.register_structure_hook_func(_is_literal, lambda value, _: value)
     converter.register_structure_hook(Diagnostic, lambda value, _: diagnostic_from_json(value, None))
     return converter
 

@@ -8,15 +8,17 @@ from __future__ import annotations
 
 import itertools
 import os
+import sys
 import threading
 import time
+import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import TimeoutError as FutureTimeout
 from dataclasses import dataclass, replace
 from io import StringIO
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Literal, Union
+from typing import Any, Literal, Union, overload
 
 from lsprotocol import types
 
@@ -25,12 +27,13 @@ from .connection import CONTENT_MODIFIED, LOG, Connection, Died, Loop
 from .convert import converted
 from .documents import LANGUAGES, Document, Drawing, TextDocument, read_text
 from .entities import Change, Delete, Put, Splice, change_from_json
-from .errors import NoAnswer, NotOpen, Outdated, ServerDied, WedmError
+from .errors import NoAnswer, NotOpen, NotSaved, Outdated, ServerDied, WedmError
 from .find import find
 from .restarts import MOST_ENDS, Restarts
 from .results import (
     Contours,
     Diagnostic,
+    Findings,
     Fit,
     Fixed,
     Inspection,
@@ -47,6 +50,7 @@ from .results import (
     located_from_json,
 )
 from .settings import Settings, Units, to_json
+from .shown import Rows, counted
 
 #: What a drawing can be opened from.
 Source = Union[str, "os.PathLike[str]", Iterable[Any], Any]
@@ -118,7 +122,13 @@ class Server:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
-        self.close()
+        # Who was stopped by an exception has not forgotten.
+        self._close(warns=error is None)
+
+    def __repr__(self) -> str:
+        with self._state:
+            said = "closed" if self._closed else counted(len(self._documents), "document")
+        return f"<Server {' '.join(self.command)}: {said}>"
 
     @property
     def version(self) -> str:
@@ -131,20 +141,35 @@ class Server:
         return self._live().pid
 
     def close(self) -> None:
-        """Ends the server. Documents are no longer open; what they hold stays readable."""
+        """Ends the server. Documents are no longer open; what they hold stays readable. Repairs that nobody has saved are warned of."""
+        self._close(warns=True)
+
+    def _close(self, warns: bool) -> None:
         with self._starting:
             with self._state:
                 self._closed = True
                 connection, self._connection = self._connection, None
                 loop, self._loop = self._loop, None
+                documents = list(self._documents.values())
                 self._documents.clear()
                 self._state.notify_all()
             if connection is not None:
                 connection.close()
             if loop is not None:
                 loop.close()
+        for document in documents if warns else []:
+            _warn_of_forgotten(document)
 
     # Opening
+
+    @overload
+    def open(self, source: str | os.PathLike[str], *, units: Units | None = None, uri: str | None = None) -> TextDocument: ...
+
+    @overload
+    def open(self, source: Iterable[Any], *, units: Units | None = None, uri: str | None = None) -> Drawing: ...
+
+    @overload
+    def open(self, source: Any, *, units: Units | None = None, uri: str | None = None) -> Document: ...
 
     def open(self, source: Source, *, units: Units | None = None, uri: str | None = None) -> Document:
         """Opens a drawing, or a file.
@@ -192,19 +217,19 @@ class Server:
         return document
 
     def close_document(self, document: Document) -> None:
-        """Closes the document in the server."""
+        """Closes the document in the server. Repairs that nobody has saved are warned of."""
         with self._state:
             if self._documents.pop(document.uri, None) is None:
                 return
             self._published.pop(document.uri, None)
             self._closed_at[document.uri] = document.version
-            if self._connection is None:
-                return
-            if isinstance(document, Drawing):
-                self._connection.notify("wedm/didCloseDrawing", {"drawing": {"uri": document.uri}})
-            else:
-                params = types.DidCloseTextDocumentParams(types.TextDocumentIdentifier(document.uri))
-                self._connection.notify(types.TEXT_DOCUMENT_DID_CLOSE, params)
+            if self._connection is not None:
+                if isinstance(document, Drawing):
+                    self._connection.notify("wedm/didCloseDrawing", {"drawing": {"uri": document.uri}})
+                else:
+                    params = types.DidCloseTextDocumentParams(types.TextDocumentIdentifier(document.uri))
+                    self._connection.notify(types.TEXT_DOCUMENT_DID_CLOSE, params)
+        _warn_of_forgotten(document)
 
     # Editing
 
@@ -243,11 +268,11 @@ class Server:
 
     # Asking
 
-    def diagnostics(self, document: Document) -> list[Diagnostic]:
+    def diagnostics(self, document: Document) -> Findings:
         """What is wrong with the document as it is now; at most 500 findings, then one ``more`` that counts the rest."""
         published = self._wait_for_publish(document)
         lines = document._lines() if isinstance(document, TextDocument) else None
-        return [diagnostic_from_json(one, lines) for one in published.diagnostics]
+        return Findings(diagnostic_from_json(one, lines) for one in published.diagnostics)
 
     def inspect(self, document: Document, handle: str | None = None) -> Inspection:
         """Every segment with its radius and its verdict; of one entity, or of all."""
@@ -322,13 +347,13 @@ class Server:
         layers: Sequence[str] | None = None,
         options: Settings | None = None,
         force: bool = False,
-    ) -> list[PairProgram]:
+    ) -> Rows[PairProgram]:
         """The programs of all parts of a pair, such as punch and plate; as :meth:`generate`.
 
         :raises Refused: the parts do not fit (its ``diagnostics``), a key is missing, or no path can be made.
         """
         params = self._wanted(document, format, handles, layers, options, force)
-        return from_json(self._ask(document, "wedm/pair", params), PairPrograms).programs
+        return Rows(from_json(self._ask(document, "wedm/pair", params), PairPrograms).programs)
 
     def simulate(self, document: Document, feed: float | None = None) -> Simulation:
         """Where the program in the document takes the machine, block by block; with ``feed`` (mm/min) also how long it takes."""
@@ -430,6 +455,7 @@ class Server:
                 if edit["version"] != document.version:
                     raise Outdated(f"the server made the repair for version {edit['version']} of {document.uri}", CONTENT_MODIFIED)
                 self._change_drawing(document, [change_from_json(change) for change in edit["changes"]])
+                document._repaired = True
             elif isinstance(document, TextDocument):
                 self._apply_text_edit(document, action._what["edit"])
 
@@ -441,6 +467,7 @@ class Server:
                 raise Outdated(f"the repair is for version {identifier.get('version')} of {identifier['uri']}", CONTENT_MODIFIED)
             edits.extend(part["edits"])
         document._bytes = document._edited(edits)
+        document._repaired = True
 
         def position(at: Mapping[str, int]) -> types.Position:
             return types.Position(at["line"], at["character"])
@@ -500,11 +527,12 @@ class Server:
             offered = self._offered(document, whole, [], "source.fixAll.wedm")
             if not offered:
                 break
-            old = self._content(document)
+            old, repaired = self._content(document), document._repaired
             self.apply(offered[0])
             found = self.diagnostics(document)
-            if _errors(found) > _errors(after):
+            if len(found.errors) > len(after.errors):
                 self._restore(document, old)
+                document._repaired = repaired
                 break
             after = found
         return Fixed(before, after)
@@ -628,7 +656,7 @@ class Server:
         if isinstance(document, Drawing):
             connection.notify("wedm/didOpenDrawing", {"drawing": document.to_json()})
         elif isinstance(document, TextDocument):
-            item = types.TextDocumentItem(document.uri, document.language, document.version, document.text)
+            item = types.TextDocumentItem(document.uri, document.language, document.version, document._told())
             connection.notify(types.TEXT_DOCUMENT_DID_OPEN, types.DidOpenTextDocumentParams(item))
 
     # Called on the thread that reads messages; only `_state` may be taken there.
@@ -676,5 +704,12 @@ class Server:
             self._state.notify_all()
 
 
-def _errors(diagnostics: Iterable[Diagnostic]) -> int:
-    return sum(diagnostic.severity == "error" for diagnostic in diagnostics)
+def _warn_of_forgotten(document: Document) -> None:
+    forgotten = document._forgotten()
+    if forgotten is not None:
+        # The line of whoever closes is outside this package, however many calls away.
+        depth, frame = 1, sys._getframe()
+        while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:
+            depth, frame = depth + 1, frame.f_back
+        warnings.warn(forgotten, NotSaved, stacklevel=depth)
+

@@ -120,6 +120,8 @@ def to_json(settings: Settings) -> dict[str, Any]:
     written = _camel(settings, {"passes", "program", "job", "pair"})
     if "profiles" in written:
         written["profiles"] = {name: _camel(profile, set()) for name, profile in written["profiles"].items()}
+    if "drawings" in written:
+        written["drawings"] = {name: _camel(drawing, set()) for name, drawing in written["drawings"].items()}
     return written
 
 

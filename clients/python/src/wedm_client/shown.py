@@ -1,0 +1,107 @@
+"""How a result shows itself: as a dictionary, as a table in a notebook, as one line in a console. It knows no result."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import fields, is_dataclass
+from html import escape
+from typing import Any, TypeVar
+
+T = TypeVar("T")
+
+#: Rows that a notebook shows of one table; what is left out is counted below it.
+MOST_ROWS = 200
+
+
+def plain(value: Any) -> Any:
+    """The value as dictionaries, lists, numbers and words: what JSON and pandas take. A point is `[x, y]`."""
+    if is_dataclass(value) and not isinstance(value, type):
+        return {field.name: plain(getattr(value, field.name)) for field in fields(value)}
+    if isinstance(value, Mapping):
+        return {str(key): plain(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(one) for one in value]
+    return value
+
+
+class Value:
+    """What every result can do beside holding its values."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """The values by the names of their fields, through and through: for JSON, or for a table of pandas."""
+        written: dict[str, Any] = plain(self)
+        return written
+
+
+class Tabled(Value):
+    """A result that a notebook shows as a table."""
+
+    def rows(self) -> list[dict[str, Any]]:
+        """A row for each thing that the result lists, by the names of the columns; `pandas.DataFrame(result.rows())` takes them."""
+        raise NotImplementedError
+
+    def _repr_html_(self) -> str:
+        return table(self.rows())
+
+
+class Rows(list[T]):
+    """A list that a notebook shows as a table; in all else it is a list."""
+
+    def rows(self) -> list[dict[str, Any]]:
+        """A row for each entry, by the names of the columns."""
+        return [row(one) for one in self]
+
+    def to_dict(self) -> list[dict[str, Any]]:
+        """The entries as dictionaries."""
+        return [plain(one) for one in self]
+
+    def _repr_html_(self) -> str:
+        return table(self.rows())
+
+
+def row(value: Any) -> dict[str, Any]:
+    """The row that stands for a value: its own where it has one, else its fields."""
+    own = getattr(value, "row", None)
+    written: dict[str, Any] = own() if own is not None else plain(value)
+    return written
+
+
+def table(rows: Sequence[Mapping[str, Any]]) -> str:
+    """The rows as a table of HTML. Columns in which nothing stands are left out; numbers stand right."""
+    names = list(dict.fromkeys(name for one in rows for name, value in one.items() if value not in (None, "")))
+    if not names:
+        return "<p>nothing</p>"
+    head = "".join(f"<th>{escape(name)}</th>" for name in names)
+    body = "".join(f"<tr>{''.join(_cell(one.get(name)) for name in names)}</tr>" for one in rows[:MOST_ROWS])
+    left = len(rows) - MOST_ROWS
+    more = f"<p>… and {left} more</p>" if left > 0 else ""
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
+
+
+def _cell(value: Any) -> str:
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    side = "right" if is_number or isinstance(value, tuple) else "left"
+    return f'<td style="text-align:{side}">{escape(_said(value))}</td>'
+
+
+def _said(value: Any) -> str:
+    match value:
+        case None:
+            return ""
+        case bool():
+            return "yes" if value else "no"
+        case float():
+            return f"{value:.4f}"
+        case list() | tuple():
+            return ", ".join(map(_said, value))
+    return str(value)
+
+
+def counted(number: int, name: str, names: str | None = None) -> str:
+    """A number with the word for what it counts: `1 entity`, `2 entities`."""
+    return f"{number} {name if number == 1 else names or f'{name}s'}"
+
+
+def listed(parts: Iterable[str]) -> str:
+    """The parts that say something, with commas."""
+    return ", ".join(part for part in parts if part)
