@@ -273,8 +273,14 @@ proptest! {
         start in chords(90),
         loose in proptest::collection::vec((0..40usize, 0..40usize), 0..12),
         edits in proptest::collection::vec((0..90usize, 0..8usize, chords(8), 0..4usize), 1..12),
+        by_point: bool,
     ) {
-        let settings = Arc::new(Effective::of(&Settings { side: Some(SideSetting::Auto), ..Settings::default() }));
+        let mut settings = Effective::of(&Settings { side: Some(SideSetting::Auto), ..Settings::default() });
+        if by_point {
+            // An edit moves the polyline off and onto the points.
+            settings.points = vec![(on_circle(0, 0.0).point, Role::Opening), (on_circle(45, 0.0).point, Role::Ignore)];
+        }
+        let settings = Arc::new(settings);
         let mut drawing = Drawing::new(None);
         let polyline = drawing.push(entity(Geometry::Polyline { closed, vertices: start }, role));
         let line = |from: usize, to: usize| Geometry::Line { start: on_circle(from, 0.0).point, end: on_circle(to, 0.0).point };

@@ -8,6 +8,7 @@
 use super::Analysis;
 use super::contours::role_of;
 use super::report::Report;
+use super::suppressed::own_role;
 use crate::drawing::{
     Contour, ContourIndex, ContourKey, Drawing, EntityId, Role, is_drafting_layer,
     is_drafting_linetype, turns_about,
@@ -36,8 +37,7 @@ const MANY: usize = 16;
 /// A role of the layer does not bring back what has such a linetype of its own.
 pub(crate) fn set_aside(drawing: &Drawing, settings: &Effective, id: EntityId) -> Option<Aside> {
     let entity = drawing.get(id)?;
-    let is_asked_for = entity.role.is_some()
-        || (!settings.contours.is_empty() && settings.contours.contains_key(&*entity.handle));
+    let is_asked_for = entity.role.is_some() || own_role(drawing, settings, id).is_some();
     if is_asked_for {
         return None;
     }
@@ -93,7 +93,7 @@ impl Analysis {
                 || linetype.is_some_and(|it| it.of_layer && is_drafting_linetype(&it.name))
         };
         let has_role = entity.role.is_some()
-            || settings.contours.contains_key(&*entity.handle)
+            || own_role(drawing, settings, piece.entity).is_some()
             || linetype.is_some_and(|it| role_of_linetype(settings, &it.name).is_some())
             || (settings.layers.contains_key(&*entity.layer) && is_for_reading());
         let join = self.limits.tolerances.join;

@@ -2,6 +2,7 @@
 
 use super::Analysis;
 use super::aside::{role_of_linetype, set_aside};
+use super::suppressed::own_role;
 use crate::drawing::{
     Contour, ContourIndex, ContourKey, Drawing, EntityId, Outline, Role, nesting_depths,
 };
@@ -135,13 +136,7 @@ pub(super) fn role_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> 
             settings.colors.get(&drawing.color(id)?).copied()
         }
     };
-    let by_handle = || {
-        if settings.contours.is_empty() {
-            None
-        } else {
-            settings.contours.get(&*entity.handle).copied()
-        }
-    };
+    let by_handle = || own_role(drawing, settings, id);
     let by_linetype = || role_of_linetype(settings, &drawing.linetype(id)?.name);
     entity
         .role

@@ -140,10 +140,12 @@ impl Analysis {
 
     /// Looks again at what `delta` touched. Same result as a fresh [`Analysis::new`].
     pub fn update(&mut self, drawing: &Drawing, delta: &Delta) {
-        if self.pairs.is_as_fresh() {
+        // An edit may move an entity away from the point that gives it its role.
+        let hangs_on_points = !self.settings.points.is_empty();
+        if self.pairs.is_as_fresh() && !hangs_on_points {
             self.look_at_touched(drawing, delta);
         }
-        if !self.pairs.is_as_fresh() {
+        if !self.pairs.is_as_fresh() || hangs_on_points {
             *self = Analysis::new(drawing, self.settings.clone());
         }
     }
@@ -296,7 +298,7 @@ impl Analysis {
 
     /// What holds of `drawing` once `delta` has been made to the drawing that this is of.
     fn updated(&self, drawing: &Drawing, delta: &Delta) -> Analysis {
-        if self.is_most(delta) {
+        if self.is_most(delta) || !self.settings.points.is_empty() {
             return Analysis::new(drawing, self.settings.clone());
         }
         // What is only tried does not ask for a look at everything.
@@ -319,7 +321,7 @@ impl Analysis {
 
     /// At most `limit` findings, errors first, then in machining order; and how many there are in all. What is suppressed is none of them.
     pub fn findings(&mut self, drawing: &Drawing, limit: usize) -> (Vec<Finding>, usize) {
-        if self.settings.suppressed.is_empty() {
+        if self.settings.suppressed.is_empty() && self.settings.own.is_empty() {
             let (mut findings, count) = self.report(drawing, limit).finish();
             self.give_reasons(drawing, &mut findings);
             return (findings, count);

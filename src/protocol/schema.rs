@@ -122,6 +122,7 @@ fn hyphened(key: &str) -> String {
 /// The type that holds the key of a row, and its name in there.
 fn place_of(row: &Row) -> (&'static str, &str) {
     match row.key.rsplit_once('.') {
+        Some((table, key)) if table.ends_with(".HANDLE") => ("ContourSettings", key),
         Some((table, key)) if table.starts_with("drawings.") => ("DrawingSettings", key),
         Some(("passes", key)) => ("Passes", key),
         Some(("program", key)) => ("ProgramSettings", key),

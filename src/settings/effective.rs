@@ -1,13 +1,13 @@
 //! Settings with every default filled in.
 
 use super::{
-    Budget, Compensation, Corner, Direction, JobSettings, Jumps, Layout, Order, PairSettings,
-    Passes, PointSetting, Profile, RuleSeverity, Sequence, Settings, SideSetting, SkimCorner,
-    UnitSetting, Workpieces,
+    Budget, Compensation, ContourSettings, Corner, Direction, JobSettings, Jumps, Layout, Order,
+    PairSettings, Passes, PointSetting, Profile, RuleSeverity, Sequence, Settings, SideSetting,
+    SkimCorner, UnitSetting, Workpieces,
 };
 use crate::drawing::{Color, Role, Unit};
 use crate::finding::{Finding, Rule, Severity};
-use crate::geometry::Tolerances;
+use crate::geometry::{Point, Tolerances};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// All levels laid over each other and the defaults below them. Lengths in mm.
@@ -38,6 +38,10 @@ pub struct Effective {
     pub suppressed: BTreeMap<String, BTreeMap<Rule, String>>,
     /// Roles by handle.
     pub contours: BTreeMap<String, Role>,
+    /// What is said of single contours of it, by handle or point.
+    pub own: BTreeMap<String, ContourSettings>,
+    /// The roles among that, of what runs through a point.
+    pub points: Vec<(Point, Role)>,
     pub colors: BTreeMap<Color, Role>,
     pub severities: BTreeMap<Rule, Option<Severity>>,
     /// The rules whose severity somebody has set.
@@ -152,6 +156,8 @@ impl Effective {
                 .map(|(name, &role)| (name.to_uppercase(), role))
                 .collect(),
             contours: settings.contours.clone().unwrap_or_default(),
+            own: BTreeMap::new(),
+            points: Vec::new(),
             colors: settings
                 .colors
                 .iter()
@@ -287,8 +293,11 @@ impl Effective {
 
     /// The same with what is said of one drawing, by the name of its file.
     pub(crate) fn of_document(settings: &Settings, name: Option<String>) -> Effective {
-        let own = settings.drawings.as_ref().zip(name.as_ref());
-        let own = own.and_then(|(drawings, name)| drawings.get(name)?.suppress.clone());
+        let said = settings.drawings.as_ref().zip(name.as_ref());
+        let said = said.and_then(|(drawings, name)| drawings.get(name));
+        let own = said.and_then(|said| said.suppress.clone());
+        let own_contours = said.and_then(|said| said.contours.clone());
+        let own_contours = own_contours.unwrap_or_default();
         let rules = |reasons: BTreeMap<String, String>| {
             let rule = |name: &str| Rule::ALL.into_iter().find(|rule| rule.name() == name);
             let known = reasons
@@ -296,14 +305,23 @@ impl Effective {
                 .filter_map(|(name, reason)| Some((rule(&name)?, reason)));
             known.collect()
         };
+        let mut effective = Effective::of(settings);
+        for (key, said) in &own_contours {
+            match (said.side, point_of(key)) {
+                (Some(side), Some(at)) => effective.points.push((at, side)),
+                (Some(side), None) => drop(effective.contours.insert(key.clone(), side)),
+                (None, _) => {}
+            }
+        }
         Effective {
             document: name,
+            own: own_contours,
             suppressed: own
                 .into_iter()
                 .flatten()
                 .map(|(handle, reasons)| (handle, rules(reasons)))
                 .collect(),
-            ..Effective::of(settings)
+            ..effective
         }
     }
 
@@ -320,6 +338,16 @@ impl Effective {
     pub fn unit_of(&self, drawing: &crate::drawing::Drawing) -> Unit {
         drawing.unit.unwrap_or(self.unit)
     }
+}
+
+/// A point that names a contour lies this near to it, mm.
+pub(crate) const NEAR: f64 = 0.01;
+
+/// The point that a contour is named by, `x,y`; `None` where it is a handle.
+pub(crate) fn point_of(key: &str) -> Option<Point> {
+    let (x, y) = key.split_once(',')?;
+    let number = |text: &str| text.trim().parse().ok().filter(|it: &f64| it.is_finite());
+    Some(Point::new(number(x)?, number(y)?))
 }
 
 impl Default for Effective {

@@ -26,6 +26,9 @@ const DIGITS: Range = Range::of(4.0, 9.0);
 /// Digits behind the point of millimetres: from micrometres to nanometres.
 const DECIMALS: Range = Range::of(3.0, 6.0);
 
+/// Contours of a drawing, counted by people.
+const ORDERS: Range = Range::of(1.0, 1e6);
+
 tables! {
     /// One level of settings: built-in, `initializationOptions`, `workspace/configuration`, `wedm.toml`, a request's `options`, the command line.
     Settings() {
@@ -93,6 +96,23 @@ tables! {
         /// Findings that somebody has looked at and lets stand, by the handle of the entity at which they are told and the name of the
         /// rule, with the reason: [suppressions](rules/README.md#suppressions).
         suppress: BTreeMap<String, BTreeMap<String, String>> => reasons;
+        /// What is said of one contour, by the handle of an entity of it or by a point of it: `[drawings."plate.dxf".contours.2A]`,
+        /// `[drawings."plate.dxf".contours."12.5,40"]`, in [its own keys](programs.md#one-contour). It comes before `contours`,
+        /// `program.thread`, `program.entry` and `program.order`.
+        contours: BTreeMap<String, ContourSettings> => tables;
+    }
+
+    /// What is said of one contour of one drawing. Points are in drawing units.
+    ContourSettings() {
+        /// Where the wire runs.
+        side: Role => name;
+        /// Thread hole `[x, y]`.
+        thread: [f64; 2] => point;
+        /// Point `[x, y]` of the contour where the cut begins.
+        entry: [f64; 2] => point;
+        /// Its place among the contours that have one; they are cut before all others. What lies within a contour comes before it all
+        /// the same.
+        order: u32 => whole in ORDERS;
     }
 
     /// Corrections of a multi-pass cut.
@@ -242,6 +262,7 @@ pub fn rows() -> Vec<Row> {
     rows.extend(JobSettings::rows("job."));
     rows.extend(PairSettings::rows("pair."));
     rows.extend(DrawingSettings::rows("drawings.NAME."));
+    rows.extend(ContourSettings::rows("drawings.NAME.contours.HANDLE."));
     rows.extend(ProfileSettings::rows("profiles.NAME."));
     rows
 }

@@ -21,12 +21,13 @@ mod value;
 
 pub use budget::Budget;
 pub use effective::Effective;
+pub(crate) use effective::{NEAR, point_of};
 pub(crate) use from_json::from_json;
 pub use from_toml::from_toml;
 pub(crate) use from_toml::{FILE_NAME, place_in, read_file};
 pub(crate) use keep::{as_lines, keep, table_of_suppressions};
 pub(crate) use keys::{
-    JobSettings, PairSettings, Passes, Profile, ProfileSettings, ProgramSettings,
+    ContourSettings, JobSettings, PairSettings, Passes, Profile, ProfileSettings, ProgramSettings,
 };
 pub use keys::{Settings, rows};
 pub(crate) use pair::{Partners, Use, Workpieces};
@@ -219,7 +220,7 @@ pub enum PointSetting {
 }
 
 plain! {
-    bool, f64, u8, u32, String, Vec<f64>, Vec<String>, Role, RuleSeverity, PointSetting, SideSetting, UnitSetting, Layout, Direction,
+    bool, f64, u8, u32, String, [f64; 2], Vec<f64>, Vec<String>, Role, RuleSeverity, PointSetting, SideSetting, UnitSetting, Layout, Direction,
     Corner, Order, Jumps, Sequence, SkimCorner, Compensation, DrawnAs, CenterRule, Coordinates, Zero, NumberUnit, LineEnd,
 }
 
@@ -231,11 +232,21 @@ impl Settings {
 
     /// Lays `later` over `self`: what `later` sets wins; tables are merged key by key.
     ///
-    /// A wire diameter or a gap of a later level says the correction anew, where that level says none itself.
+    /// A wire diameter or a gap of a later level says the correction anew, where that level says none itself. So does one thread hole
+    /// or one entry for all that is said of single contours.
     pub(crate) fn overlaid(&self, later: &Settings) -> Settings {
         let mut laid = Overlay::overlaid(self, later);
         if later.wire_diameter.is_some() || later.gap.is_some() {
             laid.correction = later.correction;
+        }
+        if let Some(program) = &later.program {
+            let is_one = |point: &Option<PointSetting>| matches!(point, Some(PointSetting::One(_)));
+            let drawings = laid.drawings.iter_mut().flat_map(BTreeMap::values_mut);
+            let contours = drawings.flat_map(|drawing| &mut drawing.contours);
+            for contour in contours.flat_map(BTreeMap::values_mut) {
+                contour.thread = contour.thread.filter(|_| !is_one(&program.thread));
+                contour.entry = contour.entry.filter(|_| !is_one(&program.entry));
+            }
         }
         laid
     }

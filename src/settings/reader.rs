@@ -378,7 +378,7 @@ impl Reader {
         }
     }
 
-    fn point(&mut self, key: &str, node: &Node) -> Option<[f64; 2]> {
+    pub(crate) fn point(&mut self, key: &str, node: &Node) -> Option<[f64; 2]> {
         match &node.value {
             Value::Null => return None,
             Value::List(items) => {

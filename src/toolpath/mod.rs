@@ -92,7 +92,9 @@ pub(crate) fn cuts(
             .map(|path| path.outline)
             .collect(),
         order => {
-            order::chosen(drawing, outlines, None, order, tolerances.zero_length)
+            let places = wanted::places(drawing, outlines, settings);
+            let zero_length = tolerances.zero_length;
+            order::chosen(drawing, outlines, None, order, &places, zero_length)
                 .unwrap_or_default()
                 .outlines
         }
@@ -119,6 +121,7 @@ pub(crate) fn plan_while(
     goes_on: &dyn Fn() -> bool,
 ) -> Result<Planned, Refusal> {
     let tolerances = settings.tolerances.in_units(settings.unit_of(drawing).mm);
+    let places = wanted::places(drawing, outlines, settings);
     let Chosen {
         outlines: chosen,
         picks,
@@ -127,6 +130,7 @@ pub(crate) fn plan_while(
         outlines,
         handles,
         settings.order,
+        &places,
         tolerances.zero_length,
     )?;
     if settings.compensation == Compensation::None
@@ -164,7 +168,7 @@ pub(crate) fn plan_while(
         }
     };
     let paths = if settings.order == Order::Nearest {
-        order::by_nearest(drawing, outlines, paths)
+        order::by_nearest(drawing, outlines, paths, &places)
     } else {
         paths
     };

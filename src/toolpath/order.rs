@@ -63,13 +63,14 @@ pub(super) struct Chosen {
 }
 
 /// Indices of the outlines to cut, in machining order: all as they are drawn, or those that hold one of `handles` as these select
-/// them, brought into the order that is asked for; `nearest` is for [`by_nearest`]. What lies within a contour comes before it, because
+/// them, brought into the order that is asked for; `nearest` is for [`by_nearest`]. Those that are given `places` come first. What lies within a contour comes before it, because
 /// the part drops when the contour round it is cut. Doubles are no contours to cut. What is nowhere longer than `zero_length` (drawing units) is left out.
 pub(super) fn chosen(
     drawing: &Drawing,
     outlines: &[Outline],
     handles: Option<&[String]>,
     order: Order,
+    places: &Places,
     zero_length: f64,
 ) -> Result<Chosen, Refusal> {
     let mut chosen: Vec<usize> = match handles {
@@ -88,11 +89,15 @@ pub(super) fn chosen(
         return Err(Refusal::Sentence(say!(there_is_no_contour_to_cut).into()));
     }
     let nested = Nesting::new(drawing, outlines, &chosen);
-    let places = match order {
+    let mut in_order = match order {
         Order::AsDrawn | Order::AsPicked | Order::Nearest => nested.just_before(),
         Order::InsideFirst => nested.inside_first(),
     };
-    let outlines_in_order = places.into_iter().map(|place| chosen[place]).collect();
+    if order != Order::AsPicked && !places.is_empty() {
+        let turns = nested.turns(&chosen, places);
+        in_order.sort_by_key(|&place| turns[place]);
+    }
+    let outlines_in_order = in_order.into_iter().map(|place| chosen[place]).collect();
     let picks = if order == Order::AsPicked {
         picks(drawing, outlines, handles.unwrap_or_default())
     } else {
@@ -158,6 +163,9 @@ fn picks(drawing: &Drawing, outlines: &[Outline], handles: &[String]) -> FxHashM
     picks
 }
 
+/// The place that each outline is given among all, by its index, where it is given one.
+pub(super) type Places = FxHashMap<usize, u32>;
+
 /// Which of some contours lie within which.
 struct Nesting {
     /// By place: the places of the contours round it, the outermost first.
@@ -196,6 +204,16 @@ impl Nesting {
             }
         }
         Nesting { around }
+    }
+
+    /// When each is cut by the `places` that some are given: a contour at its own, what lies within it no later. Where none is given, last.
+    fn turns(&self, chosen: &[usize], places: &Places) -> Vec<u32> {
+        let own = |place: usize| places.get(&chosen[place]).copied().unwrap_or(u32::MAX);
+        let turn = |place: usize| {
+            let around = self.around[place].iter().map(|&outer| own(outer));
+            around.fold(own(place), u32::min)
+        };
+        (0..chosen.len()).map(turn).collect()
     }
 
     /// Each in its turn, and directly before it what lies within it and was not cut yet, the innermost first.
@@ -251,6 +269,7 @@ pub(super) fn by_nearest(
     drawing: &Drawing,
     outlines: &[Outline],
     paths: Vec<WirePath>,
+    places: &Places,
 ) -> Vec<WirePath> {
     // The paths of a contour stay together.
     let (mut firsts, mut lasts): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
@@ -264,6 +283,7 @@ pub(super) fn by_nearest(
     }
     let chosen: Vec<usize> = firsts.iter().map(|&index| paths[index].outline).collect();
     let nesting = Nesting::new(drawing, outlines, &chosen);
+    let turns = nesting.turns(&chosen, places);
     let mut within = vec![0_usize; chosen.len()];
     nesting
         .around
@@ -278,7 +298,11 @@ pub(super) fn by_nearest(
         .map(key)
         .collect();
     let mut order = Vec::with_capacity(chosen.len());
-    let mut next = free.iter().map(|(_, place)| *place).min();
+    let first_of = |free: &BTreeSet<(OrderedX, usize)>| {
+        let places = free.iter().map(|(_, place)| *place);
+        places.min_by_key(|&place| (turns[place], place))
+    };
+    let mut next = first_of(&free);
     while let Some(place) = next {
         free.remove(&key(place));
         order.push(place);
@@ -287,6 +311,12 @@ pub(super) fn by_nearest(
             if within[outer] == 0 {
                 free.insert(key(outer));
             }
+        }
+        if !places.is_empty()
+            && let Some(given) = first_of(&free).filter(|&next| turns[next] != u32::MAX)
+        {
+            next = Some(given);
+            continue;
         }
         let here = paths[lasts[place]].end();
         let mut best: Option<(f64, usize)> = None;
@@ -439,8 +469,10 @@ mod tests {
     /// Circles by centre on the x axis and radius: the order in which they are cut.
     fn check(circles: &[(f64, f64)], expected: &[usize]) {
         let (drawing, outlines) = drawn(circles);
-        let ordered =
-            |order| chosen(&drawing, &outlines, None, order, 1e-9).map(|chosen| chosen.outlines);
+        let ordered = |order| {
+            chosen(&drawing, &outlines, None, order, &Places::default(), 1e-9)
+                .map(|chosen| chosen.outlines)
+        };
         assert_eq!(
             ordered(Order::InsideFirst),
             Ok(expected.to_vec()),
@@ -472,8 +504,10 @@ mod tests {
             (20.0, 5.0),
         ];
         let (drawing, outlines) = drawn(&circles);
-        let ordered =
-            |order| chosen(&drawing, &outlines, None, order, 1e-9).map(|chosen| chosen.outlines);
+        let ordered = |order| {
+            chosen(&drawing, &outlines, None, order, &Places::default(), 1e-9)
+                .map(|chosen| chosen.outlines)
+        };
         assert_eq!(ordered(Order::AsDrawn), Ok(vec![0, 1, 3, 2, 4]));
         assert_eq!(ordered(Order::InsideFirst), Ok(vec![0, 3, 2, 1, 4]));
     }
@@ -493,5 +527,31 @@ mod tests {
             &[(0.0, 9.0), (0.0, 6.0), (0.0, 3.0), (1.0, 1.0)],
             &[3, 2, 1, 0],
         );
+    }
+
+    #[test]
+    fn what_is_given_a_place_comes_first_and_what_lies_within_it_before_it() {
+        let circles = [
+            (0.0, 5.0),
+            (1.0, 0.5),
+            (20.0, 1.0),
+            (30.0, 1.0),
+            (-1.0, 0.5),
+        ];
+        let (drawing, outlines) = drawn(&circles);
+        for (places, expected) in [
+            (vec![], [1, 4, 0, 2, 3]),
+            (vec![(3, 1)], [3, 1, 4, 0, 2]),
+            (vec![(3, 2), (0, 1)], [1, 4, 0, 3, 2]),
+            // A hole may have a place of its own before that, never behind it.
+            (vec![(3, 2), (0, 3), (4, 1)], [4, 3, 1, 0, 2]),
+            (vec![(4, 9), (0, 3)], [1, 4, 0, 2, 3]),
+        ] {
+            let places: Places = places.into_iter().collect();
+            for order in [Order::AsDrawn, Order::InsideFirst] {
+                let found = chosen(&drawing, &outlines, None, order, &places, 1e-9).unwrap();
+                assert_eq!(found.outlines, expected, "{order:?} {places:?}");
+            }
+        }
     }
 }

@@ -109,6 +109,7 @@ fn machining_order_is_that_of_the_drawing_or_of_the_selection() {
             &outlines,
             handles.as_deref(),
             Default::default(),
+            &Default::default(),
             1e-9,
         )
         .map(|chosen| chosen.outlines);

@@ -1,10 +1,11 @@
 //! Where the wire is to be threaded, and where a contour is entered: what the settings say, and the marks in the drawing.
 
-use super::order::outline_of;
+use super::order::{Places, outline_of};
 use super::path::Refusal;
 use crate::drawing::{Drawing, Geometry, Outline, Role, winding};
 use crate::geometry::Point;
-use crate::settings::{Compensation, Effective, PointSetting};
+use crate::settings::{Compensation, ContourSettings, Effective, NEAR, PointSetting, point_of};
+use rustc_hash::FxHashMap;
 
 /// What settings and start marks say about one contour, in drawing units.
 #[derive(Clone, Copy, Debug, Default)]
@@ -36,12 +37,16 @@ pub(super) fn wanted(
         settings.entry.as_ref(),
         say!(entry),
     )?;
+    let said = own(drawing, outlines, settings);
     let marks = marks(drawing, outlines, usize::MAX).unwrap_or_default();
     let wanted =
         chosen
             .iter()
             .zip(threads.into_iter().zip(entries))
             .map(|(&index, (thread, entry))| {
+                let own = said.get(&index);
+                let thread = own.and_then(|own| own.thread).map(Point::from).or(thread);
+                let entry = own.and_then(|own| own.entry).map(Point::from).or(entry);
                 let mark = own_mark(&marks, index);
                 let is_entry =
                     |mark: &&Mark| means_entry(drawing, &outlines[index], mark, settings);
@@ -57,6 +62,42 @@ pub(super) fn wanted(
                 }
             });
     Ok(wanted.collect())
+}
+
+/// What the settings say of single outlines of this drawing, by their index. What names none is a finding of its own.
+pub(super) fn own<'a>(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &'a Effective,
+) -> FxHashMap<usize, &'a ContourSettings> {
+    let near = NEAR / settings.unit_of(drawing).mm;
+    let through = |at: Point| {
+        let runs_there = |outline: &Outline| {
+            outline.contour.double_of.is_none()
+                && outline
+                    .contour
+                    .segments(drawing)
+                    .any(|segment| segment.geometry.distance_to(at) <= near)
+        };
+        outlines.iter().position(runs_there)
+    };
+    let of_key = |key: &str| match point_of(key) {
+        Some(at) => through(at),
+        None => outline_of(drawing, outlines, key).ok(),
+    };
+    let said = settings.own.iter();
+    said.filter_map(|(key, said)| Some((of_key(key)?, said)))
+        .collect()
+}
+
+/// The places among all that the settings give to single outlines.
+pub(super) fn places(drawing: &Drawing, outlines: &[Outline], settings: &Effective) -> Places {
+    if settings.own.is_empty() {
+        return Places::default();
+    }
+    let said = own(drawing, outlines, settings).into_iter();
+    said.filter_map(|(index, own)| Some((index, own.order?)))
+        .collect()
 }
 
 /// A mark within the correction of its contour, or on the part's side of it, means the entry: no wire is threaded there. Where the side

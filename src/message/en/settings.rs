@@ -23,6 +23,7 @@ declare! {
     did_you_mean_of(expected, near) => "{expected}: did you mean {near}?";
     is_not_known_did_you_mean(key, near) => "{key} is not known, did you mean {near}?";
     suppresses_nothing(handle, rule) => "the suppression of {rule} at {handle} suppresses nothing here: take it out";
+    no_contour_of_that_name(drawing, key) => "nothing in this drawing is {key}: what [drawings.\"{drawing}\".contours] says of it holds for nothing";
     one_or_other(ones, other) => "{ones} or {other}";
     is_expected(key, found, expected) => "{key} is {found}, expected {expected}";
     is_empty_expected(key, expected) => "{key} is empty, expected {expected}";

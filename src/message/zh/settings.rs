@@ -23,6 +23,7 @@ translate! {
     did_you_mean_of(expected, near) => "{expected}：是否想写 {near}？";
     is_not_known_did_you_mean(key, near) => "未知的 {key}，是否想写 {near}？";
     suppresses_nothing(handle, rule) => "对 {handle} 处 {rule} 的忽略不起作用：请删去";
+    no_contour_of_that_name(drawing, key) => "本图中没有 {key}：[drawings.\"{drawing}\".contours] 中对它的规定不起作用";
     one_or_other(ones, other) => "{ones} 或 {other}";
     is_expected(key, found, expected) => "{key} 是 {found}，应为 {expected}";
     is_empty_expected(key, expected) => "{key} 为空，应为 {expected}";
