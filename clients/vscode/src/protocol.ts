@@ -460,6 +460,39 @@ export interface DrawingSettings {
       [k: string]: string;
     };
   };
+  /**
+   * What is said of one contour, by the handle of an entity of it or by a point of it: `[drawings."plate.dxf".contours.2A]`, `[drawings."plate.dxf".contours."12.5,40"]`, in its own keys. It comes before `contours`, `program.thread`, `program.entry` and `program.order`.
+   */
+  contours?: {
+    [k: string]: ContourSettings;
+  };
+}
+/**
+ * What is said of one contour of one drawing. Points are in drawing units.
+ */
+export interface ContourSettings {
+  /**
+   * Where the wire runs.
+   */
+  side?: Role;
+  /**
+   * Thread hole `[x, y]`.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  thread?: [number, number];
+  /**
+   * Point `[x, y]` of the contour where the cut begins.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  entry?: [number, number];
+  /**
+   * Its place among the contours that have one; they are cut before all others. What lies within a contour comes before it all the same.
+   */
+  order?: number;
 }
 /**
  * How a program is written.
