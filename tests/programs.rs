@@ -168,10 +168,7 @@ fn every_fix_that_is_offered_repairs_and_makes_nothing_worse() {
         let mut document = read(language_of(&path), bytes.clone());
         let before = counts(&mut document);
         for finding in document.findings(usize::MAX).0 {
-            // What an ISO line may mean is offered widely: only what is preferred has to repair.
-            let is_iso = language_of(&path) == Language::Iso;
-            let fixes = document.fixes(&finding).into_iter();
-            for fix in fixes.filter(|fix| fix.preferred || !is_iso) {
+            for fix in document.fixes(&finding) {
                 let Edit::Text(edits) = fix.edit else {
                     panic!("a fix of a program edits its text")
                 };

@@ -277,8 +277,7 @@ impl Soak {
     }
 
     fn judge(&self, at: usize, kept: &Model, action: &Value, before: &Told, after: &Told) {
-        // A quick fix that is not preferred is one of several for a person to judge: in a program with other faults it may bring another
-        // one to light.
+        // A line that could not be read may have hidden something.
         // What is only written otherwise or turned brings nothing to a sound program; in another one the likeliest fault may come to lie
         // elsewhere. In the mirror it is the same one.
         let is_sound = before
@@ -294,10 +293,7 @@ impl Soak {
                 .is_some_and(|kind| kind.contains("mirror"));
             is_sound || mirrors
         } else {
-            let closes = action["title"]
-                .as_str()
-                .is_some_and(|title| title.starts_with("Close the contour"));
-            action["isPreferred"] == true || action["kind"] != "quickfix" || closes
+            action["diagnostics"][0]["code"] != "syntax"
         };
         if is_proved && after.errors() > before.errors() {
             self.fail(

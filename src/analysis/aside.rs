@@ -6,7 +6,7 @@
 //! rule; it is looked at again where something near it has changed.
 
 use super::Analysis;
-use super::contours::role_of;
+use super::contours::{role_of, role_of_linetype, set_aside};
 use super::report::Report;
 use super::suppressed::own_role;
 use crate::drawing::{
@@ -17,7 +17,7 @@ use crate::finding::{Aside, Detail, MOST_HANDLES, Place, Rule, SetAside};
 use crate::geometry::{
     Bounds, Grid, Line, Point, Segment, Vector, cross, line_line, meetings, turn,
 };
-use crate::settings::{Compensation, Effective};
+use crate::settings::Compensation;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
@@ -31,36 +31,6 @@ const JOINS: f64 = 100.0;
 const PARALLEL: f64 = 0.01;
 /// From so many questions on it pays to sort the contours by place.
 const MANY: usize = 16;
-
-/// Whether an entity is set aside by its linetype or its layer: nobody has given it, its linetype or its layer a role.
-///
-/// A role of the layer does not bring back what has such a linetype of its own.
-pub(crate) fn set_aside(drawing: &Drawing, settings: &Effective, id: EntityId) -> Option<Aside> {
-    let entity = drawing.get(id)?;
-    let is_asked_for = entity.role.is_some() || own_role(drawing, settings, id).is_some();
-    if is_asked_for {
-        return None;
-    }
-    let layer_has_role = || settings.layers.contains_key(&*entity.layer);
-    if let Some(linetype) = drawing.linetype(id) {
-        if role_of_linetype(settings, &linetype.name).is_some() {
-            return None;
-        }
-        if is_drafting_linetype(&linetype.name) && !(linetype.of_layer && layer_has_role()) {
-            return Some(Aside::Linetype(linetype.name.clone()));
-        }
-    }
-    (is_drafting_layer(&entity.layer) && !layer_has_role())
-        .then(|| Aside::Layer(entity.layer.clone()))
-}
-
-/// The role that the settings give to a linetype.
-pub(super) fn role_of_linetype(settings: &Effective, name: &str) -> Option<Role> {
-    if settings.linetypes.is_empty() {
-        return None;
-    }
-    settings.linetypes.get(&name.to_uppercase()).copied()
-}
 
 /// A contour that is one line.
 #[derive(Clone, Copy, Debug)]

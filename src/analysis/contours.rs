@@ -1,12 +1,12 @@
 //! The contours of a drawing in machining order, with their roles.
 
 use super::Analysis;
-use super::aside::{role_of_linetype, set_aside};
 use super::suppressed::own_role;
 use crate::drawing::{
-    Contour, ContourIndex, ContourKey, Drawing, EntityId, Outline, Role, nesting_depths,
+    Contour, ContourIndex, ContourKey, Drawing, EntityId, Outline, Role, is_drafting_layer,
+    is_drafting_linetype, nesting_depths,
 };
-use crate::finding::Side;
+use crate::finding::{Aside, Side};
 use crate::fit;
 use crate::settings::Effective;
 use rustc_hash::FxHashSet;
@@ -144,6 +144,36 @@ pub(super) fn role_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> 
         .or_else(by_linetype)
         .or_else(|| settings.layers.get(&*entity.layer).copied())
         .or_else(by_color)
+}
+
+/// Whether an entity is set aside by its linetype or its layer: nobody has given it, its linetype or its layer a role.
+///
+/// A role of the layer does not bring back what has such a linetype of its own.
+pub(crate) fn set_aside(drawing: &Drawing, settings: &Effective, id: EntityId) -> Option<Aside> {
+    let entity = drawing.get(id)?;
+    let is_asked_for = entity.role.is_some() || own_role(drawing, settings, id).is_some();
+    if is_asked_for {
+        return None;
+    }
+    let layer_has_role = || settings.layers.contains_key(&*entity.layer);
+    if let Some(linetype) = drawing.linetype(id) {
+        if role_of_linetype(settings, &linetype.name).is_some() {
+            return None;
+        }
+        if is_drafting_linetype(&linetype.name) && !(linetype.of_layer && layer_has_role()) {
+            return Some(Aside::Linetype(linetype.name.clone()));
+        }
+    }
+    (is_drafting_layer(&entity.layer) && !layer_has_role())
+        .then(|| Aside::Layer(entity.layer.clone()))
+}
+
+/// The role that the settings give to a linetype.
+pub(super) fn role_of_linetype(settings: &Effective, name: &str) -> Option<Role> {
+    if settings.linetypes.is_empty() {
+        return None;
+    }
+    settings.linetypes.get(&name.to_uppercase()).copied()
 }
 
 /// The workpiece of an entity that is cut.

@@ -16,6 +16,7 @@ mod pockets;
 mod repair;
 mod report;
 mod suppressed;
+mod told;
 
 #[cfg(test)]
 pub(crate) use contours::is_cut;
@@ -27,7 +28,8 @@ use crate::finding::{Finding, NoFix, Side};
 use crate::geometry::Bounds;
 use crate::rules::{Limits, Outlook};
 use crate::settings::Effective;
-use aside::{AsideEntities, LoneLines, set_aside};
+use aside::{AsideEntities, LoneLines};
+use contours::set_aside;
 use known::{Answer, Known};
 use pairs::Pairs;
 use report::Tally;

@@ -3,12 +3,12 @@
 use super::compare::{Observed, Outlooks, SegmentId};
 use super::pairs::Pairs;
 use super::report::Report;
+use super::told::{Told, ToldPair, merged};
 use crate::drawing::{ContourKey, Drawing, EntityId};
 use crate::finding::{Detail, NotJudged, Place, Rule, Severity, Side};
 use crate::geometry::Point;
 use crate::rules::{PAIR_RULES, Wall};
 use rustc_hash::{FxHashMap, FxHashSet};
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Two segments of a contour that form a slot, and the disc between them.
@@ -308,112 +308,4 @@ impl Pairs {
         }
         told
     }
-}
-
-/// What there is to tell of the pairs that have been seen, while none comes or goes and the wire stays on its sides.
-#[derive(Debug, Default)]
-pub(super) struct Told {
-    /// The side of the wire at each of the contours.
-    sides: FxHashMap<ContourKey, Option<Side>>,
-    /// Where the first run lies that has not been compared.
-    uncompared: Option<Place>,
-    /// In the order of the rules, and in the machining order of the entities.
-    pairs: Vec<ToldPair>,
-    /// How many there are of each rule and severity.
-    counts: BTreeMap<(usize, Option<Severity>), usize>,
-    /// How many other findings stand for.
-    absorbed: BTreeMap<(usize, Option<Severity>), usize>,
-}
-
-#[derive(Debug)]
-struct ToldPair {
-    /// Index into [`PAIR_RULES`].
-    rule: usize,
-    mildest: Option<Severity>,
-    /// Place of its rule and severity among the counts.
-    kind: usize,
-    one: SegmentId,
-    other: SegmentId,
-    /// Where else the same entity lies.
-    others: Option<Vec<Place>>,
-}
-
-impl Told {
-    fn holds(&self, wire_side: &dyn Fn(ContourKey) -> Option<Side>) -> bool {
-        self.sides
-            .iter()
-            .all(|(&key, &side)| wire_side(key) == side)
-    }
-}
-
-/// Which of `seen` another one stands for: of neighbouring pairs that see one thing, all but the one with the smallest disc.
-fn merged(seen: &[&Observed], count_of: &dyn Fn(ContourKey) -> Option<usize>) -> FxHashSet<usize> {
-    let mut at: FxHashMap<(usize, SegmentId, SegmentId), usize> = FxHashMap::default();
-    let pair = |seen: &Observed| {
-        if seen.one <= seen.other {
-            (seen.one, seen.other)
-        } else {
-            (seen.other, seen.one)
-        }
-    };
-    for (position, each) in seen
-        .iter()
-        .enumerate()
-        .filter(|(_, each)| PAIR_RULES[each.rule].one_per_place)
-    {
-        let (one, other) = pair(each);
-        at.insert((each.rule, one, other), position);
-    }
-    let mut gone = FxHashSet::default();
-    let mut known = FxHashSet::default();
-    let width = |position: usize| seen[position].disc.map_or(0.0, |(_, radius)| radius);
-    for start in (0..seen.len()).filter(|&position| PAIR_RULES[seen[position].rule].one_per_place) {
-        if !known.insert(start) {
-            continue;
-        }
-        let (mut group, mut waiting) = (vec![start], vec![start]);
-        while let Some(position) = waiting.pop() {
-            let (one, other) = pair(seen[position]);
-            let beside = |(key, index): SegmentId| {
-                let count = count_of(key).unwrap_or(1).max(1);
-                [
-                    (key, index),
-                    (key, (index + 1) % count),
-                    (key, (index + count - 1) % count),
-                ]
-            };
-            for one in beside(one) {
-                for other in beside(other) {
-                    let (one, other) = if one <= other {
-                        (one, other)
-                    } else {
-                        (other, one)
-                    };
-                    if let Some(&met) = at.get(&(seen[position].rule, one, other))
-                        && known.insert(met)
-                    {
-                        group.push(met);
-                        waiting.push(met);
-                    }
-                }
-            }
-        }
-        // Of equally narrow ones the first in the order of entities stays.
-        let narrowest = group
-            .iter()
-            .copied()
-            .map(width)
-            .fold(f64::INFINITY, f64::min);
-        let stays = group
-            .iter()
-            .copied()
-            .filter(|&position| width(position) <= narrowest + 1e-9)
-            .min();
-        gone.extend(
-            group
-                .into_iter()
-                .filter(|&position| Some(position) != stays),
-        );
-    }
-    gone
 }

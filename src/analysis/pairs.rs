@@ -1,7 +1,7 @@
 //! What the rules on pairs of segments have seen, by the runs of segments that the two lie in.
 
 use super::compare::{Comparison, Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId, passes};
-use super::pair_findings::Told;
+use super::told::Told;
 use crate::drawing::{ContourIndex, ContourKey};
 use crate::finding::Rule;
 use crate::geometry::{Bounds, Grid, Point};

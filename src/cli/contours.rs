@@ -1,7 +1,6 @@
 //! `wedm contours`: what is chained to what.
 
-use super::inspect::Format;
-use super::options::Common;
+use super::options::{Common, Form};
 use super::output::{self, styled};
 use super::{Failure, Verdict, files};
 use crate::drawing::Role;
@@ -22,8 +21,8 @@ pub(crate) struct Arguments {
     #[arg(value_name = "PATH")]
     path: PathBuf,
     /// Form of what is printed
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    output: Format,
+    #[arg(long, value_enum, default_value_t = Form::Text)]
+    output: Form,
     #[command(flatten)]
     common: Common,
 }
@@ -33,8 +32,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let snapshot = files::open_to_use(&arguments.path, common, &common.settings())?.snapshot()?;
     let contours = Contours::new(&snapshot.drawing, &snapshot.outlines, &snapshot.settings);
     match arguments.output {
-        Format::Text => output::print(list(&contours))?,
-        Format::Json => output::print_json(&contours)?,
+        Form::Text => output::print(list(&contours))?,
+        Form::Json => output::print_json(&contours)?,
     }
     Ok(Verdict::Clean)
 }

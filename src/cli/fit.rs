@@ -1,8 +1,8 @@
 //! `wedm fit`: whether a punch goes into its plate.
 
-use super::options::{Common, Pairing, Program};
+use super::options::{Common, Form, Pairing, Program};
 use super::output::{self, styled};
-use super::{Failure, Verdict, files, inspect, report};
+use super::{Failure, Verdict, files, report};
 use crate::geometry::Xy;
 use crate::job;
 use crate::message::readable;
@@ -28,8 +28,8 @@ pub struct Arguments {
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     /// Form of what is printed
-    #[arg(long, value_enum, default_value_t = inspect::Format::Text)]
-    format: inspect::Format,
+    #[arg(long, value_enum, default_value_t = Form::Text)]
+    format: Form,
     #[command(flatten)]
     pairing: Pairing,
     #[command(flatten)]
@@ -66,8 +66,8 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     }
     let printed = Fit::new(&snapshot.drawing, &fit, svg, unit_mm);
     match arguments.format {
-        inspect::Format::Text => output::print(table(&printed))?,
-        inspect::Format::Json => output::print_json(&printed)?,
+        Form::Text => output::print(table(&printed))?,
+        Form::Json => output::print_json(&printed)?,
     }
     Ok(Verdict::of_errors(!printed.fits))
 }

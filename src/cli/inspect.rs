@@ -2,7 +2,7 @@
 
 use super::contours;
 use super::files::{self, Opened};
-use super::options::Common;
+use super::options::{Common, Form};
 use super::output::{self, flush_left, flush_right, styled};
 use super::report::{self, Row};
 use super::{Failure, Verdict};
@@ -14,7 +14,7 @@ use crate::message::readable;
 use crate::protocol::{
     Contours, ContoursContour, InspectedEntity, InspectedSegment, Inspection, SegmentKind,
 };
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::fmt::Write;
@@ -34,19 +34,13 @@ pub(crate) struct Arguments {
     #[arg(value_name = "PATH")]
     path: PathBuf,
     /// Form of what is printed
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    output: Format,
+    #[arg(long, value_enum, default_value_t = Form::Text)]
+    output: Form,
     /// Only this entity
     #[arg(long, value_name = "HANDLE")]
     handle: Option<String>,
     #[command(flatten)]
     common: Common,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-pub(crate) enum Format {
-    Text,
-    Json,
 }
 
 #[derive(Serialize)]
@@ -150,9 +144,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         Err(failure) => (Printed::of(None, Vec::new()), Some(failure)),
     };
     match (arguments.output, failure) {
-        (Format::Text, Some(failure)) => return Err(failure),
-        (Format::Text, None) => output::print(table(&printed))?,
-        (Format::Json, failure) => {
+        (Form::Text, Some(failure)) => return Err(failure),
+        (Form::Text, None) => output::print(table(&printed))?,
+        (Form::Json, failure) => {
             output::print_json(&printed)?;
             failure.map_or(Ok(()), Err)?;
         }
@@ -169,7 +163,7 @@ fn inspected(arguments: &Arguments, mut opened: Opened) -> Printed {
     diagnostics.extend(report::rows(&arguments.path, &mut opened.document));
     let inspection = Inspection::of(&opened.document, arguments.handle.as_deref());
     let mut printed = Printed::of(inspection, diagnostics);
-    if arguments.output == Format::Text
+    if arguments.output == Form::Text
         && let Some(snapshot) = opened.document.snapshot()
     {
         printed.contours = Measured::all(&snapshot);

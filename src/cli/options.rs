@@ -2,7 +2,7 @@
 
 use crate::settings::{Row, Settings, rows};
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
-use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
+use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, ValueEnum};
 use std::path::PathBuf;
 use std::sync::LazyLock;
 
@@ -21,6 +21,13 @@ const GROUPS: [(&str, &str, &str); 5] = [
 
 /// `--passes` is the list of their corrections.
 const PASSES: &str = "passes.corrections";
+
+/// Form of what a command prints.
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum Form {
+    Text,
+    Json,
+}
 
 /// What every command that looks at a drawing takes.
 #[derive(Args, Clone, Debug, Default)]

@@ -1,7 +1,6 @@
 //! `wedm simulate`: where the machine goes, block by block.
 
-use super::inspect::Format;
-use super::options::Common;
+use super::options::{Common, Form};
 use super::output::{self, FAINT, WARNING, flush_left, flush_right, styled};
 use super::{Failure, Verdict, files};
 use crate::protocol::{SimulatedBlock, Simulation, StepKind};
@@ -25,8 +24,8 @@ pub(crate) struct Arguments {
     #[arg(value_name = "PROG")]
     path: PathBuf,
     /// Form of what is printed
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    output: Format,
+    #[arg(long, value_enum, default_value_t = Form::Text)]
+    output: Form,
     /// Speed of the cut, for the time
     #[arg(long, value_name = "MM/MIN", value_parser = feed)]
     feed: Option<f64>,
@@ -46,8 +45,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let opened = files::open(&arguments.path, common, &common.settings())?;
     let simulation = Simulation::of(&opened.program()?.trace(), arguments.feed);
     match arguments.output {
-        Format::Json => output::print_json(&simulation)?,
-        Format::Text => output::print(table(&simulation))?,
+        Form::Json => output::print_json(&simulation)?,
+        Form::Text => output::print(table(&simulation))?,
     }
     Ok(Verdict::Clean)
 }

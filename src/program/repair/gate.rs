@@ -23,7 +23,6 @@ const ONE_BY_ONE_OF_LONG: usize = 4;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Standing {
     findings: BTreeMap<&'static str, usize>,
-    errors: usize,
     open: usize,
     /// µm.
     gap: f64,
@@ -40,7 +39,6 @@ impl Standing {
         let mut standing = Standing::default();
         let is_said = |finding: &&Finding| finding.severity <= Severity::Information;
         for finding in findings.iter().filter(is_said) {
-            standing.errors += usize::from(finding.severity == Severity::Error);
             *standing.findings.entry(finding.rule.name()).or_default() += 1;
             if let Some(gap) = gap_of(finding) {
                 standing.open += 1;
@@ -62,14 +60,17 @@ impl Standing {
         if self.moves == after.moves {
             return true;
         }
-        let has_new = after
-            .findings
-            .iter()
-            .any(|(rule, count)| *count > self.findings.get(rule).copied().unwrap_or(0));
-        let closes = after.open == 0
-            || after.open < self.open
-            || (speaks_for_itself && after.open <= self.open && after.gap <= self.gap);
-        !has_new && closes && (by_a_slip || after.full_turns <= self.full_turns)
+        let closes = after.open == 0 || after.open < self.open || speaks_for_itself;
+        !self.is_better_than(after) && closes && (by_a_slip || after.full_turns <= self.full_turns)
+    }
+
+    /// True where `after` has a new finding or closes worse.
+    fn is_better_than(&self, after: &Standing) -> bool {
+        let mut counts = after.findings.iter();
+        let has_new =
+            counts.any(|(rule, count)| *count > self.findings.get(rule).copied().unwrap_or(0));
+        let opens = after.open > self.open || after.open == self.open && after.gap > self.gap;
+        has_new || opens
     }
 }
 
@@ -204,8 +205,10 @@ pub(in crate::program) fn gated(
     let (mut good, mut bad) = (Vec::new(), Vec::new());
     for mut fix in fixes {
         let after = Judged::of(&edited(program, &fix.edit), finding);
-        let brings_error = after.standing.errors > before.standing.errors;
-        if after.still_says(&before, finding.rule) || (brings_error && invents(&fix.kind)) {
+        // What could not be read may have hidden something.
+        let spoils = before.standing.is_better_than(&after.standing)
+            && (finding.rule != Rule::Syntax || invents(&fix.kind));
+        if after.still_says(&before, finding.rule) || spoils {
             continue;
         }
         let (for_itself, by_a_slip) = (

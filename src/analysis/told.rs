@@ -1,0 +1,119 @@
+//! What is told of what has been seen between segments.
+
+use super::compare::{Observed, SegmentId};
+use crate::drawing::ContourKey;
+use crate::finding::{Place, Severity, Side};
+use crate::rules::PAIR_RULES;
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeMap;
+
+/// What there is to tell of the pairs that have been seen, while none comes or goes and the wire stays on its sides.
+#[derive(Debug, Default)]
+pub(super) struct Told {
+    /// The side of the wire at each of the contours.
+    pub(super) sides: FxHashMap<ContourKey, Option<Side>>,
+    /// Where the first run lies that has not been compared.
+    pub(super) uncompared: Option<Place>,
+    /// In the order of the rules, and in the machining order of the entities.
+    pub(super) pairs: Vec<ToldPair>,
+    /// How many there are of each rule and severity.
+    pub(super) counts: BTreeMap<(usize, Option<Severity>), usize>,
+    /// How many other findings stand for.
+    pub(super) absorbed: BTreeMap<(usize, Option<Severity>), usize>,
+}
+
+#[derive(Debug)]
+pub(super) struct ToldPair {
+    /// Index into [`PAIR_RULES`].
+    pub(super) rule: usize,
+    pub(super) mildest: Option<Severity>,
+    /// Place of its rule and severity among the counts.
+    pub(super) kind: usize,
+    pub(super) one: SegmentId,
+    pub(super) other: SegmentId,
+    /// Where else the same entity lies.
+    pub(super) others: Option<Vec<Place>>,
+}
+
+impl Told {
+    pub(super) fn holds(&self, wire_side: &dyn Fn(ContourKey) -> Option<Side>) -> bool {
+        self.sides
+            .iter()
+            .all(|(&key, &side)| wire_side(key) == side)
+    }
+}
+
+/// Which of `seen` another one stands for: of neighbouring pairs that see one thing, all but the one with the smallest disc.
+pub(super) fn merged(
+    seen: &[&Observed],
+    count_of: &dyn Fn(ContourKey) -> Option<usize>,
+) -> FxHashSet<usize> {
+    let mut at: FxHashMap<(usize, SegmentId, SegmentId), usize> = FxHashMap::default();
+    let pair = |seen: &Observed| {
+        if seen.one <= seen.other {
+            (seen.one, seen.other)
+        } else {
+            (seen.other, seen.one)
+        }
+    };
+    for (position, each) in seen
+        .iter()
+        .enumerate()
+        .filter(|(_, each)| PAIR_RULES[each.rule].one_per_place)
+    {
+        let (one, other) = pair(each);
+        at.insert((each.rule, one, other), position);
+    }
+    let mut gone = FxHashSet::default();
+    let mut known = FxHashSet::default();
+    let width = |position: usize| seen[position].disc.map_or(0.0, |(_, radius)| radius);
+    for start in (0..seen.len()).filter(|&position| PAIR_RULES[seen[position].rule].one_per_place) {
+        if !known.insert(start) {
+            continue;
+        }
+        let (mut group, mut waiting) = (vec![start], vec![start]);
+        while let Some(position) = waiting.pop() {
+            let (one, other) = pair(seen[position]);
+            let beside = |(key, index): SegmentId| {
+                let count = count_of(key).unwrap_or(1).max(1);
+                [
+                    (key, index),
+                    (key, (index + 1) % count),
+                    (key, (index + count - 1) % count),
+                ]
+            };
+            for one in beside(one) {
+                for other in beside(other) {
+                    let (one, other) = if one <= other {
+                        (one, other)
+                    } else {
+                        (other, one)
+                    };
+                    if let Some(&met) = at.get(&(seen[position].rule, one, other))
+                        && known.insert(met)
+                    {
+                        group.push(met);
+                        waiting.push(met);
+                    }
+                }
+            }
+        }
+        // Of equally narrow ones the first in the order of entities stays.
+        let narrowest = group
+            .iter()
+            .copied()
+            .map(width)
+            .fold(f64::INFINITY, f64::min);
+        let stays = group
+            .iter()
+            .copied()
+            .filter(|&position| width(position) <= narrowest + 1e-9)
+            .min();
+        gone.extend(
+            group
+                .into_iter()
+                .filter(|&position| Some(position) != stays),
+        );
+    }
+    gone
+}
