@@ -39,6 +39,7 @@ fn pages() -> Vec<PathBuf> {
         "README.zh-CN.md",
         "CHANGELOG.md",
         "CONTRIBUTING.md",
+        "SECURITY.md",
     ]
     .map(|name| root().join(name))
     .into_iter()
@@ -202,6 +203,65 @@ fn the_list_of_rules_is_the_table_of_rules() {
     assert!(
         read(&path) == list,
         "docs/rules/README.md is out of date; update it with: UPDATE_EXPECT=1 cargo test --test docs"
+    );
+}
+
+/// The same list in Chinese: the sentences are those of `wedm explain`, the severities those of the pages.
+#[test]
+fn the_list_of_rules_in_chinese_is_the_english_one() {
+    let path = root().join("docs/zh/rules/README.md");
+    let committed = read(&path);
+    let head = "|---|---|---|:-:|:-:|:-:|:-:|\n";
+    let (before, rest) = committed.split_once(head).expect("a table");
+    let (_, behind) = rest.split_once("\n## ").expect("what stands below it");
+    let listed = wedm_in("zh_CN.UTF-8", &root(), &["explain"]).stdout;
+    let listed = String::from_utf8(listed).unwrap();
+    let summary_of = |name: &str| {
+        let line = listed
+            .lines()
+            .find(|line| line.split_whitespace().next() == Some(name));
+        let mut words = line.expect(name).splitn(2, char::is_whitespace);
+        let rest = words.nth(1).unwrap().trim_start();
+        rest.split_once(char::is_whitespace)
+            .unwrap()
+            .1
+            .trim()
+            .to_owned()
+    };
+    let english = read(&root().join("docs/rules/README.md"));
+    let row = |rule: Rule| {
+        let name = rule.name();
+        let page = read(&root().join(format!("docs/zh/rules/{name}.md")));
+        let severity = page
+            .split("默认级别：")
+            .nth(1)
+            .and_then(|rest| rest.split(['。', '\n']).next());
+        let severity = severity.expect(name);
+        let row = english
+            .lines()
+            .find(|line| line.starts_with(&format!("| [{name}](")))
+            .unwrap();
+        let dots = row.rsplitn(5, " |").collect::<Vec<_>>();
+        let dots: String = dots[..4]
+            .iter()
+            .rev()
+            .map(|cell| format!("{cell} |"))
+            .collect();
+        format!(
+            "| [{name}]({name}.md) | {} | {severity} |{dots}\n",
+            summary_of(name)
+        )
+    };
+    let rows: String = Rule::ALL.into_iter().map(row).collect();
+    let list = format!("{before}{head}{rows}\n## {behind}");
+    let named = |page: &str| page.lines().filter(|line| line.starts_with("| `")).count();
+    assert_eq!(named(&english), named(&list), "why cells stay empty");
+    if std::env::var_os("UPDATE_EXPECT").is_some() {
+        std::fs::write(&path, &list).unwrap();
+    }
+    assert!(
+        read(&path) == list,
+        "docs/zh/rules/README.md is out of date; update it with: UPDATE_EXPECT=1 cargo test --test docs"
     );
 }
 
@@ -378,6 +438,20 @@ fn the_chinese_readme_shows_the_same_commands_which_answer_in_chinese() {
     the_commands_do_what_is_shown("README.zh-CN.md", "zh_CN.UTF-8");
 }
 
+/// The drawings that the pages speak of stand beside the reader, and those of the tests where a checkout has them. Commands of other
+/// programs are shown, not run.
+#[test]
+fn the_commands_of_tutorials_and_how_to_do_what_they_show() {
+    for page in [
+        "docs/how-to.md",
+        "docs/tutorials/librecad.md",
+        "docs/tutorials/vscode.md",
+        "docs/tutorials/python.md",
+    ] {
+        the_commands_do_what_is_shown(page, "C");
+    }
+}
+
 fn the_commands_do_what_is_shown(page: &str, language: &str) {
     let folder = tempfile::tempdir().unwrap();
     let data = folder.path().join("tests/data");
@@ -387,6 +461,12 @@ fn the_commands_do_what_is_shown(page: &str, language: &str) {
         if path.is_file() {
             std::fs::copy(&path, data.join(path.file_name().unwrap())).unwrap();
         }
+    }
+    for name in ["die", "slot", "gap", "notch"].map(|name| format!("{name}.dxf")) {
+        let drawing = root().join("docs/pictures").join(&name);
+        std::fs::copy(&drawing, folder.path().join(&name)).unwrap();
+        std::fs::create_dir_all(folder.path().join("drawings")).unwrap();
+        std::fs::copy(&drawing, folder.path().join("drawings").join(&name)).unwrap();
     }
     let shown = commands(&read(&root().join(page)));
     let ours = shown.iter().filter_map(|shown| {
@@ -408,7 +488,7 @@ fn the_commands_do_what_is_shown(page: &str, language: &str) {
             "{}: {printed}",
             shown.command
         );
-        for line in &shown.lines {
+        for line in shown.lines.iter().filter(|line| *line != "...") {
             assert!(
                 printed.lines().any(|other| is_shown(line, other)),
                 "{}: no line {line:?} in\n{printed}",
@@ -417,7 +497,7 @@ fn the_commands_do_what_is_shown(page: &str, language: &str) {
         }
         count += 1;
     }
-    assert!(count >= 5, "{page} shows {count} commands");
+    assert!(count >= 1, "{page} shows {count} commands");
 }
 
 /// Holds a picture against the committed one.
@@ -456,9 +536,9 @@ fn the_pictures_are_what_the_program_draws() {
 }
 
 #[test]
-fn the_readme_says_what_each_dependency_is_for() {
-    let readme = read(&root().join("README.md"));
-    let (_, table) = readme.split_once("## What each dependency is for").unwrap();
+fn contributing_says_what_each_dependency_is_for() {
+    let page = read(&root().join("CONTRIBUTING.md"));
+    let (_, table) = page.split_once("## What each dependency is for").unwrap();
     let named: Vec<&str> = table
         .lines()
         .filter_map(|line| line.strip_prefix("| ")?.split(" |").next())
@@ -505,10 +585,10 @@ fn severity_on_page(rule: Rule) -> String {
 /// The defaults of the rules stand in comments, since a rule that is set is no milder anywhere. Update them with
 /// `UPDATE_EXPECT=1 cargo test --test docs`.
 #[test]
-fn the_readme_shows_the_default_of_every_rule() {
-    let path = root().join("README.md");
-    let readme = read(&path);
-    let (head, rest) = readme.split_once("[rules] ").unwrap();
+fn the_page_of_settings_shows_the_default_of_every_rule() {
+    let path = root().join("docs/settings.md");
+    let page = read(&path);
+    let (head, rest) = page.split_once("[rules] ").unwrap();
     let (first, rest) = rest.split_once('\n').unwrap();
     let (_, tail) = rest.split_once("```").unwrap();
     let row = |rule: Rule| {
@@ -529,15 +609,15 @@ fn the_readme_shows_the_default_of_every_rule() {
     }
     assert!(
         read(&path) == shown,
-        "README.md is out of date; update it with: UPDATE_EXPECT=1 cargo test --test docs"
+        "docs/settings.md is out of date; update it with: UPDATE_EXPECT=1 cargo test --test docs"
     );
 }
 
-/// The README's `wedm.toml` is read without a fault, and all of it are the defaults.
+/// The `wedm.toml` on the page of settings is read without a fault, and all of it are the defaults.
 #[test]
-fn the_settings_of_the_readme_are_the_defaults() {
-    let readme = read(&root().join("README.md"));
-    let example = readme
+fn the_settings_shown_are_the_defaults() {
+    let page = read(&root().join("docs/settings.md"));
+    let example = page
         .split("```toml\n")
         .nth(1)
         .and_then(|rest| rest.split("```").next())

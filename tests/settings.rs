@@ -1,5 +1,5 @@
 //! Wherever the keys of the settings are listed, the list is that of `src/settings/keys.rs`: the tables of the documentation, the file
-//! that the README shows, the settings page of VS Code, the types of the Python client.
+//! that the page of settings shows, the settings page of VS Code, the types of the Python client.
 //!
 //! `UPDATE_EXPECT=1 cargo test --test settings` writes them anew.
 
@@ -171,7 +171,7 @@ fn in_short(row: &Row) -> String {
 }
 
 #[test]
-fn the_readme_shows_every_key_with_its_default() {
+fn the_page_of_settings_shows_every_key_with_its_default() {
     let mut text = String::new();
     let mut table = "";
     // What wins over what is not set, and what has no default is an example.
@@ -218,7 +218,7 @@ fn the_readme_shows_every_key_with_its_default() {
         text += &format!("{line:<26} # {}\n", in_short(row));
     }
     hold(
-        "README.md",
+        "docs/settings.md",
         "commented out:\n\n```toml\n",
         "\n[rules]",
         &text,
