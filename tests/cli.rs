@@ -334,7 +334,8 @@ fn commands_print_and_end_as_they_say() {
             "inspect tight.dxf",
             1,
             &[
-                "LWPOLYLINE 2A on layer DIE, closed",
+                "closed, counter-clockwise",
+                "layer DIE: 2A",
                 "0.080",
                 "small-radius",
                 "1 not ok",

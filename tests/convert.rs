@@ -377,12 +377,12 @@ fn the_correction_is_never_lost_without_a_word() {
         (
             "side.iso",
             "3b",
-            "cannot leave the correction to the controller",
+            "the control adds the correction of this program (G41, G42)",
         ),
         (
             "late.iso",
             "3b",
-            "cannot leave the correction to the controller",
+            "the control adds the correction of this program (G41, G42)",
         ),
         (
             "mixed.iso",

@@ -48,10 +48,11 @@ impl Analysis {
         let &[piece] = contour.pieces.as_slice() else {
             return None;
         };
-        let (1, false) = (piece.count(), contour.closed) else {
+        let entity = drawing.get(piece.entity)?;
+        // Of the drawing, not of the piece, which may not have learned yet what became of its polyline.
+        let (1, false) = (entity.geometry.segment_count(), contour.closed) else {
             return None;
         };
-        let entity = drawing.get(piece.entity)?;
         let Segment::Line(line) = drawing.segment(piece.entity, 0)? else {
             return None;
         };

@@ -180,8 +180,11 @@ fn outlines_cross_and_touch() {
         &[([0., 2.], touch, Warning)],
     );
     check_contacts(
-        "a line through a circle",
-        &[circle([0., 0.], 2.), line([-5., 1.], [0., 1.])],
+        "lines that lead into a circle",
+        &[
+            circle([0., 0.], 2.),
+            open(&[[-5., 0.], [-5., 1.], [0., 1.]]),
+        ],
         &[([-1.732, 1.], cross, Error)],
     );
     check_contacts(
@@ -202,17 +205,17 @@ fn outlines_cross_and_touch() {
     );
     check_contacts(
         "a lead-in that ends on a side",
-        &[square(0., 0., 4.), line([2., 2.], [4., 2.])],
+        &[square(0., 0., 4.), open(&[[2., 1.], [2., 2.], [4., 2.]])],
         &[([4., 2.], touch, Warning)],
     );
     check_contacts(
         "a lead-in that ends in a corner",
-        &[square(0., 0., 4.), line([2., 2.], [4., 4.])],
+        &[square(0., 0., 4.), open(&[[2., 1.], [2., 2.], [4., 4.]])],
         &[([4., 4.], touch, Warning)],
     );
     check_contacts(
         "a lead-in that reaches past",
-        &[square(0., 0., 4.), line([2., 2.], [4.5, 2.])],
+        &[square(0., 0., 4.), open(&[[2., 1.], [2., 2.], [4.5, 2.]])],
         &[([4., 2.], cross, Error)],
     );
     check_contacts(

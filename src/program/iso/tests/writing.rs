@@ -258,7 +258,8 @@ proptest! {
         let document = Document::read(program.text.clone().into_bytes());
         let findings = document.findings();
         prop_assert!(findings.iter().all(|finding| !matches!(finding.rule.name(), "syntax" | "arc-off-radius" | "arc-without-radius" | "not-closed")), "{findings:?}\n{}", program.text);
-        prop_assert!(findings.iter().all(|finding| finding.severity != Severity::Error || finding.rule.name() == "small-radius"), "{findings:?}");
+        // A random contour may come back on itself at both ends of an arc, which nobody draws: that is said.
+        prop_assert!(findings.iter().all(|finding| finding.severity != Severity::Error || matches!(finding.rule.name(), "small-radius" | "reversed-arc")), "{findings:?}");
         let trace = document.trace();
         let moves: Vec<_> = trace.steps.iter().filter(|step| step.moves()).collect();
         prop_assert_eq!(moves.len(), program.blocks);
