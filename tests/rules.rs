@@ -647,7 +647,7 @@ fn chords_without_number_are_made_arcs_by_one_fix() {
     let mut vertices = vec![(30.0, 0.0, 0.0), (30.0, -10.0, 0.0)];
     vertices.extend((0..=4300).map(corner));
     let mut drawing = open(&vertices).as_polyline(None);
-    let (mut analysis, findings) = analysed(&drawing);
+    let (analysis, findings) = analysed(&drawing);
     let finding = findings.iter().find(|its| its.rule == Rule::ArcAsChords);
     let fixes = analysis.fixes(&drawing, finding.unwrap());
     drawing.apply(&fixes[0].edit).unwrap();
@@ -1075,7 +1075,7 @@ fn sizes_that_no_wire_cuts_speak_for_another_unit() {
         for &side in sides {
             drawing.push(entity(closed(&scaled(side / 10.0)).geometry(), None));
         }
-        let (mut analysis, findings) = analysed(&drawing);
+        let (analysis, findings) = analysed(&drawing);
         let said = |findings: &[Finding]| {
             findings.iter().find_map(|finding| match finding.detail {
                 Detail::Size { size } => Some(size),

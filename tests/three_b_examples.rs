@@ -89,7 +89,7 @@ fn as_entities(path: &[Segment]) -> (Drawing, Vec<Outline>) {
         };
         drawing.push(entity(geometry));
     }
-    let outlines = Analysis::new(&drawing, Effective::default().into())
+    let outlines = Analysis::new(&drawing, settings_from(Point::origin()).into())
         .outlines(&drawing)
         .to_vec();
     (drawing, outlines)
