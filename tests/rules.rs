@@ -1075,7 +1075,7 @@ fn sizes_that_no_wire_cuts_speak_for_another_unit() {
         for &side in sides {
             drawing.push(entity(closed(&scaled(side / 10.0)).geometry(), None));
         }
-        let (analysis, findings) = analysed(&drawing);
+        let (mut analysis, findings) = analysed(&drawing);
         let said = |findings: &[Finding]| {
             findings.iter().find_map(|finding| match finding.detail {
                 Detail::Size { size } => Some(size),
