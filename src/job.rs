@@ -17,7 +17,9 @@ use crate::program::{Format, ProofError, ProvedProgram};
 use crate::rule::Rule;
 use crate::settings::Effective;
 use crate::text::{Patch, TextEdit, edited};
-use crate::toolpath::{self, Finished, Planned, WirePath, entities_of, plan_while};
+use crate::toolpath::{
+    self, Finished, Planned, StartHole, WirePath, Work, entities_of, plan_while,
+};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -194,7 +196,8 @@ pub fn fit(snapshot: &Snapshot, watch: &dyn Watch) -> Result<Fit, Refusal> {
     Ok(fit::fit(drawing, outlines, &snapshot.settings, &goes_on)?)
 }
 
-fn planned(
+/// The same with where the wire is threaded, and with what all passes leave where that is asked for.
+pub fn planned(
     snapshot: &Snapshot,
     settings: &Effective,
     handles: Option<&[String]>,
@@ -262,6 +265,10 @@ pub struct Generated {
     pub contours: usize,
     /// What all passes leave, in mm and the drawing's coordinates, where there are several.
     pub finished: Option<Finished>,
+    /// Where the wire is threaded, in the order of the cuts.
+    pub holes: Vec<StartHole>,
+    /// What the program comes to on the machine.
+    pub work: Work,
     /// What is to be said beside it.
     pub warnings: Vec<Finding>,
 }
@@ -292,8 +299,11 @@ pub fn generate(
     }
     watch.at(say!(laying_the_path), None);
     let of_format = wanted.format.settings(settings);
-    let Planned { paths, finished } =
-        planned(snapshot, &of_format, chosen.as_deref(), true, watch)?;
+    let Planned {
+        paths,
+        finished,
+        holes,
+    } = planned(snapshot, &of_format, chosen.as_deref(), true, watch)?;
     let mut go_on = |done, all| {
         watch.at(say!(writing_and_proving), Some((done, all)));
         watch.is_wanted()
@@ -314,6 +324,8 @@ pub fn generate(
     Ok(Generated {
         program,
         contours: paths.iter().filter(|path| path.is_first()).count(),
+        work: toolpath::work(&snapshot.drawing, &snapshot.outlines, settings, &paths),
+        holes,
         finished: finished.map(|finished| Finished {
             uncut: finished.uncut * unit_mm,
             overcut: finished.overcut * unit_mm,

@@ -1,5 +1,7 @@
 //! The command line as a user meets it: the real binary, small files, what it prints and how it ends.
 
+#[path = "cli/holes.rs"]
+mod holes;
 #[path = "cli/pages.rs"]
 mod pages;
 #[path = "cli/untrusted.rs"]

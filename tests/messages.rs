@@ -32,7 +32,7 @@ const WORDS_OF_FORMATS: [&str; 15] = [
     // Keys of settings, as the command line groups them.
     "correction passes side",
     "drawn-as clearance stripper holder",
-    "direction corner thread entry lead-in tab order layout compensation digits profile end pause",
+    "direction corner thread entry lead-in lead start-hole tab order layout compensation digits profile end pause",
     "end pause",
     "wedm protocol",
     "Every message of the wedm/ name space, protocol {PROTOCOL}.",

@@ -292,6 +292,31 @@ fn four_b_holds_the_parts_contour_once_for_each_pass() {
 }
 
 #[test]
+fn four_b_stops_before_its_tab_and_goes_on_in_one_contour() {
+    let drawing = drawing(Role::Punch, &PLATE);
+    let whole = generated(&drawing, &settings(""), Format::FourB).program;
+    let tab = generated(&drawing, &settings("[program]\ntab = 3\n"), Format::FourB).program;
+    let lines: Vec<&str> = tab.text.lines().collect();
+    let stop = lines.iter().position(|line| *line == "D").expect("a stop");
+    assert_eq!(lines.iter().filter(|line| **line == "D").count(), 1);
+    // What stands behind it is the tab and the way out.
+    assert!(
+        lines[stop + 1].starts_with("B3000B0B3000GX"),
+        "{}",
+        tab.text
+    );
+    assert_eq!(tab.blocks, whole.blocks + 1);
+    assert!((tab.length - whole.length).abs() < 1e-9);
+    let several = settings(
+        "[passes]\ncorrections = [0.17, 0.14]\n[program]\ntab = 3\ncompensation = \"controller\"\n",
+    );
+    let refused = Format::FourB
+        .write(&paths(&drawing, &several), 1.0, &several, &mut |_, _| true)
+        .expect_err("one contour for all passes");
+    assert!(refused.to_string().contains("one pass"), "{refused}");
+}
+
+#[test]
 fn a_radius_that_only_a_later_pass_can_follow_is_a_warning_with_its_stock() {
     let check = |radius: f64, compensation: &str, severity: Option<Severity>, says: &str| {
         let corner = (std::f64::consts::PI / 8.0).tan();
@@ -431,16 +456,35 @@ fn passes_leave_the_tab_and_cut_it_off_in_passes_of_its_own() {
 }
 
 #[test]
-fn passes_one_way_leave_no_tab() {
-    let settings = settings(&format!(
-        "{THREE}sequence = \"one-way\"\n[program]\ntab = 3\n"
-    ));
-    let drawing = drawing(Role::Punch, &PLATE);
-    let refused = plan(&drawing, &outlines(&drawing, &settings), &settings, None);
-    assert!(
-        format!("{refused:?}").contains("expected passes.sequence alternate"),
-        "{refused:?}"
-    );
+fn passes_one_way_come_back_from_the_tab_to_the_thread_hole() {
+    for compensation in ["path", "controller"] {
+        let settings = settings(&format!(
+            "{THREE}sequence = \"one-way\"\n[program]\ntab = 3\ncompensation = \"{compensation}\"\n"
+        ));
+        let drawing = drawing(Role::Punch, &PLATE);
+        let found = paths(&drawing, &settings);
+        assert_eq!(found.len(), 6);
+        for (number, path) in found.iter().enumerate() {
+            assert_eq!((path.cut_off, path.pass), (number >= 3, number % 3 + 1));
+            assert_eq!(path.counter_clockwise, Some(true));
+            assert_eq!(
+                (path.begin(), path.end()),
+                (path.thread_hole, path.thread_hole)
+            );
+            let own = length(path, is_of_contour);
+            assert!((own - 3.0).abs() < 1e-9 || own > 116.0, "{own}");
+            // The leads at the tab keep clear of the part, too.
+            for piece in path
+                .segments
+                .iter()
+                .filter(|piece| matches!(piece.source, Source::LeadIn | Source::LeadOut))
+            {
+                assert!(piece.geometry.start().y.max(piece.geometry.end().y) <= 0.0);
+            }
+        }
+        let made = generated(&drawing, &settings, Format::Iso);
+        assert_eq!(made.program.text.matches("M00").count(), 5);
+    }
 }
 
 #[test]
@@ -498,6 +542,26 @@ fn a_slug_above_its_limit_keeps_a_tab_and_a_tab_is_shorter_than_its_contour() {
 }
 
 #[test]
+fn a_pass_goes_on_past_its_start_round_a_corner() {
+    let of_punch = "entry = [39.8, 0]\nthread = [43, -3]\n";
+    let of_opening = "entry = [39.7, 0]\n";
+    for (role, rest) in [
+        (Role::Punch, of_punch.to_owned()),
+        (
+            Role::Punch,
+            format!("{of_punch}corner = \"intersection\"\n"),
+        ),
+        (Role::Opening, of_opening.to_owned()),
+        (Role::Opening, format!("{of_opening}lead = \"arc\"\n")),
+    ] {
+        let settings = settings(&format!("[program]\nclosing-overlap = 0.5\n{rest}"));
+        let drawing = drawing(role, &PLATE);
+        held(&drawing, &settings, Format::ThreeB);
+        held(&drawing, &settings, Format::Iso);
+    }
+}
+
+#[test]
 fn a_pass_goes_on_past_its_start() {
     for (text, count) in [
         ("[program]\nclosing-overlap = 0.5\n", 1),
@@ -515,7 +579,7 @@ fn a_pass_goes_on_past_its_start() {
             .iter()
             .map(|path| length(path, |source| matches!(source, Source::Overlap { .. })))
             .sum();
-        let times = if settings.tab > 0.0 { 1 } else { count };
+        let times = if text.contains("tab") { 1 } else { count };
         assert!((over - 0.5 * times as f64).abs() < 1e-9, "{over}: {text}");
         held(&drawing, &settings, Format::ThreeB);
         held(&drawing, &settings, Format::Iso);

@@ -43,6 +43,11 @@ fn schema_of(row: &Row) -> Value {
     resolved(&protocol, &schema)
 }
 
+/// A length, or one for each contour.
+fn is_length(row: &Row) -> bool {
+    row.key == "program.tab"
+}
+
 fn resolved(protocol: &Value, schema: &Value) -> Value {
     if let Some(reference) = schema["$ref"].as_str() {
         let name = reference.rsplit('/').next().unwrap();
@@ -103,6 +108,7 @@ fn type_of(row: &Row, schema: &Value) -> String {
     }
     match schema["type"].as_str() {
         Some("number") => format!("number{range}"),
+        None if is_length(row) => format!("number{range}, or table of numbers by handle"),
         Some("integer") => format!("whole number{range}"),
         Some("boolean") => "`true`, `false`".into(),
         Some("string") => "a word".into(),
@@ -179,6 +185,9 @@ fn the_page_of_settings_shows_every_key_with_its_default() {
         "passes.corrections" => "[0.175, 0.146, 0.140]",
         "passes.gaps" => "[0.02, 0.01, 0.01]",
         "passes.registers" => "[\"D1\", \"D2\", \"D3\"]",
+        "passes.rates" => "[60, 120, 150]",
+        "program.start-hole" => "2.0",
+        "program.tab" => "3.0",
         "program.tab-stop" => "\"M01\"",
         "job.thickness" => "40",
         "job.slug-limit" => "100",
@@ -188,6 +197,7 @@ fn the_page_of_settings_shows_every_key_with_its_default() {
         "pair.stripper" => "0.02",
         "pair.holder" => "0.005",
         "workpieces" => "{ PUNCH = [\"PUNCH\"] }",
+        "job.machine-rate" => "60",
         "layers" => "{ DIE = \"opening\", FRAME = \"ignore\" }",
         "colors" => "{ red = \"punch\" }",
         "contours" => "{ 2A = \"punch\" }",
@@ -242,6 +252,7 @@ fn editor_schema(row: &Row, schema: &Value, is_root: bool) -> Value {
     let own = words(schema);
     match schema["type"].as_str() {
         Some(name) => of.insert("type".into(), null(name)),
+        None if is_length(row) => of.insert("type".into(), json!(["number", "object", "null"])),
         None if own.is_empty() => of.insert("type".into(), json!(["array", "object", "null"])),
         None => of.insert("type".into(), null("string")),
     };
@@ -384,6 +395,7 @@ fn python_type(row: &Row, schema: &Value) -> String {
             format!("Literal[{}]", names.join(", "))
         }
         Some("number") => "float".into(),
+        None if is_length(row) => "Union[float, Mapping[str, float]]".into(),
         Some("integer") => "int".into(),
         Some("boolean") => "bool".into(),
         Some("string") => "str".into(),

@@ -6,6 +6,7 @@ use crate::drawing::{ContourKey, Drawing, EntityId, Role};
 use crate::finding::{Detail, Finding, NoFix, Place, Rule, Severity, Side, SmallRadius};
 use crate::rules::{CONTOUR_RULES, Outlook, units};
 use crate::settings::SideSetting;
+use crate::toolpath;
 use rustc_hash::FxHashMap;
 
 /// Segments that are looked at to say which repairs of arcs below the correction would bring another fault.
@@ -130,6 +131,15 @@ impl Analysis {
             let ordered = self.in_machining_order(drawing).to_vec();
             let sides: Vec<Option<Side>> = ordered.iter().map(|&key| side_of(self, key)).collect();
             self.report_lost_pockets(drawing, &ordered, &sides, &mut report);
+        }
+        if self.settings.start_hole.is_some() {
+            let outlines = self.outlines(drawing).clone();
+            for found in toolpath::hole_faults(drawing, &outlines, &self.settings) {
+                let own = Some(found.severity);
+                if report.counts(found.rule, own) {
+                    report.add(found.rule, own, found.place, found.detail, found.related);
+                }
+            }
         }
         report
     }

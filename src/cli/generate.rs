@@ -3,9 +3,13 @@
 use super::options::{Common, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, files, report};
+use crate::document::Snapshot;
 use crate::finding::{Detail, Finding};
 use crate::job::{self, Wanted};
+use crate::message::readable;
 use crate::program::{Format, ProvedProgram};
+use crate::protocol::Work;
+use crate::toolpath;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -80,6 +84,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let said: Vec<Finding> = made.warnings.iter().filter(of_program).cloned().collect();
     report::say(path, document, &said);
     summarise(arguments, &made.program, made.contours);
+    told(&snapshot, &made.work);
     if let Some(finished) = made.finished {
         output::say(&say!(
             the_finished_part_deviates,
@@ -90,6 +95,57 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         ));
     }
     Ok(Verdict::Clean)
+}
+
+/// So many cuts are told one by one.
+const CUTS: usize = 24;
+
+/// What the program comes to on the machine, so far as the settings say.
+fn told(snapshot: &Snapshot, work: &toolpath::Work) {
+    let work = Work::new(&snapshot.drawing, &snapshot.outlines, work);
+    if let Some(minutes) = work.minutes {
+        let cost = work.cost.map(|cost| say!(which_costs, cost));
+        let cost = cost.unwrap_or_default();
+        output::say(&say!(the_cut_takes, work.length, minutes, cost));
+        let several = (2..=CUTS).contains(&work.cuts.len());
+        for cut in work.cuts.iter().filter(|_| several) {
+            let (contour, minutes) = (readable(&cut.contour), cut.minutes.unwrap_or_default());
+            output::say(&match cut.cut_off {
+                false => say!(
+                    the_cut_of_a_pass_takes,
+                    contour,
+                    cut.pass,
+                    cut.length,
+                    minutes
+                ),
+                true => say!(the_tab_takes, contour, cut.pass, cut.length, minutes),
+            });
+        }
+    }
+    for slug in work.slugs.iter().take(CUTS) {
+        output::say(&say!(the_slug_weighs, readable(&slug.contour), slug.mass));
+    }
+    if let Some(angle) = work.lead_angle {
+        output::say(&say!(leads_turn_at_most, angle));
+    }
+    if let Some(largest) = &work.largest_wire {
+        output::say(&say!(
+            the_largest_wire_is,
+            largest.diameter,
+            largest.radius,
+            readable(&largest.handle),
+            largest.segment
+        ));
+    }
+    let settings = &snapshot.settings;
+    let (job, passes) = (&settings.job, &settings.passes);
+    let is_asked = job.thickness.is_some()
+        || job.machine_rate.is_some()
+        || job.slug_limit.is_some()
+        || passes.rates.is_some();
+    if is_asked && !work.missing.is_empty() {
+        output::say(&say!(keys_are_missing, work.missing.join(", ")));
+    }
 }
 
 fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {

@@ -50,6 +50,9 @@ struct Printed {
     diagnostics: Vec<Row>,
     #[serde(skip)]
     contours: Vec<Measured>,
+    /// Which wire is thin enough, for people.
+    #[serde(skip)]
+    wire: Option<String>,
 }
 
 /// A contour with its extents.
@@ -126,11 +129,13 @@ impl Printed {
         let nothing = Inspection {
             units_to_mm: 1.0,
             entities: Vec::new(),
+            largest_wire: None,
         };
         Printed {
             inspection: inspection.unwrap_or(nothing),
             diagnostics,
             contours: Vec::new(),
+            wire: None,
         }
     }
 }
@@ -162,7 +167,35 @@ fn inspected(arguments: &Arguments, mut opened: Opened) -> Printed {
     let mut diagnostics = opened.settings_rows;
     diagnostics.extend(report::rows(&arguments.path, &mut opened.document));
     let inspection = Inspection::of(&opened.document, arguments.handle.as_deref());
-    let mut printed = Printed::of(inspection, diagnostics);
+    let (settings, gaps) = (
+        opened.document.settings(),
+        opened.document.settings().passes.gaps.is_some(),
+    );
+    let has_arcs = inspection.iter().any(|inspection| {
+        let mut segments = inspection
+            .entities
+            .iter()
+            .flat_map(|entity| &entity.segments);
+        segments.any(|segment| segment.shape.radius.is_some())
+    });
+    let largest = inspection
+        .as_ref()
+        .and_then(|inspection| inspection.largest_wire.as_ref())
+        .map(|largest| {
+            say!(
+                the_largest_wire_is,
+                largest.diameter,
+                largest.radius,
+                readable(&largest.handle),
+                largest.segment
+            )
+        });
+    let needs_gap = settings.gap.is_none() && !gaps && has_arcs;
+    let wire = largest.or_else(|| needs_gap.then(|| say!(the_largest_wire_needs_the_gap).into()));
+    let mut printed = Printed {
+        wire,
+        ..Printed::of(inspection, diagnostics)
+    };
     if arguments.output == Form::Text
         && let Some(snapshot) = opened.document.snapshot()
     {
@@ -216,6 +249,9 @@ fn table(printed: &Printed) -> String {
     let apart = |row: &&Row| row.data.segment.is_none();
     for row in printed.diagnostics.iter().filter(apart) {
         let _ = writeln!(text, "{}\n", row.rendered());
+    }
+    if let Some(wire) = &printed.wire {
+        let _ = writeln!(text, "{wire}");
     }
     let segments: usize = printed
         .inspection

@@ -17,6 +17,7 @@ mod fit;
 mod fix;
 mod format;
 mod generate;
+mod holes;
 mod init;
 mod inspect;
 mod man;
@@ -81,6 +82,7 @@ enum Command {
     Generate(generate::Arguments),
     Pair(pair::Arguments),
     Fit(fit::Arguments),
+    Holes(holes::Arguments),
     Inspect(inspect::Arguments),
     Draw(draw::Arguments),
     Contours(contours::Arguments),
@@ -200,6 +202,7 @@ pub fn run() -> ExitCode {
         Some(Command::Generate(arguments)) => generate::run(&arguments),
         Some(Command::Pair(arguments)) => pair::run(&arguments),
         Some(Command::Fit(arguments)) => fit::run(&arguments),
+        Some(Command::Holes(arguments)) => holes::run(&arguments),
         Some(Command::Inspect(arguments)) => inspect::run(&arguments),
         Some(Command::Draw(arguments)) => draw::run(&arguments),
         Some(Command::Contours(arguments)) => contours::run(&arguments),

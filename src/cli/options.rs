@@ -12,7 +12,7 @@ const GROUPS: [(&str, &str, &str); 5] = [
     (
         "Program",
         "program.",
-        "direction corner thread entry lead-in tab order layout compensation digits profile end pause",
+        "direction corner thread entry lead-in lead start-hole tab order layout compensation digits profile end pause",
     ),
     ("Words", "program.", "end pause"),
     ("Pair", "pair.", "drawn-as clearance stripper holder"),
@@ -94,7 +94,7 @@ impl<const GROUP: usize> Args for Keys<GROUP> {
                 .value_parser(parser(row));
             let arg = arg.help_heading(GROUPS[GROUP].0).allow_hyphen_values(true);
             let value = match row.read {
-                "number" => "MM",
+                "number" | "length_setting" => "MM",
                 "numbers" => "MM,MM",
                 "point_setting" => "X,Y",
                 "whole" => "N",
@@ -202,7 +202,7 @@ mod tests {
     #[test]
     fn every_option_is_a_key_of_the_settings() {
         let all = (0..GROUPS.len()).flat_map(options);
-        assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 17);
+        assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 18);
         assert_eq!(row("program.corner").words, ["arc", "intersection"]);
     }
 }

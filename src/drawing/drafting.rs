@@ -44,6 +44,9 @@ const LINETYPES_IN_HAN: &[&str] = &[
     "中心", "虚线", "虛線", "点划", "点画", "點劃", "點畫", "隐藏", "隱藏", "假想", "鎖線", "破線",
 ];
 
+/// The layer of the holes that the wire is threaded through: they are drilled.
+pub(crate) const START_HOLES: &str = "START-HOLES";
+
 /// Words of layers with centre marks, hatches, dimensions, texts and construction lines; sorted.
 const LAYERS: &[&str] = &[
     "achse",
@@ -175,7 +178,8 @@ pub(crate) fn is_drafting_linetype(name: &str) -> bool {
 pub(crate) fn is_drafting_layer(name: &str) -> bool {
     let own = name.rsplit(['$', '|']).next().unwrap_or(name);
     if own.is_ascii() {
-        return is_iso_13567(own)
+        return own.eq_ignore_ascii_case(START_HOLES)
+            || is_iso_13567(own)
             || OF_MECHANICAL
                 .iter()
                 .any(|layer| layer.eq_ignore_ascii_case(own))
@@ -327,6 +331,7 @@ mod tests {
             "A-B374--D-",
             "M-41----T-N01",
             "AM_7",
+            "START-HOLES",
             "PLATE$0$DIM",
         ] {
             assert!(is_drafting_layer(name), "{name}");
@@ -336,6 +341,7 @@ mod tests {
             "DIE",
             "PUNCH",
             "CENTER_HOLES",
+            "HOLES",
             "CENTERPUNCH",
             "OUTLINE",
             "LINES",

@@ -29,7 +29,7 @@ pub(crate) use chain::stated_role;
 pub use contour::Contour;
 pub(crate) use contour::{ContourSegment, Piece};
 pub(crate) use doubles::run_together;
-pub(crate) use drafting::{is_drafting_layer, is_drafting_linetype};
+pub(crate) use drafting::{START_HOLES, is_drafting_layer, is_drafting_linetype};
 pub use edit::{Change, Delta, DrawingEdit, Touched};
 pub use entity::{Entity, EntityId, Geometry, Role, Vertex};
 pub(crate) use handle::Handle;

@@ -1,6 +1,6 @@
 //! A contour with what it is an outline of, and so the side on which the wire runs.
 
-use super::{Contour, Role};
+use super::{Contour, Drawing, Role};
 use crate::geometry::Side;
 
 /// A contour, its role, and what follows from the two.
@@ -14,6 +14,14 @@ pub struct Outline {
 }
 
 impl Outline {
+    /// The handle of the contour's first entity, which names the contour to the user.
+    pub(crate) fn name<'a>(&self, drawing: &'a Drawing) -> &'a str {
+        let first = self.contour.pieces.first();
+        first
+            .and_then(|piece| drawing.get(piece.entity))
+            .map_or("?", |entity| &entity.handle)
+    }
+
     /// Side of the direction of travel on which the wire runs: see `wire_side`.
     pub(crate) fn wire_side(&self) -> Option<Side> {
         wire_side(self.role, self.contour.closed, self.twice_area)

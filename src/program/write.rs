@@ -15,8 +15,8 @@ pub struct ProvedProgram {
     pub text: String,
     /// Number of blocks.
     pub blocks: usize,
-    /// Length of the path in mm, jumps included.
-    pub(crate) length: f64,
+    /// Length of what is cut in mm; the ways between contours are none.
+    pub length: f64,
     /// Drift in µm that a controller which only counts J accumulates on the way round; 0 where ends are written.
     pub(crate) closure: [f64; 2],
     /// Largest distance in µm of the decoded blocks from the path, over their whole length.

@@ -1,10 +1,12 @@
 //! `wedm/generate`: a program for the machine.
 
 use super::diagnostic::Diagnostic;
+use super::work::{StartHole, Work};
+use crate::document::Snapshot;
 use crate::geometry::Xy as Point;
 use crate::program::ProvedProgram;
 use crate::settings::Settings;
-use crate::toolpath::Finished;
+use crate::toolpath::{self, Finished};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -50,6 +52,15 @@ pub(crate) struct Program {
     /// What all passes leave of the contours, where several are cut.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) finished: Option<FinishedPart>,
+    /// Where the wire is threaded, in the order of the cuts.
+    #[serde(default)]
+    pub(crate) holes: Vec<StartHole>,
+    /// What the program comes to on the machine.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) work: Option<Work>,
+    /// Of all cuts, as in `work`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) minutes: Option<f64>,
     pub(crate) warnings: Vec<Diagnostic>,
 }
 
@@ -65,12 +76,26 @@ pub(crate) struct FinishedPart {
 }
 
 impl Program {
+    /// `cut` is what the program was made of, beside what all its passes leave.
     pub(crate) fn new(
+        snapshot: &Snapshot,
         proved: ProvedProgram,
         finished: Option<Finished>,
+        (holes, work): (&[toolpath::StartHole], &toolpath::Work),
         warnings: Vec<Diagnostic>,
     ) -> Program {
+        let Snapshot {
+            drawing,
+            outlines,
+            settings,
+        } = snapshot;
         Program {
+            holes: holes
+                .iter()
+                .map(|hole| StartHole::new(drawing, outlines, settings, hole))
+                .collect(),
+            minutes: work.minutes,
+            work: Some(Work::new(drawing, outlines, work)),
             program: proved.text,
             blocks: proved.blocks,
             length: proved.length,

@@ -1,9 +1,11 @@
 //! The radius list: every segment of every entity with its verdict.
 
 use super::segment::SegmentShape;
+use super::work::LargestWire;
 use crate::document::Document;
 use crate::drawing::{Drawing, Entity, EntityId};
 use crate::finding::{Finding, Place, Rule, Severity};
+use crate::toolpath;
 use rustc_hash::FxHashMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -15,6 +17,9 @@ pub struct Inspection {
     /// Millimetres in one drawing unit.
     pub(crate) units_to_mm: f64,
     pub entities: Vec<InspectedEntity>,
+    /// The thickest wire that still cuts every arc of a contour, where the gap is set.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub largest_wire: Option<LargestWire>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -48,14 +53,13 @@ impl Inspection {
         let unit = document.settings().unit_of(drawing);
         let zero_length = document.settings().tolerances.in_units(unit.mm).zero_length;
         let is_cut = |id| document.cuts(id);
-        Some(Inspection::new(
-            drawing,
-            unit.mm,
-            zero_length,
-            &findings,
-            &is_cut,
-            handle,
-        ))
+        let snapshot = document.snapshot()?;
+        let largest =
+            toolpath::largest_wire(drawing, &snapshot.outlines, document.settings(), &|_| true);
+        Some(Inspection {
+            largest_wire: largest.map(|largest| LargestWire::new(drawing, &largest)),
+            ..Inspection::new(drawing, unit.mm, zero_length, &findings, &is_cut, handle)
+        })
     }
 
     /// The list of all of `drawing`, or of the entity `handle`. `findings` are all of the drawing's; a segment shorter
@@ -117,6 +121,7 @@ impl Inspection {
             segments: segments_of(id, entity),
         });
         Inspection {
+            largest_wire: None,
             units_to_mm: unit_mm,
             entities: entities.collect(),
         }

@@ -19,6 +19,7 @@ mod schema;
 mod segment;
 mod simulate;
 mod toolpath;
+mod work;
 
 pub(crate) use change::{DrawingChange, apply, changes_of};
 pub use contours::Contours;
@@ -43,6 +44,7 @@ pub(crate) use schema::settings_schema;
 pub(crate) use segment::{SegmentKind, SegmentShape};
 pub(crate) use simulate::{Simulate, SimulatedBlock, Simulation, StepKind};
 pub(crate) use toolpath::{PathPiece, PathSource, Toolpath};
+pub(crate) use work::Work;
 
 /// Version of the `wedm/` name space that the handshake states.
 pub(crate) const PROTOCOL: u32 = 1;

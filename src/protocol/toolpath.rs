@@ -2,9 +2,11 @@
 
 use super::contours::Direction;
 use super::segment::SegmentShape;
-use crate::drawing::Drawing;
+use super::work::{StartHole, Work};
+use crate::drawing::{Drawing, Outline};
 use crate::geometry::Xy as Point;
-use crate::toolpath::{Source, WirePath};
+use crate::settings::Effective;
+use crate::toolpath::{self, Planned, Source, WirePath};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +17,12 @@ pub(crate) struct Toolpath {
     /// Millimetres in one drawing unit.
     pub(crate) units_to_mm: f64,
     pub(crate) paths: Vec<ToolpathPath>,
+    /// Where the wire is threaded, in the order of the cuts.
+    #[serde(default)]
+    pub(crate) holes: Vec<StartHole>,
+    /// What the paths come to on the machine.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) work: Option<Work>,
 }
 
 /// The path for one contour in one pass.
@@ -66,11 +74,23 @@ pub(crate) struct PathPiece {
 }
 
 impl Toolpath {
-    /// `unit_mm` is the drawing's unit in mm.
-    pub(crate) fn new(drawing: &Drawing, paths: &[WirePath], unit_mm: f64) -> Toolpath {
+    /// What has been planned of a drawing under its settings.
+    pub(crate) fn new(
+        drawing: &Drawing,
+        outlines: &[Outline],
+        settings: &Effective,
+        planned: &Planned,
+    ) -> Toolpath {
+        let paths = &planned.paths;
+        let holes = planned.holes.iter();
+        let work = toolpath::work(drawing, outlines, settings, paths);
         Toolpath {
-            units_to_mm: unit_mm,
+            units_to_mm: settings.unit_of(drawing).mm,
             paths: paths.iter().map(|path| one_path(drawing, path)).collect(),
+            holes: holes
+                .map(|hole| StartHole::new(drawing, outlines, settings, hole))
+                .collect(),
+            work: Some(Work::new(drawing, outlines, &work)),
         }
     }
 }

@@ -1,9 +1,9 @@
 //! Settings with every default filled in.
 
 use super::{
-    Budget, Compensation, ContourSettings, Corner, Direction, JobSettings, Jumps, Layout, Order,
-    PairSettings, Passes, PointSetting, Profile, RuleSeverity, Sequence, Settings, SideSetting,
-    SkimCorner, UnitSetting, Workpieces,
+    Budget, Compensation, ContourSettings, Corner, Direction, JobSettings, Jumps, Layout, Lead,
+    LengthSetting, Order, PairSettings, Passes, PointSetting, Profile, RuleSeverity, Sequence,
+    Settings, SideSetting, SkimCorner, UnitSetting, Workpieces,
 };
 use crate::drawing::{Color, Role, Unit};
 use crate::finding::{Finding, Rule, Severity};
@@ -59,8 +59,11 @@ pub struct Effective {
     pub lead_in: f64,
     /// The length of the lead-in that somebody has set.
     pub stated_lead_in: Option<f64>,
-    /// What stands of a punch until it is cut off, mm; 0 for none.
-    pub tab: f64,
+    /// Diameter of the start holes, mm, where somebody has set one.
+    pub start_hole: Option<f64>,
+    pub lead: Lead,
+    /// What stands of a punch until it is cut off, mm.
+    pub tab: LengthSetting,
     /// The word before that, where somebody has set one.
     pub tab_stop: Option<String>,
     /// mm past the start.
@@ -176,7 +179,9 @@ impl Effective {
             entry: program.entry.clone(),
             lead_in: program.lead_in(),
             stated_lead_in: program.lead_in,
-            tab: program.tab(),
+            start_hole: program.start_hole,
+            lead: program.lead(),
+            tab: program.tab.clone().unwrap_or(LengthSetting::One(0.0)),
             tab_stop: program.tab_stop.clone(),
             closing_overlap: program.closing_overlap(),
             job: settings.job.clone().unwrap_or_default(),
@@ -212,7 +217,7 @@ impl Effective {
             corrections: vec![self.correction],
             pass: None,
             passes: Passes::default(),
-            tab: 0.0,
+            tab: LengthSetting::One(0.0),
             closing_overlap: 0.0,
             ..self.clone()
         }
@@ -232,12 +237,27 @@ impl Effective {
         Some(self.wire_diameter? / 2.0 + gap?)
     }
 
-    /// True where the slug of so many mm² is too heavy to drop.
-    pub(crate) fn keeps_slug(&self, area: f64) -> bool {
+    /// Length of the tab of a contour in mm, by the handles of its entities; 0 for none.
+    pub(crate) fn tab_of<'a>(&self, mut handles: impl Iterator<Item = &'a str>) -> f64 {
+        match &self.tab {
+            LengthSetting::One(length) => *length,
+            LengthSetting::ByHandle(lengths) => handles
+                .find_map(|handle| lengths.get(handle).copied())
+                .unwrap_or(0.0),
+        }
+    }
+
+    /// Mass of so many mm² of steel in g, where the height of the workpiece is known.
+    pub(crate) fn mass_of(&self, area: f64) -> Option<f64> {
         /// g in a mm³ of steel.
         const STEEL: f64 = 7.85e-3;
-        let limit = self.job.thickness.zip(self.job.slug_limit);
-        limit.is_some_and(|(thickness, limit)| STEEL * area * thickness > limit)
+        Some(STEEL * area * self.job.thickness?)
+    }
+
+    /// True where the slug of so many mm² is too heavy to drop.
+    pub fn keeps_slug(&self, area: f64) -> bool {
+        let mass = self.mass_of(area).zip(self.job.slug_limit);
+        mass.is_some_and(|(mass, limit)| mass > limit)
     }
 
     /// What the last pass leaves in a sharp corner that the wire runs inside of, mm: half its kerf, which is its correction where nothing
@@ -269,8 +289,7 @@ impl Effective {
     /// Why no program is written: what is wrong with the corrections of the passes, where that is an error.
     pub(crate) fn pass_error(&self) -> Option<String> {
         let is_error = self.severity(Rule::PassOrder) == Some(Severity::Error);
-        let passes = self.passes.corrections.is_some().then_some(&self.passes);
-        let faults = || super::pass_faults(&self.corrections, passes, self.wire_diameter);
+        let faults = || super::pass_faults(&self.corrections, &self.passes, self.wire_diameter);
         if is_error {
             faults().into_iter().next().map(|fault| fault.message)
         } else {

@@ -15,7 +15,7 @@ impl Settings {
             Err(_) => Value::Text(text.into()),
         };
         let value = match row.read {
-            "number" | "whole" => number(text),
+            "number" | "whole" | "length_setting" => number(text),
             "numbers" | "point_setting" => {
                 let item = |text| node(number(text));
                 Value::List(text.split(',').map(item).collect())

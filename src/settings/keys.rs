@@ -8,9 +8,9 @@ use super::spelling::words_of;
 use super::table::{Overlay, as_toml, kebab_case};
 use super::value::Node;
 use super::{
-    CenterRule, Compensation, Coordinates, Corner, Direction, DrawnAs, Jumps, Layout, LineEnd,
-    NumberUnit, Order, PointSetting, RuleSeverity, Sequence, SideSetting, SkimCorner, UnitSetting,
-    Zero,
+    CenterRule, Compensation, Coordinates, Corner, Direction, DrawnAs, Jumps, Layout, Lead,
+    LengthSetting, LineEnd, NumberUnit, Order, PointSetting, RuleSeverity, Sequence, SideSetting,
+    SkimCorner, UnitSetting, Zero,
 };
 use crate::drawing::Role;
 use schemars::JsonSchema;
@@ -127,6 +127,8 @@ tables! {
         /// Words of an ISO program that say where the control finds the correction of each pass. Not set: the profile's `register` for the
         /// first pass, its number counted on for the others.
         registers: Vec<String> => words;
+        /// What each pass cuts in a minute, mm²/min: length × `job.thickness` / rate is its time. Not set: nothing is said of times.
+        rates: Vec<f64> => numbers in Range::ABOVE_ZERO;
         /// What the passes after the first make of a corner that the wire runs inside of. With `constant-stock` the last one leaves a
         /// radius there, the difference of the first and the last correction added to the wire's: [`sharp-corner`](rules/sharp-corner.md).
         #[serde(alias = "skim-corner")]
@@ -156,8 +158,14 @@ tables! {
         lead_in: f64 = 3.0 => number in Range::ABOVE_ZERO;
         /// Length of the contour, mm, that all passes leave standing before the entry, so that a punch does not drop while it is cut: then comes
         /// the stop, then what stands is cut off in passes of its own. An opening whose slug is heavier than `job.slug-limit` keeps one,
-        /// too. 0: none.
-        tab: f64 = 0.0 => number in Range::FROM_ZERO;
+        /// too. 0: none. A table by handle says it for each contour by itself; those that it does not name keep none.
+        tab: LengthSetting => length_setting in Range::FROM_ZERO;
+        /// Diameter of the start holes, mm. Where no thread hole is given it is proposed where such a hole keeps the correction and 0.1 mm
+        /// from every contour; one that does not is said: [`start-hole`](rules/start-hole.md). The drill list is made by `wedm holes`.
+        #[serde(alias = "start-hole")]
+        start_hole: f64 => number in Range::ABOVE_ZERO;
+        /// How the wire comes from the thread hole to its path and goes back.
+        lead: Lead = Lead::Perpendicular => name;
         /// Word that stops the machine before the tab is cut off. Not set: the profile's `pause` in ISO, `pause` in 3B.
         #[serde(alias = "tab-stop")]
         tab_stop: String => word;
@@ -192,6 +200,9 @@ tables! {
         /// thickness.
         #[serde(alias = "slug-limit")]
         slug_limit: f64 => number in Range::FROM_ZERO;
+        /// What an hour of the machine costs, in whatever money: the time of `passes.rates` has its price then.
+        #[serde(alias = "machine-rate")]
+        machine_rate: f64 => number in Range::FROM_ZERO;
     }
 
     /// A punch and its plate: corrections that follow from their clearance, and the fit.

@@ -132,6 +132,21 @@ pub enum Corner {
     Intersection,
 }
 
+/// How the wire comes from the thread hole to its path and goes back.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Lead {
+    /// Straight from the thread hole to the entry.
+    Straight,
+    /// At right angles to the contour: a thread hole that is found lies there; where `thread` and `entry` do not lie opposite to each
+    /// other the way has a corner, where there is room for one.
+    #[default]
+    Perpendicular,
+    /// Along an arc that is tangent to the path, on the wire's side, behind a straight piece that is tangent to the arc. Its radius is
+    /// a third of the lead, halved until it fits, and not below the correction.
+    Arc,
+}
+
 /// What happens between the contours of one program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -219,8 +234,16 @@ pub enum PointSetting {
     ByHandle(BTreeMap<String, [f64; 2]>),
 }
 
+/// One length in mm, or one for each contour by the handle of an entity in it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum LengthSetting {
+    One(f64),
+    ByHandle(BTreeMap<String, f64>),
+}
+
 plain! {
-    bool, f64, u8, u32, String, [f64; 2], Vec<f64>, Vec<String>, Role, RuleSeverity, PointSetting, SideSetting, UnitSetting, Layout, Direction,
+    bool, f64, u8, u32, String, [f64; 2], Vec<f64>, Vec<String>, Role, RuleSeverity, PointSetting, LengthSetting, Lead, SideSetting, UnitSetting, Layout, Direction,
     Corner, Order, Jumps, Sequence, SkimCorner, Compensation, DrawnAs, CenterRule, Coordinates, Zero, NumberUnit, LineEnd,
 }
 
@@ -279,8 +302,8 @@ impl Settings {
         };
         let passes = self.passes.clone().unwrap_or_default();
         let faults = match (&passes.corrections, self.correction) {
-            (Some(list), _) => pass_faults(list, Some(&passes), self.wire_diameter),
-            (None, Some(single)) => pass_faults(&[single], None, self.wire_diameter),
+            (Some(list), _) => pass_faults(list, &passes, self.wire_diameter),
+            (None, Some(single)) => pass_faults(&[single], &passes, self.wire_diameter),
             (None, None) => return Vec::new(),
         };
         let error = |fault: PassFault| SettingsError {

@@ -17,20 +17,21 @@ pub(crate) struct PassFault {
 }
 
 /// What is wrong with the corrections of the passes from rough to finish, mm: one that is above that of the pass before it, and one
-/// that is below the wire's radius, where the diameter is known. `passes` is what else is said of them, where they come from
-/// `passes.corrections` and not from `correction`: each list in it is of as many.
+/// that is below the wire's radius, where the diameter is known. They are those of `passes`, where it has
+/// any, else the single `correction`; each other list in `passes` is of as many.
 pub(crate) fn pass_faults(
     corrections: &[f64],
-    passes: Option<&Passes>,
+    passes: &Passes,
     wire_diameter: Option<f64>,
 ) -> Vec<PassFault> {
-    let key = match passes {
-        Some(_) => "passes.corrections",
-        None => "correction",
+    let are_listed = passes.corrections.is_some();
+    let key = match are_listed {
+        true => "passes.corrections",
+        false => "correction",
     };
-    let name = |pass: usize| match passes {
-        Some(_) => format!("{key}[{pass}]"),
-        None => key.into(),
+    let name = |pass: usize| match are_listed {
+        true => format!("{key}[{pass}]"),
+        false => key.into(),
     };
     let mut faults = Vec::new();
     for (pass, &correction) in corrections.iter().enumerate() {
@@ -59,12 +60,10 @@ pub(crate) fn pass_faults(
             faults.push(PassFault { key, pass, message });
         }
     }
-    let Some(passes) = passes else {
-        return faults;
-    };
     let lists = [
         ("passes.gaps", passes.gaps.as_ref().map(Vec::len)),
         ("passes.registers", passes.registers.as_ref().map(Vec::len)),
+        ("passes.rates", passes.rates.as_ref().map(Vec::len)),
     ];
     for (key, count) in lists {
         if let Some(count) = count.filter(|&count| count != corrections.len()) {
@@ -100,10 +99,17 @@ pub(crate) fn passes_table(wire: f64, gaps: [f64; 2], stock: f64, skims: usize) 
 mod tests {
     use super::*;
 
+    fn listed() -> Passes {
+        Passes {
+            corrections: Some(Vec::new()),
+            ..Passes::default()
+        }
+    }
+
     #[test]
     fn corrections_fall_and_stay_above_the_radius_of_the_wire() {
         let check = |corrections: &[f64], diameter: Option<f64>, expected: &[usize]| {
-            let passes: Vec<usize> = pass_faults(corrections, Some(&Passes::default()), diameter)
+            let passes: Vec<usize> = pass_faults(corrections, &listed(), diameter)
                 .iter()
                 .map(|fault| fault.pass)
                 .collect();
@@ -126,9 +132,9 @@ mod tests {
             let passes = Passes {
                 gaps,
                 registers,
-                ..Passes::default()
+                ..listed()
             };
-            let faults = pass_faults(&[0.2, 0.17, 0.14], Some(&passes), None);
+            let faults = pass_faults(&[0.2, 0.17, 0.14], &passes, None);
             let found: Vec<&str> = faults.iter().map(|fault| fault.message.as_str()).collect();
             assert_eq!(found, expected);
         };

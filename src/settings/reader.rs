@@ -3,7 +3,9 @@
 use super::row::{Range, Row};
 use super::spelling::{listed, named, nearest, snake_case};
 use super::value::{Entry, Node, Value};
-use super::{PassFault, PointSetting, RuleSeverity, Settings, SettingsError, shipped_profiles};
+use super::{
+    LengthSetting, PassFault, PointSetting, RuleSeverity, Settings, SettingsError, shipped_profiles,
+};
 use crate::drawing::{Color, Role};
 use crate::finding::Rule;
 use serde::de::DeserializeOwned;
@@ -376,6 +378,20 @@ impl Reader {
             }
             _ => self.point(key, node).map(PointSetting::One),
         }
+    }
+
+    pub(crate) fn length_setting(
+        &mut self,
+        key: &str,
+        node: &Node,
+        range: &Range,
+    ) -> Option<LengthSetting> {
+        let Value::Table(_) = &node.value else {
+            return self.number(key, node, range).map(LengthSetting::One);
+        };
+        let number = |reader: &mut Reader, key: &str, node: &Node| reader.number(key, node, range);
+        self.by_name(key, node, |_| None, number)
+            .map(LengthSetting::ByHandle)
     }
 
     pub(crate) fn point(&mut self, key: &str, node: &Node) -> Option<[f64; 2]> {

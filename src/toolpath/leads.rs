@@ -4,15 +4,17 @@
 
 use super::clearance::Walls;
 use super::corners::Element;
+use super::hole::CLEAR as HOLE_CLEAR;
 use super::job::ROUNDING;
 use super::offset::{Wall, normal};
 use super::order::name;
 use super::path::{Refusal, Source};
 use super::wanted::Wanted;
+use super::way::{Landing, Way};
 use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::{Arc, Point, Segment};
-use crate::settings::Effective;
+use crate::settings::{Effective, Lead};
 
 use std::f64::consts::TAU;
 
@@ -228,10 +230,13 @@ pub(super) struct Surroundings<'a> {
     pub(crate) clearance: f64,
     pub(crate) unit_mm: f64,
     pub(crate) severity: Severity,
+    pub(crate) lead: Lead,
+    /// How far beside the path a corner of a lead lies at most, drawing units.
+    pub(crate) length: f64,
 }
 
 /// What a lead would cut.
-enum Obstacle {
+pub(super) enum Obstacle {
     /// A wall of its own contour, by its index.
     Own(usize),
     /// A wall of another contour.
@@ -241,22 +246,67 @@ enum Obstacle {
 }
 
 impl Surroundings<'_> {
-    /// Holds a lead of a later pass against everything; `correction` is that of the pass, drawing units.
+    /// The form in which a lead comes to a landing without cutting anything; `correction` is that of the pass, drawing units.
     pub(super) fn hold(
         &self,
         thread: Point,
-        begin: Point,
+        landing: &Landing,
         entry: &Entry,
         walls: &[Wall],
         correction: f64,
-    ) -> Result<(), Finding> {
-        let Some(obstacle) = self.obstacle(&Segment::line(thread, begin), begin) else {
-            return Ok(());
+    ) -> Result<Way, Finding> {
+        let obstacle = match self.way(thread, landing, correction) {
+            Ok(way) => return Ok(way),
+            Err(obstacle) => obstacle,
         };
-        let (place, does) = self.told(&obstacle, walls, correction * self.unit_mm);
-        let source = walls.get(entry.wall).map(|wall| wall.source);
-        let sentence = say!(the_lead_in_does, thread.x, thread.y, begin.x, begin.y, does);
+        let (begin, source) = (landing.at, walls.get(entry.wall).map(|wall| wall.source));
+        let correction = correction * self.unit_mm;
+        let (place, does) = obstacle
+            .map(|obstacle| self.told(&obstacle, walls, correction))
+            .unwrap_or_default();
+        let sentence = match self.lead {
+            Lead::Arc => say!(
+                no_arc_leads_from_to,
+                correction,
+                thread.x,
+                thread.y,
+                begin.x,
+                begin.y,
+                because(does)
+            ),
+            _ => say!(the_lead_in_does, thread.x, thread.y, begin.x, begin.y, does),
+        };
         Err(fault(self.severity, source, sentence, place))
+    }
+
+    /// The same; else what is in the way of the shortest one. Nothing is where the thread hole is too near for an arc.
+    pub(super) fn way(
+        &self,
+        thread: Point,
+        landing: &Landing,
+        correction: f64,
+    ) -> Result<Way, Option<Obstacle>> {
+        let mut last = None;
+        for way in Way::all(self.lead, thread, landing, self.length, correction) {
+            let pieces = way.pieces(thread, landing, false);
+            // A way round a corner that runs beside another wall of the contour would cut along it.
+            let beside = match (way, pieces.first()) {
+                (Way::Corner(_), Some(to_corner)) => {
+                    let apart = 2.0 * correction - ROUNDING / self.unit_mm;
+                    self.own.nearer(to_corner.end(), apart).map(Obstacle::Own)
+                }
+                _ => None,
+            };
+            let obstacle = pieces
+                .iter()
+                .find_map(|piece| self.obstacle(piece, landing.at))
+                .or(beside);
+            match obstacle {
+                None => return Ok(way),
+                obstacle => last = obstacle,
+            }
+        }
+        Err(last)
     }
 
     /// What is in the way of a lead to `begin`.
@@ -327,10 +377,22 @@ pub(super) fn fault(
     sentence: String,
     other: Option<Place>,
 ) -> Finding {
-    let place = source.and_then(Source::place).unwrap_or(Place::Document);
+    let place = source.and_then(Source::place);
+    finding(Rule::LeadIn, severity, place, sentence, other)
+}
+
+/// What a rule says of leads and holes, in a sentence.
+pub(super) fn finding(
+    rule: Rule,
+    severity: Severity,
+    place: Option<Place>,
+    sentence: String,
+    other: Option<Place>,
+) -> Finding {
+    let place = place.unwrap_or(Place::Document);
     let related = other.filter(|other| *other != place).into_iter().collect();
     Finding {
-        rule: Rule::LeadIn,
+        rule,
         severity,
         place,
         detail: Detail::LeadIn(sentence),
@@ -338,16 +400,35 @@ pub(super) fn fault(
     }
 }
 
-/// The thread hole for a lead to `begin`, the point of the path that belongs to `entry`. `begin` itself where there is no lead.
+fn because(does: String) -> String {
+    match does.is_empty() {
+        true => does,
+        false => say!(because_it, does),
+    }
+}
+
+/// Where the wire may be threaded for one contour.
+pub(super) struct Threading<'a> {
+    /// The centre of a round opening, and the deepest point of one: taken where the way from it is clear.
+    pub first: &'a [Point],
+    /// The same, taken where no hole beside the entry has room.
+    pub last: &'a dyn Fn() -> Option<Point>,
+    /// How far a start hole is to be from the contours, drawing units, where one is to be proposed.
+    pub reach: Option<f64>,
+    /// True where a start hole has room.
+    pub has_room: &'a dyn Fn(Point) -> bool,
+}
+
+/// The thread hole for a lead to a landing, the point of the path that belongs to `entry`. The landing itself where there is no lead.
 ///
-/// A hole that is given must be reached without cutting anything. Where none is given it is `center`, where there is one and the way
-/// from it is clear; else the lead runs on from the entry through `begin`, and its length, counted from the path where
-/// somebody has set it, else from the entry, is halved until it fits.
+/// A hole that is given must be reached without cutting anything. Where none is given it is one of the first, where there is one and the way
+/// from it is clear; else the lead runs on from the entry through the landing, and its length, counted from the path where
+/// somebody has set it, else from the entry, is halved until it fits, or is what a start hole needs.
 pub(super) fn thread_hole(
     wanted: &Wanted,
-    center: Option<Point>,
+    threading: &Threading<'_>,
     entry: &Entry,
-    begin: Point,
+    landing: &Landing,
     walls: &[Wall],
     settings: &Effective,
     surroundings: &Surroundings<'_>,
@@ -356,7 +437,7 @@ pub(super) fn thread_hole(
         unit_mm, severity, ..
     } = *surroundings;
     let source = walls.get(entry.wall).map(|wall| wall.source);
-    let correction = settings.correction;
+    let (correction, begin) = (settings.correction, landing.at);
     if let Some(thread) = wanted.thread {
         let join = settings.tolerances.join / unit_mm;
         let on_entry =
@@ -365,17 +446,15 @@ pub(super) fn thread_hole(
             return Ok(begin);
         }
         return surroundings
-            .hold(thread, begin, entry, walls, correction / unit_mm)
-            .map(|()| thread);
+            .hold(thread, landing, entry, walls, correction / unit_mm)
+            .map(|_| thread);
     }
-    if let Some(center) = center {
+    let clear = |thread: Point| surroundings.way(thread, landing, correction / unit_mm);
+    for &center in threading.first {
         if (center - begin).norm() <= 1e-6 / unit_mm {
             return Ok(begin);
         }
-        if surroundings
-            .obstacle(&Segment::line(center, begin), begin)
-            .is_none()
-        {
+        if clear(center).is_ok() {
             return Ok(center);
         }
     }
@@ -397,31 +476,58 @@ pub(super) fn thread_hole(
     let beyond = (1..=HALVED_BEYOND)
         .map(|times| nearest + (shortest - nearest) / f64::from(1 << times))
         .filter(|&length| length > least);
+    let of_hole = threading
+        .reach
+        .filter(|_| settings.stated_lead_in.is_none());
     let mut last = None;
-    for length in halved.chain(beyond) {
+    for length in halved.chain(beyond).chain(of_hole) {
         let thread = entry.point + way * length;
-        match surroundings.obstacle(&Segment::line(thread, begin), begin) {
-            None => return Ok(thread),
-            obstacle => last = obstacle,
+        match clear(thread) {
+            Ok(_) if (threading.has_room)(thread) => return Ok(thread),
+            Ok(_) => {}
+            Err(obstacle) => last = obstacle,
         }
+    }
+    if threading.reach.is_some()
+        && let Some(deepest) = (threading.last)()
+        && clear(deepest).is_ok()
+    {
+        return Ok(deepest);
     }
     // What is in the way of the shortest one.
     let (place, does) = last
         .map(|obstacle| surroundings.told(&obstacle, walls, correction))
         .unwrap_or_default();
-    let why = if does.is_empty() {
-        does
-    } else {
-        say!(because_it, does)
+    if let Some(diameter) = settings.start_hole.filter(|_| threading.reach.is_some()) {
+        let sentence = say!(
+            no_start_hole_fits_beside,
+            diameter,
+            entry.point.x,
+            entry.point.y,
+            diameter / 2.0 + HOLE_CLEAR,
+            because(does)
+        );
+        let at = source.and_then(Source::place);
+        return Err(finding(Rule::StartHole, severity, at, sentence, place));
+    }
+    let sentence = match surroundings.lead {
+        Lead::Arc => say!(
+            no_arc_fits_at,
+            settings.lead_in,
+            correction,
+            entry.point.x,
+            entry.point.y,
+            because(does)
+        ),
+        _ => say!(
+            no_lead_in_fits_at,
+            settings.lead_in,
+            correction,
+            entry.point.x,
+            entry.point.y,
+            because(does)
+        ),
     };
-    let sentence = say!(
-        no_lead_in_fits_at,
-        settings.lead_in,
-        correction,
-        entry.point.x,
-        entry.point.y,
-        why
-    );
     Err(fault(severity, source, sentence, place))
 }
 

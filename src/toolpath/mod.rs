@@ -8,6 +8,7 @@ mod clearance;
 mod corners;
 mod drawn;
 mod finished;
+mod hole;
 mod job;
 mod laid;
 mod leads;
@@ -22,16 +23,21 @@ mod tab;
 #[cfg(test)]
 mod tests;
 mod wanted;
+mod way;
+mod work;
 
 pub(crate) use clearance::{Walls, distance_between};
 pub(crate) use finished::Finished;
+pub use hole::StartHole;
+pub(crate) use hole::hole_faults;
 pub(crate) use part::{Cutting, Part, part};
 pub use path::{PathSegment, Refusal, Source, WirePath};
+pub use work::{LargestWire, Slug, Work, WorkCut, largest_wire, work};
 
 use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Rule, Severity};
 use crate::geometry::Point;
-use crate::settings::{Compensation, Effective, Order};
+use crate::settings::{Compensation, Effective, LengthSetting, Order};
 use job::Job;
 use laid::{Fault, Laid};
 use leads::Contours;
@@ -51,11 +57,13 @@ pub fn plan(
 
 /// The paths of one request.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Planned {
+pub struct Planned {
     /// In machining order, the passes of a contour one after another.
-    pub(crate) paths: Vec<WirePath>,
+    pub paths: Vec<WirePath>,
     /// What all passes leave, where several are cut and it is asked for.
     pub(crate) finished: Option<Finished>,
+    /// Where the wire is threaded, in the order of the cuts.
+    pub holes: Vec<StartHole>,
 }
 
 /// One contour among the cuts.
@@ -143,12 +151,23 @@ pub(crate) fn plan_while(
             tolerances.join,
         )
     {
+        let hole = StartHole {
+            outline: path.outline,
+            at: path.thread_hole,
+            is_given: settings.thread.is_some(),
+        };
         return Ok(Planned {
             paths: vec![path],
+            holes: vec![hole],
             finished: None,
         });
     }
     let wanted = wanted::wanted(drawing, outlines, &chosen, settings)?;
+    if let LengthSetting::ByHandle(tabs) = &settings.tab {
+        for handle in tabs.keys() {
+            order::outline_of(drawing, outlines, handle)?;
+        }
+    }
     let job = Job {
         drawing,
         outlines,
@@ -161,7 +180,12 @@ pub(crate) fn plan_while(
     };
     job.go_on()?;
     let contours = Contours::new(drawing, outlines);
-    let (Planned { paths, finished }, mut findings) = match settings.compensation {
+    let (
+        Planned {
+            paths, finished, ..
+        },
+        mut findings,
+    ) = match settings.compensation {
         Compensation::None => job.as_drawn_all(&chosen, &wanted, &contours)?,
         Compensation::Path | Compensation::Controller => {
             job.offset_all(&chosen, &wanted, &contours)?
@@ -174,7 +198,22 @@ pub(crate) fn plan_while(
     };
     findings.extend(job.jumps_that_cut(&paths, &contours));
     if findings.is_empty() {
-        Ok(Planned { paths, finished })
+        let is_given: FxHashMap<usize, bool> = chosen
+            .iter()
+            .zip(&wanted)
+            .map(|(&outline, wanted)| (outline, wanted.thread.is_some()))
+            .collect();
+        let hole = |path: &WirePath| StartHole {
+            outline: path.outline,
+            at: path.thread_hole,
+            is_given: is_given.get(&path.outline) == Some(&true),
+        };
+        let firsts = paths.iter().filter(|path| path.is_first());
+        Ok(Planned {
+            holes: firsts.map(hole).collect(),
+            paths,
+            finished,
+        })
     } else {
         Err(Refusal::Findings(findings))
     }

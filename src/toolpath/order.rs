@@ -12,12 +12,7 @@ use std::collections::hash_map::Entry;
 
 /// The handle of a contour's first entity, which names the contour to the user.
 pub(super) fn name<'a>(drawing: &'a Drawing, outline: &Outline) -> &'a str {
-    outline
-        .contour
-        .pieces
-        .first()
-        .and_then(|piece| drawing.get(piece.entity))
-        .map_or("?", |entity| &entity.handle)
+    outline.name(drawing)
 }
 
 /// The outline that is cut where the entity with `handle` lies: of a double, that of the entity in the same place.

@@ -7,17 +7,18 @@ use super::finished::{Finished, Kerf, finished};
 use super::job::{Job, ROUNDING};
 use super::laid::{Along, Fault, Laid, Outcome, goes_out_and_back};
 use super::leads::{
-    Contours, Entry, Kerfs, Surroundings, circle_center, default_entry, fault, nearest,
+    Contours, Entry, Kerfs, Surroundings, Threading, circle_center, default_entry, fault, nearest,
     off_contour, path_point, thread_hole,
 };
 use super::offset::{Wall, walls};
 use super::order::{begin_at, directed, name};
 use super::path::{PathSegment, Refusal, Source, WirePath};
 use super::wanted::Wanted;
+use super::way::Landing;
 use crate::drawing::{Contour, Role};
 use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::{Point, Segment, Side};
-use crate::settings::{Compensation, Corner, Jumps, SkimCorner};
+use crate::settings::{Compensation, Corner, Jumps, Lead, SkimCorner};
 
 /// The offsets of a contour, before they have leads, all in the direction of the first pass.
 pub(super) struct Unled {
@@ -40,6 +41,17 @@ pub(super) struct Pass {
     /// The element of the path that is entered, and where.
     pub(crate) element: usize,
     pub(crate) begin: Point,
+}
+
+impl Pass {
+    /// Where the wire comes to the path, on the `side` of the walls.
+    fn landing(&self, side: f64) -> Landing {
+        let along = self.path.get(self.element).map(|element| {
+            let geometry = element.geometry;
+            geometry.tangent_at(geometry.share_of(self.begin).clamp(0.0, 1.0))
+        });
+        Landing::of_begin(self.begin, along.unwrap_or_default(), side, 0.0)
+    }
 }
 
 impl Job<'_> {
@@ -84,7 +96,7 @@ impl Job<'_> {
         }
         let planned = Planned {
             paths,
-            finished: None,
+            ..Planned::default()
         };
         Ok((planned, findings))
     }
@@ -100,7 +112,8 @@ impl Job<'_> {
         let mut offsets = Vec::with_capacity(chosen.len());
         for (&index, wanted) in chosen.iter().zip(wanted) {
             self.go_on()?;
-            match self.compensated(index, wanted) {
+            let wanted = self.with_proposed(index, *wanted, contours);
+            match self.compensated(index, &wanted) {
                 Ok(offset) => offsets.push((wanted, offset)),
                 Err(Refusal::Findings(found)) => findings.extend(found),
                 Err(refusal) => return Err(refusal),
@@ -110,26 +123,45 @@ impl Job<'_> {
             let rough = unled.passes.first()?;
             Some((unled.outline, &rough.path[..]))
         }));
+        let mut holes: Vec<Point> = wanted.iter().filter_map(|wanted| wanted.thread).collect();
         for (wanted, unled) in offsets {
             self.go_on()?;
-            let thread = match self.thread_hole(&unled, wanted, contours, &kerfs) {
+            let thread = match self.thread_hole(&unled, &wanted, contours, &kerfs, &holes) {
                 Ok(thread) => thread,
                 Err(finding) => {
                     findings.push(finding);
                     continue;
                 }
             };
+            holes.push(thread);
             if let Some(found) = self.finished(&unled) {
                 let before = planned.finished;
                 planned.finished = Some(before.map_or(found, |before| before.merged(found)));
             }
-            match self.led(unled, wanted, thread, contours, &kerfs) {
+            match self.led(unled, &wanted, thread, contours, &kerfs) {
                 Ok(paths) => planned.paths.extend(paths),
                 Err(Refusal::Findings(found)) => findings.extend(found),
                 Err(refusal) => return Err(refusal),
             }
         }
         Ok((planned, findings))
+    }
+
+    /// Where a start hole is to be in an opening of which nothing is said: in the deepest point.
+    fn with_proposed(&self, index: usize, wanted: Wanted, contours: &Contours) -> Wanted {
+        let says_nothing = wanted.thread.is_none()
+            && wanted.entry.is_none()
+            && wanted.beside.is_none()
+            && self.settings.stated_lead_in.is_none();
+        let is_proposed = says_nothing
+            && self.hole_reach().is_some()
+            && self.outlines[index].role == Role::Opening
+            && self.outlines[index].contour.closed;
+        let deepest = || Some(self.deepest(index, contours, f64::INFINITY)?.0);
+        Wanted {
+            proposed: if is_proposed { deepest() } else { None },
+            ..wanted
+        }
     }
 
     /// What all passes leave of a contour, where that is asked for.
@@ -412,12 +444,21 @@ impl Job<'_> {
         })
     }
 
+    /// The form of the leads of a contour. A hole that is found, or the nearest point to one, lies at right angles to it anyway.
+    pub(super) fn lead(&self, wanted: &Wanted) -> Lead {
+        match self.settings.lead {
+            Lead::Perpendicular if wanted.thread.and(wanted.entry).is_none() => Lead::Straight,
+            lead => lead,
+        }
+    }
+
     /// What the leads of a pass are held against; its correction is in drawing units.
     pub(super) fn surroundings<'a>(
         &'a self,
         unled: &'a Unled,
         contours: &'a Contours,
         kerfs: &'a Kerfs,
+        lead: Lead,
         correction: f64,
     ) -> Surroundings<'a> {
         Surroundings {
@@ -430,22 +471,27 @@ impl Job<'_> {
             clearance: self.clearance(correction),
             unit_mm: self.unit_mm,
             severity: self.severity(),
+            lead,
+            length: self.units(self.settings.lead_in),
         }
     }
 
-    /// The thread hole for the offset of a contour, or what is in the way.
+    /// The thread hole for the offset of a contour, or what is in the way. `holes` are those of the others.
     fn thread_hole(
         &self,
         unled: &Unled,
         wanted: &Wanted,
         contours: &Contours,
         kerfs: &Kerfs,
+        holes: &[Point],
     ) -> Result<Point, Finding> {
         let stand = unled.passes.iter().find(|pass| pass.path.is_empty());
         let (Some(rough), Some(entry)) = (unled.passes.first(), &unled.entry) else {
             return Ok(stand.map_or_else(Point::origin, |pass| pass.begin));
         };
-        let surroundings = |correction: f64| self.surroundings(unled, contours, kerfs, correction);
+        let lead = self.lead(wanted);
+        let surroundings =
+            |correction: f64| self.surroundings(unled, contours, kerfs, lead, correction);
         let is_opening = self.outlines[unled.outline].role == Role::Opening;
         let says_nothing = wanted.entry.is_none()
             && wanted.beside.is_none()
@@ -455,6 +501,18 @@ impl Job<'_> {
         } else {
             None
         };
+        let first: Vec<Point> = center.into_iter().chain(wanted.proposed).collect();
+        let deepest = || {
+            let (at, _) = self.deepest(unled.outline, contours, f64::INFINITY)?;
+            is_opening.then_some(at)
+        };
+        let has_room = |at: Point| self.has_room(at, contours, holes);
+        let threading = Threading {
+            first: &first,
+            last: &deepest,
+            reach: self.hole_reach(),
+            has_room: &has_room,
+        };
         let thread = if let Some(stand) = stand {
             stand.begin
         } else if wanted.thread.is_none() && goes_out_and_back(&rough.path) {
@@ -463,9 +521,9 @@ impl Job<'_> {
         } else {
             thread_hole(
                 wanted,
-                center,
+                &threading,
                 entry,
-                rough.begin,
+                &rough.landing(unled.side),
                 &unled.walls,
                 self.settings,
                 &surroundings(rough.correction),
@@ -476,7 +534,8 @@ impl Job<'_> {
         for pass in unled.passes.iter().skip(first) {
             if pass.begin != thread && !pass.path.is_empty() {
                 let surroundings = surroundings(pass.correction);
-                surroundings.hold(thread, pass.begin, entry, &unled.walls, pass.correction)?;
+                let landing = pass.landing(unled.side);
+                surroundings.hold(thread, &landing, entry, &unled.walls, pass.correction)?;
             }
         }
         Ok(thread)
@@ -582,9 +641,12 @@ impl Job<'_> {
                 point: walls[wall].geometry.start(),
             })
         };
+        let proposed = wanted
+            .proposed
+            .filter(|_| self.settings.lead != Lead::Straight);
         Ok(near(wanted.beside)
             .or_else(picked)
-            .or_else(|| near(wanted.thread)))
+            .or_else(|| near(wanted.thread.or(proposed))))
     }
 
     /// The path with the way from and back to the thread hole, where that is another point than its begin. An open path ends where it ends.

@@ -1,7 +1,8 @@
 //! The passes of a contour with their leads: to and fro, on past the start, and but for a tab, which is cut off after a stop.
 //!
 //! With a tab the passes end where it begins, and alternate ones go back from there: a step leads from the path of one to that of the
-//! next. Then the tab is cut in passes of its own, to and fro from where the wire stands.
+//! next. Passes that all go one way come back to the thread hole from where the tab begins. Then the tab is cut in passes of its own, to and
+//! fro from where the wire stands, or one way from the thread hole.
 
 use super::corners::Element;
 use super::job::{Job, ROUNDING};
@@ -11,9 +12,10 @@ use super::order::{begin_at, name};
 use super::path::{PathSegment, Refusal, Source, WirePath};
 use super::paths::{Pass, Unled, lead};
 use super::wanted::Wanted;
+use super::way::{Landing, lead_in, lead_out};
 use crate::drawing::Role;
 use crate::geometry::{Point, Segment, Side};
-use crate::settings::{Compensation, Sequence};
+use crate::settings::{Compensation, Lead, Sequence};
 
 /// How much further than the correction the wire goes from a part's contour at a tab, where the control switches the correction, mm.
 const CLEAR: f64 = 0.01;
@@ -42,6 +44,10 @@ impl Job<'_> {
         kerfs: &Kerfs,
     ) -> Result<Vec<WirePath>, Refusal> {
         let tab = self.tab(&unled)?;
+        // From the begin of the tab to the thread hole and back there, in place of along the contour.
+        let returns = self.settings.passes.sequence() == Sequence::OneWay && unled.passes.len() > 1;
+        let form = self.lead(wanted);
+        let is_straight = form == Lead::Straight;
         let overlap = self.overlap(&unled)?;
         let passes = std::mem::take(&mut unled.passes);
         let count = passes.len();
@@ -63,7 +69,7 @@ impl Job<'_> {
         for (number, cut_off) in stages {
             let round = &rounds[number];
             let back = match cut_off {
-                true => at_tab.is_none(),
+                true => at_tab.is_none() && !returns,
                 false => self.settings.runs_back(number),
             };
             let from_tab = tab.is_some() && cut_off != back;
@@ -73,39 +79,69 @@ impl Job<'_> {
                 (Some(first), Some(last)) => (first.geometry.start(), last.geometry.end()),
                 _ => (thread, thread),
             };
-            let mut segments: Vec<PathSegment> = Vec::with_capacity(way.len() + 3);
-            segments.extend(match (from_tab, round.aside) {
-                (false, _) => lead(thread, begin, Source::LeadIn),
-                (true, Some(_)) => lead(at_tab.unwrap_or(begin), begin, Source::LeadIn),
-                (true, None) => lead(at_tab.unwrap_or(begin), begin, Source::Tab),
+            // On which side of travel the wire runs, and how far from what is programmed.
+            let of_travel = if back { -unled.side } else { unled.side };
+            let wire = self.units(self.settings.each_correction()[number]);
+            let control = if round.correction > 0.0 { 0.0 } else { wire };
+            let surroundings = self.surroundings(&unled, contours, kerfs, form, wire);
+            let entry = unled.entry.unwrap_or(Entry {
+                wall: 0,
+                share: 0.0,
+                point: begin,
             });
+            let hold = |landing: &Landing| {
+                let way = surroundings.hold(thread, landing, &entry, &unled.walls, wire);
+                way.map(|way| way.pieces(thread, landing, true))
+                    .map_err(|finding| Refusal::Findings(vec![finding]))
+            };
+            let mut segments: Vec<PathSegment> = Vec::with_capacity(way.len() + 5);
+            match (from_tab && !returns, round.aside) {
+                (false, _) if begin == thread => {}
+                (false, _) if is_straight && !from_tab => {
+                    segments.extend(lead(thread, begin, Source::LeadIn));
+                }
+                (false, _) => {
+                    let along = way.first().map(|first| first.geometry.start_tangent());
+                    let along = along.unwrap_or_default();
+                    let landing = Landing::of_begin(begin, along, of_travel, control);
+                    segments.extend(lead_in(hold(&landing)?));
+                }
+                (true, Some(_)) => {
+                    segments.extend(lead(at_tab.unwrap_or(begin), begin, Source::LeadIn));
+                }
+                (true, None) => {
+                    segments.extend(lead(at_tab.unwrap_or(begin), begin, Source::Tab));
+                }
+            }
             segments.extend(way.iter().map(|element| PathSegment {
                 geometry: element.geometry,
                 source: element.source,
             }));
-            let mut last = end;
-            if overlap > 0.0 && !to_tab && (cut_off || tab.is_none()) {
+            let overlaps = overlap > 0.0 && !to_tab && (cut_off || tab.is_none());
+            if overlaps {
                 segments.extend(beyond(&directed(&round.main, back), overlap));
-                last = segments.last().map_or(end, |piece| piece.geometry.end());
-                if let Some(entry) = &unled.entry {
-                    let correction = self.units(self.settings.each_correction()[number]);
-                    let surroundings = self.surroundings(&unled, contours, kerfs, correction);
-                    let held = match round.correction > 0.0 {
-                        true => surroundings.hold(thread, last, entry, &unled.walls, correction),
-                        // The control moves the way out as it moves the contour.
-                        false => Ok(()),
-                    };
-                    held.map_err(|finding| Refusal::Findings(vec![finding]))?;
-                }
             }
-            at_tab = match (to_tab, round.aside) {
+            let last = segments.last().map_or(end, |piece| piece.geometry.end());
+            at_tab = match (to_tab && !returns, round.aside) {
                 (true, Some(aside)) => {
                     segments.extend(lead(last, aside, Source::LeadOut));
                     Some(aside)
                 }
                 (true, None) => Some(last),
                 (false, _) => {
-                    segments.extend(lead(last, thread, Source::LeadOut));
+                    let along = segments.last().map(|last| last.geometry.end_tangent());
+                    let landing =
+                        Landing::of_end(last, along.unwrap_or_default(), of_travel, control);
+                    if last == thread {
+                    } else if is_straight {
+                        // The control moves the way out as it moves the contour.
+                        if (overlaps || to_tab) && control == 0.0 && unled.entry.is_some() {
+                            hold(&landing)?;
+                        }
+                        segments.extend(lead(last, thread, Source::LeadOut));
+                    } else {
+                        segments.extend(lead_out(hold(&landing)?));
+                    }
                     None
                 }
             };
@@ -154,12 +190,13 @@ impl Job<'_> {
         let (main, held) = split(ring, at, self.units(ROUNDING));
         let wall = &unled.walls[tab.wall];
         if main.is_empty() || held.is_empty() {
-            let sentence = say!(no_tab_fits_at, self.settings.tab, tab.point.x, tab.point.y);
+            let sentence = say!(no_tab_fits_at, tab.point.x, tab.point.y);
             let finding = fault(self.severity(), Some(wall.source), sentence, None);
             return Err(Refusal::Findings(vec![finding]));
         }
         // One pass goes on along the tab as it came.
-        let aside = (side.is_some() && count > 1).then(|| {
+        let returns = self.settings.passes.sequence() == Sequence::OneWay;
+        let aside = (side.is_some() && count > 1 && !returns).then(|| {
             let away = normal(&wall.geometry, tab.share, unled.side);
             tab.point + away * (wire + self.units(CLEAR))
         });
@@ -177,7 +214,10 @@ impl Job<'_> {
         let settings = self.settings;
         let outline = &self.outlines[unled.outline];
         let area = outline.twice_area.abs() / 2.0 * self.unit_mm.powi(2);
-        let keeps_one = settings.tab > 0.0
+        let entities = outline.contour.pieces.iter();
+        let of = entities.filter_map(|piece| Some(&*self.drawing.get(piece.entity)?.handle));
+        let length_mm = settings.tab_of(of);
+        let keeps_one = length_mm > 0.0
             && match outline.role {
                 Role::Punch => true,
                 Role::Opening => settings.keeps_slug(area),
@@ -187,13 +227,10 @@ impl Job<'_> {
         let Some(entry) = unled.entry.filter(|_| keeps_one && !stands) else {
             return Ok(None);
         };
-        if unled.passes.len() > 1 && settings.passes.sequence() == Sequence::OneWay {
-            return Err(Refusal::Sentence(say!(passes_one_way_leave_no_tab).into()));
-        }
-        let length = self.hold_shorter(unled, settings.tab, |tab, handle, length| {
+        let length = self.hold_shorter(unled, length_mm, |tab, handle, length| {
             say!(the_tab_is_longer_than_contour, tab, handle, length)
         })?;
-        let (mut left, mut wall, mut share) = (self.units(settings.tab), entry.wall, entry.share);
+        let (mut left, mut wall, mut share) = (self.units(length_mm), entry.wall, entry.share);
         loop {
             let geometry = &unled.walls[wall].geometry;
             let along = geometry.length();

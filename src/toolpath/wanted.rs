@@ -14,6 +14,8 @@ pub(super) struct Wanted {
     pub(crate) entry: Option<Point>,
     /// A mark that means the point of the contour beside it, where no entry is given.
     pub(crate) beside: Option<Point>,
+    /// Where a start hole is proposed.
+    pub(crate) proposed: Option<Point>,
 }
 
 /// Thread hole and entry of each of the `chosen` outlines, from the settings, then from the marks.
@@ -59,6 +61,7 @@ pub(super) fn wanted(
                     }),
                     entry,
                     beside,
+                    proposed: None,
                 }
             });
     Ok(wanted.collect())

@@ -58,6 +58,18 @@ export type PointSetting =
       [k: string]: [number, number];
     };
 /**
+ * One length in mm, or one for each contour by the handle of an entity in it.
+ */
+export type LengthSetting =
+  | number
+  | {
+      [k: string]: number;
+    };
+/**
+ * How the wire comes from the thread hole to its path and goes back.
+ */
+export type Lead = "straight" | "perpendicular" | "arc";
+/**
  * Which contour is cut after which. What lies within a contour always comes before it: the part drops when the contour round it is cut.
  */
 export type Order = "as-drawn" | "inside-first" | "nearest" | "as-picked";
@@ -175,6 +187,10 @@ export interface Inspection {
    */
   unitsToMm: number;
   entities: InspectedEntity[];
+  /**
+   * The thickest wire that still cuts every arc of a contour, where the gap is set.
+   */
+  largestWire?: LargestWire;
 }
 export interface InspectedEntity {
   handle: string;
@@ -217,6 +233,24 @@ export interface InspectedSegment {
    * `ok`, or the names of the rules of which an error or a warning lies here, with a comma between.
    */
   verdict: string;
+}
+/**
+ * The thickest wire that still cuts every arc: Ø = 2 (r − gap).
+ */
+export interface LargestWire {
+  /**
+   * mm.
+   */
+  diameter: number;
+  /**
+   * Of the arc that says so, mm.
+   */
+  radius: number;
+  handle: string;
+  /**
+   * Index within the entity.
+   */
+  segment: number;
 }
 export interface DrawingName {
   uri: string;
@@ -444,6 +478,10 @@ export interface Passes {
    */
   registers?: string[];
   /**
+   * What each pass cuts in a minute, mm²/min: length × `job.thickness` / rate is its time. Not set: nothing is said of times.
+   */
+  rates?: number[];
+  /**
    * What the passes after the first make of a corner that the wire runs inside of. With `constant-stock` the last one leaves a radius there, the difference of the first and the last correction added to the wire's: `sharp-corner`.
    */
   skimCorner?: SkimCorner;
@@ -523,9 +561,17 @@ export interface ProgramSettings {
    */
   leadIn?: number;
   /**
-   * Length of the contour, mm, that all passes leave standing before the entry, so that a punch does not drop while it is cut: then comes the stop, then what stands is cut off in passes of its own. An opening whose slug is heavier than `job.slug-limit` keeps one, too. 0: none.
+   * Length of the contour, mm, that all passes leave standing before the entry, so that a punch does not drop while it is cut: then comes the stop, then what stands is cut off in passes of its own. An opening whose slug is heavier than `job.slug-limit` keeps one, too. 0: none. A table by handle says it for each contour by itself; those that it does not name keep none.
    */
-  tab?: number;
+  tab?: LengthSetting;
+  /**
+   * Diameter of the start holes, mm. Where no thread hole is given it is proposed where such a hole keeps the correction and 0.1 mm from every contour; one that does not is said: `start-hole`. The drill list is made by `wedm holes`.
+   */
+  startHole?: number;
+  /**
+   * How the wire comes from the thread hole to its path and goes back.
+   */
+  lead?: Lead;
   /**
    * Word that stops the machine before the tab is cut off. Not set: the profile's `pause` in ISO, `pause` in 3B.
    */
@@ -579,6 +625,10 @@ export interface JobSettings {
    * Mass of a slug in g above which an opening keeps a tab of the length `program.tab`. It needs `thickness`: 7.85 g/cm³ × area × thickness.
    */
   slugLimit?: number;
+  /**
+   * What an hour of the machine costs, in whatever money: the time of `passes.rates` has its price then.
+   */
+  machineRate?: number;
 }
 /**
  * A punch and its plate: corrections that follow from their clearance, and the fit.
@@ -683,6 +733,14 @@ export interface Toolpath {
    */
   unitsToMm: number;
   paths: ToolpathPath[];
+  /**
+   * Where the wire is threaded, in the order of the cuts.
+   */
+  holes?: StartHole[];
+  /**
+   * What the paths come to on the machine.
+   */
+  work?: Work;
 }
 /**
  * The path for one contour in one pass.
@@ -735,6 +793,100 @@ export interface PathPiece {
    * `tan(sweep / 4)`; left out for lines and for a full turn, which has none.
    */
   bulge?: number;
+}
+/**
+ * Where the wire is threaded for a contour.
+ */
+export interface StartHole {
+  /**
+   * Handle of the contour's first entity.
+   */
+  contour: string;
+  /**
+   * Drawing units.
+   */
+  at: Point;
+  /**
+   * mm; where `program.start-hole` says it.
+   */
+  diameter?: number;
+  /**
+   * By the settings or by a mark in the drawing; else it was found.
+   */
+  given: boolean;
+}
+/**
+ * What the cuts come to. Where a key is not set that something would need, it is left out and the key is `missing`.
+ */
+export interface Work {
+  /**
+   * In the order of the cuts.
+   */
+  cuts: WorkCut[];
+  /**
+   * mm of all cuts, leads included.
+   */
+  length: number;
+  /**
+   * mm of the ways from one contour to the next, on which nothing is cut.
+   */
+  jumps: number;
+  /**
+   * Of all cuts: length × `job.thickness` / `passes.rates`.
+   */
+  minutes?: number;
+  /**
+   * In the money of `job.machine-rate`.
+   */
+  cost?: number;
+  /**
+   * What drops out of openings.
+   */
+  slugs: Slug[];
+  /**
+   * The largest angle between a lead and its contour, degrees.
+   */
+  leadAngle?: number;
+  largestWire?: LargestWire;
+  /**
+   * Keys that are not set.
+   */
+  missing: string[];
+}
+/**
+ * One pass along one contour.
+ */
+export interface WorkCut {
+  /**
+   * Handle of the contour's first entity.
+   */
+  contour: string;
+  /**
+   * 1-based number of the pass.
+   */
+  pass: number;
+  /**
+   * It cuts off the tab.
+   */
+  cutOff?: boolean;
+  /**
+   * mm, leads included.
+   */
+  length: number;
+  minutes?: number;
+}
+/**
+ * What drops out of an opening.
+ */
+export interface Slug {
+  /**
+   * Handle of the contour's first entity.
+   */
+  contour: string;
+  /**
+   * g of steel: 7.85 g/cm³ × area × `job.thickness`.
+   */
+  mass: number;
 }
 /**
  * Result of `wedm/picture`.
@@ -869,6 +1021,18 @@ export interface PairProgram {
    * What all passes leave of the contours, where several are cut.
    */
   finished?: FinishedPart;
+  /**
+   * Where the wire is threaded, in the order of the cuts.
+   */
+  holes?: StartHole[];
+  /**
+   * What the program comes to on the machine.
+   */
+  work?: Work;
+  /**
+   * Of all cuts, as in `work`.
+   */
+  minutes?: number;
   warnings: Diagnostic[];
 }
 /**
@@ -1202,5 +1366,17 @@ export interface Program {
    * What all passes leave of the contours, where several are cut.
    */
   finished?: FinishedPart;
+  /**
+   * Where the wire is threaded, in the order of the cuts.
+   */
+  holes?: StartHole[];
+  /**
+   * What the program comes to on the machine.
+   */
+  work?: Work;
+  /**
+   * Of all cuts, as in `work`.
+   */
+  minutes?: number;
   warnings: Diagnostic[];
 }

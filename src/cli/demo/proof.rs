@@ -282,12 +282,18 @@ mod tests {
             .for_each(|edit| bytes.replace_range(edit.range.clone(), &edit.text));
         fixed = document(&bytes, &settings);
         let snapshot = fixed.snapshot().unwrap();
-        let paths = toolpath::plan(&snapshot.drawing, &snapshot.outlines, &settings, None).unwrap();
-        let program = three_b::write(&paths, 1.0, &settings).unwrap();
+        let planned = crate::job::planned(&snapshot, &settings, None, false, &()).unwrap();
+        let program = three_b::write(&planned.paths, 1.0, &settings).unwrap();
         (
             bytes,
             program.text,
-            serde_json::to_value(Toolpath::new(&snapshot.drawing, &paths, 1.0)).unwrap(),
+            serde_json::to_value(Toolpath::new(
+                &snapshot.drawing,
+                &snapshot.outlines,
+                &settings,
+                &planned,
+            ))
+            .unwrap(),
         )
     }
 

@@ -12,6 +12,7 @@ declare! {
     files(count: usize) => { counted(*count, "file", "files") };
     findings(count: usize) => { counted(*count, "finding", "findings") };
     gaps(count: usize) => { counted(*count, "gap", "gaps") };
+    holes(count: usize) => { counted(*count, "hole", "holes") };
     lines(count: usize) => { counted(*count, "line", "lines") };
     names(count: usize) => { counted(*count, "name", "names") };
     new_numbers(count: usize) => { counted(*count, "new number", "new numbers") };

@@ -8,7 +8,7 @@ declare! {
     writing_and_proving => "writing and proving the program";
     the_program_does_not_hold_its_proof(reason) => "the program does not hold its proof: {reason}";
     no_program_of_this_drawing(reason) => "no program could be proved for this drawing: {reason}";
-    four_b_has_no_tab => "4B is written without tabs and overlaps: set tab and closing-overlap to 0, or choose another format";
+    four_b_has_no_tab => "4B holds one contour for all passes: it has a tab with one pass alone, and no overlap; set tab or closing-overlap to 0, or choose another format";
     no_other_program(reason) => "no other program could be proved for this one, and none is written: {reason}";
     a_target_that_is_not_written(name, names) => "{name:?} is not written, expected dxf, {names}";
     it_cuts_nothing => "it cuts nothing";

@@ -16,6 +16,7 @@ declare! {
     an_arc_drawn_as_short_lines => "An arc drawn as short lines";
     no_path_of_the_wire_holds_its_proof_here => "No path of the wire holds its proof here";
     a_punch_does_not_go_into_its_plate => "A punch does not go into its plate";
+    a_start_hole_has_no_room_beside_the_contours => "A start hole has no room beside the contours";
     the_lead_in_is_too_short_or_crosses_a_contour => "The lead-in is too short or crosses a contour";
     the_corrections_of_the_passes_do_not_fall_or_no_wire_is_so_thin => "The corrections of the passes do not fall, or no wire is so thin";
     something_in_the_drawing_is_not_cut => "Something in the drawing is not cut";

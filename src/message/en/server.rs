@@ -113,6 +113,9 @@ declare! {
     open_picture => "Open picture";
     convert_to_dxf => "Convert to DXF";
     and_more_marked_in_the_drawing(count) => "and {count} more, marked in the drawing";
+    cut_of(contours, length, minutes) => "cut of {contours}: {length:.3} mm{minutes}";
+    and_minutes(minutes) => ", {minutes:.2} min";
+    largest_wire(diameter, radius) => "largest wire Ø {diameter:.3} mm, by R {radius:.3} mm";
     thread_hole_at_mm(x, y) => "thread hole at {x:.3}, {y:.3} mm";
     change_by_number(index, reason) => "change {index}: {reason}";
     an_entity_needs(name, kind, key) => "entity {name}: a {kind} needs {key}";

@@ -16,8 +16,15 @@ declare! {
     runs_into_the_cut_along_contour(contour) => "runs into the cut along contour {contour}";
     the_tab_is_longer_than_contour(tab, handle, length) => "the tab of {tab:.3} mm leaves nothing of contour {handle}, which is {length:.3} mm long: expected a shorter tab";
     the_overlap_is_longer_than_contour(overlap, handle, length) => "the overlap of {overlap:.3} mm goes all round contour {handle}, which is {length:.3} mm long: expected a shorter one";
-    passes_one_way_leave_no_tab => "passes that all go one way leave no tab: expected passes.sequence alternate, or program.tab 0";
-    no_tab_fits_at(tab, x, y) => "no tab of {tab:.3} mm begins at ({x:.3}, {y:.3}): the wire does not come there";
+    no_tab_fits_at(x, y) => "no tab begins at ({x:.3}, {y:.3}): the wire does not come there";
+    the_start_hole_cuts_into(diameter, x, y, handle, by) => "the start hole of Ø {diameter:.3} mm at ({x:.3}, {y:.3}) cuts {by:.3} mm into contour {handle}";
+    the_start_hole_comes_near(diameter, x, y, left, handle, correction, clear) => "the start hole of Ø {diameter:.3} mm at ({x:.3}, {y:.3}) leaves {left:.3} mm beside contour {handle}, expected the correction {correction:.3} mm and {clear} mm";
+    the_start_holes_meet(diameter, x, y, handle, x1, y1) => "the start hole of Ø {diameter:.3} mm at ({x:.3}, {y:.3}) meets that of contour {handle} at ({x1:.3}, {y1:.3})";
+    no_start_hole_fits_in(diameter, handle, depth, most) => "no start hole of Ø {diameter:.3} mm has room in contour {handle}: its deepest point is {depth:.3} mm from the next contour, expected at most Ø {most:.3} mm";
+    no_start_hole_at_all_fits_in(diameter, handle, depth) => "no start hole of Ø {diameter:.3} mm has room in contour {handle}: its deepest point is {depth:.3} mm from the next contour; expected a thread hole that is given elsewhere";
+    no_start_hole_fits_beside(diameter, x, y, least, why) => "no start hole of Ø {diameter:.3} mm has room beside the entry ({x:.3}, {y:.3}){why}: expected a lead-in of {least:.3} mm or more, another entry or a thread hole";
+    no_arc_fits_at(length, least, x, y, why) => "no lead from {length:.3} mm down with an arc of R {least:.3} mm or more fits at ({x:.3}, {y:.3}){why}: give a thread hole or another entry";
+    no_arc_leads_from_to(least, x, y, x1, y1, why) => "no arc of R {least:.3} mm or more leads from the thread hole ({x:.3}, {y:.3}) to the path at ({x1:.3}, {y1:.3}){why}";
     the_lead_in_does(x, y, x1, y1, does) => "the lead-in from the thread hole ({x:.3}, {y:.3}) to ({x1:.3}, {y1:.3}) {does}";
     no_lead_in_fits_at(length, correction, x, y, why) => "no lead-in from {length:.3} mm down to the correction {correction:.3} mm fits at ({x:.3}, {y:.3}){why}: give a thread hole or another entry";
     because_it(does) => " (it {does})";

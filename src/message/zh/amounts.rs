@@ -12,6 +12,7 @@ translate! {
     files(count: usize) => { format!("{count} 个文件") };
     findings(count: usize) => { format!("{count} 个问题") };
     gaps(count: usize) => { format!("{count} 处间隙") };
+    holes(count: usize) => { format!("{count} 个孔") };
     lines(count: usize) => { format!("{count} 行") };
     names(count: usize) => { format!("{count} 个文件名") };
     new_numbers(count: usize) => { format!("{count} 个数值") };

@@ -16,6 +16,7 @@ translate! {
     an_arc_drawn_as_short_lines => "圆弧画成了短直线";
     no_path_of_the_wire_holds_its_proof_here => "此处的切割路线通不过校核";
     a_punch_does_not_go_into_its_plate => "凸模装不进凹模";
+    a_start_hole_has_no_room_beside_the_contours => "穿丝孔离轮廓太近，放不下";
     the_lead_in_is_too_short_or_crosses_a_contour => "引入线太短，或与轮廓相交";
     the_corrections_of_the_passes_do_not_fall_or_no_wire_is_so_thin => "各次切割的补偿量不递减，或没有这么细的丝";
     something_in_the_drawing_is_not_cut => "图形中有不切割的内容";

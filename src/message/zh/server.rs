@@ -113,6 +113,9 @@ translate! {
     open_picture => "打开图片";
     convert_to_dxf => "转换为 DXF";
     and_more_marked_in_the_drawing(count) => "另有 {count} 个，已在图中标出";
+    cut_of(contours, length, minutes) => "切割 {contours}：{length:.3} mm{minutes}";
+    and_minutes(minutes) => "，{minutes:.2} 分钟";
+    largest_wire(diameter, radius) => "最粗可用电极丝 Ø {diameter:.3} mm，由 R {radius:.3} mm 决定";
     thread_hole_at_mm(x, y) => "穿丝孔位于 {x:.3}, {y:.3} mm";
     change_by_number(index, reason) => "修改 {index}：{reason}";
     an_entity_needs(name, kind, key) => "图元 {name}：{kind} 要有 {key}";

@@ -16,8 +16,15 @@ translate! {
     runs_into_the_cut_along_contour(contour) => "切入轮廓 {contour} 的切缝";
     the_tab_is_longer_than_contour(tab, handle, length) => "暂留段长 {tab:.3} mm，而轮廓 {handle} 只长 {length:.3} mm，没有可切的了：请缩短暂留段";
     the_overlap_is_longer_than_contour(overlap, handle, length) => "重叠段长 {overlap:.3} mm，绕满了只长 {length:.3} mm 的轮廓 {handle}：请缩短重叠段";
-    passes_one_way_leave_no_tab => "每次切割方向相同，留不出暂留段：请设 passes.sequence 为 alternate，或 program.tab 为 0";
-    no_tab_fits_at(tab, x, y) => "({x:.3}, {y:.3}) 处留不出 {tab:.3} mm 的暂留段：电极丝到不了那里";
+    no_tab_fits_at(x, y) => "({x:.3}, {y:.3}) 处留不出暂留段：电极丝到不了那里";
+    the_start_hole_cuts_into(diameter, x, y, handle, by) => "({x:.3}, {y:.3}) 处 Ø {diameter:.3} mm 的穿丝孔切入轮廓 {handle} {by:.3} mm";
+    the_start_hole_comes_near(diameter, x, y, left, handle, correction, clear) => "({x:.3}, {y:.3}) 处 Ø {diameter:.3} mm 的穿丝孔距轮廓 {handle} 只剩 {left:.3} mm，应为补偿量 {correction:.3} mm 加 {clear} mm";
+    the_start_holes_meet(diameter, x, y, handle, x1, y1) => "({x:.3}, {y:.3}) 处 Ø {diameter:.3} mm 的穿丝孔与轮廓 {handle} 在 ({x1:.3}, {y1:.3}) 的穿丝孔相碰";
+    no_start_hole_fits_in(diameter, handle, depth, most) => "轮廓 {handle} 放不下 Ø {diameter:.3} mm 的穿丝孔：最深处距最近的轮廓 {depth:.3} mm，最大可用 Ø {most:.3} mm";
+    no_start_hole_at_all_fits_in(diameter, handle, depth) => "轮廓 {handle} 放不下 Ø {diameter:.3} mm 的穿丝孔：最深处距最近的轮廓 {depth:.3} mm；请在别处给出穿丝孔";
+    no_start_hole_fits_beside(diameter, x, y, least, why) => "切入点 ({x:.3}, {y:.3}) 旁放不下 Ø {diameter:.3} mm 的穿丝孔{why}：引线应不短于 {least:.3} mm，或换一个切入点，或给出穿丝孔";
+    no_arc_fits_at(length, least, x, y, why) => "({x:.3}, {y:.3}) 处放不下从 {length:.3} mm 起、圆弧不小于 R {least:.3} mm 的引线{why}：请给出穿丝孔，或换一个切入点";
+    no_arc_leads_from_to(least, x, y, x1, y1, why) => "从穿丝孔 ({x:.3}, {y:.3}) 到切割路线 ({x1:.3}, {y1:.3}) 放不下不小于 R {least:.3} mm 的圆弧引线{why}";
     the_lead_in_does(x, y, x1, y1, does) => "从穿丝孔 ({x:.3}, {y:.3}) 到 ({x1:.3}, {y1:.3}) 的引入线{does}";
     no_lead_in_fits_at(length, correction, x, y, why) => "({x:.3}, {y:.3}) 处放不下长 {length:.3} mm 直至等于补偿量 {correction:.3} mm 的引入线{why}：请给出穿丝孔，或换一个切入点";
     because_it(does) => "（它{does}）";

@@ -121,7 +121,8 @@ impl Writer for Lines<'_> {
         to: Node,
         source: Source,
     ) -> Result<(), ProofError> {
-        if source == Source::LeadOut {
+        // No control switches its correction off on an arc.
+        if source == Source::LeadOut && piece.as_arc().is_none() {
             self.switch_off(from)?;
         }
         let mut encoded = std::mem::take(&mut self.encoded);
@@ -238,7 +239,6 @@ impl<'a> Lines<'a> {
                     center: from,
                     piece: way(from, to),
                 })?;
-                self.length += way(from, to).length();
                 self.fixed(&self.profile.pause, to)
             }
             Jumps::None => {

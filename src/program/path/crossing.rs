@@ -35,6 +35,9 @@ const ON: f64 = 0.01;
 /// The same for a first look from elsewhere, where places are rounded otherwise, µm.
 const NEARLY_ON: f64 = 0.05;
 
+/// So many blocks may go on past the place where a way closes.
+const MOST_BEYOND: usize = 8;
+
 /// How often the way is followed twice as far to see two of its branches part.
 const DOUBLINGS: usize = 10;
 
@@ -228,9 +231,12 @@ impl Tangle<'_> {
 
     /// Lead-in and lead-out end on the contour, and may come to it from different sides.
     fn is_where_leads_end(&self, first: usize, second: usize, at: Point) -> bool {
-        let near =
-            |end: Option<Point>| end.is_some_and(|end| (end - at).norm() <= 2.0 * self.margin);
         let piece = |index: usize| self.at(index);
+        let near = |end: Option<Point>| {
+            end.is_some_and(|end| {
+                (end - at).norm() <= 2.0 * self.margin || self.run_beside(first, second, at, end)
+            })
+        };
         let back = |count: usize| self.count.checked_sub(count).and_then(piece);
         first <= 2
             && second + 3 >= self.count
@@ -243,19 +249,60 @@ impl Tangle<'_> {
                 || near(back(1).map(|piece| piece.end())))
     }
 
-    /// The way goes on along its first block past the place where it closes, and out from there: it cuts nothing but its own way in.
+    /// Two pieces that run beside each other from one place to another. An arc that leads to a contour does so before it ends there: where
+    /// the two cross hangs on how they are rounded.
+    fn run_beside(&self, first: usize, second: usize, from: Point, to: Point) -> bool {
+        let is_on = |index: usize, point: Point| {
+            let piece = self.at(index);
+            piece.is_some_and(|piece| piece.distance_to(point) <= self.margin)
+        };
+        let middle = nalgebra::center(&from, &to);
+        [to, middle]
+            .into_iter()
+            .all(|point| is_on(first, point) && is_on(second, point))
+    }
+
+    /// The way goes on along its first blocks past the place where it closes, and out from there: it cuts nothing but its own way in.
+    /// A way in or out is a block, or one and an arc.
     fn goes_on_past_its_start(&self, first: usize, second: usize, at: Point) -> bool {
-        if first > 2 || second + 3 < self.count || self.count < 5 {
+        let most = MOST_BEYOND + 2;
+        if first > most || second + most + 1 < self.count {
             return false;
         }
-        let pieces = [0, 1, self.count - 2].map(|index| self.at(index));
-        let [Some(lead_in), Some(along), Some(beyond)] = pieces else {
-            return false;
-        };
-        (beyond.start() - lead_in.end()).norm() <= 2.0 * self.margin
-            && [at, beyond.point_at(0.5), beyond.end()]
-                .iter()
-                .all(|&point| along.distance_to(point) <= self.margin)
+        let leads = [(1, 1), (2, 2), (1, 2), (2, 1)];
+        let all = leads
+            .into_iter()
+            .flat_map(|leads| (1..=MOST_BEYOND).map(move |beyond| (leads, beyond)));
+        all.into_iter().any(|((way_in, way_out), beyond)| {
+            let Some(closes) = self.count.checked_sub(way_out + beyond) else {
+                return false;
+            };
+            if closes <= way_in + beyond || first > way_in + beyond || second + 1 < closes {
+                return false;
+            }
+            let runs_along = |number: usize| {
+                let (Some(along), Some(again)) =
+                    (self.at(way_in + number), self.at(closes + number))
+                else {
+                    return false;
+                };
+                [again.start(), again.point_at(0.5), again.end()]
+                    .iter()
+                    .all(|&point| along.distance_to(point) <= self.margin)
+            };
+            let starts =
+                [self.at(way_in), self.at(closes)].map(|piece| piece.map(|piece| piece.start()));
+            let [Some(begin), Some(again)] = starts else {
+                return false;
+            };
+            let is_on = |number: usize| {
+                let along = self.at(way_in + number);
+                along.is_some_and(|along| along.distance_to(at) <= self.margin)
+            };
+            (begin - again).norm() <= 2.0 * self.margin
+                && (0..beyond).all(runs_along)
+                && ((0..beyond).any(is_on) || self.run_beside(first, second, at, begin))
+        })
     }
 
     /// Whether the way from `at` in one piece to `at` in another is shorter than `length`.

@@ -14,8 +14,53 @@ use std::f64::consts::PI;
 /// A joint that turns by less is tangent, radians: the wire's path has a step of less than 1 µm there for each millimetre of correction.
 const TANGENT: f64 = 1e-3;
 
+/// The path of a part's contour, and behind it that of its tab, rounded as one.
+pub(super) fn rounded_with_tab(
+    path: &WirePath,
+    tab: Option<&WirePath>,
+    scale: f64,
+    correction: f64,
+    radius: f64,
+) -> Result<Vec<WirePath>, ProofError> {
+    let Some(tab) = tab else {
+        return Ok(vec![rounded(path, scale, correction, radius)?]);
+    };
+    let mut whole = path.clone();
+    whole.segments.extend_from_slice(&tab.segments);
+    let made = rounded(&whole, scale, correction, radius)?;
+    let is_of_contour =
+        |piece: &&PathSegment| !matches!(piece.source, Source::LeadIn | Source::LeadOut);
+    let first = |path: &WirePath| {
+        let first = path.segments.iter().find(is_of_contour);
+        first.map_or_else(Point::origin, |piece| piece.geometry.start())
+    };
+    let begin = tab.begin() * scale + (first(&made) - first(path) * scale);
+    // The last piece that is there; in a corner that was rounded, the nearest.
+    let away = |index: &usize| made.segments[*index].geometry.distance_to(begin);
+    let index = (0..made.segments.len())
+        .rev()
+        .filter(|&index| is_of_contour(&&made.segments[index]))
+        .min_by(|a, b| away(a).total_cmp(&away(b)))
+        .unwrap_or(0);
+    let (mut before, mut behind) = (made.clone(), made);
+    behind.segments.drain(..index);
+    before.segments.truncate(index + 1);
+    let piece = before.segments[index].geometry;
+    let (share, length) = (piece.share_of(begin).clamp(0.0, 1.0), piece.length());
+    if share * length <= LEAST_LEFT {
+        before.segments.pop();
+    } else if (1.0 - share) * length <= LEAST_LEFT {
+        behind.segments.remove(0);
+    } else {
+        before.segments[index].geometry = piece.part(0.0, share);
+        behind.segments[0].geometry = piece.part(share, 1.0);
+    }
+    behind.cut_off = true;
+    Ok(vec![before, behind])
+}
+
 /// The path of a part's contour in µm: rounded at its corners with `radius`, moved beside the contour by the correction, µm both.
-pub(super) fn rounded(
+fn rounded(
     path: &WirePath,
     scale: f64,
     correction: f64,
@@ -69,16 +114,31 @@ pub(super) fn rounded(
     let begin = entry + by;
     let mut segments = Vec::with_capacity(contour.len() + 2);
     let leads = (thread - begin).norm() > 1.0;
-    segments.extend(leads.then(|| PathSegment {
-        geometry: Segment::line(thread, begin),
+    let arc_of = |source: Source| {
+        let own = path.segments.iter().filter(|piece| piece.source == source);
+        let mut arcs = own.filter_map(|piece| scaled(&piece.geometry, scale).as_arc().copied());
+        arcs.next()
+    };
+    // Towards the contour, both.
+    let ways = [
+        arc_of(Source::LeadIn),
+        arc_of(Source::LeadOut).map(|arc| arc.reversed()),
+    ];
+    let [way_in, way_out] = ways.map(|arc| match arc {
+        _ if !leads => Vec::new(),
+        Some(arc) => along_wire(thread, &arc, begin, correction),
+        None => vec![Segment::line(thread, begin)],
+    });
+    segments.extend(way_in.into_iter().map(|geometry| PathSegment {
+        geometry,
         source: Source::LeadIn,
     }));
     segments.extend(contour.iter().map(|piece| PathSegment {
         geometry: piece.geometry.moved(by),
         ..*piece
     }));
-    segments.extend(leads.then(|| PathSegment {
-        geometry: Segment::line(begin, thread),
+    segments.extend(way_out.into_iter().rev().map(|geometry| PathSegment {
+        geometry: geometry.reversed(),
         source: Source::LeadOut,
     }));
     Ok(WirePath {
@@ -87,6 +147,20 @@ pub(super) fn rounded(
         correction: 0.0,
         ..path.clone()
     })
+}
+
+/// A lead along an arc as the wire goes: the controller changes none of it, since its blocks say no radius. `arc` is that of the part,
+/// larger by the correction.
+fn along_wire(thread: Point, arc: &Arc, begin: Point, correction: f64) -> Vec<Segment> {
+    let share = (arc.radius - correction) / arc.radius;
+    let by = begin - (arc.center + (arc.end - arc.center) * share);
+    let center = arc.center + by;
+    let touch = center + (arc.start - arc.center) * share;
+    let wire = Arc {
+        radius: arc.radius * share,
+        ..Arc::about(center, touch, begin, arc.sweep > 0.0)
+    };
+    vec![Segment::line(thread, touch), Segment::Arc(wire)]
 }
 
 /// Says of the contour's own piece what 4B cannot hold.

@@ -6,7 +6,7 @@ use super::decode::decode;
 use super::encode::{Encoded, encode};
 use super::layout::{push_block, push_start_point};
 use super::parse::{Item, read_line};
-use super::part::{is_concave, rounded};
+use super::part::{is_concave, rounded_with_tab};
 use super::proof::Proof;
 use super::words::{Word, Words};
 use crate::finding::Side;
@@ -48,13 +48,22 @@ pub(crate) fn write_four_b(
     let correction = settings.correction * 1000.0;
     // Whole micrometres, and above the correction whatever the margin.
     let radius = (correction + (settings.margin * 1000.0).max(1.0)).ceil();
-    if paths.iter().any(|path| path.cut_off) || settings.closing_overlap > 0.0 {
+    let is_of_tab = |path: &WirePath| path.cut_off && path.pass > 1;
+    if paths.iter().any(is_of_tab) || settings.closing_overlap > 0.0 {
         return Err(ProofError::Refused(say!(four_b_has_no_tab).into()));
     }
-    let paths: Vec<WirePath> = paths
-        .iter()
-        .map(|path| rounded(path, unit_mm * 1000.0, correction, radius))
-        .collect::<Result<_, _>>()?;
+    let mut made = Vec::with_capacity(paths.len());
+    for (index, path) in paths.iter().enumerate().filter(|(_, path)| !path.cut_off) {
+        let tab = paths.get(index + 1).filter(|next| next.cut_off);
+        made.extend(rounded_with_tab(
+            path,
+            tab,
+            unit_mm * 1000.0,
+            correction,
+            radius,
+        )?);
+    }
+    let paths = made;
     let mut blocks = Blocks::new(
         settings,
         Some(Part {
@@ -121,7 +130,9 @@ impl Writer for Blocks<'_> {
             None => self.word(Word::Pause)?,
         }
         if self.settings.jumps == Jumps::Blocks && from != first {
+            let cut = self.length;
             self.piece(&way(from, first), from, first, Source::LeadIn)?;
+            self.length = cut;
             self.word(Word::Pause)?;
         }
         Ok(())

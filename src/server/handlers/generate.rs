@@ -3,7 +3,7 @@
 use super::{Task, no_entity};
 use crate::document::Source;
 use crate::finding::Finding;
-use crate::job::{self, Generated, Wanted};
+use crate::job::{self, Wanted};
 use crate::program::Format;
 use crate::protocol::Program;
 use crate::server::context::RequestContext;
@@ -45,15 +45,17 @@ pub(in crate::server) fn generate(context: &RequestContext, params: Params) -> R
     let wanted = params.wanted(&task)?;
     let made = job::generate(&task.snapshot, findings(&task), &wanted, context);
     context.check()?;
-    let Generated {
-        program,
-        finished,
-        warnings,
-        ..
-    } = made.map_err(|refusal| task.refused(context, &refusal))?;
-    let shown = &warnings[..warnings.len().min(convert::PUBLISH_LIMIT)];
+    let made = made.map_err(|refusal| task.refused(context, &refusal))?;
+    let shown = &made.warnings[..made.warnings.len().min(convert::PUBLISH_LIMIT)];
     let warnings = convert::diagnostics(&task.subject, shown, context.encoding);
-    Ok(Program::new(program, finished, warnings))
+    let of_cuts = (&made.holes[..], &made.work);
+    Ok(Program::new(
+        &task.snapshot,
+        made.program,
+        made.finished,
+        of_cuts,
+        warnings,
+    ))
 }
 
 /// What the reader of the text found, and what the rules say under the request's options.

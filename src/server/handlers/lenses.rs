@@ -1,8 +1,11 @@
-//! `textDocument/codeLens`: what a client can do with a program, above its first block. For clients that have the commands.
+//! `textDocument/codeLens`: what a client can do with a program, above its first block, and what the cuts of a drawing come to. For clients
+//! that have the commands.
 
+use super::Task;
 use crate::ide::SymbolKind;
 use crate::ide::program::symbols;
 use crate::server::context::RequestContext;
+use crate::toolpath;
 use ls_types::{CodeLens, CodeLensParams, Command};
 use serde_json::json;
 use tower_lsp::jsonrpc::Result;
@@ -14,8 +17,11 @@ pub(in crate::server) fn code_lens(
     context: &RequestContext,
     _: CodeLensParams,
 ) -> Result<Option<Vec<CodeLens>>> {
-    let Some(program) = context.program().filter(|_| context.abilities.code_lens) else {
+    if !context.abilities.code_lens {
         return Ok(None);
+    }
+    let Some(program) = context.program() else {
+        return Ok(of_drawing(context));
     };
     let lens = |range, title: String, command: &str, arguments| CodeLens {
         range: context.range(program.text(), range),
@@ -46,4 +52,43 @@ pub(in crate::server) fn code_lens(
         lens(symbol.selection.clone(), title, "", None)
     });
     Ok(Some(of_program.chain(of_contours).collect()))
+}
+
+/// Segments of a drawing beyond which no path is laid for a lens.
+const LAID: usize = 5_000;
+
+/// What the cuts of a drawing come to, above its first line; nothing where there is no text, or nothing to say.
+fn of_drawing(context: &RequestContext) -> Option<Vec<CodeLens>> {
+    let (document, text) = context.document_and_text()?;
+    document.drawing()?;
+    let task = Task::of(context).ok()?;
+    let (drawing, outlines) = (&task.snapshot.drawing, &task.snapshot.outlines);
+    let settings = &task.snapshot.settings;
+    let segments: usize = outlines.iter().map(|outline| outline.contour.len()).sum();
+    let planned = (segments <= LAID).then(|| task.planned(context).ok());
+    let cut = planned.flatten().map(|planned| {
+        let work = toolpath::work(drawing, outlines, settings, &planned.paths);
+        let minutes = work.minutes.map(|minutes| say!(and_minutes, minutes));
+        say!(
+            cut_of,
+            say!(contours, planned.holes.len()),
+            work.length,
+            minutes.unwrap_or_default()
+        )
+    });
+    let wire = toolpath::largest_wire(drawing, outlines, settings, &|_| true)
+        .map(|largest| say!(largest_wire, largest.diameter, largest.radius));
+    let title = cut.into_iter().chain(wire).collect::<Vec<_>>().join("; ");
+    (!title.is_empty()).then(|| {
+        let command = Command {
+            title,
+            command: String::new(),
+            arguments: None,
+        };
+        vec![CodeLens {
+            range: context.range(text, 0..0),
+            command: Some(command),
+            data: None,
+        }]
+    })
 }

@@ -33,7 +33,7 @@ use super::errors::{self, refused};
 use crate::document::{Document, Snapshot, Source};
 use crate::finding::Finding;
 use crate::job::{self, Refusal, Watch};
-use crate::toolpath::WirePath;
+use crate::toolpath::Planned;
 use std::sync::Arc;
 use tower_lsp::jsonrpc::{Error, Result};
 
@@ -76,10 +76,16 @@ impl Task {
         self.document.all_findings().to_vec()
     }
 
-    /// The wire's path of all contours.
-    fn paths(&self, context: &RequestContext) -> Result<Vec<WirePath>> {
-        job::paths(&self.snapshot, &self.snapshot.settings, None, context)
-            .map_err(|refusal| self.refused(context, &refusal))
+    /// The wire's paths of all contours.
+    fn planned(&self, context: &RequestContext) -> Result<Planned> {
+        job::planned(
+            &self.snapshot,
+            &self.snapshot.settings,
+            None,
+            false,
+            context,
+        )
+        .map_err(|refusal| self.refused(context, &refusal))
     }
 
     fn refused(&self, context: &RequestContext, refusal: &Refusal) -> Error {

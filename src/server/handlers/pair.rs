@@ -34,7 +34,13 @@ pub(in crate::server) fn pair(
             part: part.part,
             corrections: part.corrections,
             other_side: part.is_other_side,
-            program: Program::new(part.made.program, part.made.finished, warnings),
+            program: Program::new(
+                &task.snapshot,
+                part.made.program,
+                part.made.finished,
+                (&part.made.holes, &part.made.work),
+                warnings,
+            ),
         }
     });
     Ok(PairPrograms {

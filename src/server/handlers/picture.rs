@@ -16,7 +16,7 @@ pub(in crate::server) fn picture(context: &RequestContext, _: DrawingName) -> Re
     }
     let task = Task::of(context)?;
     // Where no path can be made the picture shows the contours, and the findings say why.
-    let paths = task.paths(context).unwrap_or_default();
+    let paths = task.planned(context).unwrap_or_default().paths;
     Ok(Picture {
         svg: svg(
             &task.snapshot.drawing,

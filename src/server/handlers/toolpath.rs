@@ -7,10 +7,12 @@ use tower_lsp::jsonrpc::Result;
 
 pub(in crate::server) fn toolpath(context: &RequestContext, _: DrawingName) -> Result<Toolpath> {
     let task = Task::of(context)?;
-    let paths = task.paths(context)?;
+    let planned = task.planned(context)?;
+    let snapshot = &task.snapshot;
     Ok(Toolpath::new(
-        &task.snapshot.drawing,
-        &paths,
-        task.unit_mm(),
+        &snapshot.drawing,
+        &snapshot.outlines,
+        &snapshot.settings,
+        &planned,
     ))
 }

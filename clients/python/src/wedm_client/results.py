@@ -140,6 +140,7 @@ class Inspection(Tabled):
 
     units_to_mm: float
     entities: list[InspectedEntity]
+    largest_wire: LargestWire | None = None
 
     def rows(self) -> list[dict[str, Any]]:
         """A row for each segment."""
@@ -287,9 +288,67 @@ class WirePath(Value):
 
 
 @dataclass(frozen=True)
+class StartHole(Value):
+    """Where the wire is threaded for a contour, in drawing units. ``diameter`` is mm, ``given`` false where the hole was found."""
+
+    contour: str
+    at: Point
+    given: bool
+    diameter: float | None = None
+
+
+@dataclass(frozen=True)
+class WorkCut(Value):
+    """One pass along a contour: mm, leads included, and what it takes."""
+
+    contour: str
+    length: float
+    # `pass` in the protocol.
+    pass_number: int = 1
+    cut_off: bool = False
+    minutes: float | None = None
+
+
+@dataclass(frozen=True)
+class Slug(Value):
+    """What drops out of an opening: ``mass`` is g of steel."""
+
+    contour: str
+    mass: float
+
+
+@dataclass(frozen=True)
+class LargestWire(Value):
+    """The thickest wire that still cuts every arc, mm, and the arc that says so."""
+
+    diameter: float
+    radius: float
+    handle: str
+    segment: int
+
+
+@dataclass(frozen=True)
+class Work(Value):
+    """What cuts come to on the machine. Keys of the settings that are not set, and that the rest would need, are ``missing``."""
+
+    cuts: list[WorkCut]
+    length: float
+    jumps: float
+    slugs: list[Slug]
+    missing: list[str]
+    minutes: float | None = None
+    cost: float | None = None
+    # Degrees.
+    lead_angle: float | None = None
+    largest_wire: LargestWire | None = None
+
+
+@dataclass(frozen=True)
 class Toolpath(Tabled):
     units_to_mm: float
     paths: list[WirePath]
+    holes: list[StartHole] = field(default_factory=list)
+    work: Work | None = None
 
     def rows(self) -> list[dict[str, Any]]:
         """A row for each path."""
@@ -326,6 +385,9 @@ class Program(Value):
     closure: Closure
     deviation: float = 0.0
     finished: FinishedPart | None = None
+    minutes: float | None = None
+    holes: list[StartHole] = field(default_factory=list)
+    work: Work | None = None
     warnings: list[Diagnostic] = field(default_factory=list)
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -565,7 +627,7 @@ def _umask() -> int:
 
 
 # Where a key of the protocol is not the camelCase form of the field.
-_KEYS = {("WirePath", "pass_number"): "pass", ("Program", "text"): "program", ("PairProgram", "text"): "program"}
+_KEYS = {("WirePath", "pass_number"): "pass", ("WorkCut", "pass_number"): "pass", ("Program", "text"): "program", ("PairProgram", "text"): "program"}
 
 
 def _camel(name: str) -> str:

@@ -20,6 +20,7 @@ class Passes(TypedDict, total=False):
     gaps: Sequence[float]
     sequence: Literal["alternate", "one-way"]
     registers: Sequence[str]
+    rates: Sequence[float]
     skim_corner: Literal["sharp", "constant-stock"]
 
 
@@ -28,6 +29,7 @@ class Job(TypedDict, total=False):
 
     thickness: float
     slug_limit: float
+    machine_rate: float
 
 
 class Pair(TypedDict, total=False):
@@ -48,7 +50,9 @@ class ProgramSettings(TypedDict, total=False):
     thread: Place
     entry: Place
     lead_in: float
-    tab: float
+    tab: Union[float, Mapping[str, float]]
+    start_hole: float
+    lead: Literal["straight", "perpendicular", "arc"]
     tab_stop: str
     closing_overlap: float
     order: Literal["as-drawn", "inside-first", "nearest", "as-picked"]
@@ -87,6 +91,7 @@ class DrawingSettings(TypedDict, total=False):
     """What is said of one drawing."""
 
     suppress: Mapping[str, Mapping[str, str]]
+    contours: Mapping[str, DrawingSettings]
 
 
 class Settings(TypedDict, total=False):

@@ -1,0 +1,152 @@
+//! What a job comes to on the machine, beside the reply that holds its paths or its program.
+
+use crate::drawing::{Drawing, Outline};
+use crate::geometry::Xy as Point;
+use crate::settings::Effective;
+use crate::toolpath;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Where the wire is threaded for a contour.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StartHole {
+    /// Handle of the contour's first entity.
+    pub contour: String,
+    /// Drawing units.
+    pub at: Point,
+    /// mm; where `program.start-hole` says it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diameter: Option<f64>,
+    /// By the settings or by a mark in the drawing; else it was found.
+    pub given: bool,
+}
+
+/// What the cuts come to. Where a key is not set that something would need, it is left out and the key is `missing`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
+pub struct Work {
+    /// In the order of the cuts.
+    pub cuts: Vec<WorkCut>,
+    /// mm of all cuts, leads included.
+    pub length: f64,
+    /// mm of the ways from one contour to the next, on which nothing is cut.
+    pub jumps: f64,
+    /// Of all cuts: length × `job.thickness` / `passes.rates`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub minutes: Option<f64>,
+    /// In the money of `job.machine-rate`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cost: Option<f64>,
+    /// What drops out of openings.
+    pub slugs: Vec<Slug>,
+    /// The largest angle between a lead and its contour, degrees.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lead_angle: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub largest_wire: Option<LargestWire>,
+    /// Keys that are not set.
+    pub missing: Vec<String>,
+}
+
+/// One pass along one contour.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
+pub struct WorkCut {
+    /// Handle of the contour's first entity.
+    pub contour: String,
+    /// 1-based number of the pass.
+    pub pass: usize,
+    /// It cuts off the tab.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub cut_off: bool,
+    /// mm, leads included.
+    pub length: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub minutes: Option<f64>,
+}
+
+/// What drops out of an opening.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Slug {
+    /// Handle of the contour's first entity.
+    pub contour: String,
+    /// g of steel: 7.85 g/cm³ × area × `job.thickness`.
+    pub mass: f64,
+}
+
+/// The thickest wire that still cuts every arc: Ø = 2 (r − gap).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LargestWire {
+    /// mm.
+    pub diameter: f64,
+    /// Of the arc that says so, mm.
+    pub radius: f64,
+    pub handle: String,
+    /// Index within the entity.
+    pub segment: usize,
+}
+
+fn name(drawing: &Drawing, outlines: &[Outline], outline: usize) -> String {
+    outlines
+        .get(outline)
+        .map_or("?", |outline| outline.name(drawing))
+        .to_owned()
+}
+
+impl StartHole {
+    pub fn new(
+        drawing: &Drawing,
+        outlines: &[Outline],
+        settings: &Effective,
+        hole: &toolpath::StartHole,
+    ) -> StartHole {
+        StartHole {
+            contour: name(drawing, outlines, hole.outline),
+            at: hole.at.into(),
+            diameter: settings.start_hole,
+            given: hole.is_given,
+        }
+    }
+}
+
+impl Work {
+    pub fn new(drawing: &Drawing, outlines: &[Outline], work: &toolpath::Work) -> Work {
+        let name = |outline: usize| name(drawing, outlines, outline);
+        let cuts = work.cuts.iter().map(|cut| WorkCut {
+            contour: name(cut.outline),
+            pass: cut.pass,
+            cut_off: cut.cut_off,
+            length: cut.length,
+            minutes: cut.minutes,
+        });
+        let slugs = work.slugs.iter().map(|slug| Slug {
+            contour: name(slug.outline),
+            mass: slug.mass,
+        });
+        Work {
+            cuts: cuts.collect(),
+            length: work.length,
+            jumps: work.jumps,
+            minutes: work.minutes,
+            cost: work.cost,
+            slugs: slugs.collect(),
+            lead_angle: work.lead_angle.map(f64::to_degrees),
+            largest_wire: work
+                .largest_wire
+                .map(|largest| LargestWire::new(drawing, &largest)),
+            missing: work.missing.iter().map(|&key| key.to_owned()).collect(),
+        }
+    }
+}
+
+impl LargestWire {
+    pub fn new(drawing: &Drawing, largest: &toolpath::LargestWire) -> LargestWire {
+        let entity = drawing.get(largest.entity);
+        LargestWire {
+            diameter: largest.diameter,
+            radius: largest.radius,
+            handle: entity.map_or("?", |entity| &entity.handle).to_owned(),
+            segment: largest.segment,
+        }
+    }
+}

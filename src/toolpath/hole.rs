@@ -1,0 +1,345 @@
+//! Start holes, which are drilled for the wire to be threaded through: where they are proposed, and what is wrong with them.
+
+use super::clearance::Walls;
+use super::job::Job;
+use super::leads::{Contours, finding};
+use super::order::{self, name};
+use super::wanted::{Wanted, wanted};
+use crate::drawing::{Drawing, Outline, Role, winding};
+use crate::finding::{Finding, Place, Rule, Severity};
+use crate::geometry::{Point, Vector};
+use crate::settings::{Compensation, Effective, Order};
+use rustc_hash::FxHashMap;
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use std::f64::consts::SQRT_2;
+
+/// mm that a start hole keeps from what the wire cuts.
+pub(super) const CLEAR: f64 = 0.1;
+
+/// Of half the size of an opening: within so much of its depth the deepest point is found. Near it nothing is deeper by a hundredth of that.
+const DEPTH: f64 = 1e-3;
+
+/// So many squares are looked at for it at most.
+const MOST_SQUARES: usize = 100_000;
+
+/// Where the wire is threaded for a contour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StartHole {
+    /// Index of the outline in the drawing's list.
+    pub outline: usize,
+    pub at: Point,
+    /// By the settings or by a mark; else it was found.
+    pub is_given: bool,
+}
+
+/// What is wrong with the start holes of the diameter that is set: with those that are given, and with openings that have no room for one.
+pub(crate) fn hole_faults(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &Effective,
+) -> Vec<Finding> {
+    let job = Job {
+        drawing,
+        outlines,
+        settings,
+        picks: FxHashMap::default(),
+        unit_mm: settings.unit_of(drawing).mm,
+        finishes: false,
+        a_loop_will_do: false,
+        goes_on: &|| true,
+    };
+    job.hole_faults().unwrap_or_default()
+}
+
+impl Job<'_> {
+    fn hole_faults(&self) -> Option<Vec<Finding>> {
+        let Job {
+            drawing,
+            outlines,
+            settings,
+            ..
+        } = *self;
+        let reach = self.hole_reach()?;
+        let zero_length = self.units(settings.tolerances.zero_length);
+        let chosen = order::chosen(
+            drawing,
+            outlines,
+            None,
+            Order::AsDrawn,
+            &order::Places::default(),
+            zero_length,
+        )
+        .ok()?;
+        let wanted = wanted(drawing, outlines, &chosen.outlines, settings).ok()?;
+        let contours = Contours::new(drawing, outlines);
+        let mut faults = Vec::new();
+        let mut given: Vec<(Point, usize)> = Vec::new();
+        for (&index, Wanted { thread, .. }) in chosen.outlines.iter().zip(wanted) {
+            let outline = &outlines[index];
+            if !outline.contour.closed {
+                continue;
+            }
+            if let Some(at) = thread {
+                faults.extend(self.hole_fault(at, reach, &contours));
+                given.push((at, index));
+            } else if outline.role == Role::Opening
+                && let Some((_, depth)) = self.deepest(index, &contours, reach)
+                && depth < reach - self.units(1e-6)
+            {
+                faults.extend(self.no_room(index, depth));
+            }
+        }
+        faults.extend(self.holes_that_meet(given));
+        Some(faults)
+    }
+
+    /// How far the centre of a start hole is to be from every contour, drawing units. `None` where no diameter is set, and where
+    /// the part's side of the wire is not known.
+    pub(super) fn hole_reach(&self) -> Option<f64> {
+        let diameter = self.settings.start_hole?;
+        let is_known = self.settings.compensation != Compensation::None;
+        is_known.then(|| self.units(diameter / 2.0 + self.settings.correction + CLEAR))
+    }
+
+    /// As severe as it is bad: an error where the hole cuts into the part, else a warning.
+    fn hole_finding(&self, wall: Option<Place>, cuts: bool, sentence: String) -> Option<Finding> {
+        let own = if cuts {
+            Severity::Error
+        } else {
+            Severity::Warning
+        };
+        let severity = self.settings.severity_over(Rule::StartHole, own)?;
+        Some(finding(Rule::StartHole, severity, wall, sentence, None))
+    }
+
+    /// What a hole cuts into, or comes too near to.
+    fn hole_fault(&self, at: Point, reach: f64, contours: &Contours) -> Option<Finding> {
+        let rounding = self.units(1e-6);
+        contours.walls.nearer(at, reach - rounding)?;
+        let distance = contours.walls.distance_to(at, reach);
+        let wall = contours.walls.nearer(at, distance + rounding)?;
+        let diameter = self.settings.start_hole?;
+        let left = distance * self.unit_mm - diameter / 2.0;
+        let handle = name(self.drawing, &self.outlines[contours.outline_of(wall)]);
+        let cuts = left < -1e-6;
+        let sentence = match cuts {
+            true => say!(
+                the_start_hole_cuts_into,
+                diameter,
+                at.x,
+                at.y,
+                handle,
+                -left
+            ),
+            false => say!(
+                the_start_hole_comes_near,
+                diameter,
+                at.x,
+                at.y,
+                left.max(0.0),
+                handle,
+                self.settings.correction,
+                CLEAR
+            ),
+        };
+        self.hole_finding(Some(contours.place_of(wall)), cuts, sentence)
+    }
+
+    /// An opening that is nowhere deeper than `depth`, drawing units.
+    fn no_room(&self, index: usize, depth: f64) -> Option<Finding> {
+        let outline = &self.outlines[index];
+        let (diameter, depth) = (self.settings.start_hole?, depth * self.unit_mm);
+        let most = 2.0 * (depth - self.settings.correction - CLEAR);
+        let handle = name(self.drawing, outline);
+        let sentence = match most > 0.0 {
+            true => say!(no_start_hole_fits_in, diameter, handle, depth, most),
+            false => say!(no_start_hole_at_all_fits_in, diameter, handle, depth),
+        };
+        let first = outline.contour.segment(self.drawing, 0);
+        let place = first.as_ref().map(Place::from);
+        self.hole_finding(place, depth < diameter / 2.0, sentence)
+    }
+
+    /// Holes that run into each other, but for those that are one and the same.
+    fn holes_that_meet(&self, mut holes: Vec<(Point, usize)>) -> Vec<Finding> {
+        let (diameter, same) = (
+            self.units(self.settings.start_hole.unwrap_or_default()),
+            self.units(self.settings.tolerances.join),
+        );
+        holes.sort_by(|a, b| a.0.x.total_cmp(&b.0.x).then(a.0.y.total_cmp(&b.0.y)));
+        let mut faults = Vec::new();
+        for (number, (at, outline)) in holes.iter().enumerate() {
+            let near = holes[number + 1..]
+                .iter()
+                .take_while(|(other, _)| other.x - at.x < diameter);
+            for (other, of) in near {
+                let apart = (other - at).norm();
+                if (same..diameter).contains(&apart) {
+                    let first =
+                        |outline: usize| self.outlines[outline].contour.segment(self.drawing, 0);
+                    let place = |outline| first(outline).as_ref().map(Place::from);
+                    let sentence = say!(
+                        the_start_holes_meet,
+                        self.settings.start_hole.unwrap_or_default(),
+                        at.x,
+                        at.y,
+                        name(self.drawing, &self.outlines[*of]),
+                        other.x,
+                        other.y
+                    );
+                    let found = self.hole_finding(place(*outline), false, sentence);
+                    faults.extend(found.map(|found| Finding {
+                        related: place(*of).into_iter().collect(),
+                        ..found
+                    }));
+                }
+            }
+        }
+        faults
+    }
+
+    /// True where a start hole keeps its distance from every contour, and runs into none of the others; always where none is to be made.
+    pub(super) fn has_room(&self, at: Point, contours: &Contours, others: &[Point]) -> bool {
+        let Some(reach) = self.hole_reach() else {
+            return true;
+        };
+        let diameter = self.units(self.settings.start_hole.unwrap_or_default());
+        let rounding = self.units(1e-6);
+        contours.walls.nearer(at, reach - rounding).is_none()
+            && others.iter().all(|other| {
+                let apart = (other - at).norm();
+                apart <= rounding || apart >= diameter
+            })
+    }
+
+    /// The point of an opening that is furthest from every contour, and how far that is; `enough` will do. `None` where it has no inside.
+    pub(super) fn deepest(
+        &self,
+        index: usize,
+        contours: &Contours,
+        enough: f64,
+    ) -> Option<(Point, f64)> {
+        let own = &self.outlines[index];
+        let bounds = own.contour.bounds(self.drawing);
+        let lies_within = |other: &&Outline| {
+            let about = other.contour.bounds(self.drawing);
+            about != bounds
+                && bounds.min.x <= about.min.x
+                && bounds.min.y <= about.min.y
+                && about.max.x <= bounds.max.x
+                && about.max.y <= bounds.max.y
+                && other.contour.closed
+                && other.contour.double_of.is_none()
+                && other.contour.segment(self.drawing, 0).is_some_and(|first| {
+                    winding(self.drawing, &own.contour, first.geometry.point_at(0.5)) != 0
+                })
+        };
+        let region = Region {
+            drawing: self.drawing,
+            own,
+            islands: self.outlines.iter().filter(lies_within).collect(),
+            walls: &contours.walls,
+        };
+        let half = bounds.width().max(bounds.height()) / 2.0;
+        if !half.is_finite() || half <= 0.0 {
+            return None;
+        }
+        let middle = nalgebra::center(&bounds.min, &bounds.max);
+        let within = half * DEPTH;
+        let coarse = region.deepest(middle, half, enough, within)?;
+        let fine = region.deepest(coarse.0, 2.0 * within, enough, within / 100.0)?;
+        Some(if fine.1 > coarse.1 { fine } else { coarse })
+    }
+}
+
+/// The inside of a contour without that of what lies in it.
+struct Region<'a> {
+    drawing: &'a Drawing,
+    own: &'a Outline,
+    islands: Vec<&'a Outline>,
+    walls: &'a Walls,
+}
+
+impl Region<'_> {
+    fn holds(&self, point: Point) -> bool {
+        let lies_in = |outline: &Outline| winding(self.drawing, &outline.contour, point) != 0;
+        lies_in(self.own) && !self.islands.iter().any(|island| lies_in(island))
+    }
+
+    /// In the square about `middle`: it is parted, those parts first that may hold the deepest point, until none may hold one that is
+    /// deeper by more than `within`.
+    fn deepest(&self, middle: Point, half: f64, enough: f64, within: f64) -> Option<(Point, f64)> {
+        let square = |center: Point, half: f64, inside: Option<bool>| {
+            let away = self.walls.distance_to(center, half);
+            let inside = inside.unwrap_or_else(|| self.holds(center));
+            Square {
+                center,
+                half,
+                depth: if inside { away } else { -away },
+            }
+        };
+        let first = square(middle, half, None);
+        let mut best = (first.center, first.depth);
+        let mut waiting = BinaryHeap::from([first]);
+        let mut looked_at = 0;
+        while let Some(parent) = waiting.pop() {
+            looked_at += 1;
+            if best.1 >= enough || parent.most() <= best.1 + within || looked_at > MOST_SQUARES {
+                break;
+            }
+            let half = parent.half / 2.0;
+            // No wall comes between the middle of a square and those of its quarters that is further away than these.
+            let inside = (parent.depth.abs() > half * SQRT_2).then_some(parent.depth > 0.0);
+            for (x, y) in [(-half, -half), (half, -half), (-half, half), (half, half)] {
+                let quarter = square(parent.center + Vector::new(x, y), half, inside);
+                if quarter.depth > best.1 + within * 1e-3 {
+                    best = (quarter.center, quarter.depth);
+                }
+                if quarter.most() > best.1 + within {
+                    waiting.push(quarter);
+                }
+            }
+        }
+        (best.1 > 0.0).then_some(best)
+    }
+}
+
+/// A square of a region, by its middle. `depth` is how far that is from the walls, below 0 outside.
+struct Square {
+    center: Point,
+    half: f64,
+    depth: f64,
+}
+
+impl Square {
+    /// Nothing in it is deeper.
+    fn most(&self) -> f64 {
+        self.depth + self.half * SQRT_2
+    }
+}
+
+impl PartialEq for Square {
+    fn eq(&self, other: &Square) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Square {}
+
+impl PartialOrd for Square {
+    fn partial_cmp(&self, other: &Square) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Square {
+    fn cmp(&self, other: &Square) -> Ordering {
+        let places = |square: &Square| [square.center.x, square.center.y];
+        let by_place = || {
+            let ([x, y], [other_x, other_y]) = (places(self), places(other));
+            other_x.total_cmp(&x).then(other_y.total_cmp(&y))
+        };
+        self.most().total_cmp(&other.most()).then_with(by_place)
+    }
+}

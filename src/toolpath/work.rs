@@ -1,0 +1,173 @@
+//! What the paths of a job come to on the machine: lengths, times, slugs, money, and the wire that is thin enough.
+//!
+//! Nothing is guessed: what a key would be needed for that nobody has set is left out, and the key is named.
+
+use super::path::WirePath;
+use super::way::largest_lead_angle;
+use crate::drawing::{Drawing, EntityId, Outline, Role};
+use crate::geometry::Segment;
+use crate::settings::Effective;
+
+/// What some paths come to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Work {
+    /// In the order of the cuts.
+    pub cuts: Vec<WorkCut>,
+    /// mm of all cuts, leads included; the ways between contours are none.
+    pub length: f64,
+    /// mm of the ways from one contour to the next, on which nothing is cut.
+    pub jumps: f64,
+    /// Of all cuts.
+    pub minutes: Option<f64>,
+    /// In the money of `job.machine-rate`.
+    pub cost: Option<f64>,
+    /// What drops out of openings.
+    pub slugs: Vec<Slug>,
+    /// The largest angle between a lead and its contour, radians.
+    pub lead_angle: Option<f64>,
+    pub largest_wire: Option<LargestWire>,
+    /// Keys that are not set and that something of this would need.
+    pub missing: Vec<&'static str>,
+}
+
+/// One pass along one contour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorkCut {
+    /// Index of the outline in the drawing's list.
+    pub outline: usize,
+    pub pass: usize,
+    /// It cuts off what the passes have left standing.
+    pub cut_off: bool,
+    /// mm, leads included.
+    pub length: f64,
+    pub minutes: Option<f64>,
+}
+
+/// What drops out of an opening.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slug {
+    pub outline: usize,
+    /// g of steel.
+    pub mass: f64,
+}
+
+/// The thickest wire that still cuts every arc, and the arc that says so.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LargestWire {
+    /// mm: twice the radius less the spark gap of the last pass.
+    pub diameter: f64,
+    /// mm.
+    pub radius: f64,
+    pub entity: EntityId,
+    pub segment: usize,
+}
+
+/// What `paths` of a drawing come to.
+pub fn work(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &Effective,
+    paths: &[WirePath],
+) -> Work {
+    let unit_mm = settings.unit_of(drawing).mm;
+    let (thickness, rates) = (settings.job.thickness, settings.passes.rates.as_ref());
+    let cut = |path: &WirePath| {
+        let pieces = path.segments.iter();
+        let length: f64 = pieces.map(|piece| piece.geometry.length()).sum::<f64>() * unit_mm;
+        let rate = rates.and_then(|rates| rates.get(path.pass - 1));
+        WorkCut {
+            outline: path.outline,
+            pass: path.pass,
+            cut_off: path.cut_off,
+            length,
+            minutes: thickness
+                .zip(rate)
+                .map(|(thickness, rate)| length * thickness / rate),
+        }
+    };
+    let cuts: Vec<WorkCut> = paths.iter().map(cut).collect();
+    let minutes: Option<f64> = cuts.iter().map(|cut| cut.minutes).sum();
+    let minutes = minutes.filter(|_| !cuts.is_empty());
+    let slug = |path: &WirePath| {
+        let outline = &outlines[path.outline];
+        let area = outline.twice_area.abs() / 2.0 * unit_mm.powi(2);
+        (outline.role == Role::Opening && outline.contour.closed)
+            .then(|| settings.mass_of(area))?
+            .map(|mass| Slug {
+                outline: path.outline,
+                mass,
+            })
+    };
+    let jump = |pair: &[WirePath]| (pair[1].begin() - pair[0].end()).norm() * unit_mm;
+    let angles = paths
+        .iter()
+        .filter_map(|path| largest_lead_angle(&path.segments));
+    let is_cut = |index: usize| paths.iter().any(|path| path.outline == index);
+    let missing = [
+        ("job.thickness", thickness.is_none()),
+        ("passes.rates", rates.is_none()),
+        ("job.machine-rate", settings.job.machine_rate.is_none()),
+        ("gap", last_gap(settings).is_none()),
+    ];
+    Work {
+        length: cuts.iter().map(|cut| cut.length).sum(),
+        jumps: paths.windows(2).map(jump).sum(),
+        minutes,
+        cost: minutes
+            .zip(settings.job.machine_rate)
+            .map(|(minutes, rate)| minutes / 60.0 * rate),
+        slugs: paths
+            .iter()
+            .filter(|path| path.is_first())
+            .filter_map(slug)
+            .collect(),
+        lead_angle: angles.max_by(f64::total_cmp),
+        largest_wire: largest_wire(drawing, outlines, settings, &is_cut),
+        missing: missing
+            .into_iter()
+            .filter_map(|(key, is_missing)| is_missing.then_some(key))
+            .collect(),
+        cuts,
+    }
+}
+
+/// Spark gap of the last pass, mm, where somebody has set it.
+fn last_gap(settings: &Effective) -> Option<f64> {
+    let of_passes = settings.passes.gaps.as_ref();
+    of_passes.map_or(settings.gap, |gaps| gaps.last().copied())
+}
+
+/// The thickest wire that cuts every arc of the contours that are `cut`: of an arc that the wire runs inside of it is Ø = 2 (r − δ). Where
+/// the side is not known each arc counts. `None` where there is no such arc, or nobody has set the gap.
+pub fn largest_wire(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &Effective,
+    is_cut: &dyn Fn(usize) -> bool,
+) -> Option<LargestWire> {
+    let gap = last_gap(settings)?;
+    let unit_mm = settings.unit_of(drawing).mm;
+    let mut smallest: Option<LargestWire> = None;
+    for (index, outline) in outlines.iter().enumerate() {
+        if outline.contour.double_of.is_some() || outline.role == Role::Ignore || !is_cut(index) {
+            continue;
+        }
+        let side = outline.wire_side().map(|side| side.sign());
+        for segment in outline.contour.segments(drawing) {
+            let Segment::Arc(arc) = segment.geometry else {
+                continue;
+            };
+            let radius = arc.radius * unit_mm;
+            let is_inside = side.is_none_or(|side| side * arc.sweep > 0.0);
+            if is_inside && smallest.is_none_or(|smallest| radius < smallest.radius) {
+                smallest = Some(LargestWire {
+                    diameter: 2.0 * (radius - gap),
+                    radius,
+                    entity: segment.entity,
+                    segment: segment.segment,
+                });
+            }
+        }
+    }
+    smallest.filter(|smallest| smallest.diameter > 0.0)
+}

@@ -1,0 +1,173 @@
+//! `wedm holes`: the drill list, and what a program comes to.
+
+use super::{Desk, check};
+
+fn polyline(handle: &str, points: &[[f64; 2]]) -> String {
+    let count = points.len();
+    let points: String = points
+        .iter()
+        .map(|[x, y]| format!("10\n{x}\n20\n{y}\n"))
+        .collect();
+    format!(
+        "0\nLWPOLYLINE\n5\n{handle}\n100\nAcDbEntity\n8\n0\n100\nAcDbPolyline\n90\n{count}\n70\n1\n{points}"
+    )
+}
+
+/// A plate with an opening in the form of an L and a round one.
+fn desk() -> Desk {
+    let desk = Desk::new();
+    let entities = [
+        polyline(
+            "A0",
+            &[[-10.0, -10.0], [90.0, -10.0], [90.0, 70.0], [-10.0, 70.0]],
+        ),
+        polyline(
+            "A1",
+            &[
+                [0.0, 0.0],
+                [30.0, 0.0],
+                [30.0, 10.0],
+                [12.0, 10.0],
+                [12.0, 40.0],
+                [0.0, 40.0],
+            ],
+        ),
+        "0\nCIRCLE\n5\nA2\n100\nAcDbEntity\n8\n0\n100\nAcDbCircle\n10\n50\n20\n10\n40\n5\n".into(),
+    ]
+    .concat();
+    desk.write(
+        "plate.dxf",
+        format!("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1021\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"),
+    );
+    desk
+}
+
+const LIST: &str = "\
+drawing,x_mm,y_mm,diameter_mm,contour,hole
+plate.dxf,6.5080,6.5080,2,A1,found
+plate.dxf,50.0000,10.0000,2,A2,found
+plate.dxf,40.0000,-13.0000,2,A0,found
+";
+
+#[test]
+fn the_drill_list_is_a_table_and_a_layer_that_is_not_cut() {
+    let desk = desk();
+    let options = "--side auto --start-hole 2";
+    let list = desk.run(&format!("holes plate.dxf {options}"));
+    assert_eq!((list.code, list.stdout.as_str()), (Some(0), LIST));
+    check(
+        &desk,
+        &format!("holes plate.dxf {options} -o list.csv"),
+        0,
+        &["!written list.csv: 3 holes"],
+    );
+    assert_eq!(desk.read("list.csv"), LIST.as_bytes());
+    check(
+        &desk,
+        &format!("holes plate.dxf {options} -o drilled.dxf"),
+        0,
+        &["!written drilled.dxf: 3 holes"],
+    );
+    // Read again the holes are cut by nobody, and lie where they lay.
+    let program = desk.run(&format!("generate plate.dxf {options}")).stdout;
+    let again = desk.run(&format!("generate drilled.dxf {options}"));
+    assert_eq!((again.code, again.stdout), (Some(0), program));
+    let again = desk.run(&format!("holes drilled.dxf {options}"));
+    let places = |text: &str| -> Vec<String> {
+        let rows = text.lines().skip(1);
+        let row = |line: &str| {
+            line.split(',')
+                .skip(1)
+                .take(3)
+                .collect::<Vec<_>>()
+                .join(",")
+        };
+        rows.map(row).collect()
+    };
+    assert_eq!(places(&again.stdout), places(LIST), "{again:?}");
+    assert_eq!(again.stdout.matches(",given").count(), 3, "{again:?}");
+    check(&desk, "check drilled.dxf --side auto", 0, &["START-HOLES"]);
+    // Without a diameter the places alone.
+    check(
+        &desk,
+        "holes plate.dxf --side auto",
+        0,
+        &["plate.dxf,50.0000,10.0000,,A2,found"],
+    );
+    check(
+        &desk,
+        "holes plate.dxf clean.dxf --side auto --start-hole 2 --lead-in 3",
+        0,
+        &["plate.dxf,", "clean.dxf,"],
+    );
+}
+
+#[test]
+fn a_drill_list_that_cannot_be_is_said() {
+    let desk = desk();
+    let rows: [(&str, i32, &str); 6] = [
+        (
+            "holes plate.dxf --side auto --start-hole 12",
+            1,
+            "error[start-hole]: no start hole of Ø 12.000 mm has room in contour A2",
+        ),
+        (
+            "holes plate.dxf clean.dxf --side auto -o both.dxf",
+            2,
+            "the holes of 2 drawings are written as .csv",
+        ),
+        (
+            "holes plate.dxf --side auto -o list.txt",
+            2,
+            "holes are written as .csv or .dxf, not as .txt",
+        ),
+        ("holes plate.dxf --side auto -o list", 2, ".csv"),
+        ("holes plate.dxf --side auto -o plate.dxf", 2, "plate.dxf"),
+        (
+            "holes plate.dxf --side auto --start-hole 0",
+            2,
+            "start-hole",
+        ),
+    ];
+    let before = desk.read("plate.dxf");
+    for (arguments, code, said) in rows {
+        check(&desk, arguments, code, &[&format!("!{said}")]);
+    }
+    assert_eq!(desk.read("plate.dxf"), before);
+    for name in ["both.dxf", "list.txt", "list"] {
+        assert!(!desk.path(name).exists(), "{name}");
+    }
+}
+
+#[test]
+fn a_program_says_what_it_comes_to() {
+    let desk = desk();
+    desk.write(
+        "wedm.toml",
+        "side = \"auto\"\ngap = 0.02\n[passes]\nrates = [100]\n[job]\nthickness = 40\nmachine-rate = 60\n",
+    );
+    let ended = desk.run("generate plate.dxf -o plate.3b");
+    for part in [
+        "cut: ",
+        ", which costs ",
+        "  contour A2, pass 1: ",
+        "slug of contour A2: 24.7 g",
+        "leads: at most 90.0° to the contour",
+        "largest wire: Ø 9.960 mm, by R 5.000 mm of A2, segment 0",
+    ] {
+        assert!(ended.stderr.contains(part), "{part} in {ended:?}");
+    }
+    let ended = desk.run("generate plate.dxf -o plate.3b --lang zh");
+    assert!(ended.stderr.contains("轮廓 A2 的落料：24.7 g"), "{ended:?}");
+    // What is asked for and cannot be said names its keys; where nothing is asked nothing is said.
+    desk.write("wedm.toml", "side = \"auto\"\n[job]\nthickness = 40\n");
+    check(
+        &desk,
+        "generate plate.dxf -o plate.3b",
+        0,
+        &["!not known, since not set: passes.rates, job.machine-rate, gap"],
+    );
+    desk.write("wedm.toml", "side = \"auto\"\n");
+    let ended = desk.run("generate plate.dxf -o plate.3b");
+    assert!(!ended.stderr.contains("not known"), "{ended:?}");
+}
