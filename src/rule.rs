@@ -48,15 +48,18 @@ macro_rules! rules {
             $(#[doc = $name] $rule,)+
         }
 
-        const TABLE: &[Row] = &[$(Row {
-            rule: Rule::$rule,
-            name: $name,
-            severity: Severity::$severity,
-            subjects: &[$(Subject::$subject),+],
-        },)+];
-
         impl Rule {
-            pub const ALL: [Rule; TABLE.len()] = [$(Rule::$rule,)+];
+            pub const ALL: [Rule; [$(Rule::$rule),+].len()] = [$(Rule::$rule),+];
+
+            fn row(self) -> &'static Row {
+                match self {
+                    $(Rule::$rule => &Row {
+                        name: $name,
+                        severity: Severity::$severity,
+                        subjects: &[$(Subject::$subject),+],
+                    },)+
+                }
+            }
 
             /// Its page of documentation as it is written.
             fn written(self, language: Language) -> &'static str {
@@ -77,7 +80,6 @@ macro_rules! rules {
 }
 
 struct Row {
-    rule: Rule,
     name: &'static str,
     severity: Severity,
     subjects: &'static [Subject],
@@ -144,12 +146,6 @@ rules! {
 }
 
 impl Rule {
-    fn row(self) -> &'static Row {
-        let row = &TABLE[self as usize];
-        debug_assert_eq!(row.rule, self);
-        row
-    }
-
     pub fn name(self) -> &'static str {
         self.row().name
     }

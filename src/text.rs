@@ -64,9 +64,10 @@ pub fn edited(bytes: &[u8], edits: &[TextEdit]) -> Option<Vec<u8>> {
 pub(crate) fn difference(old: &[u8], new: &[u8]) -> Option<TextEdit> {
     let same = |(a, b): &(&u8, &u8)| a == b;
     let start = old.iter().zip(new).take_while(same).count();
-    let tail = old[start..].iter().rev().zip(new[start..].iter().rev());
+    let (before, after) = (old.get(start..)?, new.get(start..)?);
+    let tail = before.iter().rev().zip(after.iter().rev());
     let kept = tail.take_while(same).count();
-    let text = String::from_utf8(new[start..new.len() - kept].to_vec()).ok()?;
+    let text = String::from_utf8(new.get(start..new.len() - kept)?.to_vec()).ok()?;
     let range = start..old.len() - kept;
     (!range.is_empty() || !text.is_empty()).then_some(TextEdit { range, text })
 }
@@ -87,9 +88,14 @@ impl Default for SourceText {
     }
 }
 
+/// The first of a list, so many at most.
+pub(crate) fn head<T>(all: &[T], most: usize) -> &[T] {
+    all.get(..most).unwrap_or(all)
+}
+
 /// The first characters of some bytes, for a sentence about them.
 pub(crate) fn shown(bytes: &[u8]) -> String {
-    let near = String::from_utf8_lossy(&bytes[..bytes.len().min(48)]);
+    let near = String::from_utf8_lossy(head(bytes, 48));
     near.chars().take(12).collect()
 }
 
@@ -142,8 +148,9 @@ impl SourceText {
     pub(crate) fn digits_in(&self, range: &Range<usize>) -> Option<Range<usize>> {
         let bytes = self.slice(range.clone())?;
         let start = bytes.iter().position(u8::is_ascii_digit)?;
-        let digits = bytes[start..]
+        let digits = bytes
             .iter()
+            .skip(start)
             .take_while(|byte| byte.is_ascii_digit());
         let start = range.start + start;
         Some(start..start + digits.count())

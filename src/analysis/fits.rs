@@ -387,7 +387,7 @@ fn place((entity, segment): SegmentOf) -> Place {
 }
 
 /// The place that a finding speaks of, where the spots of a pair are.
-pub(super) fn spot_at<'a>(spots: &'a [Spot], at: SegmentOf) -> Option<&'a Spot> {
+pub(super) fn spot_at(spots: &[Spot], at: SegmentOf) -> Option<&Spot> {
     let is_there = |spot: &&Spot| spot.segment == at || spot.other == at;
     let there = spots.iter().filter(is_there);
     there.min_by(|a, b| a.clearance.total_cmp(&b.clearance))

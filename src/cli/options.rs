@@ -128,6 +128,10 @@ impl<const GROUP: usize> FromArgMatches for Keys<GROUP> {
 }
 
 /// A key by its option.
+#[expect(
+    clippy::expect_used,
+    reason = "the options are a constant list, and every start of the program asks for all of them"
+)]
 pub(crate) fn row(key: &str) -> &'static Row {
     static ROWS: LazyLock<Vec<Row>> = LazyLock::new(rows);
     let key = if key == "passes" { PASSES } else { key };

@@ -47,7 +47,7 @@ pub(super) fn to_text(bytes: &[u8]) -> (Vec<u8>, Option<String>) {
             text.truncate(mark);
             return (text, Some(say!(in_byte, begins_at, sentence)));
         }
-        let is_end = code == 0 && text[mark..].ends_with(b"\nEOF");
+        let is_end = code == 0 && text.ends_with(b"\nEOF");
         text.push(b'\n');
         if is_end {
             return (text, None);
@@ -96,7 +96,7 @@ impl<'a> Tags<'a> {
                 let rest = self.bytes.get(self.at..).unwrap_or_default();
                 let end = memchr::memchr(0, rest).ok_or_else(cut)?;
                 // A line end within a value would begin another line.
-                text.extend(rest[..end].iter().map(|&byte| {
+                text.extend(rest.iter().take(end).map(|&byte| {
                     if matches!(byte, b'\r' | b'\n') {
                         b' '
                     } else {

@@ -3,6 +3,7 @@
 //! Text from an editor is Unicode already: there no code page holds.
 
 use super::johab;
+use crate::text::head;
 use encoding_rs::Encoding;
 use memchr::memmem;
 
@@ -36,7 +37,7 @@ impl CodePage {
     /// The code page that the header names. Since release 2007 files are UTF-8; what is none there, some program has written in
     /// the page that it names all the same.
     pub(super) fn of_file(bytes: &[u8]) -> CodePage {
-        let head = &bytes[..bytes.len().min(HEADER)];
+        let head = head(bytes, HEADER);
         let version = variable(head, b"$ACADVER").unwrap_or_default();
         let is_utf_8 = version.starts_with(b"AC10") && version >= b"AC1021".as_slice();
         let name = String::from_utf8_lossy(variable(head, b"$DWGCODEPAGE").unwrap_or_default())
@@ -119,7 +120,8 @@ fn of_the_web(number: &str) -> Option<&'static Encoding> {
 /// The value of a header variable: what stands two lines below its name, comments left out.
 fn variable<'a>(head: &'a [u8], name: &[u8]) -> Option<&'a [u8]> {
     let at = memmem::find(head, name)?;
-    let mut lines = head[at..]
+    let mut lines = head
+        .get(at..)?
         .split(|&byte| byte == b'\n' || byte == b'\r')
         .map(<[u8]>::trim_ascii)
         .filter(|line| !line.is_empty());

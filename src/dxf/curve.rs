@@ -105,8 +105,9 @@ impl Points {
 
     fn differ_in_height(&self) -> bool {
         self.heights
-            .windows(2)
-            .any(|pair| (pair[0] - pair[1]).abs() > 1e-9 * pair[0].abs().max(1.0))
+            .iter()
+            .zip(self.heights.iter().skip(1))
+            .any(|(one, other)| (one - other).abs() > 1e-9 * one.abs().max(1.0))
     }
 
     fn in_space(&self) -> Vec<Vector3> {
@@ -124,7 +125,7 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) ->
     let (mut controls, mut through) = (Points::default(), Points::default());
     let (mut knots, mut weights) = (Vec::new(), Vec::new());
     let (mut degree, mut flags) = (None, 0);
-    let mut tangents: [[Option<f64>; 3]; 2] = [[None; 3]; 2];
+    let (mut first, mut last) = ([None; 3], [None; 3]);
     while let Some(tag) = tag_of_record(lexer) {
         if common.take(lexer, tag) {
             continue;
@@ -142,12 +143,12 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) ->
                     11 => through.x(value),
                     21 => through.y(value),
                     31 => through.z(value),
-                    12 | 22 | 32 => {
-                        tangents[0][usize::from(tag.code.unsigned_abs()) / 10 - 1] = Some(value)
-                    }
-                    13 | 23 | 33 => {
-                        tangents[1][usize::from(tag.code.unsigned_abs()) / 10 - 1] = Some(value)
-                    }
+                    12 => first[0] = Some(value),
+                    22 => first[1] = Some(value),
+                    32 => first[2] = Some(value),
+                    13 => last[0] = Some(value),
+                    23 => last[1] = Some(value),
+                    33 => last[2] = Some(value),
                     40 => knots.push(value),
                     _ => weights.push(value),
                 }
@@ -187,7 +188,7 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) ->
             .into_iter()
             .map(|point| plane.seen_from(point))
             .collect();
-        for tangent in &mut tangents {
+        for tangent in [&mut first, &mut last] {
             if let [Some(x), Some(y), z] = *tangent {
                 let seen = plane.seen_from(plane.origin + Vector3::new(x, y, z.unwrap_or(0.0)));
                 *tangent = [Some(seen.x), Some(seen.y), None];
@@ -199,7 +200,7 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) ->
     let lacks_knots = !is_through && knots.is_empty();
     let spline = if is_through {
         let points = through.points;
-        let [first, last] = tangents.map(|[x, y, _]| Some(Vector::new(x?, y?)));
+        let [first, last] = [first, last].map(|[x, y, _]| Some(Vector::new(x?, y?)));
         let closed = if flags & CLOSED != 0 {
             Spline::round(&points)
         } else {

@@ -178,8 +178,9 @@ impl Reader<'_> {
                 let rest = self.bytes.get(self.at..).unwrap_or_default();
                 let end = memchr::memchr(0, rest)
                     .ok_or(say!(the_file_ends_inside_the_name_of_a_layer))?;
-                self.layer = rest[..end]
+                self.layer = rest
                     .iter()
+                    .take(end)
                     .map(|&byte| if byte < b' ' { b'?' } else { byte })
                     .collect();
                 self.at += end + 1;

@@ -119,8 +119,11 @@ impl Document {
         let behind = self
             .findings
             .partition_point(|finding| range_key(finding).0 < self.text.line_start(zone.end));
-        let faults = self.findings[behind.saturating_sub(3)..behind]
+        let faults = self
+            .findings
             .iter()
+            .take(behind)
+            .skip(behind.saturating_sub(3))
             .any(|finding| {
                 matches!(&finding.place, Place::Text { range } if range.end >= near)
                     && finding.rule == Rule::Syntax
@@ -164,8 +167,8 @@ impl Document {
         if table.mirrored {
             mirror(&mut vertex);
         }
-        shift(&mut table.lines[index + 1..], lines);
-        shift(&mut self.table.lines[item + 1..], lines);
+        shift(&mut table.lines, index + 1, lines);
+        shift(&mut self.table.lines, item + 1, lines);
         self.shift_findings(range.end, bytes);
         let touched = Arc::make_mut(&mut self.drawing)
             .splice(entity, index, 1, &[vertex])
@@ -179,7 +182,7 @@ impl Document {
         let first = self
             .findings
             .partition_point(|finding| range_key(finding).0 < from);
-        for finding in &mut self.findings[first..] {
+        for finding in self.findings.iter_mut().skip(first) {
             shift_place(finding, bytes);
         }
     }
@@ -252,9 +255,9 @@ pub(super) fn plain_vertex(lines: Lines, range: Range<usize>) -> Option<(Vertex,
     ))
 }
 
-pub(super) fn shift(lines: &mut [u32], by: i64) {
+pub(super) fn shift(lines: &mut [u32], from: usize, by: i64) {
     if by != 0 {
-        for line in lines {
+        for line in lines.iter_mut().skip(from) {
             *line = line.wrapping_add(by as u32);
         }
     }

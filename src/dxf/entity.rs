@@ -162,7 +162,12 @@ impl Common {
             67 => self.paper_space = lexer.lines.trimmed(tag.value_line()) == b"1",
             210 | 220 | 230 => {
                 let value = self.coordinate(lexer, tag);
-                self.extrusion[usize::from(tag.code.unsigned_abs() / 10 - 21)] = value;
+                let [x, y, z] = &mut self.extrusion;
+                *match tag.code {
+                    210 => x,
+                    220 => y,
+                    _ => z,
+                } = value;
             }
             _ => return false,
         }
@@ -425,8 +430,9 @@ impl<const N: usize> Numbers<N> {
             if common.take(lexer, tag) {
                 continue;
             }
-            match self.codes.iter().position(|&code| code == tag.code) {
-                Some(index) => self.values[index] = common.coordinate(lexer, tag),
+            let mut known = self.codes.iter().zip(&mut self.values);
+            match known.find(|(code, _)| **code == tag.code) {
+                Some((_, value)) => *value = common.coordinate(lexer, tag),
                 None => other(lexer, tag),
             }
         }

@@ -1,6 +1,7 @@
 //! Findings of the reader, and how a value is quoted in their sentences.
 
 use crate::finding::{Detail, Finding, NotJudged, Place, Rule, Severity};
+use crate::text::head;
 use std::ops::Range;
 
 /// A fault that makes text unreadable.
@@ -41,7 +42,7 @@ pub(super) fn push(
 
 /// A value as it is quoted: at most 32 characters, nothing that a terminal would obey.
 pub(super) fn quoted(value: &[u8]) -> String {
-    let text = String::from_utf8_lossy(&value[..value.len().min(128)]);
+    let text = String::from_utf8_lossy(head(value, 128));
     let mut quoted: String = text.chars().take(32).flat_map(char::escape_debug).collect();
     if text.chars().nth(32).is_some() {
         quoted.push('…');

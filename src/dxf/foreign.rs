@@ -1,8 +1,10 @@
 //! What is no DXF text although it is called so.
 
+use crate::text::head;
+
 /// Says what the bytes are, when they are not DXF text; looks at their first kilobyte.
 pub(super) fn recognise(bytes: &[u8]) -> Option<&'static str> {
-    let head = &bytes[..bytes.len().min(1024)];
+    let head = head(bytes, 1024);
     let zeros = head.iter().filter(|&&byte| byte == 0).count();
     let known: [(&[u8], &str); 9] = [
         (

@@ -134,11 +134,14 @@ pub(super) fn level<'a>(
 }
 
 fn are_level(points: &[Vector3]) -> bool {
+    let Some(first) = points.first() else {
+        return true;
+    };
     let spread = points
         .iter()
-        .map(|point| (point - points[0]).norm())
+        .map(|point| (point - first).norm())
         .fold(0.0, f64::max);
     points
         .iter()
-        .all(|point| (point.z - points[0].z).abs() <= FLAT * spread)
+        .all(|point| (point.z - first.z).abs() <= FLAT * spread)
 }

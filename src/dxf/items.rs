@@ -90,7 +90,7 @@ impl Document {
 
     /// Which entity of before each entity read is. `None` where the edit reaches beyond the zone.
     fn plan(&self, first: usize, next: usize, read: &[ReadItem]) -> Option<Plan> {
-        let old = &self.table.items[first..next];
+        let old = self.table.items.get(first..next)?;
         let structure =
             |became: &Became| matches!(became, Became::Structure { .. }).then_some(*became);
         let before: Vec<Became> = old
@@ -177,8 +177,11 @@ impl Document {
             return None;
         }
         let mut ordinal = match unnamed {
-            true => self.table.items[..first]
+            true => self
+                .table
+                .items
                 .iter()
+                .take(first)
                 .filter(|item| item.is_entity() && counted(item.context))
                 .count(),
             false => 0,
@@ -249,7 +252,7 @@ impl Document {
                     .partition_point(|finding| range_key(finding).0 < end)
             })
             .max(from);
-        for finding in &mut self.findings[to..] {
+        for finding in self.findings.iter_mut().skip(to) {
             shift_place(finding, bytes);
         }
         fresh.sort_by_key(range_key);
@@ -270,8 +273,7 @@ impl Document {
         if plan.gone {
             let kept: FxHashSet<EntityId> =
                 plan.entities.iter().filter_map(|&(_, id)| id).collect();
-            let gone: Vec<EntityId> = table.items[old.clone()]
-                .iter()
+            let gone: Vec<EntityId> = items_in(&table.items, &old)
                 .filter_map(Item::entity)
                 .filter(|id| !kept.contains(id))
                 .collect();
@@ -282,21 +284,18 @@ impl Document {
                 delta.touched.push(Touched::Removed { entity });
             }
         }
-        table.by_ordinal -= table.items[old.clone()]
-            .iter()
+        table.by_ordinal -= items_in(&table.items, &old)
             .filter(|item| item.entity().is_some() && item.named == Named::ByOrdinal)
             .count();
         let mut position = if plan.come {
-            table.items[..old.start]
-                .iter()
+            items_in(&table.items, &(0..old.start))
                 .map(|item| item.entities().count())
                 .sum()
         } else {
             0
         };
         let mut planned = plan.entities.into_iter();
-        let layers: Vec<Became> = table.items[old.clone()]
-            .iter()
+        let layers: Vec<Became> = items_in(&table.items, &old)
             .map(|item| item.became)
             .filter(|became| matches!(became, Became::Layer(_)))
             .collect();
@@ -377,10 +376,12 @@ impl Document {
         let end = old.start + items.len();
         table.lines.splice(old.clone(), starts);
         table.items.splice(old, items);
-        shift(&mut table.lines[end..], lines);
+        shift(&mut table.lines, end, lines);
         if grown {
             for index in end..table.items.len() {
-                for entity in table.items[index].entities() {
+                let own = table.items.get(index);
+                let entities: Vec<_> = own.into_iter().flat_map(Item::entities).collect();
+                for entity in entities {
                     table.set_item_of(entity, index as u32);
                 }
             }
@@ -416,4 +417,8 @@ fn put(
         delta.touched.push(Touched::Entity { entity: id });
     }
     id
+}
+
+fn items_in<'a>(items: &'a [Item], range: &Range<usize>) -> std::slice::Iter<'a, Item> {
+    items.get(range.clone()).unwrap_or_default().iter()
 }

@@ -323,7 +323,7 @@ fn fits(code: i16, value: &[u8]) -> bool {
         | 420..=429
         | 440..=459
         | 1060..=1071 => {
-            let text = &value[number::trimmed(value)];
+            let text = number::trimmed(value);
             let digits = text.strip_prefix(b"-").unwrap_or(text);
             !digits.is_empty() && digits.iter().all(u8::is_ascii_digit)
         }

@@ -1,6 +1,6 @@
 //! The lines of DXF text as the lexer sees them. Knows of line ends and the byte-order mark, not of tags.
 
-use super::number::trimmed;
+use super::number::trimmed_range;
 use crate::text::{LineStarts, SourceText};
 use std::ops::Range;
 
@@ -87,7 +87,7 @@ impl<'a> Lines<'a> {
     /// Where a line's content stands without padding.
     pub(crate) fn trimmed_range(&self, line: usize) -> Range<usize> {
         let range = self.range(line);
-        let inner = trimmed(self.slice(range.clone()));
+        let inner = trimmed_range(self.slice(range.clone()));
         range.start + inner.start..range.start + inner.end
     }
 

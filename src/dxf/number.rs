@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 /// What is left of `bytes` without padding (spaces and tabs) on either side, as a range within them.
-pub(crate) fn trimmed(bytes: &[u8]) -> Range<usize> {
+pub(super) fn trimmed_range(bytes: &[u8]) -> Range<usize> {
     let padding = |byte: &u8| matches!(byte, b' ' | b'\t');
     let start = bytes
         .iter()
@@ -14,6 +14,10 @@ pub(crate) fn trimmed(bytes: &[u8]) -> Range<usize> {
         .rposition(|byte| !padding(byte))
         .map_or(start, |last| last + 1);
     start..end
+}
+
+pub(super) fn trimmed(bytes: &[u8]) -> &[u8] {
+    bytes.get(trimmed_range(bytes)).unwrap_or_default()
 }
 
 /// What a line that should be a group code is.
@@ -29,19 +33,21 @@ pub(crate) enum Code {
 pub(crate) fn code(line: &[u8]) -> Code {
     // Nearly all code lines are one to four digits behind spaces.
     let mut at = 0;
-    while at < line.len() && matches!(line[at], b' ' | b'\t') {
+    while let Some(b' ' | b'\t') = line.get(at) {
         at += 1;
     }
     let mut value = 0i32;
     let first = at;
-    while at < line.len() && line[at].is_ascii_digit() && at - first < 6 {
-        value = value * 10 + i32::from(line[at] - b'0');
+    while let Some(digit @ b'0'..=b'9') = line.get(at)
+        && at - first < 6
+    {
+        value = value * 10 + i32::from(digit - b'0');
         at += 1;
     }
     if at == line.len() && at > first {
         return in_range(value);
     }
-    let text = &line[trimmed(line)];
+    let text = trimmed(line);
     let (negative, digits) = match text {
         [b'-', digits @ ..] => (true, digits),
         [b'+', digits @ ..] => (false, digits),
@@ -80,23 +86,25 @@ const POWERS: [f64; 23] = [
 
 /// Reads a decimal number; padding is allowed. Only finite numbers in decimal notation are numbers.
 pub(crate) fn number(line: &[u8]) -> Number {
-    let text = &line[trimmed(line)];
+    let text = trimmed(line);
     if let Some(value) = decimal(text) {
         return Number::Exact(value);
     }
     let without_nul = text
         .iter()
         .rposition(|&byte| byte != 0)
-        .map_or(&text[..0], |last| &text[..=last]);
+        .and_then(|last| text.get(..=last))
+        .unwrap_or_default();
     if without_nul.len() < text.len() {
-        return match decimal(&without_nul[trimmed(without_nul)]) {
+        return match decimal(trimmed(without_nul)) {
             Some(value) => Number::Blemished(value, say!(is_followed_by_nul_bytes)),
             None => Number::Bad,
         };
     }
-    if let Some(exponent) = text.iter().position(|byte| matches!(byte, b'd' | b'D')) {
-        let mut plain = text.to_vec();
-        plain[exponent] = b'e';
+    let mut plain = text.to_vec();
+    let mut letters = plain.iter_mut();
+    if let Some(exponent) = letters.find(|byte| matches!(byte, b'd' | b'D')) {
+        *exponent = b'e';
         if let Some(value) = decimal(&plain) {
             return Number::Blemished(value, say!(has_a_fortran_exponent_expected_e));
         }
@@ -234,8 +242,10 @@ fn decimal(text: &[u8]) -> Option<f64> {
         return None;
     }
     // Both factors are exact, so the one rounding is the right one (Clinger, "How to read floating point numbers accurately").
-    if digits <= 19 && mantissa <= 1 << 53 && scale.unsigned_abs() <= 22 {
-        let power = POWERS[scale.unsigned_abs() as usize];
+    if digits <= 19
+        && mantissa <= 1 << 53
+        && let Some(power) = POWERS.get(scale.unsigned_abs() as usize)
+    {
         let value = if scale < 0 {
             mantissa as f64 / power
         } else {

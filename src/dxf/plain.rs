@@ -40,9 +40,10 @@ pub(super) fn read(lines: Lines, line: usize, layers: &mut Layers) -> Option<(Re
                 .filter(|byte| byte.is_ascii_uppercase())?;
             break;
         }
-        if let Some(index) = CODES.iter().position(|&known| known == code) {
+        let mut known = CODES.iter().zip(&mut values);
+        if let Some((_, own)) = known.find(|(known, _)| **known == code) {
             let (value, length) = number::leading(bytes.get(value_at..)?)?;
-            values[index] = Some(value);
+            *own = Some(value);
             at = behind_line_end(bytes, value_at + length)?;
         } else {
             let value = lines.content(next + 1);

@@ -13,6 +13,7 @@ use super::space::Lies;
 use super::table::{Became, Context};
 use crate::finding::{Finding, Severity};
 use crate::geometry::Unfit;
+use crate::text::head;
 
 /// What one item of the text says.
 #[derive(Debug)]
@@ -157,7 +158,7 @@ pub(super) fn read_item(
             item(Said::Nothing, context)
         }
         (Context::Outside, _) => {
-            let kind = String::from_utf8_lossy(&name[..name.len().min(64)]).into_owned();
+            let kind = String::from_utf8_lossy(head(name, 64)).into_owned();
             entity::pass_over(lexer);
             item(
                 Said::Entity(Outcome::Unsupported(

@@ -80,7 +80,7 @@ impl Document {
         let vertices = self.table.vertices.remove(&id)?;
         let entity = Arc::make_mut(&mut self.drawing).remove(id)?;
         self.table.set_item_of(id, NO_ITEM);
-        self.table.items[item].became = Became::Damaged;
+        self.table.items.get_mut(item)?.became = Became::Damaged;
         self.shift_findings(range.end, bytes);
         self.findings.insert(first, fault);
         self.suspended = Some(Box::new(Suspended {
@@ -123,7 +123,7 @@ impl Document {
         else {
             let fault = fault_in(Lines::new(&self.text), suspended.lines.clone())?;
             self.shift_findings(range.end, bytes);
-            self.findings[first] = fault;
+            *self.findings.get_mut(first)? = fault;
             self.suspended = Some(Box::new(suspended));
             return Some(Delta::default());
         };
@@ -143,9 +143,9 @@ impl Document {
             .ok()?;
         self.findings.remove(first);
         self.shift_findings(range.end, bytes);
-        self.table.items[suspended.item].became = Became::Entity(suspended.id);
+        self.table.items.get_mut(suspended.item)?.became = Became::Entity(suspended.id);
         self.table.set_item_of(suspended.id, suspended.item as u32);
-        shift(&mut suspended.vertices.lines[suspended.index + 1..], lines);
+        shift(&mut suspended.vertices.lines, suspended.index + 1, lines);
         self.table.vertices.insert(suspended.id, suspended.vertices);
         Some(Delta {
             touched: vec![touched],

@@ -188,6 +188,8 @@ impl Table {
         if index >= self.item_of.len() {
             self.item_of.resize(index + 1, NO_ITEM);
         }
-        self.item_of[index] = item;
+        if let Some(own) = self.item_of.get_mut(index) {
+            *own = item;
+        }
     }
 }

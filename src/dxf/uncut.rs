@@ -15,13 +15,13 @@ impl Document {
     pub(super) fn name_unsupported(&mut self) {
         self.findings
             .retain(|finding| finding.rule != Rule::UnsupportedEntity);
-        let mut count = vec![0usize; self.table.kinds.len()];
-        let mut first = vec![NO_ITEM; self.table.kinds.len()];
+        // Of each kind how many there are, and the first.
+        let mut seen = vec![(0usize, NO_ITEM); self.table.kinds.len()];
         // What a block holds counts where the block is drawn.
         let mut used = self.table.used.iter();
         let mut is_drawn = false;
         // Of most drawings everything is cut: then no item is looked at, however many there are.
-        let items = if count.is_empty() {
+        let items = if seen.is_empty() {
             &[][..]
         } else {
             &self.table.items[..]
@@ -31,11 +31,12 @@ impl Document {
                 is_drawn = used.next().copied().unwrap_or(false);
             }
             let mut name = |kind: u32, how_many: usize| {
-                let kind = kind as usize;
-                if count[kind] == 0 {
-                    first[kind] = index as u32;
+                if let Some((count, first)) = seen.get_mut(kind as usize) {
+                    if *count == 0 {
+                        *first = index as u32;
+                    }
+                    *count += how_many;
                 }
-                count[kind] += how_many;
             };
             match item.became {
                 Became::Unsupported(kind) if item.context != Context::Blocks || is_drawn => {
@@ -49,7 +50,7 @@ impl Document {
             }
         }
         let lines = Lines::new(&self.text);
-        for (index, (&count, &first)) in count.iter().zip(&first).enumerate() {
+        for (index, (count, first)) in seen.into_iter().enumerate() {
             let Some((kind, why)) = self.table.kinds.get(index as u32).filter(|_| count > 0) else {
                 continue;
             };

@@ -116,8 +116,10 @@ fn set_extents(file: &mut crate_dxf::Drawing, drawing: &Drawing) {
 fn with_table_handles(bytes: Vec<u8>) -> Vec<u8> {
     let lines: Vec<&[u8]> = bytes.split_inclusive(|byte| *byte == b'\n').collect();
     let pairs: Vec<(&[u8], &[u8])> = lines
-        .chunks_exact(2)
-        .map(|pair| (pair[0].trim_ascii(), pair[1].trim_ascii()))
+        .as_chunks()
+        .0
+        .iter()
+        .map(|[code, value]| (code.trim_ascii(), value.trim_ascii()))
         .collect();
     let seed_at = pairs
         .iter()
@@ -129,10 +131,9 @@ fn with_table_handles(bytes: Vec<u8>) -> Vec<u8> {
         return bytes;
     };
     let is_table = |at: usize| {
-        pairs[at].0 == b"2"
-            && at
-                .checked_sub(1)
-                .is_some_and(|before| pairs[before] == (b"0", b"TABLE"))
+        let before = at.checked_sub(1).and_then(|before| pairs.get(before));
+        pairs.get(at).is_some_and(|(code, _)| *code == b"2")
+            && before.is_some_and(|before| *before == (b"0", b"TABLE"))
     };
     let tables = (0..pairs.len()).filter(|at| is_table(*at)).count() as u64;
     let mut next = seed;

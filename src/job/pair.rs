@@ -99,7 +99,7 @@ fn roles_of_partners(snapshot: &Snapshot) -> Vec<(String, Role)> {
         .iter()
         .flat_map(|[punch, plate]| [(*punch, Role::Punch), (*plate, Role::Opening)]);
     let named = both.filter_map(|(index, role)| {
-        let first = outlines[index].contour.pieces.first()?;
+        let first = outlines.get(index)?.contour.pieces.first()?;
         Some((drawing.get(first.entity)?.handle.to_string(), role))
     });
     named.collect()

@@ -4,6 +4,7 @@ use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped, number, path_data
 use super::style;
 use crate::fit::{Fit, Spot};
 use crate::geometry::{Bounds, Point, Segment};
+use crate::text::head;
 
 /// Places that are enlarged, the worst first.
 const MOST: usize = 6;
@@ -28,7 +29,7 @@ pub fn fit_svg(fit: &Fit, unit_mm: f64) -> String {
     let frame = Frame::fitting(&bounds);
     let mut worst: Vec<&Spot> = fit.spots().collect();
     worst.sort_by(|a, b| a.clearance.total_cmp(&b.clearance));
-    let enlarged = &worst[..worst.len().min(MOST)];
+    let enlarged = head(&worst, MOST);
     let lenses_top = frame.bottom + 40.0;
     let legend_top = lenses_top + enlarged.len().div_ceil(COLUMNS) as f64 * (WINDOW + CAPTION);
     let um = |length: f64| length * unit_mm * 1e3;

@@ -70,14 +70,16 @@ pub fn schema() -> Value {
 
 /// The JSON Schema of `wedm.toml`.
 pub(crate) fn settings_schema() -> Value {
-    let whole = schema();
+    let mut whole = schema();
+    let mut part = |name| whole.get_mut(name).map(Value::take).unwrap_or_default();
+    let (settings, types) = (part("settings"), part("$defs"));
     let mut definitions = Map::new();
-    gather(&whole["settings"], &whole["$defs"], &mut definitions);
+    gather(&settings, &types, &mut definitions);
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": settings::FILE_NAME,
         "type": "object",
-        "allOf": [whole["settings"]],
+        "allOf": [settings],
         "$defs": definitions,
     })
 }

@@ -68,12 +68,12 @@ fn unlinked(text: &str, keep: impl Fn(&str) -> bool) -> String {
     let mut out = String::with_capacity(text.len());
     let mut rest = text;
     while let Some((before, link)) = rest.split_once("](") {
-        let Some((label_start, (target, behind))) = before.rfind('[').zip(link.split_once(')'))
+        let Some(((before, label), (target, behind))) =
+            before.rsplit_once('[').zip(link.split_once(')'))
         else {
             break;
         };
-        let label = &before[label_start + 1..];
-        out.push_str(&before[..label_start]);
+        out.push_str(before);
         if keep(target) {
             out.push_str(&format!("[{label}]({target})"));
         } else {

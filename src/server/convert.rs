@@ -22,8 +22,8 @@ pub(super) fn diagnostics(
     findings: &[Finding],
     encoding: Encoding,
 ) -> Vec<Diagnostic> {
-    findings
-        .iter()
+    let shown = findings.iter().take(PUBLISH_LIMIT);
+    shown
         .map(|finding| diagnostic(document, finding, encoding, None))
         .collect()
 }

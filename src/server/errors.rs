@@ -49,15 +49,13 @@ impl From<Stopped> for Error {
 
 /// Why nothing is made; `document` is the one in which findings have their places.
 pub(super) fn refusal(document: &Document, refusal: &Refusal, encoding: Encoding) -> Error {
-    let findings = refusal.findings();
-    let findings = &findings[..findings.len().min(convert::PUBLISH_LIMIT)];
     match refusal {
         Refusal::Cancelled => Error::request_cancelled(),
         Refusal::Fault(sentence) => internal(sentence),
         Refusal::Sentence(sentence) => refused(sentence),
         Refusal::Errors(_) | Refusal::Findings(_) | Refusal::Unproved(..) => refused_with(
             refusal.sentence(document.unit_mm()),
-            convert::diagnostics(document, findings, encoding),
+            convert::diagnostics(document, refusal.findings(), encoding),
         ),
     }
 }

@@ -390,6 +390,7 @@ impl Backend {
     }
 
     #[cfg(feature = "testing")]
+    #[expect(clippy::panic, reason = "that is what it is asked for")]
     async fn test_panic(&self, params: probe::Panic) -> Result<Value> {
         if params.site == probe::Site::Handler {
             panic!("asked for by wedm/test/panic");
@@ -414,7 +415,11 @@ fn read<P: DeserializeOwned>(mut params: Value) -> Result<(P, About)> {
         token: take("workDoneToken").filter(|token| token.is_string() || token.is_number()),
         // They are read by the settings' own reader, which names a misfit.
         options: take("options"),
-        uri: params["uri"].as_str().unwrap_or_default().into(),
+        uri: params
+            .get("uri")
+            .and_then(Value::as_str)
+            .unwrap_or_default()
+            .into(),
         position: None,
     };
     let params =

@@ -21,6 +21,11 @@ mod settings;
 mod shown;
 mod state;
 #[cfg(feature = "testing")]
+#[expect(
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    reason = "a test that cannot go on fails"
+)]
 pub mod testing;
 mod texts;
 mod token_memory;

@@ -117,9 +117,9 @@ impl Shown {
     fn find(&self, mark: u64, next: usize, is_it: impl Fn(&Kept) -> bool) -> Option<usize> {
         let behind = (next..self.marks.len()).chain(0..next.min(self.marks.len()));
         behind
-            .filter(|&at| self.marks[at] == mark)
+            .filter(|&at| self.marks.get(at) == Some(&mark))
             .take(MOST_ALIKE)
-            .find(|&at| self.kept[at].as_ref().is_some_and(&is_it))
+            .find(|&at| matches!(self.kept.get(at), Some(Some(kept)) if is_it(kept)))
     }
 }
 
@@ -127,7 +127,7 @@ impl Kept {
     fn write(&self, ranges: impl Iterator<Item = Range>, shown: &mut Vec<u8>) {
         let mut from = 0;
         for (&at, Range { start, end }) in self.places.iter().zip(ranges) {
-            shown.extend_from_slice(&self.json[from..at]);
+            shown.extend_from_slice(self.json.get(from..at).unwrap_or_default());
             for (label, number) in [
                 (r#"{"start":{"line":"#, start.line),
                 (r#","character":"#, start.character),
@@ -135,23 +135,13 @@ impl Kept {
                 (r#","character":"#, end.character),
             ] {
                 shown.extend_from_slice(label.as_bytes());
-                push_number(number, shown);
+                shown.extend_from_slice(number.to_string().as_bytes());
             }
             shown.extend_from_slice(b"}}");
             from = at + PLACE.len();
         }
-        shown.extend_from_slice(&self.json[from..]);
+        shown.extend_from_slice(self.json.get(from..).unwrap_or_default());
     }
-}
-
-fn push_number(number: u32, text: &mut Vec<u8>) {
-    let (mut digits, mut at, mut rest) = ([b'0'; 10], 10, number);
-    while rest > 0 || at == 10 {
-        at -= 1;
-        digits[at] = b'0' + (rest % 10) as u8;
-        rest /= 10;
-    }
-    text.extend_from_slice(&digits[at..]);
 }
 
 /// True where two findings differ in their range of the text at the most.

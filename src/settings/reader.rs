@@ -251,15 +251,15 @@ impl Reader {
             return self.misfit(key, node, say!(one_line_without_control_characters));
         }
         let mut rest = line.as_str();
-        while let Some(open) = rest.find('{') {
-            let end = rest[open..]
-                .find('}')
-                .map_or(rest.len(), |close| open + close + 1);
-            let name = &rest[open..end];
-            if !["{x}", "{y}", "{side}", "{register}"].contains(&name) {
+        while let Some((_, behind)) = rest.split_once('{') {
+            let (name, behind) = match behind.split_once('}') {
+                Some((name, behind)) => (format!("{{{name}}}"), behind),
+                None => (format!("{{{behind}"), ""),
+            };
+            if !["{x}", "{y}", "{side}", "{register}"].contains(&&*name) {
                 return self.complain(key, node, say!(holds_an_unknown_name, key, name));
             }
-            rest = &rest[end..];
+            rest = behind;
         }
         Some(line)
     }

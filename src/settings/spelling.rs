@@ -24,20 +24,23 @@ fn distance(one: &str, other: &str) -> usize {
     let mut row: Vec<usize> = (0..=other.len()).collect();
     let mut last = None;
     for (at, letter) in one.chars().enumerate() {
-        let mut next = vec![at + 1];
-        for (column, &their) in other.iter().enumerate() {
-            let changed = row[column] + usize::from(letter != their);
-            let mut best = changed.min(row[column + 1] + 1).min(next[column] + 1);
-            let turned = column > 0 && last == Some(their) && other[column - 1] == letter;
+        let (mut left, mut their_last) = (at + 1, None);
+        let mut next = vec![left];
+        for (column, (&their, above)) in other.iter().zip(row.windows(2)).enumerate() {
+            let &[up_left, up] = above else { continue };
+            let changed = up_left + usize::from(letter != their);
+            let mut best = changed.min(up + 1).min(left + 1);
+            let turned = last == Some(their) && their_last == Some(letter);
             if let Some(two_back) = before.get(column.wrapping_sub(1)).filter(|_| turned) {
                 best = best.min(two_back + 1);
             }
             next.push(best);
+            (left, their_last) = (best, Some(their));
         }
         before = std::mem::replace(&mut row, next);
         last = Some(letter);
     }
-    row[other.len()]
+    row.last().copied().unwrap_or_default()
 }
 
 /// The words that a type out of a closed set has.

@@ -30,7 +30,9 @@ impl Bytes {
 
     /// What lies before the gap, and what behind it.
     pub(crate) fn pieces(&self) -> (&[u8], &[u8]) {
-        (&self.buffer[..self.gap.start], &self.buffer[self.gap.end..])
+        let before = self.buffer.get(..self.gap.start);
+        let behind = self.buffer.get(self.gap.end..);
+        (before.unwrap_or_default(), behind.unwrap_or_default())
     }
 
     /// The text in one piece: a copy, kept until the next edit, where it has a gap.
@@ -80,10 +82,9 @@ impl Bytes {
     /// Replaces a range and leaves no gap.
     pub(crate) fn replace(&mut self, range: Range<usize>, replacement: &[u8]) {
         self.join();
-        if range.len() == replacement.len() {
-            self.buffer[range].copy_from_slice(replacement);
-        } else {
-            self.buffer.splice(range, replacement.iter().copied());
+        match self.buffer.get_mut(range.clone()) {
+            Some(old) if old.len() == replacement.len() => old.copy_from_slice(replacement),
+            _ => _ = self.buffer.splice(range, replacement.iter().copied()),
         }
     }
 
@@ -114,7 +115,9 @@ impl Bytes {
         }
         let behind = range.start + replacement.len();
         self.buffer.copy_within(range.end..next, behind);
-        self.buffer[range.start..behind].copy_from_slice(replacement);
+        if let Some(place) = self.buffer.get_mut(range.start..behind) {
+            place.copy_from_slice(replacement);
+        }
         self.gap = next - range.end + behind..next + width;
     }
 }

@@ -1,5 +1,6 @@
 //! Where each line of a text begins, in little more than two bytes a line.
 
+use super::head;
 use std::ops::Range;
 
 /// Lines in one block.
@@ -64,17 +65,14 @@ impl LineStarts {
     pub(super) fn begun_by(&self, offset: usize) -> usize {
         match self {
             LineStarts::Near { blocks, offsets } => {
-                let Some(block) = blocks
-                    .partition_point(|&start| start as usize <= offset)
-                    .checked_sub(1)
+                let behind = blocks.partition_point(|&start| start as usize <= offset);
+                let Some((block, &begin)) = blocks.iter().enumerate().take(behind).next_back()
                 else {
                     return 0;
                 };
                 let first = block * BLOCK;
-                let of_block = &offsets[first..offsets.len().min(first + BLOCK)];
-                first
-                    + of_block
-                        .partition_point(|&far| blocks[block] as usize + usize::from(far) <= offset)
+                let of_block = head(offsets.get(first..).unwrap_or_default(), BLOCK);
+                first + of_block.partition_point(|&far| begin as usize + usize::from(far) <= offset)
             }
             LineStarts::Far(starts) => starts.partition_point(|&start| start as usize <= offset),
         }
@@ -99,7 +97,7 @@ impl LineStarts {
                 }
             }
             LineStarts::Far(starts) => {
-                for start in &mut starts[lines.end..] {
+                for start in starts.iter_mut().skip(lines.end) {
                     *start = start.wrapping_add(shift);
                 }
                 starts.splice(lines, fresh.iter().copied());
@@ -124,9 +122,13 @@ fn replace_near(
         true => offsets.len().min((lines.end / BLOCK + 1) * BLOCK),
         false => offsets.len(),
     };
-    let start = |line: usize| blocks[line / BLOCK].wrapping_add(u32::from(offsets[line]));
-    let before = (first * BLOCK..lines.start).map(start);
-    let behind = (lines.end..end).map(|line| start(line).wrapping_add(shift));
+    let start = |line: usize| {
+        let block = blocks.get(line / BLOCK)?;
+        Some(block.wrapping_add(u32::from(*offsets.get(line)?)))
+    };
+    let before = (first * BLOCK..lines.start).filter_map(start);
+    let behind = (lines.end..end).filter_map(start);
+    let behind = behind.map(|start| start.wrapping_add(shift));
     let (mut new_blocks, mut new_offsets) = (
         Vec::new(),
         Vec::with_capacity(end - first * BLOCK + fresh.len()),
@@ -143,7 +145,7 @@ fn replace_near(
         new_offsets.push(offset);
     }
     let last = end.div_ceil(BLOCK);
-    for block in &mut blocks[last..] {
+    for block in blocks.iter_mut().skip(last) {
         *block = block.wrapping_add(shift);
     }
     blocks.splice(first..last, new_blocks);
@@ -152,7 +154,7 @@ fn replace_near(
             offsets.truncate(first * BLOCK);
             offsets.append(&mut new_offsets);
         }
-        false => offsets[first * BLOCK..end].copy_from_slice(&new_offsets),
+        false => _ = offsets.splice(first * BLOCK..end, new_offsets),
     }
     true
 }
@@ -172,7 +174,7 @@ fn each_line_start(bytes: &[u8], mut begins: impl FnMut(u32)) {
     let zero_bytes = |word: u64| !(((word & LOW) + LOW) | word | LOW);
     begins(0);
     let mut end_at = |end: usize| {
-        if bytes[end] == b'\n' || bytes.get(end + 1) != Some(&b'\n') {
+        if bytes.get(end) == Some(&b'\n') || bytes.get(end + 1) != Some(&b'\n') {
             begins(end as u32 + 1);
         }
     };

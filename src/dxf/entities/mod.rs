@@ -13,6 +13,7 @@ use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::{curve, insert, plain};
 use crate::drawing::Kind;
+use crate::text::head;
 
 /// Reads the entity whose record begins at `start`; the lexer stands behind its name.
 pub(in crate::dxf) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
@@ -40,7 +41,7 @@ pub(in crate::dxf) fn read_closely(start: Tag, lexer: &mut Lexer, layers: &mut L
         b"INSERT" => insert::read(start, lexer, layers),
         b"POINT" => mark::point(start, lexer, layers),
         name => {
-            let kind = String::from_utf8_lossy(&name[..name.len().min(64)]).into_owned();
+            let kind = String::from_utf8_lossy(head(name, 64)).into_owned();
             let why = if pass_over(lexer) {
                 say!(it_lies_in_paper_space)
             } else {

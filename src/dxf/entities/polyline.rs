@@ -258,7 +258,11 @@ pub(super) fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Ou
     }
     // The points of a 3D polyline are world coordinates.
     let lies = match in_space {
-        true if heights.windows(2).all(|pair| pair[0] == pair[1]) => {
+        true if heights
+            .iter()
+            .zip(heights.iter().skip(1))
+            .all(|(one, other)| one == other) =>
+        {
             Some(Lies::Level(heights.first().copied().unwrap_or(0.0)))
         }
         true => {

@@ -46,9 +46,8 @@ pub(in crate::server) fn generate(context: &RequestContext, params: Params) -> R
     let made = job::generate(&task.snapshot, findings(&task), &wanted, context);
     context.check()?;
     let made = made.map_err(|refusal| task.refused(context, &refusal))?;
-    let shown = &made.warnings[..made.warnings.len().min(convert::PUBLISH_LIMIT)];
-    let warnings = convert::diagnostics(&task.subject, shown, context.encoding);
-    let of_cuts = (&made.holes[..], &made.work);
+    let warnings = convert::diagnostics(&task.subject, &made.warnings, context.encoding);
+    let of_cuts = (made.holes.as_slice(), &made.work);
     Ok(Program::new(
         &task.snapshot,
         made.program,

@@ -27,9 +27,7 @@ pub(in crate::server) fn pair(
     context.check()?;
     let made = made.map_err(|refusal| task.refused(context, &refusal))?;
     let programs = made.into_iter().map(|part| {
-        let warnings = &part.made.warnings;
-        let shown = &warnings[..warnings.len().min(convert::PUBLISH_LIMIT)];
-        let warnings = convert::diagnostics(&task.subject, shown, context.encoding);
+        let warnings = convert::diagnostics(&task.subject, &part.made.warnings, context.encoding);
         PairProgram {
             part: part.part,
             corrections: part.corrections,

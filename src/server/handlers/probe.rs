@@ -30,6 +30,7 @@ pub(in crate::server) fn panic(state: &mut State, site: Site, reply: Reply<Value
     }
 }
 
+#[expect(clippy::panic, reason = "that is what it is asked for")]
 fn panic_holding(_held: Reply<Value>) {
     panic!("asked for by wedm/test/panic")
 }

@@ -3,8 +3,10 @@
 //! Knows nothing of JSON. Never allocates by `Content-Length` alone: memory grows with the bytes that came. Every step uses up
 //! bytes: whatever came, there are fewer steps than bytes.
 
+use crate::text::head;
 use memchr::memmem;
 use std::io::Read;
+use std::ops::Range;
 
 /// A body longer than this is skipped.
 pub(super) const BODY_CAP: u64 = 256 * 1024 * 1024;
@@ -71,7 +73,9 @@ impl<R: Read> Frames<R> {
 
     /// Says that a body was not what it should be: its end, and what follows, are searched for the next header.
     pub(crate) fn was_broken(&mut self, body: &[u8]) {
-        let tail = &body[body.len().saturating_sub(MARKER_CAP)..];
+        let tail = body
+            .get(body.len().saturating_sub(MARKER_CAP)..)
+            .unwrap_or_default();
         self.dropped += self.start as i64 - tail.len() as i64;
         self.buffer.splice(..self.start, tail.iter().copied());
         self.start = 0;
@@ -79,7 +83,12 @@ impl<R: Read> Frames<R> {
     }
 
     fn rest(&self) -> &[u8] {
-        &self.buffer[self.start..]
+        self.buffer.get(self.start..).unwrap_or_default()
+    }
+
+    /// A part of what is there and not used up.
+    fn ahead(&self, range: Range<usize>) -> &[u8] {
+        self.rest().get(range).unwrap_or_default()
     }
 
     /// Reads more; false at the end of the stream.
@@ -93,7 +102,10 @@ impl<R: Read> Frames<R> {
         let old = self.buffer.len();
         self.buffer.resize(old + CHUNK, 0);
         let count = loop {
-            match self.input.read(&mut self.buffer[old..]) {
+            match self
+                .input
+                .read(self.buffer.get_mut(old..).unwrap_or_default())
+            {
                 Ok(count) => break count,
                 Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
                 Err(_) => break 0,
@@ -119,7 +131,7 @@ impl<R: Read> Frames<R> {
         // Where the next line of the block begins.
         let mut at = 0;
         loop {
-            let Some(end) = memchr::memchr(b'\n', &self.rest()[at..])
+            let Some(end) = memchr::memchr(b'\n', self.ahead(at..self.rest().len()))
                 .map(|end| at + end)
                 .filter(|&end| end <= HEADER_CAP)
             else {
@@ -138,7 +150,7 @@ impl<R: Read> Frames<R> {
                 }
                 continue;
             };
-            let line = self.rest()[at..end].trim_ascii();
+            let line = self.ahead(at..end).trim_ascii();
             if line.is_empty() {
                 let is_between_frames = at == 0;
                 self.start += end + 1;
@@ -162,7 +174,7 @@ impl<R: Read> Frames<R> {
                     })
                 }
                 // Something was printed right before the next header.
-                Some(_) if marker(&self.rest()[at..=end]).is_none() => None,
+                Some(_) if marker(self.ahead(at..end + 1)).is_none() => None,
                 _ => Some(say!(is_no_header_line, shown(line))),
             };
             if let Some(fault) = fault {
@@ -183,7 +195,7 @@ impl<R: Read> Frames<R> {
             let have = self.rest().len().min(length);
             // No JSON holds a header line: where one stands, the length was wrong and the next frame begins.
             let from = searched.saturating_sub(MARKER_CAP);
-            if let Some(at) = marker(&self.rest()[from..have]) {
+            if let Some(at) = marker(self.ahead(from..have)) {
                 self.start += from + at;
                 return Frame::Broken(say!(the_next_frame_begins_within_a_body, length));
             }
@@ -202,7 +214,7 @@ impl<R: Read> Frames<R> {
             self.dropped += end as i64;
             std::mem::replace(&mut self.buffer, rest)
         } else {
-            let body = self.buffer[self.start..end].to_vec();
+            let body = self.ahead(0..length).to_vec();
             self.start = end;
             if self.start == self.buffer.len() {
                 self.drop_used();
@@ -219,7 +231,7 @@ impl<R: Read> Frames<R> {
             let have = usize::try_from(left)
                 .unwrap_or(usize::MAX)
                 .min(self.rest().len());
-            if let Some(at) = marker(&self.rest()[..have]) {
+            if let Some(at) = marker(self.ahead(0..have)) {
                 self.start += at;
                 return;
             }
@@ -255,13 +267,13 @@ impl<R: Read> Frames<R> {
 
 /// The begin of what stands in a header's place, for a message.
 fn shown(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(&bytes[..bytes.len().min(MARKER_CAP)]).into_owned()
+    String::from_utf8_lossy(head(bytes, MARKER_CAP)).into_owned()
 }
 
 /// Name and value of a header line.
 fn field(line: &[u8]) -> Option<(&[u8], &[u8])> {
-    let colon = memchr::memchr(b':', line)?;
-    let (name, value) = (&line[..colon], &line[colon + 1..]);
+    let mut parts = line.splitn(2, |byte| *byte == b':');
+    let (name, value) = (parts.next()?, parts.next()?);
     let is_token = !name.is_empty()
         && name
             .iter()
@@ -276,13 +288,11 @@ fn marker(bytes: &[u8]) -> Option<usize> {
     memmem::find_iter(bytes, TAIL).find_map(|at| {
         let end = at + TAIL.len();
         let begin = end.checked_sub(NAME.len())?;
-        let value = &bytes[end..];
-        let line =
-            &value[..memchr::memchr(b'\n', &value[..value.len().min(MARKER_CAP - NAME.len())])?];
-        let digits = line.trim_ascii();
+        let value = head(bytes.get(end..)?, MARKER_CAP - NAME.len());
+        let digits = value.get(..memchr::memchr(b'\n', value)?)?.trim_ascii();
         let whole = !digits.is_empty()
             && digits.iter().all(u8::is_ascii_digit)
-            && bytes[begin..end].eq_ignore_ascii_case(NAME);
+            && bytes.get(begin..end)?.eq_ignore_ascii_case(NAME);
         whole.then_some(begin)
     })
 }

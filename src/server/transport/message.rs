@@ -126,12 +126,12 @@ fn quote_overflowing_numbers(body: &[u8]) -> Option<Vec<u8>> {
                 }) {
                     at += 1;
                 }
-                let token = &body[begin..at];
+                let token = body.get(begin..at).unwrap_or_default();
                 let number = std::str::from_utf8(token)
                     .ok()
                     .and_then(|token| token.parse::<f64>().ok());
                 if number.is_some_and(f64::is_infinite) {
-                    quoted.extend_from_slice(&body[copied..begin]);
+                    quoted.extend_from_slice(body.get(copied..begin).unwrap_or_default());
                     quoted.push(b'"');
                     quoted.extend_from_slice(token);
                     quoted.push(b'"');
@@ -142,7 +142,7 @@ fn quote_overflowing_numbers(body: &[u8]) -> Option<Vec<u8>> {
         }
     }
     (copied > 0).then(|| {
-        quoted.extend_from_slice(&body[copied..]);
+        quoted.extend_from_slice(body.get(copied..).unwrap_or_default());
         quoted
     })
 }

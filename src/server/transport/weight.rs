@@ -37,10 +37,11 @@ pub(super) fn is_too_heavy(json: &[u8]) -> bool {
 /// What stands behind the end of a string; nothing where it does not end.
 fn behind_string(mut rest: &[u8]) -> &[u8] {
     while let Some(at) = memchr::memchr2(b'"', b'\\', rest) {
-        if rest[at] == b'"' {
-            return &rest[at + 1..];
+        let behind = rest.get(at..).unwrap_or_default();
+        if let [b'"', behind @ ..] = behind {
+            return behind;
         }
-        rest = rest.get(at + 2..).unwrap_or_default();
+        rest = behind.get(2..).unwrap_or_default();
     }
     &[]
 }
