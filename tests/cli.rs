@@ -771,6 +771,80 @@ fn formats_that_are_not_read_are_named_and_not_skipped() {
     assert!(!desk.run("check strange").stderr.contains("a.txt"));
 }
 
+/// Programs come under names that say nothing: what stands in them does, or the command line.
+#[test]
+fn a_file_is_known_by_what_stands_in_it_where_its_name_does_not_say_it() {
+    let desk = Desk::new();
+    let iso = "%\nN1 G92 X0 Y0\nN2 G01 X5.\nN3 G01 Y5.\nN4 G01 X0.\nN5 G01 Y0.\nM02\n%\n";
+    let (three_b, drawing) = (desk.read("hole.3b"), desk.read("tight.dxf"));
+    for (name, content) in [
+        ("job.txt", iso.as_bytes()),
+        ("job.CNC", iso.as_bytes()),
+        ("job.eia", iso.as_bytes()),
+        ("hole.cmd", &three_b),
+        ("hole.txt", &three_b),
+        ("hole", &three_b),
+    ] {
+        desk.write(name, content);
+        check(&desk, &format!("check {name}"), 0, &["1 file checked"]);
+        check(&desk, &format!("simulate {name}"), 0, &[]);
+    }
+    desk.write("plate.txt", &drawing);
+    check(&desk, "check plate.txt", 1, &["plate.txt:34:1"]);
+    check(&desk, "fix plate.txt -o fixed.txt", 0, &[]);
+    check(&desk, "check fixed.txt", 0, &["nothing found"]);
+    // One line says too little of itself.
+    desk.write("line.txt", "N1\n");
+    check(&desk, "check line.txt", 2, &["!--language"]);
+    check(
+        &desk,
+        "check line.txt --language iso",
+        0,
+        &["1 file checked"],
+    );
+    check(&desk, "check hole.3b --language dxf", 1, &["syntax"]);
+    check(
+        &desk,
+        "check hole.3b --language tape",
+        2,
+        &["!dxf, 3b, iso"],
+    );
+    let mut command = desk.command("check - --stdin-name job.txt");
+    command.stdin(std::fs::File::open(desk.path("hole.txt")).unwrap());
+    assert_eq!(Ended::of(command.output().unwrap()).code, Some(0));
+}
+
+/// Where the wire is threaded is told whatever the layout, and in the program where the settings want it there.
+#[test]
+fn the_thread_hole_is_always_told() {
+    let desk = Desk::new();
+    let generate = "generate clean.dxf --side punch --thread -3,-2";
+    let hole = "the wire is threaded at -3.000, -2.000 mm";
+    for (header, layout, stands) in [
+        ("", "compact", false),
+        ("", "aligned", true),
+        ("", "checking", true),
+        ("header = true", "compact", true),
+        ("header = false", "aligned", false),
+    ] {
+        desk.write("wedm.toml", format!("[program]\n{header}\n"));
+        let ended = desk.run(&format!("{generate} --layout {layout}"));
+        assert!(ended.stderr.contains(hole), "{ended:?}");
+        let comment = ended
+            .stdout
+            .starts_with("; Start Point = -3.000 , -2.000\n");
+        assert_eq!(comment, stands, "{header} {layout}: {ended:?}");
+        desk.write("made.3b", &ended.stdout);
+        check(&desk, "check made.3b", 0, &["nothing found"]);
+    }
+    check(
+        &desk,
+        &format!("{generate} --format iso"),
+        0,
+        &[&format!("!{hole}")],
+    );
+}
+
 #[test]
 fn of_more_than_a_hundred_thousand_findings_the_rest_is_counted() {
     let desk = Desk::new();

@@ -189,6 +189,7 @@ fn the_page_of_settings_shows_every_key_with_its_default() {
         "program.start-hole" => "2.0",
         "program.tab" => "3.0",
         "program.tab-stop" => "\"M01\"",
+        "program.header" => "true",
         "job.thickness" => "40",
         "job.slug-limit" => "100",
         "linetypes" => "{ DASHED = \"punch\" }",
@@ -399,6 +400,7 @@ fn python_type(row: &Row, schema: &Value) -> String {
         Some("integer") => "int".into(),
         Some("boolean") => "bool".into(),
         Some("string") => "str".into(),
+        Some("array") if schema["prefixItems"].is_array() => "Sequence[float]".into(),
         Some("array") => format!("Sequence[{}]", python_type(row, &schema["items"])),
         Some("object") if schema["properties"].is_object() => match row.key.as_str() {
             "profiles" => "Profile".into(),
@@ -425,7 +427,10 @@ fn python_class_of_drawings() -> String {
             false => c.to_string(),
         });
         let schema = resolved(&wedm::protocol::schema(), schema);
-        let kind = python_type(row, &schema);
+        let kind = match key.as_str() {
+            "contours" => "Mapping[str, ContourSettings]".into(),
+            _ => python_type(row, &schema),
+        };
         format!("    {}: {kind}\n", snake.collect::<String>())
     })
     .collect()
@@ -445,6 +450,11 @@ fn the_python_client_has_every_key() {
             "How ISO programs are written for one kind of machine.",
         ),
         (
+            "ContourSettings",
+            "drawings.NAME.contours.HANDLE.",
+            "What is said of one contour of one drawing.",
+        ),
+        (
             "DrawingSettings",
             "drawings.NAME.",
             "What is said of one drawing.",
@@ -458,10 +468,10 @@ fn the_python_client_has_every_key() {
     let rows = rows();
     for row in &rows {
         let (of, _) = row.key.rsplit_once('.').unwrap_or_default();
-        let is_held = of.starts_with("drawings.")
-            || classes
-                .iter()
-                .any(|(_, prefix, _)| prefix.trim_end_matches('.') == of);
+        let mut prefixes = classes
+            .iter()
+            .map(|(_, prefix, _)| prefix.trim_end_matches('.'));
+        let is_held = prefixes.any(|prefix| prefix == of);
         assert!(is_held, "no class of the Python client has {}", row.key);
     }
     for (name, prefix, about) in classes {

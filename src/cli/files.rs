@@ -1,6 +1,6 @@
 //! Files in: which there are, of which kind each is, and the settings that hold for it.
 
-use super::options::Common;
+use super::options::{Common, FileLanguage};
 use super::report::Row;
 use super::{Failure, output};
 use crate::disk::{self, Seen, plain};
@@ -32,14 +32,30 @@ pub(crate) struct Opened {
     pub(crate) settings_rows: Vec<Row>,
 }
 
+#[derive(Clone, Copy)]
 enum Kind {
     Dxf,
     Program(Language),
 }
 
+impl From<FileLanguage> for Kind {
+    fn from(language: FileLanguage) -> Kind {
+        match language {
+            FileLanguage::Dxf => Kind::Dxf,
+            FileLanguage::ThreeB => Kind::Program(Language::ThreeB),
+            FileLanguage::Iso => Kind::Program(Language::Iso),
+        }
+    }
+}
+
 /// Reads one file with the settings that hold for it: `wedm.toml` upwards from it, `--config`, then the options.
 pub(crate) fn open(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
-    let kind = kind_of(path)?;
+    let kind = match kind_of(path, common) {
+        Ok(kind) => kind,
+        Err(failure) => head(path)
+            .and_then(|head| kind_of_content(path, &head))
+            .ok_or(failure)?,
+    };
     let (settings, settings_rows) = settings_for(path, common, last)?;
     let (bytes, seen) = read(path).map_err(|reason| Failure::of(path, reason))?;
     let (document, writing) = document(&kind, bytes, Arc::new(settings));
@@ -58,10 +74,11 @@ pub(crate) fn open_stdin(
     common: &Common,
     last: &Settings,
 ) -> Result<(Document, Vec<Row>), Failure> {
-    let kind = kind_of(name)?;
+    let kind = kind_of(name, common);
     let (settings, rows) = settings_for(name, common, last)?;
     let bytes = disk::read_stream_at_most(std::io::stdin().lock(), LARGEST_STREAM, Vec::new())
         .map_err(|reason| Failure::of(name, reason))?;
+    let kind = kind.or_else(|failure| kind_of_content(name, &bytes).ok_or(failure))?;
     Ok((document(&kind, bytes, Arc::new(settings)).0, rows))
 }
 
@@ -107,11 +124,43 @@ impl Opened {
     }
 }
 
-fn kind_of(path: &Path) -> Result<Kind, Failure> {
-    let ending = path
-        .extension()
-        .map(|ending| ending.to_string_lossy().to_ascii_lowercase())
-        .unwrap_or_default();
+/// So much of a file is looked at to know what it is.
+const HEAD: u64 = 64 * 1024;
+
+/// The begin of a file; of what is none, such as a pipe, nothing may be taken.
+fn head(path: &Path) -> Option<Vec<u8>> {
+    let file = std::fs::File::open(path).ok()?;
+    let mut head = Vec::new();
+    file.metadata().ok()?.is_file().then_some(())?;
+    std::io::Read::read_to_end(&mut std::io::Read::take(file, HEAD), &mut head).ok()?;
+    Some(head)
+}
+
+/// What a file is whose name does not say it.
+fn kind_of_content(path: &Path, bytes: &[u8]) -> Option<Kind> {
+    if ending_of(path) == "dwg" {
+        return None;
+    }
+    let mut words = bytes
+        .split(u8::is_ascii_whitespace)
+        .filter(|word| !word.is_empty());
+    if words.next() == Some(b"0") && words.next() == Some(b"SECTION") {
+        return Some(Kind::Dxf);
+    }
+    Language::of_content(bytes).map(Kind::Program)
+}
+
+fn ending_of(path: &Path) -> String {
+    let ending = path.extension().unwrap_or_default();
+    ending.to_string_lossy().to_ascii_lowercase()
+}
+
+/// By what the command line says, else by the name of the file.
+fn kind_of(path: &Path, common: &Common) -> Result<Kind, Failure> {
+    if let Some(language) = common.language {
+        return Ok(language.into());
+    }
+    let ending = ending_of(path);
     if let Some(language) = Language::of_ending(&ending) {
         return Ok(Kind::Program(language));
     }

@@ -84,6 +84,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let said: Vec<Finding> = made.warnings.iter().filter(of_program).cloned().collect();
     report::say(path, document, &said);
     summarise(arguments, &made.program, made.contours);
+    output::say_thread_hole(&made.holes, document.unit_mm());
     told(&snapshot, &made.work);
     if let Some(finished) = made.finished {
         output::say(&say!(

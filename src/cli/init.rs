@@ -146,7 +146,7 @@ fn file(set: &[(&str, String)]) -> String {
     let mut text = format!("# {}\n", say!(settings_of_wedm));
     let mut section = "";
     let rows = settings::rows();
-    for row in rows.iter().filter(|row| !row.key.starts_with("profiles.")) {
+    for row in rows.iter().filter(|row| !row.key.contains("NAME")) {
         let (of, key) = row.key.rsplit_once('.').unwrap_or(("", &row.key));
         if of != section {
             section = of;
@@ -192,6 +192,10 @@ mod tests {
                 .lines()
                 .filter(|line| line.contains(" = ") && !line.starts_with('#'));
             assert_eq!(uncommented.count(), set.len(), "{text}");
+            assert!(
+                settings.drawings.is_none(),
+                "a drawing that nobody has: {text}"
+            );
             assert_eq!(settings.wire_diameter.is_some(), !set.is_empty());
         }
     }

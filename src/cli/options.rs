@@ -37,6 +37,18 @@ pub(crate) struct Common {
     /// Settings file, laid over the `wedm.toml` found upwards from the input
     #[arg(long, value_name = "FILE", help_heading = "Settings")]
     pub(crate) config: Option<PathBuf>,
+    /// What the file is, whatever its name says [default: by its ending, else by what stands in it]
+    #[arg(long, value_enum, value_name = "LANGUAGE")]
+    pub(crate) language: Option<FileLanguage>,
+}
+
+/// What a file can be.
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum FileLanguage {
+    Dxf,
+    #[value(name = "3b", alias = "4b")]
+    ThreeB,
+    Iso,
 }
 
 /// How a program is written.

@@ -3,6 +3,7 @@
 use super::Failure;
 use crate::disk;
 use crate::message::{columns, is_hidden, readable};
+use crate::toolpath::StartHole;
 use anstyle::{AnsiColor, Style};
 use serde::Serialize;
 use std::borrow::Cow;
@@ -85,6 +86,14 @@ pub(crate) fn is_for_people() -> bool {
 /// A line to stderr. Nobody can be told when that fails.
 pub(crate) fn say(text: &str) {
     let _ = writeln!(anstream::stderr().lock(), "{}", shown(text));
+}
+
+/// Where the wire is threaded first, to stderr; `unit_mm` is that of the holes.
+pub(crate) fn say_thread_hole(holes: &[StartHole], unit_mm: f64) {
+    if let Some(hole) = holes.first() {
+        let at = hole.at * unit_mm;
+        say(&say!(the_wire_is_threaded_at, at.x, at.y));
+    }
 }
 
 /// What went wrong, to stderr.

@@ -101,6 +101,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             say!(blocks, program.blocks),
             program.length
         ));
+        output::say_thread_hole(&part.made.holes, document.unit_mm());
         if part.is_other_side {
             output::say(&say!(the_wire_runs_on_the_other_side, part.part));
         }

@@ -5,13 +5,15 @@
 
 mod amounts;
 pub mod dxf;
+mod occurrence;
 pub(crate) mod program;
 mod symbol;
 mod whole;
 
+pub(crate) use occurrence::{Occurrence, Question, Role, Stop, Stopped};
 pub use symbol::Symbol;
 pub(crate) use symbol::SymbolKind;
-pub(crate) use whole::{Occurrence, Question, Role, Stop, Stopped, Whole};
+pub(crate) use whole::Whole;
 
 use crate::document::{Document, Source};
 use crate::drawing::Unit;

@@ -1,21 +1,14 @@
 //! What an editor asks about the whole of a text, after every edit: it runs beside the document, and stops when nobody waits any more.
 
+use super::occurrence::{Occurrence, Question, Role, Stop, Stopped};
 use super::program::{highlights, match_of, pauses};
 use super::{Fold, Symbol, Token, dxf, program};
 use crate::document::Snapshot;
 use crate::program::Document;
 use crate::text::SourceText;
-use std::ops::Range;
 
 /// Places of one answer.
 const PLACES: usize = 10_000;
-
-/// Asked now and then: true when nobody wants the result any more.
-pub(crate) type Stop<'a> = &'a dyn Fn() -> bool;
-
-/// Nobody wanted the result any more.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Stopped;
 
 /// A text, as far as such a question holds it.
 #[derive(Clone, Copy)]
@@ -27,29 +20,6 @@ pub(crate) enum Whole<'a> {
         name: Option<&'a dxf::Name>,
         snapshot: Option<&'a Snapshot>,
     },
-}
-
-/// What is asked about a place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Question {
-    Definition,
-    References { with_definition: bool },
-    Highlights,
-}
-
-/// What an occurrence is to what is asked about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Role {
-    Defines,
-    Uses,
-    /// It belongs to it.
-    Partner,
-}
-
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Occurrence {
-    pub(crate) range: Range<usize>,
-    pub(crate) role: Role,
 }
 
 impl<'a> Whole<'a> {
@@ -98,30 +68,9 @@ impl<'a> Whole<'a> {
         question: Question,
         stop: Stop<'_>,
     ) -> Result<Option<Vec<Occurrence>>, Stopped> {
-        let of_program = |range| Occurrence {
-            range,
-            role: Role::Partner,
-        };
         match (self, question) {
-            (Whole::Program(program), Question::Definition) => Ok(Some(
-                match_of(program, offset)
-                    .map(of_program)
-                    .into_iter()
-                    .collect(),
-            )),
-            (Whole::Program(program), Question::Highlights) => Ok(Some(
-                highlights(program, offset)
-                    .into_iter()
-                    .map(of_program)
-                    .collect(),
-            )),
-            (Whole::Program(program), Question::References { .. }) => {
-                let all = pauses(program);
-                let is_one = all
-                    .iter()
-                    .any(|range| range.start <= offset && offset <= range.end);
-                let all = all.into_iter().filter(|_| is_one).take(PLACES);
-                Ok(Some(all.map(of_program).collect()))
+            (Whole::Program(program), question) => {
+                places_in_program(program, offset, question, stop).map(Some)
             }
             (Whole::Dxf { name: None, .. }, _) => Ok(None),
             (
@@ -133,15 +82,42 @@ impl<'a> Whole<'a> {
                 question,
             ) => {
                 let mut found = dxf::occurrences(text, name, PLACES, stop).ok_or(Stopped)?;
-                found.retain(|found| match question {
-                    Question::Definition => found.role == Role::Defines,
-                    Question::References { with_definition } => {
-                        with_definition || found.role != Role::Defines
-                    }
-                    Question::Highlights => true,
-                });
+                found.retain(|found| question.wants(found.role));
                 Ok(Some(found))
             }
         }
     }
+}
+
+/// In a program: of what is named, its places; else what belongs together.
+fn places_in_program(
+    program: &Document,
+    offset: usize,
+    question: Question,
+    stop: Stop<'_>,
+) -> Result<Vec<Occurrence>, Stopped> {
+    let partner = |range| Occurrence {
+        range,
+        role: Role::Partner,
+    };
+    let mut named = program::named(program, offset, PLACES, stop)?;
+    if !named.is_empty() {
+        named.retain(|place| question.wants(place.role));
+        return Ok(named);
+    }
+    Ok(match question {
+        Question::Definition => match_of(program, offset).map(partner).into_iter().collect(),
+        Question::Highlights => highlights(program, offset)
+            .into_iter()
+            .map(partner)
+            .collect(),
+        Question::References { .. } => {
+            let all = pauses(program);
+            let is_one = all
+                .iter()
+                .any(|range| range.start <= offset && offset <= range.end);
+            let all = all.into_iter().filter(|_| is_one).take(PLACES);
+            all.map(partner).collect()
+        }
+    })
 }

@@ -5,6 +5,7 @@
 
 mod alike;
 mod chunks;
+mod content;
 pub mod convert;
 mod document;
 mod edits;

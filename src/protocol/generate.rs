@@ -40,8 +40,12 @@ pub(crate) struct Closure {
 
 /// Result of `wedm/generate`: a program that has been decoded again and held against its path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
 pub(crate) struct Program {
     pub(crate) program: String,
+    /// Where the wire is threaded first, drawing units.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) thread_hole: Option<Point>,
     /// Number of blocks.
     pub(crate) blocks: usize,
     /// Length of the path in mm.
@@ -97,6 +101,7 @@ impl Program {
             minutes: work.minutes,
             work: Some(Work::new(drawing, outlines, work)),
             program: proved.text,
+            thread_hole: holes.first().map(|hole| hole.at.into()),
             blocks: proved.blocks,
             length: proved.length,
             closure: Closure {

@@ -50,6 +50,8 @@ pub struct Effective {
     pub layout: Layout,
     /// The layout that somebody has set; without one, a program that is formatted stays in its own.
     pub stated_layout: Option<Layout>,
+    /// Programs of blocks begin with a comment that says where the wire is threaded.
+    pub header: bool,
     pub direction: Direction,
     /// The direction that somebody has set.
     pub stated_direction: Option<Direction>,
@@ -172,6 +174,9 @@ impl Effective {
             docs_url: settings.docs_url.clone(),
             layout: program.layout(),
             stated_layout: program.layout,
+            header: program
+                .header
+                .unwrap_or(program.layout() != Layout::Compact),
             direction: program.direction(),
             stated_direction: program.direction,
             corner: program.corner(),

@@ -137,9 +137,11 @@ tables! {
 
     /// How a program is written.
     ProgramSettings() {
-        /// Form of the blocks. Programs that are formatted keep their own where none is set. The last two begin with
-        /// `; Start Point = x , y`.
+        /// Form of the blocks. Programs that are formatted keep their own where none is set.
         layout: Layout = Layout::Compact => name;
+        /// Whether 3B and 4B programs begin with `; Start Point = x , y`, the comment that says where the wire is threaded, mm. Not set: in
+        /// every layout but `compact`.
+        header: bool => truth;
         /// Direction in which closed contours are cut.
         direction: Direction = Direction::Ccw => name;
         /// How the wire goes round a convex corner of the part.

@@ -113,6 +113,7 @@ def _words_of(schema: dict[str, Any], value: dict[str, Any]) -> set[str]:
         ("Job", "JobSettings"),
         ("Profile", "ProfileSettings"),
         ("DrawingSettings", "DrawingSettings"),
+        ("ContourSettings", "ContourSettings"),
     ],
 )
 def test_settings_have_the_keys_of_the_schema(schema: dict[str, Any], ours: str, theirs: str) -> None:

@@ -537,9 +537,13 @@ export interface ContourSettings {
  */
 export interface ProgramSettings {
   /**
-   * Form of the blocks. Programs that are formatted keep their own where none is set. The last two begin with `; Start Point = x , y`.
+   * Form of the blocks. Programs that are formatted keep their own where none is set.
    */
   layout?: Layout;
+  /**
+   * Whether 3B and 4B programs begin with `; Start Point = x , y`, the comment that says where the wire is threaded, mm. Not set: in every layout but `compact`.
+   */
+  header?: boolean;
   /**
    * Direction in which closed contours are cut.
    */
@@ -1005,6 +1009,10 @@ export interface PairProgram {
   otherSide: boolean;
   program: string;
   /**
+   * Where the wire is threaded first, drawing units.
+   */
+  threadHole?: Point;
+  /**
    * Number of blocks.
    */
   blocks: number;
@@ -1349,6 +1357,10 @@ export interface RulePageText {
  */
 export interface Program {
   program: string;
+  /**
+   * Where the wire is threaded first, drawing units.
+   */
+  threadHole?: Point;
   /**
    * Number of blocks.
    */

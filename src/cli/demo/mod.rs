@@ -25,7 +25,7 @@ use std::path::PathBuf;
 /// asks for the 3B program, decodes it again, and writes demo.dxf, demo.3b and demo.svg. Ends with 0 only when all that it
 /// says was found to be true.
 #[derive(Args, Debug)]
-#[command(after_help = "\
+#[command(mut_arg("language", |language| language.hide(true)), after_help = "\
 Examples:
   wedm demo
   wedm demo --correction 0.12 plate")]

@@ -27,6 +27,7 @@ pub(crate) use selection::selections;
 pub(crate) use symbols::symbols;
 pub(crate) use tokens::{tokens, tokens_in};
 
+use super::occurrence::{Occurrence, Role, Stop, Stopped};
 use super::{Completion, Signature};
 use crate::program::Document;
 use crate::text::TextEdit;
@@ -50,6 +51,11 @@ trait Language {
     /// The word at a byte and the one that belongs to it, where that is not a matter of the machine's way.
     fn partner(&self, _: usize) -> Option<(Range<usize>, Range<usize>)> {
         None
+    }
+
+    /// Every place of what is named at a byte, in the order of the text, at most `limit`: lines that are called, rows of tables.
+    fn named(&self, _: usize, _: usize, _: Stop<'_>) -> Result<Vec<Occurrence>, Stopped> {
+        Ok(Vec::new())
     }
 
     /// What may lead a block number.
@@ -77,6 +83,22 @@ fn of(document: &Document) -> &dyn Language {
 /// What can stand at a byte, what is most likely first.
 pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion> {
     of(document).completions(offset)
+}
+
+/// Every place of what is named at a byte; none where nothing else is said of it, such as of a line that nobody calls.
+pub(crate) fn named(
+    document: &Document,
+    offset: usize,
+    limit: usize,
+    stop: Stop<'_>,
+) -> Result<Vec<Occurrence>, Stopped> {
+    let places = of(document).named(offset, limit, stop)?;
+    let is_told = places.iter().any(|place| place.role == Role::Uses);
+    Ok(if is_told || places.len() > 1 {
+        places
+    } else {
+        Vec::new()
+    })
 }
 
 /// The form of the block that is written at a byte; `None` where none is.

@@ -11,7 +11,7 @@ declare! {
     it_is_not_utf_8_text => "it is not UTF-8 text";
     dwg_is_not_read => "DWG is not read, expected .dxf: save the drawing as DXF";
     its_name_has_no_ending(endings, last) => "its name has no ending, expected {endings} or {last}";
-    its_name_ends_otherwise(ending) => "its name ends with .{ending}, expected .dxf, .3b, .iso or .nc";
+    its_name_ends_otherwise(ending) => "its name ends with .{ending}, and nothing in it says what it is; expected .dxf, .3b, .iso or .nc, or --language";
     note => "note:";
     the_fit_is_drawn_as_svg => "the fit is drawn as .svg";
     the_fit_is_not_known(path, errors) => "{path}: whether the parts fit is not known, the drawing has {errors}";
@@ -176,6 +176,7 @@ declare! {
     the_program_is_written(heading, target, program, contours, length) => "{heading} {target}: {program}, {contours}, wire path {length:.3} mm";
     a_controller_that_counts_j_drifts(x, y) => "; a controller that counts J drifts by {x:.2}, {y:.2} µm";
     decoded_again(deviation, drift) => "decoded again: at most {deviation:.2} µm from the path{drift}";
+    the_wire_is_threaded_at(x, y) => "the wire is threaded at {x:.3}, {y:.3} mm";
     all_of_them_can_be_cut => "all of them can be cut";
     not_ok(count) => "{count} not ok";
     drawing_units_of_mm_radius(unit) => "drawing units of {unit} mm; radius in mm";

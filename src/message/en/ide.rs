@@ -135,6 +135,7 @@ declare! {
     the_corner_is_chamfered(word, mm) => "**{word}** the corner at the end of this cut is chamfered, from each of its walls {mm} mm";
     matter_of_the_machine(word) => "**{word}** a matter of the machine: it is kept, not followed";
     matter_of_the_machine_mostly(word, usual) => "**{word}** a matter of the machine: {usual}. It is kept, not followed";
+    the_row_of_the_table_is_in_line(line, row) => "line {line} of the program gives it: `{row}`";
     begin_and_end_on_tape => "**%** where the program begins and ends on tape";
     block_that_may_be_left_out => "**/** the block is left out where the operator has switched that on: a matter of the machine";
     number_that_a_call_may_name(word) => "**{word}** block number: it has no meaning for the path, but a call (`M98 P…`) may name it";

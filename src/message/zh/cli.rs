@@ -11,7 +11,7 @@ translate! {
     it_is_not_utf_8_text => "不是 UTF-8 文本";
     dwg_is_not_read => "不读 DWG，要 .dxf：请把图形另存为 DXF";
     its_name_has_no_ending(endings, last) => "文件名没有扩展名，应为 {endings} 或 {last}";
-    its_name_ends_otherwise(ending) => "文件扩展名是 .{ending}，应为 .dxf、.3b、.iso 或 .nc";
+    its_name_ends_otherwise(ending) => "文件扩展名是 .{ending}，内容也看不出是什么；应为 .dxf、.3b、.iso 或 .nc，或用 --language 指明";
     note => "注意：";
     the_fit_is_drawn_as_svg => "配合图只写成 .svg";
     the_fit_is_not_known(path, errors) => "{path}：不知道是否配合，图纸有{errors}";
@@ -176,6 +176,7 @@ translate! {
     the_program_is_written(heading, target, program, contours, length) => "{heading} {target}：{program}，{contours}，切割路线 {length:.3} mm";
     a_controller_that_counts_j_drifts(x, y) => "；按 J 计数的控制器累计偏差 {x:.2}, {y:.2} µm";
     decoded_again(deviation, drift) => "重新解码：偏离切割路线最多 {deviation:.2} µm{drift}";
+    the_wire_is_threaded_at(x, y) => "穿丝孔位于 {x:.3}, {y:.3} mm";
     all_of_them_can_be_cut => "全部可以切割";
     not_ok(count) => "{count} 段有问题";
     drawing_units_of_mm_radius(unit) => "图形单位 {unit} mm，半径 mm";

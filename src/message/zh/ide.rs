@@ -135,6 +135,7 @@ translate! {
     the_corner_is_chamfered(word, mm) => "**{word}** 本段末端的拐角倒角，每边 {mm} mm";
     matter_of_the_machine(word) => "**{word}** 由机床决定：保留，不模拟";
     matter_of_the_machine_mostly(word, usual) => "**{word}** 由机床决定：{usual}。保留，不模拟";
+    the_row_of_the_table_is_in_line(line, row) => "由程序第 {line} 行给出：`{row}`";
     begin_and_end_on_tape => "**%** 纸带上程序的开头和结尾";
     block_that_may_be_left_out => "**/** 操作者打开跳段开关时略去本段：由机床决定";
     number_that_a_call_may_name(word) => "**{word}** 段号：与路线无关，但调用指令（`M98 P…`）可以指定它";

@@ -13,7 +13,7 @@ use crate::finding::Side;
 use crate::geometry::{Segment, Vector, turn};
 use crate::program::grid::point_of;
 use crate::program::write::{ProofError, ProvedProgram, Writer, cuts, nothing_to_write, walk, way};
-use crate::settings::{Effective, Jumps, Layout};
+use crate::settings::{Effective, Jumps};
 use crate::toolpath::{Source, WirePath};
 
 /// Writes the paths as one program and proves it. `unit_mm` is the drawing's unit in mm.
@@ -116,7 +116,7 @@ impl Writer for Blocks<'_> {
             ));
         }
         let Some(from) = from else {
-            if self.settings.layout != Layout::Compact {
+            if self.settings.header {
                 push_start_point(&mut self.out, first);
             }
             return Ok(());

@@ -67,7 +67,7 @@ from .results import (
     WorkCut,
 )
 from .server import Action, Server
-from .settings import DrawingSettings, Job, Pair, Passes, Profile, ProgramSettings, Settings
+from .settings import ContourSettings, DrawingSettings, Job, Pair, Passes, Profile, ProgramSettings, Settings
 from .shown import Rows
 
 __version__ = "0.1.0"
@@ -86,6 +86,7 @@ __all__ = [
     "Closure",
     "Contour",
     "ContourPiece",
+    "ContourSettings",
     "Contours",
     "Delete",
     "Diagnostic",

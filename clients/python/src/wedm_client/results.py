@@ -380,6 +380,8 @@ class Program(Value):
     """A program for the machine, decoded again by the server before it was handed out. ``length`` is mm, ``deviation`` µm."""
 
     text: str
+    #: Where the wire is threaded first, drawing units.
+    thread_hole: Point
     blocks: int
     length: float
     closure: Closure

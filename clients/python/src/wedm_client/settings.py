@@ -45,6 +45,7 @@ class ProgramSettings(TypedDict, total=False):
     """How a program is written."""
 
     layout: Literal["compact", "aligned", "checking"]
+    header: bool
     direction: Literal["ccw", "cw", "as-drawn"]
     corner: Literal["arc", "intersection"]
     thread: Place
@@ -87,11 +88,20 @@ class Profile(TypedDict, total=False):
     end: Sequence[str]
 
 
+class ContourSettings(TypedDict, total=False):
+    """What is said of one contour of one drawing."""
+
+    side: Place
+    thread: Place
+    entry: Place
+    order: Place
+
+
 class DrawingSettings(TypedDict, total=False):
     """What is said of one drawing."""
 
     suppress: Mapping[str, Mapping[str, str]]
-    contours: Mapping[str, DrawingSettings]
+    contours: Mapping[str, ContourSettings]
 
 
 class Settings(TypedDict, total=False):

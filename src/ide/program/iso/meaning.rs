@@ -1,5 +1,6 @@
 //! What a word of a line says to the machine: what every control takes alike, and what is a matter of the machine said to be so.
 
+use super::names;
 use super::vocabulary::{known, usual};
 use crate::program::iso::block::{Block, Offset, read_line};
 use crate::program::iso::document::Document;
@@ -29,7 +30,13 @@ pub(crate) fn meaning(document: &Document, word: Range<usize>) -> Option<String>
     };
     let of_table = |letter: u8| matches!(letter, b'D' | b'H');
     Some(match found? {
-        Token::Word { letter, number, .. } => about.word(letter, number),
+        Token::Word { letter, number, .. } => {
+            let word = about.word(letter, number);
+            match about.row_of(letter, number) {
+                Some(row) => format!("{word}\n\n{row}"),
+                None => word,
+            }
+        }
         Token::Definition {
             letter,
             value: Some(value),
@@ -97,6 +104,19 @@ struct About<'a> {
 }
 
 impl About<'_> {
+    /// Where the program itself gives the row of a table that a word chooses, and what it says there.
+    fn row_of(&self, letter: u8, number: Number) -> Option<String> {
+        if !matches!(letter, b'C' | b'E') {
+            return None;
+        }
+        let index = offset(letter, number)?.index;
+        let line = names::line_of_row(self.document, letter, index)?;
+        let row = String::from_utf8_lossy(self.document.text().line(line))
+            .trim()
+            .to_owned();
+        Some(say!(the_row_of_the_table_is_in_line, line + 1, row))
+    }
+
     fn word(&self, letter: u8, number: Number) -> String {
         let shown = self.shown;
         match letter {

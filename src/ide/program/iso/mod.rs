@@ -6,12 +6,14 @@ mod centres;
 mod completion;
 mod matching;
 mod meaning;
+mod names;
 mod signature;
 #[cfg(test)]
 mod tests;
 mod vocabulary;
 
 use super::{Completion, Language, Part, Signature, WordKind};
+use crate::ide::occurrence::{Occurrence, Stop, Stopped};
 use crate::program::iso::block::word_range;
 use crate::program::iso::{self, Document, Token, words};
 use crate::text::TextEdit;
@@ -72,6 +74,18 @@ impl Language for Document {
 
     fn partner(&self, offset: usize) -> Option<(Range<usize>, Range<usize>)> {
         matching::partner(self, offset)
+    }
+
+    fn named(
+        &self,
+        offset: usize,
+        limit: usize,
+        stop: Stop<'_>,
+    ) -> Result<Vec<Occurrence>, Stopped> {
+        let Some(name) = names::name_at(self, offset) else {
+            return Ok(Vec::new());
+        };
+        names::places(self, name, limit, stop).ok_or(Stopped)
     }
 
     fn letters_of_numbers(&self) -> &'static [char] {

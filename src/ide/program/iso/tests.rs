@@ -289,3 +289,53 @@ fn words_that_belong_together_are_found_from_both_ends() {
     check("M98 P5\nM02\nN5 G01 X0.\n|M99\n", Some("3:N5"));
     check("|G01 X5\n", None);
 }
+
+#[test]
+fn what_a_program_names_is_found_wherever_it_stands() {
+    #[track_caller]
+    fn check(text: &str, expected: &str) {
+        let (document, offset) = at_cursor(text, &Effective::default());
+        let found = document.named(offset, 100, &|| false).unwrap();
+        let told = found.into_iter().map(|place| {
+            let (source, role) = (document.text(), place.role);
+            let line = source.line_of(place.range.start) + 1;
+            let word = String::from_utf8_lossy(&source.bytes()[place.range]).into_owned();
+            format!("{line}:{word} {role:?}")
+        });
+        assert_eq!(told.collect::<Vec<_>>().join(", "), expected, "{text}");
+    }
+    let text = |cursor: &str| {
+        let text = "H1 = .1\nH2=.0085+H001\nG41 H1 G01 X1.\nG04 P1\n";
+        text.replacen(cursor, &format!("|{cursor}"), 1)
+    };
+    check("M98 P5\nM02\nN|5 G01 X0.\nM99\n", "1:P5 Uses, 3:N5 Defines");
+    for cursor in ["H1 =", "H001", "H1 G01"] {
+        check(&text(cursor), "1:H1 Defines, 2:H001 Uses, 3:H1 Uses");
+    }
+    check(&text("P1"), "");
+    check(
+        "C001 = ON 8 OFF 12\nC0|01\nC002\nC1\n",
+        "1:C001 Defines, 2:C001 Uses, 4:C1 Uses",
+    );
+    check("E12=3\n(E12)\n|E12 G01 X1.\n", "1:E12 Defines, 3:E12 Uses");
+    check("G01 |X5.\n", "");
+    check("|(N5)\n", "");
+    let (document, offset) = at_cursor("|N1 G01 X5.\n", &Effective::default());
+    assert!(document.named(offset, 100, &|| true).is_err(), "stopped");
+}
+
+#[test]
+fn a_row_of_a_table_is_shown_where_it_is_chosen() {
+    let document = Document::read(b"C001 = ON 8 OFF 12\nG01 X1.\nC001\nC002\n".to_vec());
+    let said = |line| {
+        document
+            .meaning(document.text().line_start(line)..document.text().line_start(line) + 4)
+            .unwrap()
+    };
+    assert!(
+        said(2).contains("line 1") && said(2).contains("`C001 = ON 8 OFF 12`"),
+        "{}",
+        said(2)
+    );
+    assert!(!said(3).contains("line"), "{}", said(3));
+}

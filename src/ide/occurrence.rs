@@ -1,0 +1,44 @@
+//! Where something stands elsewhere: what is asked about a place, and what is answered.
+
+use std::ops::Range;
+
+/// Asked now and then: true when nobody wants the result any more.
+pub(crate) type Stop<'a> = &'a dyn Fn() -> bool;
+
+/// Nobody wanted the result any more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Stopped;
+
+/// What is asked about a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Question {
+    Definition,
+    References { with_definition: bool },
+    Highlights,
+}
+
+/// What an occurrence is to what is asked about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    Defines,
+    Uses,
+    /// It belongs to it.
+    Partner,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Occurrence {
+    pub(crate) range: Range<usize>,
+    pub(crate) role: Role,
+}
+
+impl Question {
+    /// True where an occurrence of what is asked about is an answer.
+    pub(super) fn wants(self, role: Role) -> bool {
+        match self {
+            Question::Definition => role == Role::Defines,
+            Question::References { with_definition } => with_definition || role != Role::Defines,
+            Question::Highlights => true,
+        }
+    }
+}
