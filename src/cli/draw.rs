@@ -60,7 +60,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             &snapshot.outlines,
             &findings,
             &paths,
-            unit_mm,
+            &snapshot.settings,
         )
         .into_bytes(),
     };

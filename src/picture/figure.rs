@@ -6,8 +6,8 @@ use super::subject::{Subject, is_other};
 use crate::drawing::{Entity, EntityId, Geometry, Role};
 use crate::finding::{Detail, Finding, Place};
 use crate::geometry::{Point, Segment};
-use crate::toolpath::Source;
-use rustc_hash::FxHashSet;
+use crate::toolpath::{Source, WirePath};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// How far the material reaches beyond an opening that no outline holds.
 const GROUND: f64 = 22.0;
@@ -53,37 +53,101 @@ fn data_of(frame: &Frame, subject: &Subject, entity: &Entity) -> String {
     path_data(frame, segments, geometry.is_closed())
 }
 
-/// The insides of closed contours, the largest first, so that openings lie upon the part that holds them.
+/// The insides of closed contours, the largest first, so that openings lie upon the part that holds them; with each what the wire cuts along it,
+/// and what it leaves of what it should cut.
 fn areas(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     let drawing = subject.drawing;
-    let mut areas: Vec<(f64, &str, String)> = Vec::new();
+    // By size: whether it is an opening, its contour, and its place among the outlines.
+    let mut areas: Vec<(f64, bool, String, Option<usize>)> = Vec::new();
     for (id, entity) in drawing.entities() {
         if entity.geometry.is_closed() && !subject.cut.contains(&id) {
             let bounds = entity.geometry.bounds(drawing.flat());
             let size = bounds.width() * bounds.height() * 2.0;
-            areas.push((size, "part", data_of(frame, subject, entity)));
+            areas.push((size, false, data_of(frame, subject, entity), None));
         }
     }
-    let closed = subject.outlines.iter();
-    for outline in closed.filter(|outline| outline.contour.closed) {
-        let class = match outline.role {
-            Role::Opening => "void",
-            _ => "part",
-        };
-        let segments = outline.contour.segments(drawing);
-        let data = path_data(frame, segments.map(|segment| segment.geometry), true);
-        areas.push((outline.twice_area.abs(), class, data));
+    for (index, outline) in subject.outlines.iter().enumerate() {
+        if outline.contour.closed {
+            let is_opening = outline.role == Role::Opening;
+            let segments = outline.contour.segments(drawing);
+            let data = path_data(frame, segments.map(|segment| segment.geometry), true);
+            areas.push((outline.twice_area.abs(), is_opening, data, Some(index)));
+        }
     }
     areas.sort_by(|a, b| b.0.total_cmp(&a.0));
-    if areas.first().is_some_and(|(_, class, _)| *class == "void") {
+    if areas.first().is_some_and(|(_, is_opening, ..)| *is_opening) {
         let [width, height] = [subject.bounds.width(), subject.bounds.height()]
             .map(|length| number(length * frame.scale + 2.0 * GROUND));
         sheet.line(format_args!(
             r#"<rect class="part" x="-{GROUND}" y="-{GROUND}" width="{width}" height="{height}" rx="8"/>"#
         ));
     }
-    for (_, class, data) in areas {
-        sheet.path(&format!(r#"class="{class}""#), &data, "");
+    let mut of: FxHashMap<usize, Vec<(&WirePath, f64)>> = FxHashMap::default();
+    for (path, half) in subject.paths.iter().zip(&subject.half_kerfs) {
+        if let Some(half) = half {
+            of.entry(path.outline).or_default().push((path, *half));
+        }
+    }
+    for (_, is_opening, data, outline) in areas {
+        let paths = outline.and_then(|outline| of.get(&outline));
+        let paths = paths.map_or(&[][..], Vec::as_slice);
+        let swept = round_of(frame, paths);
+        let fill = |sheet: &mut Sheet, class: &str, data: &str| {
+            sheet.path(&format!(r#"class="{class}""#), data, "");
+        };
+        match (is_opening, &swept) {
+            (true, Some(round)) => {
+                fill(sheet, "lost", &data);
+                fill(sheet, "void", round);
+            }
+            (false, Some(round)) => fill(sheet, "lost", round),
+            (true, None) => fill(sheet, "void", &data),
+            (false, None) => fill(sheet, "part", &data),
+        }
+        kerfs(sheet, frame, paths);
+        if !is_opening && swept.is_some() {
+            fill(sheet, "part", &data);
+        }
+    }
+}
+
+/// What the first pass of an outline goes round, where the wire has a kerf that is known: between that and the contour all that no kerf
+/// covers stays.
+fn round_of(frame: &Frame, paths: &[(&WirePath, f64)]) -> Option<String> {
+    let own = |cut_off: bool| {
+        let is_it = |path: &WirePath| path.pass == 1 && path.cut_off == cut_off;
+        let (path, _) = paths.iter().find(|(path, _)| is_it(path))?;
+        let is_lead = |source: &Source| matches!(source, Source::LeadIn | Source::LeadOut);
+        let pieces = path.segments.iter();
+        let pieces = pieces.filter(|piece| !is_lead(&piece.source));
+        Some(pieces.map(|piece| piece.geometry).collect::<Vec<_>>())
+    };
+    let mut round = own(false)?;
+    let end = round.last()?.end();
+    // The tab closes it, whichever way that is cut.
+    let tab = own(true).unwrap_or_default();
+    let is_end = |at: Option<Point>| at.is_some_and(|at| (at - end).norm() * frame.scale < 1.0);
+    if is_end(tab.first().map(Segment::start)) {
+        round.extend(tab);
+    } else if is_end(tab.last().map(Segment::end)) {
+        round.extend(tab.iter().rev().map(Segment::reversed));
+    }
+    Some(path_data(frame, round, true))
+}
+
+/// What the wire cuts along an outline in all its passes, leads and tab included, to scale.
+fn kerfs(sheet: &mut Sheet, frame: &Frame, paths: &[(&WirePath, f64)]) {
+    for (path, half) in paths {
+        let pieces = path.segments.iter().map(|piece| piece.geometry);
+        let (data, width) = (path_data(frame, pieces, false), 2.0 * half * frame.scale);
+        if !data.is_empty() {
+            let width = number(width);
+            sheet.path(
+                &format!(r#"class="kerf" stroke-width="{width}""#),
+                &data,
+                "",
+            );
+        }
     }
 }
 
@@ -166,7 +230,12 @@ fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
                 _ => ("wire", label.as_str()),
             };
             let data = path_data(frame, run.iter().map(|segment| segment.geometry), false);
-            sheet.path(&format!(r#"class="{class}""#), &data, label);
+            let pass = path.pass;
+            sheet.path(
+                &format!(r#"class="{class}" data-pass="{pass}""#),
+                &data,
+                label,
+            );
         }
     }
 }

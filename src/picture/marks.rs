@@ -11,6 +11,9 @@ const MOST: usize = 24;
 /// Up to this many faults the number carries the radius beside it.
 const WITH_RADIUS: usize = 16;
 
+/// More contours than this are not numbered.
+const MOST_NUMBERED: usize = 300;
+
 /// A number beside each fault, in sheet coordinates, joined to it by a thin line.
 pub(super) fn faults(sheet: &mut Sheet, frame: &Frame, faults: &[Fault], unit_mm: f64, top: f64) {
     let mut taken: Vec<Label> = Vec::new();
@@ -114,10 +117,13 @@ fn free_place(at: (f64, f64), outward: f64, with_text: bool, taken: &[Label], to
     first.unwrap_or_else(|| Label::new(at, with_text, false))
 }
 
-/// Thread hole, where the cut begins on the path, and which way it goes.
+/// Thread hole, as large as it is drilled where that is set, its number in the order of the cuts where there are several, where the cut
+/// begins on the path, and which way it goes.
 pub(super) fn thread_holes(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     // The passes of a contour share it.
-    for path in subject.paths.iter().filter(|path| path.is_first()) {
+    let first = || subject.paths.iter().filter(|path| path.is_first());
+    let are_numbered = (2..=MOST_NUMBERED).contains(&first().count());
+    for (index, path) in first().enumerate() {
         let hole = path.thread_hole;
         let (across, up) = frame.local(hole);
         let [x, y, left, below] = [across, up, across - 8.0, up - 8.0].map(number);
@@ -125,6 +131,17 @@ pub(super) fn thread_holes(sheet: &mut Sheet, frame: &Frame, subject: &Subject) 
         sheet.line(format_args!(
             r#"<g class="thread"><title>{title}</title><circle cx="{x}" cy="{y}" r="5"/><path d="M{left} {y}h16M{x} {below}v16"/></g>"#
         ));
+        if let Some(radius) = subject.hole {
+            let middle = frame.local(hole);
+            sheet.circle(r#"class="hole""#, middle, radius * frame.scale, "");
+        }
+        if are_numbered {
+            let [x, y] = [across + 7.0, up + 7.0].map(number);
+            let count = index + 1;
+            sheet.line(format_args!(
+                r#"<text class="order" transform="matrix(1 0 0 -1 {x} {y})">{count}</text>"#
+            ));
+        }
         let is_cut = |source: &Source| !matches!(source, Source::LeadIn | Source::LeadOut);
         let mut segments = path.segments.iter();
         if let Some(first) = segments.find(|segment| is_cut(&segment.source)) {

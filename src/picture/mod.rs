@@ -21,7 +21,8 @@ pub(crate) use program::program_svg;
 pub(crate) use sheet::escaped;
 
 use crate::drawing::{Drawing, Outline};
-use crate::finding::Finding;
+use crate::finding::{Detail, Finding};
+use crate::settings::Effective;
 use crate::toolpath::WirePath;
 use sheet::{FIGURE_TOP, Frame, MARGIN, SHEET_WIDTH};
 use subject::{Subject, is_other};
@@ -29,7 +30,8 @@ use subject::{Subject, is_other};
 /// The drawing with its faults and the paths of the wire as one SVG.
 ///
 /// `outlines` are what is cut; entities in none of them are drawn faintly. Every arc that is too tight is marked, and
-/// the first ones are shown enlarged with the circle of the correction. `unit_mm` is the drawing's unit in mm: all
+/// the first ones are shown enlarged with the circle of the correction. What the wire cuts, and what it leaves of an area that it should cut,
+/// are shown to scale: half as wide as the wire's radius and the spark gap, else the last correction. All
 /// figures that a reader sees are in mm. The y axis points up, as in the drawing. A drawing without geometry gives
 /// a sheet that says so.
 pub fn svg(
@@ -37,11 +39,12 @@ pub fn svg(
     outlines: &[Outline],
     findings: &[Finding],
     paths: &[WirePath],
-    unit_mm: f64,
+    settings: &Effective,
 ) -> String {
-    let Some(subject) = Subject::new(drawing, outlines, findings, paths, unit_mm) else {
+    let Some(subject) = Subject::new(drawing, outlines, findings, paths, settings) else {
         return style::empty(say!(the_drawing_has_no_lines));
     };
+    let unit_mm = subject.unit_mm;
     let faults = &subject.faults;
     let frame = Frame::fitting(&subject.bounds);
     let details_top = frame.bottom + 48.0;
@@ -51,24 +54,36 @@ pub fn svg(
         1 => say!(n1_arc_is_too_tight).into(),
         count => say!(arcs_are_too_tight, count),
     };
-    let mut sheet = style::opening(legend_top + 48.0, &title);
+    let shown = style::Shown {
+        faults: !faults.is_empty(),
+        others: findings.iter().any(is_other),
+        paths: !paths.is_empty(),
+        kerf: subject.half_kerfs.iter().any(Option::is_some),
+        lost: findings.iter().any(leaves_some),
+    };
+    let entries = style::entries(&shown);
+    let height = legend_top + 48.0 + style::height_of_legend(&entries);
+    let mut sheet = style::opening(height, &title);
     sheet.heading(&title, &facts(&subject));
     sheet.line(format_args!("<g class=\"figure\">"));
     figure::figure(&mut sheet, &frame, &subject);
     marks::faults(&mut sheet, &frame, faults, unit_mm, FIGURE_TOP - 26.0);
     sheet.line(format_args!("</g>"));
     lens::row(&mut sheet, &subject, details_top);
-    let shown = style::Shown {
-        faults: !faults.is_empty(),
-        others: findings.iter().any(is_other),
-        paths: !paths.is_empty(),
-    };
     sheet.line(format_args!("<g class=\"chrome\">"));
-    style::legend(&mut sheet, legend_top + 12.0, &style::entries(&shown));
+    style::legend(&mut sheet, legend_top + 12.0, &entries);
     let right = SHEET_WIDTH - MARGIN;
     style::scale_bar(&mut sheet, right, legend_top + 12.0, frame.scale / unit_mm);
     sheet.line(format_args!("</g>\n</svg>"));
     sheet.0
+}
+
+/// Something that should be cut stays there.
+fn leaves_some(finding: &Finding) -> bool {
+    matches!(
+        finding.detail,
+        Detail::LostPocket { .. } | Detail::DeadEnd { .. } | Detail::SharpCorner { .. }
+    )
 }
 
 /// Correction, contours and length of the path, as far as they are known.

@@ -20,6 +20,8 @@ text{font-family:system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif;f
 .contour{stroke:#24292f;stroke-width:1.4}
 .aside{stroke:#afb8c1;stroke-width:1}
 .wire{stroke:#0969da;stroke-width:1.4}
+.kerf{fill:none;stroke:#cfe4fb;stroke-linecap:round;stroke-linejoin:round}
+.lost{fill:#f2a33a}
 .lead{stroke:#0969da;stroke-width:1.2;stroke-dasharray:5 4}
 .fault{stroke:#d1242f;stroke-width:3.4}
 .other{stroke:#bf8700;stroke-width:3}
@@ -29,7 +31,9 @@ text{font-family:system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif;f
 .dot{fill:#bf8700}
 .badge{fill:#d1242f}
 .window{stroke:#d0d7de}
-.thread{fill:none;stroke:#1a7f37;stroke-width:1.3}
+.thread,.hole{fill:none;stroke:#1a7f37;stroke-width:1.3}
+.hole{stroke-width:.9}
+.order{font-size:11px;font-weight:700;fill:#1a7f37}
 .arrow{fill:#0969da}
 .bar{fill:none;stroke:#57606a;stroke-width:1.4}
 @media (prefers-color-scheme:dark){
@@ -45,12 +49,15 @@ text{fill:#e6edf3}
 .contour{stroke:#e6edf3}
 .aside{stroke:#484f58}
 .wire,.lead{stroke:#58a6ff}
+.kerf{stroke:#14365c}
+.lost{fill:#9e6a03}
 .fault,.leader,.spoke{stroke:#ff6b61}
 .other,.correction{stroke:#e3b341}
 .dot{fill:#e3b341}
 .badge{fill:#ff6b61}
 .window{stroke:#30363d}
-.thread{stroke:#57d364}
+.thread,.hole{stroke:#57d364}
+.order{fill:#57d364}
 .arrow{fill:#58a6ff}
 .bar{stroke:#9da7b3}
 }
@@ -80,6 +87,8 @@ pub(super) struct Shown {
     pub(crate) faults: bool,
     pub(crate) others: bool,
     pub(crate) paths: bool,
+    pub(crate) kerf: bool,
+    pub(crate) lost: bool,
 }
 
 /// A sample of what is drawn, and what it means.
@@ -100,6 +109,14 @@ pub(super) fn entries(shown: &Shown) -> Vec<Entry> {
             (THREAD, say!(thread_hole)),
         ]);
     }
+    if shown.kerf {
+        let band = r#"<path class="kerf" stroke-width="10" d="M4 0h16"/>"#;
+        entries.push((band, say!(what_the_wire_cuts)));
+        if shown.lost {
+            let area = r#"<rect class="lost" x="4" y="-5" width="16" height="10"/>"#;
+            entries.push((area, say!(what_stays_uncut)));
+        }
+    }
     if shown.faults {
         let tight = r#"<path class="fault" d="M2 4A14 14 0 0 1 22 4"/>"#;
         let correction = r#"<circle class="correction" cx="12" cy="0" r="8"/>"#;
@@ -112,14 +129,36 @@ pub(super) fn entries(shown: &Shown) -> Vec<Entry> {
     entries
 }
 
+/// Between two rows of the legend, and what its end leaves free for the scale bar.
+const ROW: f64 = 22.0;
+const OF_BAR: f64 = 190.0;
+
+/// Where each entry of a legend stands, from its left and from its first row.
+fn places(entries: &[Entry]) -> Vec<(f64, f64)> {
+    let (mut x, mut y) = (MARGIN, 0.0);
+    let place = |(_, text): &Entry| {
+        let width = 32.0 + columns(text) as f64 * 6.6 + 22.0;
+        if x > MARGIN && x + width > SHEET_WIDTH - OF_BAR {
+            (x, y) = (MARGIN, y + ROW);
+        }
+        let at = (x, y);
+        x += width;
+        at
+    };
+    entries.iter().map(place).collect()
+}
+
+/// How much a legend needs below its first row.
+pub(super) fn height_of_legend(entries: &[Entry]) -> f64 {
+    places(entries).last().map_or(0.0, |(_, y)| *y)
+}
+
 pub(super) fn legend(sheet: &mut Sheet, top: f64, entries: &[Entry]) {
-    let (mut x, y) = (MARGIN, number(top + 8.0));
-    for (sample, text) in entries {
-        let left = number(x);
+    for ((sample, text), (x, y)) in entries.iter().zip(places(entries)) {
+        let [x, y] = [x, top + 8.0 + y].map(number);
         sheet.line(format_args!(
-            r#"<g transform="translate({left} {y})">{sample}<text class="note" x="32" y="4">{text}</text></g>"#
+            r#"<g transform="translate({x} {y})">{sample}<text class="note" x="32" y="4">{text}</text></g>"#
         ));
-        x += 32.0 + columns(text) as f64 * 6.6 + 22.0;
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Place, Severity, SmallRadius};
 use crate::geometry::{Arc, Bounds, Point};
+use crate::settings::Effective;
 use crate::toolpath::WirePath;
 use rustc_hash::FxHashSet;
 
@@ -17,6 +18,10 @@ pub(super) struct Subject<'a> {
     pub(crate) findings: &'a [Finding],
     pub(crate) faults: Vec<Fault<'a>>,
     pub(crate) paths: &'a [WirePath],
+    /// Of each path, how far beside it the wire cuts, drawing units; `None` where the control moves it.
+    pub(crate) half_kerfs: Vec<Option<f64>>,
+    /// Radius of the start holes, drawing units, where one is set.
+    pub(crate) hole: Option<f64>,
     pub(crate) unit_mm: f64,
 }
 
@@ -35,8 +40,16 @@ impl<'a> Subject<'a> {
         outlines: &'a [Outline],
         findings: &'a [Finding],
         paths: &'a [WirePath],
-        unit_mm: f64,
+        settings: &Effective,
     ) -> Option<Subject<'a>> {
+        let unit_mm = settings.unit_of(drawing).mm;
+        let corrections = paths.iter().map(|path| path.correction);
+        let last = corrections.fold(f64::INFINITY, f64::min);
+        let half_kerf = |path: &WirePath| {
+            let known = settings.half_kerf(path.pass.saturating_sub(1));
+            let half = known.map_or(last, |half| half / unit_mm);
+            (path.side.is_none() && half.is_finite() && half > 0.0).then_some(half)
+        };
         let pieces = outlines.iter().flat_map(|outline| &outline.contour.pieces);
         Some(Subject {
             drawing,
@@ -46,6 +59,8 @@ impl<'a> Subject<'a> {
             findings,
             faults: tight_arcs(drawing, findings),
             paths,
+            half_kerfs: paths.iter().map(half_kerf).collect(),
+            hole: settings.start_hole.map(|diameter| diameter / 2.0 / unit_mm),
             unit_mm,
         })
     }

@@ -1,9 +1,14 @@
 use super::sheet::{number, path_data};
 use super::*;
-use crate::drawing::{Contour, Entity, EntityId, Geometry, Kind, Role, Vertex};
+use crate::drawing::{Contour, Entity, EntityId, Geometry, Kind, Role, Unit, Vertex};
 use crate::finding::{Detail, Place, Rule, Severity, Side, SmallRadius};
 use crate::geometry::{Point, Segment};
 use crate::toolpath::{PathSegment, Source};
+
+/// With the correction of the path that is shown.
+fn settings() -> Effective {
+    Effective::default()
+}
 
 fn entity(handle: &str, layer: &str, kind: Kind, geometry: Geometry) -> Entity {
     Entity {
@@ -145,7 +150,7 @@ fn plate() -> (Drawing, Vec<Outline>, Vec<Finding>, Vec<WirePath>) {
 #[test]
 fn a_plate_shows_contour_fault_correction_and_path() {
     let (drawing, outlines, findings, paths) = plate();
-    let picture = svg(&drawing, &outlines, &findings, &paths, 1.0);
+    let picture = svg(&drawing, &outlines, &findings, &paths, &settings());
     let expected = [
         "<title>1 arc is tighter than the correction</title>",
         "LWPOLYLINE 2A · segment 1 · arc R 0.080 mm, 90.0°",
@@ -160,13 +165,20 @@ fn a_plate_shows_contour_fault_correction_and_path() {
     for text in expected {
         assert!(picture.contains(text), "{text} is missing");
     }
-    assert_eq!(picture, svg(&drawing, &outlines, &findings, &paths, 1.0));
+    assert_eq!(
+        picture,
+        svg(&drawing, &outlines, &findings, &paths, &settings())
+    );
 }
 
 #[test]
 fn figures_for_people_are_mm_whatever_the_unit() {
     let (drawing, outlines, findings, paths) = plate();
-    let picture = svg(&drawing, &outlines, &findings, &paths, 25.4);
+    let inches = Effective {
+        unit: Unit::INCH,
+        ..settings()
+    };
+    let picture = svg(&drawing, &outlines, &findings, &paths, &inches);
     assert!(picture.contains("R 2.032 &lt; 2.540 mm"));
 }
 
@@ -205,7 +217,9 @@ fn numbers_are_short() {
 
 #[test]
 fn nothing_and_a_single_point_are_pictures_too() {
-    assert!(svg(&Drawing::default(), &[], &[], &[], 1.0).contains("no lines, arcs or circles"));
+    assert!(
+        svg(&Drawing::default(), &[], &[], &[], &settings()).contains("no lines, arcs or circles")
+    );
     let mut drawing = Drawing::default();
     drawing.push(entity(
         "1",
@@ -216,7 +230,7 @@ fn nothing_and_a_single_point_are_pictures_too() {
             text: "O\u{1}".into(),
         },
     ));
-    let picture = svg(&drawing, &[], &[], &[], 1.0);
+    let picture = svg(&drawing, &[], &[], &[], &settings());
     assert!(picture.contains(">O</text>") && !picture.contains("NaN") && !picture.contains("inf"));
 }
 
@@ -236,10 +250,62 @@ fn coordinates_beyond_all_measure_are_no_picture() {
                 end: Point::new(far, far),
             },
         ));
-        let picture = svg(&drawing, &[], &[], &[], 1.0);
+        let picture = svg(&drawing, &[], &[], &[], &settings());
         assert!(
             texts.iter().all(|text| picture.contains(text)) && picture.len() < 5000,
             "{far}: {picture}"
         );
     }
+}
+
+#[test]
+fn what_the_wire_cuts_and_leaves_is_shown_to_scale() {
+    let (drawing, outlines, mut findings, paths) = plate();
+    let shown = |paths: &[WirePath], findings: &[Finding], settings: &Effective| {
+        svg(&drawing, &outlines, findings, paths, settings)
+    };
+    // 40 mm of plate are 740 units wide.
+    let wide = |mm: f64| format!(r#"class="kerf" stroke-width="{}""#, number(mm * 18.5));
+    let plain = shown(&paths, &findings, &settings());
+    assert!(plain.contains(&wide(0.2)), "{plain}");
+    let known = Effective {
+        wire_diameter: Some(0.18),
+        gap: Some(0.02),
+        start_hole: Some(2.0),
+        ..settings()
+    };
+    let known = shown(&paths, &findings, &known);
+    assert!(known.contains(&wide(0.22)), "{known}");
+    let hole = format!(r#"r="{}""#, number(18.5));
+    assert!(
+        known
+            .lines()
+            .any(|line| line.contains(r#"class="hole""#) && line.contains(&hole))
+    );
+    // What the wire goes round lies upon what it leaves.
+    let at = |text: &str, from: usize| from + known[from..].find(text).expect(text);
+    let lost = at(r#"class="lost""#, 0);
+    assert!(at(r#"class="kerf""#, at(r#"class="void""#, lost)) > lost);
+    assert!(!known.contains("stays uncut"));
+    findings.push(Finding {
+        rule: Rule::LostPocket,
+        severity: Severity::Warning,
+        detail: Detail::LostPocket {
+            near: Point::new(29.0, 9.0),
+        },
+        ..findings[0].clone()
+    });
+    assert!(shown(&paths, &findings, &settings()).contains("stays uncut"));
+    // A control that moves the path cuts beside it.
+    let controlled = [WirePath {
+        side: Some(Side::Left),
+        correction: 0.0,
+        ..paths[0].clone()
+    }];
+    assert!(!shown(&controlled, &findings, &settings()).contains(r#"class="kerf""#));
+    // Several contours are numbered in their order.
+    assert!(!plain.contains(r#"class="order""#));
+    let twice = [paths[0].clone(), paths[0].clone()];
+    let twice = shown(&twice, &findings, &settings());
+    assert_eq!(twice.matches(r#"class="order""#).count(), 2, "{twice}");
 }

@@ -85,3 +85,49 @@ fn a_report_speaks_chinese() {
         "{page}"
     );
 }
+
+#[test]
+fn a_page_tells_times_holes_and_whether_the_parts_fit() {
+    let desk = Desk::new();
+    let job = "wire-diameter = 0.2\ngap = 0.02\ncorrection = 0.12\n[passes]\nrates = [100]\n[job]\nthickness = 40\n";
+    desk.write(
+        "wedm.toml",
+        format!("side = \"opening\"\n{job}[program]\nstart-hole = 2\n"),
+    );
+    let ended = desk.run("report clean.dxf -o pages");
+    assert_eq!(ended.code, Some(0), "{ended:?}");
+    let page = |name: &str| String::from_utf8(desk.read(&format!("pages/{name}"))).unwrap();
+    let clean = page("clean.html");
+    for part in [
+        "Time and material",
+        " min</p>",
+        "slug g",
+        "largest wire: Ø ",
+        "not known, since not set: job.machine-rate",
+        "Start holes",
+        "found</td>",
+        "class=\"kerf\"",
+        "class=\"hole\"",
+    ] {
+        assert!(clean.contains(part), "{part} in {clean}");
+    }
+    assert!(!clean.contains("<h2>Fit"), "{clean}");
+    assert!(page("index.html").contains(">min</th>"));
+    // The holes of the page are those of the drill list.
+    let list = desk.run("holes clean.dxf").stdout;
+    let row = list.lines().nth(1).unwrap();
+    let [x, y] = [1, 2].map(|column| row.split(',').nth(column).unwrap());
+    assert!(
+        clean.contains(&format!(">{x}</td><td class=\"number\">{y}<")),
+        "{row} in {clean}"
+    );
+    desk.write(
+        "wedm.toml",
+        format!("{job}[pair]\nclearance = 0.001\ndrawn-as = \"punch\"\n"),
+    );
+    desk.run("report clean.dxf -o pages");
+    let pair = page("clean.html");
+    for part in ["<h2>Fit</h2>", "µm left"] {
+        assert!(pair.contains(part), "{part} in {pair}");
+    }
+}

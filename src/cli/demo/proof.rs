@@ -101,7 +101,7 @@ pub(crate) fn of(
         &snapshot.outlines,
         &faults,
         &planned,
-        path.units_to_mm,
+        &snapshot.settings,
     );
     Ok(proof)
 }

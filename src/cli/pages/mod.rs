@@ -1,6 +1,7 @@
 //! `wedm report`: a page for each drawing and an index, for the workshop and for the file.
 
 mod html;
+mod job;
 mod page;
 
 use super::options::{Common, Program};
@@ -12,7 +13,7 @@ use page::Page;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-/// Write a page for each drawing, and an index: picture, contours, radius list, findings, program
+/// Write a page for each drawing, and an index: picture, contours, radius list, findings, passes, times, drill list, fit, program
 ///
 /// Each page is one HTML file that needs nothing beside it, light or dark as its viewer likes, and prints on A4.
 /// Ends with 1 when a drawing has errors; its page is written all the same.

@@ -4,6 +4,7 @@ use super::super::files::Opened;
 use super::super::report::{self, Row};
 use super::super::{Failure, output};
 use super::html::{self, Cell, cell, number, table, text};
+use super::job as of_job;
 use crate::document::Snapshot;
 use crate::drawing::Role;
 use crate::finding::{Rule, Severity};
@@ -11,8 +12,8 @@ use crate::job::{self, Generated, Wanted};
 use crate::message::spoken;
 use crate::picture;
 use crate::program::Format;
-use crate::protocol::{Contours, Inspection, SegmentKind};
-use crate::toolpath::WirePath;
+use crate::protocol::{Contours, Fit, Inspection, SegmentKind, StartHole, Work};
+use crate::toolpath::{self, WirePath};
 use std::collections::BTreeMap;
 
 /// Arcs of the radius list, and findings of one rule, that a page shows: who wants all asks for them.
@@ -29,6 +30,11 @@ pub(super) struct Page {
     arcs: Vec<Arc>,
     rows: Vec<Row>,
     paths: Vec<WirePath>,
+    holes: Vec<StartHole>,
+    /// What the paths come to, where there are any.
+    work: Option<Work>,
+    /// Where it is asked for, or why it is not known.
+    fit: Option<Result<Fit, String>>,
     /// The program, or why there is none.
     program: Result<Generated, String>,
     format: Format,
@@ -42,6 +48,7 @@ pub(super) struct Line {
     errors: usize,
     warnings: usize,
     blocks: Option<usize>,
+    minutes: Option<f64>,
 }
 
 /// An arc of the radius list.
@@ -59,13 +66,15 @@ impl Page {
         let rows = report::rows(&opened.path, &mut opened.document);
         let unit_mm = opened.document.unit_mm();
         let findings = opened.document.all_findings();
-        let paths = job::paths(&snapshot, &snapshot.settings, None, &()).unwrap_or_default();
+        let planned = job::planned(&snapshot, &snapshot.settings, None, false, &());
+        let planned = planned.unwrap_or_default();
+        let paths = planned.paths;
         let picture = picture::svg(
             &snapshot.drawing,
             &snapshot.outlines,
             &findings,
             &paths,
-            unit_mm,
+            &snapshot.settings,
         );
         let arcs = arcs_of(Inspection::of(&opened.document, None), unit_mm);
         let wanted = Wanted {
@@ -83,8 +92,14 @@ impl Page {
             settings,
             ..
         } = &snapshot;
+        let work = (!paths.is_empty()).then(|| {
+            let work = toolpath::work(drawing, outlines, settings, &paths);
+            Work::new(drawing, outlines, &work)
+        });
+        let hole = |hole| StartHole::new(drawing, outlines, settings, hole);
         Ok(Page {
             line: Line {
+                minutes: work.as_ref().and_then(|work| work.minutes),
                 name: output::name(&opened.path),
                 contours: outlines.len(),
                 smallest_mm: arcs.first().map(|arc| arc.radius_mm),
@@ -98,6 +113,9 @@ impl Page {
             arcs,
             rows,
             paths,
+            holes: planned.holes.iter().map(hole).collect(),
+            work,
+            fit: of_job::fit(&snapshot, unit_mm),
             program,
             format,
         })
@@ -125,6 +143,21 @@ impl Page {
             section(say!(head_findings), self.findings()),
             section(say!(head_radius_list), self.radius_list()),
             section(say!(head_passes), self.passes()),
+            section(
+                say!(head_time_and_material),
+                self.work
+                    .as_ref()
+                    .map(of_job::time_and_material)
+                    .unwrap_or_default(),
+            ),
+            section(
+                say!(head_start_holes),
+                of_job::drill_list(&self.holes, self.unit_mm),
+            ),
+            section(
+                say!(head_fit),
+                self.fit.as_ref().map(of_job::fit_part).unwrap_or_default(),
+            ),
             section(say!(head_program), self.program()),
         ];
         html::page(spoken().tag(), name, &parts.concat())
@@ -228,25 +261,41 @@ impl Page {
             let pass = passes.entry((path.cut_off, path.pass)).or_default();
             *pass = (path.correction, pass.1 + length, pass.2 + 1);
         }
+        let mut minutes: BTreeMap<(bool, usize), f64> = BTreeMap::new();
+        for cut in self.work.iter().flat_map(|work| &work.cuts) {
+            if let Some(own) = cut.minutes {
+                *minutes.entry((cut.cut_off, cut.pass)).or_default() += own;
+            }
+        }
         let heads = [
             say!(column_pass),
             say!(column_correction),
             say!(column_contours),
             say!(column_length_with_leads),
+            say!(column_minutes),
         ];
+        let columns = heads.len() - usize::from(minutes.is_empty());
         let row = |((cut_off, pass), (correction, length, count)): (_, (f64, f64, usize))| {
             let name: String = match (cut_off, pass) {
                 (false, pass) => usize::to_string(&pass),
                 (true, pass) => say!(cut_off_in_pass, pass),
             };
-            vec![
+            let minutes = minutes.get(&(cut_off, pass));
+            let mut cells = vec![
                 cell(name),
                 number(format!("{:.4}", correction * self.unit_mm)),
                 number(count),
                 number(format!("{:.3}", length * self.unit_mm)),
-            ]
+                number(
+                    minutes
+                        .map(|minutes| format!("{minutes:.2}"))
+                        .unwrap_or_default(),
+                ),
+            ];
+            cells.truncate(columns);
+            cells
         };
-        table(&heads, passes.into_iter().map(row))
+        table(&heads[..columns], passes.into_iter().map(row))
     }
 
     fn program(&self) -> String {
@@ -313,7 +362,10 @@ pub(super) fn index(lines: &[(String, Line)]) -> String {
         say!(column_smallest_radius),
         say!(head_findings),
         say!(column_blocks),
+        say!(column_minutes),
     ];
+    // Nobody has said how long anything takes.
+    let columns = heads.len() - usize::from(lines.iter().all(|(_, line)| line.minutes.is_none()));
     let row = |(page, line): &(String, Line)| {
         let link = format!("<a href=\"{}\">{}</a>", text(page), text(&line.name));
         let smallest = line.smallest_mm.map(|radius| format!("{radius:.4}"));
@@ -321,7 +373,7 @@ pub(super) fn index(lines: &[(String, Line)]) -> String {
             (0, 0) => span("good", say!(nothing_found)),
             (errors, warnings) => counts(errors, warnings),
         };
-        vec![
+        let mut cells = vec![
             ("", link),
             number(line.contours),
             number(smallest.unwrap_or_default()),
@@ -331,13 +383,20 @@ pub(super) fn index(lines: &[(String, Line)]) -> String {
                     .map(|blocks| blocks.to_string())
                     .unwrap_or_default(),
             ),
-        ]
+            number(
+                line.minutes
+                    .map(|minutes| format!("{minutes:.2}"))
+                    .unwrap_or_default(),
+            ),
+        ];
+        cells.truncate(columns);
+        cells
     };
     let title = say!(report_of_drawings, lines.len());
     let body = format!(
         "<h1>{}</h1>\n{}",
         text(&title),
-        table(&heads, lines.iter().map(row))
+        table(&heads[..columns], lines.iter().map(row))
     );
     html::page(spoken().tag(), &title, &body)
 }
@@ -370,7 +429,7 @@ fn class_of(severity: Severity) -> &'static str {
     }
 }
 
-fn more(count: usize, shown: usize) -> String {
+pub(super) fn more(count: usize, shown: usize) -> String {
     match count.saturating_sub(shown) {
         0 => String::new(),
         more => format!(

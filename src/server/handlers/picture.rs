@@ -23,7 +23,7 @@ pub(in crate::server) fn picture(context: &RequestContext, _: DrawingName) -> Re
             &task.snapshot.outlines,
             &task.findings(),
             &paths,
-            task.unit_mm(),
+            &task.snapshot.settings,
         ),
     })
 }

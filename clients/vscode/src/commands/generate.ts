@@ -135,8 +135,9 @@ function told(generated: Program, format: Format): string {
   // A drift that rounds to zero has no sign.
   const [x, y] = [generated.closure.x, generated.closure.y].map((drift) => (Math.round(drift * 100) / 100 + 0).toFixed(2));
   const drift = format === "iso" ? "" : t("; a controller that counts J drifts by {0}, {1} µm", x ?? "", y ?? "");
+  const minutes = generated.minutes === undefined ? "" : t("; {0} minutes on the machine", generated.minutes.toFixed(1));
   const { length } = generated.warnings;
   const stand = length === 1 ? t(" 1 finding stands in the drawing.") : t(" {0} findings stand in the drawing.", length);
   const warnings = length === 0 ? "" : stand;
-  return t("{0}, {1}{2}.", blocks, path, drift) + warnings;
+  return t("{0}, {1}{2}.", blocks, path, drift + minutes) + warnings;
 }

@@ -1,0 +1,145 @@
+//! What the job comes to, on its page: the drill list, time and material, and whether the parts fit.
+
+use super::html::{cell, number, table, text};
+use crate::document::Snapshot;
+use crate::job;
+use crate::message::readable;
+use crate::picture;
+use crate::protocol::{Fit, StartHole, Work};
+
+/// Start holes and slugs that a page shows: who wants all asks for them.
+const MOST: usize = 500;
+
+/// Where the wire is threaded, in the order of the cuts.
+pub(super) fn drill_list(holes: &[StartHole], unit_mm: f64) -> String {
+    let heads = [
+        say!(column_number),
+        say!(column_contour),
+        "x mm",
+        "y mm",
+        "Ø mm",
+        say!(column_hole),
+    ];
+    let row = |(index, hole): (usize, &StartHole)| {
+        // A coordinate that rounds to zero has no sign.
+        let mm = |along: f64| format!("{:.4}", (along * unit_mm * 1e4).round() / 1e4 + 0.0);
+        let hole_is = if hole.given {
+            say!(hole_given)
+        } else {
+            say!(hole_found)
+        };
+        vec![
+            number(index + 1),
+            cell(&hole.contour),
+            number(mm(hole.at.0)),
+            number(mm(hole.at.1)),
+            number(
+                hole.diameter
+                    .map(|diameter| diameter.to_string())
+                    .unwrap_or_default(),
+            ),
+            cell(hole_is),
+        ]
+    };
+    table(&heads, holes.iter().enumerate().take(MOST).map(row))
+        + &super::page::more(holes.len(), MOST)
+}
+
+/// Lengths, times, what they cost, the largest wire and what drops.
+pub(super) fn time_and_material(work: &Work) -> String {
+    let mut facts: Vec<String> = vec![match work.minutes {
+        Some(minutes) => {
+            let cost = work.cost.map(|cost| say!(which_costs, cost));
+            say!(
+                the_cut_takes,
+                work.length,
+                minutes,
+                cost.unwrap_or_default()
+            )
+        }
+        None => say!(the_cut_is_long, work.length),
+    }];
+    if work.jumps > 0.0 {
+        facts.push(say!(the_jumps_are_long, work.jumps));
+    }
+    if let Some(angle) = work.lead_angle {
+        facts.push(say!(leads_turn_at_most, angle));
+    }
+    if let Some(largest) = &work.largest_wire {
+        facts.push(say!(
+            the_largest_wire_is,
+            largest.diameter,
+            largest.radius,
+            readable(&largest.handle),
+            largest.segment
+        ));
+    }
+    if !work.missing.is_empty() {
+        facts.push(say!(keys_are_missing, work.missing.join(", ")));
+    }
+    let facts: String = facts
+        .iter()
+        .map(|fact| format!("<p class=\"fact\">{}</p>\n", text(fact)))
+        .collect();
+    let slugs = work
+        .slugs
+        .iter()
+        .take(MOST)
+        .map(|slug| vec![cell(&slug.contour), number(format!("{:.1}", slug.mass))]);
+    let heads = [say!(column_contour), say!(column_slug)];
+    facts + &table(&heads, slugs) + &super::page::more(work.slugs.len(), MOST)
+}
+
+/// Whether punch and plate go into each other, where a clearance is set: the sentence, the places and the picture.
+pub(super) fn fit(snapshot: &Snapshot, unit_mm: f64) -> Option<Result<Fit, String>> {
+    snapshot.settings.pair.clearance?;
+    let found = job::fit(snapshot, &()).map_err(|refusal| refusal.sentence(unit_mm));
+    Some(found.map(|fit| {
+        let svg = picture::fit_svg(&fit, unit_mm);
+        Fit::new(&snapshot.drawing, &fit, svg, unit_mm)
+    }))
+}
+
+pub(super) fn fit_part(fit: &Result<Fit, String>) -> String {
+    let fit = match fit {
+        Ok(fit) => fit,
+        Err(reason) => return format!("<p class=\"error\">{}</p>\n", text(reason)),
+    };
+    let (least, wanted) = (fit.least * 1e3, fit.clearance * 1e3);
+    let places = say!(places, fit.places.len());
+    let (class, sentence) = match fit.fits {
+        true => ("good", say!(it_fits, say!(fits), least, wanted, places)),
+        false => (
+            "error",
+            say!(it_does_not_fit, say!(does_not_fit), least, wanted, places),
+        ),
+    };
+    let alone: String = fit
+        .alone
+        .iter()
+        .map(|alone| say!(a_contour_has_no_partner, alone.handle, alone.of))
+        .map(|line| format!("<p class=\"warning\">{}</p>\n", text(line)))
+        .collect();
+    let rows = fit.places.iter().take(MOST).map(|place| {
+        vec![
+            number(format!("{:+.1}", place.clearance * 1e3)),
+            cell(&place.of),
+            cell(&place.handle),
+            number(place.segment),
+            number(format!("{:.4}, {:.4}", place.at.0, place.at.1)),
+        ]
+    });
+    let heads = [
+        say!(column_left),
+        say!(column_part),
+        say!(column_entity),
+        say!(column_segment),
+        say!(column_place),
+    ];
+    let places = table(&heads, rows);
+    format!(
+        "<p class=\"{class}\">{}</p>\n{alone}{places}{}",
+        text(sentence),
+        fit.svg
+    )
+}
