@@ -90,7 +90,7 @@ fn areas(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     }
     for (_, is_opening, data, outline) in areas {
         let paths = outline.and_then(|outline| of.get(&outline));
-        let paths = paths.map_or(&[][..], Vec::as_slice);
+        let paths = paths.map(Vec::as_slice).unwrap_or_default();
         let swept = round_of(frame, paths);
         let fill = |sheet: &mut Sheet, class: &str, data: &str| {
             sheet.path(&format!(r#"class="{class}""#), data, "");
