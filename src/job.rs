@@ -5,7 +5,7 @@
 
 mod pair;
 
-pub use pair::{PartProgram, pair};
+pub use pair::pair;
 
 use crate::document::{Document, Snapshot, Source};
 use crate::drawing::{Drawing, DrawingEdit, Entity};

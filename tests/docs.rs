@@ -1,6 +1,7 @@
 //! The documentation is true: its links lead somewhere, its commands do what it shows, its pictures are what the program
 //! draws, and every rule has its page.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use wedm::rule::{Rule, Subject};
@@ -772,6 +773,99 @@ fn no_room_imports_upwards() {
         .find(|(_, path, _)| path.ends_with("document.rs"))
         .unwrap();
     assert!(rooms_named(&program.2).len() > 3, "imports are not read");
+}
+
+/// The paths of a tree of imports, each for itself.
+fn paths_of(tree: &str) -> Vec<String> {
+    let Some((before, list)) = tree.split_once('{') else {
+        return vec![tree.trim().to_owned()];
+    };
+    let list = list.rsplit_once('}').map_or(list, |(list, _)| list);
+    let (mut parts, mut depth) = (vec![String::new()], 0);
+    for c in list.chars() {
+        depth += i32::from(c == '{') - i32::from(c == '}');
+        match parts.last_mut() {
+            Some(part) if c != ',' || depth > 0 => part.push(c),
+            _ => parts.push(String::new()),
+        }
+    }
+    let parts = parts.iter().filter(|part| !part.trim().is_empty());
+    parts
+        .flat_map(|part| paths_of(part))
+        .map(|part| before.trim().to_owned() + &part)
+        .collect()
+}
+
+/// The modules that a source imports, as far as a file is their own.
+fn modules_named(
+    own: &[String],
+    source: &str,
+    modules: &BTreeSet<Vec<String>>,
+) -> BTreeSet<Vec<String>> {
+    let trees = source.split(';').filter_map(|statement| {
+        let is_import = |line: &&str| {
+            line.starts_with("use ") || line.starts_with("pub") && line.contains(" use ")
+        };
+        let line = statement.lines().find(is_import)?;
+        Some(statement.split_once(line)?.0.len() + line.find("use ")? + 4)
+            .and_then(|at| statement.get(at..))
+    });
+    let module = |path: String| {
+        let mut names = path.split("::").map(str::trim).peekable();
+        let mut module = match names.next_if_eq(&"crate") {
+            Some(_) => Vec::new(),
+            None => own.to_vec(),
+        };
+        _ = names.next_if_eq(&"self");
+        while names.next_if_eq(&"super").is_some() {
+            module.pop();
+        }
+        module.extend(names.map(str::to_owned));
+        while !module.is_empty() && !modules.contains(&module) {
+            module.pop();
+        }
+        module
+    };
+    trees.flat_map(paths_of).map(module).collect()
+}
+
+/// Nor do files import each other, directly or by way of others. A module and what lies within it are one.
+#[test]
+fn no_files_import_each_other() {
+    let folder = root().join("src");
+    let module = |path: &Path| {
+        let within = path.strip_prefix(&folder).unwrap().with_extension("");
+        let names = within.iter().map(|name| name.to_str().unwrap().to_owned());
+        names.filter(|name| name != "mod").collect::<Vec<_>>()
+    };
+    let sources: BTreeMap<Vec<String>, String> = sources()
+        .into_iter()
+        .map(|(_, path, source)| (module(&path), source))
+        .collect();
+    let modules: BTreeSet<Vec<String>> = sources.keys().cloned().collect();
+    let mut imports: BTreeMap<&Vec<String>, BTreeSet<Vec<String>>> = BTreeMap::new();
+    for (own, source) in &sources {
+        let mut named = modules_named(own, source, &modules);
+        named.retain(|other| !own.starts_with(other) && !other.starts_with(own));
+        imports.insert(own, named);
+    }
+    let count: usize = imports.values().map(BTreeSet::len).sum();
+    assert!(count > 1000, "{count}: imports are not read");
+    // What imports nothing that is left is in no circle, nor is what nothing that is left imports.
+    loop {
+        let before = imports.len();
+        let left: BTreeSet<Vec<String>> = imports.keys().map(|own| own.to_vec()).collect();
+        imports.retain(|_, named| {
+            named.retain(|other| left.contains(other));
+            !named.is_empty()
+        });
+        let named: BTreeSet<Vec<String>> = imports.values().flatten().cloned().collect();
+        imports.retain(|own, _| named.contains(*own));
+        if imports.len() == before {
+            break;
+        }
+    }
+    assert!(imports.is_empty(), "{imports:#?}");
 }
 
 /// Code spans of a page that name a file or folder: relative to the root, or to `src`. What has a capital letter for a name that one

@@ -14,7 +14,7 @@ const MOST_SEGMENTS: usize = 100_000;
 
 /// What is known of two contours, or of one that is cut twice.
 #[derive(Clone, Debug)]
-pub struct Answer {
+pub(crate) struct Answer {
     /// `None` where one of the two has no path, of which others speak.
     pub pair: Option<Arc<Pair>>,
 }

@@ -71,7 +71,7 @@ impl Chains {
     }
 
     /// The same where the entities are of several parts, which are not joined to each other: the number of its part for each that is cut.
-    pub fn of_parts(
+    pub(crate) fn of_parts(
         drawing: &Drawing,
         join: f64,
         part_of: &dyn Fn(EntityId) -> Option<u16>,
@@ -200,7 +200,7 @@ impl Chains {
     }
 
     /// The same of [`Chains::of_parts`].
-    pub fn update_parts(
+    pub(crate) fn update_parts(
         &mut self,
         drawing: &Drawing,
         touched: &[EntityId],

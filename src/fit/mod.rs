@@ -16,7 +16,7 @@ use crate::toolpath::{Cutting, Part, Refusal, part};
 use std::sync::Arc;
 
 /// A segment of a drawing.
-pub type SegmentOf = (EntityId, usize);
+pub(crate) type SegmentOf = (EntityId, usize);
 
 /// A place where clearance is missing.
 #[derive(Clone, Debug, PartialEq)]

@@ -17,7 +17,7 @@ const CAPTION: f64 = 56.0;
 const NUMBERED: usize = 24;
 
 /// One outline in the other as one SVG, in mm.
-pub fn fit_svg(fit: &Fit, unit_mm: f64) -> String {
+pub(crate) fn fit_svg(fit: &Fit, unit_mm: f64) -> String {
     let mut bounds = Bounds::EMPTY;
     for pair in &fit.pairs {
         let all = pair.punch.iter().chain(&pair.plate);

@@ -3,6 +3,8 @@
 //! What a line says may hang on what is in force before it. Each chunk knows what is in force before and behind itself: those behind
 //! an edit are read again for as long as something else is in force than was.
 
+#![warn(clippy::indexing_slicing)]
+
 use crate::text::SourceText;
 use rayon::prelude::*;
 use std::ops::{Deref, DerefMut, Range};
@@ -141,8 +143,10 @@ impl<C: Send> Chunks<C> {
             .places
             .partition_point(|place| place.lines.start <= last)
             .max((from + 1).min(self.list.len()));
-        while from > 0 && L::looks_ahead(&self.list[from - 1]) {
-            from -= 1;
+        while let Some(before) = from.checked_sub(1)
+            && self.list.get(before).is_some_and(L::looks_ahead)
+        {
+            from = before;
         }
         let moved = |line: usize| line + text.line_count() - old_count;
         let lines = self.places.get(from).map_or(0, |place| place.lines.start)
@@ -158,15 +162,17 @@ impl<C: Send> Chunks<C> {
         let mut next = from + fresh.len();
         self.list.splice(from..to, fresh);
         self.places.splice(from..to, places);
-        for place in &mut self.places[next..] {
+        for place in self.places.iter_mut().skip(next) {
             *place = Lines::of(text, moved(place.lines.start)..moved(place.lines.end));
         }
-        while let Some(before) = next.checked_sub(1).map(|last| L::after(&self.list[last]))
+        while let Some(last) = next.checked_sub(1)
+            && let Some(before) = self.list.get(last).map(L::after)
             && let Some(chunk) = self.list.get_mut(next)
+            && let Some(place) = self.places.get(next)
             && L::before(chunk) != before
         {
             if !L::take_on(chunk, before) {
-                let (begun, _) = language.run(text, self.places[next].lines.clone(), before);
+                let (begun, _) = language.run(text, place.lines.clone(), before);
                 *chunk = language.finish(text, begun);
             }
             next += 1;

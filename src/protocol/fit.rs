@@ -27,7 +27,7 @@ pub struct Fit {
 
 /// A place where clearance is missing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct FitPlace {
+pub(crate) struct FitPlace {
     /// On the outline that stands too far out, drawing units.
     pub at: Point,
     /// What is left there, mm; below 0 where the parts bind.
@@ -41,7 +41,7 @@ pub struct FitPlace {
 
 /// A contour without a partner.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct FitAlone {
+pub(crate) struct FitAlone {
     pub handle: String,
     /// Its workpiece.
     pub of: String,
@@ -77,14 +77,14 @@ impl Fit {
 
 /// Result of `wedm/pair`: a program for each part.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct PairPrograms {
+pub(crate) struct PairPrograms {
     pub programs: Vec<PairProgram>,
 }
 
 /// The program of one part of a pair.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub struct PairProgram {
+pub(crate) struct PairProgram {
     /// `punch`, `plate`, `stripper`, `holder`, or the name of a workpiece.
     pub part: String,
     /// Correction of each pass, mm.

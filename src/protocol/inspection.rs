@@ -23,7 +23,7 @@ pub struct Inspection {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct InspectedEntity {
+pub(crate) struct InspectedEntity {
     pub(crate) handle: String,
     /// The DXF name: LINE, ARC, CIRCLE, LWPOLYLINE, POLYLINE.
     pub(crate) r#type: String,

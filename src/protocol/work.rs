@@ -24,7 +24,7 @@ pub struct StartHole {
 /// What the cuts come to. Where a key is not set that something would need, it is left out and the key is `missing`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub struct Work {
+pub(crate) struct Work {
     /// In the order of the cuts.
     pub cuts: Vec<WorkCut>,
     /// mm of all cuts, leads included.
@@ -51,7 +51,7 @@ pub struct Work {
 /// One pass along one contour.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub struct WorkCut {
+pub(crate) struct WorkCut {
     /// Handle of the contour's first entity.
     pub contour: String,
     /// 1-based number of the pass.
@@ -67,7 +67,7 @@ pub struct WorkCut {
 
 /// What drops out of an opening.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Slug {
+pub(crate) struct Slug {
     /// Handle of the contour's first entity.
     pub contour: String,
     /// g of steel: 7.85 g/cm³ × area × `job.thickness`.
@@ -76,7 +76,7 @@ pub struct Slug {
 
 /// The thickest wire that still cuts every arc: Ø = 2 (r − gap).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct LargestWire {
+pub(crate) struct LargestWire {
     /// mm.
     pub diameter: f64,
     /// Of the arc that says so, mm.

@@ -260,7 +260,7 @@ impl Effective {
     }
 
     /// True where the slug of so many mm² is too heavy to drop.
-    pub fn keeps_slug(&self, area: f64) -> bool {
+    pub(crate) fn keeps_slug(&self, area: f64) -> bool {
         let mass = self.mass_of(area).zip(self.job.slug_limit);
         mass.is_some_and(|(mass, limit)| mass > limit)
     }

@@ -78,7 +78,7 @@ impl Workpieces {
     }
 
     /// The number of the part that a layer is of, from 1; 0 for what is of none.
-    pub fn of_layer(&self, layer: &str) -> u16 {
+    pub(crate) fn of_layer(&self, layer: &str) -> u16 {
         self.by_layer.get(layer).copied().unwrap_or(0)
     }
 
@@ -174,7 +174,7 @@ impl Effective {
     /// The settings under which one part of a pair is cut along what is drawn. Where its correction falls to 0 or below the wire runs on the
     /// other side of the contour, so far from it: the flag says so. `None` where the pair does not say, and where some passes run on the one
     /// side, some on the other.
-    pub fn of_use(&self, of: Use) -> Option<(Effective, bool)> {
+    pub(crate) fn of_use(&self, of: Use) -> Option<(Effective, bool)> {
         let shift = self.shift_of(of)?;
         let signed = |correction: f64| correction + shift;
         let all: Vec<f64> = self.corrections.iter().copied().map(signed).collect();
@@ -206,7 +206,7 @@ impl Effective {
     }
 
     /// The settings under which one of the drawn workpieces is cut, and nothing else.
-    pub fn of_workpiece(&self, number: u16) -> Effective {
+    pub(crate) fn of_workpiece(&self, number: u16) -> Effective {
         let mut settings = Effective {
             only: Some(number),
             ..self.clone()

@@ -132,7 +132,7 @@ impl Reader {
     }
 
     /// Names of layers by a name.
-    pub fn layers_by_name(
+    pub(crate) fn layers_by_name(
         &mut self,
         key: &str,
         node: &Node,

@@ -2,7 +2,7 @@
 
 use super::clearance::Walls;
 use super::job::Job;
-use super::leads::{Contours, finding};
+use super::leads::{Contours, HOLE_CLEAR, finding};
 use super::order::{self, name};
 use super::wanted::{Wanted, wanted};
 use crate::drawing::{Drawing, Outline, Role, winding};
@@ -13,9 +13,6 @@ use rustc_hash::FxHashMap;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::f64::consts::SQRT_2;
-
-/// mm that a start hole keeps from what the wire cuts.
-pub(super) const CLEAR: f64 = 0.1;
 
 /// Of half the size of an opening: within so much of its depth the deepest point is found. Near it nothing is deeper by a hundredth of that.
 const DEPTH: f64 = 1e-3;
@@ -99,7 +96,7 @@ impl Job<'_> {
     pub(super) fn hole_reach(&self) -> Option<f64> {
         let diameter = self.settings.start_hole?;
         let is_known = self.settings.compensation != Compensation::None;
-        is_known.then(|| self.units(diameter / 2.0 + self.settings.correction + CLEAR))
+        is_known.then(|| self.units(diameter / 2.0 + self.settings.correction + HOLE_CLEAR))
     }
 
     /// As severe as it is bad: an error where the hole cuts into the part, else a warning.
@@ -140,7 +137,7 @@ impl Job<'_> {
                 left.max(0.0),
                 handle,
                 self.settings.correction,
-                CLEAR
+                HOLE_CLEAR
             ),
         };
         self.hole_finding(Some(contours.place_of(wall)), cuts, sentence)
@@ -150,7 +147,7 @@ impl Job<'_> {
     fn no_room(&self, index: usize, depth: f64) -> Option<Finding> {
         let outline = &self.outlines[index];
         let (diameter, depth) = (self.settings.start_hole?, depth * self.unit_mm);
-        let most = 2.0 * (depth - self.settings.correction - CLEAR);
+        let most = 2.0 * (depth - self.settings.correction - HOLE_CLEAR);
         let handle = name(self.drawing, outline);
         let sentence = match most > 0.0 {
             true => say!(no_start_hole_fits_in, diameter, handle, depth, most),

@@ -4,7 +4,6 @@
 
 use super::clearance::Walls;
 use super::corners::Element;
-use super::hole::CLEAR as HOLE_CLEAR;
 use super::job::ROUNDING;
 use super::offset::{Wall, normal};
 use super::order::name;
@@ -17,6 +16,9 @@ use crate::geometry::{Arc, Point, Segment};
 use crate::settings::{Effective, Lead};
 
 use std::f64::consts::TAU;
+
+/// mm that a start hole keeps from what the wire cuts.
+pub(super) const HOLE_CLEAR: f64 = 0.1;
 
 /// So often a lead is halved.
 const MOST_HALVED: usize = 64;

@@ -42,7 +42,7 @@ pub(crate) struct Part {
 impl Part {
     /// The segment of the drawing that an edge stands for at a point of it: of those that the wire does not follow the nearest, else the
     /// one behind the corner.
-    pub fn segment_at(&self, edge: usize, at: Point) -> Option<(EntityId, usize)> {
+    pub(crate) fn segment_at(&self, edge: usize, at: Point) -> Option<(EntityId, usize)> {
         let [before, behind] = self.edges[edge].walls;
         let count = self.drawn.len();
         let skipped = (behind + count - before) % count;

@@ -28,7 +28,7 @@ pub(super) struct Landing {
 
 impl Landing {
     /// Where a path begins, in `path`, that runs to the `side` of its contour; the control lets the wire run `control` beside it.
-    pub fn of_begin(path: Point, along: Vector, side: f64, control: f64) -> Landing {
+    pub(crate) fn of_begin(path: Point, along: Vector, side: f64, control: f64) -> Landing {
         let room = left_normal(along) * side;
         let at = match control {
             0.0 => path,
@@ -50,7 +50,7 @@ impl Landing {
     }
 
     /// Where it ends, as a lead comes to it that is gone backwards.
-    pub fn of_end(path: Point, along: Vector, side: f64, control: f64) -> Landing {
+    pub(crate) fn of_end(path: Point, along: Vector, side: f64, control: f64) -> Landing {
         let begin = Landing::of_begin(path, along, side, control);
         Landing {
             along: -along,
@@ -159,7 +159,7 @@ pub(super) fn lead_out(pieces: Vec<Segment>) -> impl Iterator<Item = PathSegment
 }
 
 /// The largest angle between a lead and the contour that it leads to or from, radians: how far the wire turns there. `None` without leads.
-pub fn largest_lead_angle(segments: &[PathSegment]) -> Option<f64> {
+pub(crate) fn largest_lead_angle(segments: &[PathSegment]) -> Option<f64> {
     let is_lead = |piece: &PathSegment| matches!(piece.source, Source::LeadIn | Source::LeadOut);
     let angle = |pair: &[PathSegment]| {
         let [before, behind] = pair else { return None };

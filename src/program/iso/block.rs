@@ -1,5 +1,7 @@
 //! What one line says to the machine: its modal words, coordinates and marks, typed. Lengths stay as they are written.
 
+#![warn(clippy::indexing_slicing)]
+
 use super::plain::words;
 use super::word::{Number, Term, Token, Value, WordFault};
 use std::ops::Range;
@@ -31,7 +33,12 @@ impl Motion {
     }
 
     pub(super) fn word(self) -> &'static str {
-        ["G00", "G01", "G02", "G03"][self as usize]
+        match self {
+            Motion::Rapid => "G00",
+            Motion::Line => "G01",
+            Motion::Clockwise => "G02",
+            Motion::CounterClockwise => "G03",
+        }
     }
 
     pub(super) fn is_arc(self) -> bool {

@@ -1,5 +1,7 @@
 //! The words of a line, whatever characters they are written in: those that look like others are read as what they look like.
 
+#![warn(clippy::indexing_slicing)]
+
 use super::cursor::scan;
 use super::word::{Number, Token, WordFault};
 use crate::program::alike::{Alike, alike};
@@ -83,18 +85,22 @@ impl Plain {
             first: 0..0,
         };
         // A byte order mark is none of them.
-        let is_mark = |found: &Alike| line[found.at..].starts_with(b"\xef\xbb\xbf");
+        let is_mark = |found: &Alike| {
+            line.get(found.at..)
+                .unwrap_or_default()
+                .starts_with(b"\xef\xbb\xbf")
+        };
         let mut others = alike(line)
             .into_iter()
             .filter(|found| !is_mark(found))
             .peekable();
         let (mut at, mut depth, mut is_wide) = (0, 0_usize, false);
-        while at < line.len() {
+        while let Some(own) = line.get(at) {
             let other = others.next_if(|found| found.at == at);
             let other =
                 other.filter(|found| depth == 0 || (is_wide && found.likeness.ascii() == b')'));
             let length = other.map_or(1, |found| found.length);
-            let byte = other.map_or(line[at], |found| found.likeness.ascii());
+            let byte = other.map_or(*own, |found| found.likeness.ascii());
             if other.is_some() {
                 if plain.first.is_empty() {
                     plain.first = at..at + length;

@@ -1,8 +1,10 @@
 //! Lines are run: what each says, what it leaves in force, and what is wrong in it.
 
+#![warn(clippy::indexing_slicing)]
+
 use super::block::{Block, Note, Stop, read_line};
 use super::corner::{self, Turned, turned};
-use super::machine::{Course, Machine, Move, Reading, Trail};
+use super::machine::{Course, Machine, Move, Reading, Trail, added, apart};
 use super::run::{Hears, Run, SEVERAL, Tight, Ways};
 use super::shape::Shape;
 use super::stretch::{Definition, Foreign, Pathless, Stretch};
@@ -33,7 +35,9 @@ impl Stretch {
                 if ways.len() <= run {
                     ways.resize_with(run + 1, Ways::default);
                 }
-                ways[run].push(*step);
+                if let Some(way) = ways.get_mut(run) {
+                    way.push(*step);
+                }
             });
         Pathless { stretch, ways }
     }
@@ -119,7 +123,8 @@ impl Stretch {
                 range: pair(range),
             }),
             Note::Length { pointed, range } => {
-                let kept = &mut lengths[usize::from(pointed)];
+                let [bare, with_point] = &mut *lengths;
+                let kept = if pointed { with_point } else { bare };
                 if kept.len() < MOST_LENGTHS {
                     kept.push(pair(range));
                 }
@@ -289,9 +294,7 @@ impl Stretch {
         self.sum.moves += 1;
         self.sum.arcs += usize::from(made.is_arc());
         self.sum.rapids += usize::from(!made.is_cut());
-        for (axis, along) in self.sum.travel.iter_mut().enumerate() {
-            *along = along.wrapping_add(made.to[axis].wrapping_sub(made.from[axis]));
-        }
+        self.sum.travel = added(self.sum.travel, apart(made.to, made.from));
         if made.switches == Some(true) && made.offset.is_none() {
             let side = made.side.unwrap_or(Side::Left);
             self.fault(Fault::NoOffset { side }, range);
@@ -431,8 +434,9 @@ pub(crate) fn words_of(line: &[u8], offset: usize) -> (u32, u32) {
         .iter()
         .take_while(|byte| byte.is_ascii_whitespace())
         .count();
-    let trailing = line[leading..]
+    let trailing = line
         .iter()
+        .skip(leading)
         .rev()
         .take_while(|byte| byte.is_ascii_whitespace())
         .count();

@@ -117,7 +117,7 @@ pub(crate) struct Stretch {
 }
 
 /// A stretch and where it stands.
-pub struct Placed<'a> {
+pub(crate) struct Placed<'a> {
     pub stretch: &'a Stretch,
     pub lines: Range<usize>,
     /// Byte of the text from which the stretch's places count.
@@ -125,7 +125,7 @@ pub struct Placed<'a> {
 }
 
 /// A stop: the index of its stretch, and its byte counted from there.
-pub type StopAt = (usize, u32);
+pub(crate) type StopAt = (usize, u32);
 
 impl Stretch {
     /// True when these lines do the same wherever the wire stands before them.

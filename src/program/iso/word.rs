@@ -2,6 +2,8 @@
 //!
 //! Nothing here knows what a word means, and nothing that one line says hangs on another.
 
+#![warn(clippy::indexing_slicing)]
+
 use crate::finding::{Detail, Finding, Rule, Severity};
 use crate::text::shown;
 use std::ops::Range;

@@ -1,7 +1,10 @@
 //! What stands about the blocks of a line: numbers of rows, names, coordinates, remarks.
 
+#![warn(clippy::indexing_slicing)]
+
 use super::fields;
-use super::words::Words;
+use super::words::{Words, word_of};
+use crate::text::head;
 
 /// A point that stands behind a block, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,39 +16,31 @@ pub struct StatedPoint {
 
 /// `N12`, `N 12`, `N12:`: the number, and how many bytes it takes.
 pub(super) fn n_word(text: &[u8]) -> Option<(u32, usize)> {
-    let digits = 1 + text[1..]
-        .iter()
-        .take_while(|byte| matches!(byte, b' ' | b'\t'))
-        .count();
-    let (number, length) = digits_of(&text[digits..])?;
+    let digits = 1 + spaces(text, 1);
+    let (number, length) = digits_of(text.get(digits..)?)?;
     let mut end = digits + length;
-    let space = text[end..]
-        .iter()
-        .take_while(|byte| matches!(byte, b' ' | b'\t'))
-        .count();
+    let space = spaces(text, end);
     if text.get(end + space) == Some(&b':') {
         end += space + 1;
     }
     Some((number, end))
 }
 
+/// Spaces from a byte on.
+fn spaces(text: &[u8], at: usize) -> usize {
+    let rest = text.iter().skip(at);
+    rest.take_while(|byte| matches!(byte, b' ' | b'\t')).count()
+}
+
 /// A number of a row that is marked as one: `(1)`, `1)`, `1.`, `1:`, `1、`.
 pub(super) fn row_number(text: &[u8]) -> Option<(u32, usize)> {
-    let spaces = |at: usize| {
-        text[at..]
-            .iter()
-            .take_while(|byte| matches!(byte, b' ' | b'\t'))
-            .count()
-    };
     let opens = text.first() == Some(&b'(');
-    let open = if opens { 1 + spaces(1) } else { 0 };
-    let (number, length) = digits_of(&text[open..])?;
-    let length = if opens {
-        length + spaces(open + length)
-    } else {
-        length
-    };
-    let behind = &text[open + length..];
+    let open = if opens { 1 + spaces(text, 1) } else { 0 };
+    let (number, mut length) = digits_of(text.get(open..)?)?;
+    if opens {
+        length += spaces(text, open + length);
+    }
+    let behind = text.get(open + length..)?;
     let mark = match (opens, behind.first()?) {
         (_, b')') => 1,
         (false, b':') => 1,
@@ -59,17 +54,11 @@ pub(super) fn row_number(text: &[u8]) -> Option<(u32, usize)> {
 /// The bare number of a row in which a word stands.
 pub(super) fn row_of_word(text: &[u8], words: &Words<'_>) -> Option<(u32, usize)> {
     let (number, length) = digits_of(text)?;
-    let behind = &text[length..];
-    let behind = &behind[behind
-        .iter()
-        .take_while(|byte| matches!(byte, b' ' | b'\t' | b'|' | b','))
-        .count()..];
-    let word = &behind[..behind
-        .iter()
-        .position(|byte| !byte.is_ascii_alphanumeric())
-        .unwrap_or(behind.len())];
-    (behind.len() < text.len() - length && words.meaning(word).is_some())
-        .then_some((number, length))
+    let behind = text.get(length..)?;
+    let is_between = |byte: &&u8| matches!(byte, b' ' | b'\t' | b'|' | b',');
+    let between = behind.iter().take_while(is_between).count();
+    let word = word_of(behind.get(between..)?);
+    (between > 0 && words.meaning(word).is_some()).then_some((number, length))
 }
 
 fn digits_of(text: &[u8]) -> Option<(u32, usize)> {
@@ -117,7 +106,7 @@ pub(super) fn label(text: &[u8], words: &Words<'_>) -> Option<usize> {
     let code = before_comment(text);
     let at = memchr::memchr2_iter(b'B', b'b', code)
         .take(4)
-        .find(|&at| fields::strict(&code[at..]).is_some())?;
+        .find(|&at| code.get(at..).and_then(fields::strict).is_some())?;
     let name = code.get(..at)?.trim_ascii();
     let is_word = name
         .split(|byte| !byte.is_ascii_alphanumeric())
@@ -133,8 +122,10 @@ pub(super) fn label(text: &[u8], words: &Words<'_>) -> Option<usize> {
 fn has_block_parts(text: &[u8]) -> bool {
     let is_part = |pair: &[u8]| {
         matches!(
-            (pair[0].to_ascii_uppercase(), pair[1].to_ascii_uppercase()),
-            (b'B', b'0'..=b'9') | (b'G', b'X' | b'Y') | (b'R', b'1'..=b'4')
+            pair,
+            [b'B' | b'b', b'0'..=b'9']
+                | [b'G' | b'g', b'X' | b'Y' | b'x' | b'y']
+                | [b'R' | b'r', b'1'..=b'4']
         )
     };
     text.windows(2).any(is_part)
@@ -144,10 +135,8 @@ fn has_block_parts(text: &[u8]) -> bool {
 /// nothing of a block begins with, and space before them.
 pub(super) fn is_remark(line: &[u8], at: usize, words: &Words<'_>) -> bool {
     let rest = line.get(at..).unwrap_or_default();
-    let letters = rest
-        .iter()
-        .take_while(|byte| byte.is_ascii_alphabetic())
-        .count();
+    let is_letter = |byte: &&u8| byte.is_ascii_alphabetic();
+    let letters = rest.iter().take_while(is_letter).count();
     let stands_apart = at
         .checked_sub(1)
         .and_then(|before| line.get(before))
@@ -155,19 +144,20 @@ pub(super) fn is_remark(line: &[u8], at: usize, words: &Words<'_>) -> bool {
     let is_bare =
         stands_apart && letters >= 2 && !rest.get(letters).is_some_and(u8::is_ascii_digit);
     is_bare
-        && words.meaning(&rest[..letters]).is_none()
+        && words.meaning(head(rest, letters)).is_none()
         && !wants_to_be_a_block(rest)
         && fields::strict(rest).is_none()
 }
 
 /// Whether text has enough of a block to be taken for a broken one.
 pub(super) fn wants_to_be_a_block(text: &[u8]) -> bool {
-    let code = before_comment(&text[..text.len().min(160)]);
+    let code = before_comment(head(text, 160));
     let followed_by = |first: &[u8], fits: fn(u8) -> bool| {
         let mut count = 0;
         for (at, byte) in code.iter().enumerate() {
-            let next = code[at + 1..]
+            let next = code
                 .iter()
+                .skip(at + 1)
                 .find(|byte| !matches!(byte, b' ' | b'\t' | b'|'));
             count += usize::from(
                 first.contains(&byte.to_ascii_uppercase()) && next.is_some_and(|&next| fits(next)),
@@ -198,14 +188,14 @@ pub(super) fn wants_to_be_a_block(text: &[u8]) -> bool {
 
 /// Whether a text in other letters has what a block has: three numbers, an axis and a quadrant.
 pub(super) fn looks_like_a_block(text: &[u8]) -> bool {
-    let text = &text[..text.len().min(160)];
+    let text = head(text, 160);
     let follows = |first: &[u8], second: fn(u8) -> bool| {
-        text.windows(2)
-            .any(|pair| first.contains(&pair[0].to_ascii_uppercase()) && second(pair[1]))
+        let mut pairs = text.iter().zip(text.iter().skip(1));
+        pairs.any(|(one, other)| first.contains(&one.to_ascii_uppercase()) && second(*other))
     };
     let numbers = text
         .chunk_by(|a, b| a.is_ascii_digit() == b.is_ascii_digit())
-        .filter(|run| run[0].is_ascii_digit())
+        .filter(|run| run.first().is_some_and(u8::is_ascii_digit))
         .count();
     numbers >= 4
         && follows(b"G", |byte| matches!(byte, b'X' | b'x' | b'Y' | b'y'))
@@ -214,12 +204,12 @@ pub(super) fn looks_like_a_block(text: &[u8]) -> bool {
 
 /// The point of `Start Point = x , y`.
 pub(super) fn start_point(text: &[u8]) -> Option<[f64; 2]> {
-    let text = text.trim_ascii_start();
-    let name = b"start point";
-    if !text.get(..name.len())?.eq_ignore_ascii_case(name) {
+    const NAME: &[u8] = b"start point";
+    let (name, value) = text.trim_ascii_start().split_at_checked(NAME.len())?;
+    if !name.eq_ignore_ascii_case(NAME) {
         return None;
     }
-    let value = text[name.len()..].trim_ascii_start();
+    let value = value.trim_ascii_start();
     let value = value
         .strip_prefix(b"=")
         .or_else(|| value.strip_prefix(b":"))?;
@@ -232,8 +222,8 @@ const FARTHEST: usize = 1024;
 
 /// What stands before a `;`, of a longer text its first [`FARTHEST`] bytes.
 pub(super) fn before_comment(text: &[u8]) -> &[u8] {
-    let near = &text[..text.len().min(FARTHEST)];
-    &near[..memchr::memchr(b';', near).unwrap_or(near.len())]
+    let near = head(text, FARTHEST);
+    head(near, memchr::memchr(b';', near).unwrap_or(near.len()))
 }
 
 /// `x , y` or `x y`, and nothing else, mm.

@@ -1,5 +1,7 @@
 //! One block of 3B as typed numbers in micrometres; what it looks like as text is in `layout` and `parse`.
 
+#![warn(clippy::indexing_slicing)]
+
 pub(crate) use crate::program::grid::Node;
 
 /// G: the axis whose projections the controller counts.
@@ -83,12 +85,17 @@ impl Motion {
 
     /// Z as it is written.
     pub(crate) fn name(self) -> &'static str {
-        let names = match self {
+        let [first, second, third, fourth] = match self {
             Motion::Line(_) => ["L1", "L2", "L3", "L4"],
             Motion::Clockwise(_) => ["SR1", "SR2", "SR3", "SR4"],
             Motion::CounterClockwise(_) => ["NR1", "NR2", "NR3", "NR4"],
         };
-        names[self.quadrant() as usize]
+        match self.quadrant() {
+            Quadrant::First => first,
+            Quadrant::Second => second,
+            Quadrant::Third => third,
+            Quadrant::Fourth => fourth,
+        }
     }
 
     pub(crate) fn is_line(self) -> bool {

@@ -1,5 +1,7 @@
 //! The fields of one block: where each stands, and what was meant where one is damaged.
 
+#![warn(clippy::indexing_slicing)]
+
 use super::block::{Block, CountingAxis, Motion, PartArc, Quadrant};
 use super::fault::{Flaw, SyntaxFault};
 use crate::program::alike::wide_space;
@@ -124,9 +126,10 @@ impl Reader<'_> {
         while let Some(byte) = self.text.get(self.at) {
             match byte {
                 b' ' | b'\t' | b'|' => self.at += 1,
-                0xc2.. if wide_space(&self.text[self.at..]) > 0 => {
-                    self.at += wide_space(&self.text[self.at..])
-                }
+                0xc2.. => match self.text.get(self.at..).map_or(0, wide_space) {
+                    0 => break,
+                    wide => self.at += wide,
+                },
                 _ => break,
             }
         }
@@ -230,8 +233,7 @@ pub(super) fn lenient(text: &[u8]) -> Result<Found, Expected> {
             .and_then(|value| u32::try_from(value).ok());
     }
     let mut radius = None;
-    if numbers.len() == 4 && side.is_none() {
-        let meant = &numbers[0];
+    if let ([meant, _, _, _], None) = (&numbers[..], side) {
         let number = meant.value.and_then(|value| u32::try_from(value).ok());
         let Some((b, number)) = meant.b.zip(number) else {
             return Err((meant.digits.start, say!(b_before_the_number)));
@@ -335,8 +337,7 @@ fn numbers(
         if b.is_none() && reader.at == start {
             return Ok(numbers);
         }
-        if numbers.len() == 5 {
-            let fourth = &numbers[3];
+        if let [_, _, _, fourth, _] = &numbers[..] {
             return Err((
                 fourth.b.unwrap_or(fourth.digits.start),
                 say!(g_and_the_counting_axis),
@@ -436,7 +437,8 @@ fn split_numbers(
             } else {
                 [first.clone()].into_iter().chain(halves).collect()
             };
-            let [Some(x), Some(y), Some(j)] = [all[0].value, all[1].value, all[2].value] else {
+            let values: Vec<_> = all.iter().map(|number| number.value).collect();
+            let [Some(x), Some(y), Some(j)] = values[..] else {
                 continue;
             };
             let counted = if axis == CountingAxis::X { x } else { y };

@@ -4,6 +4,8 @@
 //! plain what was meant (a lost `B`, `B25` for `N25`), the block is read and the fault said beside it. Text that looks like no block
 //! is handed out as [`Item::Text`]: only its place among the blocks tells a heading from a fault.
 
+#![warn(clippy::indexing_slicing)]
+
 use super::around::{
     StatedPoint, before_comment, has_decimal_commas, is_remark, label, looks_like_a_block, n_word,
     point_in, row_number, row_of_word, start_point, stated_point, wants_to_be_a_block,
@@ -11,9 +13,9 @@ use super::around::{
 use super::block::{Block, PartArc};
 use super::fault::{Flaw, SyntaxFault};
 use super::fields;
-use super::words::{Word, Words};
+use super::words::{Word, Words, word_of};
 use crate::program::alike::{Likeness, alike, in_plain_letters, with_plain_marks};
-use crate::text::{self, SourceText};
+use crate::text::{self, SourceText, head};
 use std::ops::Range;
 
 /// One thing that a line says.
@@ -102,12 +104,13 @@ pub fn read_line(line: &[u8], offset: usize, words: &Words<'_>, mut each: impl F
     } else {
         0
     };
-    let with_plain_marks = with_plain_marks(&line[from..]);
+    let line = line.get(from..).unwrap_or_default();
+    let with_plain_marks = with_plain_marks(line);
     let readable = match &with_plain_marks {
         Some(plain) => plain,
-        None => &line[from..],
+        None => line,
     };
-    if let Some(fault) = not_plain(&line[from..], readable, words) {
+    if let Some(fault) = not_plain(line, readable, words) {
         let range = fault.range.start + offset + from..fault.range.end + offset + from;
         return each(Item::Fault(SyntaxFault { range, ..fault }));
     }
@@ -135,13 +138,13 @@ fn not_plain(line: &[u8], readable: &[u8], words: &Words<'_>) -> Option<SyntaxFa
     if is_said || !says(&plain).0 {
         return None;
     }
-    let end = line[..code].trim_ascii_end().len();
+    let end = head(line, code).trim_ascii_end().len();
     let script = if matches!(first.likeness, Likeness::Foreign(_)) {
         say!(cyrillic_or_greek)
     } else {
         say!(full_width)
     };
-    let found = shown(&line[first.at..]);
+    let found = shown(line.get(first.at..)?);
     let expected = say!(a_block_in_plain_letters_and_digits);
     let sentence = say!(
         found_letters_of_another_script,
@@ -228,7 +231,11 @@ struct Cursor<'a> {
     behind_block: bool,
 }
 
-impl Cursor<'_> {
+impl<'a> Cursor<'a> {
+    fn from(&self, at: usize) -> &'a [u8] {
+        self.line.get(at..).unwrap_or_default()
+    }
+
     fn peek(&self) -> Option<u8> {
         self.line.get(self.at).copied()
     }
@@ -249,7 +256,7 @@ impl Cursor<'_> {
         let Some(byte) = self.peek() else {
             return Ok(None);
         };
-        let rest = &self.line[start..];
+        let rest = self.from(start);
         match byte {
             b'B' | b'b' => {}
             // A column of names before the blocks: `AB`, `1-2`, a word in another script.
@@ -261,14 +268,14 @@ impl Cursor<'_> {
             }
             b';' => {
                 self.at = self.line.len();
-                if let Some(at) = start_point(&rest[1..]) {
+                let comment = rest.get(1..).unwrap_or_default();
+                if let Some(at) = start_point(comment) {
                     let range = self.range(start);
                     return Ok(Some(Item::StartPoint { at, range }.into()));
                 }
                 // Nothing else of the line is looked at behind this: the numbers may be as long as they are.
-                let comment = &rest[1..];
-                let coordinates =
-                    &comment[..memchr::memchr(b';', comment).unwrap_or(comment.len())];
+                let end = memchr::memchr(b';', comment).unwrap_or(comment.len());
+                let coordinates = head(comment, end);
                 if has_decimal_commas(coordinates) {
                     return Ok(Some(self.decimal_commas(start + 1).into()));
                 }
@@ -321,11 +328,11 @@ impl Cursor<'_> {
     /// A comment from its mark on; one that holds a block is said to.
     fn comment_at(&mut self, start: usize) -> Option<Token> {
         self.at = self.line.len();
-        let rest = &self.line[start..];
+        let rest = self.from(start);
         let end = start + rest.trim_ascii_end().len();
         let holds_block = memchr::memchr2_iter(b'B', b'b', rest)
             .take(MOST_LOOKS)
-            .any(|at| fields::strict(&rest[at..]).is_some());
+            .any(|at| rest.get(at..).and_then(fields::strict).is_some());
         let comment = Item::CommentedBlock {
             range: self.offset + start..self.offset + end,
             column: start + 1,
@@ -336,7 +343,7 @@ impl Cursor<'_> {
     /// Coordinates with commas for points, from a byte of the line on.
     fn decimal_commas(&mut self, from: usize) -> Item {
         self.at = self.line.len();
-        let code = before_comment(&self.line[from..]);
+        let code = before_comment(self.from(from));
         let (start, end) = (
             from + code.len() - code.trim_ascii_start().len(),
             from + code.trim_ascii_end().len(),
@@ -347,7 +354,7 @@ impl Cursor<'_> {
 
     fn word_or_block(&mut self, words: &Words<'_>) -> Result<Option<Token>, SyntaxFault> {
         let start = self.at;
-        let rest = &self.line[start..];
+        let rest = self.from(start);
         if let Some((block, part, length)) = fields::strict(rest) {
             self.at += length;
             let block = Item::Block {
@@ -359,15 +366,12 @@ impl Cursor<'_> {
             };
             return Ok(Some(block.into()));
         }
-        let length = rest
-            .iter()
-            .position(|byte| !byte.is_ascii_alphanumeric())
-            .unwrap_or(rest.len());
-        if length > 0
-            && let Some(word) = words.meaning(&rest[..length])
+        let letters = word_of(rest);
+        if !letters.is_empty()
+            && let Some(word) = words.meaning(letters)
         {
-            let is_own = words.is_own(&rest[..length]);
-            self.at += length;
+            let is_own = words.is_own(letters);
+            self.at += letters.len();
             let word = Item::Word {
                 word,
                 is_own,
@@ -447,7 +451,7 @@ impl Cursor<'_> {
     /// The fault at the cursor; its range is what stands there up to the next space. There is nothing to underline behind the end, so the
     /// last byte stands for it.
     fn fault(&self, expected: &str) -> SyntaxFault {
-        let (column, rest) = (self.at + 1, &self.line[self.at..]);
+        let (column, rest) = (self.at + 1, self.from(self.at));
         let length = rest.iter().position(u8::is_ascii_whitespace);
         let length = length
             .unwrap_or(rest.len())
@@ -455,7 +459,7 @@ impl Cursor<'_> {
         let (start, found) = if rest.is_empty() {
             (self.at.saturating_sub(1), say!(the_line_ends).to_owned())
         } else {
-            (self.at, say!(found_something, shown(&rest[..length])))
+            (self.at, say!(found_something, shown(head(rest, length))))
         };
         let range = self.offset + start..self.offset + self.at + length;
         let sentence = say!(expected_in_a_column, column, found, expected);
@@ -464,13 +468,10 @@ impl Cursor<'_> {
 
     /// Goes behind the quadrant that the broken block ends in, where more blocks may stand; false where there is none.
     fn skip_broken_block(&mut self) -> bool {
-        let rest = &self.line[self.at..];
-        let comment = rest
-            .iter()
-            .position(|&byte| byte == b';')
-            .unwrap_or(rest.len());
+        let rest = self.from(self.at);
+        let comment = memchr::memchr(b';', rest).unwrap_or(rest.len());
         let is_end = |window: &[u8]| matches!(window, [b'L' | b'R' | b'l' | b'r', b'1'..=b'4']);
-        match rest[..comment].windows(2).position(is_end) {
+        match head(rest, comment).windows(2).position(is_end) {
             Some(at) => {
                 self.at += at + 2;
                 self.behind_block = true;

@@ -1,5 +1,9 @@
 //! The words between the blocks.
 
+#![warn(clippy::indexing_slicing)]
+
+use crate::text::head;
+
 /// What a word between the blocks does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Word {
@@ -44,11 +48,7 @@ impl Words<'_> {
     /// The letters and digits that `text` begins with, as far as a word may reach.
     pub(super) fn letters_of<'t>(&self, text: &'t [u8]) -> &'t [u8] {
         let longest = self.pause.len().max(self.end.len()).max(2);
-        let near = &text[..text.len().min(longest + 1)];
-        &near[..near
-            .iter()
-            .position(|byte| !byte.is_ascii_alphanumeric())
-            .unwrap_or(near.len())]
+        word_of(head(text, longest + 1))
     }
 
     /// True for the two words that the settings name.
@@ -57,4 +57,10 @@ impl Words<'_> {
             .iter()
             .any(|own| word.eq_ignore_ascii_case(own.as_bytes()))
     }
+}
+
+/// The letters and digits that a text begins with.
+pub(super) fn word_of(text: &[u8]) -> &[u8] {
+    let mut parts = text.splitn(2, |byte| !byte.is_ascii_alphanumeric());
+    parts.next().unwrap_or_default()
 }
