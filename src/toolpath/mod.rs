@@ -32,7 +32,8 @@ pub use hole::StartHole;
 pub(crate) use hole::hole_faults;
 pub(crate) use part::{Cutting, Part, part};
 pub use path::{PathSegment, Refusal, Source, WirePath};
-pub(crate) use work::{LargestWire, Work, largest_wire, work};
+pub(crate) use work::Work;
+pub use work::{LargestWire, largest_wire, work};
 
 use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Rule, Severity};
