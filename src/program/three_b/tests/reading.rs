@@ -1,0 +1,142 @@
+//! What is read of a text, damaged or not.
+
+use super::*;
+
+#[test]
+fn text_of_every_writer_is_read() {
+    let hole = [
+        Block {
+            x: 9900,
+            y: 0,
+            j: 9900,
+            axis: CountingAxis::X,
+            motion: Motion::Line(Quadrant::First),
+        },
+        Block {
+            x: 9900,
+            y: 0,
+            j: 39600,
+            axis: CountingAxis::Y,
+            motion: Motion::CounterClockwise(Quadrant::First),
+        },
+    ];
+    for text in [
+        "B9900B0B9900GXL1\nB9900B0B39600GYNR1\nDD",
+        "B 9900 B 0 B 9900 GX L1\r\nB 9900 B 0 B 39600 GY NR1\r\nDD\r\n",
+        "b9900b0b9900gxl1\rb9900b0b39600gynr1\rdd\r",
+        "N1 B9900B0B009900GXL1 ; 9.900 , 0.000\nN 2: B9900 BB039600 G Y N R 1 ; once round\n\n  E",
+        "\u{feff}; Start Point = 0.0 , 0.0\nN 1: B 9900 B 0 B 9900 GX L1  9.9 , 0\nN 2: B9900B0B39600GYNR1 9.9 0\nMJ\n\u{1a}",
+        "*****\nStart Point = 0.00000 , 0.00000 ; X , Y\nB9900B0B9900GXL1 B9900B0B39600GYNR1 DD",
+    ] {
+        assert_eq!(blocks(text), hole, "{text}");
+    }
+    let (items, _) = read(
+        b"; Start Point = 1.5 , -2\nN7: B5BB5GXL1 ; 1.505 , -2.0\nD\n",
+        &Words::default(),
+    );
+    let block = Block {
+        x: 5,
+        y: 0,
+        j: 5,
+        axis: CountingAxis::X,
+        motion: Motion::Line(Quadrant::First),
+    };
+    assert_eq!(
+        items,
+        [
+            Item::StartPoint {
+                at: [1.5, -2.0],
+                range: 0..24
+            },
+            Item::Block {
+                block,
+                range: 29..38,
+                number: Some(7),
+                stated_end: Some(StatedPoint {
+                    at: [1.505, -2.0],
+                    decimals: 1
+                }),
+                part: None
+            },
+            Item::Word {
+                word: Word::Pause,
+                is_own: true,
+                range: 54..55,
+                number: None
+            },
+        ]
+    );
+}
+
+#[test]
+fn a_damaged_line_says_what_was_expected_where() {
+    for (text, sentence) in [
+        (
+            "B9900B0B9900GXL5",
+            "column 16: found `5`, expected a quadrant from 1 to 4",
+        ),
+        (
+            "B9900B0B9900GZL1",
+            "column 14: found `ZL1`, expected X or Y after G",
+        ),
+        (
+            "B9900B0B9900",
+            "column 13: the line ends, expected G and the counting axis, GX or GY",
+        ),
+        (
+            "B9900B0BGXL1",
+            "column 9: found `GXL1`, expected the counting length J in µm",
+        ),
+        (
+            "B-9900B0B9900GXL1",
+            "column 2: found `-9900B0B9900`, expected digits of X, or B before Y",
+        ),
+        (
+            "B1B1B99999999999999999999GXL1",
+            "column 6: found `999999999999`, expected at most 12 digits",
+        ),
+        (
+            "B1B1B5GXMR1",
+            "column 9: found `MR1`, expected L, SR or NR and a quadrant",
+        ),
+        (
+            "B1B0B1GXL1\nXY",
+            "column 1: found `XY`, expected a block (B X B Y B J G Z), a pause or end word, or a comment after `;`",
+        ),
+    ] {
+        let (_, faults) = read(text.as_bytes(), &Words::default());
+        assert_eq!(
+            faults
+                .iter()
+                .map(|fault| fault.sentence())
+                .collect::<Vec<_>>(),
+            [sentence]
+        );
+    }
+}
+
+#[test]
+fn a_block_that_leads_nowhere_says_why() {
+    for (text, expected) in [
+        ("B1000B0B0GXL1", Err(DecodeFault::NoLength)),
+        ("B0B0B500GXNR1", Err(DecodeFault::NoRadius)),
+        ("B1000B0B4003GYNR1", Err(DecodeFault::OverTurn)),
+        ("B50000B0B5000GXL1", Err(DecodeFault::WrongLength)),
+        ("B5000B0B5000GYL1", Err(DecodeFault::WrongAxis)),
+        ("B1B9B90000GYL1", Ok([10000.0, 90000.0])),
+        ("BBB21500GYL2", Ok([0.0, 21500.0])),
+        ("B0B0B9900GXL3", Ok([-9900.0, 0.0])),
+        ("B0B0B9900GYL4", Ok([0.0, -9900.0])),
+        // A zero coordinate has no sign: both quadrants at that axis are right.
+        ("B5000B0B5000GXNR4", Ok([-5000.0, 5000.0])),
+    ] {
+        let end = decode(&blocks(text)[0], Point::origin()).map(|segment| segment.end());
+        match (end, expected) {
+            (Ok(end), Ok(expected)) => assert!(
+                (end - Point::from(expected)).norm() < 1e-6,
+                "{text}: {end:?}"
+            ),
+            (end, expected) => assert_eq!(end, expected.map(Point::from), "{text}"),
+        }
+    }
+}
