@@ -814,6 +814,72 @@ fn a_file_is_known_by_what_stands_in_it_where_its_name_does_not_say_it() {
     assert_eq!(Ended::of(command.output().unwrap()).code, Some(0));
 }
 
+/// The help speaks the language that is asked for; what is typed stays.
+#[test]
+fn the_help_is_in_chinese_where_that_is_spoken() {
+    let desk = Desk::new();
+    for (arguments, texts) in [
+        (
+            "--lang zh --help",
+            ["用法：wedm", "检查图形和程序有什么问题", "退出码"],
+        ),
+        (
+            "check --help --lang zh",
+            ["--statistics", "不列出问题", "设置"],
+        ),
+        (
+            "generate --help --lang zh",
+            ["写出图形的程序", "[默认：3.0]", "--layout"],
+        ),
+        (
+            "generate -h --lang=zh",
+            ["封闭轮廓的切割方向", "示例：", "wedm generate plate.dxf"],
+        ),
+    ] {
+        check(&desk, arguments, 0, &texts);
+    }
+    let mut command = desk.command("inspect --help");
+    command.env("LC_ALL", "zh_CN.UTF-8");
+    assert!(
+        Ended::of(command.output().unwrap())
+            .stdout
+            .contains("列出每一段的半径和判定")
+    );
+    check(
+        &desk,
+        "check --help",
+        0,
+        &["Usage: wedm check", "Settings:"],
+    );
+    let chinese = desk.run("check --help --lang zh").stdout;
+    assert!(
+        chinese.contains("- concise: 每个问题一行") && chinese.contains("[默认：stdin.dxf]"),
+        "{chinese}"
+    );
+    assert!(
+        !chinese.contains("[default") && !chinese.contains("ossible values"),
+        "{chinese}"
+    );
+    check(
+        &desk,
+        "init zh --wire 0.2 --gap 0.01 --passes 1 --machine 3b --lang zh",
+        2,
+        &[],
+    );
+    desk.write("zh/plate.dxf", "");
+    check(
+        &desk,
+        "init zh --wire 0.2 --gap 0.01 --passes 1 --machine 3b --lang zh",
+        0,
+        &[],
+    );
+    let written = String::from_utf8(desk.read("zh/wedm.toml")).unwrap();
+    assert!(
+        written.contains("# 电极丝直径，mm\nwire-diameter = 0.2"),
+        "{written}"
+    );
+}
+
 /// Where the wire is threaded is told whatever the layout, and in the program where the settings want it there.
 #[test]
 fn the_thread_hole_is_always_told() {

@@ -1,6 +1,7 @@
 //! `wedm init`: a commented `wedm.toml`, from flags or from questions.
 
 use super::{Failure, Verdict, output};
+use crate::message::help;
 use crate::settings::{self, FILE_NAME, Row, shipped_profiles};
 use clap::Args;
 use std::fmt::Write;
@@ -164,6 +165,9 @@ fn file(set: &[(&str, String)]) -> String {
 
 /// The first sentence of what a key means.
 fn meaning(row: &Row) -> String {
+    if let Some(said) = help(&format!("= {}", row.key)) {
+        return said.to_owned();
+    }
     let meaning = row.plain_meaning();
     let end = meaning.find(". ").map_or(meaning.len(), |end| end + 1);
     meaning[..end].to_owned()

@@ -28,10 +28,12 @@ mod pair;
 mod report;
 mod serve;
 mod simulate;
+mod translated;
 
-use crate::message::{Asker, Language, is_hidden, readable, speak};
+use crate::message::{Asker, Language, help_beside, is_hidden, readable, speak};
 use clap::builder::PossibleValue;
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::error::ErrorKind;
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;
 use std::fmt::Display;
 use std::path::Path;
@@ -168,11 +170,23 @@ fn choose_language(words: &[OsString]) {
     }
 }
 
+/// All commands, with their help in the language that is spoken.
+fn command() -> clap::Command {
+    translated::translated(CommandLine::command())
+}
+
 /// Does what the process was called for.
 pub fn run() -> ExitCode {
     let words = words();
     choose_language(&words);
-    let arguments = CommandLine::try_parse_from(words).unwrap_or_else(|error| {
+    let parsed = command().try_get_matches_from(words);
+    let parsed = parsed.and_then(|matches| CommandLine::from_arg_matches(&matches));
+    let arguments = parsed.unwrap_or_else(|error| {
+        if error.kind() == ErrorKind::DisplayHelp {
+            let shown = help_beside(error.render().ansi().to_string());
+            let code = output::print(shown).map_or(Verdict::Failed, |()| Verdict::Clean);
+            std::process::exit(code.code().into());
+        }
         // Words that stand in the message may be names of files that a shell has put there.
         if std::env::args_os().any(|word| word.to_string_lossy().contains(is_hidden))
             && error.use_stderr()
@@ -191,7 +205,7 @@ pub fn run() -> ExitCode {
     });
     let outcome = match arguments.command {
         None if arguments.server.is_asked_by_nobody() => {
-            output::print(CommandLine::command().render_help().ansi().to_string())
+            output::print(help_beside(command().render_help().ansi().to_string()))
                 .map(|()| Verdict::Clean)
         }
         None => return serve::run(&arguments.server),
@@ -213,10 +227,8 @@ pub fn run() -> ExitCode {
         Some(Command::Init(arguments)) => init::run(&arguments),
         Some(Command::Config(arguments)) => config::run(&arguments),
         Some(Command::Demo(arguments)) => demo::run(&arguments),
-        Some(Command::Completions(arguments)) => {
-            completions::run(&arguments, &mut CommandLine::command())
-        }
-        Some(Command::Man(arguments)) => man::run(&arguments, CommandLine::command()),
+        Some(Command::Completions(arguments)) => completions::run(&arguments, &mut command()),
+        Some(Command::Man(arguments)) => man::run(&arguments, command()),
     };
     let verdict = outcome.unwrap_or_else(|Failure(sentence)| {
         output::complain(&sentence);

@@ -152,11 +152,26 @@ pub(crate) fn row(key: &str) -> &'static Row {
 }
 
 fn help(row: &Row) -> String {
-    let meaning = row.first_sentence();
-    match &row.default {
-        Some(default) => format!("{meaning} [default: {}]", default.trim_matches('"')),
-        None => meaning,
-    }
+    row.first_sentence() + &shown_default(row)
+}
+
+/// The default of a key, behind what it means.
+pub(super) fn shown_default(row: &Row) -> String {
+    let default = row
+        .default
+        .as_deref()
+        .map(|default| default.trim_matches('"'));
+    default.map_or_else(String::new, |default| {
+        format!(" [{}]", say!(default_is, default))
+    })
+}
+
+/// The key that an option sets, where it sets one.
+pub(super) fn row_of_option(option: &str) -> Option<&'static Row> {
+    let all = (0..GROUPS.len()).flat_map(options);
+    all.into_iter()
+        .find(|(name, _)| *name == option)
+        .map(|(_, row)| row)
 }
 
 /// Reads the value of a key as the settings read it.

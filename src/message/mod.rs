@@ -16,12 +16,13 @@
 //!   `translate!`, its line in [`Language`], and its arm in `in_spoken!`; a row that it lacks does not compile.
 //! - A process speaks one language: an editor starts a server of its own, and a command is one person's. [`speak`] chooses it before
 //!   anything is read, since readers put their sentences into what they find.
-//! - Lines of the log, what a bug says before it stops (`expect`), and the help of the command line, which `clap` takes from the comments
-//!   of its options, stand where they are. `tests/messages.rs` finds other sentences that stand elsewhere.
+//! - Lines of the log, what a bug says before it stops (`expect`), and the English help of the command line, which `clap` takes from the
+//!   comments of its options, stand where they are; in Chinese it is a table of its own (`help.rs`). `tests/messages.rs` finds other sentences that stand elsewhere.
 
 #[macro_use]
 mod table;
 mod en;
+mod help;
 mod language;
 mod readable;
 mod zh;
@@ -31,6 +32,24 @@ pub(crate) use language::{Asker, Language, speak, spoken};
 pub(crate) use readable::{columns, is_hidden, readable};
 
 use std::fmt::{Debug, Display};
+
+/// What a name of the command line's help says in the language that is spoken; `None` where it is English, or is not known.
+pub(crate) fn help(name: &str) -> Option<&'static str> {
+    match spoken() {
+        Language::English => None,
+        Language::Chinese => help::help(name),
+    }
+}
+
+/// A help as it is shown, with what stands in it beside our own texts in the language that is spoken.
+pub(crate) fn help_beside(shown: String) -> String {
+    match spoken() {
+        Language::English => shown,
+        Language::Chinese => help::BESIDE
+            .iter()
+            .fold(shown, |shown, (english, own)| shown.replace(english, own)),
+    }
+}
 
 /// What a sentence may speak of: whatever can be shown.
 pub(crate) trait Shown: Display + Debug {}

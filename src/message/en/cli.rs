@@ -177,6 +177,7 @@ declare! {
     a_controller_that_counts_j_drifts(x, y) => "; a controller that counts J drifts by {x:.2}, {y:.2} µm";
     decoded_again(deviation, drift) => "decoded again: at most {deviation:.2} µm from the path{drift}";
     the_wire_is_threaded_at(x, y) => "the wire is threaded at {x:.3}, {y:.3} mm";
+    default_is(value) => "default: {value}";
     all_of_them_can_be_cut => "all of them can be cut";
     not_ok(count) => "{count} not ok";
     drawing_units_of_mm_radius(unit) => "drawing units of {unit} mm; radius in mm";

@@ -177,6 +177,7 @@ translate! {
     a_controller_that_counts_j_drifts(x, y) => "；按 J 计数的控制器累计偏差 {x:.2}, {y:.2} µm";
     decoded_again(deviation, drift) => "重新解码：偏离切割路线最多 {deviation:.2} µm{drift}";
     the_wire_is_threaded_at(x, y) => "穿丝孔位于 {x:.3}, {y:.3} mm";
+    default_is(value) => "默认：{value}";
     all_of_them_can_be_cut => "全部可以切割";
     not_ok(count) => "{count} 段有问题";
     drawing_units_of_mm_radius(unit) => "图形单位 {unit} mm，半径 mm";

@@ -1,0 +1,139 @@
+//! The help of the command line in the language that is spoken.
+
+use super::options::{row_of_option, shown_default};
+use crate::message::help;
+use clap::{Arg, Command};
+
+/// The command with its help in the language that is spoken.
+pub(super) fn translated(mut command: Command) -> Command {
+    if help("wedm").is_none() {
+        return command;
+    }
+    command.build();
+    translate(command)
+}
+
+fn translate(command: Command) -> Command {
+    let name = command.get_name().to_owned();
+    let mut command = command
+        .help_template(format!(
+            "{{about-with-newline}}\n{}{{usage}}\n\n{{all-args}}{{after-help}}",
+            help("heading Usage").unwrap_or_default()
+        ))
+        .subcommand_help_heading(help("heading Commands").unwrap_or_default());
+    if let Some(about) = help(&name) {
+        command = command.about(about);
+        if let Some(more) = help(&format!("{name}/")) {
+            command = command.long_about(format!("{about}\n\n{more}"));
+        }
+    }
+    if let Some(examples) = command.get_after_help().map(ToString::to_string) {
+        let own = help(&format!("{name}-examples")).map(str::to_owned);
+        let first = help("wedm-examples").and_then(|all| all.lines().next());
+        let translated = examples.replacen("Examples:", first.unwrap_or_default(), 1);
+        command = command.after_help(own.unwrap_or(translated));
+    }
+    command
+        .mut_args(|argument| translate_argument(&name, argument))
+        .mut_subcommands(translate)
+}
+
+fn translate_argument(command: &str, argument: Arg) -> Arg {
+    let id = argument.get_id().to_string();
+    let english = argument.get_help().map(ToString::to_string);
+    let heading = match argument.get_help_heading() {
+        Some(heading) => format!("heading {heading}"),
+        None if argument.is_positional() => "heading Arguments".to_owned(),
+        None => "heading Options".to_owned(),
+    };
+    let of_settings = match argument.get_help_heading() {
+        Some(_) if id != "config" => row_of_option(&id),
+        _ => None,
+    };
+    let text = match of_settings {
+        Some(row) => help(&format!("= {}", row.key))
+            .map(|meaning| format!("{meaning}{}", shown_default(row))),
+        None if id == "config" => help("config-file").map(str::to_owned),
+        None => help(&format!("{command} {id}"))
+            .or_else(|| help(&id))
+            .map(str::to_owned),
+    };
+    let argument = argument.help_heading(help(&heading).unwrap_or_default());
+    match text.or(english) {
+        // A text for `--help` alone is none of ours, but of the option that clap adds by itself.
+        Some(text) => argument.long_help(None::<&str>).help(text),
+        None => argument,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::CommandLine;
+    use super::*;
+    use crate::message::{Asker, Language, speak};
+    use crate::settings::rows;
+    use clap::CommandFactory;
+
+    fn is_chinese(text: &str) -> bool {
+        text.contains(|letter| ('\u{4e00}'..='\u{9fff}').contains(&letter))
+    }
+
+    /// Names of what is still said in English.
+    fn untranslated(command: &Command, found: &mut Vec<String>) {
+        let name = command.get_name();
+        let texts = [command.get_about(), command.get_long_about()];
+        let texts = texts.into_iter().flatten().map(ToString::to_string);
+        found.extend(
+            texts
+                .filter(|text| !is_chinese(text))
+                .map(|_| name.to_owned()),
+        );
+        for argument in command.get_arguments() {
+            let text = argument.get_help().map(ToString::to_string);
+            if !text.is_some_and(|text| is_chinese(&text)) {
+                found.push(format!("{name} {}", argument.get_id()));
+            }
+        }
+        command
+            .get_subcommands()
+            .for_each(|one| untranslated(one, found));
+    }
+
+    /// Every command, every option and every key of the settings is explained in Chinese. One process speaks one language: the test
+    /// speaks it in a process of its own, `tests/cli.rs` asks the binary.
+    #[test]
+    fn all_help_has_its_twin() {
+        if std::env::var_os("WEDM_TEST_OF_HELP").is_none() {
+            let own = std::env::current_exe().unwrap();
+            let ended = std::process::Command::new(own)
+                .args([
+                    "--exact",
+                    "cli::translated::tests::all_help_has_its_twin",
+                    "--nocapture",
+                ])
+                .env("WEDM_TEST_OF_HELP", "1")
+                .output()
+                .unwrap();
+            let said = String::from_utf8_lossy(&ended.stdout).into_owned();
+            assert!(
+                ended.status.success(),
+                "{said}{}",
+                String::from_utf8_lossy(&ended.stderr)
+            );
+            return;
+        }
+        speak(Language::Chinese, Asker::CommandLine);
+        let mut found = Vec::new();
+        untranslated(&translated(CommandLine::command()), &mut found);
+        let keys = rows().into_iter().map(|row| format!("= {}", row.key));
+        let keys = keys.filter(|key| !key.contains("NAME"));
+        found.extend(keys.filter(|key| help(key).is_none()));
+        found.sort();
+        found.dedup();
+        assert!(
+            found.is_empty(),
+            "no Chinese help in src/message/help.rs of {found:?}"
+        );
+        translated(CommandLine::command()).debug_assert();
+    }
+}

@@ -1,0 +1,361 @@
+//! The help of the command line in Chinese: its commands, their options, and the settings in short. The English texts are the comments that `clap`
+//! and the settings are declared with, so that they are asked for by name here: `check` for a command, `check/` for what its help says
+//! beyond that, `check output` for an option of it, `output` for the option of several commands, `= program.tab` for a key of the settings.
+
+/// What a name of the help says.
+pub(super) fn help(name: &str) -> Option<&'static str> {
+    let found = HELP.iter().find(|(own, _)| *own == name);
+    found.map(|(_, text)| *text)
+}
+
+/// What `clap` puts into a help by itself, and what single words of an option mean.
+pub(super) const BESIDE: [(&str, &str); 8] = [
+    ("[default: ", "[默认："),
+    ("[possible values: ", "[可选："),
+    ("Possible values:", "可选："),
+    ("A line for each finding", "每个问题一行"),
+    (
+        "The same, under a heading for each file",
+        "同上，每个文件有标题",
+    ),
+    ("Annotations of a GitHub workflow", "GitHub 工作流的注释"),
+    ("JUnit's XML", "JUnit 的 XML"),
+    ("[aliases: ", "[别名："),
+];
+
+const HELP: &[(&str, &str)] = &[
+    ("wedm", "线切割的语言服务器和命令行"),
+    (
+        "wedm/",
+        "找出半径小于补偿量的每一段圆弧，给出修复，写出校核过的 3B 程序。不带命令时是标准输入输出上的语言服务器；在终端上显示本帮助。",
+    ),
+    (
+        "wedm-examples",
+        "示例：
+  wedm check plate.dxf                     半径小于 0.10 mm 的每段圆弧及其位置
+  wedm check --correction 0.12 drawings/   整个文件夹，用另一补偿量
+  wedm fix plate.dxf -o fixed.dxf          修复能修复的
+  wedm generate fixed.dxf --side opening -o plate.3b
+  wedm format plate.3b --layout checking   带段号和终点
+  wedm convert plate.3b -o plate.dxf       程序变回图形，或变成 ISO
+  wedm demo                                用自带的图形演示全过程
+
+退出码：0 没有错误，1 图形有错误，2 读不出，或用法不对。",
+    ),
+    ("check", "检查图形和程序有什么问题"),
+    (
+        "check/",
+        "文件夹中查找 .dxf、.dxb、.3b、.4b、.iso 和 .nc；.gitignore、.ignore、.wedmignore 所列的和隐藏文件不查。没有错误以 0 结束，有错误以 1 结束，有内容读不出以 2 结束。",
+    ),
+    ("check paths", "文件，以及要查找的文件夹；`-` 是标准输入"),
+    ("check statistics", "不列出问题，只列出每条规则的次数"),
+    ("check select", "只要这些规则，以及说明文件无法判断的规则"),
+    ("check ignore", "不要这些规则"),
+    (
+        "check exclude",
+        "跳过符合此模式的文件和文件夹，写法同 .gitignore",
+    ),
+    ("check no_ignore", "也查隐藏文件和 .gitignore 等所列的文件"),
+    (
+        "check stdin_name",
+        "标准输入的名称：扩展名说明是什么，所在文件夹说明用哪个 wedm.toml",
+    ),
+    ("check watch", "文件一改就再查，直到进程结束"),
+    ("check show_suppressed", "也列出允许保留的问题及其理由"),
+    ("check deny", "有此级别的问题也以 1 结束"),
+    ("fix", "修复能可靠修复的"),
+    (
+        "fix/",
+        "只写出改变的数值，其余字节不动：代码页、换行、wedm 不认识的内容。写出之前重新读一遍并检查。文本容不下的修复（旁边的行已损坏）会指明，其余照做。还有错误或有修复没有做时以 1 结束。",
+    ),
+    ("fix path", "图形或程序"),
+    ("fix output", "修复后的图形写到这里（`-` 是标准输出）"),
+    ("fix in_place", "修复后的图形写回原文件"),
+    ("fix diff", "显示会改什么，不写出"),
+    ("format", "把程序整理成一种排版"),
+    (
+        "format/",
+        "程序段、代码、注释和段号不变，机床的动作也不变：每一行都重新读过才采用。读不出的行原样保留。这里和设置中都没有指定排版时，用程序中多数程序段的排版。`--check` 或 `--diff` 发现要改的，以 1 结束。",
+    ),
+    ("format paths", "程序，以及要查找程序的文件夹"),
+    (
+        "format output",
+        "整理后的程序写到这里（`-` 是标准输出）；只能有一个 PATH",
+    ),
+    ("format in_place", "整理后的程序写回原文件"),
+    ("format check", "列出会改变的程序，不写出"),
+    ("format diff", "显示会改什么，不写出"),
+    (
+        "format layout",
+        "程序段的形式 [默认：设置中的 `program.layout`，没有则为程序自己的]",
+    ),
+    ("generate", "写出图形的程序"),
+    (
+        "generate/",
+        "写出之前，每个程序段都重新解码并与切割路线核对。有错误的图形会被拒绝，除非用 --force。程序写到标准输出，或用 -o 写到文件；结果说明在标准错误中。",
+    ),
+    ("generate format", "程序的语言：3b、4b、iso"),
+    ("generate output", "程序写到这里 [默认：标准输出]"),
+    (
+        "generate handle",
+        "只切含有此图元的轮廓；可多次给出，按切割次序",
+    ),
+    (
+        "generate layer",
+        "只切在此图层上有图元的轮廓；可多次给出，可与 --handle 并用",
+    ),
+    ("generate force", "图形有错误也写出"),
+    ("pair", "写出凸模、凹模、卸料板和固定板的程序"),
+    (
+        "pair/",
+        "补偿量由配合间隙得出。写出之前每个程序都重新解码并与切割路线核对；已有的文件不会被覆盖，除非用 --overwrite。",
+    ),
+    ("pair format", "程序的语言：3b、4b、iso"),
+    ("pair output", "程序写到此文件夹 [默认：图形所在的文件夹]"),
+    ("pair overwrite", "覆盖已有的程序"),
+    ("pair handle", "只切含有此图元的轮廓；可多次给出"),
+    ("pair force", "图形有错误也写出"),
+    ("fit", "把丝切出的凸模与凹模相配"),
+    (
+        "fit/",
+        "配不上时以 1 结束。两个零件是切两次的同一轮廓（pair.drawn-as），或两个工件（[workpieces]）。",
+    ),
+    ("fit output", "图片写到这里（.svg）"),
+    ("fit format", "输出的形式"),
+    ("holes", "列出要钻的穿丝孔：CSV，或 DXF 的一个图层"),
+    (
+        "holes/",
+        "每个孔一行：图形，x、y（mm），直径（mm，有 --start-hole 或设置时），由它切割的轮廓，是给定的还是找到的。放不下的孔在标准错误中说明，并以 1 结束。",
+    ),
+    ("holes paths", "图形"),
+    (
+        "holes output",
+        "列表写到这里（.csv 或 .dxf）[默认：CSV，写到标准输出]",
+    ),
+    ("inspect", "列出每一段的半径和判定"),
+    ("inspect/", "图形有错误时以 1 结束；JSON 仍会输出。"),
+    ("inspect handle", "只列此图元"),
+    (
+        "draw",
+        "把图形的轮廓、问题和切割路线，或程序的路线画成 SVG；轮廓和切割路线也可画成 DXF",
+    ),
+    ("draw path", "图形或程序"),
+    (
+        "draw output",
+        "图片写到这里（.svg 或 .dxf）[默认：SVG，写到标准输出]",
+    ),
+    (
+        "contours",
+        "列出轮廓：什么与什么相接，封闭与否，用途、面积和长度",
+    ),
+    ("convert", "把程序变成图形，或变成另一种语言的程序"),
+    (
+        "convert/",
+        "轮廓成为图层 CUT 上带圆弧的多段线，引线成为 LEAD 上的直线，空走成为 WAY 上的直线。3B 程序带有坐标（checking 排版）的用坐标；否则说明机床走一圈累计的偏差。有错误的程序会被拒绝，除非用 --force。",
+    ),
+    ("convert program", "程序：.3b、.4b、.iso 或 .nc"),
+    ("convert path", "程序：.3b、.4b、.iso 或 .nc"),
+    (
+        "convert output",
+        "写到这里；扩展名说明变成什么：.dxf、.3b、.4b、.iso 或 .nc",
+    ),
+    (
+        "convert format",
+        "没有 OUT 说明时，变成什么：dxf、3b、4b、iso",
+    ),
+    ("convert force", "有错误也变换；不知走向哪里的程序段略去"),
+    ("simulate", "说明机床实际走到哪里"),
+    (
+        "simulate/",
+        "3B 控制器在一个轴上数微米，数到就停：逐段照此走，每次 1 µm，终点与本意的直线、圆弧不同的，两个终点都列出。点以 mm 计，自程序起点；程序说明起点的，为绝对坐标。JSON 是 `wedm/simulate` 的结果，单位 µm。",
+    ),
+    ("simulate path", "程序"),
+    ("simulate program", "程序"),
+    ("simulate feed", "切割速度，用来算时间"),
+    (
+        "report",
+        "每个图形写一页，并有索引：图片、轮廓、半径列表、问题、程序",
+    ),
+    (
+        "report/",
+        "每页是一个 HTML 文件，不要别的文件，亮暗随查看者，可打印在 A4 上。图形有错误时以 1 结束，页仍会写出。",
+    ),
+    ("report paths", "图形，或图形的文件夹"),
+    ("report output", "放这些页的文件夹；没有则建立"),
+    ("report format", "程序的语言：3b、4b、iso"),
+    (
+        "explain",
+        "说明一条规则查什么，对切割有什么影响，可以怎么办",
+    ),
+    ("explain/", "不给规则名：列出全部规则。"),
+    ("explain rule", "规则名，即问题级别后括号中的名称"),
+    ("init", "为图形文件夹写出带注释的 wedm.toml"),
+    (
+        "init/",
+        "在终端上会询问选项没有给出的内容。多次切割时算出各次补偿量：粗切为电极丝半径 + 间隙 + 余量，n 次修切中的第 i 次为半径 + 精切间隙 + 余量 × (n − i) / n。",
+    ),
+    ("init folder", "文件写到此文件夹"),
+    ("init wire", "电极丝直径，mm"),
+    ("init gap", "放电间隙，mm；多次切割时为粗切的"),
+    ("init fine_gap", "修切的放电间隙，mm [默认：间隙的一半]"),
+    ("init stock", "粗切为修切留下的余量，mm"),
+    ("init passes", "每个轮廓切几次"),
+    ("init machine", "机床读什么：3b，或一种 ISO profile"),
+    ("init force", "覆盖已有的 wedm.toml"),
+    ("config", "说明可以设置什么"),
+    ("schema", "wedm.toml 的 JSON Schema"),
+    ("demo", "用自带的图形与真实的服务器演示全过程"),
+    (
+        "demo/",
+        "打开凹模板图形，像设计员一样修改，显示每个诊断，采用修复，取得 3B 程序，重新解码，写出 demo.dxf、demo.3b 和 demo.svg。所说的全部属实才以 0 结束。",
+    ),
+    ("demo folder", "文件写到此文件夹"),
+    (
+        "serve",
+        "在标准输入输出上讲语言服务器协议（不带命令时就是这样）",
+    ),
+    ("stdio", "有的编辑器会给出；没有别的方式"),
+    (
+        "no_parent_watch",
+        "客户端所指的进程结束后继续运行：在容器中它的编号没有意义",
+    ),
+    ("completions", "输出命令行补全脚本"),
+    ("completions shell", "哪一种 shell"),
+    ("man", "写出手册页，每个命令一页"),
+    ("man folder", "手册页写到此文件夹"),
+    ("help", "显示本帮助，或命令的帮助"),
+    ("version", "显示版本"),
+    ("subcommand", "命令"),
+    ("output", "输出的形式"),
+    ("path", "图形"),
+    (
+        "config-file",
+        "设置文件，叠加在输入所在处向上找到的 `wedm.toml` 之上",
+    ),
+    (
+        "language",
+        "文件是什么，不管其名称 [默认：看扩展名，扩展名看不出的看内容]",
+    ),
+    (
+        "lang",
+        "所有语句的语言 [默认：LC_ALL、LC_MESSAGES 或 LANG 的，否则 en]",
+    ),
+    ("heading Settings", "设置"),
+    ("heading Program", "程序"),
+    ("heading Words", "代码"),
+    ("heading Pair", "凸凹模"),
+    ("heading Options", "选项"),
+    ("heading Arguments", "参数"),
+    ("heading Commands", "命令"),
+    ("heading Usage", "用法："),
+    ("= correction", "电极丝半径 + 放电间隙，mm"),
+    ("= wire-diameter", "电极丝直径，mm"),
+    ("= gap", "放电间隙，mm"),
+    ("= side", "电极丝在哪一侧走，用于图元和图层都没有说明的轮廓"),
+    ("= units", "没有说明单位的图形的单位"),
+    ("= margin", "修复选半径时加在补偿量上的值，mm"),
+    (
+        "= resolution",
+        "比它小的在工件上量不出，mm：gap、near-tangent、sharp-corner、short-segment、duplicate-entity 和 overlap 不提示",
+    ),
+    ("= layers", "图层上图元的用途，按图层名"),
+    (
+        "= linetypes",
+        "某线型图元的用途，线型由图元自己或其图层给出：按线型名，先于图层和颜色；用于 DXF",
+    ),
+    (
+        "= contours",
+        "含有此图元的轮廓的用途，按图元句柄，先于图层和颜色",
+    ),
+    (
+        "= colors",
+        "某颜色图元的用途，颜色由图元自己或其图层给出，用于图元和图层都没有用途的",
+    ),
+    (
+        "= drawings",
+        "对一个图形所说的，按文件名：[drawings.\"plate.dxf\".suppress.2A]",
+    ),
+    ("= arc-fit", "代替椭圆和样条的圆弧与它们相差多少，mm"),
+    ("= rules", "规则的级别，按规则名"),
+    (
+        "= docs-url",
+        "规则说明页的地址，如 https://edm.example/rules/{rule}.html：{rule} 代表规则名",
+    ),
+    (
+        "= workpieces",
+        "画在同一处、彼此无关的零件，各按名称列出所在图层；不在这些图层上的自成一个零件",
+    ),
+    ("= profiles", "自己的 ISO profile，按名称"),
+    (
+        "= passes.corrections",
+        "从粗切到精修各次切割的补偿量，mm，代替 correction：每个轮廓切这么多次",
+    ),
+    ("= passes.gaps", "各次切割的放电间隙，mm"),
+    ("= passes.rates", "各次切割的速度"),
+    ("= passes.sequence", "轮廓的各次切割走哪个方向"),
+    (
+        "= passes.registers",
+        "ISO 程序中说明各次切割补偿量所在的代码",
+    ),
+    (
+        "= passes.skim-corner",
+        "第一次以后的各次切割怎样处理丝在内侧走的拐角",
+    ),
+    ("= program.layout", "程序段的形式"),
+    (
+        "= program.header",
+        "3B、4B 程序是否以 `; Start Point = x , y` 开头，即说明穿丝处的注释，mm",
+    ),
+    ("= program.direction", "封闭轮廓的切割方向"),
+    ("= program.corner", "丝怎样绕过工件的外拐角"),
+    ("= program.thread", "穿丝孔 [x, y]，图形单位"),
+    ("= program.entry", "轮廓上开始切割的点 [x, y]，图形单位"),
+    (
+        "= program.lead-in",
+        "没有给出穿丝孔时，从穿丝孔到切割路线的引线长度，mm",
+    ),
+    ("= program.lead", "丝怎样从穿丝孔走到切割路线，又怎样回来"),
+    ("= program.start-hole", "穿丝孔直径，mm"),
+    (
+        "= program.tab",
+        "各次切割在切入点前都留下不切的长度，mm，使凸模在切割中不掉下：然后停机，再把留下的一段分次切断",
+    ),
+    ("= program.tab-stop", "切断暂留段之前使机床停下的代码"),
+    (
+        "= program.closing-overlap",
+        "轮廓封闭后每次切割越过起点继续走的长度，mm",
+    ),
+    ("= program.order", "轮廓的次序；在另一轮廓之内的总在它之前"),
+    ("= program.jumps", "一个程序中轮廓之间放什么"),
+    ("= program.compensation", "补偿量在哪里加上"),
+    ("= program.digits", "3B、4B 控制器数值的位数"),
+    (
+        "= program.units",
+        "没有说明单位（G20、G21）的 ISO 程序的数值单位",
+    ),
+    (
+        "= program.profile",
+        "ISO 程序的写法：fast-wire、robofil、generic，或 profiles 中的一个",
+    ),
+    ("= program.end", "结束程序的代码，由字母和数字组成"),
+    (
+        "= program.pause",
+        "使机床停下以便剪丝、穿丝的代码，由字母和数字组成",
+    ),
+    ("= job.thickness", "工件高度，mm"),
+    (
+        "= job.slug-limit",
+        "废料质量的限度，g，超过它的型孔留下 program.tab 那么长的暂留段",
+    ),
+    (
+        "= job.machine-rate",
+        "机床每小时的费用，用任何货币：passes.rates 算出的时间由此有了价格",
+    ),
+    (
+        "= pair.drawn-as",
+        "每个轮廓切两次（从外侧切凸模，从内侧切凹模）时，图上画的是哪个零件的尺寸",
+    ),
+    ("= pair.clearance", "凸模与凹模的单边配合间隙，mm"),
+    ("= pair.stripper", "卸料板与凸模的单边间隙，mm"),
+    ("= pair.holder", "固定板比凸模紧多少，单边，mm"),
+];
