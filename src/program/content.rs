@@ -76,28 +76,17 @@ fn is_line_of_words(line: &[u8]) -> bool {
 mod tests {
     use super::*;
 
+    /// The extension of VS Code is held to the same cases.
     #[test]
     fn a_text_is_known_by_what_stands_in_it() {
-        let check = |text: &str, expected: Option<Language>| {
-            assert_eq!(Language::of_content(text.as_bytes()), expected, "{text:?}");
-        };
-        let (three_b, iso) = (Some(Language::ThreeB), Some(Language::Iso));
-        check("B9900B0B9900GXL1\nB9900B0B39600GYNR1\nDD\n", three_b);
-        check(
-            "; plate\r\nN 1: B 9900 B 0 B 9900 GX L1  9.9 , 0\r\nMJ\r\n",
-            three_b,
-        );
-        check("\u{feff}B2900B0B2900GXDDNR1\n", three_b);
-        check("%\nO0001\nN10 G92 X0 Y0\nG01 X10. Y5.\nM02\n%", iso);
-        check("(plate)\ng90g1x1.\ny2.\nm02", iso);
-        check("H001=.11\nC001 = ON 8 OFF 12\nG90\nG41 H001\nG1 X1.\n", iso);
-        check(
-            "Dear customer,\nthe plate is 20 x 10 mm.\nG1 goes first.\n",
-            None,
-        );
-        check("0\nSECTION\n2\nENTITIES\n0\nEOF\n", None);
-        check("@echo off\nmkdir build\ncopy a b\n", None);
-        check("", None);
-        check("\0\0\0", None);
+        let table = include_str!("../../clients/languages.json");
+        let table: serde_json::Value = serde_json::from_str(table).unwrap();
+        let cases = table["cases"].as_array().unwrap();
+        assert!(cases.len() > 10);
+        for case in cases {
+            let text = case["text"].as_str().unwrap();
+            let found = Language::of_content(text.as_bytes()).map(Language::id);
+            assert_eq!(found, case["language"].as_str(), "{text:?}");
+        }
     }
 }

@@ -7,6 +7,7 @@ import { changeCorrection } from "./commands/correction";
 import { fixAll } from "./commands/fixAll";
 import { generate } from "./commands/generate";
 import { scaleProgram } from "./commands/scale";
+import { detectPrograms } from "./detect";
 import { Front } from "./front";
 import { watchLargeFiles } from "./large";
 import { Pictures } from "./picture/pictures";
@@ -61,6 +62,7 @@ export function activate(context: vscode.ExtensionContext): void {
     new Status(server, front),
     sayWhatFails(server, log),
     watchLargeFiles(),
+    detectPrograms(),
     rulePages(server),
     vscode.workspace.onDidChangeConfiguration((event) => {
       if (STARTS_ANEW.some((key) => event.affectsConfiguration(key))) {
