@@ -4,10 +4,15 @@ use super::report::Report;
 use crate::drawing::{Contour, ContourIndex, Drawing, RUN, Role};
 use crate::finding::{Finding, Severity, Side};
 use crate::rules::lost_pocket::Lost;
-use crate::rules::{LOCAL_RULES, Limits, Observation, Outlook};
+use crate::rules::{AtHand, LOCAL_RULES, Limits, Observation, Outlook};
 use crate::settings::Effective;
 use std::iter::once;
 use std::ops::Range;
+
+/// Runs whose segments are at hand at once.
+const AT_ONCE: usize = 256;
+/// Segments at hand before and behind them: what rules ask for beyond is worked out.
+const ABOUT: usize = 32;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Known {
@@ -53,11 +58,13 @@ impl Known {
             index: &self.index,
             limits,
             part: self.part,
+            at_hand: None,
         };
         let (count, runs) = (contour.len(), self.index.run_count());
         let recounted = self.runs != runs;
         self.runs = runs;
-        let mut seen = Vec::new();
+        // Which rule looks at which run, run by run.
+        let mut asked: Vec<(usize, usize)> = Vec::new();
         for (number, rule) in LOCAL_RULES.iter().enumerate() {
             if settings.severity(rule.rule).is_none() {
                 continue;
@@ -86,12 +93,32 @@ impl Known {
                 }
                 observations.resize(runs, Vec::new());
             }
-            for run in ranges
-                .into_iter()
-                .flat_map(|range| range.start / RUN..range.end.div_ceil(RUN).min(runs))
-            {
+            asked.extend(
+                ranges
+                    .into_iter()
+                    .flat_map(|range| range.start / RUN..range.end.div_ceil(RUN).min(runs))
+                    .map(|run| (run, number)),
+            );
+        }
+        asked.sort_unstable();
+        asked.dedup();
+        let mut seen = Vec::new();
+        for asked in asked.chunk_by(|(one, _), (other, _)| one / AT_ONCE == other / AT_ONCE) {
+            let runs_at_hand = asked[0].0..asked[asked.len() - 1].0 + 1;
+            let at_hand = AtHand::of(
+                drawing,
+                contour,
+                limits,
+                (runs_at_hand.start * RUN).saturating_sub(ABOUT)
+                    ..(runs_at_hand.end * RUN + ABOUT).min(count),
+            );
+            let outlook = Outlook {
+                at_hand: Some(&at_hand),
+                ..outlook
+            };
+            for &(run, number) in asked {
                 seen.clear();
-                (rule.check)(&outlook, self.index.range_of(run), &mut seen);
+                (LOCAL_RULES[number].check)(&outlook, self.index.range_of(run), &mut seen);
                 if seen.is_empty() && self.observations.get(number).is_none_or(Vec::is_empty) {
                     continue;
                 }

@@ -349,6 +349,7 @@ impl Analysis {
             index: &known.index,
             limits: &self.limits,
             part: known.part,
+            at_hand: None,
         })
     }
 }

@@ -25,7 +25,7 @@ pub(crate) use wall::Wall;
 
 use crate::drawing::{Contour, ContourIndex, ContourSegment, Drawing};
 use crate::finding::{Detail, Fix, Place, Rule, Severity, Side};
-use crate::geometry::{Point, Tolerances, turn};
+use crate::geometry::{Point, Segment, Tolerances, turn};
 use crate::settings::{Compensation, Effective};
 use std::ops::Range;
 
@@ -81,6 +81,58 @@ pub(crate) struct Outlook<'a> {
     pub(crate) limits: &'a Limits,
     /// The number of its workpiece: contours of others do not meet it.
     pub(crate) part: u16,
+    /// Segments that need not be worked out again.
+    pub(crate) at_hand: Option<&'a AtHand>,
+}
+
+/// A stretch of segments of a contour, and how it turns between them, worked out once for all rules.
+#[derive(Debug)]
+pub(crate) struct AtHand {
+    first: usize,
+    segments: Vec<ContourSegment>,
+    /// How the contour turns where each of the segments begins, but for the first.
+    turns: Vec<Option<f64>>,
+}
+
+impl AtHand {
+    pub(crate) fn of(
+        drawing: &Drawing,
+        contour: &Contour,
+        limits: &Limits,
+        range: Range<usize>,
+    ) -> AtHand {
+        let first = range.start;
+        let count = range.len();
+        let mut segments: Vec<ContourSegment> = contour.segments_in(drawing, range).collect();
+        // Where an entity is missing their numbers are not those of the contour.
+        if segments.len() != count {
+            segments.clear();
+        }
+        let turns = segments
+            .windows(2)
+            .map(|pair| turn_between(limits, &pair[0].geometry, &pair[1].geometry))
+            .collect();
+        AtHand {
+            first,
+            segments,
+            turns,
+        }
+    }
+
+    fn segment(&self, index: usize) -> Option<ContourSegment> {
+        self.segments.get(index.checked_sub(self.first)?).copied()
+    }
+
+    fn turn(&self, index: usize) -> Option<Option<f64>> {
+        self.turns.get(index.checked_sub(self.first + 1)?).copied()
+    }
+}
+
+/// The angle from the end of a segment to the beginning of the next; `None` beside one that is too short.
+fn turn_between(limits: &Limits, before: &Segment, behind: &Segment) -> Option<f64> {
+    let least = limits.tolerances.short;
+    let long_enough = before.length() >= least && behind.length() >= least;
+    long_enough.then(|| turn(before.end_tangent(), behind.start_tangent()))
 }
 
 impl Outlook<'_> {
@@ -90,8 +142,10 @@ impl Outlook<'_> {
         if count == 0 || (!self.contour.closed && !(0..count).contains(&index)) {
             return None;
         }
-        self.contour
-            .segment(self.drawing, index.rem_euclid(count) as usize)
+        let index = index.rem_euclid(count) as usize;
+        self.at_hand
+            .and_then(|at_hand| at_hand.segment(index))
+            .or_else(|| self.contour.segment(self.drawing, index))
     }
 
     /// The place of the segment at `index`.
@@ -102,13 +156,12 @@ impl Outlook<'_> {
     /// The angle (radians, positive to the left) by which the contour turns where the segment at `index` begins.
     /// `None` at the start of an open contour, and beside a segment too short to have a direction that counts.
     pub(crate) fn turn_at(&self, index: usize) -> Option<f64> {
-        let (before, behind) = (
-            self.segment(index as isize - 1)?.geometry,
-            self.segment(index as isize)?.geometry,
-        );
-        let least = self.limits.tolerances.short;
-        let long_enough = before.length() >= least && behind.length() >= least;
-        long_enough.then(|| turn(before.end_tangent(), behind.start_tangent()))
+        if let Some(turn) = self.at_hand.and_then(|at_hand| at_hand.turn(index)) {
+            return turn;
+        }
+        let before = self.segment(index as isize - 1)?.geometry;
+        let behind = self.segment(index as isize)?.geometry;
+        turn_between(self.limits, &before, &behind)
     }
 }
 
