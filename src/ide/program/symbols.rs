@@ -1,11 +1,11 @@
 //! The program as a tree: contours between pauses, each with its way in, its blocks and its way out.
 
 use super::step;
-use crate::geometry::Segment;
+use crate::geometry::{Bounds, Segment};
 use crate::ide::amounts::{closing, mm, point, turn};
 use crate::ide::{Symbol, SymbolKind};
 use crate::program::Document;
-use crate::program::path::{Cut, Kind, Step, Trace, cuts};
+use crate::program::path::{Cut, Kind, Step, Trace, cuts, lie_beside};
 use crate::text::SourceText;
 
 /// With more blocks than this in one contour, runs of them are listed and not each by itself.
@@ -24,13 +24,18 @@ pub(crate) fn symbols(document: &Document) -> Vec<Symbol> {
     };
     let mut found = Vec::new();
     let cuts = cuts(&trace);
-    let mut ordinal = 0;
+    let numbers = numbers(&trace, &cuts);
     let (mut next, mut index) = (0, 0);
     while index < trace.steps.len() && found.len() < LISTED_CUTS {
         match cuts.get(next).filter(|cut| cut.steps.start == index) {
             Some(cut) => {
-                ordinal += usize::from(!cut.is_way);
-                found.push(tree.of_cut(cut, ordinal));
+                let name = match numbers.get(next..) {
+                    Some([(contour, 1), (_, 2), ..]) => say!(pass_of_contour, contour, 1),
+                    Some([(contour, 1), ..]) => say!(contour_by_number, contour),
+                    Some([(contour, pass), ..]) => say!(pass_of_contour, contour, pass),
+                    _ => String::new(),
+                };
+                found.push(tree.of_cut(cut, name));
                 index = cut.steps.end;
                 next += 1;
             }
@@ -43,6 +48,30 @@ pub(crate) fn symbols(document: &Document) -> Vec<Symbol> {
     // A subprogram stands elsewhere than it runs.
     found.sort_by_key(|symbol| (symbol.range.start, std::cmp::Reverse(symbol.range.end)));
     found
+}
+
+/// The number of the contour that each cut is of, and which pass of it the cut is. A way in between belongs to what comes before it.
+fn numbers(trace: &Trace, cuts: &[Cut]) -> Vec<(usize, usize)> {
+    let mut numbers = Vec::new();
+    let (mut now, mut before) = ((0, 1), None);
+    for cut in cuts {
+        let steps = trace.steps.get(cut.contour_steps()).unwrap_or_default();
+        let mut bounds = Bounds::EMPTY;
+        let ideals = steps.iter().filter_map(|step| step.ideal.as_ref());
+        ideals.for_each(|piece| bounds.merge(&piece.bounds()));
+        let own = (cut.closed && !cut.is_way).then_some(bounds);
+        let is_next_pass = before
+            .zip(own)
+            .is_some_and(|(one, other)| lie_beside(&one, &other));
+        now = match (cut.is_way, is_next_pass) {
+            (true, _) => now,
+            (false, true) => (now.0, now.1 + 1),
+            (false, false) => (now.0 + 1, 1),
+        };
+        before = own;
+        numbers.push(now);
+    }
+    numbers
 }
 
 struct Tree<'a> {
@@ -73,14 +102,13 @@ impl Tree<'_> {
         }
     }
 
-    fn of_cut(&self, cut: &Cut, ordinal: usize) -> Symbol {
+    fn of_cut(&self, cut: &Cut, name: String) -> Symbol {
         let steps_of = |range| self.trace.steps.get(range).unwrap_or_default();
         let (steps, contour) = (steps_of(cut.steps.clone()), steps_of(cut.contour_steps()));
         let (kind, name, detail) = if cut.is_way {
             let to = steps.last().map_or(self.trace.start, |step| step.end);
             (SymbolKind::Way, say!(way_to, point(to)), String::new())
         } else {
-            let name = say!(contour_by_number, ordinal);
             (SymbolKind::Cut, name, detail(cut, contour))
         };
         let lead_in = &steps[..cut.lead_in.min(steps.len())];

@@ -100,6 +100,31 @@ fn contours_are_found_with_their_ways_in_and_out() {
     check("", &[]);
 }
 
+/// Three passes of a square at 160, 125 and 95 µm, then another square behind a way.
+#[test]
+fn symbols_tell_passes_from_contours() {
+    let square = |size: i64, at: i64| {
+        let out = size / 2;
+        let turn = format!(
+            "B{size}B0B{size}GXL1\nB0B{size}B{size}GYL2\nB{size}B0B{size}GXL3\nB0B{size}B{size}GYL4\n"
+        );
+        format!("B{out}B{out}B{out}GXL3\n{turn}B{out}B{out}B{out}GXL1\nD\nB{at}B0B{at}GXL1\nD\n")
+    };
+    let stay = |size: i64| square(size, 1).replace("B1B0B1GXL1\nD\n", "");
+    let program = [stay(9680), stay(9750), square(9810, 40_000), stay(5000)].concat() + "DD\n";
+    let named: Vec<String> = symbols(&read(&program))
+        .into_iter()
+        .filter(|symbol| symbol.kind == crate::ide::SymbolKind::Cut)
+        .map(|symbol| symbol.name)
+        .collect();
+    let passes = [
+        "contour 1, pass 1",
+        "contour 1, pass 2",
+        "contour 1, pass 3",
+    ];
+    assert_eq!(named, [&passes[..], &["contour 2"]].concat());
+}
+
 #[test]
 fn symbols_are_contours_with_their_blocks() {
     fn list(symbols: &[Symbol], depth: usize, lines: &mut Vec<String>) {

@@ -48,6 +48,7 @@ declare! {
     from_one_to_another(first, last) => "{first} to {last}";
     kinds_so_many_of_all(kinds, count, all) => "{kinds} · {count} of {all}";
     contour_by_number(number) => "contour {number}";
+    pass_of_contour(contour, pass) => "contour {contour}, pass {pass}";
     entity_by_handle(handle) => "entity {handle}";
     entities_from_one_on(count, first) => "{count} entities from {first} on";
     no_entity => "no entity";

@@ -48,6 +48,7 @@ translate! {
     from_one_to_another(first, last) => "{first} 到 {last}";
     kinds_so_many_of_all(kinds, count, all) => "{kinds} · {all} 个中的 {count} 个";
     contour_by_number(number) => "轮廓 {number}";
+    pass_of_contour(contour, pass) => "轮廓 {contour}，第 {pass} 次切割";
     entity_by_handle(handle) => "图元 {handle}";
     entities_from_one_on(count, first) => "从 {first} 起 {count} 个图元";
     no_entity => "没有图元";

@@ -23,6 +23,7 @@ pub(crate) use cut::{cut_of, cuts};
 pub(in crate::program) use joint::{Heading, joint, may_be_odd, odd_joint, turn};
 pub(in crate::program) use lay::{Lay, mixed};
 pub(in crate::program) use parted::{Blocks, Part, PartedWay};
+pub(crate) use passes::lie_beside;
 pub(in crate::program) use passes::pieces_of;
 pub(in crate::program) use size::{absurd_size, size_of};
 pub(in crate::program) use tight::{UM_IN_MM, is_tight};

@@ -68,6 +68,12 @@ pub(crate) fn pieces_of(way: &dyn Way) -> Option<Vec<Segment>> {
     Some(pieces)
 }
 
+/// True where two ways round, each closed, may be passes of one contour by their boxes, µm.
+pub(crate) fn lie_beside(one: &Bounds, other: &Bounds) -> bool {
+    let apart = |a: Point, b: Point| (a - b).amax();
+    apart(one.min, other.min) <= BESIDE && apart(one.max, other.max) <= BESIDE
+}
+
 /// From a piece on the first way round that comes back to where it begins, and its box, which is that of the first pass.
 fn round_from(
     pieces: &[Segment],
@@ -89,12 +95,8 @@ fn round_from(
         };
         let is_large = bounds.width().min(bounds.height()) > 4.0 * tolerance;
         if is_back && goes_round && is_large {
-            let is_same = |first: &Bounds| {
-                let apart = |a: Point, b: Point| (a - b).amax();
-                apart(first.min, bounds.min) <= BESIDE && apart(first.max, bounds.max) <= BESIDE
-            };
             return first_box
-                .is_none_or(is_same)
+                .is_none_or(|first| lie_beside(first, &bounds))
                 .then_some((start..index + 1, bounds));
         }
     }
