@@ -10,10 +10,11 @@ pub use pair::pair;
 use crate::document::{Document, Snapshot, Source};
 use crate::drawing::{Drawing, DrawingEdit, Entity};
 use crate::dxf;
-use crate::finding::{Detail, Edit, Finding, Place, Severity};
+use crate::finding::{self, Detail, Edit, Finding, Place, Severity};
 use crate::fit::{self, Fit};
+use crate::picture::{self, View};
 use crate::program::convert::{self, Cuts};
-use crate::program::{Format, ProofError, ProvedProgram};
+use crate::program::{self, Format, ProofError, ProvedProgram};
 use crate::rule::Rule;
 use crate::settings::Effective;
 use crate::text::{Patch, TextEdit, edited};
@@ -187,6 +188,47 @@ pub(crate) fn paths(
     watch: &dyn Watch,
 ) -> Result<Vec<WirePath>, Refusal> {
     Ok(planned(snapshot, settings, handles, false, watch)?.paths)
+}
+
+/// The wire's path of all contours, none where there can be none, and the picture with it, or with the reason.
+pub(crate) fn picture(
+    snapshot: &Snapshot,
+    findings: &[Finding],
+    watch: &dyn Watch,
+) -> (Planned, String) {
+    let settings = &snapshot.settings;
+    let (planned, why) = match planned(snapshot, settings, None, false, watch) {
+        Ok(planned) => (planned, None),
+        Err(refusal) => {
+            let unit_mm = settings.unit_of(&snapshot.drawing).mm;
+            (Planned::default(), Some(refusal.sentence(unit_mm)))
+        }
+    };
+    let view = View {
+        name: settings.document.as_deref(),
+        drawing: &snapshot.drawing,
+        outlines: &snapshot.outlines,
+        findings,
+        paths: &planned.paths,
+        why: why.as_deref(),
+        settings,
+    };
+    let svg = picture::svg(&view);
+    (planned, svg)
+}
+
+/// The picture of a program.
+pub(crate) fn picture_of_program(document: &Document, program: &program::Document) -> String {
+    let of = |finding: &Finding| {
+        let line = document
+            .text()?
+            .line_of(document.range_of(&finding.place)?.start);
+        Some((line, finding.severity, finding::sentence(finding, 1.0)))
+    };
+    let findings = document.all_findings();
+    let faults: Vec<_> = findings.iter().filter_map(of).collect();
+    let name = document.settings().document.as_deref();
+    picture::program_svg(&program.trace(), &faults, name)
 }
 
 /// Whether the parts of a drawing fit.

@@ -1751,6 +1751,83 @@ fn a_picture_is_well_formed_enough_to_be_shown() {
     );
 }
 
+/// Two holes, of which the second is cut first.
+const HOLES: &str = "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n5\n2A\n10\n0\n20\n0\n40\n5\n\
+    0\nCIRCLE\n5\n2B\n10\n20\n20\n0\n40\n5\n0\nENDSEC\n0\nEOF\n";
+
+#[test]
+fn a_picture_says_what_it_is_in_which_order_and_how_long() {
+    let desk = Desk::new();
+    desk.write("holes.dxf", HOLES);
+    desk.write(
+        "wedm.toml",
+        "side = \"opening\"\n[drawings.\"holes.dxf\".contours.2B]\norder = 1\n",
+    );
+    let lengths = "cut 81.2 mm";
+    desk.run("draw holes.dxf -o holes.svg");
+    let picture = String::from_utf8(desk.read("holes.svg")).unwrap();
+    for said in [
+        "holes.dxf · contours and wire path</text>",
+        "2 contours · 30.000 × 10.000 mm · contour 62.8 mm · cut 81.2 mm · jumps 20.0 mm",
+        "class=\"jump\"",
+        ">1</text>",
+        ">2</text>",
+    ] {
+        assert!(picture.contains(said), "{said}: {picture}");
+    }
+    // The program of it speaks of the same lengths.
+    let made = desk.run("generate holes.dxf --format 3b -o holes.3b");
+    let said = made.stderr;
+    assert!(
+        said.contains(lengths) && said.contains("jumps 20.0 mm"),
+        "{said}"
+    );
+    let told = desk.run("simulate holes.3b");
+    let said = told.stdout;
+    assert!(
+        said.contains(lengths) && said.contains("jumps 20.0 mm"),
+        "{said}"
+    );
+    desk.run("draw holes.3b -o program.svg");
+    let picture = String::from_utf8(desk.read("program.svg")).unwrap();
+    assert!(picture.contains("holes.3b · path of the wire"), "{picture}");
+    assert!(picture.contains("cut 81.2 mm · jumps 20.0 mm"), "{picture}");
+    // Where the side is not known there is no path, and the picture says why.
+    desk.write("wedm.toml", "");
+    desk.run("draw holes.dxf -o none.svg");
+    let picture = String::from_utf8(desk.read("none.svg")).unwrap();
+    assert!(
+        picture.contains("contours, no wire path</text>"),
+        "{picture}"
+    );
+    assert!(
+        picture.contains("no wire path: side of contour 2A is not known"),
+        "{picture}"
+    );
+}
+
+#[test]
+fn pictures_are_written_as_png_and_pdf_too() {
+    let desk = Desk::new();
+    desk.write("holes.dxf", HOLES);
+    for (target, begins) in [
+        ("a.PNG", &b"\x89PNG"[..]),
+        ("a.pdf", b"%PDF-"),
+        ("a.svg", b"<svg "),
+    ] {
+        let ended = desk.run(&format!("--lang zh draw holes.dxf -o {target}"));
+        assert_eq!(ended.code, Some(0), "{ended:?}");
+        let bytes = desk.read(target);
+        assert!(bytes.starts_with(begins), "{target}: {} bytes", bytes.len());
+    }
+    let ended = desk.run("draw holes.dxf -o a.jpg");
+    let said = ended.stderr;
+    assert!(
+        said.contains(".jpg is not written, expected .svg, .png, .pdf or .dxf"),
+        "{said}"
+    );
+}
+
 /// `UPDATE_EXPECT=1 cargo test --test cli` makes the pictures anew.
 #[test]
 fn the_pictures_of_the_documentation_are_current() {

@@ -96,7 +96,7 @@ fn check(correction: f64, said: &[&str], not_said: &[&str]) -> Played {
     let picture = played.file("demo.svg");
     for part in [
         "class=\"contour\"",
-        "class=\"fault\"",
+        "class=\"fault error\"",
         "class=\"wire\"",
         "class=\"correction\"",
         "</svg>",

@@ -1,23 +1,24 @@
-//! `wedm draw`: a picture of contour, faults and wire path; or contour and wire path as a new drawing.
+//! `wedm draw`: a picture of contour, faults and wire path as SVG, PNG or PDF; or contour and wire path as a new drawing.
 
 use super::options::{Common, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, files};
 use crate::document::{Document, Snapshot};
 use crate::drawing::{Drawing, Entity, Geometry};
-use crate::finding::{self, Finding, Severity};
+use crate::dxf;
 use crate::job;
 use crate::message::readable;
+use crate::picture::Image;
 use crate::toolpath::WirePath;
-use crate::{dxf, picture};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Draw contours, faults and wire path of a drawing, or the path of a program, as SVG; contours and wire path also as DXF
+/// Draw contours, faults and wire path of a drawing, or the path of a program, as SVG, PNG or PDF; contours and wire path also as DXF
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
   wedm draw plate.dxf -o plate.svg
+  wedm draw plate.dxf -o plate.pdf                     to print, or .png to paste
   wedm draw plate.3b -o plate.svg                      the path that the blocks lead along
   wedm draw plate.dxf --side opening -o plate.svg      with the path of the wire
   wedm draw plate.dxf --side opening -o path.dxf       contours, and the path on the layer WIRE")]
@@ -25,7 +26,7 @@ pub(crate) struct Arguments {
     /// The drawing or program
     #[arg(value_name = "PATH")]
     path: PathBuf,
-    /// Write the picture there, as .svg or .dxf [default: SVG to stdout]
+    /// Write the picture there, as .svg, .png, .pdf or .dxf [default: SVG to stdout]
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -46,23 +47,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     }
     let snapshot = opened.snapshot()?;
     let findings = opened.document.all_findings();
-    let unit_mm = opened.document.unit_mm();
-    let paths = job::paths(&snapshot, &snapshot.settings, None, &()).unwrap_or_else(|refusal| {
+    if let Err(refusal) = job::paths(&snapshot, &snapshot.settings, None, &()) {
         let note = styled(output::NOTE, say!(note));
-        let reason = refusal.sentence(unit_mm);
+        let reason = refusal.sentence(opened.document.unit_mm());
         output::say(&say!(drawn_without_the_path, note, readable(&reason)));
-        Vec::new()
-    });
-    let picture = match arguments.output.as_deref().and_then(ending_of).as_deref() {
-        Some("dxf") => dxf::write(&with_paths(&snapshot, &paths)).map_err(Failure)?,
-        _ => picture::svg(
-            &snapshot.drawing,
-            &snapshot.outlines,
-            &findings,
-            &paths,
-            &snapshot.settings,
-        )
-        .into_bytes(),
+    }
+    let (planned, svg) = job::picture(&snapshot, &findings, &());
+    let picture = match form_of(arguments.output.as_deref()) {
+        None => dxf::write(&with_paths(&snapshot, &planned.paths)).map_err(Failure)?,
+        Some(form) => form.of_svg(&svg).map_err(Failure)?,
     };
     output::write(arguments.output.as_deref(), &picture)?;
     Ok(Verdict::Clean)
@@ -70,36 +63,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 
 /// The way of the wire of a program.
 fn draw_program(arguments: &Arguments, document: &Document) -> Result<Verdict, Failure> {
-    if arguments.output.as_deref().and_then(ending_of).as_deref() == Some("dxf") {
+    let Some(form) = form_of(arguments.output.as_deref()) else {
         let path = arguments.path.display();
         return Err(Failure(say!(
             a_program_is_drawn_as_svg,
             path,
             output::word(&arguments.path)
         )));
-    }
-    let trace = document
-        .program()
-        .map(crate::program::Document::trace)
-        .unwrap_or_default();
-    let line = |finding: &Finding| {
-        Some(
-            document
-                .text()?
-                .line_of(document.range_of(&finding.place)?.start),
-        )
     };
-    let findings = document.all_findings();
-    let fault = |finding: &Finding| {
-        Some((
-            line(finding)?,
-            finding.severity,
-            finding::sentence(finding, 1.0),
-        ))
-    };
-    let faults: Vec<(usize, Severity, String)> = findings.iter().filter_map(fault).collect();
-    let svg = picture::program_svg(&trace, &faults);
-    output::write(arguments.output.as_deref(), svg.as_bytes())?;
+    let svg = document.program().map_or_else(String::new, |program| {
+        job::picture_of_program(document, program)
+    });
+    let picture = form.of_svg(&svg).map_err(Failure)?;
+    output::write(arguments.output.as_deref(), &picture)?;
     Ok(Verdict::Clean)
 }
 
@@ -132,9 +108,21 @@ fn ending_of(path: &Path) -> Option<String> {
     Some(path.extension()?.to_string_lossy().to_ascii_lowercase())
 }
 
+/// What the picture is written as, SVG where nothing says it; `None` for a drawing.
+fn form_of(target: Option<&Path>) -> Option<Image> {
+    match target.and_then(ending_of) {
+        Some(ending) if ending == "dxf" => None,
+        ending => Some(
+            ending
+                .and_then(|it| Image::of_ending(&it))
+                .unwrap_or(Image::Svg),
+        ),
+    }
+}
+
 fn refuse_other_formats(target: &Path) -> Result<(), Failure> {
     match ending_of(target).as_deref() {
-        Some("svg" | "dxf") => Ok(()),
+        Some(ending) if ending == "dxf" || Image::of_ending(ending).is_some() => Ok(()),
         _ if target == Path::new("-") => Ok(()),
         Some(ending) => Err(Failure::of(
             target,
@@ -142,7 +130,7 @@ fn refuse_other_formats(target: &Path) -> Result<(), Failure> {
         )),
         None => Err(Failure::of(
             target,
-            say!(its_name_has_no_ending, ".svg", ".dxf"),
+            say!(its_name_has_no_ending, ".svg, .png, .pdf", ".dxf"),
         )),
     }
 }

@@ -6,11 +6,11 @@ use super::{Failure, Verdict, files, report};
 use crate::geometry::Xy;
 use crate::job;
 use crate::message::readable;
-use crate::picture;
+use crate::picture::{self, Image};
 use crate::protocol::Fit;
 use clap::Args;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Hold punch and plate in each other, as the wire leaves them
 ///
@@ -24,7 +24,7 @@ pub struct Arguments {
     /// The drawing
     #[arg(value_name = "PATH")]
     path: PathBuf,
-    /// Write the picture there, as .svg
+    /// Write the picture there, as .svg, .png or .pdf
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     /// Form of what is printed
@@ -42,8 +42,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = &arguments.path;
     if let Some(target) = &arguments.output {
         output::refuse_input(target, path)?;
-        let ending = target.extension().unwrap_or_default().to_string_lossy();
-        if !ending.eq_ignore_ascii_case("svg") {
+        if form_of(target).is_none() {
             return Err(Failure::of(target, say!(the_fit_is_drawn_as_svg)));
         }
     }
@@ -62,7 +61,8 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     };
     let svg = picture::fit_svg(&fit, unit_mm);
     if let Some(target) = &arguments.output {
-        output::write(Some(target), svg.as_bytes())?;
+        let form = form_of(target).unwrap_or(Image::Svg);
+        output::write(Some(target), &form.of_svg(&svg).map_err(Failure)?)?;
     }
     let printed = Fit::new(&snapshot.drawing, &fit, svg, unit_mm);
     match arguments.format {
@@ -70,6 +70,10 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         Form::Json => output::print_json(&printed)?,
     }
     Ok(Verdict::of_errors(!printed.fits))
+}
+
+fn form_of(target: &Path) -> Option<Image> {
+    Image::of_ending(&target.extension()?.to_string_lossy())
 }
 
 fn table(fit: &Fit) -> String {

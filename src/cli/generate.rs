@@ -6,7 +6,7 @@ use super::{Failure, Verdict, files, report};
 use crate::document::Snapshot;
 use crate::finding::{Detail, Finding};
 use crate::job::{self, Wanted};
-use crate::message::readable;
+use crate::message::{lengths, readable};
 use crate::program::{Format, ProvedProgram};
 use crate::protocol::Work;
 use crate::toolpath;
@@ -161,7 +161,7 @@ fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
         target,
         say!(blocks, program.blocks),
         say!(contours, contours),
-        program.length
+        lengths(program.length, program.jumps, say!(comma))
     ));
     let drift = match arguments.format {
         Format::ThreeB | Format::FourB => {

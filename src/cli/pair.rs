@@ -4,6 +4,7 @@ use super::options::{Common, Pairing, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, files, report};
 use crate::job::{self, Wanted};
+use crate::message::lengths;
 use crate::program::Format;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -99,7 +100,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             part.part,
             corrections.join(" / "),
             say!(blocks, program.blocks),
-            program.length
+            lengths(program.length, program.jumps, say!(comma))
         ));
         output::say_thread_hole(&part.made.holes, document.unit_mm());
         if part.is_other_side {

@@ -3,6 +3,7 @@
 use super::options::{Common, Form};
 use super::output::{self, FAINT, WARNING, flush_left, flush_right, styled};
 use super::{Failure, Verdict, files};
+use crate::message::lengths;
 use crate::protocol::{SimulatedBlock, Simulation, StepKind};
 use clap::Args;
 use std::fmt::Write;
@@ -81,7 +82,8 @@ fn table(simulation: &Simulation) -> String {
         .iter()
         .filter(|block| !matches!(block.kind, StepKind::Pause | StepKind::End))
         .count();
-    text += &say!(length_of_blocks, say!(blocks, moving), simulation.length);
+    let lengths = lengths(simulation.cut, simulation.jumps, say!(comma));
+    text += &say!(length_of_blocks, say!(blocks, moving), lengths);
     if let Some(minutes) = simulation.minutes {
         text += &say!(takes_minutes, minutes);
     }

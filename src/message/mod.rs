@@ -29,6 +29,7 @@ mod zh;
 
 pub(crate) use en::said;
 pub(crate) use language::{Asker, Language, speak, spoken};
+pub(crate) use readable::lengths;
 pub(crate) use readable::{columns, is_hidden, readable};
 
 use std::fmt::{Debug, Display};

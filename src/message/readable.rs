@@ -36,6 +36,15 @@ pub(crate) fn columns(text: &str) -> usize {
     unicode_width::UnicodeWidthStr::width(text)
 }
 
+/// What is cut and what is jumped over, mm; where nothing is, of the cut alone.
+pub(crate) fn lengths(cut: f64, jumps: f64, apart: &str) -> String {
+    let cut = say!(cut_length, cut);
+    match jumps > 0.0 {
+        true => format!("{cut}{apart}{}", say!(jumps_length, jumps)),
+        false => cut,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

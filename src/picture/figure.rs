@@ -2,6 +2,7 @@
 
 use super::marks;
 use super::sheet::{Frame, Sheet, escaped, named, number, path_data};
+use super::style::class_of;
 use super::subject::{Subject, is_other};
 use crate::drawing::{Entity, EntityId, Geometry, Role};
 use crate::finding::{Detail, Finding, Place};
@@ -24,6 +25,7 @@ pub(super) fn figure(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     areas(sheet, frame, subject);
     asides(sheet, frame, subject);
     contours(sheet, frame, subject);
+    jumps(sheet, frame, subject);
     wire(sheet, frame, subject);
     other_faults(sheet, frame, subject);
     for fault in &subject.faults {
@@ -37,7 +39,8 @@ pub(super) fn figure(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
             required
         );
         let data = path_data(frame, [Segment::Arc(fault.arc())], false);
-        sheet.path(&named("fault", handle, segment), &data, &label);
+        let class = format!("fault {}", class_of(fault.severity));
+        sheet.path(&named(&class, handle, segment), &data, &label);
         let middle = frame.local(fault.correction_disc());
         let radius = detail.required * frame.scale;
         sheet.circle(r#"class="correction fine""#, middle, radius, "");
@@ -212,6 +215,19 @@ fn contours(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     }
 }
 
+/// Ways without a cut, from where one path ends to where the next begins.
+fn jumps(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
+    for pair in subject.paths.windows(2) {
+        let (from, to) = (pair[0].end(), pair[1].begin());
+        if from != to {
+            let way = Segment::line(from, to);
+            let label = say!(way_without_a_cut_mm, subject.mm(way.length()));
+            let data = path_data(frame, [way], false);
+            sheet.path(r#"class="jump""#, &data, &label);
+        }
+    }
+}
+
 fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     let is_lead = |source: &Source| matches!(source, Source::LeadIn | Source::LeadOut);
     for path in subject.paths {
@@ -290,8 +306,9 @@ fn other_fault(
     };
     let (handle, rule) = (&entity.handle, finding.rule.name());
     let label = format!("{handle} · {} · {rule}", say!(segment_by_number, segment));
+    let severity = class_of(finding.severity);
     if let Some(point) = point {
-        let attributes = named("dot", handle, segment);
+        let attributes = named(&format!("dot {severity}"), handle, segment);
         sheet.circle(&attributes, frame.local(point), DOT, &label);
         return;
     }
@@ -306,5 +323,6 @@ fn other_fault(
     };
     let all = entity.geometry.segments_of(flat).skip(from).take(count);
     let data = path_data(frame, all, false);
-    sheet.path(&named("other", handle, segment), &data, &label);
+    let class = format!("other {severity}");
+    sheet.path(&named(&class, handle, segment), &data, &label);
 }

@@ -44,7 +44,7 @@ pub(crate) fn fit_svg(fit: &Fit, unit_mm: f64) -> String {
         um(fit.clearance),
         worst.len()
     );
-    sheet.heading(title, &facts);
+    sheet.heading(title, &facts, None);
     sheet.line(format_args!(
         "<g class=\"figure\">{}",
         frame.opening_of_drawing(unit_mm)

@@ -1,6 +1,7 @@
 //! The first faults enlarged, each with the circle of the correction beside the arc that is too tight for it.
 
 use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped, named, number, path_data};
+use super::style::class_of;
 use super::subject::{Fault, Subject};
 use crate::drawing::{Outline, Role};
 use crate::geometry::{Bounds, Point, Segment};
@@ -72,7 +73,8 @@ fn lens(sheet: &mut Sheet, subject: &Subject, fault: &Fault, index: usize, left:
     };
     let [x, y, width, height] = [left, top, WIDTH, WINDOW].map(number);
     let rectangle = format!(r#"x="{x}" y="{y}" width="{width}" height="{height}" rx="6""#);
-    let named = named("lens", &fault.handle, fault.segment);
+    let severity = class_of(fault.severity);
+    let named = named(&format!("lens {severity}"), &fault.handle, fault.segment);
     let opening = frame.opening();
     sheet.line(format_args!(
         r##"<g {named}>
@@ -127,11 +129,12 @@ fn marks(sheet: &mut Sheet, fault: &Fault, disc: Point, frame: &Frame) {
     let (arc, middle) = (fault.arc(), frame.local(disc));
     let radius = fault.detail.required * frame.scale;
     sheet.circle(r#"class="correction""#, middle, radius, "");
-    sheet.circle(r#"class="dot""#, middle, 2.2, "");
+    sheet.circle(r#"class="middle""#, middle, 2.2, "");
     let spoke = Segment::line(arc.center, arc.point_at(0.5));
     sheet.path(r#"class="spoke""#, &path_data(frame, [spoke], false), "");
     let arc = path_data(frame, [Segment::Arc(arc)], false);
-    sheet.path(r#"class="fault""#, &arc, "");
+    let class = format!(r#"class="fault {}""#, class_of(fault.severity));
+    sheet.path(&class, &arc, "");
 }
 
 fn caption(sheet: &mut Sheet, subject: &Subject, fault: &Fault, index: usize, left: f64, top: f64) {

@@ -1,6 +1,7 @@
 //! Numbered marks beside the faults, thread holes, starting points and texts.
 
 use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped, named, number};
+use super::style::class_of;
 use super::subject::{Fault, Subject};
 use crate::geometry::{Point, Vector, direction};
 use crate::toolpath::Source;
@@ -27,7 +28,8 @@ pub(super) fn faults(sheet: &mut Sheet, frame: &Frame, faults: &[Fault], unit_mm
         // On the sheet y points down.
         let angle = (-outward.y).atan2(outward.x);
         let label = free_place(at, angle, with_radius, &taken, top);
-        let named = named("mark", &fault.handle, fault.segment);
+        let class = format!("mark {}", class_of(fault.severity));
+        let named = named(&class, &fault.handle, fault.segment);
         let [from_x, from_y, x, y, text_y] = [
             at.0,
             at.1,
@@ -136,11 +138,7 @@ pub(super) fn thread_holes(sheet: &mut Sheet, frame: &Frame, subject: &Subject) 
             sheet.circle(r#"class="hole""#, middle, radius * frame.scale, "");
         }
         if are_numbered {
-            let [x, y] = [across + 7.0, up + 7.0].map(number);
-            let count = index + 1;
-            sheet.line(format_args!(
-                r#"<text class="order" transform="matrix(1 0 0 -1 {x} {y})">{count}</text>"#
-            ));
+            order(sheet, (across, up), index + 1);
         }
         let is_cut = |source: &Source| !matches!(source, Source::LeadIn | Source::LeadOut);
         let mut segments = path.segments.iter();
@@ -149,6 +147,14 @@ pub(super) fn thread_holes(sheet: &mut Sheet, frame: &Frame, subject: &Subject) 
             arrow(sheet, frame, first.start(), first.start_tangent());
         }
     }
+}
+
+/// The place of a contour among all, beside its thread hole.
+pub(super) fn order(sheet: &mut Sheet, (x, y): (f64, f64), number_of: usize) {
+    let [x, y] = [x, y].map(number);
+    sheet.line(format_args!(
+        r#"<g class="turned" transform="matrix(1 0 0 -1 {x} {y})"><text class="order" x="9" y="-7">{number_of}</text></g>"#
+    ));
 }
 
 /// A head that points along `along` and begins in `point`.

@@ -7,6 +7,7 @@
 //! fault, `mark` the number beside one (with `data-at`, the point on the sheet that it belongs to), `chrome` what is
 //! written about it, `fine` what is too small to be seen at this size. What stands for a segment says so in `data-handle` and `data-segment`.
 
+mod export;
 mod figure;
 mod fit;
 mod lens;
@@ -16,32 +17,47 @@ mod sheet;
 mod style;
 mod subject;
 
+pub(crate) use export::Image;
 pub(crate) use fit::fit_svg;
 pub(crate) use program::program_svg;
 pub(crate) use sheet::escaped;
 
 use crate::drawing::{Drawing, Outline};
-use crate::finding::{Detail, Finding};
+use crate::finding::{Detail, Finding, Severity};
 use crate::settings::Effective;
-use crate::toolpath::WirePath;
+use crate::toolpath::{WirePath, lengths};
 use sheet::{FIGURE_TOP, Frame, MARGIN, SHEET_WIDTH};
 use subject::{Subject, is_other};
 
+/// What a picture of a drawing shows.
+pub(crate) struct View<'a> {
+    /// The name of its file, where it has one.
+    pub(crate) name: Option<&'a str>,
+    pub(crate) drawing: &'a Drawing,
+    /// What is cut; entities in none of them are drawn faintly.
+    pub(crate) outlines: &'a [Outline],
+    pub(crate) findings: &'a [Finding],
+    /// In the order in which they are cut.
+    pub(crate) paths: &'a [WirePath],
+    /// Why there are none.
+    pub(crate) why: Option<&'a str>,
+    pub(crate) settings: &'a Effective,
+}
+
 /// The drawing with its faults and the paths of the wire as one SVG.
 ///
-/// `outlines` are what is cut; entities in none of them are drawn faintly. Every arc that is too tight is marked, and
-/// the first ones are shown enlarged with the circle of the correction. What the wire cuts, and what it leaves of an area that it should cut,
-/// are shown to scale: half as wide as the wire's radius and the spark gap, else the last correction. All
-/// figures that a reader sees are in mm. The y axis points up, as in the drawing. A drawing without geometry gives
-/// a sheet that says so.
-pub fn svg(
-    drawing: &Drawing,
-    outlines: &[Outline],
-    findings: &[Finding],
-    paths: &[WirePath],
-    settings: &Effective,
-) -> String {
-    let Some(subject) = Subject::new(drawing, outlines, findings, paths, settings) else {
+/// Every arc that is too tight is marked, and the first ones are shown enlarged with the circle of the correction. What the wire cuts, and
+/// what it leaves of an area that it should cut, are shown to scale: half as wide as the wire's radius and the spark gap, else the last
+/// correction. All figures that a reader sees are in mm. The y axis points up, as in the drawing. A drawing without geometry gives a sheet
+/// that says so.
+pub(crate) fn svg(view: &View) -> String {
+    let View {
+        findings,
+        paths,
+        settings,
+        ..
+    } = *view;
+    let Some(subject) = Subject::new(view.drawing, view.outlines, findings, paths, settings) else {
         return style::empty(say!(the_drawing_has_no_lines));
     };
     let unit_mm = subject.unit_mm;
@@ -49,22 +65,32 @@ pub fn svg(
     let frame = Frame::fitting(&subject.bounds);
     let details_top = frame.bottom + 48.0;
     let legend_top = details_top + lens::height_of(faults.len());
-    let title = match faults.len() {
-        0 => say!(contour_and_wire_path).into(),
-        1 => say!(n1_arc_is_too_tight).into(),
-        count => say!(arcs_are_too_tight, count),
+    let what = match paths.is_empty() {
+        true => say!(contours_without_a_wire_path),
+        false => say!(contour_and_wire_path),
     };
+    let title = titled(view.name, what);
+    let others = findings.iter().filter(|finding| is_other(finding));
+    let severities = others.map(|finding| finding.severity);
+    let jumps = paths
+        .windows(2)
+        .any(|pair| pair[0].end() != pair[1].begin());
     let shown = style::Shown {
+        part: view.outlines.iter().any(|outline| outline.contour.closed),
         faults: !faults.is_empty(),
-        others: findings.iter().any(is_other),
+        severities: severities
+            .chain(faults.iter().map(|fault| fault.severity))
+            .collect(),
         paths: !paths.is_empty(),
+        jumps,
         kerf: subject.half_kerfs.iter().any(Option::is_some),
         lost: findings.iter().any(leaves_some),
     };
     let entries = style::entries(&shown);
-    let height = legend_top + 48.0 + style::height_of_legend(&entries);
-    let mut sheet = style::opening(height, &title);
-    sheet.heading(&title, &facts(&subject));
+    let mut sheet = style::opening(legend_top + style::height_of(&entries), &title);
+    let (severity, alert) = alert(view, faults);
+    let alert = (!alert.is_empty()).then_some((style::class_of(severity), alert.as_str()));
+    sheet.heading(&title, &facts(&subject), alert);
     sheet.line(format_args!("<g class=\"figure\">"));
     figure::figure(&mut sheet, &frame, &subject);
     marks::faults(&mut sheet, &frame, faults, unit_mm, FIGURE_TOP - 26.0);
@@ -86,7 +112,28 @@ fn leaves_some(finding: &Finding) -> bool {
     )
 }
 
-/// Correction, contours and length of the path, as far as they are known.
+/// The name of a file and what its picture shows.
+fn titled(name: Option<&str>, what: &str) -> String {
+    match name {
+        Some(name) => format!("{name} · {what}"),
+        None => what.into(),
+    }
+}
+
+/// What is wrong, and why there is no path.
+fn alert(view: &View, faults: &[subject::Fault]) -> (Severity, String) {
+    let mut parts = Vec::new();
+    match faults.len() {
+        0 => {}
+        1 => parts.push(say!(n1_arc_is_too_tight).to_owned()),
+        count => parts.push(say!(arcs_are_too_tight, count)),
+    }
+    parts.extend(view.why.map(|why| say!(no_wire_path_because, why)));
+    let worst = faults.iter().map(|fault| fault.severity).min();
+    (worst.unwrap_or(Severity::Information), parts.join(" · "))
+}
+
+/// Correction, contours, extents and lengths, as far as they are known.
 fn facts(subject: &Subject) -> String {
     let of_path = || subject.paths.first().map(|path| path.correction);
     let first = subject.faults.first();
@@ -96,10 +143,20 @@ fn facts(subject: &Subject) -> String {
         facts.push(say!(correction_mm, subject.mm(correction)));
     }
     facts.push(say!(contours, subject.outlines.len()));
+    let extents = subject.extents();
+    let [width, height] = [extents.width(), extents.height()].map(|length| subject.mm(length));
+    facts.push(say!(extents_mm, width, height));
+    let contours = subject.outlines.iter().map(|outline| &outline.contour);
+    let segments = contours.flat_map(|contour| contour.segments(subject.drawing));
+    let contour: f64 = segments.map(|segment| segment.geometry.length()).sum();
+    facts.push(say!(contour_length, subject.mm(contour)));
     if !subject.paths.is_empty() {
-        let segments = subject.paths.iter().flat_map(|path| &path.segments);
-        let length: f64 = segments.map(|segment| segment.geometry.length()).sum();
-        facts.push(say!(wire_path_mm, subject.mm(length)));
+        let (cut, jumps) = lengths(subject.paths);
+        facts.push(crate::message::lengths(
+            subject.mm(cut),
+            subject.mm(jumps),
+            " · ",
+        ));
     }
     facts.join(" · ")
 }

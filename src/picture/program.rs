@@ -4,18 +4,24 @@
 //! beyond [`MOST_BLOCKS`] consecutive blocks share a path with the line of the first.
 
 use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, number, path_data};
-use super::style::{self, LEAD, THREAD, WIRE};
+use super::style::{self, JUMP, THREAD, WIRE, class_of};
+use super::{marks, titled};
 use crate::finding::Severity;
 use crate::geometry::{Arc, Bounds, Point, Segment};
 use crate::program::path::{Kind, Step, Trace};
 use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// Blocks up to this number have a path each.
 const MOST_BLOCKS: usize = 20_000;
 
-/// The picture of a program. `faults` are the lines (from 0) with what is wrong there, worst first.
-pub(crate) fn program_svg(trace: &Trace, faults: &[(usize, Severity, String)]) -> String {
+/// The picture of a program in the file of a name. `faults` are the lines (from 0) with what is wrong there, worst first.
+pub(crate) fn program_svg(
+    trace: &Trace,
+    faults: &[(usize, Severity, String)],
+    name: Option<&str>,
+) -> String {
     let Some(bounds) = trace.bounds().map(|bounds| Bounds {
         min: mm(bounds.min),
         max: mm(bounds.max),
@@ -27,17 +33,26 @@ pub(crate) fn program_svg(trace: &Trace, faults: &[(usize, Severity, String)]) -
     let by_line: FxHashMap<usize, &(usize, Severity, String)> =
         faults.iter().rev().map(|fault| (fault.0, fault)).collect();
     let moving: Vec<&Step> = trace.steps.iter().filter(|step| step.moves()).collect();
-    let title = title(faults);
-    let mut sheet = style::opening(legend_top + 48.0, &title);
-    let (closure, length) = (trace.closure(), trace.length() / 1000.0);
-    let facts = say!(
-        blocks_and_where_they_end,
-        moving.len(),
-        length,
-        closure.x,
-        closure.y
-    );
-    sheet.heading(&title, &facts);
+    let title = titled(name, say!(path_of_the_wire));
+    let mut entries = vec![(WIRE, say!(the_wire)), (THREAD, say!(start_of_a_contour))];
+    if moving.iter().any(|step| step.kind == Kind::Rapid) {
+        entries.push((JUMP, say!(the_jump)));
+    }
+    let of_step = moving.iter().filter_map(|step| by_line.get(&step.line));
+    let severities: BTreeSet<Severity> = of_step.map(|fault| fault.1).collect();
+    entries.extend(severities.into_iter().map(style::of_severity));
+    let mut sheet = style::opening(legend_top + style::height_of(&entries), &title);
+    let closure = trace.closure();
+    let (cut, jumps) = trace.lengths();
+    let facts = [
+        say!(blocks, moving.len()),
+        say!(extents_mm, bounds.width(), bounds.height()),
+        crate::message::lengths(cut / 1000.0, jumps / 1000.0, " · "),
+        say!(where_it_ends, closure.x, closure.y),
+    ];
+    let alert = alert(faults);
+    let alert = alert.as_ref().map(|(class, text)| (*class, text.as_str()));
+    sheet.heading(&title, &facts.join(" · "), alert);
     sheet.line(format_args!("{}", frame.opening_of_drawing(1.0)));
     let per_path = moving.len().div_ceil(MOST_BLOCKS).max(1);
     for steps in moving.chunk_by(|a, b| joins(a, b)) {
@@ -47,14 +62,6 @@ pub(crate) fn program_svg(trace: &Trace, faults: &[(usize, Severity, String)]) -
     }
     thread_holes(&mut sheet, &frame, &moving);
     sheet.line(format_args!("</g>"));
-    let mut entries = vec![(WIRE, say!(the_wire)), (THREAD, say!(start_of_a_contour))];
-    if moving.iter().any(|step| step.kind == Kind::Rapid) {
-        entries.push((LEAD, say!(way_without_a_cut)));
-    }
-    if moving.iter().any(|step| by_line.contains_key(&step.line)) {
-        entries.push((r#"<path class="fault" d="M0 0h24"/>"#, say!(error)));
-        entries.push((r#"<path class="other" d="M0 0h24"/>"#, say!(warning)));
-    }
     sheet.line(format_args!(r#"<g class="chrome">"#));
     style::legend(&mut sheet, legend_top + 12.0, &entries);
     sheet.line(format_args!("</g>"));
@@ -88,15 +95,19 @@ fn joins(a: &Step, b: &Step) -> bool {
     a.contour == b.contour && (a.kind == Kind::Rapid) == (b.kind == Kind::Rapid)
 }
 
-fn title(faults: &[(usize, Severity, String)]) -> String {
-    let errors = faults
-        .iter()
-        .filter(|fault| fault.1 == Severity::Error)
-        .count();
-    match errors {
-        0 => say!(path_of_the_wire).into(),
-        1 => say!(path_of_the_wire_with_1_error).into(),
-        count => say!(path_of_the_wire_with_errors, count),
+/// How many errors and warnings there are, with the class of the worst.
+fn alert(faults: &[(usize, Severity, String)]) -> Option<(&'static str, String)> {
+    let count = |severity| faults.iter().filter(|fault| fault.1 == severity).count();
+    let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
+    let class = |severity| class_of(severity);
+    match (errors, warnings) {
+        (0, 0) => None,
+        (0, _) => Some((class(Severity::Warning), say!(warnings, warnings))),
+        (_, 0) => Some((class(Severity::Error), say!(errors, errors))),
+        _ => {
+            let both = format!("{} · {}", say!(errors, errors), say!(warnings, warnings));
+            Some((class(Severity::Error), both))
+        }
     }
 }
 
@@ -112,11 +123,13 @@ fn path(
         return;
     }
     let fault = steps.iter().find_map(|step| faults.get(&step.line));
-    let class = match (first.kind, fault) {
-        (_, Some((_, Severity::Error, _))) => "wire fault",
-        (_, Some((_, Severity::Warning, _))) => "wire other",
-        (Kind::Rapid, _) => "lead",
+    let way = match first.kind {
+        Kind::Rapid => "jump",
         _ => "wire",
+    };
+    let class = match fault {
+        Some((_, severity, _)) => format!("{way} fault {}", class_of(*severity)),
+        None => way.into(),
     };
     let mut label = label(first);
     if let Some((_, _, sentence)) = fault {
@@ -154,8 +167,14 @@ fn thread_holes(sheet: &mut Sheet, frame: &Frame, moving: &[&Step]) {
         let before = index.checked_sub(1).and_then(|before| moving.get(before));
         step.kind != Kind::Rapid && before.is_none_or(|before| before.contour != step.contour)
     });
-    for (x, y) in begins.map(|(_, step)| frame.local(mm(step.start))) {
-        let (x, y) = (number(x), number(y));
+    let begins: Vec<(f64, f64)> = begins
+        .map(|(_, step)| frame.local(mm(step.start)))
+        .collect();
+    for (index, &place) in begins.iter().enumerate() {
+        if begins.len() > 1 {
+            marks::order(sheet, place, index + 1);
+        }
+        let (x, y) = (number(place.0), number(place.1));
         sheet.line(format_args!(
             r#"<g class="thread" transform="translate({x} {y})"><circle r="5"/><path d="M-8 0h16M0 -8v16"/></g>"#
         ));

@@ -1,6 +1,7 @@
 //! The sheet as SVG: where things lie on it, geometry as path data, and how elements, numbers and texts are written.
 
 use crate::geometry::{Bounds, Point, Segment};
+use crate::message::columns;
 use std::f64::consts::PI;
 use std::fmt::{Arguments, Write};
 
@@ -10,7 +11,9 @@ pub(super) const MARGIN: f64 = 40.0;
 /// The drawing keeps room at its sides for the numbers beside its faults.
 const FIGURE_WIDTH: f64 = SHEET_WIDTH - 5.5 * MARGIN;
 const FIGURE_HEIGHT: f64 = 560.0;
-pub(super) const FIGURE_TOP: f64 = 96.0;
+pub(super) const FIGURE_TOP: f64 = 112.0;
+/// Columns of text in the width of the sheet.
+const COLUMNS: usize = 132;
 
 /// The SVG as far as it is written.
 #[derive(Default)]
@@ -52,16 +55,24 @@ impl Sheet {
         }
     }
 
-    /// What stands at the head of the picture.
-    pub(crate) fn heading(&mut self, title: &str, facts: &str) {
+    /// What stands at the head of the picture; `alert` is what is wrong, with the class of its severity.
+    pub(crate) fn heading(&mut self, title: &str, facts: &str, alert: Option<(&str, &str)>) {
         self.line(format_args!(
             r#"<g class="chrome"><text class="heading" x="{MARGIN}" y="34">{}</text>"#,
             escaped(title)
         ));
         self.line(format_args!(
-            r#"<text class="note" x="{MARGIN}" y="52">{}</text></g>"#,
+            r#"<text class="note" x="{MARGIN}" y="54">{}</text>"#,
             escaped(facts)
         ));
+        if let Some((class, alert)) = alert {
+            self.line(format_args!(
+                r#"<text class="alert {class}" x="{MARGIN}" y="74"><title>{0}</title>{1}</text>"#,
+                escaped(alert),
+                escaped(&shortened(alert, COLUMNS))
+            ));
+        }
+        self.line(format_args!("</g>"));
     }
 }
 
@@ -169,6 +180,21 @@ pub(super) fn path_data(
 fn pair(frame: &Frame, point: Point) -> String {
     let (x, y) = frame.local(point);
     format!("{} {}", number(x), number(y))
+}
+
+/// As much of a text as stands in so many columns.
+fn shortened(text: &str, most: usize) -> String {
+    if columns(text) <= most {
+        return text.into();
+    }
+    let mut short = String::new();
+    for character in text.chars() {
+        if columns(&short) + 2 >= most {
+            break;
+        }
+        short.push(character);
+    }
+    short.trim_end().to_owned() + "…"
 }
 
 /// The attributes by which an element of a class is found that stands for a segment.

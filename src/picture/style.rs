@@ -1,7 +1,9 @@
 //! Colours of light and dark viewers, the legend and the scale bar.
 
 use super::sheet::{MARGIN, SHEET_WIDTH, Sheet, escaped, number};
+use crate::finding::Severity;
 use crate::message::columns;
+use std::collections::BTreeSet;
 
 const STYLE: &str = "\
 text{font-family:system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif;font-size:12px;fill:#24292f}
@@ -9,67 +11,112 @@ text{font-family:system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif;f
 .note,.place{fill:#57606a}
 .place{font-size:11px}
 .figures{font-size:13px;font-weight:600}
-.radius{font-weight:600;fill:#b3261e}
+.radius{font-weight:600}
 .count{font-size:11px;font-weight:700;fill:#fff;text-anchor:middle}
 .annotation{font-size:11px;fill:#8c959f}
-.start{font-weight:700;fill:#1a7f37}
-.sheet,.void{fill:#fff}
-.part{fill:#eef1f4}
-.ground{fill:#e3e8ed}
-.contour,.aside,.wire,.lead,.fault,.other,.leader,.correction,.spoke,.window{fill:none;stroke-linecap:round;stroke-linejoin:round}
+.start,.order{font-weight:700;fill:#1a7f37}
+.sheet{fill:#fff}
+.part{fill:#dfe5ec}
+.void{fill:#fff}
+.ground{fill:#dfe5ec}
+.contour,.aside,.wire,.lead,.jump,.fault,.other,.leader,.correction,.spoke,.window{fill:none;stroke-linecap:round;stroke-linejoin:round}
 .contour{stroke:#24292f;stroke-width:1.4}
 .aside{stroke:#afb8c1;stroke-width:1}
 .wire{stroke:#0969da;stroke-width:1.4}
 .kerf{fill:none;stroke:#cfe4fb;stroke-linecap:round;stroke-linejoin:round}
 .lost{fill:#f2a33a}
 .lead{stroke:#0969da;stroke-width:1.2;stroke-dasharray:5 4}
-.fault{stroke:#d1242f;stroke-width:3.4}
-.other{stroke:#bf8700;stroke-width:3}
-.leader,.spoke{stroke:#d1242f;stroke-width:.9}
+.jump{stroke:#57606a;stroke-width:1;stroke-dasharray:1 4}
+.fault{stroke-width:3.4}
+.other{stroke-width:3}
+.leader,.spoke{stroke-width:.9}
 .fine{display:none}
-.correction{stroke:#bf8700;stroke-width:1.5;stroke-dasharray:6 4}
-.dot{fill:#bf8700}
-.badge{fill:#d1242f}
+.correction{stroke:#57606a;stroke-width:1.5;stroke-dasharray:6 4}
+.middle{fill:#57606a}
 .window{stroke:#d0d7de}
 .thread,.hole{fill:none;stroke:#1a7f37;stroke-width:1.3}
 .hole{stroke-width:.9}
 .order{font-size:11px;font-weight:700;fill:#1a7f37}
 .arrow{fill:#0969da}
 .bar{fill:none;stroke:#57606a;stroke-width:1.4}
-@media (prefers-color-scheme:dark){
+.badge,.dot{fill:#cf222e}
+.fault.hint,.other.hint{stroke-width:1.6}
+";
+
+const DARK: &str = "\
 text{fill:#e6edf3}
 .note,.place{fill:#9da7b3}
-.radius{fill:#ff8a82}
 .count{fill:#1a0806}
 .annotation{fill:#768390}
-.start{fill:#57d364}
+.start,.order{fill:#57d364}
 .sheet,.void{fill:#0d1117}
-.part{fill:#1a2028}
-.ground{fill:#252d37}
+.part,.ground{fill:#262f3a}
 .contour{stroke:#e6edf3}
 .aside{stroke:#484f58}
 .wire,.lead{stroke:#58a6ff}
 .kerf{stroke:#14365c}
 .lost{fill:#9e6a03}
-.fault,.leader,.spoke{stroke:#ff6b61}
-.other,.correction{stroke:#e3b341}
-.dot{fill:#e3b341}
-.badge{fill:#ff6b61}
+.jump,.correction{stroke:#9da7b3}
+.middle{fill:#9da7b3}
 .window{stroke:#30363d}
 .thread,.hole{stroke:#57d364}
 .order{fill:#57d364}
 .arrow{fill:#58a6ff}
 .bar{stroke:#9da7b3}
-}
+.badge,.dot{fill:#ff6b61}
 ";
+
+/// Where the colours of dark viewers begin and end in the style.
+const DARK_BEGINS: &str = "@media (prefers-color-scheme:dark){\n";
+const DARK_ENDS: &str = "}\n</style>";
+
+/// Class of each severity, and its colour in light and in dark viewers.
+const SEVERITIES: [(Severity, &str, &str, &str); 4] = [
+    (Severity::Error, "error", "#cf222e", "#ff6b61"),
+    (Severity::Warning, "warning", "#b26a00", "#e3b341"),
+    (Severity::Information, "remark", "#8250df", "#b392f0"),
+    (Severity::Hint, "hint", "#8c959f", "#6e7681"),
+];
+
+/// The class by which everything that stands for a finding of a severity has its colour.
+pub(super) fn class_of(severity: Severity) -> &'static str {
+    let of = |it: &&(Severity, &'static str, _, _)| it.0 == severity;
+    SEVERITIES.iter().find(of).map_or("hint", |it| it.1)
+}
+
+fn in_colour(class: &str, colour: &str) -> String {
+    format!(
+        ".{class} .leader,.{class} .spoke,.fault.{class},.other.{class}{{stroke:{colour}}}\n\
+         .dot.{class},.{class} .badge,.{class} .radius,.alert.{class}{{fill:{colour}}}\n"
+    )
+}
+
+fn style() -> String {
+    let of = |dark: bool| {
+        let line =
+            |it: &(Severity, &str, &str, &str)| in_colour(it.1, if dark { it.3 } else { it.2 });
+        SEVERITIES.iter().map(line).collect::<String>()
+    };
+    let (light, dark) = (of(false), of(true));
+    format!("{STYLE}{light}{DARK_BEGINS}{DARK}{dark}")
+}
+
+/// A picture without the colours of dark viewers, for programs that would not know when they hold.
+pub(super) fn without_dark(svg: &str) -> String {
+    let dark = svg.split_once(DARK_BEGINS);
+    match dark.and_then(|(before, rest)| Some((before, rest.split_once(DARK_ENDS)?.1))) {
+        Some((before, behind)) => format!("{before}</style>{behind}"),
+        None => svg.into(),
+    }
+}
 
 /// The head of the file: size, title, colours and the ground.
 pub(super) fn opening(height: f64, title: &str) -> Sheet {
     let [width, height] = [SHEET_WIDTH, height.ceil()].map(number);
-    let title = escaped(title);
+    let (title, style) = (escaped(title), style());
     Sheet(format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" role=\"img\">\n\
-         <title>{title}</title>\n<style>\n{STYLE}</style>\n<rect class=\"sheet\" width=\"{width}\" height=\"{height}\"/>\n"
+         <title>{title}</title>\n<style>\n{style}{DARK_ENDS}\n<rect class=\"sheet\" width=\"{width}\" height=\"{height}\"/>\n"
     ))
 }
 
@@ -83,12 +130,15 @@ pub(super) fn empty(why: &str) -> String {
 }
 
 /// What occurs in a picture.
+#[derive(Default)]
 pub(super) struct Shown {
+    pub(crate) part: bool,
     pub(crate) faults: bool,
-    pub(crate) others: bool,
+    pub(crate) severities: BTreeSet<Severity>,
     pub(crate) paths: bool,
     pub(crate) kerf: bool,
     pub(crate) lost: bool,
+    pub(crate) jumps: bool,
 }
 
 /// A sample of what is drawn, and what it means.
@@ -99,15 +149,24 @@ pub(super) const LEAD: &str = r#"<path class="lead" d="M0 0h24"/>"#;
 pub(super) const THREAD: &str =
     r#"<g class="thread"><circle cx="12" cy="0" r="5"/><path d="M4 0h16M12 -8v16"/></g>"#;
 
+pub(super) const JUMP: &str = r#"<path class="jump" d="M0 0h24"/>"#;
+
 /// What the lines of a drawing mean, as far as they occur.
 pub(super) fn entries(shown: &Shown) -> Vec<Entry> {
     let mut entries = vec![(r#"<path class="contour" d="M0 0h24"/>"#, say!(a_contour))];
+    if shown.part {
+        let part = r#"<rect class="part" x="2" y="-7" width="20" height="14" rx="2"/>"#;
+        entries.push((part, say!(the_material)));
+    }
     if shown.paths {
         entries.extend([
             (WIRE, say!(the_wire)),
             (LEAD, say!(the_lead)),
             (THREAD, say!(thread_hole)),
         ]);
+    }
+    if shown.jumps {
+        entries.push((JUMP, say!(the_jump)));
     }
     if shown.kerf {
         let band = r#"<path class="kerf" stroke-width="10" d="M4 0h16"/>"#;
@@ -118,44 +177,63 @@ pub(super) fn entries(shown: &Shown) -> Vec<Entry> {
         }
     }
     if shown.faults {
-        let tight = r#"<path class="fault" d="M2 4A14 14 0 0 1 22 4"/>"#;
         let correction = r#"<circle class="correction" cx="12" cy="0" r="8"/>"#;
-        entries.extend([(tight, say!(too_tight)), (correction, say!(the_correction))]);
+        entries.push((correction, say!(the_correction)));
     }
-    if shown.others {
-        let dot = r#"<circle class="dot" cx="16" cy="0" r="4.5"/>"#;
-        entries.push((dot, say!(other_finding)));
-    }
+    entries.extend(
+        shown
+            .severities
+            .iter()
+            .map(|&severity| of_severity(severity)),
+    );
     entries
 }
 
-/// Between two rows of the legend, and what its end leaves free for the scale bar.
-const ROW: f64 = 22.0;
-const OF_BAR: f64 = 190.0;
+/// How what is found of a severity looks.
+pub(super) fn of_severity(severity: Severity) -> Entry {
+    match severity {
+        Severity::Error => (r#"<path class="fault error" d="M0 0h24"/>"#, say!(error)),
+        Severity::Warning => (
+            r#"<path class="fault warning" d="M0 0h24"/>"#,
+            say!(warning),
+        ),
+        Severity::Information => (
+            r#"<path class="fault remark" d="M0 0h24"/>"#,
+            say!(information),
+        ),
+        Severity::Hint => (r#"<path class="fault hint" d="M0 0h24"/>"#, say!(hint)),
+    }
+}
 
-/// Where each entry of a legend stands, from its left and from its first row.
-fn places(entries: &[Entry]) -> Vec<(f64, f64)> {
-    let (mut x, mut y) = (MARGIN, 0.0);
+/// Height of a row of the legend.
+const ROW: f64 = 22.0;
+/// What the scale bar leaves of the width.
+const LEGEND_WIDTH: f64 = SHEET_WIDTH - MARGIN - 180.0;
+
+/// Where each entry stands: from the left, and in which row.
+fn places(entries: &[Entry]) -> Vec<(f64, usize)> {
+    let (mut x, mut row) = (MARGIN, 0);
     let place = |(_, text): &Entry| {
-        let width = 32.0 + columns(text) as f64 * 6.6 + 22.0;
-        if x > MARGIN && x + width > SHEET_WIDTH - OF_BAR {
-            (x, y) = (MARGIN, y + ROW);
+        let width = 32.0 + columns(text) as f64 * 6.6 + 18.0;
+        if x + width > LEGEND_WIDTH && x > MARGIN {
+            (x, row) = (MARGIN, row + 1);
         }
-        let at = (x, y);
+        let place = (x, row);
         x += width;
-        at
+        place
     };
     entries.iter().map(place).collect()
 }
 
-/// How much a legend needs below its first row.
-pub(super) fn height_of_legend(entries: &[Entry]) -> f64 {
-    places(entries).last().map_or(0.0, |(_, y)| *y)
+/// Height of the foot of the sheet with this legend.
+pub(super) fn height_of(entries: &[Entry]) -> f64 {
+    let rows = places(entries).last().map_or(0, |place| place.1);
+    48.0 + rows as f64 * ROW
 }
 
 pub(super) fn legend(sheet: &mut Sheet, top: f64, entries: &[Entry]) {
-    for ((sample, text), (x, y)) in entries.iter().zip(places(entries)) {
-        let [x, y] = [x, top + 8.0 + y].map(number);
+    for ((sample, text), (x, row)) in entries.iter().zip(places(entries)) {
+        let [x, y] = [x, top + 8.0 + row as f64 * ROW].map(number);
         sheet.line(format_args!(
             r#"<g transform="translate({x} {y})">{sample}<text class="note" x="32" y="4">{text}</text></g>"#
         ));

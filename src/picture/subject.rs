@@ -31,6 +31,7 @@ pub(super) struct Fault<'a> {
     pub(crate) handle: String,
     pub(crate) segment: usize,
     pub(crate) entity: Option<EntityId>,
+    pub(crate) severity: Severity,
 }
 
 impl<'a> Subject<'a> {
@@ -63,6 +64,18 @@ impl<'a> Subject<'a> {
             hole: settings.start_hole.map(|diameter| diameter / 2.0 / unit_mm),
             unit_mm,
         })
+    }
+
+    /// The box of what is cut; of all where nothing is.
+    pub(crate) fn extents(&self) -> Bounds {
+        let mut bounds = Bounds::EMPTY;
+        for outline in self.outlines {
+            bounds.merge(&outline.contour.bounds(self.drawing));
+        }
+        match bounds.is_empty() {
+            true => self.bounds,
+            false => bounds,
+        }
     }
 
     pub(crate) fn mm(&self, length: f64) -> f64 {
@@ -119,6 +132,7 @@ fn tight_arcs<'a>(drawing: &Drawing, findings: &'a [Finding]) -> Vec<Fault<'a>> 
             handle,
             segment,
             entity,
+            severity: finding.severity,
         })
     });
     faults.collect()

@@ -17,6 +17,8 @@ pub struct ProvedProgram {
     pub blocks: usize,
     /// Length of what is cut in mm; the ways between contours are none.
     pub length: f64,
+    /// Length of the ways without a cut in mm.
+    pub(crate) jumps: f64,
     /// Drift in µm that a controller which only counts J accumulates on the way round; 0 where ends are written.
     pub(crate) closure: [f64; 2],
     /// Largest distance in µm of the decoded blocks from the path, over their whole length.

@@ -48,8 +48,11 @@ pub(crate) struct Program {
     pub(crate) thread_hole: Option<Point>,
     /// Number of blocks.
     pub(crate) blocks: usize,
-    /// Length of the path in mm.
+    /// mm of all cuts, leads and all passes included; the ways between contours are none.
     pub(crate) length: f64,
+    /// mm of the ways without a cut between contours.
+    #[serde(default)]
+    pub(crate) jumps: f64,
     pub(crate) closure: Closure,
     /// Largest distance in µm of the decoded blocks from the path, over their whole length.
     pub(crate) deviation: f64,
@@ -104,6 +107,7 @@ impl Program {
             thread_hole: holes.first().map(|hole| hole.at.into()),
             blocks: proved.blocks,
             length: proved.length,
+            jumps: proved.jumps,
             closure: Closure {
                 x: proved.closure[0],
                 y: proved.closure[1],

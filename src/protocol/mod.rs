@@ -36,8 +36,9 @@ pub(crate) use inspection::Inspection;
 pub(crate) use inspection::{InspectedEntity, InspectedSegment};
 pub(crate) use locate::{Locate, Located};
 pub(crate) use requests::{
-    Applied, ApplyDrawingEdit, ChangeDrawing, CloseDrawing, DrawingEdit, DrawingName, Inspect,
-    OpenDrawing, OptionsOf, Picture, ResendDrawing, Resent, RulePage, RulePageText, ScaleProgram,
+    Applied, ApplyDrawingEdit, ChangeDrawing, CloseDrawing, DrawingEdit, DrawingName, Export,
+    Exported, Inspect, OpenDrawing, OptionsOf, Picture, PictureForm, Repair, Repairs, RepairsOf,
+    ResendDrawing, Resent, RulePage, RulePageText, ScaleProgram,
 };
 pub use schema::schema;
 pub(crate) use schema::settings_schema;
@@ -61,6 +62,8 @@ pub(crate) mod method {
     pub(crate) const CONTOURS: &str = "wedm/contours";
     pub(crate) const TOOLPATH: &str = "wedm/toolpath";
     pub(crate) const PICTURE: &str = "wedm/picture";
+    pub(crate) const EXPORT: &str = "wedm/export";
+    pub(crate) const REPAIRS: &str = "wedm/repairs";
     pub(crate) const FIT: &str = "wedm/fit";
     pub(crate) const PAIR: &str = "wedm/pair";
     pub(crate) const SIMULATE: &str = "wedm/simulate";

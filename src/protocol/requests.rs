@@ -2,6 +2,7 @@
 
 use super::change::DrawingChange;
 use super::drawing::Drawing;
+use super::segment::SegmentShape;
 use crate::settings::Settings;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -102,6 +103,57 @@ pub(crate) struct OptionsOf {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct Picture {
     pub(crate) svg: String,
+}
+
+/// What a picture can be written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum PictureForm {
+    Svg,
+    Png,
+    Pdf,
+}
+
+/// Params of `wedm/export`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub(crate) struct Export {
+    pub(crate) uri: String,
+    pub(crate) format: PictureForm,
+    /// Laid over every other level of settings for this request.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) options: Option<Settings>,
+}
+
+/// Result of `wedm/export`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub(crate) struct Exported {
+    /// The file, in base64.
+    pub(crate) data: String,
+}
+
+/// Params of `wedm/repairs`: the rule of a finding in a drawing, and its place as in `data`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub(crate) struct RepairsOf {
+    pub(crate) uri: String,
+    pub(crate) rule: String,
+    pub(crate) handle: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) segment: Option<usize>,
+}
+
+/// Result of `wedm/repairs`: the preferred one first; none where the finding is not there any more.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub(crate) struct Repairs {
+    pub(crate) repairs: Vec<Repair>,
+}
+
+/// What a repair would bring.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub(crate) struct Repair {
+    /// That of its code action.
+    pub(crate) title: String,
+    /// The segments that were not there before, in drawing units.
+    pub(crate) segments: Vec<SegmentShape>,
 }
 
 /// Params of `wedm/rulePage`.

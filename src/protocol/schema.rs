@@ -19,6 +19,8 @@ pub fn schema() -> Value {
         method::CONTOURS: { "params": of::<DrawingName>(&mut types), "result": of::<Contours>(&mut types) },
         method::TOOLPATH: { "params": of::<OptionsOf>(&mut types), "result": of::<Toolpath>(&mut types) },
         method::PICTURE: { "params": of::<OptionsOf>(&mut types), "result": of::<Picture>(&mut types) },
+        method::EXPORT: { "params": of::<Export>(&mut types), "result": of::<Exported>(&mut types) },
+        method::REPAIRS: { "params": of::<RepairsOf>(&mut types), "result": of::<Repairs>(&mut types) },
         method::FIT: { "params": of::<OptionsOf>(&mut types), "result": of::<Fit>(&mut types), "errorData": of::<Refused>(&mut types) },
         method::PAIR: {
             "params": of::<Generate>(&mut types),

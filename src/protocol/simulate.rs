@@ -73,6 +73,12 @@ pub(crate) struct Simulation {
     pub(crate) closure: Closure,
     /// mm, along the lines and arcs; ways without a cut are counted in.
     pub(crate) length: f64,
+    /// mm that are cut.
+    #[serde(default)]
+    pub(crate) cut: f64,
+    /// mm of the ways without a cut.
+    #[serde(default)]
+    pub(crate) jumps: f64,
     /// The largest deviation of a block, µm.
     pub(crate) deviation: f64,
     /// The text says where the program begins; else that is the origin.
@@ -89,7 +95,9 @@ impl Simulation {
     /// `feed` in mm/min; one that is not above 0 says no time.
     pub(crate) fn of(trace: &Trace, feed: Option<f64>) -> Simulation {
         let closure = trace.closure();
-        let length = trace.length() / 1000.0;
+        let (cut, jumps) = trace.lengths();
+        let (cut, jumps) = (cut / 1000.0, jumps / 1000.0);
+        let length = cut + jumps;
         Simulation {
             blocks: trace.steps.iter().map(SimulatedBlock::of).collect(),
             closure: Closure {
@@ -97,6 +105,8 @@ impl Simulation {
                 y: closure.y,
             },
             length,
+            cut,
+            jumps,
             deviation: trace.steps.iter().map(Step::deviation).fold(0.0, f64::max),
             start_is_known: trace.start_is_known,
             bounds: trace.bounds().map(|bounds| SimulatedBounds {

@@ -75,6 +75,8 @@ own_requests! {
     contours: method::CONTOURS, protocol::DrawingName, Document, listing_contours => contours::contours;
     toolpath: method::TOOLPATH, protocol::DrawingName, Document, laying_the_wires_path => toolpath::toolpath;
     picture: method::PICTURE, protocol::DrawingName, Document, drawing_the_picture => picture::picture;
+    export: method::EXPORT, protocol::Export, Document, drawing_the_picture => picture::export;
+    repairs: method::REPAIRS, protocol::RepairsOf, Document, looking_for_fixes => picture::repairs;
     generate: method::GENERATE, generate::Params, Long, generating_the_program => generate::generate;
     fit: method::FIT, protocol::DrawingName, Document, holding_the_parts_in_each_other => pair::fit;
     pair: method::PAIR, generate::Params, Long, generating_the_programs => pair::pair;

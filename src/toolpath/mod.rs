@@ -31,6 +31,7 @@ pub(crate) use finished::Finished;
 pub use hole::StartHole;
 pub(crate) use hole::hole_faults;
 pub(crate) use part::{Cutting, Part, part};
+pub(crate) use path::lengths;
 pub use path::{PathSegment, Refusal, Source, WirePath};
 pub(crate) use work::Work;
 pub use work::{LargestWire, largest_wire, work};

@@ -92,6 +92,15 @@ impl WirePath {
     }
 }
 
+/// Lengths in drawing units: of what is cut, leads and all passes included, and of the ways without a cut from each path to the next.
+pub(crate) fn lengths(paths: &[WirePath]) -> (f64, f64) {
+    let segments = paths.iter().flat_map(|path| &path.segments);
+    let cut = segments.map(|segment| segment.geometry.length()).sum();
+    let jumps = paths.windows(2);
+    let jumps = jumps.map(|pair| (pair[1].begin() - pair[0].end()).norm());
+    (cut, jumps.sum())
+}
+
 /// Why no path can be made; a plain sentence for the user, lower-case, no final dot.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {

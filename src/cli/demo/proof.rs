@@ -96,13 +96,15 @@ pub(crate) fn of(
         None,
     )
     .unwrap_or_default();
-    proof.picture = picture::svg(
-        &snapshot.drawing,
-        &snapshot.outlines,
-        &faults,
-        &planned,
-        &snapshot.settings,
-    );
+    proof.picture = picture::svg(&picture::View {
+        name: None,
+        drawing: &snapshot.drawing,
+        outlines: &snapshot.outlines,
+        findings: &faults,
+        paths: &planned,
+        why: None,
+        settings: &snapshot.settings,
+    });
     Ok(proof)
 }
 

@@ -9,8 +9,7 @@ use crate::document::Snapshot;
 use crate::drawing::Role;
 use crate::finding::{Rule, Severity};
 use crate::job::{self, Generated, Wanted};
-use crate::message::spoken;
-use crate::picture;
+use crate::message::{lengths, spoken};
 use crate::program::Format;
 use crate::protocol::{Contours, Fit, Inspection, SegmentKind, StartHole, Work};
 use crate::toolpath::{self, WirePath};
@@ -66,16 +65,8 @@ impl Page {
         let rows = report::rows(&opened.path, &mut opened.document);
         let unit_mm = opened.document.unit_mm();
         let findings = opened.document.all_findings();
-        let planned = job::planned(&snapshot, &snapshot.settings, None, false, &());
-        let planned = planned.unwrap_or_default();
+        let (planned, picture) = job::picture(&snapshot, &findings, &());
         let paths = planned.paths;
-        let picture = picture::svg(
-            &snapshot.drawing,
-            &snapshot.outlines,
-            &findings,
-            &paths,
-            &snapshot.settings,
-        );
         let arcs = arcs_of(Inspection::of(&opened.document, None), unit_mm);
         let wanted = Wanted {
             format,
@@ -308,7 +299,7 @@ impl Page {
                     self.format.name(),
                     say!(blocks, program.blocks),
                     say!(contours, made.contours),
-                    program.length,
+                    lengths(program.length, program.jumps, say!(comma)),
                     program.deviation
                 );
                 let finished = made.finished.as_ref().map(|finished| {

@@ -24,6 +24,8 @@ declare! {
     short_segments(count: usize) => { counted(*count, "short segment", "short segments") };
     vertices(count: usize) => { counted(*count, "vertex", "vertices") };
     warnings(count: usize) => { counted(*count, "warning", "warnings") };
+    cut_length(mm) => "cut {mm:.1} mm";
+    jumps_length(mm) => "jumps {mm:.1} mm";
     comma => ", ";
     and => " and ";
     error => "error";

@@ -13,7 +13,7 @@ declare! {
     its_name_has_no_ending(endings, last) => "its name has no ending, expected {endings} or {last}";
     its_name_ends_otherwise(ending) => "its name ends with .{ending}, and nothing in it says what it is; expected .dxf, .3b, .iso or .nc, or --language";
     note => "note:";
-    the_fit_is_drawn_as_svg => "the fit is drawn as .svg";
+    the_fit_is_drawn_as_svg => "the fit is drawn as .svg, .png or .pdf";
     the_fit_is_not_known(path, errors) => "{path}: whether the parts fit is not known, the drawing has {errors}";
     heading_of_the_fit => "   µm left  part       handle     segment  at";
     a_contour_has_no_partner(handle, name) => "contour {handle} of workpiece {name} has no partner";
@@ -21,11 +21,11 @@ declare! {
     it_fits(fits, least, wanted, places) => "{fits}: {least:.1} µm of {wanted:.1} are left where it is tightest, clearance is missing at {places}";
     it_does_not_fit(fits, least, wanted, places) => "{fits}: {least:.1} µm of {wanted:.1} are left where it is tightest, clearance is missing at {places}";
     the_program_is_there_already => "it is there already, expected a folder without it, or --overwrite";
-    the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}: {part}, correction {corrections} mm, {blocks}, {length:.3} mm";
+    the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}: {part}, correction {corrections} mm, {blocks}, {length}";
     the_wire_runs_on_the_other_side(part) => "      {part}: the clearance is larger than the correction, so the wire runs on the other side of what is drawn";
     drawn_without_the_path(note, reason) => "{note} drawn without the path of the wire: {reason}";
-    a_program_is_drawn_as_svg(path, word) => "{path}: a program is drawn as .svg; as a drawing: wedm convert {word} -o OUT.dxf";
-    a_picture_that_is_not_written(ending) => ".{ending} is not written, expected .svg or .dxf";
+    a_program_is_drawn_as_svg(path, word) => "{path}: a program is drawn as .svg, .png or .pdf; as a drawing: wedm convert {word} -o OUT.dxf";
+    a_picture_that_is_not_written(ending) => ".{ending} is not written, expected .svg, .png, .pdf or .dxf";
     binary_dxf_is_not_edited => "it is binary DXF, which is read but not edited: save it as ASCII DXF";
     the_change_of_holds_neither(handle) => "the change of {handle} holds neither or both of vertices and entity, expected one";
     entity_is_not_a_polyline(handle) => "entity {handle} is not a polyline and has no vertices";
@@ -173,7 +173,7 @@ declare! {
     the_largest_wire_is(diameter, radius, handle, segment) => "largest wire: Ø {diameter:.3} mm, by R {radius:.3} mm of {handle}, segment {segment}";
     the_largest_wire_needs_the_gap => "largest wire: not known, since gap is not set";
     keys_are_missing(keys) => "not known, since not set: {keys}";
-    the_program_is_written(heading, target, program, contours, length) => "{heading} {target}: {program}, {contours}, wire path {length:.3} mm";
+    the_program_is_written(heading, target, program, contours, length) => "{heading} {target}: {program}, {contours}, {length}";
     a_controller_that_counts_j_drifts(x, y) => "; a controller that counts J drifts by {x:.2}, {y:.2} µm";
     decoded_again(deviation, drift) => "decoded again: at most {deviation:.2} µm from the path{drift}";
     the_wire_is_threaded_at(x, y) => "the wire is threaded at {x:.3}, {y:.3} mm";
@@ -219,7 +219,7 @@ declare! {
     column_of_end_y => "end Y";
     column_of_lines => "line";
     a_way => "way";
-    length_of_blocks(blocks, length) => "{blocks}, {length:.3} mm";
+    length_of_blocks(blocks, length) => "{blocks}, {length}";
     takes_minutes(minutes) => ", {minutes:.1} min";
     meant_elsewhere(x, y, deviation) => "meant {x:.4}, {y:.4}: {deviation:.2} µm beside";
     read_as_gb_18030(note) => "{note} what is not UTF-8 is read as GB 18030, and written so";

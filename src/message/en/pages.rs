@@ -14,7 +14,7 @@ declare! {
     column_number => "no.";
     column_kind => "kind";
     column_role => "role";
-    column_length => "length mm";
+    column_length => "contour mm";
     column_area => "area mm²";
     column_order => "cut as no.";
     column_found => "what is found";
@@ -26,7 +26,7 @@ declare! {
     column_pass => "pass";
     column_correction => "correction mm";
     column_contours => "contours";
-    column_length_with_leads => "length with leads mm";
+    column_length_with_leads => "cut mm";
     column_smallest_radius => "smallest R mm";
     column_blocks => "blocks";
     head_time_and_material => "Time and material";
@@ -43,7 +43,7 @@ declare! {
     the_cut_is_long(length) => "cut: {length:.3} mm";
     the_jumps_are_long(length) => "ways between contours: {length:.3} mm";
     cut_off_in_pass(pass) => "cut-off, pass {pass}";
-    a_program_and_its_proof(language, blocks, contours, length, deviation) => "{language}: {blocks}, {contours}, {length:.3} mm; decoded again, at most {deviation:.2} µm from the path";
+    a_program_and_its_proof(language, blocks, contours, length, deviation) => "{language}: {blocks}, {contours}, {length}; decoded again, at most {deviation:.2} µm from the path";
     its_text => "text";
     and_more_of_them(count) => "and {count} more";
 }

@@ -24,6 +24,8 @@ translate! {
     short_segments(count: usize) => { format!("{count} 段短线段") };
     vertices(count: usize) => { format!("{count} 个顶点") };
     warnings(count: usize) => { format!("{count} 个警告") };
+    cut_length(mm) => "切割 {mm:.1} mm";
+    jumps_length(mm) => "空走 {mm:.1} mm";
     comma => "，";
     and => " 和 ";
     error => "错误";

@@ -13,7 +13,7 @@ translate! {
     its_name_has_no_ending(endings, last) => "文件名没有扩展名，应为 {endings} 或 {last}";
     its_name_ends_otherwise(ending) => "文件扩展名是 .{ending}，内容也看不出是什么；应为 .dxf、.3b、.iso 或 .nc，或用 --language 指明";
     note => "注意：";
-    the_fit_is_drawn_as_svg => "配合图只写成 .svg";
+    the_fit_is_drawn_as_svg => "配合图只写成 .svg、.png 或 .pdf";
     the_fit_is_not_known(path, errors) => "{path}：不知道是否配合，图纸有{errors}";
     heading_of_the_fit => "  剩余 µm  零件       句柄         线段  位置";
     a_contour_has_no_partner(handle, name) => "工件 {name} 的轮廓 {handle} 没有配对的轮廓";
@@ -21,11 +21,11 @@ translate! {
     it_fits(fits, least, wanted, places) => "{fits}：最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm，间隙不足 {places}";
     it_does_not_fit(fits, least, wanted, places) => "{fits}：最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm，间隙不足 {places}";
     the_program_is_there_already => "文件已存在，应换没有它的文件夹，或加 --overwrite";
-    the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}：{part}，补偿量 {corrections} mm，{blocks}，{length:.3} mm";
+    the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}：{part}，补偿量 {corrections} mm，{blocks}，{length}";
     the_wire_runs_on_the_other_side(part) => "      {part}：间隙大于补偿量，电极丝走在图线的另一侧";
     drawn_without_the_path(note, reason) => "{note}只画轮廓，没有切割路线：{reason}";
-    a_program_is_drawn_as_svg(path, word) => "{path}：程序画成 .svg；要画成图形：wedm convert {word} -o OUT.dxf";
-    a_picture_that_is_not_written(ending) => "不能写出 .{ending}，应为 .svg 或 .dxf";
+    a_program_is_drawn_as_svg(path, word) => "{path}：程序画成 .svg、.png 或 .pdf；要画成图形：wedm convert {word} -o OUT.dxf";
+    a_picture_that_is_not_written(ending) => "不能写出 .{ending}，应为 .svg、.png、.pdf 或 .dxf";
     binary_dxf_is_not_edited => "这是二进制 DXF，只读不改：请另存为 ASCII DXF";
     the_change_of_holds_neither(handle) => "{handle} 的修改须在 vertices 和 entity 中只含一项，现在两项都有或都没有";
     entity_is_not_a_polyline(handle) => "图元 {handle} 不是多段线，没有顶点";
@@ -173,7 +173,7 @@ translate! {
     the_largest_wire_is(diameter, radius, handle, segment) => "最粗可用电极丝：Ø {diameter:.3} mm，由 {handle} 段 {segment} 的 R {radius:.3} mm 决定";
     the_largest_wire_needs_the_gap => "最粗可用电极丝：未设 gap，无法得知";
     keys_are_missing(keys) => "未设而无法得知：{keys}";
-    the_program_is_written(heading, target, program, contours, length) => "{heading} {target}：{program}，{contours}，切割路线 {length:.3} mm";
+    the_program_is_written(heading, target, program, contours, length) => "{heading} {target}：{program}，{contours}，{length}";
     a_controller_that_counts_j_drifts(x, y) => "；按 J 计数的控制器累计偏差 {x:.2}, {y:.2} µm";
     decoded_again(deviation, drift) => "重新解码：偏离切割路线最多 {deviation:.2} µm{drift}";
     the_wire_is_threaded_at(x, y) => "穿丝孔位于 {x:.3}, {y:.3} mm";
@@ -219,7 +219,7 @@ translate! {
     column_of_end_y => "终点 Y";
     column_of_lines => "行";
     a_way => "空走";
-    length_of_blocks(blocks, length) => "{blocks}，{length:.3} mm";
+    length_of_blocks(blocks, length) => "{blocks}，{length}";
     takes_minutes(minutes) => "，{minutes:.1} 分钟";
     meant_elsewhere(x, y, deviation) => "应在 {x:.4}, {y:.4}：偏离 {deviation:.2} µm";
     read_as_gb_18030(note) => "{note}不是 UTF-8 的文件按 GB 18030 读入，写出时仍为 GB 18030";

@@ -14,7 +14,7 @@ translate! {
     column_number => "序号";
     column_kind => "类型";
     column_role => "用途";
-    column_length => "长度 mm";
+    column_length => "轮廓 mm";
     column_area => "面积 mm²";
     column_order => "切割顺序";
     column_found => "内容";
@@ -26,7 +26,7 @@ translate! {
     column_pass => "第几次";
     column_correction => "补偿量 mm";
     column_contours => "轮廓数";
-    column_length_with_leads => "长度（含引线）mm";
+    column_length_with_leads => "切割 mm";
     column_smallest_radius => "最小半径 mm";
     column_blocks => "程序段";
     head_time_and_material => "工时与材料";
@@ -43,7 +43,7 @@ translate! {
     the_cut_is_long(length) => "切割：{length:.3} mm";
     the_jumps_are_long(length) => "轮廓之间空走：{length:.3} mm";
     cut_off_in_pass(pass) => "切断，第 {pass} 次";
-    a_program_and_its_proof(language, blocks, contours, length, deviation) => "{language}：{blocks}，{contours}，{length:.3} mm；反解校核，偏离路线不超过 {deviation:.2} µm";
+    a_program_and_its_proof(language, blocks, contours, length, deviation) => "{language}：{blocks}，{contours}，{length}；反解校核，偏离路线不超过 {deviation:.2} µm";
     its_text => "程序文本";
     and_more_of_them(count) => "另有 {count} 项";
 }

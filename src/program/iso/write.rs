@@ -72,6 +72,8 @@ struct Lines<'a> {
     blocks: usize,
     /// Steps.
     length: f64,
+    /// Of the ways without a cut among it.
+    jumps: f64,
     /// Steps.
     deviation: f64,
     encoded: Vec<Encoded>,
@@ -196,6 +198,7 @@ impl<'a> Lines<'a> {
             motion: None,
             blocks: 0,
             length: 0.0,
+            jumps: 0.0,
             deviation: 0.0,
             encoded: Vec::new(),
         }
@@ -239,6 +242,7 @@ impl<'a> Lines<'a> {
                     center: from,
                     piece: way(from, to),
                 })?;
+                self.jumps += way(from, to).length();
                 self.fixed(&self.profile.pause, to)
             }
             Jumps::None => {
@@ -463,6 +467,7 @@ impl<'a> Lines<'a> {
             text,
             blocks,
             length: self.length * step_um / 1000.0,
+            jumps: self.jumps * step_um / 1000.0,
             closure: [0.0, 0.0],
             deviation,
         })

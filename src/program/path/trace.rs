@@ -108,13 +108,17 @@ impl Trace {
         self.end() - self.start
     }
 
-    /// Length of the way in µm, along the ideal lines and arcs.
-    pub(crate) fn length(&self) -> f64 {
-        self.steps
-            .iter()
-            .filter_map(|step| step.ideal.as_ref())
-            .map(Segment::length)
-            .sum()
+    /// Lengths in µm along the ideal lines and arcs: of what is cut, leads and all passes included, and of the ways without a cut.
+    pub(crate) fn lengths(&self) -> (f64, f64) {
+        let mut lengths = (0.0, 0.0);
+        for step in &self.steps {
+            let length = step.ideal.as_ref().map_or(0.0, Segment::length);
+            match step.kind {
+                Kind::Rapid => lengths.1 += length,
+                _ => lengths.0 += length,
+            }
+        }
+        lengths
     }
 
     /// The box of the way, µm; `None` where nothing moves.

@@ -234,7 +234,10 @@ fn several_contours_are_joined_by_pauses_and_a_jump() {
         "B1000B0B1000GXL1\nD\nB4000B2000B4000GXL1\nD\nB0B1000B1000GYL2\nDD\n"
     );
     // The jump is a block, and no cut.
-    assert_eq!((with.blocks, with.length), (3, 2.0));
+    assert_eq!(
+        (with.blocks, with.length, with.jumps),
+        (3, 2.0, 20.0_f64.sqrt())
+    );
     let without = text(Jumps::None, Layout::Compact);
     assert_eq!(without.text, "B1000B0B1000GXL1\nD\nB0B1000B1000GYL2\nDD\n");
     assert_eq!(

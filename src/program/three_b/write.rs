@@ -96,6 +96,8 @@ struct Blocks<'a> {
     blocks: usize,
     /// µm.
     length: f64,
+    /// Of the ways without a cut among it.
+    jumps: f64,
     proof: Proof,
     encoded: Vec<Encoded>,
 }
@@ -132,6 +134,7 @@ impl Writer for Blocks<'_> {
         if self.settings.jumps == Jumps::Blocks && from != first {
             let cut = self.length;
             self.piece(&way(from, first), from, first, Source::LeadIn)?;
+            self.jumps += self.length - cut;
             self.length = cut;
             self.word(Word::Pause)?;
         }
@@ -208,6 +211,7 @@ impl<'a> Blocks<'a> {
             out: Vec::new(),
             blocks: 0,
             length: 0.0,
+            jumps: 0.0,
             proof: Proof::default(),
             encoded: Vec::new(),
         }
@@ -304,6 +308,7 @@ impl<'a> Blocks<'a> {
             text,
             blocks: self.blocks,
             length: self.length / 1000.0,
+            jumps: self.jumps / 1000.0,
             closure: [self.proof.drift.x, self.proof.drift.y],
             deviation: self.proof.deviation,
         })

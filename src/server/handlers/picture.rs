@@ -1,48 +1,110 @@
-//! `wedm/picture`: contours, faults and wire path of a drawing, or the path of a program, as SVG.
+//! `wedm/picture` and `wedm/export`: contours, faults and wire path of a drawing, or the path of a program, as SVG or as a file;
+//! `wedm/repairs`: what the repairs of a finding make of it.
 
 use super::Task;
-use crate::document::Document;
-use crate::finding::{self, Finding, Severity};
-use crate::picture::{program_svg, svg};
-use crate::protocol::{DrawingName, Picture};
+use crate::drawing::{Drawing, DrawingEdit, Touched};
+use crate::finding::{self, Edit, Finding, Place};
+use crate::job;
+use crate::picture::Image;
+use crate::protocol::{
+    DrawingName, Export, Exported, Picture, PictureForm, Repair, Repairs, RepairsOf, SegmentShape,
+};
 use crate::server::context::RequestContext;
+use crate::server::errors::{internal, refused};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use tower_lsp::jsonrpc::Result;
 
 pub(in crate::server) fn picture(context: &RequestContext, _: DrawingName) -> Result<Picture> {
-    if let (Some(document), Some(program)) = (context.document(), context.program()) {
-        return Ok(Picture {
-            svg: program_svg(&program.trace(), &faults(document)),
-        });
-    }
-    let task = Task::of(context)?;
-    // Where no path can be made the picture shows the contours, and the findings say why.
-    let paths = task.planned(context).unwrap_or_default().paths;
-    Ok(Picture {
-        svg: svg(
-            &task.snapshot.drawing,
-            &task.snapshot.outlines,
-            &task.findings(),
-            &paths,
-            &task.snapshot.settings,
-        ),
+    Ok(Picture { svg: svg(context)? })
+}
+
+pub(in crate::server) fn export(context: &RequestContext, params: Export) -> Result<Exported> {
+    let form = match params.format {
+        PictureForm::Svg => Image::Svg,
+        PictureForm::Png => Image::Png,
+        PictureForm::Pdf => Image::Pdf,
+    };
+    let bytes = form.of_svg(&svg(context)?).map_err(internal)?;
+    Ok(Exported {
+        data: STANDARD.encode(bytes),
     })
 }
 
-/// What is wrong, by lines from 0.
-fn faults(document: &Document) -> Vec<(usize, Severity, String)> {
-    let line = |finding: &Finding| {
-        let start = document.range_of(&finding.place)?.start;
-        Some(document.text()?.line_of(start))
+fn svg(context: &RequestContext) -> Result<String> {
+    if let (Some(document), Some(program)) = (context.document(), context.program()) {
+        return Ok(job::picture_of_program(document, program));
+    }
+    let task = Task::of(context)?;
+    // Where no path can be made the picture shows the contours and says why.
+    Ok(job::picture(&task.snapshot, &task.findings(), context).1)
+}
+
+pub(in crate::server) fn repairs(context: &RequestContext, asked: RepairsOf) -> Result<Repairs> {
+    let document = context.drawn()?;
+    let Some(drawing) = document.drawing() else {
+        return Err(refused(say!(the_document_is_a_program)));
     };
-    document
-        .all_findings()
-        .iter()
-        .filter_map(|finding| {
-            Some((
-                line(finding)?,
-                finding.severity,
-                finding::sentence(finding, 1.0),
-            ))
+    let is_asked_for = |finding: &&Finding| {
+        let (Place::Segment { entity, .. } | Place::Entity { entity }) = finding.place else {
+            return false;
+        };
+        let segment = match finding.place {
+            Place::Segment { segment, .. } => Some(segment),
+            _ => None,
+        };
+        finding.rule.name() == asked.rule
+            && segment == asked.segment
+            && drawing
+                .get(entity)
+                .is_some_and(|entity| *entity.handle == *asked.handle)
+    };
+    let findings = document.all_findings();
+    let Some(finding) = findings.iter().find(is_asked_for) else {
+        return Ok(Repairs::default());
+    };
+    let unit_mm = document.unit_mm();
+    let repairs = document.fixes(finding).into_iter().filter_map(|fix| {
+        let Edit::Drawing(edit) = &fix.edit else {
+            return None;
+        };
+        Some(Repair {
+            title: finding::title(&fix.kind, unit_mm),
+            segments: ghost(drawing, edit)?,
         })
-        .collect()
+    });
+    Ok(Repairs {
+        repairs: repairs.collect(),
+    })
+}
+
+/// The segments that an edit brings.
+fn ghost(drawing: &Drawing, edit: &DrawingEdit) -> Option<Vec<SegmentShape>> {
+    let mut after = drawing.clone();
+    let delta = after.apply(edit).ok()?;
+    let mut entities: Vec<_> = delta
+        .touched
+        .iter()
+        .filter_map(|touched| match touched {
+            Touched::Vertices { entity, .. } | Touched::Entity { entity } => Some(*entity),
+            _ => None,
+        })
+        .collect();
+    entities.dedup();
+    let mut segments = Vec::new();
+    for id in entities {
+        let before: Vec<_> = drawing
+            .get(id)
+            .map(|entity| entity.geometry.segments_of(drawing.flat()).collect())
+            .unwrap_or_default();
+        let Some(entity) = after.get(id) else {
+            continue;
+        };
+        let new = entity.geometry.segments_of(after.flat());
+        segments.extend(
+            new.filter(|segment| !before.contains(segment))
+                .map(|segment| SegmentShape::from(&segment)),
+        );
+    }
+    Some(segments)
 }
