@@ -359,9 +359,9 @@ fn commands_print_and_end_as_they_say() {
             &["<svg", "R 0.080 mm, the correction is 0.100 mm", "</svg>"],
         ),
         (
-            "draw tight.dxf -o tight.pdf",
+            "draw tight.dxf -o tight.bmp",
             2,
-            &["!.pdf is not written, expected .svg or .dxf"],
+            &["!.bmp is not written, expected .svg, .png, .pdf or .dxf"],
         ),
         ("completions bash", 0, &["_wedm"]),
         ("completions zsh", 0, &["#compdef wedm"]),

@@ -1,7 +1,7 @@
 //! A picture as a file of another kind: PNG to paste, PDF to print.
 //!
 //! What is written in it is turned into outlines. `font/wedm.ttf` (WenQuanYi Micro Hei under the Apache License 2.0, cut down to the
-//! characters of all sentences in every language and of western texts by `font/make`) is there on every machine, so that the same picture comes of
+//! characters of all sentences in every language, of western texts and the most used of Chinese by `font/make`) is there on every machine, so that the same picture comes of
 //! the same drawing; what it does not have, such as the name of a file, is taken from the fonts of the machine.
 
 use super::style::without_dark;

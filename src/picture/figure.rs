@@ -217,8 +217,8 @@ fn contours(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
 
 /// Ways without a cut, from where one path ends to where the next begins.
 fn jumps(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
-    for pair in subject.paths.windows(2) {
-        let (from, to) = (pair[0].end(), pair[1].begin());
+    for (path, next) in subject.paths.iter().zip(subject.paths.iter().skip(1)) {
+        let (from, to) = (path.end(), next.begin());
         if from != to {
             let way = Segment::line(from, to);
             let label = say!(way_without_a_cut_mm, subject.mm(way.length()));

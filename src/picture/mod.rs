@@ -72,9 +72,8 @@ pub(crate) fn svg(view: &View) -> String {
     let title = titled(view.name, what);
     let others = findings.iter().filter(|finding| is_other(finding));
     let severities = others.map(|finding| finding.severity);
-    let jumps = paths
-        .windows(2)
-        .any(|pair| pair[0].end() != pair[1].begin());
+    let mut pairs = paths.iter().zip(paths.iter().skip(1));
+    let jumps = pairs.any(|(path, next)| path.end() != next.begin());
     let shown = style::Shown {
         part: view.outlines.iter().any(|outline| outline.contour.closed),
         faults: !faults.is_empty(),

@@ -1,8 +1,9 @@
 //! `wedm/settings`: the settings that hold for a document, and which level the correction comes from.
 
-use crate::settings::SideSetting;
+use crate::settings::{ContourSettings, SideSetting};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// The level that has the last word on the correction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -29,4 +30,7 @@ pub(crate) struct SettingsInForce {
     /// URI of the `wedm.toml` that holds for the document, where there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) file: Option<String>,
+    /// What is said of single contours of this drawing, by handle or by a point.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub(crate) contours: BTreeMap<String, ContourSettings>,
 }

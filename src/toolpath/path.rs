@@ -96,8 +96,8 @@ impl WirePath {
 pub(crate) fn lengths(paths: &[WirePath]) -> (f64, f64) {
     let segments = paths.iter().flat_map(|path| &path.segments);
     let cut = segments.map(|segment| segment.geometry.length()).sum();
-    let jumps = paths.windows(2);
-    let jumps = jumps.map(|pair| (pair[1].begin() - pair[0].end()).norm());
+    let pairs = paths.iter().zip(paths.iter().skip(1));
+    let jumps = pairs.map(|(path, next)| (next.begin() - path.end()).norm());
     (cut, jumps.sum())
 }
 

@@ -126,9 +126,9 @@ fn a_picture_names_the_segment_of_each_of_its_parts() {
     let svg = picture["svg"].as_str().unwrap();
     for part in [
         r#"<path class="contour" data-handle="2A" data-segment="4""#,
-        r#"<path class="fault" data-handle="2A" data-segment="2""#,
-        r#"<g class="mark" data-handle="2A" data-segment="2" data-at=""#,
-        r#"<g class="lens" data-handle="2A" data-segment="2""#,
+        r#"<path class="fault error" data-handle="2A" data-segment="2""#,
+        r#"<g class="mark error" data-handle="2A" data-segment="2" data-at=""#,
+        r#"<g class="lens error" data-handle="2A" data-segment="2""#,
         r#"<g class="drawing""#,
         r#"data-unit-mm="1.0""#,
     ] {

@@ -4,12 +4,14 @@ import * as vscode from "vscode";
 import { PathCheck } from "./commands/check";
 import { convertToDxf } from "./commands/convert";
 import { changeCorrection } from "./commands/correction";
+import { exportPicture } from "./commands/exportPicture";
 import { fixAll } from "./commands/fixAll";
 import { generate } from "./commands/generate";
 import { scaleProgram } from "./commands/scale";
 import { detectPrograms } from "./detect";
 import { Front } from "./front";
 import { watchLargeFiles } from "./large";
+import { DrawingEditor, EDITOR } from "./picture/editor";
 import { Pictures } from "./picture/pictures";
 import { Radii } from "./radii/tree";
 import { rulePages } from "./rulePages";
@@ -30,13 +32,17 @@ export function activate(context: vscode.ExtensionContext): void {
   running = server;
   const front = new Front();
   const pictures = new Pictures(server, front, context.extensionUri);
-  const radii = new Radii(server);
+  const editor = new DrawingEditor(server, front, context.extensionUri);
+  const radii = new Radii(server, front);
   const check = new PathCheck(server);
   const commands: Record<string, (...given: unknown[]) => Promise<void> | void> = {
     "wedm.generate3b": (uri) => generate(server, front, pictures, "3b", uri),
     "wedm.generate4b": (uri) => generate(server, front, pictures, "4b", uri),
     "wedm.generateIso": (uri) => generate(server, front, pictures, "iso", uri),
     "wedm.openPicture": (uri) => pictures.open(uri, false),
+    "wedm.openText": (uri) => editor.openAs(uri, "default"),
+    "wedm.openDrawing": (uri) => editor.openAs(uri, EDITOR),
+    "wedm.exportPicture": (uri) => exportPicture(server, front, uri),
     "wedm.simulate": (uri) => pictures.open(uri, true),
     "wedm.convertToDxf": (uri) => convertToDxf(server, front, uri),
     "wedm.scaleProgram": (uri) => scaleProgram(front, uri),
@@ -57,6 +63,7 @@ export function activate(context: vscode.ExtensionContext): void {
     server,
     front,
     pictures,
+    editor,
     radii,
     check,
     new Status(server, front),

@@ -31,6 +31,11 @@ export class Front implements vscode.Disposable {
     return vscode.workspace.textDocuments.find((document) => document.uri.toString() === this.#uri?.toString());
   }
 
+  /** A document in an editor of its own kind comes to the front: VS Code tells of texts alone. */
+  turnTo(document: vscode.TextDocument): void {
+    this.#set(isOurs(document) ? document : undefined);
+  }
+
   /** Without an active editor, a panel is in front, and belongs to what was there before. */
   #turn(editor: vscode.TextEditor | undefined): void {
     if (editor !== undefined) {

@@ -10,7 +10,7 @@ const OURS = /\.(dxf|3b|4b|iso|nc)$/i;
 export function watchLargeFiles(): vscode.Disposable {
   const said = new Set<string>();
   const look = async (tab: vscode.Tab): Promise<void> => {
-    const uri = tab.input instanceof vscode.TabInputText ? tab.input.uri : undefined;
+    const uri = tab.input instanceof vscode.TabInputText || tab.input instanceof vscode.TabInputCustom ? tab.input.uri : undefined;
     if (uri === undefined || !OURS.test(uri.path) || said.has(uri.toString())) {
       return;
     }
@@ -39,7 +39,7 @@ export function watchLargeFiles(): vscode.Disposable {
   return vscode.window.tabGroups.onDidChangeTabs(({ opened, changed, closed }) => {
     lookAtAll([...opened, ...changed]);
     for (const tab of closed) {
-      if (tab.input instanceof vscode.TabInputText) {
+      if (tab.input instanceof vscode.TabInputText || tab.input instanceof vscode.TabInputCustom) {
         said.delete(tab.input.uri.toString());
       }
     }

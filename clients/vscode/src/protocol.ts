@@ -107,6 +107,10 @@ export type LineEnd = "lf" | "crlf";
  */
 export type PathSource = ("segment" | "lead-in" | "lead-out") | "corner" | "tab" | "cut-off" | "overlap";
 /**
+ * What a picture can be written as.
+ */
+export type PictureForm = "svg" | "png" | "pdf";
+/**
  * Side of the entity's own direction on which the wire runs.
  */
 export type SideName = "left" | "right";
@@ -138,6 +142,14 @@ export interface Methods {
   "wedm/picture": {
     params: OptionsOf;
     result: Picture;
+  };
+  "wedm/export": {
+    params: Export;
+    result: Exported;
+  };
+  "wedm/repairs": {
+    params: RepairsOf;
+    result: Repairs;
   };
   "wedm/fit": {
     params: OptionsOf;
@@ -899,6 +911,73 @@ export interface Picture {
   svg: string;
 }
 /**
+ * Params of `wedm/export`.
+ */
+export interface Export {
+  uri: string;
+  format: PictureForm;
+  /**
+   * Laid over every other level of settings for this request.
+   */
+  options?: Settings;
+}
+/**
+ * Result of `wedm/export`.
+ */
+export interface Exported {
+  /**
+   * The file, in base64.
+   */
+  data: string;
+}
+/**
+ * Params of `wedm/repairs`: the rule of a finding in a drawing, and its place as in `data`.
+ */
+export interface RepairsOf {
+  uri: string;
+  rule: string;
+  handle: string;
+  segment?: number;
+}
+/**
+ * Result of `wedm/repairs`: the preferred one first; none where the finding is not there any more.
+ */
+export interface Repairs {
+  repairs: Repair[];
+}
+/**
+ * What a repair would bring.
+ */
+export interface Repair {
+  /**
+   * That of its code action.
+   */
+  title: string;
+  /**
+   * The segments that were not there before, in drawing units.
+   */
+  segments: SegmentShape[];
+}
+/**
+ * Geometry of one segment in drawing units.
+ */
+export interface SegmentShape {
+  kind: SegmentKind;
+  start: Point;
+  end: Point;
+  length: number;
+  center?: Point;
+  radius?: number;
+  /**
+   * Degrees, positive counter-clockwise.
+   */
+  sweep?: number;
+  /**
+   * `tan(sweep / 4)`; left out for lines and for a full turn, which has none.
+   */
+  bulge?: number;
+}
+/**
  * Result of `wedm/fit`: each outline as the wire leaves it, laid in the other.
  */
 export interface Fit {
@@ -1017,9 +1096,13 @@ export interface PairProgram {
    */
   blocks: number;
   /**
-   * Length of the path in mm.
+   * mm of all cuts, leads and all passes included; the ways between contours are none.
    */
   length: number;
+  /**
+   * mm of the ways without a cut between contours.
+   */
+  jumps?: number;
   closure: Closure;
   /**
    * Largest distance in µm of the decoded blocks from the path, over their whole length.
@@ -1223,6 +1306,14 @@ export interface Simulation {
    */
   length: number;
   /**
+   * mm that are cut.
+   */
+  cut?: number;
+  /**
+   * mm of the ways without a cut.
+   */
+  jumps?: number;
+  /**
    * The largest deviation of a block, µm.
    */
   deviation: number;
@@ -1333,6 +1424,12 @@ export interface SettingsInForce {
    * URI of the `wedm.toml` that holds for the document, where there is one.
    */
   file?: string;
+  /**
+   * What is said of single contours of this drawing, by handle or by a point.
+   */
+  contours?: {
+    [k: string]: ContourSettings;
+  };
 }
 /**
  * Params of `wedm/rulePage`.
@@ -1366,9 +1463,13 @@ export interface Program {
    */
   blocks: number;
   /**
-   * Length of the path in mm.
+   * mm of all cuts, leads and all passes included; the ways between contours are none.
    */
   length: number;
+  /**
+   * mm of the ways without a cut between contours.
+   */
+  jumps?: number;
   closure: Closure;
   /**
    * Largest distance in µm of the decoded blocks from the path, over their whole length.

@@ -6,6 +6,10 @@ import type { Server } from "./server/server";
 /** The scheme of their addresses: `wedm-rule:/small-radius.md`. */
 const SCHEME = "wedm-rule";
 
+export function rulePage(rule: string): vscode.Uri {
+  return vscode.Uri.from({ scheme: SCHEME, path: `/${rule}.md` });
+}
+
 export function rulePages(server: Server): vscode.Disposable {
   return vscode.workspace.registerTextDocumentContentProvider(SCHEME, {
     provideTextDocumentContent: async (uri) => {

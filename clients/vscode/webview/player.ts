@@ -19,10 +19,15 @@ export class Player {
   readonly #speed = element("speed", HTMLSelectElement);
   readonly #button = element("play", HTMLButtonElement);
   readonly #where = element("where", HTMLElement);
+  readonly #motion = element("motion", HTMLElement);
+  readonly #block = element("block", HTMLElement);
   #sheet: Sheet | null = null;
   #pieces: SVGPathElement[] = [];
   #track = new Track([]);
   #blocks = new Map<number, SimulatedBlock>();
+  #lines: readonly string[] = [];
+  /** What is cut, and what is jumped over, up to the end of each piece. */
+  #cut: number[] = [];
   #distance = 0;
   #playing = false;
   #last = 0;
@@ -48,7 +53,7 @@ export class Player {
   }
 
   /** A new picture: the wire stays at its share of the way where it is the same document. */
-  put(sheet: Sheet, blocks: readonly SimulatedBlock[], sameDocument: boolean): void {
+  put(sheet: Sheet, blocks: readonly SimulatedBlock[], lines: readonly string[], sameDocument: boolean): void {
     const share = sameDocument && this.#track.length > 0 ? this.#distance / this.#track.length : 0;
     if (!sameDocument) {
       this.#pause();
@@ -56,7 +61,11 @@ export class Player {
     this.#sheet = sheet;
     this.#pieces = sheet.wire();
     this.#blocks = new Map(blocks.map((block) => [block.line, block]));
-    this.#track = new Track(this.#pieces.map((piece) => piece.getTotalLength()));
+    this.#lines = lines;
+    const lengths = this.#pieces.map((piece) => piece.getTotalLength());
+    this.#track = new Track(lengths);
+    let cut = 0;
+    this.#cut = this.#pieces.map((piece, index) => (cut += isJump(piece) ? 0 : (lengths[index] ?? 0)));
     this.#section.hidden = this.#track.length === 0;
     this.#shown = -1;
     this.#wire = this.#trail = null;
@@ -160,7 +169,7 @@ export class Player {
 
   /** The wire itself, and what of the present piece is cut. */
   #mark(piece: SVGPathElement, along: number): void {
-    const parent = piece.parentElement;
+    const parent = this.#sheet?.drawing;
     if (this.#wire === null || this.#trail === null) {
       this.#trail = document.createElementNS(SVG, "path");
       this.#trail.classList.add("trail");
@@ -182,12 +191,18 @@ export class Player {
   #showFigures(spot: Spot | null): void {
     const piece = spot === null ? undefined : this.#pieces[spot.piece];
     if (spot === null || piece === undefined) {
-      this.#where.textContent = "";
+      this.#where.textContent = this.#motion.textContent = this.#block.textContent = "";
       return;
     }
     const toMm = this.#sheet?.unitsPerMm ?? 0;
-    const travelled = toMm > 0 ? t("{0} of {1} mm", (this.#distance / toMm).toFixed(1), (this.#track.length / toMm).toFixed(1)) : "";
+    const jumps = isJump(piece);
+    const before = this.#cut[spot.piece - 1] ?? 0;
+    const cut = jumps ? before : before + spot.along;
+    const travelled = toMm > 0 ? t("cut {0} of {1} mm", (cut / toMm).toFixed(1), ((this.#cut.at(-1) ?? 0) / toMm).toFixed(1)) : "";
     const line = piece.dataset["line"];
+    this.#motion.className = jumps ? "jumps" : "cuts";
+    this.#motion.textContent = jumps ? t("Jump") : t("Cut");
+    this.#block.textContent = line === undefined ? "" : (this.#lines[Number(line)]?.trim() ?? "");
     const block = line === undefined ? undefined : this.#blocks.get(Number(line));
     const facts = [line === undefined ? "" : t("line {0}", Number(line) + 1), travelled];
     if (block !== undefined) {
@@ -212,4 +227,9 @@ export class Player {
     this.#button.setAttribute("aria-label", this.#playing ? t("Pause") : t("Play"));
     this.#button.title = this.#playing ? t("Pause (space)") : t("Play (space)");
   }
+}
+
+/** The wire is not cutting there. */
+function isJump(piece: SVGPathElement): boolean {
+  return piece.classList.contains("jump");
 }

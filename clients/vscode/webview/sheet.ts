@@ -1,5 +1,7 @@
 // Takes the server's SVG into the page, and knows which of its elements stand for which segment or line.
 
+import type { SegmentShape } from "../src/protocol";
+import { Canvas } from "./canvas";
 import type { Box } from "./frame";
 
 export interface Picked {
@@ -13,7 +15,11 @@ export class Sheet {
   readonly drawing: SVGGElement | null;
   readonly #bySegment = new Map<string, SVGElement[]>();
   readonly #byLine = new Map<number, SVGElement[]>();
+  readonly #wire: SVGPathElement[];
+  /** Draws what is too much for the page's own tree. */
+  readonly canvas: Canvas | null;
   #selected: SVGElement[] = [];
+  #ghost: SVGPathElement | null = null;
 
   /** Throws when the text is no SVG. */
   constructor(text: string) {
@@ -31,6 +37,10 @@ export class Sheet {
     this.svg.removeAttribute("height");
     this.drawing = this.svg.querySelector<SVGGElement>("g.drawing");
     this.#index();
+    const blocks = [...this.svg.querySelectorAll<SVGPathElement>("g.drawing path[data-line]")];
+    this.#wire = blocks.length > 0 ? blocks : [...this.svg.querySelectorAll<SVGPathElement>("g.drawing :is(path.wire, path.lead, path.jump)")];
+    const canvas = new Canvas();
+    this.canvas = this.drawing !== null && canvas.take(this.drawing) ? canvas : null;
   }
 
   #index(): void {
@@ -59,13 +69,97 @@ export class Sheet {
   }
 
   /** What is written about the picture, for the page's own head. */
-  heading(): { title: string; note: string } {
+  heading(): { title: string; note: string; alert: string; severity: string } {
     const text = (selector: string): string => this.svg.querySelector(`.chrome ${selector}`)?.textContent ?? "";
-    return { title: text(".heading") || (this.svg.querySelector("title")?.textContent ?? ""), note: text(".note") };
+    const alert = this.svg.querySelector(".chrome .alert");
+    return {
+      title: text(".heading") || (this.svg.querySelector("title")?.textContent ?? ""),
+      note: text(".note"),
+      // The whole of what the sheet may have had to shorten.
+      alert: alert?.querySelector("title")?.textContent ?? "",
+      severity: [...(alert?.classList ?? [])].find((name) => name !== "alert") ?? "",
+    };
+  }
+
+  /** Why there is nothing to draw, on a sheet without a drawing. */
+  get reason(): string {
+    return this.svg.querySelector("text.note")?.textContent ?? "";
+  }
+
+  /** Draws what a repair would bring; null takes it away. */
+  ghost(segments: readonly SegmentShape[] | null): SVGPathElement | null {
+    this.#ghost?.remove();
+    this.#ghost = null;
+    if (segments === null || segments.length === 0 || this.drawing === null) {
+      return null;
+    }
+    const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+    path.classList.add("ghost");
+    path.setAttribute("d", segments.map((segment) => this.#dataOf(segment)).join(""));
+    this.drawing.append(path);
+    this.#ghost = path;
+    return path;
+  }
+
+  #dataOf({ start, end, center, radius, sweep = 0 }: SegmentShape): string {
+    const scale = Number(this.drawing?.dataset["scale"] ?? 1);
+    const local = ([x, y]: readonly [number, number]): string => {
+      const [originX, originY] = (this.drawing?.dataset["origin"] ?? "0 0").split(" ").map(Number);
+      return `${(x - (originX ?? 0)) * scale} ${(y - (originY ?? 0)) * scale}`;
+    };
+    if (radius === undefined || center === undefined) {
+      return `M${local(start)}L${local(end)}`;
+    }
+    // In halves, so that a full turn is drawn, too.
+    const begin = Math.atan2(start[1] - center[1], start[0] - center[0]);
+    const half = begin + (sweep * Math.PI) / 360;
+    const middle = [center[0] + radius * Math.cos(half), center[1] + radius * Math.sin(half)] as const;
+    const arc = `A${radius * scale} ${radius * scale} 0 0 ${sweep > 0 ? 1 : 0} `;
+    return `M${local(start)}${arc}${local(middle)}${arc}${local(end)}`;
+  }
+
+  /** A point of the window in units of the drawing. */
+  inDrawing(x: number, y: number): [number, number] | null {
+    const place = this.inMm(x, y);
+    const toMm = Number(this.drawing?.dataset["unitMm"] ?? 1);
+    return place === null ? null : [place.x / toMm, place.y / toMm];
+  }
+
+  /** The point of a contour that lies nearest to a point of the drawing. */
+  nearest(handles: readonly string[], [x, y]: readonly [number, number]): [number, number] | null {
+    const scale = Number(this.drawing?.dataset["scale"] ?? 1);
+    const [originX, originY] = (this.drawing?.dataset["origin"] ?? "0 0").split(" ").map(Number);
+    const wanted = { x: (x - (originX ?? 0)) * scale, y: (y - (originY ?? 0)) * scale };
+    const isContour = (element: SVGElement): element is SVGPathElement =>
+      element instanceof SVGPathElement && element.classList.contains("contour");
+    const paths = handles.flatMap((handle) => this.ofSegment(handle, null)).filter(isContour);
+    let best: { x: number; y: number; far: number } | null = null;
+    for (const path of paths) {
+      const total = path.getTotalLength();
+      const far = (along: number): number => {
+        const point = path.getPointAtLength(along);
+        return Math.hypot(point.x - wanted.x, point.y - wanted.y);
+      };
+      const steps = 64;
+      const step = total / steps;
+      let along = Array.from({ length: steps + 1 }, (_, index) => index * step).reduce((a, b) => (far(b) < far(a) ? b : a));
+      for (let width = step; width > 1e-6; width /= 2) {
+        const beside = [along - width, along + width].map((each) => Math.min(Math.max(each, 0), total));
+        along = beside.reduce((a, b) => (far(b) < far(a) ? b : a), along);
+      }
+      const point = path.getPointAtLength(along);
+      if (best === null || far(along) < best.far) {
+        best = { x: point.x, y: point.y, far: far(along) };
+      }
+    }
+    return best === null ? null : [(originX ?? 0) + best.x / scale, (originY ?? 0) + best.y / scale];
   }
 
   /** The box of all that is drawn, in units of the sheet; with the marks as large as they are where a pixel is `pixel` units. */
   extent(pixel: number): Box {
+    if (this.canvas !== null) {
+      return this.canvas.extent;
+    }
     const box = this.drawing?.getBBox();
     if (this.drawing === null || box === undefined || (box.width === 0 && box.height === 0)) {
       const { x, y, width, height } = this.svg.viewBox.baseVal;
@@ -98,15 +192,25 @@ export class Sheet {
   select(elements: SVGElement[]): void {
     for (const element of this.#selected) {
       element.classList.remove("selected");
+      if (this.canvas !== null && element.parentNode === this.drawing) {
+        element.remove();
+      }
     }
     this.#selected = elements;
     for (const element of elements) {
       element.classList.add("selected");
+      // What the canvas draws is lent to the tree for as long as it is selected.
+      if (this.canvas !== null && !element.isConnected) {
+        this.drawing?.append(element);
+      }
     }
   }
 
   /** The box of the parts of the drawing among these. */
   boxOf(elements: readonly SVGElement[]): Box | null {
+    if (this.canvas !== null) {
+      return this.canvas.boxOf(elements);
+    }
     const parts = elements.filter((element): element is SVGGraphicsElement => element instanceof SVGGraphicsElement);
     const drawn = parts.filter((element) => this.drawing?.contains(element) === true && !element.classList.contains("fine"));
     const boxes = drawn.map((element) => this.#onSheet(element, element.getBBox()));
@@ -149,8 +253,7 @@ export class Sheet {
 
   /** The pieces of the wire's way, in the order in which it is travelled. */
   wire(): SVGPathElement[] {
-    const blocks = [...this.svg.querySelectorAll<SVGPathElement>("g.drawing path[data-line]")];
-    return blocks.length > 0 ? blocks : [...this.svg.querySelectorAll<SVGPathElement>("g.drawing path.wire, g.drawing path.lead")];
+    return this.#wire;
   }
 }
 

@@ -23,7 +23,7 @@ export class Stage {
   /** The user has not moved the view: it follows the drawing. */
   #isFitted = true;
 
-  constructor(private readonly picked: (picked: Picked | null, twice: boolean) => void) {
+  constructor(private readonly picked: (picked: Picked | null, twice: boolean, event: MouseEvent) => void) {
     new ResizeObserver(() => {
       this.#resized();
     }).observe(this.#stage);
@@ -37,8 +37,9 @@ export class Stage {
   /** Another picture; of the same document the view stays as it is. */
   put(sheet: Sheet, sameDocument: boolean): void {
     this.#sheet?.svg.remove();
+    this.#sheet?.canvas?.element.remove();
     this.#sheet = sheet;
-    this.#stage.prepend(sheet.svg);
+    this.#stage.prepend(...(sheet.canvas === null ? [] : [sheet.canvas.element]), sheet.svg);
     sheet.svg.setAttribute("preserveAspectRatio", "xMidYMid meet");
     this.#all = this.#everything(sheet);
     if (!sameDocument || this.#isFitted) {
@@ -63,6 +64,10 @@ export class Stage {
       view = fitted(sheet.extent(unitsPerPixel(view, size)), size, MARGIN);
     }
     return view;
+  }
+
+  redraw(): void {
+    this.#show(this.#view);
   }
 
   zoom(factor: number): void {
@@ -110,6 +115,7 @@ export class Stage {
     if (svg === undefined) {
       return;
     }
+    this.#sheet?.canvas?.show(view, this.#size());
     svg.setAttribute("viewBox", `${view.x} ${view.y} ${view.width} ${view.height}`);
     const scale = unitsPerPixel(view, this.#size());
     // Marks keep their size on the screen.
@@ -139,6 +145,17 @@ export class Stage {
 
   /** What lies under the pointer, or near it. */
   #under(event: MouseEvent): Picked | null {
+    const canvas = this.#sheet?.canvas ?? null;
+    if (canvas !== null) {
+      const { x, y } = this.#onSheet(event);
+      const pixel = unitsPerPixel(this.#view, this.#size());
+      const cluster = canvas.clusterAt(x, y, pixel);
+      if (cluster !== null && cluster.count > 1) {
+        this.approach(canvas.boxOf(cluster.items.map(({ element }) => element)));
+        return null;
+      }
+      return pickedFrom(cluster?.items[0]?.element ?? canvas.at(x, y, REACH * pixel));
+    }
     const ring = [0, 1, 2, 3, 4, 5, 6, 7].map((step) => (step * Math.PI) / 4);
     const about = [REACH / 2, REACH].flatMap((far) => ring.map((angle) => [Math.cos(angle) * far, Math.sin(angle) * far] as const));
     for (const [dx, dy] of [[0, 0] as const, ...about]) {
@@ -181,7 +198,7 @@ export class Stage {
     });
     stage.addEventListener("pointerup", (event) => {
       if (from !== null && !from.moved && event.button === 0) {
-        this.picked(this.#under(event), event.detail > 1);
+        this.picked(this.#under(event), event.detail > 1, event);
       }
       from = null;
       stage.classList.remove("dragging");
@@ -191,7 +208,7 @@ export class Stage {
       stage.classList.remove("dragging");
     });
     stage.addEventListener("dblclick", (event) => {
-      this.picked(this.#under(event), true);
+      this.picked(this.#under(event), true, event);
     });
     stage.addEventListener("pointerleave", () => {
       element("place", HTMLElement).textContent = "";

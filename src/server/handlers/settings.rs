@@ -1,20 +1,22 @@
 //! `wedm/settings`: what holds for a document, open or not.
 
 use crate::protocol::{CorrectionSource, SettingsInForce};
-use crate::server::config::uri_of;
+use crate::server::config::{name_of, uri_of};
 use crate::server::state::State;
 use crate::settings::{Effective, Settings};
 
 pub(in crate::server) fn settings(state: &mut State, uri: &str) -> SettingsInForce {
     let file = state.file_for(uri);
     let of_client = state.config.settings_for(None);
-    let effective = Effective::of(&state.config.settings_for(file.as_deref()));
+    let settings = state.config.settings_for(file.as_deref());
+    let effective = Effective::of_document(&settings, name_of(uri));
     SettingsInForce {
         correction: effective.correction,
         corrections: effective.corrections,
         correction_from: source(&of_client, file.as_ref().map(|file| &file.settings)),
         side: effective.side,
         file: file.as_ref().and_then(|file| uri_of(&file.path)),
+        contours: effective.own,
     }
 }
 

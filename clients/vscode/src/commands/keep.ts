@@ -1,5 +1,6 @@
 // Writes what the user has said of contours into the text of a wedm.toml. Knows nothing of VS Code.
 
+import type { Said } from "../picture/messages";
 import type { Role } from "../protocol";
 
 /** By nesting, or what each contour or layer is. */
@@ -8,25 +9,50 @@ export type Sides = { side: "auto" } | { contours: Record<string, Role> } | { la
 /** The text with the answer in it: a key that stands already gets the new value, every other line stays as it is. */
 export function keep(text: string, sides: Sides): string {
   if ("side" in sides) {
-    return withKey(text, null, "side", sides.side);
+    return withKey(text, null, "side", JSON.stringify(sides.side));
   }
   const [table, roles] = "contours" in sides ? (["contours", sides.contours] as const) : (["layers", sides.layers] as const);
-  return Object.entries(roles).reduce((kept, [name, role]) => withKey(kept, table, JSON.stringify(name), role), text);
+  return Object.entries(roles).reduce((kept, [name, role]) => withKey(kept, table, JSON.stringify(name), JSON.stringify(role)), text);
 }
 
-function withKey(text: string, table: string | null, key: string, value: string): string {
+/** The text with what is said of one contour of a drawing, by the name of its file and a handle. */
+export function keepContour(text: string, drawing: string, handle: string, said: Said): string {
+  const table = `drawings.${JSON.stringify(drawing)}.contours.${/^[\w-]+$/.test(handle) ? handle : JSON.stringify(handle)}`;
+  return Object.entries(said).reduce((kept, [key, value]) => withKey(kept, table, key, written(value)), text);
+}
+
+/** As TOML has it; null where nothing is said. */
+function written(value: Said[keyof Said]): string | null {
+  if (value === null || value === undefined) {
+    return null;
+  }
+  return Array.isArray(value) ? `[${value.map((number) => String(Number(number.toFixed(6)))).join(", ")}]` : JSON.stringify(value);
+}
+
+function withKey(text: string, table: string | null, key: string, value: string | null): string {
   const end = text.includes("\r\n") ? "\r\n" : "\n";
   const lines = text === "" ? [] : text.replace(/\r?\n$/, "").split(/\r?\n/);
   const heads = lines.flatMap((line, index) => (/^\s*\[/.test(line) ? [index] : []));
-  const head = table === null ? -1 : heads.find((index) => lines[index]?.replace(/#.*/, "").trim() === `[${table}]`);
-  const entry = `${key} = ${JSON.stringify(value)}`;
+  const head = table === null ? -1 : heads.find((index) => isHead(lines[index] ?? "", table));
+  const entry = `${key} = ${value ?? ""}`;
   if (head === undefined) {
+    if (value === null) {
+      return text;
+    }
     lines.push(...(lines.length === 0 ? [] : [""]), `[${table ?? ""}]`, entry);
   } else {
     const next = heads.find((index) => index > head) ?? lines.length;
     const names = [key, key.replace(/^"([\w-]+)"$/, "$1")];
     const stands = lines.findIndex((line, index) => index > head && index < next && names.includes(line.split("=")[0]?.trim() ?? ""));
-    if (stands >= 0) {
+    if (value === null) {
+      lines.splice(Math.max(stands, 0), stands >= 0 ? 1 : 0);
+      // A head that nothing stands below any more goes, with the line that kept it apart.
+      const rest = lines.slice(head + 1, stands >= 0 ? next - 1 : next);
+      if (head >= 0 && rest.every((line) => line.trim() === "")) {
+        const apart = head > 0 && (lines[head - 1] ?? "").trim() === "" ? 1 : 0;
+        lines.splice(head - apart, 1 + apart);
+      }
+    } else if (stands >= 0) {
       const remark = /\s*#.*$/.exec(lines[stands]?.replace(/"(?:[^"\\]|\\.)*"|'[^']*'/g, (quoted) => "x".repeat(quoted.length)) ?? "")?.[0] ?? "";
       lines[stands] = entry + (remark === "" ? "" : (lines[stands]?.slice(-remark.length) ?? ""));
     } else {
@@ -38,5 +64,11 @@ function withKey(text: string, table: string | null, key: string, value: string)
       lines.splice(at, 0, entry, ...(at === next && next < lines.length ? [""] : []));
     }
   }
-  return lines.join(end) + end;
+  return lines.length === 0 ? "" : lines.join(end) + end;
+}
+
+/** Whether a line is the head of a table, with a remark behind it or not. */
+function isHead(line: string, table: string): boolean {
+  const head = `[${table}]`;
+  return line.trim().startsWith(head) && /^\s*(#.*)?$/.test(line.trim().slice(head.length));
 }

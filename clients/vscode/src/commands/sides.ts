@@ -5,6 +5,7 @@ import type { Pictures } from "../picture/pictures";
 import type { ContoursContour, Role } from "../protocol";
 import type { Server } from "../server/server";
 import { keep, type Sides } from "./keep";
+import { rewrite, settingsFile } from "./settingsFile";
 import { t } from "../words";
 
 /** By nesting, one by one, or the answer for the only one. */
@@ -83,8 +84,7 @@ function handlesOf(contours: readonly ContoursContour[]): string[] {
 
 /** Offers to write the answer down, in the wedm.toml that holds or in one beside the drawing. */
 export async function offerToKeep(server: Server, uri: vscode.Uri, sides: Sides): Promise<void> {
-  const settings = await server.request("wedm/settings", { uri: uri.toString() });
-  const target = settings.file === undefined ? vscode.Uri.joinPath(uri, "..", "wedm.toml") : vscode.Uri.parse(settings.file);
+  const target = await settingsFile(server, uri);
   const general = await forAll(server, uri, target, sides);
   if (general === undefined || uri.scheme !== "file") {
     return;
@@ -93,15 +93,7 @@ export async function offerToKeep(server: Server, uri: vscode.Uri, sides: Sides)
   if ((await vscode.window.showInformationMessage(t("Keep what you said of the wire's side for the next time?"), yes)) !== yes) {
     return;
   }
-  const edit = new vscode.WorkspaceEdit();
-  edit.createFile(target, { ignoreIfExists: true });
-  await vscode.workspace.applyEdit(edit);
-  const document = await vscode.workspace.openTextDocument(target);
-  const text = document.getText();
-  const change = new vscode.WorkspaceEdit();
-  change.replace(target, new vscode.Range(document.positionAt(0), document.positionAt(text.length)), keep(text, general));
-  await vscode.workspace.applyEdit(change);
-  await document.save();
+  await rewrite(target, (text) => keep(text, general));
 }
 
 /** Handles are those of one drawing. Where the file holds for others too, the answer is kept by layer, if layers can say it. */

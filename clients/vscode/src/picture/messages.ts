@@ -1,21 +1,63 @@
 // What the picture's page and the extension say to each other.
 
-import type { SimulatedBlock } from "../protocol";
+import type { ContourSettings, Repair, Role, SimulatedBlock } from "../protocol";
+
+export type Severity = "error" | "warning" | "information" | "hint";
 
 /** A finding as the strip below the picture shows it. */
 export interface Fault {
-  severity: "error" | "warning";
+  severity: Severity;
   rule: string;
   message: string;
   /** In a drawing. */
   handle?: string;
   segment?: number;
+  /** mm, of an arc that is too tight. */
+  radius?: number;
   /** In a program; counts from 0. */
   line?: number;
 }
 
+/** A contour of a drawing as the page speaks of it. */
+export interface Contour {
+  /** From 1: its place among the cuts where it has one. */
+  number: number;
+  /** The handles of its entities; the first names it. */
+  handles: string[];
+  closed: boolean;
+  role: Role;
+  /** mm. */
+  length: number;
+  /** What is said of it in wedm.toml. */
+  said: ContourSettings;
+}
+
+/** A finding at close quarters: why it is one, and what would repair it. */
+export interface Card {
+  fault: number;
+  why: string;
+  repairs: Repair[];
+}
+
+export interface Shown {
+  type: "picture";
+  uri: string;
+  name: string;
+  kind: "drawing" | "program";
+  svg: string;
+  faults: Fault[];
+  contours: Contour[];
+  blocks: SimulatedBlock[];
+  /** The lines of a program. */
+  lines: string[];
+  /** It is the editor of the drawing, where findings and contours are acted upon. */
+  isEditor: boolean;
+  /** Settings can be kept in a file beside it. */
+  keeps: boolean;
+}
+
 export type ToPage =
-  | { type: "picture"; uri: string; name: string; kind: "drawing" | "program"; svg: string; faults: Fault[]; blocks: SimulatedBlock[] }
+  | Shown
   /** What the cursor stands on in a drawing, or null. */
   | { type: "segment"; handle: string | null; segment: number | null }
   /** Entities that are asked about: marked together until the cursor moves. */
@@ -23,33 +65,79 @@ export type ToPage =
   /** The line on which the cursor stands in a program. */
   | { type: "line"; line: number }
   | { type: "trouble"; message: string }
+  | { type: "busy"; busy: boolean }
+  | { type: "card"; card: Card }
   | { type: "play" };
 
 export type FromPage =
   | { type: "ready" }
   | { type: "segment"; handle: string; segment: number | null }
   | { type: "line"; line: number }
+  /** The finding of an index is looked at. */
+  | { type: "fault"; fault: number }
+  /** Its repair of an index is made. */
+  | { type: "fix"; fault: number; repair: number }
+  /** The page of a rule is read. */
+  | { type: "explain"; rule: string }
+  /** What is said of the contour of a handle; null takes back what was said. */
+  | { type: "say"; handles: string[]; said: Said }
+  | { type: "text" }
+  | { type: "export" }
   /** The block on which the wire is while it plays; null when it has stopped. */
   | { type: "playing"; line: number | null };
+
+/** Keys of a contour's settings with what they are to be. */
+export type Said = { [Key in keyof ContourSettings]?: ContourSettings[Key] | null };
+
+const isIndex = (value: unknown): value is number => Number.isInteger(value) && Number(value) >= 0;
+const isPoint = (value: unknown): value is [number, number] => Array.isArray(value) && value.length === 2 && value.every(Number.isFinite);
+const ROLES: unknown[] = ["opening", "punch", "both", "ignore"];
 
 /** The page is ours, and its messages are looked at all the same. */
 export function fromPage(message: unknown): FromPage | null {
   if (typeof message !== "object" || message === null) {
     return null;
   }
-  const { type, handle, segment, line } = message as Record<string, unknown>;
-  const isIndex = (value: unknown): value is number => Number.isInteger(value) && Number(value) >= 0;
-  if (type === "ready") {
-    return { type };
+  const { type, handle, segment, line, fault, repair, rule, handles, said } = message as Record<string, unknown>;
+  switch (type) {
+    case "ready":
+    case "text":
+    case "export":
+      return { type };
+    case "segment":
+      return typeof handle === "string" ? { type, handle, segment: isIndex(segment) ? segment : null } : null;
+    case "line":
+      return isIndex(line) ? { type, line } : null;
+    case "playing":
+      return { type, line: isIndex(line) ? line : null };
+    case "fault":
+      return isIndex(fault) ? { type, fault } : null;
+    case "fix":
+      return isIndex(fault) && isIndex(repair) ? { type, fault, repair } : null;
+    case "explain":
+      return typeof rule === "string" && /^[\w-]+$/.test(rule) ? { type, rule } : null;
+    case "say": {
+      const named = Array.isArray(handles) && handles.length > 0 && handles.every((each) => typeof each === "string");
+      const meant = saidOf(said);
+      return named && meant !== null ? { type, handles, said: meant } : null;
+    }
+    default:
+      return null;
   }
-  if (type === "segment" && typeof handle === "string") {
-    return { type, handle, segment: isIndex(segment) ? segment : null };
+}
+
+/** Null where a value is none that can be said. */
+function saidOf(value: unknown): Said | null {
+  if (typeof value !== "object" || value === null) {
+    return null;
   }
-  if (type === "line" && isIndex(line)) {
-    return { type, line };
-  }
-  if (type === "playing") {
-    return { type, line: isIndex(line) ? line : null };
-  }
-  return null;
+  const fits: Record<string, (value: unknown) => boolean> = {
+    side: (side) => ROLES.includes(side),
+    thread: isPoint,
+    entry: isPoint,
+    order: (order) => isIndex(order) && order > 0,
+  };
+  const entries = Object.entries(value);
+  const all = entries.every(([key, each]) => each === null || fits[key]?.(each) === true);
+  return all && entries.length > 0 ? value : null;
 }

@@ -3,10 +3,13 @@
 import * as vscode from "vscode";
 import { LSPErrorCodes, ResponseError } from "vscode-languageclient/node";
 import { isDrawing, isOurs } from "../languages";
+import { keepContour } from "../commands/keep";
+import { rewrite, settingsFile } from "../commands/settingsFile";
 import { reveal, revealLine, segmentAt } from "../place";
-import type { SimulatedBlock } from "../protocol";
+import type { Repair, SimulatedBlock } from "../protocol";
+import { rulePage } from "../rulePages";
 import type { Server } from "../server/server";
-import { type Fault, fromPage, type FromPage, type ToPage } from "./messages";
+import { type Contour, type Fault, fromPage, type FromPage, type Said, type Severity, type ToPage } from "./messages";
 import { page } from "./page";
 import { t } from "../words";
 
@@ -15,14 +18,22 @@ export const VIEW_TYPE = "wedm.picture";
 const CALM = 120;
 /** The picture of a very large drawing takes long: at least half of the time is left for everything else, up to this wait. */
 const LONGEST_CALM = 5_000;
-/** More chips than this nobody reads; all of them are under Problems. */
-const FAULTS = 200;
+const SEVERITIES: readonly Severity[] = ["error", "warning", "information", "hint"];
+
+export interface Role {
+  /** It is the editor of one document; else it stands beside the text, and follows whatever is in front. */
+  isEditor?: boolean;
+  closed?: () => void;
+}
 
 export class Picture implements vscode.Disposable {
   readonly #panel: vscode.WebviewPanel;
   readonly #subscriptions: vscode.Disposable[];
   readonly #travelled: vscode.TextEditorDecorationType;
   #uri: vscode.Uri;
+  /** The findings of the picture that is shown, and the repairs of the one that is looked at. */
+  #found: vscode.Diagnostic[] = [];
+  #repairs: Repair[] = [];
   #ready = false;
   #stale = true;
   #making = false;
@@ -37,7 +48,7 @@ export class Picture implements vscode.Disposable {
     uri: vscode.Uri,
     private readonly server: Server,
     extension: vscode.Uri,
-    private readonly closed: () => void,
+    private readonly role: Role,
   ) {
     this.#panel = panel;
     this.#uri = uri;
@@ -47,7 +58,9 @@ export class Picture implements vscode.Disposable {
       overviewRulerColor: new vscode.ThemeColor("editorInfo.foreground"),
     });
     panel.webview.options = { enableScripts: true, localResourceRoots: [vscode.Uri.joinPath(extension, "dist")] };
-    panel.iconPath = vscode.Uri.joinPath(extension, "icons", "dxf.svg");
+    if (role.isEditor !== true) {
+      panel.iconPath = vscode.Uri.joinPath(extension, "icons", "dxf.svg");
+    }
     this.#subscriptions = [
       this.#travelled,
       panel.webview.onDidReceiveMessage((message: unknown) => void this.#heard(fromPage(message))),
@@ -70,7 +83,7 @@ export class Picture implements vscode.Disposable {
         }
       }),
       vscode.window.onDidChangeActiveTextEditor((editor) => {
-        if (editor !== undefined && isOurs(editor.document)) {
+        if (role.isEditor !== true && editor !== undefined && isOurs(editor.document)) {
           this.show(editor.document.uri);
         }
       }),
@@ -122,6 +135,7 @@ export class Picture implements vscode.Disposable {
     }
     this.#making = true;
     const began = Date.now();
+    await this.#tell({ type: "busy", busy: true });
     const uri = this.#uri;
     this.#stale = false;
     try {
@@ -134,6 +148,7 @@ export class Picture implements vscode.Disposable {
       }
     } finally {
       this.#making = false;
+      await this.#tell({ type: "busy", busy: false });
       this.#calm = Math.min(Math.max(Date.now() - began, CALM), LONGEST_CALM);
     }
     if (this.#stale || uri.toString() !== this.#uri.toString()) {
@@ -144,11 +159,18 @@ export class Picture implements vscode.Disposable {
   async #draw(uri: vscode.Uri): Promise<void> {
     const document = await vscode.workspace.openTextDocument(uri);
     const name = uri.path.split("/").pop() ?? "";
-    this.#panel.title = t("Picture of {0}", name);
+    if (this.role.isEditor !== true) {
+      this.#panel.title = t("Picture of {0}", name);
+    }
     const kind = isDrawing(document.languageId) ? "drawing" : "program";
     const { svg } = await this.server.request("wedm/picture", { uri: uri.toString() });
     const blocks = kind === "program" ? await this.#blocks(uri) : [];
-    await this.#tell({ type: "picture", uri: uri.toString(), name, kind, svg, faults: faultsOf(uri), blocks });
+    const { contours, toMm, keeps } = kind === "drawing" ? await this.#contours(uri) : { contours: [], toMm: 1, keeps: false };
+    const lines = kind === "program" ? document.getText().split(/\r?\n/) : [];
+    this.#found = findings(uri);
+    const faults = this.#found.map((diagnostic) => faultOf(diagnostic, toMm));
+    const isEditor = this.role.isEditor === true;
+    await this.#tell({ type: "picture", uri: uri.toString(), name, kind, svg, faults, contours, blocks, lines, isEditor, keeps });
     const editor = vscode.window.visibleTextEditors.find((editor) => editor.document.uri.toString() === uri.toString());
     if (this.#marked !== null) {
       await this.#tell({ type: "contour", handles: [...this.#marked] });
@@ -159,6 +181,68 @@ export class Picture implements vscode.Disposable {
       this.#playWhenShown = false;
       await this.#tell({ type: "play" });
     }
+  }
+
+  /** The contours with what is said of them. */
+  async #contours(uri: vscode.Uri): Promise<{ contours: Contour[]; toMm: number; keeps: boolean }> {
+    const [listed, settings] = await Promise.all([
+      this.server.request("wedm/contours", { uri: uri.toString() }),
+      this.server.request("wedm/settings", { uri: uri.toString() }),
+    ]);
+    const contours = listed.contours.map((contour, index): Contour => {
+      const handles = [...new Set(contour.segments.map(({ handle }) => handle))];
+      const said = handles.map((handle) => settings.contours?.[handle]).find((each) => each !== undefined) ?? {};
+      return {
+        number: (contour.order ?? index) + 1,
+        handles,
+        closed: contour.closed,
+        role: contour.role,
+        length: contour.length * listed.unitsToMm,
+        said,
+      };
+    });
+    return { contours, toMm: listed.unitsToMm, keeps: uri.scheme === "file" };
+  }
+
+  /** Why a finding is one, and what would repair it. */
+  async #lookAt(fault: number): Promise<void> {
+    const diagnostic = this.#found[fault];
+    if (diagnostic === undefined) {
+      return;
+    }
+    const { handle, segment, rule } = faultOf(diagnostic, 1);
+    const asked = { uri: this.#uri.toString(), rule, handle: handle ?? "", ...(segment === undefined ? {} : { segment }) };
+    const none = { repairs: [] };
+    const [{ text }, { repairs }] = await Promise.all([
+      this.server.request("wedm/rulePage", { rule }),
+      handle === undefined ? none : this.server.request("wedm/repairs", asked).then((answer) => answer, () => none),
+    ]);
+    this.#repairs = repairs;
+    await this.#tell({ type: "card", card: { fault, why: firstParagraph(text), repairs } });
+  }
+
+  /** Makes a repair by its code action, so that it is undone as any edit is. */
+  async #fix(fault: number, repair: number): Promise<void> {
+    const [diagnostic, wanted] = [this.#found[fault], this.#repairs[repair]];
+    if (diagnostic === undefined || wanted === undefined) {
+      return;
+    }
+    const { QuickFix } = vscode.CodeActionKind;
+    const asked = [this.#uri, diagnostic.range, QuickFix.value] as const;
+    const actions = await vscode.commands.executeCommand<vscode.CodeAction[]>("vscode.executeCodeActionProvider", ...asked);
+    const action = actions.find(({ title, edit }) => title === wanted.title && edit !== undefined);
+    if (action?.edit === undefined || !(await vscode.workspace.applyEdit(action.edit))) {
+      void vscode.window.showInformationMessage(t("Wire EDM: the drawing has changed meanwhile, and the repair is not offered any more."));
+    }
+  }
+
+  /** Keeps what is said of a contour in wedm.toml, under the name of the drawing. */
+  async #say(handles: readonly string[], said: Said): Promise<void> {
+    const name = this.#uri.path.split("/").pop() ?? "";
+    // Of what is not cut every entity must be told.
+    const told = said.side === "ignore" ? handles : handles.slice(0, 1);
+    const target = await settingsFile(this.server, this.#uri);
+    await rewrite(target, (text) => told.reduce((kept, handle) => keepContour(kept, name, handle, said), text));
   }
 
   /** Without them the wire can be played all the same; its figures are missing then. */
@@ -198,7 +282,28 @@ export class Picture implements vscode.Disposable {
         this.#soon();
         break;
       case "segment":
-        await reveal(this.server, this.#uri, message.handle, message.segment ?? undefined, false);
+        // The editor of a drawing leaves its text closed where it is.
+        if (this.role.isEditor !== true || this.#hasText()) {
+          await reveal(this.server, this.#uri, message.handle, message.segment ?? undefined, false);
+        }
+        break;
+      case "fault":
+        await this.#lookAt(message.fault);
+        break;
+      case "fix":
+        await this.#fix(message.fault, message.repair);
+        break;
+      case "explain":
+        await vscode.commands.executeCommand("markdown.showPreview", rulePage(message.rule));
+        break;
+      case "say":
+        await this.#say(message.handles, message.said);
+        break;
+      case "text":
+        await vscode.commands.executeCommand("wedm.openText", this.#uri);
+        break;
+      case "export":
+        await vscode.commands.executeCommand("wedm.exportPicture", this.#uri);
         break;
       case "line":
         await revealLine(this.#uri, message.line, false);
@@ -207,6 +312,10 @@ export class Picture implements vscode.Disposable {
         this.#follow(message.line);
         break;
     }
+  }
+
+  #hasText(): boolean {
+    return vscode.window.visibleTextEditors.some(({ document }) => document.uri.toString() === this.#uri.toString());
   }
 
   /** The line that is being cut is coloured; the cursor stays where it is. */
@@ -228,29 +337,38 @@ export class Picture implements vscode.Disposable {
     clearTimeout(this.#timer);
     clearTimeout(this.#cursorTimer);
     vscode.Disposable.from(...this.#subscriptions).dispose();
-    this.closed();
+    this.role.closed?.();
   }
 }
 
-/** Errors and warnings with a place that can be shown. */
-function faultsOf(uri: vscode.Uri): Fault[] {
-  const found = vscode.languages.getDiagnostics(uri).filter(({ source, severity }) => source === "wedm" && severity <= vscode.DiagnosticSeverity.Warning);
-  return found.slice(0, FAULTS).map((diagnostic) => {
-    const { handle, segment } = dataOf(diagnostic);
-    const code = typeof diagnostic.code === "object" ? diagnostic.code.value : diagnostic.code;
-    return {
-      severity: diagnostic.severity === vscode.DiagnosticSeverity.Error ? "error" : "warning",
-      rule: String(code ?? ""),
-      message: diagnostic.message,
-      line: diagnostic.range.start.line,
-      ...(typeof handle === "string" ? { handle } : {}),
-      ...(typeof segment === "number" ? { segment } : {}),
-    };
-  });
+/** The findings with a place that can be shown. */
+function findings(uri: vscode.Uri): vscode.Diagnostic[] {
+  return vscode.languages.getDiagnostics(uri).filter(({ source }) => source === "wedm");
+}
+
+function faultOf(diagnostic: vscode.Diagnostic, toMm: number): Fault {
+  const { handle, segment, radius } = dataOf(diagnostic);
+  const code = typeof diagnostic.code === "object" ? diagnostic.code.value : diagnostic.code;
+  return {
+    severity: SEVERITIES[diagnostic.severity] ?? "hint",
+    rule: String(code ?? ""),
+    message: diagnostic.message,
+    line: diagnostic.range.start.line,
+    ...(typeof handle === "string" ? { handle } : {}),
+    ...(typeof segment === "number" ? { segment } : {}),
+    ...(typeof radius === "number" ? { radius: radius * toMm } : {}),
+  };
+}
+
+/** The first paragraph of a page, behind its heading. */
+export function firstParagraph(page: string): string {
+  const paragraphs = page.split(/\r?\n\s*\r?\n/).map((paragraph) => paragraph.trim());
+  const first = paragraphs.find((paragraph) => paragraph !== "" && !/^[#|>!*`-]/.test(paragraph)) ?? "";
+  return first.replace(/\[([^\]]*)\]\([^)]*\)/g, "$1").replace(/[`*]/g, "").replace(/\s+/g, " ");
 }
 
 /** The client keeps the server's `data` on the diagnostics that it makes. */
-function dataOf(diagnostic: vscode.Diagnostic): { handle?: unknown; segment?: unknown } {
+function dataOf(diagnostic: vscode.Diagnostic): { handle?: unknown; segment?: unknown; radius?: unknown } {
   const data: unknown = (diagnostic as { data?: unknown }).data;
   return typeof data === "object" && data !== null ? data : {};
 }

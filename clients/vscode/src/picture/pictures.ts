@@ -62,8 +62,10 @@ export class Pictures implements vscode.WebviewPanelSerializer, vscode.Disposabl
   }
 
   #adopt(panel: vscode.WebviewPanel, uri: vscode.Uri): void {
-    this.#picture = new Picture(panel, uri, this.server, this.extension, () => {
-      this.#picture = undefined;
+    this.#picture = new Picture(panel, uri, this.server, this.extension, {
+      closed: () => {
+        this.#picture = undefined;
+      },
     });
   }
 

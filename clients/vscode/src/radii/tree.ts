@@ -1,6 +1,7 @@
 // The radius list beside the text: vertex, radius, verdict; a click leads to the text.
 
 import * as vscode from "vscode";
+import type { Front } from "../front";
 import { isDrawing, isOurs } from "../languages";
 import { reveal, segmentAt } from "../place";
 import type { Server } from "../server/server";
@@ -23,7 +24,10 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
   /** What was asked before is no longer wanted. */
   #asked = 0;
 
-  constructor(private readonly server: Server) {
+  constructor(
+    private readonly server: Server,
+    front: Front,
+  ) {
     this.#view = vscode.window.createTreeView("wedm.radii", { treeDataProvider: this, showCollapseAll: true });
     this.#subscriptions = [
       this.#view,
@@ -41,8 +45,8 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
           void this.#refresh();
         }
       }),
-      vscode.window.onDidChangeActiveTextEditor((editor) => {
-        this.#follow(editor);
+      front.onDidChange(() => {
+        this.#follow(front.document);
       }),
       vscode.workspace.onDidCloseTextDocument((document) => {
         if (document.uri.toString() === this.#document?.toString()) {
@@ -56,7 +60,7 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
         }
       }),
     ];
-    this.#follow(vscode.window.activeTextEditor);
+    this.#follow(front.document);
   }
 
   async show(): Promise<void> {
@@ -70,8 +74,7 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
   }
 
   /** A program or another text in front leaves the list of the last drawing. */
-  #follow(editor: vscode.TextEditor | undefined): void {
-    const document = editor?.document;
+  #follow(document: vscode.TextDocument | undefined): void {
     if (document !== undefined && isOurs(document) && isDrawing(document.languageId)) {
       const isNew = document.uri.toString() !== this.#document?.toString();
       this.#document = document.uri;
@@ -94,7 +97,7 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
     const asked = ++this.#asked;
     const uri = this.#document;
     try {
-      const list = uri === undefined ? [] : rows(await this.server.request("wedm/inspect", { uri: uri.toString() }), this.#onlyFaults);
+      const list = uri === undefined ? [] : await this.#list(uri);
       if (asked !== this.#asked) {
         return;
       }
@@ -113,13 +116,19 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
     this.#changed.fire(undefined);
   }
 
+  async #list(uri: vscode.Uri): Promise<EntityRow[]> {
+    const asked = { uri: uri.toString() };
+    const [inspection, { contours }] = await Promise.all([this.server.request("wedm/inspect", asked), this.server.request("wedm/contours", asked)]);
+    return rows(inspection, this.#onlyFaults, contours);
+  }
+
   async #select(editor: vscode.TextEditor): Promise<void> {
     if (!this.#view.visible) {
       return;
     }
     const located = await segmentAt(this.server, editor.document.uri, editor.selection.active);
-    const entity = this.#rows.find((row) => row.handle === located?.handle);
-    const row = entity?.segments.find((segment) => segment.segment.index === located?.segment) ?? entity;
+    const entity = this.#rows.find((row) => located !== null && row.handles.includes(located.handle));
+    const row = entity?.segments.find((row) => row.handle === located?.handle && row.segment.index === located.segment) ?? entity;
     if (row !== undefined) {
       await this.#view.reveal(row, { select: true, focus: false });
     }
@@ -135,7 +144,7 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
       item.collapsibleState = open ? vscode.TreeItemCollapsibleState.Expanded : vscode.TreeItemCollapsibleState.Collapsed;
     }
     item.iconPath = faulty
-      ? new vscode.ThemeIcon("error", new vscode.ThemeColor("problemsErrorIcon.foreground"))
+      ? new vscode.ThemeIcon("error", new vscode.ThemeColor("charts.red"))
       : new vscode.ThemeIcon("pass", new vscode.ThemeColor("testing.iconPassed"));
     item.command = { command: "wedm.radii.reveal", title: t("Reveal in Text"), arguments: [row.handle, row.kind === "segment" ? row.segment.index : undefined] };
     return item;
@@ -149,7 +158,7 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
   }
 
   getParent(row: Row): Row | undefined {
-    return row.kind === "segment" ? this.#rows.find((entity) => entity.handle === row.handle) : undefined;
+    return row.kind === "segment" ? this.#rows.find((entity) => entity.handles.includes(row.handle)) : undefined;
   }
 
   async revealInText(handle: unknown, segment: unknown): Promise<void> {

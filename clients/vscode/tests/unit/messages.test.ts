@@ -12,6 +12,16 @@ test("of the page's messages only those are heard that say something", () => {
   check({ type: "segment", handle: "2A", segment: -1 }, { type: "segment", handle: "2A", segment: null });
   check({ type: "playing", line: null }, { type: "playing", line: null });
   check({ type: "line", line: 4 }, { type: "line", line: 4 });
+  check({ type: "fault", fault: 2 }, { type: "fault", fault: 2 });
+  check({ type: "fix", fault: 2, repair: 0 }, { type: "fix", fault: 2, repair: 0 });
+  check({ type: "explain", rule: "small-radius" }, { type: "explain", rule: "small-radius" });
+  const said = { side: "punch", thread: [1, 2], entry: null, order: 3 };
+  check({ type: "say", handles: ["2A"], said }, { type: "say", handles: ["2A"], said });
+  for (const odd of [{}, { side: "up" }, { thread: [1] }, { order: 0 }, { length: 1 }, null]) {
+    check({ type: "say", handles: ["2A"], said: odd }, null);
+  }
+  check({ type: "say", handles: [], said }, null);
+  check({ type: "explain", rule: "../secret" }, null);
   for (const odd of [null, 1, "ready", {}, { type: "segment" }, { type: "line", line: 1.5 }, { type: "line", line: "1" }, { type: "run" }]) {
     check(odd, null);
   }

@@ -34,6 +34,18 @@ test("figures are mm whatever the drawing's unit, and vertices keep their number
   assert.equal(summary(list), "1 not ok");
 });
 
+test("contours come before what is in none, and hold the segments of all their entities", () => {
+  const piece = (handle: string, segment: number) => ({ handle, segment, kind: "line" as const, start: [0, 0] as [number, number], end: [1, 0] as [number, number], length: 1, reversed: false });
+  const contour = { closed: true, role: "opening" as const, length: 2, gaps: [], order: 4, segments: [piece("2A", 0), piece("2A", 2)] };
+  const list = rows(inspection, false, [contour]);
+  assert.deepEqual(list.map(({ label, description, handles }) => [label, description, handles]), [
+    ["Contour 5", "DIE · 1 of 2 segments not ok", ["2A"]],
+    ["LINE 1", "0 · 1 segment", ["1"]],
+  ]);
+  const joined = rows(inspection, false, [{ ...contour, segments: [piece("1", 0), ...contour.segments] }]);
+  assert.deepEqual(joined.map(({ segments }) => segments.map(({ label }) => label)), [["1 · 0   line 25.400", "2A · 0   line 25.400", "2A · 2   R 0.076"]]);
+});
+
 test("only faults leaves what is sound out", () => {
   const list = rows(inspection, true);
   assert.deepEqual(list.map(({ handle, segments }) => [handle, segments.length]), [["2A", 1]]);

@@ -38,9 +38,9 @@ test("what the manifest names stands in both languages", async () => {
 });
 
 test("a sentence is said in the language that is spoken, and in English where that has none", () => {
-  assert.equal(t("{0} of {1} mm", 1, 2), "1 of 2 mm");
+  assert.equal(t("cut {0} of {1} mm", 1, 2), "cut 1 of 2 mm");
   speak({ "line {0}": "行 {0}" });
   assert.equal(t("line {0}", 7), "行 7");
-  assert.equal(t("{0} of {1} mm", 1, 2), "1 of 2 mm");
+  assert.equal(t("cut {0} of {1} mm", 1, 2), "cut 1 of 2 mm");
   speak({});
 });

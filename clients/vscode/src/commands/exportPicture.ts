@@ -1,0 +1,36 @@
+// Saves the picture of a drawing or a program as SVG, PNG or PDF.
+
+import * as vscode from "vscode";
+import type { Front } from "../front";
+import { isOurs } from "../languages";
+import type { PictureForm } from "../protocol";
+import type { Server } from "../server/server";
+import { write } from "./output";
+import { uriOf } from "./subject";
+import { t } from "../words";
+
+const FORMS: readonly PictureForm[] = ["pdf", "png", "svg"];
+
+export async function exportPicture(server: Server, front: Front, argument: unknown): Promise<void> {
+  const uri = uriOf(argument) ?? front.document?.uri;
+  if (uri === undefined || !isOurs(await vscode.workspace.openTextDocument(uri))) {
+    void vscode.window.showInformationMessage(t("Wire EDM: open a drawing or a program first."));
+    return;
+  }
+  const target = await vscode.window.showSaveDialog({
+    title: t("Save the Picture"),
+    defaultUri: uri.with({ scheme: uri.scheme === "untitled" ? "file" : uri.scheme, path: `${uri.path.replace(/\.[^./]*$/, "")}.pdf` }),
+    filters: Object.fromEntries(FORMS.map((form) => [form.toUpperCase(), [form]])),
+  });
+  const format = FORMS.find((form) => target?.path.toLowerCase().endsWith(`.${form}`));
+  if (target === undefined) {
+    return;
+  }
+  if (format === undefined) {
+    void vscode.window.showErrorMessage(t("Wire EDM: a picture is saved as .svg, .png or .pdf."));
+    return;
+  }
+  const { data } = await server.request("wedm/export", { uri: uri.toString(), format });
+  await write(target, Buffer.from(data, "base64"));
+  void vscode.window.showInformationMessage(t("Wire EDM: the picture is saved: {0}.", vscode.workspace.asRelativePath(target)));
+}

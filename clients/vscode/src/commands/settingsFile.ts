@@ -1,0 +1,23 @@
+// The wedm.toml that holds for a drawing, and edits of it.
+
+import * as vscode from "vscode";
+import type { Server } from "../server/server";
+
+/** The one that holds, or the one that would stand beside the drawing. */
+export async function settingsFile(server: Server, uri: vscode.Uri): Promise<vscode.Uri> {
+  const settings = await server.request("wedm/settings", { uri: uri.toString() });
+  return settings.file === undefined ? vscode.Uri.joinPath(uri, "..", "wedm.toml") : vscode.Uri.parse(settings.file);
+}
+
+/** Makes the file where it is not there, changes its text and saves it; what is undone in it is undone there. */
+export async function rewrite(target: vscode.Uri, change: (text: string) => string): Promise<void> {
+  const make = new vscode.WorkspaceEdit();
+  make.createFile(target, { ignoreIfExists: true });
+  await vscode.workspace.applyEdit(make);
+  const document = await vscode.workspace.openTextDocument(target);
+  const text = document.getText();
+  const edit = new vscode.WorkspaceEdit();
+  edit.replace(target, new vscode.Range(document.positionAt(0), document.positionAt(text.length)), change(text));
+  await vscode.workspace.applyEdit(edit);
+  await document.save();
+}

@@ -1,0 +1,46 @@
+// A drawing opens as its picture; its text is one click away, and both are one document.
+
+import * as vscode from "vscode";
+import { uriOf } from "../commands/subject";
+import type { Front } from "../front";
+import type { Server } from "../server/server";
+import { Picture } from "./panel";
+
+/** The kind of editor, as the manifest has it. */
+export const EDITOR = "wedm.drawing";
+
+export class DrawingEditor implements vscode.CustomTextEditorProvider, vscode.Disposable {
+  readonly #registered: vscode.Disposable;
+
+  constructor(
+    private readonly server: Server,
+    private readonly front: Front,
+    private readonly extension: vscode.Uri,
+  ) {
+    const options = { webviewOptions: { retainContextWhenHidden: true }, supportsMultipleEditorsPerDocument: true };
+    this.#registered = vscode.window.registerCustomEditorProvider(EDITOR, this, options);
+  }
+
+  resolveCustomTextEditor(document: vscode.TextDocument, panel: vscode.WebviewPanel): void {
+    new Picture(panel, document.uri, this.server, this.extension, { isEditor: true });
+    const turn = (): void => {
+      if (panel.active) {
+        this.front.turnTo(document);
+      }
+    };
+    panel.onDidChangeViewState(turn);
+    turn();
+  }
+
+  /** Opens a drawing as text, or as its picture. */
+  async openAs(argument: unknown, kind: "default" | typeof EDITOR): Promise<void> {
+    const uri = uriOf(argument) ?? this.front.document?.uri;
+    if (uri !== undefined) {
+      await vscode.commands.executeCommand("vscode.openWith", uri, kind);
+    }
+  }
+
+  dispose(): void {
+    this.#registered.dispose();
+  }
+}

@@ -1,0 +1,141 @@
+// What is picked, at close quarters: a finding with its reason and its repairs, or a contour with what may be said of it.
+
+import type { Card, Contour, Fault, Said } from "../src/picture/messages";
+import type { Repair, Role } from "../src/protocol";
+import { element, host } from "./page";
+import { t } from "../src/words";
+
+/** What the next click in the picture is to say. */
+export interface Asking {
+  key: "thread" | "entry";
+  contour: Contour;
+}
+
+export class Cards {
+  readonly #card = element("card", HTMLElement);
+  #asking: Asking | null = null;
+
+  constructor(
+    /** Shows what a repair would bring; null for nothing. */
+    private readonly ghost: (repair: Repair | null) => void,
+    private readonly asked: (asking: Asking | null) => void,
+  ) {
+    this.#card.addEventListener("pointerdown", (event) => {
+      event.stopPropagation();
+    });
+    this.#card.addEventListener("dblclick", (event) => {
+      event.stopPropagation();
+    });
+    this.#card.addEventListener("wheel", (event) => {
+      event.stopPropagation();
+    });
+  }
+
+  get asking(): Asking | null {
+    return this.#asking;
+  }
+
+  close(): void {
+    this.#ask(null);
+    this.ghost(null);
+    this.#card.hidden = true;
+    this.#card.replaceChildren();
+  }
+
+  showFault(fault: Fault, { fault: index, why, repairs }: Card): void {
+    this.#ask(null);
+    this.ghost(repairs[0] ?? null);
+    const buttons = repairs.map((repair, which) => {
+      const button = made("button", which === 0 ? t("Fix: {0}", repair.title) : repair.title, which === 0 ? "primary" : "");
+      button.addEventListener("pointerenter", () => {
+        this.ghost(repair);
+      });
+      button.addEventListener("click", () => {
+        host.postMessage({ type: "fix", fault: index, repair: which });
+        this.close();
+      });
+      return button;
+    });
+    const explain = made("button", t("About {0}", fault.rule), "link");
+    explain.addEventListener("click", () => {
+      host.postMessage({ type: "explain", rule: fault.rule });
+    });
+    const heading = made("h2", fault.message, fault.severity);
+    this.#show(heading, made("p", why, "why"), ...buttons, explain);
+  }
+
+  showContour(contour: Contour, keeps: boolean): void {
+    this.#ask(null);
+    this.ghost(null);
+    const shape = contour.closed ? t("closed") : t("open");
+    const heading = made("h2", t("Contour {0}", contour.number), "");
+    const facts = made("p", `${shape} · ${t("contour {0} mm", contour.length.toFixed(1))} · ${contour.handles.slice(0, 4).join(", ")}${contour.handles.length > 4 ? " …" : ""}`, "why");
+    if (!keeps) {
+      this.#show(heading, facts);
+      return;
+    }
+    const say = (said: Said): void => {
+      host.postMessage({ type: "say", handles: contour.handles, said });
+    };
+    const roles: [Role, string][] = [["opening", t("Opening")], ["punch", t("Punch")], ["ignore", t("Not cut")]];
+    const sides = row(t("Wire side"), ...roles.map(([role, name]) => {
+      const button = made("button", name, "");
+      button.setAttribute("aria-pressed", String(contour.role === role));
+      button.addEventListener("click", () => {
+        say({ side: contour.said.side === role ? null : role });
+      });
+      return button;
+    }));
+    const point = (key: "thread" | "entry", name: string): HTMLElement => {
+      const said = contour.said[key];
+      const pick = made("button", said === undefined ? t("Pick…") : said.map((number) => Number(number.toFixed(3))).join(", "), "");
+      pick.addEventListener("click", () => {
+        this.#ask({ key, contour });
+      });
+      return row(name, pick, ...(said === undefined ? [] : [this.#clear(() => { say({ [key]: null }); })]));
+    };
+    const order = document.createElement("input");
+    Object.assign(order, { type: "number", min: "1", step: "1", value: String(contour.said.order ?? ""), placeholder: String(contour.number) });
+    order.setAttribute("aria-label", t("Order"));
+    order.addEventListener("change", () => {
+      const number = Math.round(Number(order.value));
+      say({ order: order.value === "" || !(number > 0) ? null : number });
+    });
+    this.#show(heading, facts, sides, point("thread", t("Thread hole")), point("entry", t("Entry")), row(t("Order"), order));
+  }
+
+  #clear(act: () => void): HTMLButtonElement {
+    const button = made("button", "×", "");
+    button.title = t("Take it back");
+    button.addEventListener("click", act);
+    return button;
+  }
+
+  #ask(asking: Asking | null): void {
+    this.#asking = asking;
+    this.asked(asking);
+  }
+
+  #show(...parts: HTMLElement[]): void {
+    const close = made("button", "×", "close");
+    close.title = t("Close (Esc)");
+    close.addEventListener("click", () => {
+      this.close();
+    });
+    this.#card.replaceChildren(close, ...parts);
+    this.#card.hidden = false;
+  }
+}
+
+function made<K extends "button" | "h2" | "p" | "div" | "span">(name: K, text: string, className: string): HTMLElementTagNameMap[K] {
+  const made = document.createElement(name);
+  made.textContent = text;
+  made.className = className;
+  return made;
+}
+
+function row(name: string, ...parts: HTMLElement[]): HTMLElement {
+  const line = made("div", "", "row");
+  line.append(made("span", name, "name"), ...parts);
+  return line;
+}
