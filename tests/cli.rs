@@ -375,7 +375,7 @@ fn commands_print_and_end_as_they_say() {
             0,
             &[
                 "R 9.900 mm, +360.000\u{b0}",
-                "3 blocks, 82.004 mm, 41.0 min, ends 0, 0 \u{b5}m from its start",
+                "3 blocks, cut 82.0 mm, 41.0 min, ends 0, 0 \u{b5}m from its start",
                 "19.800 x 19.800 mm",
             ],
         ),
