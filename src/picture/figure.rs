@@ -25,7 +25,6 @@ pub(super) fn figure(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     areas(sheet, frame, subject);
     asides(sheet, frame, subject);
     contours(sheet, frame, subject);
-    jumps(sheet, frame, subject);
     wire(sheet, frame, subject);
     other_faults(sheet, frame, subject);
     for fault in &subject.faults {
@@ -215,22 +214,24 @@ fn contours(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     }
 }
 
-/// Ways without a cut, from where one path ends to where the next begins.
-fn jumps(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
-    for (path, next) in subject.paths.iter().zip(subject.paths.iter().skip(1)) {
-        let (from, to) = (path.end(), next.begin());
-        if from != to {
-            let way = Segment::line(from, to);
-            let label = say!(way_without_a_cut_mm, subject.mm(way.length()));
-            let data = path_data(frame, [way], false);
-            sheet.path(r#"class="jump""#, &data, &label);
-        }
+/// The way without a cut from where one path ends to where the next begins.
+fn jump(sheet: &mut Sheet, frame: &Frame, subject: &Subject, from: Point, to: Point) {
+    if from != to {
+        let way = Segment::line(from, to);
+        let label = say!(way_without_a_cut_mm, subject.mm(way.length()));
+        let data = path_data(frame, [way], false);
+        sheet.path(r#"class="jump""#, &data, &label);
     }
 }
 
+/// The paths and the ways between them, in the order in which they are travelled.
 fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     let is_lead = |source: &Source| matches!(source, Source::LeadIn | Source::LeadOut);
+    let mut before = None;
     for path in subject.paths {
+        if let Some(end) = before.replace(path.end()) {
+            jump(sheet, frame, subject, end, path.begin());
+        }
         let distance = subject.mm(path.correction);
         let mut label = say!(path_of_the_wire_centre, distance);
         if path.pass > 1 || subject.paths.iter().any(|path| path.pass > 1) {

@@ -16,6 +16,8 @@ const SEVERITIES = ["error", "warning", "remark", "hint"] as const;
 
 interface Item {
   element: SVGGraphicsElement;
+  /** Of what is drawn to scale, in units of the sheet; else 0. */
+  width: number;
   path: Path2D;
   box: Box;
   kind: string;
@@ -23,6 +25,7 @@ interface Item {
 
 interface Batch {
   kind: string;
+  width: number;
   path: Path2D;
   box: Box;
 }
@@ -37,7 +40,7 @@ export interface Cluster {
 }
 
 /** What is drawn below what. */
-const ORDER = ["part", "void", "aside", "contour", "jump", "wire", "lead", "hint", "remark", "warning", "error"] as const;
+const ORDER = ["part", "lost", "void", "kerf", "aside", "contour", "jump", "wire", "lead", "hint", "remark", "warning", "error"] as const;
 
 export class Canvas {
   readonly #canvas = document.createElement("canvas");
@@ -95,7 +98,7 @@ export class Canvas {
       }
     } else if (element.tagName === "circle" && kind !== undefined && !element.classList.contains("fine")) {
       const { x, y } = at(attribute("cx"), attribute("cy"));
-      this.#items.push({ element, path: new Path2D(), box: { x, y, width: 0, height: 0 }, kind });
+      this.#items.push({ element, path: new Path2D(), box: { x, y, width: 0, height: 0 }, kind, width: 0 });
     } else if (element.tagName === "path" && kind !== undefined) {
       const data = element.getAttribute("d") ?? "";
       const path = new Path2D();
@@ -103,7 +106,8 @@ export class Canvas {
       const box = boxOf(data);
       const [from, to] = [at(box.x, box.y), at(box.x + box.width, box.y + box.height)];
       const [x, y] = [Math.min(from.x, to.x), Math.min(from.y, to.y)];
-      this.#items.push({ element, path, box: { x, y, width: Math.abs(from.x - to.x), height: Math.abs(from.y - to.y) }, kind });
+      const width = kind === "kerf" ? Number(element.getAttribute("stroke-width")) : 0;
+      this.#items.push({ element, path, box: { x, y, width: Math.abs(from.x - to.x), height: Math.abs(from.y - to.y) }, kind, width });
     }
     element.remove();
   }
@@ -122,7 +126,7 @@ export class Canvas {
         const here = this.#grid.get(tile) ?? [];
         here.push(item);
         this.#grid.set(tile, here);
-        const batch = tiles.get(tile) ?? { kind, path: new Path2D(), box: item.box };
+        const batch = tiles.get(tile) ?? { kind, width: item.width, path: new Path2D(), box: item.box };
         batch.path.addPath(item.path);
         batch.box = joined(batch.box, item.box);
         tiles.set(tile, batch);
@@ -200,9 +204,9 @@ export class Canvas {
     context.setTransform(scale, 0, 0, scale, -view.x * scale, -view.y * scale);
     context.lineCap = context.lineJoin = "round";
     const pixel = dense / scale;
-    for (const { kind, path, box } of this.#batches) {
+    for (const { kind, path, box, width } of this.#batches) {
       if (meet(box, view)) {
-        paint(context, kind, path, pixel);
+        paint(context, kind, path, pixel, width);
       }
     }
     this.#drawThreads(context, pixel);
@@ -300,21 +304,25 @@ export class Canvas {
   }
 }
 
-function paint(context: CanvasRenderingContext2D, kind: string, path: Path2D, pixel: number): void {
-  if (kind === "part" || kind === "void") {
-    context.fillStyle = colour(kind === "part" ? "--material" : "--ground");
+function paint(context: CanvasRenderingContext2D, kind: string, path: Path2D, pixel: number, scaled: number): void {
+  const fill = FILLS[kind];
+  if (fill !== undefined) {
+    context.fillStyle = colour(fill);
     context.fill(path);
     return;
   }
   const [name, width, dash]: [string, number, number[]] = STROKES[kind] ?? ["--ink", 1.5, []];
   context.strokeStyle = colour(name);
-  context.lineWidth = width * pixel;
+  context.lineWidth = scaled > 0 ? scaled : width * pixel;
   context.setLineDash(dash.map((length) => length * pixel));
   context.stroke(path);
   context.setLineDash([]);
 }
 
+const FILLS: Partial<Record<string, string>> = { part: "--material", lost: "--lost", void: "--ground" };
+
 const STROKES: Record<string, [string, number, number[]]> = {
+  kerf: ["--kerf", 1, []],
   contour: ["--ink", 1.5, []],
   aside: ["--faint", 1, []],
   wire: ["--wire", 1.5, []],

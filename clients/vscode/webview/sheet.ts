@@ -41,6 +41,12 @@ export class Sheet {
     this.#wire = blocks.length > 0 ? blocks : [...this.svg.querySelectorAll<SVGPathElement>("g.drawing :is(path.wire, path.lead, path.jump)")];
     const canvas = new Canvas();
     this.canvas = this.drawing !== null && canvas.take(this.drawing) ? canvas : null;
+    if (this.canvas !== null) {
+      // The canvas has marks of its own, with counts.
+      for (const mark of this.svg.querySelectorAll(".mark")) {
+        mark.remove();
+      }
+    }
   }
 
   #index(): void {

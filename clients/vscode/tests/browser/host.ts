@@ -24,6 +24,8 @@ const FLAGS = [
 
 const QUIET = {
   "workbench.startupEditor": "none",
+  // Most scenarios are about texts; that of drawings takes it back.
+  "workbench.editorAssociations": { "*.dxf": "default" },
   "workbench.colorTheme": "Default Dark Modern",
   "workbench.tips.enabled": false,
   "security.workspace.trust.enabled": false,

@@ -24,7 +24,11 @@ export async function picture(checks: Checks): Promise<void> {
       await expectSoon("four faults", async () => (await page.locator("svg .drawing .fault").count()) === 4);
       expectEqual("marks", await page.locator("svg .mark").count(), 4);
       expectEqual("chips", await page.locator("#faults .chip").count(), 4);
-      expectEqual("title", await page.locator("#title").innerText(), "4 arcs are tighter than the correction");
+      expectEqual("title", await page.locator("#title").innerText(), "small-radius.dxf · contours, no wire path");
+      expectEqual("what is wrong", (await page.locator("#alert").innerText()).startsWith("4 arcs are tighter than the correction · no wire path: "), true);
+      expectEqual("by rule", await page.locator("#rules .rule").allInnerTexts().then((rules) => rules.map((rule) => rule.replace(/\s+/g, " "))), ["small-radius 4"]);
+      const radii = (await page.locator("#chips .chip").allInnerTexts()).map((chip) => Number(/R ([\d.]+) mm/.exec(chip)?.[1]));
+      expectEqual("smallest first", radii.every((radius, index) => radius >= (radii[index - 1] ?? 0)), true);
       await checks.shot("picture");
     });
     await checks.check("a fault that is clicked in the picture is selected in the text", async () => {

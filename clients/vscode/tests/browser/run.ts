@@ -2,6 +2,8 @@
 
 import { Checks } from "./checks";
 import { badDays } from "./badDays";
+import { drawing } from "./drawing";
+import { large } from "./large";
 import { picture } from "./picture";
 import { program } from "./program";
 import { readme } from "./readme";
@@ -11,7 +13,7 @@ import { withServer } from "./withServer";
 /** Made when it is asked for by name: it changes a picture that is committed. */
 const ONLY_BY_NAME = "readme";
 type Scenario = (checks: Checks) => Promise<void>;
-const scenarios: Record<string, Scenario> = { text, picture, program, badDays, withServer, [ONLY_BY_NAME]: readme };
+const scenarios: Record<string, Scenario> = { text, picture, drawing, large, program, badDays, withServer, [ONLY_BY_NAME]: readme };
 const checks = new Checks();
 const named = process.argv.slice(2);
 

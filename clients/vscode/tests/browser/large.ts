@@ -1,0 +1,97 @@
+// A drawing of 5,000 contours: the page alone in the browser, zoomed frame by frame.
+
+import { execFile } from "node:child_process";
+import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { promisify } from "node:util";
+import { chromium } from "playwright-core";
+import { html } from "../../src/picture/html";
+import { type Checks, expectEqual, expectSoon } from "./checks";
+import { CHROMIUM, EXTENSION, WEDM } from "./paths";
+
+const COLUMNS = 100;
+const ROWS = 50;
+/** Frames in a second that the picture has to keep while it is zoomed. */
+const GOAL = 30;
+
+/** Openings of six lines and arcs each, every tenth with a fillet that is too tight. */
+function plates(): string {
+  const contours = Array.from({ length: COLUMNS * ROWS }, (_, index) => {
+    const [x, y] = [(index % COLUMNS) * 12, Math.floor(index / COLUMNS) * 12];
+    const r = index % 10 === 0 ? 0.05 : 1;
+    const quarter = "0.41421356237309503";
+    const vertices = [[x, y], [x + 8 - r, y, quarter], [x + 8, y + r], [x + 8, y + 7, quarter], [x + 7, y + 8], [x, y + 8]];
+    const written = vertices.map(([a, b, bulge]) => `10\n${String(a)}\n20\n${String(b)}\n${bulge === undefined ? "" : `42\n${bulge}\n`}`);
+    return `0\nLWPOLYLINE\n5\n${(256 + index).toString(16).toUpperCase()}\n8\n0\n90\n${vertices.length}\n70\n1\n${written.join("")}`;
+  });
+  return `0\nSECTION\n2\nENTITIES\n${contours.join("")}0\nENDSEC\n0\nEOF\n`;
+}
+
+export async function large(checks: Checks): Promise<void> {
+  const folder = await mkdtemp(join(tmpdir(), "large-"));
+  const browser = await chromium.launch({ executablePath: CHROMIUM, args: ["--no-sandbox", "--disable-gpu"] });
+  try {
+    await writeFile(join(folder, "plates.dxf"), plates());
+    await promisify(execFile)(WEDM, ["draw", "plates.dxf", "--side", "opening", "-o", "plates.svg"], { cwd: folder });
+    const svg = await readFile(join(folder, "plates.svg"), "utf8");
+    const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+    checks.page = page;
+    const file = (name: string): string => `file://${join(EXTENSION, "dist", name)}`;
+    const theme = "<style>:root { --vscode-editor-background: #1f1f1f; --vscode-editor-foreground: #cccccc; --vscode-descriptionForeground: #9d9d9d; --vscode-font-family: sans-serif }</style>";
+    const host = "<script>window.told = []; window.acquireVsCodeApi = () => ({ postMessage: (m) => window.told.push(m), setState: () => {} });</script>";
+    const text = html({ language: "en", policy: "", nonce: "", file, words: {} }).replace(/<meta http-equiv[^>]*>/, theme + host);
+    await writeFile(join(folder, "page.html"), text);
+    await page.goto(`file://${join(folder, "page.html")}`);
+    await checks.check("5,000 contours are drawn, with what is too tight as marks with counts", async () => {
+      const faults = [...svg.matchAll(/class="fault error" data-handle="([^"]*)" data-segment="(\d+)"/g)].map(([, handle, segment]) => ({
+        severity: "error", rule: "small-radius", message: "too tight", handle, segment: Number(segment), radius: 0.05,
+      }));
+      expectEqual("faults", faults.length, 500);
+      await page.evaluate(([svg, faults]) => {
+        const message = { type: "picture", uri: "file:///plates.dxf", name: "plates.dxf", kind: "drawing", svg, faults, contours: [], blocks: [], lines: [], isEditor: true, keeps: true };
+        window.postMessage(message, "*");
+      }, [svg, faults] as const);
+      await page.locator("#stage > canvas").waitFor();
+      await page.waitForTimeout(800);
+      expectEqual("in the tree", (await page.locator("svg .drawing .contour").count()) < 10, true);
+      await checks.shot("large");
+    });
+    await checks.check(`zoomed at ${GOAL} frames a second`, async () => {
+      const rate = async (): Promise<number> =>
+        page.evaluate(async () => {
+          const stage = document.getElementById("stage");
+          const frames: number[] = [];
+          const began = performance.now();
+          await new Promise<void>((done) => {
+            const step = (now: number): void => {
+              frames.push(now);
+              const share = (now - began) / 4000;
+              stage?.dispatchEvent(new WheelEvent("wheel", { deltaY: share < 0.5 ? -24 : 24, clientX: 640, clientY: 400, bubbles: true, cancelable: true }));
+              if (share < 1) {
+                requestAnimationFrame(step);
+              } else {
+                done();
+              }
+            };
+            requestAnimationFrame(step);
+          });
+          return ((frames.length - 1) * 1000) / ((frames.at(-1) ?? 1) - (frames[0] ?? 0));
+        });
+      let best = 0;
+      await expectSoon(`${GOAL} frames a second`, async () => (best = Math.max(best, await rate())) >= GOAL, () => Promise.resolve(`${best.toFixed(1)} a second`));
+      console.log(`  ${best.toFixed(1)} frames a second`);
+      await page.waitForTimeout(400);
+      await checks.shot("large-zoomed");
+    });
+    await checks.check("what is clicked on the canvas is picked", async () => {
+      await page.locator("#chips .chip").first().click();
+      await page.waitForTimeout(400);
+      expectEqual("selected", await page.locator("svg .fault.selected").count(), 1);
+      await checks.shot("large-close");
+    });
+  } finally {
+    await browser.close();
+    await rm(folder, { recursive: true, force: true });
+  }
+}
