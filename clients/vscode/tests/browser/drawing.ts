@@ -21,7 +21,12 @@ export async function drawing(checks: Checks): Promise<void> {
     await host.page.locator(`.tabs-container .tab.active[data-resource-name="${name}"]`).waitFor();
   };
   try {
-    await open("small-radius.dxf");
+    await checks.check("a file of the Explorer is opened", async () => {
+      // VS Code asks no extension before it knows them: in the first moment everything is a text.
+      await host.page.locator('.activitybar [aria-label*="Wire EDM"]').first().waitFor();
+      await open("small-radius.dxf");
+      await window.picture();
+    });
     const page = await window.picture();
     await checks.check("a drawing opens as its picture, and its correction stands in the status bar", async () => {
       await expectSoon("four faults", async () => (await page.locator("svg .drawing .fault").count()) === 4);
@@ -66,7 +71,7 @@ export async function drawing(checks: Checks): Promise<void> {
     await checks.check("thread hole and order are set there, too", async () => {
       await window.clickPath(plate, 'svg .contour[data-handle="2B"]');
       await plate.locator("#card .row", { hasText: "Thread hole" }).getByText("Pick…").click();
-      const stage = await host.page.locator("iframe.webview.ready").last().boundingBox();
+      const stage = await host.page.locator("iframe.webview.ready:visible").boundingBox();
       const at = await plate.locator('svg .contour[data-handle="2B"]').first().evaluate((path: SVGGraphicsElement) => {
         const box = path.getBoundingClientRect();
         return { x: box.x + box.width * 0.5, y: box.y + box.height * 0.6 };

@@ -104,7 +104,7 @@ export class Window {
   }
 
   async picture(): Promise<Frame> {
-    const outer = await (await this.page.locator("iframe.webview.ready").elementHandle())?.contentFrame();
+    const outer = await (await this.page.locator("iframe.webview.ready:visible").elementHandle())?.contentFrame();
     const inner = await (await outer?.locator("iframe#active-frame").elementHandle())?.contentFrame();
     if (inner === null || inner === undefined) {
       throw new Error("there is no picture");
@@ -128,7 +128,7 @@ export class Window {
       const along = path.getPointAtLength(path.getTotalLength() / 3).matrixTransform(path.getScreenCTM() ?? undefined);
       return { x: along.x, y: along.y };
     });
-    const frame = await this.page.locator("iframe.webview.ready").boundingBox();
+    const frame = await this.page.locator("iframe.webview.ready:visible").boundingBox();
     await this.page.mouse.click((frame?.x ?? 0) + point.x, (frame?.y ?? 0) + point.y);
   }
 
