@@ -4,6 +4,7 @@ mod generated;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
+use wedm::beside::{Drawn, Traced, compare};
 use wedm::drawing::{Contour, Drawing, Entity, Geometry, Outline, Role, Unit, Vertex};
 use wedm::program::three_b::{self, Words};
 use wedm::program::{self, Document, Language, iso};
@@ -91,6 +92,40 @@ fn program(c: &mut Criterion) {
     group.bench_function("3B text read again", |b| {
         b.iter(|| black_box(three_b::read(written.text.as_bytes(), &Words::default())))
     });
+    group.finish();
+}
+
+/// A program of about 10,000 blocks held against its drawing: the goal is 20 ms.
+fn beside(c: &mut Criterion) {
+    let settings = std::sync::Arc::new(settings());
+    let (drawing, outline) = wheel(7_000);
+    let outlines = [outline];
+    let paths = plan(&drawing, &outlines, &settings, None).expect("the wire fits");
+    let mut group = c.benchmark_group("10,000 blocks beside their drawing");
+    group.sample_size(20);
+    for (name, language, text) in [
+        (
+            "3B",
+            Language::ThreeB,
+            three_b::write(&paths, 1.0, &settings)
+                .expect("a proved program")
+                .text,
+        ),
+        (
+            "ISO",
+            Language::Iso,
+            iso::write(&paths, 1.0, &settings)
+                .expect("a proved program")
+                .text,
+        ),
+    ] {
+        let program = Document::read(language, text.into(), &settings);
+        let drawn = Drawn::of(&drawing, &outlines, &settings);
+        println!("{name}: {} blocks", program.trace().steps.len());
+        group.bench_function(name, |b| {
+            b.iter(|| black_box(compare(&drawn, &Traced::of(&program))))
+        });
+    }
     group.finish();
 }
 
@@ -273,5 +308,5 @@ fn formatting(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, program, reading, iso_programs, formatting);
+criterion_group!(benches, program, beside, reading, iso_programs, formatting);
 criterion_main!(benches);

@@ -3,6 +3,7 @@
 //! DXF text, drawings sent by a CAD program and programs differ here and nowhere above.
 
 use crate::analysis::Analysis;
+use crate::beside::{self, Beside, Drawn, Traced};
 use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline, Role};
 use crate::finding::{self, Detail, Edit, Finding, Fix, FixKind, Keep, Place};
 use crate::program;
@@ -27,12 +28,16 @@ pub enum Source {
 pub struct Document {
     source: Source,
     analysis: Analysis,
+    /// The drawing of a program, or the programs of a drawing.
+    beside: Beside,
     asked: Asked,
 }
 
 /// What has been asked of the document as it stands: an editor asks for its actions at every step of the cursor.
 #[derive(Clone, Debug, Default)]
 struct Asked {
+    /// Of what lies beside it.
+    beside: OnceLock<Arc<[Finding]>>,
     findings: OnceLock<Arc<[Finding]>>,
     fix_all: OnceLock<Option<Edit>>,
 }
@@ -58,8 +63,58 @@ impl Document {
         Document {
             source,
             analysis,
+            beside: Beside::default(),
             asked: Asked::default(),
         }
+    }
+
+    pub fn beside(&self) -> &Beside {
+        &self.beside
+    }
+
+    /// Lays another document beside it, with which it is compared; true where that is another one than before.
+    pub fn set_beside(&mut self, beside: Beside) -> bool {
+        let is_new = self.beside != beside;
+        if is_new {
+            (self.beside, self.asked) = (beside, Asked::default());
+        }
+        is_new
+    }
+
+    /// What a program is compared with: the contours of a drawing.
+    pub fn drawn(&self) -> Option<Drawn> {
+        let drawing = self.drawing()?;
+        Some(Drawn::of(
+            drawing,
+            self.analysis.outlines(drawing),
+            self.settings(),
+        ))
+    }
+
+    /// What a drawing is compared with: the blocks of a program.
+    pub fn traced(&self) -> Option<Traced> {
+        self.program().map(Traced::of)
+    }
+
+    /// What is unlike between it and what lies beside it.
+    fn unlike(&self) -> Arc<[Finding]> {
+        let found = || {
+            let settings = self.settings();
+            if settings.severity(finding::Rule::NotTheDrawing).is_none() {
+                return Arc::default();
+            }
+            let found = match &self.beside {
+                Beside::Nothing => None,
+                Beside::Drawing(drawing, others) => self
+                    .traced()
+                    .map(|traced| beside::of_program(&traced, drawing, others, settings)),
+                Beside::Programs(programs) => self
+                    .drawn()
+                    .map(|drawn| beside::of_drawing(&drawn, programs, settings)),
+            };
+            found.unwrap_or_default().into()
+        };
+        self.asked.beside.get_or_init(found).clone()
     }
 
     pub fn source(&self) -> &Source {
@@ -162,7 +217,8 @@ impl Document {
 
     /// At most `limit` findings of reader and rules, errors first; and how many there are in all.
     pub fn findings(&mut self, limit: usize) -> (Vec<Finding>, usize) {
-        findings(&self.source, &mut self.analysis, limit)
+        let unlike = self.unlike();
+        findings(&self.source, &mut self.analysis, &unlike, limit)
     }
 
     /// What is suppressed in a drawing, each with the reason.
@@ -179,7 +235,8 @@ impl Document {
         self.asked
             .findings
             .get_or_init(|| {
-                findings(&self.source, &mut self.analysis.clone(), usize::MAX)
+                let mut analysis = self.analysis.clone();
+                findings(&self.source, &mut analysis, &self.unlike(), usize::MAX)
                     .0
                     .into()
             })
@@ -339,17 +396,24 @@ impl Document {
     }
 }
 
-fn findings(source: &Source, analysis: &mut Analysis, limit: usize) -> (Vec<Finding>, usize) {
+fn findings(
+    source: &Source,
+    analysis: &mut Analysis,
+    unlike: &[Finding],
+    limit: usize,
+) -> (Vec<Finding>, usize) {
     let (of_source, of_rules) = match source {
         Source::Dxf(document) => (
             document.findings(),
             analysis.findings(document.drawing(), limit),
         ),
         Source::Cad(drawing) => (&[][..], analysis.findings(drawing, limit)),
-        Source::Program(program) => return program.findings(analysis.settings(), limit),
+        Source::Program(program) => (&[][..], program.findings(analysis.settings(), limit)),
     };
     let settings = analysis.settings();
     let (mut findings, mut count) = of_rules;
+    findings.extend_from_slice(unlike);
+    count += unlike.len();
     for finding in of_source {
         // The reader knows no settings: severities are laid over its findings here.
         // A layer that has a role is cut or not as that says.

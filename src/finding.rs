@@ -11,6 +11,7 @@ mod program_sentence;
 mod sentence;
 mod small_radius;
 mod title;
+mod unlike;
 mod unwritable;
 
 pub use aside::{Aside, SetAside};
@@ -25,6 +26,7 @@ pub use sentence::sentence;
 pub use small_radius::NoFix;
 pub(crate) use small_radius::SmallRadius;
 pub(crate) use title::title;
+pub use unlike::Unlike;
 pub(crate) use unwritable::Unwritable;
 
 pub use crate::geometry::Side;
@@ -161,6 +163,8 @@ pub enum Detail {
         of: Arc<str>,
     },
     LeadIn(String),
+    /// A program and its drawing are not alike.
+    NotTheDrawing(Box<Unlike>),
     /// `kind` of entity, and how many of it; the place is the first.
     UnsupportedEntity {
         kind: String,

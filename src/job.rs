@@ -327,6 +327,8 @@ pub fn generate(
         return Err(Refusal::Sentence(sentence));
     }
     let is_error = |finding: &Finding| finding.severity == Severity::Error;
+    // A program that was written before is no fault of the drawing.
+    findings.retain(|finding| finding.rule != Rule::NotTheDrawing);
     let any_errors = findings.iter().any(is_error);
     let chosen = wanted.chosen(snapshot)?;
     let entities = entities_of(&snapshot.drawing, &snapshot.outlines, chosen.as_deref());
@@ -417,9 +419,11 @@ pub(crate) fn convert(
     };
     let mut errors = document.all_findings().to_vec();
     errors.retain(|finding| finding.severity == Severity::Error);
-    let any_errors = !errors.is_empty();
-    // A radius that the wire cannot follow does not change where it goes.
-    errors.retain(|finding| finding.rule != Rule::SmallRadius);
+    let any_errors = errors
+        .iter()
+        .any(|finding| finding.rule != Rule::NotTheDrawing);
+    // A radius that the wire cannot follow does not change where it goes, nor does what the drawing is now.
+    errors.retain(|finding| !matches!(finding.rule, Rule::SmallRadius | Rule::NotTheDrawing));
     if !force && !errors.is_empty() {
         return Err(Refusal::Errors(errors));
     }

@@ -22,6 +22,8 @@ pub mod message;
 #[allow(clippy::indexing_slicing, clippy::string_slice)]
 pub mod analysis;
 #[allow(clippy::indexing_slicing, clippy::string_slice)]
+pub mod beside;
+#[allow(clippy::indexing_slicing, clippy::string_slice)]
 pub mod cli;
 mod disk;
 pub mod document;

@@ -305,9 +305,10 @@ fn rules_are_found_where_the_table_says() {
 /// The picture of a rule is drawn from a drawing of its name, in which the rule is found.
 #[test]
 fn every_rule_of_drawings_has_a_picture_that_shows_it() {
-    // These are said of settings, of damage, where a start hole has a diameter, or when a path is asked for.
+    // These are said of settings, of damage, beside a program, where a start hole has a diameter, or when a path is asked for.
     let elsewhere = [
         Rule::DoesNotFit,
+        Rule::NotTheDrawing,
         Rule::LeadIn,
         Rule::StartHole,
         Rule::UnprovedPath,

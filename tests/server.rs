@@ -5,6 +5,8 @@ mod support;
 
 #[path = "server/actions.rs"]
 mod actions;
+#[path = "server/beside.rs"]
+mod beside;
 #[path = "server/bombs.rs"]
 mod bombs;
 #[path = "server/drawings.rs"]

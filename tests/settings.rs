@@ -206,6 +206,7 @@ fn the_page_of_settings_shows_every_key_with_its_default() {
         "program.thread" => "[115.0, -10.0]",
         "program.entry" => "[105.0, -10.0]",
         "program.units" => "\"inch\"",
+        "program.drawing" => "\"plate.dxf\"",
         _ => panic!("{key} has no default and no example"),
     };
     let all = of_documents();

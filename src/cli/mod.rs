@@ -3,6 +3,7 @@
 //! One file a command. Nothing is decided here: reading, rules, fixes and programs are those of the floors below,
 //! and what is printed as JSON has the types of [`crate::protocol`].
 
+mod beside;
 mod changes;
 mod check;
 mod completions;

@@ -2,7 +2,7 @@
 
 use super::lengths::{absurd, mm, told_apart};
 use super::program_sentence::program;
-use super::{Aside, Detail, Finding, NoFix, NotJudged, SetAside, SmallRadius, Unwritable};
+use super::{Aside, Detail, Finding, NoFix, NotJudged, SetAside, SmallRadius, Unlike, Unwritable};
 use crate::drawing::Visibility;
 use crate::message::readable;
 
@@ -149,10 +149,75 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
         }
         Detail::Program(fault) => program(fault),
         Detail::More { count } => say!(more_findings_are_not_shown, count),
+        Detail::NotTheDrawing(what) => unlike(what, unit_mm),
         Detail::LeadIn(sentence)
         | Detail::Units(sentence)
         | Detail::Syntax(sentence)
         | Detail::Settings(sentence) => sentence.clone(),
+    }
+}
+
+fn unlike(what: &Unlike, unit_mm: f64) -> String {
+    match what {
+        Unlike::Block {
+            other,
+            handle,
+            segment,
+            off,
+        } => say!(
+            the_block_does_not_follow_its_drawing,
+            segment,
+            handle,
+            other,
+            mm(*off)
+        ),
+        Unlike::Moved { other, handle, off } => {
+            say!(
+                the_contour_does_not_begin_where_its_drawing_has_it,
+                handle,
+                other,
+                mm(*off)
+            )
+        }
+        Unlike::Unfinished {
+            other,
+            handle,
+            segment,
+        } => say!(
+            the_contour_is_left_before_it_is_cut_all_round,
+            segment,
+            handle,
+            other
+        ),
+        Unlike::Foreign { other } => say!(no_contour_of_the_drawing_is_like_this, other),
+        Unlike::Segment { other, line, off } => {
+            say!(
+                the_program_does_not_follow_this_segment,
+                other,
+                line,
+                mm(off * unit_mm)
+            )
+        }
+        Unlike::Begin { other, line, off } => {
+            say!(
+                the_program_begins_this_contour_elsewhere,
+                other,
+                line,
+                mm(off * unit_mm)
+            )
+        }
+        Unlike::Left { other, line } => {
+            say!(
+                the_program_leaves_this_contour_before_this_segment,
+                other,
+                line
+            )
+        }
+        Unlike::Nothing { other } => say!(nothing_is_like_the_other, other),
+        Unlike::Unreadable { other, reason } => {
+            say!(it_is_not_held_against_its_other, other, reason)
+        }
+        Unlike::Several { other, more } => say!(it_is_held_against_the_first, other, more),
     }
 }
 

@@ -64,7 +64,8 @@ pub(crate) struct FindingData {
     /// The point where two segments meet, or near which a part is lost.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) at: Option<Point>,
-    /// Width of a slot, distance of two ends, deviation of chords from their circle, or the clearance left between two parts.
+    /// Width of a slot, distance of two ends, deviation of chords from their circle, the clearance left between two parts, or how far a
+    /// program is beside its drawing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) distance: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -172,6 +173,7 @@ impl FindingData {
                 data.distance = Some(*deviation);
             }
             Detail::Program(fault) => data.program(fault),
+            Detail::NotTheDrawing(unlike) => data.distance = unlike.off(),
             Detail::LeadIn(_) | Detail::Units(_) | Detail::Syntax(_) | Detail::Settings(_) => {}
         }
         data

@@ -1,9 +1,11 @@
 //! What a document comes to: its source and what was made of it, and what is done to it. All of it may run on a worker.
 
+use super::beside::Form;
 use super::convert;
 use super::kind::Kind;
 use super::shown::{self, Shown};
 use super::transport::{Written, panic_text};
+use crate::beside::Beside;
 use crate::document::{Document, Source};
 use crate::drawing::Drawing;
 use crate::dxf;
@@ -133,6 +135,23 @@ impl Content {
             report(&*panic);
             self.forget();
         }
+    }
+
+    /// Lays another document beside it; true where that is another one than before.
+    pub fn set_beside(&mut self, beside: Beside) -> bool {
+        let Content::Read(document) = self else {
+            return false;
+        };
+        *document.beside() != beside && Arc::make_mut(document).set_beside(beside)
+    }
+
+    /// What others are compared with.
+    pub fn form(&self) -> Option<Form> {
+        let Content::Read(document) = self else {
+            return None;
+        };
+        let form = catch_unwind(AssertUnwindSafe(|| Form::of(document)));
+        form.map_err(|panic| report(&*panic)).ok().flatten()
     }
 
     /// Drops everything that was derived from the text or drawing.

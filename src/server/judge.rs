@@ -1,6 +1,7 @@
 //! A document taken through what has come for it, and judged: at once where that is little, else on a worker, so that no document
 //! waits for another.
 
+use super::beside::{Form, Kept, Wanted};
 use super::content::{Content, Remains, is_small_drawing, is_small_text};
 use super::convert;
 use super::kind::Kind;
@@ -11,6 +12,7 @@ use crate::protocol::DrawingChange;
 use crate::settings::Effective;
 use crate::text::{Encoding, SourceText};
 use ls_types::TextDocumentContentChangeEvent;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -34,6 +36,8 @@ pub(super) enum Task {
     Settings,
     /// What was derived from it is in doubt.
     Rebuild,
+    /// What lies beside it may be another.
+    Beside,
 }
 
 /// A document on its way through what has come for it.
@@ -50,6 +54,11 @@ pub(super) struct Job {
     pub(crate) is_slow: bool,
     /// What the client has been shown.
     pub(crate) shown: Shown,
+    pub(crate) beside: Option<Wanted>,
+    /// Others are compared with it.
+    pub(crate) wants_form: bool,
+    /// They are so already.
+    pub(crate) has_form: bool,
 }
 
 /// What came of it.
@@ -62,6 +71,10 @@ pub(super) struct Judged {
     pub(crate) told: Option<(Written, usize)>,
     /// Looking took long.
     pub(crate) is_slow: bool,
+    /// Files that were read.
+    pub(crate) read: Vec<(PathBuf, Kept)>,
+    /// What others are compared with, where that has changed.
+    pub(crate) form: Option<Form>,
     /// For the client's log.
     pub(crate) remarks: Vec<String>,
     /// Why changes of a drawing were not made.
@@ -89,9 +102,13 @@ impl Job {
                         .all(|change| is_small_text(change.text.as_bytes()))
             }
             Task::ChangeDrawing { changes, .. } => changes.len() <= FEW,
-            Task::Settings | Task::Rebuild => true,
+            Task::Settings | Task::Rebuild | Task::Beside => true,
         };
-        self.content.is_small() && self.tasks.len() <= FEW && self.tasks.iter().all(is_small_task)
+        let is_at_hand = self.beside.as_ref().is_none_or(Wanted::is_at_hand);
+        is_at_hand
+            && self.content.is_small()
+            && self.tasks.len() <= FEW
+            && self.tasks.iter().all(is_small_task)
     }
 
     fn kind(&self) -> Kind {
@@ -115,6 +132,9 @@ impl Job {
             shows_related,
             is_slow,
             mut shown,
+            beside,
+            wants_form,
+            has_form,
         } = self;
         let (mut remarks, mut refused) = (Vec::new(), Vec::new());
         let changes = tasks
@@ -127,6 +147,7 @@ impl Job {
         }
         // Without a task it is only to be published.
         let mut is_changed = tasks.is_empty();
+        let mut is_other = false;
         for task in tasks {
             let refusals = refused.len();
             match task {
@@ -161,12 +182,21 @@ impl Job {
                 },
                 Task::Settings => content.set_settings(&settings),
                 Task::Rebuild => content.forget(),
+                Task::Beside => {
+                    is_other |= wants_form && !has_form;
+                    continue;
+                }
             }
             is_changed |= refused.len() == refusals;
+            is_other |= wants_form;
         }
         // What a panic has left is read again.
         is_changed |= matches!(content, Content::Unread(_));
+        is_other |= wants_form && matches!(content, Content::Unread(_));
         content.read(&settings);
+        let (laid, read) = beside.map(Wanted::read).unwrap_or_default();
+        is_changed |= content.set_beside(laid);
+        let form = if is_other { content.form() } else { None };
         let related_of = shows_related.then_some(&*uri);
         let told =
             is_changed.then(|| content.diagnostics(encoding, related_of, &settings, &mut shown));
@@ -178,6 +208,8 @@ impl Job {
             is_slow: began.elapsed() > LONG,
             remarks,
             refused,
+            read,
+            form,
             uri,
         }
     }

@@ -149,11 +149,15 @@ impl LanguageServer for Backend {
     }
 
     async fn did_save(&self, params: DidSaveTextDocumentParams) {
-        // A project's file may be new on disk, and not every client watches files.
+        // A project's file may be new on disk, and so may what others are compared with; not every client watches files.
         let uri = params.text_document.uri;
-        if uri.as_str().ends_with(crate::settings::FILE_NAME) {
-            self.tell("textDocument/didSave", None, State::settings_changed);
-        }
+        let of_settings = uri.as_str().ends_with(crate::settings::FILE_NAME);
+        self.tell("textDocument/didSave", None, move |state| {
+            if of_settings {
+                state.settings_changed();
+            }
+            state.files_changed();
+        });
     }
 
     async fn did_close(&self, params: DidCloseTextDocumentParams) {
@@ -169,12 +173,21 @@ impl LanguageServer for Backend {
         });
     }
 
-    async fn did_change_watched_files(&self, _: DidChangeWatchedFilesParams) {
-        self.tell(
-            "workspace/didChangeWatchedFiles",
-            None,
-            State::settings_changed,
+    async fn did_change_watched_files(&self, params: DidChangeWatchedFilesParams) {
+        let of_settings = |uri: &str| uri.ends_with(crate::settings::FILE_NAME);
+        let changes = &params.changes;
+        let (settings, others) = (
+            changes.is_empty() || changes.iter().any(|one| of_settings(one.uri.as_str())),
+            changes.iter().any(|one| !of_settings(one.uri.as_str())),
         );
+        self.tell("workspace/didChangeWatchedFiles", None, move |state| {
+            if settings {
+                state.settings_changed();
+            }
+            if others {
+                state.files_changed();
+            }
+        });
     }
 
     async fn did_change_workspace_folders(&self, params: DidChangeWorkspaceFoldersParams) {

@@ -3,6 +3,7 @@
 //! The transport reads and writes, the state thread owns every document, workers do what takes long. Nothing is decided
 //! here that the core could decide.
 
+mod beside;
 mod client;
 mod config;
 mod content;

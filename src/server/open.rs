@@ -1,5 +1,6 @@
 //! An open document: what the client sent, what was made of it, and what the client has been told.
 
+use super::beside::{Form, Link};
 use super::content::Content;
 use super::judge::Task;
 use super::kind::Kind;
@@ -36,6 +37,11 @@ pub(super) struct Open {
     revision: Arc<()>,
     /// What the client has been shown, as it was written.
     pub(crate) shown: Shown,
+    /// What it belongs to.
+    pub(crate) link: Link,
+    /// What others are compared with, where anybody is.
+    pub(crate) form: Option<Form>,
+    pub(crate) wants_form: bool,
     /// The semantic tokens that the client holds.
     pub(crate) tokens: Arc<TokenMemory>,
 }
@@ -78,6 +84,9 @@ impl Open {
             is_slow: false,
             revision: Arc::default(),
             shown: Shown::default(),
+            link: Link::default(),
+            form: None,
+            wants_form: false,
             tokens: Arc::default(),
         }
     }

@@ -94,6 +94,7 @@ impl State {
     /// Settings of any level may have changed: every open document is looked at under what holds for it now. Each folder is looked at
     /// and each file read once, however many documents there are.
     pub(crate) fn settings_changed(&mut self) {
+        self.forget_files();
         for file in self.shown_files.iter().cloned().collect::<Vec<_>>() {
             let project = config::read(&file, &|file| self.opened_text(file));
             self.show_file(&file, project.as_ref());

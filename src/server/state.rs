@@ -3,6 +3,7 @@
 //! Handlers and workers hand it closures, in the order in which they came; it drains them before it looks at what has
 //! changed, so that a burst of edits costs one publish. A closure that panics costs its own request, no document.
 
+use super::beside::Links;
 use super::client::{Client, Weight};
 use super::config::{self, Config};
 use super::content::Content;
@@ -98,6 +99,8 @@ pub(super) struct State {
     pub(crate) unsettled: VecDeque<Arc<str>>,
     /// Open texts of project files, by their paths.
     pub(crate) settings_texts: FxHashMap<PathBuf, Arc<str>>,
+    /// Which documents belong to each other.
+    pub(crate) links: Links,
     /// What came about documents that a worker has, in its order.
     waiting: FxHashMap<Arc<str>, VecDeque<Message>>,
     /// Documents that a worker has.
@@ -128,6 +131,7 @@ pub(super) fn start(writer: Writer, refuse_change: RefuseChange) -> std::io::Res
         dirty: Vec::new(),
         unsettled: VecDeque::new(),
         settings_texts: FxHashMap::default(),
+        links: Links::default(),
         waiting: FxHashMap::default(),
         away: 0,
         shown_files: FxHashSet::default(),
@@ -300,6 +304,7 @@ impl State {
             self.settings_texts.insert(path, uri.clone());
         }
         self.documents.insert(uri.clone(), open);
+        self.note_path(&uri);
         self.mark_dirty(&uri);
     }
 
@@ -317,6 +322,7 @@ impl State {
         if matches!(open.content, Content::Settings(_)) {
             self.settings_texts.retain(|_, other| other != uri);
         }
+        self.closed_beside(uri, &open.link);
         self.client.writer().publish(Publish {
             uri: uri.clone(),
             version: None,
@@ -327,13 +333,16 @@ impl State {
     }
 
     fn judge_dirty(&mut self) {
-        for uri in std::mem::take(&mut self.dirty) {
-            if self
-                .documents
-                .get(&uri)
-                .is_some_and(|open| open.is_dirty && !open.is_away())
-            {
-                self.judge(&uri);
+        // What lies beside a judged document may be judged anew for it.
+        while !self.dirty.is_empty() {
+            for uri in std::mem::take(&mut self.dirty) {
+                if self
+                    .documents
+                    .get(&uri)
+                    .is_some_and(|open| open.is_dirty && !open.is_away())
+                {
+                    self.judge(&uri);
+                }
             }
         }
     }
@@ -356,6 +365,7 @@ impl State {
 
     /// Takes a document through what has come for it: here where that is little, else on a worker.
     fn judge(&mut self, uri: &Arc<str>) {
+        let beside = self.wanted_beside(uri);
         let Some(open) = self.documents.get_mut(uri) else {
             return;
         };
@@ -370,6 +380,9 @@ impl State {
             shows_related: self.client.abilities.related_information,
             is_slow: open.is_slow,
             shown: std::mem::take(&mut open.shown),
+            beside,
+            wants_form: open.wants_form,
+            has_form: open.form.is_some(),
         };
         if job.is_small() {
             let judged = job.run();
@@ -400,6 +413,8 @@ impl State {
             is_slow,
             remarks,
             refused,
+            read,
+            form,
         } = judged;
         let Some(open) = self.documents.get_mut(&uri) else {
             return;
@@ -430,6 +445,7 @@ impl State {
             open.is_dirty = true;
             self.dirty.push(uri.clone());
         }
+        self.judged_beside(&uri, read, form);
         for remark in remarks {
             self.client.log(Weight::Warning, remark);
         }

@@ -85,6 +85,8 @@ pub struct Effective {
     pub digits: u32,
     /// In what the numbers of an ISO program are that does not say so, where somebody has set it; else mm.
     pub program_units: Option<UnitSetting>,
+    /// The drawing that programs belong to, from their own folder on.
+    pub drawing: Option<String>,
     /// How ISO programs are written; the sentence that says which profiles there are, where the one that is named is not among them.
     pub profile: Result<Profile, String>,
     pub end: String,
@@ -199,6 +201,7 @@ impl Effective {
             compensation: program.compensation(),
             digits: program.digits().into(),
             program_units: program.units,
+            drawing: program.drawing.clone(),
             profile: Profile::of(&program.profile(), settings.profiles.as_ref()),
             end: program.end(),
             pause: program.pause(),

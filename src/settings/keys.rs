@@ -186,6 +186,9 @@ tables! {
         /// In what the numbers of an ISO program are that does not say so (G20, G21). Not set: mm, and a hint ([`units`](rules/units.md))
         /// where its size speaks for inches.
         units: UnitSetting => name;
+        /// The drawing that programs belong to, from their own folder on, which they are compared with:
+        /// [`not-the-drawing`](rules/not-the-drawing.md). Not set: the one that a comment of the program names, else the DXF of the same name.
+        drawing: String => path;
         /// How ISO programs are written: `fast-wire`, `robofil`, `generic`, or one of `profiles`.
         profile: String = "generic" => profile_name;
         /// Word of letters and digits that ends the program.

@@ -204,6 +204,17 @@ impl Reader {
         self.misfit(key, node, expected)
     }
 
+    /// The path of a drawing.
+    pub fn path(&mut self, key: &str, node: &Node) -> Option<String> {
+        let expected = say!(the_path_of_a_drawing);
+        let path = self.text(key, node, expected)?;
+        let lower = path.to_ascii_lowercase();
+        if lower.ends_with(".dxf") || lower.ends_with(".dxb") {
+            return Some(path);
+        }
+        self.misfit(key, node, expected)
+    }
+
     /// The name of a profile that ships. The shipped profiles themselves are read by this reader and have no base.
     pub(crate) fn base(&mut self, key: &str, node: &Node) -> Option<String> {
         let name = self.profile_name(key, node)?;

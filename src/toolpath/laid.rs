@@ -7,7 +7,7 @@ use super::loops::{self, Found};
 use super::offset::{Wall, walls};
 use super::path::Refusal;
 use super::proof::{Proof, Unproved};
-use crate::drawing::Contour;
+use crate::drawing::ContourSegment;
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::Point;
 use crate::settings::Corner;
@@ -55,12 +55,12 @@ impl Job<'_> {
     /// of crumbs, they are left out: their neighbours move by less than what any control can follow.
     pub(crate) fn along(
         &self,
-        contour: &Contour,
+        segments: &[ContourSegment],
         side: f64,
         correction: f64,
     ) -> Result<(Vec<Wall>, Walls, Outcome), Refusal> {
         let of = |shortest: f64| {
-            let walls = walls(contour.segments(self.drawing), true, self.units(shortest));
+            let walls = walls(segments.iter().copied(), true, self.units(shortest));
             let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
             (walls, own)
         };

@@ -19,6 +19,7 @@ mod part;
 mod path;
 mod paths;
 mod proof;
+mod rounds;
 mod tab;
 #[cfg(test)]
 mod tests;
@@ -33,6 +34,7 @@ pub(crate) use hole::hole_faults;
 pub(crate) use part::{Cutting, Part, part};
 pub(crate) use path::lengths;
 pub use path::{PathSegment, Refusal, Source, WirePath};
+pub(crate) use rounds::rounds;
 pub(crate) use work::Work;
 pub use work::{LargestWire, largest_wire, work};
 
@@ -262,7 +264,8 @@ pub(crate) fn misfit(
         goes_on: &|| true,
     };
     let correction = job.units(settings.correction);
-    let (walls, _, laid) = job.along(&outline.contour, side, correction).ok()?;
+    let segments: Vec<_> = outline.contour.segments(drawing).collect();
+    let (walls, _, laid) = job.along(&segments, side, correction).ok()?;
     match laid {
         Ok(Laid::Path(_)) => None,
         Ok(Laid::Point(_)) => {

@@ -187,7 +187,8 @@ impl Job<'_> {
             return Ok((walls, path));
         }
         let first = if is_beside_rough { rough } else { last };
-        let (walls, own, laid) = self.along(contour, side.sign(), first)?;
+        let segments: Vec<_> = contour.segments(self.drawing).collect();
+        let (walls, own, laid) = self.along(&segments, side.sign(), first)?;
         let laid = match (laid, is_beside_rough) {
             (Ok(Laid::Path(path)), true) => {
                 let rough = Pass {

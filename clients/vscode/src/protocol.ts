@@ -617,6 +617,10 @@ export interface ProgramSettings {
    */
   units?: UnitSetting;
   /**
+   * The drawing that programs belong to, from their own folder on, which they are compared with: `not-the-drawing`. Not set: the one that a comment of the program names, else the DXF of the same name.
+   */
+  drawing?: string;
+  /**
    * How ISO programs are written: `fast-wire`, `robofil`, `generic`, or one of `profiles`.
    */
   profile?: string;

@@ -5,6 +5,7 @@ mod sarif;
 mod text;
 mod watch;
 
+use super::beside::Folders;
 use super::explain::rule_name;
 use super::files;
 use super::options::Common;
@@ -180,8 +181,9 @@ fn survey(arguments: &Arguments) -> Survey {
     let found = files::search(&arguments.paths, &arguments.search());
     let settings = arguments.common.settings();
     let progress = progress(found.files.len());
+    let folders = Folders::default();
     let check_and_count = |path: &PathBuf| {
-        let checked = check(path, arguments, &settings);
+        let checked = check(path, arguments, &settings, &folders);
         progress.inc(1);
         checked
     };
@@ -221,7 +223,7 @@ fn survey(arguments: &Arguments) -> Survey {
     survey
 }
 
-fn check(path: &Path, arguments: &Arguments, settings: &Settings) -> Checked {
+fn check(path: &Path, arguments: &Arguments, settings: &Settings, folders: &Folders) -> Checked {
     let (common, stdin) = (&arguments.common, path == Path::new("-"));
     let name = if stdin { &arguments.stdin_name } else { path };
     let opened = if stdin {
@@ -238,6 +240,7 @@ fn check(path: &Path, arguments: &Arguments, settings: &Settings) -> Checked {
             docs_url: None,
         },
         Ok((mut document, mut rows)) => {
+            document.set_beside(folders.beside(name, &document, common, settings));
             rows.extend(super::report::rows(name, &mut document));
             Checked {
                 rows,

@@ -1,6 +1,16 @@
 //! What is found, and how it is repaired.
 
 declare! {
+    the_block_does_not_follow_its_drawing(segment, handle, drawing, off) => "block does not follow segment {segment} of {handle} in {drawing}: it ends {off} mm from where the drawing has it";
+    the_contour_does_not_begin_where_its_drawing_has_it(handle, drawing, off) => "contour begins {off} mm from where {drawing} has it ({handle})";
+    the_contour_is_left_before_it_is_cut_all_round(segment, handle, drawing) => "contour is left here although {drawing} goes on with segment {segment} of {handle}";
+    no_contour_of_the_drawing_is_like_this(drawing) => "no contour of {drawing} is like this one at any correction of the program";
+    the_program_does_not_follow_this_segment(program, line, off) => "{program} does not follow this segment: its line {line} ends {off} mm from where the drawing has it; write the program anew if the drawing has changed";
+    the_program_begins_this_contour_elsewhere(program, line, off) => "{program} begins this contour {off} mm elsewhere, in line {line}; write the program anew if the drawing has changed";
+    the_program_leaves_this_contour_before_this_segment(program, line) => "{program} leaves this contour in line {line}, before this segment";
+    nothing_is_like_the_other(other) => "nothing of it is like {other}, which it belongs to by its name: they were not compared";
+    it_is_not_held_against_its_other(other, reason) => "it was not compared with {other}: {reason}";
+    it_is_held_against_the_first(drawing, more) => "it was compared with {drawing}; {more} has the same name, and one of the two is meant";
     is_not_cut(kind, why) => "{kind} is not cut: {why}";
     of_them_is_not_cut(kind, count, why) => "{kind} ({count} of them) is not cut: {why}";
     corner_of_degrees_is_left_with_r_mm(turn, radius, uncut) => "corner of {turn:.1}° is left with R {radius} mm: {uncut} mm of it stay uncut";

@@ -58,4 +58,5 @@ declare! {
     a_setting_does_not_fit => "A setting does not fit";
     a_part_that_was_left_out_since_it_would_have_taken_too_much => "A part that was left out, since it would have taken too much";
     stands_for_further_findings => "Stands for further findings";
+    a_program_and_its_drawing_are_not_alike => "A program and its drawing are not alike";
 }

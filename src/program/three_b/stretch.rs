@@ -271,9 +271,11 @@ pub(super) struct Stretch {
 /// A way of at most this many lines between two pauses leads from one contour to the next.
 const JUMP_BLOCKS: usize = 3;
 
-/// True for what is, between two pauses, the way from one contour to the next.
+/// True for what is, between two pauses, the way from one contour to the next. What comes back to where it began is none: a tab is cut off
+/// so, from the thread hole and back to it.
 pub(super) fn is_jump(sum: &Sum) -> bool {
-    (1..=JUMP_BLOCKS).contains(&sum.blocks) && sum.arcs == 0
+    let is_way = (1..=JUMP_BLOCKS).contains(&sum.blocks) && sum.arcs == 0;
+    is_way && sum.travel.machine != [0, 0]
 }
 
 /// True for what is asked whether it crosses itself: where a block is wrong the path behind it is not the one that is meant.

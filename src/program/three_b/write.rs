@@ -6,15 +6,17 @@ use super::decode::decode;
 use super::encode::{Encoded, encode};
 use super::layout::{push_block, push_start_point};
 use super::parse::{Item, read_line};
-use super::part::{is_concave, rounded_with_tab};
+use super::part::{is_concave, rounded, rounded_with_tab};
 use super::proof::Proof;
 use super::words::{Word, Words};
 use crate::finding::Side;
 use crate::geometry::{Segment, Vector, turn};
 use crate::program::grid::point_of;
-use crate::program::write::{ProofError, ProvedProgram, Writer, cuts, nothing_to_write, walk, way};
+use crate::program::write::{
+    ProofError, ProvedProgram, Writer, cuts, nothing_to_write, scaled, walk, way,
+};
 use crate::settings::{Effective, Jumps};
-use crate::toolpath::{Source, WirePath};
+use crate::toolpath::{PathSegment, Source, WirePath};
 
 /// Writes the paths as one program and proves it. `unit_mm` is the drawing's unit in mm.
 pub fn write(
@@ -45,9 +47,7 @@ pub(crate) fn write_four_b(
     settings: &Effective,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Result<ProvedProgram, ProofError> {
-    let correction = settings.correction * 1000.0;
-    // Whole micrometres, and above the correction whatever the margin.
-    let radius = (correction + (settings.margin * 1000.0).max(1.0)).ceil();
+    let (correction, radius) = transitions(settings);
     let is_of_tab = |path: &WirePath| path.cut_off && path.pass > 1;
     if paths.iter().any(is_of_tab) || settings.closing_overlap > 0.0 {
         return Err(ProofError::Refused(say!(four_b_has_no_tab).into()));
@@ -74,6 +74,41 @@ pub(crate) fn write_four_b(
     );
     walk(&paths, 1.0, 1.0, go_on, &mut blocks)?;
     blocks.finish(cuts(&paths))
+}
+
+/// A part's closed contour as 4B holds it, without leads, in the drawing's unit; `None` where it cannot.
+pub(crate) fn of_part(
+    segments: Vec<PathSegment>,
+    side: Side,
+    settings: &Effective,
+    unit_mm: f64,
+) -> Option<Vec<PathSegment>> {
+    let scale = unit_mm * 1000.0;
+    let path = WirePath {
+        outline: 0,
+        pass: 1,
+        counter_clockwise: None,
+        cut_off: false,
+        correction: 0.0,
+        thread_hole: segments.first()?.geometry.start(),
+        side: Some(side),
+        segments,
+    };
+    let (correction, radius) = transitions(settings);
+    let mut segments = rounded(&path, scale, correction, radius).ok()?.segments;
+    segments.retain(|piece| !matches!(piece.source, Source::LeadIn | Source::LeadOut));
+    segments
+        .iter_mut()
+        .for_each(|piece| piece.geometry = scaled(&piece.geometry, 1.0 / scale));
+    Some(segments)
+}
+
+/// The correction of the controller and the radius of the transitions, µm.
+fn transitions(settings: &Effective) -> (f64, f64) {
+    let correction = settings.correction * 1000.0;
+    // Whole micrometres, and above the correction whatever the margin.
+    let radius = (correction + (settings.margin * 1000.0).max(1.0)).ceil();
+    (correction, radius)
 }
 
 /// What a 4B program is proved with beside its blocks.

@@ -144,7 +144,10 @@ pub(in crate::server) fn initialized(state: &mut State) {
         registrations.push(json!({
             "id": "wedm-files",
             "method": "workspace/didChangeWatchedFiles",
-            "registerOptions": { "watchers": [{ "globPattern": format!("**/{}", crate::settings::FILE_NAME) }] },
+            "registerOptions": { "watchers": [
+                { "globPattern": format!("**/{}", crate::settings::FILE_NAME) },
+                { "globPattern": "**/*.{dxf,dxb,3b,4b,iso,nc,DXF,DXB,3B,4B,ISO,NC}" },
+            ] },
         }));
     }
     if state.client.abilities.register_configuration {

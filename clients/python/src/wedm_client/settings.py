@@ -61,6 +61,7 @@ class ProgramSettings(TypedDict, total=False):
     compensation: Literal["path", "controller", "none"]
     digits: int
     units: Literal["mm", "inch"]
+    drawing: str
     profile: str
     end: str
     pause: str

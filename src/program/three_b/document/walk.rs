@@ -23,7 +23,7 @@ impl Document {
     }
 
     /// The line of the first block of 4B, from 0.
-    pub(in crate::program) fn first_four_b_line(&self) -> Option<usize> {
+    pub(crate) fn first_four_b_line(&self) -> Option<usize> {
         let is_of_part = |entry: &Entry| entry.block().is_some_and(|block| block.part().is_some());
         let mut all = self.entries(0..self.stretches.len());
         let (at, entry) = all.find(|(_, entry)| is_of_part(entry))?;

@@ -1,0 +1,320 @@
+//! What a program does otherwise than its drawing.
+
+use super::TOLERANCE;
+use super::anchor::anchor;
+use super::drawn::Drawn;
+use super::infer;
+use super::members::Members;
+use super::pose::Pose;
+use super::rounds::{Course, Rounds};
+use super::single::single;
+use super::traced::{Block, Traced};
+use super::walk::{BETWEEN, Kind, Unlike, Walk, Walked};
+use crate::drawing::EntityId;
+use crate::geometry::Segment;
+use crate::settings::{Compensation, Corner, Effective, LengthSetting};
+use std::ops::Range;
+use std::sync::Arc;
+
+pub use super::walk::Kind as DifferenceKind;
+
+/// A block that does not follow its drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// Bytes of the block.
+    pub range: Range<usize>,
+    /// Its line, from 0.
+    pub line: usize,
+    /// The segment of the drawing that it should follow, where that is known.
+    pub segment: Option<(EntityId, usize)>,
+    /// How far it is off, mm.
+    pub off: f64,
+    pub kind: Kind,
+}
+
+/// What came of holding a program against its drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// What it does otherwise, in the order of the program.
+    pub differences: Vec<Difference>,
+    /// Bytes of the blocks that end where the drawing says.
+    pub follows: Vec<Range<usize>>,
+}
+
+/// Differences of more blocks than this share speak for another drawing.
+const OTHER: f64 = 0.34;
+/// As many differences as this are one change each, whatever their share.
+const FEW: usize = 6;
+/// Corrections that are found for further passes, at most.
+const FURTHER: usize = 4;
+
+/// Holds a program against a drawing; `None` where it follows nothing of it.
+pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
+    if traced.is_empty() || drawn.contours.is_empty() {
+        return None;
+    }
+    let courses = courses(&drawn.settings, traced);
+    let mut best = try_with(drawn, traced, &courses);
+    if !best.is_clean() {
+        let other = with_other_corner(drawn);
+        best = best.or_better(|| try_with(&other, traced, &courses));
+    }
+    if !best.is_sound(traced) {
+        let blocks = longest_cut(traced);
+        let scale = drawn.unit_mm * 1e3;
+        let mut wanted: Vec<Vec<Course>> = Vec::new();
+        if !courses.contains(&Course::Drawn) {
+            wanted.push(vec![Course::Drawn]);
+        }
+        for mm in infer::corrections(drawn.contours.iter(), scale, &blocks) {
+            wanted.push(vec![Course::Beside(mm)]);
+        }
+        for courses in wanted {
+            best = best.or_better(|| try_with(drawn, traced, &courses));
+            if best.is_clean() {
+                break;
+            }
+        }
+    }
+    best.surely(traced).told(traced)
+}
+
+fn courses(settings: &Effective, traced: &Traced) -> Vec<Course> {
+    if traced.four_b {
+        return vec![Course::FourB, Course::Drawn];
+    }
+    let is_offset = traced.blocks.iter().any(|block| block.is_offset);
+    if is_offset || settings.compensation == Compensation::None {
+        return vec![Course::Drawn];
+    }
+    let corrections = settings.each_correction();
+    corrections.into_iter().map(Course::Beside).collect()
+}
+
+fn with_other_corner(drawn: &Drawn) -> Drawn {
+    let corner = match drawn.settings.corner {
+        Corner::Arc => Corner::Intersection,
+        Corner::Intersection => Corner::Arc,
+    };
+    Drawn {
+        settings: Arc::new(Effective {
+            corner,
+            ..(*drawn.settings).clone()
+        }),
+        ..drawn.clone()
+    }
+}
+
+/// One way of laying the program on the drawing.
+struct Tried {
+    unlike: Vec<Unlike>,
+    /// Blocks that follow.
+    followed: usize,
+    follows: Vec<usize>,
+    laid: Option<(Rounds, Pose)>,
+}
+
+fn try_with(drawn: &Drawn, traced: &Traced, courses: &[Course]) -> Tried {
+    let mut rounds = Rounds::default();
+    rounds.add(drawn, courses, None);
+    let Some(pose) = anchor(traced, &rounds) else {
+        return Tried::nothing();
+    };
+    let tabs: Vec<f64> = match &drawn.settings.tab {
+        LengthSetting::One(tab) => vec![tab * 1e3],
+        LengthSetting::ByHandle(tabs) => tabs.values().map(|tab| tab * 1e3).collect(),
+    };
+    let mut walked = Walk::new(traced, &rounds, pose).go(&tabs);
+    let mut foreign = foreign(traced, &walked);
+    // A pass at a correction that the settings do not have.
+    let of_passes = !traced.four_b
+        && courses
+            .iter()
+            .any(|course| matches!(course, Course::Beside(_)));
+    for _ in 0..FURTHER {
+        let Some(stray) = foreign
+            .first()
+            .filter(|_| of_passes && !walked.contours.is_empty())
+        else {
+            break;
+        };
+        let mut contours = walked.contours.clone();
+        contours.sort_unstable();
+        contours.dedup();
+        let blocks: Vec<Segment> = segments(&traced.blocks[stray.clone()]).collect();
+        let own = contours.iter().map(|&index| &drawn.contours[index]);
+        let before = rounds.rounds.len();
+        for mm in infer::corrections(own, drawn.unit_mm * 1e3, &blocks)
+            .into_iter()
+            .take(2)
+        {
+            for &contour in &contours {
+                rounds.add(drawn, &[Course::Beside(mm)], Some(contour));
+            }
+        }
+        if rounds.rounds.len() == before {
+            break;
+        }
+        let again = Walk::new(traced, &rounds, pose).go(&tabs);
+        let left = self::foreign(traced, &again);
+        if left.len() >= foreign.len() {
+            break;
+        }
+        (walked, foreign) = (again, left);
+    }
+    // The writer of 4B and we may round its transitions otherwise.
+    walked
+        .unlike
+        .retain(|unlike| !traced.four_b || unlike.kind != Kind::Block || unlike.off > TOLERANCE);
+    let followed = walked.runs.iter().filter(|runs| **runs).count();
+    let mut unlike = walked.unlike;
+    followed_or_named(&mut unlike, &foreign);
+    Tried {
+        unlike,
+        followed,
+        follows: walked.follows,
+        laid: Some((rounds, pose)),
+    }
+}
+
+/// One finding for each cut that follows nothing.
+fn followed_or_named(unlike: &mut Vec<Unlike>, foreign: &[Range<usize>]) {
+    unlike.extend(foreign.iter().map(|blocks| Unlike {
+        block: blocks.start,
+        source: None,
+        off: 0.0,
+        kind: Kind::Foreign,
+    }));
+    unlike.sort_by_key(|unlike| unlike.block);
+}
+
+/// Blocks of contours, and of passes, that follow nothing of the drawing.
+fn foreign(traced: &Traced, walked: &Walked) -> Vec<Range<usize>> {
+    let mut found = Vec::new();
+    for [all, contour] in &traced.cuts {
+        let runs = |range: Range<usize>| walked.runs[range].iter().any(|runs| *runs);
+        if !runs(all.clone()) {
+            found.extend((!contour.is_empty() && closes(traced, contour)).then(|| contour.clone()));
+            continue;
+        }
+        let mut from = all.start;
+        for index in all.clone().chain([all.end]) {
+            let is_end = index == all.end || walked.runs[index];
+            if is_end {
+                let is_named = walked.unlike.iter().any(|unlike| {
+                    (from..index).contains(&unlike.block) || unlike.block + 1 == from
+                });
+                if index - from > BETWEEN + 2 && !is_named {
+                    found.push(from..index);
+                }
+                from = index + 1;
+            }
+        }
+    }
+    found
+}
+
+/// A way from one place to another is no contour.
+fn closes(traced: &Traced, contour: &Range<usize>) -> bool {
+    let mut own = segments(&traced.blocks[contour.clone()]);
+    let Some(first) = own.next() else {
+        return false;
+    };
+    let (count, last) = own.fold((1, first), |(count, _), segment| (count + 1, segment));
+    count > 2 || first.as_arc().is_some() || last.as_arc().is_some()
+}
+
+fn segments(blocks: &[Block]) -> impl Iterator<Item = Segment> {
+    blocks.iter().filter_map(|block| block.segment().copied())
+}
+
+fn longest_cut(traced: &Traced) -> Vec<Segment> {
+    let longest = traced
+        .cuts
+        .iter()
+        .map(|[all, _]| all.clone())
+        .max_by_key(Range::len);
+    longest.map_or_else(Vec::new, |blocks| {
+        segments(&traced.blocks[blocks]).collect()
+    })
+}
+
+impl Tried {
+    fn nothing() -> Tried {
+        Tried {
+            unlike: Vec::new(),
+            followed: 0,
+            follows: Vec::new(),
+            laid: None,
+        }
+    }
+
+    /// What a walk has named need not be so: perhaps all of it follows, or all but one block.
+    fn surely(mut self, traced: &Traced) -> Tried {
+        let Some((rounds, pose)) = self.laid.take().filter(|_| !self.unlike.is_empty()) else {
+            return self;
+        };
+        let miss = |traced: &Traced, pose: Pose| {
+            let (walked, miss) = Members::all(traced, &rounds, pose)?;
+            foreign(traced, &walked).is_empty().then_some(miss)
+        };
+        if miss(traced, pose).is_some() {
+            self.unlike.clear();
+        } else if let Some(only) = single(traced, &rounds, pose, &self.unlike, &miss) {
+            self.unlike = vec![only];
+        }
+        self
+    }
+
+    fn is_clean(&self) -> bool {
+        self.followed > 0 && self.unlike.is_empty()
+    }
+
+    /// What is unlike may well be a change.
+    fn is_sound(&self, traced: &Traced) -> bool {
+        let count: usize = traced
+            .cuts
+            .iter()
+            .map(|[_, contour]| contour.len())
+            .sum::<usize>()
+            .max(1);
+        let unlike = self.unlike.len();
+        2 * self.followed >= count
+            && self.followed > 0
+            && (unlike <= FEW || (unlike as f64) < OTHER * self.followed as f64)
+            && unlike <= self.followed
+    }
+
+    fn or_better(self, other: impl FnOnce() -> Tried) -> Tried {
+        let score = |tried: &Tried| tried.followed as i64 - tried.unlike.len() as i64;
+        let other = other();
+        if score(&other) > score(&self) || self.followed == 0 {
+            other
+        } else {
+            self
+        }
+    }
+
+    fn told(self, traced: &Traced) -> Option<Comparison> {
+        if !self.is_sound(traced) {
+            return None;
+        }
+        let differences = self.unlike.into_iter().map(|unlike| {
+            let block = &traced.blocks[unlike.block];
+            Difference {
+                range: block.range.clone(),
+                line: block.line,
+                segment: unlike.source,
+                off: unlike.off / 1e3,
+                kind: unlike.kind,
+            }
+        });
+        let follows = self.follows.iter();
+        Some(Comparison {
+            differences: differences.collect(),
+            follows: follows
+                .map(|&block| traced.blocks[block].range.clone())
+                .collect(),
+        })
+    }
+}

@@ -1,0 +1,163 @@
+//! What is said of a comparison, at the program and at the drawing.
+
+use super::{Comparison, Difference, DifferenceKind, Drawn, Traced, compare};
+use crate::finding::{Detail, Finding, Place, Rule, Severity, Unlike};
+use crate::settings::Effective;
+use std::sync::Arc;
+
+/// What lies beside a document.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Beside {
+    #[default]
+    Nothing,
+    /// The drawing of a program, and the names of others that it may be of.
+    Drawing(Partner<Drawn>, Vec<Arc<str>>),
+    /// The programs of a drawing.
+    Programs(Vec<Partner<Traced>>),
+}
+
+/// The other document: its name, and what was made of it or why nothing was.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Partner<T> {
+    pub name: Arc<str>,
+    pub made: Result<Arc<T>, String>,
+}
+
+/// What is said of a program.
+pub fn of_program(
+    traced: &Traced,
+    drawing: &Partner<Drawn>,
+    others: &[Arc<str>],
+    settings: &Effective,
+) -> Vec<Finding> {
+    let other = || drawing.name.clone();
+    let mut found = Vec::new();
+    if !others.is_empty() {
+        let more = Unlike::Several {
+            other: other(),
+            more: others.join(", "),
+        };
+        found.extend(finding(more, Place::Document, settings));
+    }
+    let drawn = match &drawing.made {
+        Ok(drawn) => drawn,
+        Err(reason) => {
+            let unreadable = Unlike::Unreadable {
+                other: other(),
+                reason: reason.clone(),
+            };
+            found.extend(finding(unreadable, Place::Document, settings));
+            return found;
+        }
+    };
+    if traced.is_empty() {
+        return found;
+    }
+    let Some(Comparison { differences, .. }) = compare(drawn, traced) else {
+        found.extend(finding(
+            Unlike::Nothing { other: other() },
+            Place::Document,
+            settings,
+        ));
+        return found;
+    };
+    found.extend(differences.into_iter().filter_map(|difference| {
+        let Difference {
+            range,
+            segment,
+            off,
+            kind,
+            ..
+        } = difference;
+        let handle = segment.map_or_else(String::new, |(entity, _)| drawn.handle(entity).into());
+        let number = segment.map_or(0, |(_, number)| number);
+        let unlike = match kind {
+            DifferenceKind::Block => Unlike::Block {
+                other: other(),
+                handle,
+                segment: number,
+                off,
+            },
+            DifferenceKind::Moved => Unlike::Moved {
+                other: other(),
+                handle,
+                off,
+            },
+            DifferenceKind::Unfinished => Unlike::Unfinished {
+                other: other(),
+                handle,
+                segment: number,
+            },
+            DifferenceKind::Foreign => Unlike::Foreign { other: other() },
+        };
+        finding(unlike, Place::Text { range }, settings)
+    }));
+    found
+}
+
+/// What is said of a drawing.
+pub fn of_drawing(
+    drawn: &Drawn,
+    programs: &[Partner<Traced>],
+    settings: &Effective,
+) -> Vec<Finding> {
+    let of_one = |program: &Partner<Traced>| {
+        let other = || program.name.clone();
+        let whole = |unlike| Vec::from_iter(finding(unlike, Place::Document, settings));
+        let traced = match &program.made {
+            Ok(traced) => traced,
+            Err(reason) => {
+                return whole(Unlike::Unreadable {
+                    other: other(),
+                    reason: reason.clone(),
+                });
+            }
+        };
+        if traced.is_empty() {
+            return Vec::new();
+        }
+        let Some(Comparison { differences, .. }) = compare(drawn, traced) else {
+            return whole(Unlike::Nothing { other: other() });
+        };
+        let said = differences.into_iter().filter_map(|difference| {
+            let (entity, segment) = difference.segment?;
+            let (line, off) = (difference.line + 1, difference.off / drawn.unit_mm);
+            let unlike = match difference.kind {
+                DifferenceKind::Block => Unlike::Segment {
+                    other: other(),
+                    line,
+                    off,
+                },
+                DifferenceKind::Moved => Unlike::Begin {
+                    other: other(),
+                    line,
+                    off,
+                },
+                DifferenceKind::Unfinished => Unlike::Left {
+                    other: other(),
+                    line,
+                },
+                DifferenceKind::Foreign => return None,
+            };
+            finding(unlike, Place::Segment { entity, segment }, settings)
+        });
+        said.collect()
+    };
+    programs.iter().flat_map(of_one).collect()
+}
+
+fn finding(unlike: Unlike, place: Place, settings: &Effective) -> Option<Finding> {
+    let rule = Rule::NotTheDrawing;
+    let severity = if unlike.is_of_whole() {
+        settings.severity_over(rule, Severity::Information)
+    } else {
+        settings.severity(rule)
+    };
+    Some(Finding {
+        rule,
+        severity: severity?,
+        place,
+        detail: Detail::NotTheDrawing(Box::new(unlike)),
+        related: Vec::new(),
+    })
+}

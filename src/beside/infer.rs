@@ -1,0 +1,123 @@
+//! The corrections that a program itself speaks for.
+//!
+//! Beside a contour every line keeps its direction and every arc its sweep: the length of the one and the radius of the other say how far
+//! away the program runs, wherever it lies. Each pair of a block and a segment that may belong together has a vote.
+
+use super::drawn::Contour;
+use crate::geometry::{Bounds, Segment, turn};
+
+/// Corrections that are thought of, µm.
+const LEAST: f64 = 5.0;
+const MOST: f64 = 3_000.0;
+/// Blocks and segments that are asked, at most.
+const ASKED: usize = 400;
+/// Angles of one corner, radians.
+const ANGLE: f64 = 0.01;
+/// Votes for one correction lie within this, µm.
+const ONE: f64 = 2.0;
+/// Corrections that are told, at most.
+const TOLD: usize = 5;
+
+/// A segment with the turns before and behind it.
+struct Turned {
+    segment: Segment,
+    before: f64,
+    behind: f64,
+}
+
+/// Corrections in mm, that which most speaks for first. `scale` is the drawing's unit in µm.
+pub(super) fn corrections<'a>(
+    contours: impl Iterator<Item = &'a Contour>,
+    scale: f64,
+    blocks: &[Segment],
+) -> Vec<f64> {
+    let program = turned(blocks, false);
+    let mut votes = Vec::new();
+    let mut box_of_program = Bounds::EMPTY;
+    blocks
+        .iter()
+        .for_each(|block| box_of_program.merge(&block.bounds()));
+    for contour in contours {
+        let segments: Vec<Segment> = contour
+            .segments
+            .iter()
+            .map(|segment| crate::program::write::scaled(&segment.geometry, scale))
+            .collect();
+        let mut bounds = Bounds::EMPTY;
+        segments
+            .iter()
+            .for_each(|segment| bounds.merge(&segment.bounds()));
+        let wider = (box_of_program.width() - bounds.width()) / 2.0;
+        let higher = (box_of_program.height() - bounds.height()) / 2.0;
+        if (wider - higher).abs() <= ONE {
+            votes.extend([wider.abs(); 3]);
+        }
+        let forward = turned(&segments, contour.closed);
+        let reversed: Vec<Segment> = segments.iter().rev().map(Segment::reversed).collect();
+        let back = turned(&reversed, contour.closed);
+        for own in forward.iter().chain(&back) {
+            votes.extend(program.iter().filter_map(|block| vote(own, block)));
+        }
+    }
+    votes.retain(|vote| (LEAST..=MOST).contains(vote));
+    votes.sort_by(f64::total_cmp);
+    let mut found: Vec<(usize, f64)> = Vec::new();
+    let mut from = 0;
+    while from < votes.len() {
+        let count = votes[from..]
+            .iter()
+            .take_while(|vote| **vote - votes[from] <= ONE)
+            .count();
+        let mean = votes[from..from + count].iter().sum::<f64>() / count as f64;
+        found.push((count, (mean * 10.0).round() / 1e4));
+        from += count;
+    }
+    found.sort_by(|a, b| b.0.cmp(&a.0).then(a.1.total_cmp(&b.1)));
+    found.truncate(TOLD);
+    found.into_iter().map(|(_, mm)| mm).collect()
+}
+
+fn turned(segments: &[Segment], closed: bool) -> Vec<Turned> {
+    let count = segments.len();
+    let joint =
+        |one: usize, next: usize| turn(segments[one].end_tangent(), segments[next].start_tangent());
+    let at = |index: usize| Turned {
+        segment: segments[index],
+        before: match index {
+            0 if closed => joint(count - 1, 0),
+            0 => f64::NAN,
+            _ => joint(index - 1, index),
+        },
+        behind: match index + 1 {
+            end if end == count && closed => joint(index, 0),
+            end if end == count => f64::NAN,
+            _ => joint(index, index + 1),
+        },
+    };
+    (0..count.min(ASKED)).map(at).collect()
+}
+
+/// What a block says of the correction, if it runs beside a segment or round the corner behind it; µm.
+fn vote(own: &Turned, block: &Turned) -> Option<f64> {
+    let (along, run) = (&own.segment, &block.segment);
+    let same_way = turn(along.start_tangent(), run.start_tangent()).abs() <= ANGLE;
+    match (along.as_arc(), run.as_arc()) {
+        (Some(own), Some(arc)) if same_way && (own.sweep - arc.sweep).abs() <= ANGLE => {
+            Some((own.radius - arc.radius).abs())
+        }
+        (None, None) if same_way => {
+            let alike = (own.before - block.before).abs() <= ANGLE
+                && (own.behind - block.behind).abs() <= ANGLE;
+            let grows = (own.before / 2.0).tan() + (own.behind / 2.0).tan();
+            (alike && grows.abs() > 0.05)
+                .then(|| (run.length() - along.length()).abs() / grows.abs())
+        }
+        (_, Some(arc)) => {
+            let round_corner = (own.behind - arc.sweep).abs() <= ANGLE
+                && arc.sweep.abs() > 0.05
+                && turn(along.end_tangent(), run.start_tangent()).abs() <= ANGLE;
+            round_corner.then_some(arc.radius)
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,227 @@
+//! Which drawing a program belongs to: the one that a comment of it names, the one that the settings name, else the one of its own name.
+
+use crate::program::Language;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The drawing of a program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Named {
+    pub path: PathBuf,
+    /// Other drawings of the same name.
+    pub others: Vec<PathBuf>,
+}
+
+/// Bytes of a program in which its drawing may be named.
+const HEAD: usize = 4096;
+
+/// Endings of drawings, in the order in which they are looked for.
+const ENDINGS: [&str; 4] = ["dxf", "DXF", "dxb", "DXB"];
+
+/// Programs in a folder that are looked at for their drawings, at most.
+const MOST: usize = 200;
+
+/// The drawing of a program whose text begins so; `setting` is what `program.drawing` says, from the program's folder on.
+pub fn drawing_named(
+    program: &Path,
+    head: &[u8],
+    setting: Option<&str>,
+    exists: &dyn Fn(&Path) -> bool,
+) -> Option<Named> {
+    let folder = program.parent()?;
+    let alone = |path: PathBuf| Named {
+        path,
+        others: Vec::new(),
+    };
+    if let Some(name) = in_comment(head) {
+        // Of a path on another machine the file's name is left.
+        let file = name.rsplit(['/', '\\']).next().unwrap_or(&name);
+        let places = [folder.join(name.replace('\\', "/")), folder.join(file)];
+        if let Some(path) = places.into_iter().find(|path| exists(path)) {
+            return Some(alone(plain(&path)));
+        }
+    }
+    if let Some(setting) = setting {
+        return Some(alone(plain(&folder.join(setting))));
+    }
+    let mut found: Vec<PathBuf> = Vec::new();
+    for ending in ENDINGS {
+        let path = program.with_extension(ending);
+        // Where letter cases are one, both names are of one file.
+        let is_same = |other: &PathBuf| {
+            let real = |path: &Path| path.canonicalize().ok();
+            real(other).is_some() && real(other) == real(&path)
+        };
+        if exists(&path) && !found.iter().any(is_same) {
+            found.push(path);
+        }
+    }
+    let others = found.split_off(found.len().min(1));
+    let path = found.pop()?;
+    Some(Named { path, others })
+}
+
+/// The programs among the files of a folder that belong to a drawing, in the order of their names. `named` says of one whether it does.
+pub fn programs_beside(
+    files: impl IntoIterator<Item = PathBuf>,
+    named: &dyn Fn(&Path) -> bool,
+) -> Vec<PathBuf> {
+    let mut programs: Vec<PathBuf> = files.into_iter().filter(|path| is_program(path)).collect();
+    programs.sort();
+    programs.truncate(MOST);
+    programs.retain(|path| named(path));
+    programs
+}
+
+/// The first bytes of a file; none where it cannot be read.
+pub fn head_of(path: &Path) -> Vec<u8> {
+    let mut head = Vec::new();
+    if let Ok(file) = std::fs::File::open(path) {
+        let _ = file.take(HEAD as u64).read_to_end(&mut head);
+    }
+    head
+}
+
+/// The name of a file.
+pub fn name_of(path: &Path) -> Arc<str> {
+    path.file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into()
+}
+
+/// True for a file that is a program by its ending.
+pub fn is_program(path: &Path) -> bool {
+    let ending = path
+        .extension()
+        .map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+    ending.is_some_and(|ending| Language::of_ending(&ending).is_some())
+}
+
+/// Without the steps to a folder and back.
+pub fn plain(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for part in path.components() {
+        match part {
+            std::path::Component::CurDir => {}
+            std::path::Component::ParentDir if plain.file_name().is_some() => {
+                plain.pop();
+            }
+            part => plain.push(part),
+        }
+    }
+    plain
+}
+
+/// The name of a drawing in a comment.
+fn in_comment(head: &[u8]) -> Option<String> {
+    let head = String::from_utf8_lossy(&head[..head.len().min(HEAD)]);
+    let comments = head.lines().filter_map(|line| {
+        let semicolon = line.split_once(';').map(|(_, comment)| comment);
+        let bracket = || {
+            let (_, comment) = line.split_once('(')?;
+            Some(
+                comment
+                    .split_once(')')
+                    .map_or(comment, |(comment, _)| comment),
+            )
+        };
+        semicolon.or_else(bracket)
+    });
+    comments.filter_map(name_in).next()
+}
+
+fn name_in(comment: &str) -> Option<String> {
+    let lower = comment.to_ascii_lowercase();
+    let end = ENDINGS
+        .iter()
+        .filter_map(|ending| {
+            Some(lower.find(&format!(".{}", ending.to_ascii_lowercase()))? + 1 + ending.len())
+        })
+        .min()?;
+    let named = comment.get(..end)?;
+    let behind = lower.get(end..)?.chars().next();
+    if behind.is_some_and(char::is_alphanumeric) {
+        return None;
+    }
+    // A name with spaces stands behind a word and a colon.
+    let label = named.find([':', '=']).filter(|at| !is_drive(named, *at));
+    let name = match label {
+        Some(at) => &named[at + 1..],
+        None => named.rsplit(char::is_whitespace).next()?,
+    };
+    let name = name.trim().trim_matches('"');
+    (!name.is_empty()).then(|| name.to_owned())
+}
+
+/// The colon of `C:\`.
+fn is_drive(text: &str, at: usize) -> bool {
+    text[at..].starts_with(":\\") || text[at..].starts_with(":/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(head: &str, setting: Option<&str>, files: &[&str], expected: Option<&str>) {
+        let exists = |path: &Path| files.iter().any(|file| path == Path::new(file));
+        let named = drawing_named(
+            Path::new("/job/plate.3b"),
+            head.as_bytes(),
+            setting,
+            &exists,
+        );
+        let path = named.map(|named| named.path);
+        assert_eq!(path.as_deref(), expected.map(Path::new), "{head}");
+    }
+
+    #[test]
+    fn a_comment_comes_first_then_the_settings_then_the_name() {
+        let all = [
+            "/job/plate.dxf",
+            "/job/Part 7.DXF",
+            "/job/other.dxf",
+            "/up.dxf",
+        ];
+        check("B1B1B1GXL1\n", None, &all, Some("/job/plate.dxf"));
+        check("B1B1B1GXL1\n", None, &[], None);
+        check("", Some("other.dxf"), &all, Some("/job/other.dxf"));
+        check("", Some("../up.dxf"), &all, Some("/up.dxf"));
+        check("", Some("gone.dxf"), &all, Some("/job/gone.dxf"));
+        check(
+            "; drawing: Part 7.DXF\n",
+            Some("other.dxf"),
+            &all,
+            Some("/job/Part 7.DXF"),
+        );
+        check(
+            "%\nO100 (FROM C:\\JOBS\\OTHER\\other.dxf 2020)\n",
+            None,
+            &all,
+            Some("/job/other.dxf"),
+        );
+        check("(see other.dxfs)\n", None, &all, Some("/job/plate.dxf"));
+        check(
+            "(a drawing that is gone.dxf)\n",
+            None,
+            &all,
+            Some("/job/plate.dxf"),
+        );
+        check(
+            "G01 X1 ; DXF=other.dxf\n",
+            None,
+            &all,
+            Some("/job/other.dxf"),
+        );
+    }
+
+    #[test]
+    fn two_drawings_of_one_name_are_told() {
+        let exists = |path: &Path| path.extension().is_some_and(|ending| ending != "DXF");
+        let named = drawing_named(Path::new("/job/plate.3b"), b"", None, &exists).unwrap();
+        assert_eq!(named.path, Path::new("/job/plate.dxf"));
+        assert_eq!(named.others[0], Path::new("/job/plate.dxb"));
+    }
+}

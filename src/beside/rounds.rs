@@ -1,0 +1,395 @@
+//! The ways of the wire round the contours of a drawing, as places that a program goes along.
+
+use super::drawn::{Contour, Drawn};
+use crate::drawing::EntityId;
+use crate::geometry::{Arc, Bounds, Grid, Point, Segment, Side, Vector};
+use crate::program::write::scaled;
+use crate::settings::{Compensation, Effective};
+use crate::toolpath::{self, PathSegment, Source};
+use rustc_hash::FxHashMap;
+use std::cell::OnceCell;
+use std::ops::Range;
+
+/// Where the wire goes round a contour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Course {
+    /// The contour itself: it is the path, or the control offsets it.
+    Drawn,
+    /// The part's contour as 4B has it.
+    FourB,
+    /// Beside it by so many mm.
+    Beside(f64),
+}
+
+/// A piece of a round and the segment of the drawing that it is of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    pub segment: Segment,
+    pub source: Option<(EntityId, usize)>,
+    /// Where it begins along the round, µm.
+    pub before: f64,
+}
+
+/// A way round a contour, µm.
+#[derive(Debug)]
+pub(super) struct Round {
+    pub contour: usize,
+    pub closed: bool,
+    pub pieces: Vec<Piece>,
+    pub length: f64,
+    /// Centre and radius, where it is a circle.
+    pub circle: Option<(Point, f64)>,
+}
+
+/// A place on a round, with the way that is gone from there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Spot {
+    pub round: usize,
+    pub piece: usize,
+    /// Against the direction of the round.
+    pub back: bool,
+    pub at: Point,
+}
+
+/// What is shorter than this is no piece of its own, µm: nothing of it may be left on the grid of a program.
+const CRUMB: f64 = 1.0;
+
+/// A round and a piece of it.
+type Place = (u32, u32);
+
+/// All rounds that are looked at.
+#[derive(Debug, Default)]
+pub(super) struct Rounds {
+    pub rounds: Vec<Round>,
+    index: Grid<(u32, u32)>,
+    /// Rounds of each course that have been laid.
+    laid: Vec<(usize, Side, Course)>,
+    /// Pieces by where they lead, in cells of [`CELL`].
+    leads: OnceCell<FxHashMap<(i64, i64), Vec<Place>>>,
+}
+
+/// µm.
+const CELL: f64 = 8.0;
+/// How much two that lead the same way may differ by their roundings, µm.
+const ALIKE: f64 = 2.9;
+
+impl Rounds {
+    /// Lays a course beside all contours, or one of them, where it is not there yet.
+    pub fn add(&mut self, drawn: &Drawn, courses: &[Course], only: Option<usize>) {
+        for (index, contour) in drawn.contours.iter().enumerate() {
+            if only.is_some_and(|only| only != index) {
+                continue;
+            }
+            let sides = match contour.side {
+                Some(side) => vec![side],
+                None => vec![Side::Left, Side::Right],
+            };
+            for side in sides {
+                let mut new = courses.to_vec();
+                new.retain(|course| !self.is_laid(index, side, *course));
+                self.laid
+                    .extend(new.iter().map(|course| (index, side, *course)));
+                for pieces in along(contour, side, &new, drawn) {
+                    self.push(index, contour.closed, pieces, drawn.unit_mm * 1e3);
+                }
+            }
+        }
+    }
+
+    fn is_laid(&self, contour: usize, side: Side, course: Course) -> bool {
+        self.laid.iter().any(|(of, other, laid)| {
+            *of == contour
+                && match (laid, course) {
+                    (Course::Beside(one), Course::Beside(two)) => {
+                        *other == side && (one - two).abs() < 2e-4
+                    }
+                    // The contour itself has no side.
+                    (Course::Drawn, Course::Drawn) => true,
+                    (Course::FourB, Course::FourB) => *other == side,
+                    _ => false,
+                }
+        })
+    }
+
+    fn push(&mut self, contour: usize, closed: bool, path: Vec<PathSegment>, scale: f64) {
+        let mut round = Round {
+            contour,
+            closed,
+            pieces: Vec::with_capacity(path.len()),
+            length: 0.0,
+            circle: None,
+        };
+        for piece in path {
+            let source = match piece.source {
+                Source::Segment { entity, segment }
+                | Source::Corner { entity, segment }
+                | Source::Overlap { entity, segment } => Some((entity, segment)),
+                Source::Tab | Source::LeadIn | Source::LeadOut => None,
+            };
+            match scaled(&piece.geometry, scale) {
+                // A circle has no place where it begins.
+                Segment::Arc(arc) if arc.is_full_turn() => {
+                    round.circle = Some((arc.center, arc.radius));
+                    for quarter in 0..4 {
+                        let share = f64::from(quarter) / 4.0;
+                        let segment = Segment::Arc(arc).part(share, share + 0.25);
+                        round.push(segment, source);
+                    }
+                }
+                segment => round.push(segment, source),
+            }
+        }
+        let number = self.rounds.len() as u32;
+        self.leads.take();
+        self.index.reserve(round.pieces.len());
+        for (index, piece) in round.pieces.iter().enumerate() {
+            self.index
+                .insert((number, index as u32), piece.segment.bounds());
+        }
+        if !round.pieces.is_empty() {
+            self.rounds.push(round);
+        }
+    }
+
+    pub fn piece(&self, spot: &Spot) -> &Piece {
+        &self.rounds[spot.round].pieces[spot.piece]
+    }
+
+    /// A piece in the direction of a spot's way.
+    pub fn whole(&self, spot: &Spot) -> Segment {
+        let segment = &self.piece(spot).segment;
+        if spot.back {
+            segment.reversed()
+        } else {
+            *segment
+        }
+    }
+
+    /// What is left of a spot's piece from it on.
+    pub fn rest(&self, spot: &Spot) -> Segment {
+        let whole = self.whole(spot);
+        if whole.start() == spot.at {
+            return whole;
+        }
+        let share = whole.share_of(spot.at).clamp(0.0, 1.0);
+        match whole.part(share, 1.0) {
+            Segment::Line(line) => Segment::line(spot.at, line.end),
+            arc => arc,
+        }
+    }
+
+    /// Where the next piece begins; `None` at the end of an open round.
+    pub fn next(&self, spot: &Spot) -> Option<Spot> {
+        let round = &self.rounds[spot.round];
+        let count = round.pieces.len();
+        let piece = match (spot.back, spot.piece) {
+            (false, piece) if piece + 1 < count => piece + 1,
+            (true, piece) if piece > 0 => piece - 1,
+            _ if !round.closed => return None,
+            (false, _) => 0,
+            (true, _) => count - 1,
+        };
+        Some(self.at_begin(spot.round, piece, spot.back))
+    }
+
+    /// The spot at the beginning of a piece, seen in its way.
+    pub fn at_begin(&self, round: usize, piece: usize, back: bool) -> Spot {
+        let segment = &self.rounds[round].pieces[piece].segment;
+        let at = if back { segment.end() } else { segment.start() };
+        Spot {
+            round,
+            piece,
+            back,
+            at,
+        }
+    }
+
+    /// How far a spot lies along its round, µm.
+    pub fn along(&self, spot: &Spot) -> f64 {
+        let piece = self.piece(spot);
+        let share = match &piece.segment {
+            segment if segment.start() == spot.at => 0.0,
+            segment if segment.end() == spot.at => 1.0,
+            segment => segment.share_of(spot.at).clamp(0.0, 1.0),
+        };
+        piece.before + share * piece.segment.length()
+    }
+
+    /// The stretches of a round that are cut by going so far from a spot.
+    pub fn cover(&self, from: &Spot, length: f64, mut cut: impl FnMut(Range<f64>)) {
+        let whole = self.rounds[from.round].length;
+        let along = self.along(from);
+        let (begin, end) = if from.back {
+            (along - length, along)
+        } else {
+            (along, along + length)
+        };
+        if begin < -1e-9 {
+            cut(0.0..end);
+            cut(begin + whole..whole);
+        } else if end > whole + 1e-9 {
+            cut(begin..whole);
+            cut(0.0..(end - whole).min(whole));
+        } else {
+            cut(begin..end);
+        }
+    }
+
+    /// The beginnings of pieces that lead as far as this in either way, with the whole of them.
+    pub fn leading(&self, by: Vector) -> Vec<(Spot, Segment)> {
+        let cell = |by: Vector| ((by.x / CELL).floor() as i64, (by.y / CELL).floor() as i64);
+        let leads = self.leads.get_or_init(|| {
+            let mut leads: FxHashMap<_, Vec<_>> = FxHashMap::default();
+            for (number, round) in self.rounds.iter().enumerate() {
+                for (index, piece) in round.pieces.iter().enumerate() {
+                    let by = piece.segment.end() - piece.segment.start();
+                    let place = (number as u32, index as u32);
+                    leads.entry(cell(by)).or_default().push(place);
+                }
+            }
+            leads
+        });
+        let mut found = Vec::new();
+        for back in [false, true] {
+            let by = if back { -by } else { by };
+            let (x, y) = cell(by);
+            let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (x + dx, y + dy)));
+            for &(round, piece) in around.filter_map(|cell| leads.get(&cell)).flatten() {
+                let spot = self.at_begin(round as usize, piece as usize, back);
+                let own = &self.piece(&spot).segment;
+                if (own.end() - own.start() - by).norm() <= ALIKE {
+                    found.push((spot, self.whole(&spot)));
+                }
+            }
+        }
+        found.sort_by_key(|(spot, _)| (spot.round, spot.piece, spot.back));
+        found
+    }
+
+    /// Spots within reach of a point, in either way.
+    pub fn near(&self, point: Point, reach: f64) -> Vec<Spot> {
+        let mut found = Vec::new();
+        self.index
+            .near(&Bounds::of_disc(point, reach), |(round, piece)| {
+                let (round, piece) = (round as usize, piece as usize);
+                let segment = &self.rounds[round].pieces[piece].segment;
+                if segment.distance_to(point) > reach {
+                    return;
+                }
+                for back in [false, true] {
+                    let way = if back { segment.reversed() } else { *segment };
+                    let share = way.share_of(point).clamp(0.0, 1.0);
+                    let at = match share * way.length() {
+                        begin if begin <= reach => way.start(),
+                        // What is left is no way.
+                        end if way.length() - end <= reach => continue,
+                        _ => way.point_at(share),
+                    };
+                    found.push(Spot {
+                        round,
+                        piece,
+                        back,
+                        at,
+                    });
+                }
+            });
+        found.sort_by_key(|spot| (spot.round, spot.piece, spot.back));
+        found
+    }
+}
+
+impl Round {
+    fn push(&mut self, segment: Segment, source: Option<(EntityId, usize)>) {
+        let length = segment.length();
+        if length > CRUMB {
+            self.pieces.push(Piece {
+                segment,
+                source,
+                before: self.length,
+            });
+            self.length += length;
+        }
+    }
+}
+
+/// The ways of some courses on one side of a contour, in the drawing's unit.
+fn along(
+    contour: &Contour,
+    side: Side,
+    courses: &[Course],
+    drawn: &Drawn,
+) -> Vec<Vec<PathSegment>> {
+    let settings = &*drawn.settings;
+    let own = || -> Vec<PathSegment> {
+        let segments = contour.segments.iter().map(|segment| PathSegment {
+            geometry: segment.geometry,
+            source: Source::Segment {
+                entity: segment.entity,
+                segment: segment.segment,
+            },
+        });
+        segments.collect()
+    };
+    let (mut ways, mut corrections) = (Vec::new(), Vec::new());
+    for course in courses {
+        match course {
+            Course::Drawn => ways.push(joined(own(), contour.closed)),
+            Course::FourB if contour.closed => ways.extend(toolpath_of_four_b(
+                joined(own(), true),
+                side,
+                settings,
+                drawn.unit_mm,
+            )),
+            Course::Beside(mm) if *mm > 0.0 => corrections.push(*mm),
+            Course::Beside(_) | Course::FourB => {}
+        }
+    }
+    if !corrections.is_empty() && contour.closed {
+        let of_path = Effective {
+            compensation: Compensation::Path,
+            ..settings.clone()
+        };
+        let rounds = toolpath::rounds(
+            &contour.segments,
+            side,
+            &corrections,
+            &of_path,
+            drawn.unit_mm,
+        );
+        ways.extend(rounds.into_iter().flatten());
+    }
+    ways
+}
+
+/// A circle that is drawn as one arc comes back to its start.
+fn joined(mut path: Vec<PathSegment>, closed: bool) -> Vec<PathSegment> {
+    if let [only] = &mut path[..]
+        && let Segment::Arc(arc) = only.geometry
+        && closed
+    {
+        only.geometry = Segment::Arc(Arc::about(
+            arc.center,
+            arc.start,
+            arc.start,
+            arc.sweep > 0.0,
+        ));
+    }
+    path
+}
+
+/// The part's contour with the transitions of 4B, in the drawing's unit; none where it cannot be written.
+fn toolpath_of_four_b(
+    mut path: Vec<PathSegment>,
+    side: Side,
+    settings: &Effective,
+    unit_mm: f64,
+) -> Option<Vec<PathSegment>> {
+    // It may not begin in a corner.
+    let first = *path.first()?;
+    path[0].geometry = first.geometry.part(0.5, 1.0);
+    path.push(PathSegment {
+        geometry: first.geometry.part(0.0, 0.5),
+        ..first
+    });
+    crate::program::three_b::of_part(path, side, settings, unit_mm)
+}

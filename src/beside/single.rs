@@ -1,0 +1,173 @@
+//! One changed block that explains all that is unlike.
+//!
+//! A walk names a changed block where it can tell it from a lead, a tab or another pass. Where it is unsure, each block about the named ones
+//! is tried: laid where the drawing has it, does all the rest follow?
+
+use super::members::Members;
+use super::pose::{Pose, stretch};
+use super::rounds::Rounds;
+use super::traced::{Motion, Traced};
+use super::walk::{Kind, Unlike};
+use super::{TOLERANCE, anchor};
+use crate::geometry::{Arc, Point, Segment, Vector};
+
+/// Blocks before and behind a named one that are tried, and blocks that all tries together may look at.
+const ABOUT: usize = 3;
+const MOST: usize = 60_000;
+/// What lies nearer to a node is that node, µm.
+const NODE: f64 = 1.6;
+
+/// The one block that explains it best; `None` where none does. `miss` is by how much the blocks of a program miss their places together,
+/// `None` where one does not follow.
+pub(super) fn single(
+    traced: &Traced,
+    rounds: &Rounds,
+    pose: Pose,
+    named: &[Unlike],
+    miss: &dyn Fn(&Traced, Pose) -> Option<f64>,
+) -> Option<Unlike> {
+    let mut tried: Vec<usize> = Vec::new();
+    for away in 0..=ABOUT {
+        for unlike in named {
+            for index in [unlike.block.checked_sub(away), Some(unlike.block + away)] {
+                let is_cut = |index: &usize| {
+                    let block = traced.blocks.get(*index);
+                    block.is_some_and(|block| block.segment().is_some())
+                };
+                tried.extend(index.filter(is_cut).filter(|index| !tried.contains(index)));
+            }
+        }
+    }
+    tried.extend(Members::breaks(traced, rounds, pose));
+    tried.sort_unstable();
+    tried.dedup();
+    let mut fuel = MOST / traced.blocks.len().max(1);
+    tried.sort_by_key(|index| named.iter().all(|unlike| unlike.block != *index));
+    let mut order = tried.clone();
+    order.sort_unstable();
+    let mut members = Members::new(traced, rounds, pose);
+    let mut at = 0;
+    let mut before = std::collections::BTreeMap::new();
+    for index in order {
+        (at..index).for_each(|block| members.take(traced, rounds, block));
+        at = index;
+        before.insert(index, members.clone());
+    }
+    let mut best: Option<(f64, Unlike)> = None;
+    'tries: for index in tried {
+        let members = &before[&index];
+        let own = *traced.blocks[index].segment()?;
+        let near = rounds.near(members.pose.place(own.start()), 2.0 * anchor::REACH);
+        let near = near.into_iter().map(|spot| (spot, spot));
+        let goes_on = members.spot.zip(members.entry);
+        for (spot, entry) in goes_on.into_iter().chain(near) {
+            let (rest, _) = stretch(rounds, &spot, &entry);
+            // To the end of a piece, or to where a tab begins.
+            let share = rest.share_of(members.pose.place(own.end()));
+            let part = (share > 0.0 && share < 1.0).then(|| rest.part(0.0, share));
+            for meant in [Some(rest), part].into_iter().flatten() {
+                let Some((meant, by)) = meant_by(&meant, &own, &members.pose) else {
+                    continue;
+                };
+                for how in How::ALL {
+                    if fuel == 0 {
+                        break 'tries;
+                    }
+                    fuel -= 1;
+                    let repaired = repaired(traced, index, meant, by, how);
+                    let miss = match how {
+                        // Where the program lies may have been found behind the change.
+                        How::Relative => {
+                            miss(&repaired, pose).or_else(|| miss(&repaired, pose.moved(by)))
+                        }
+                        _ => miss(&repaired, pose),
+                    };
+                    let sum = miss.map(|miss| miss + by.norm());
+                    let is_better = |sum: &f64| best.as_ref().is_none_or(|(least, _)| sum < least);
+                    if let Some(sum) = sum.filter(is_better) {
+                        let unlike = Unlike {
+                            block: index,
+                            source: rounds.piece(&spot).source,
+                            off: by.norm(),
+                            kind: Kind::Block,
+                        };
+                        best = Some((sum, unlike));
+                    }
+                }
+            }
+        }
+    }
+    best.map(|(_, unlike)| unlike)
+}
+
+/// A stretch of the drawing in the place of a block, and by how much its end is elsewhere.
+fn meant_by(stretch: &Segment, own: &Segment, pose: &Pose) -> Option<(Segment, Vector)> {
+    // In a program that counts from block to block, what lies before a change is moved where the change is what lies behind it by.
+    let aside = own.start() - pose.program(stretch.start());
+    let aside = if aside.norm() > NODE {
+        aside
+    } else {
+        Vector::zeros()
+    };
+    let end = pose.program(stretch.end()) + aside;
+    let by = end - own.end();
+    let is_alike = stretch.as_arc().is_some() == own.as_arc().is_some()
+        && (stretch.length() - own.length()).abs() <= 2.0 * by.norm() + TOLERANCE;
+    let meant = match stretch.moved(end - stretch.end()) {
+        Segment::Line(_) => Segment::line(own.start(), end),
+        arc => arc,
+    };
+    (is_alike && by.norm() > 0.0).then_some((meant, by))
+}
+
+/// What lies behind a block that ends elsewhere.
+#[derive(Clone, Copy, PartialEq)]
+enum How {
+    /// Counted from there: it is moved.
+    Relative,
+    /// Where it was; an arc about the place that is counted from its start, or about where it was.
+    AbsoluteFrom,
+    Absolute,
+}
+
+impl How {
+    const ALL: [How; 3] = [How::Relative, How::AbsoluteFrom, How::Absolute];
+}
+
+fn repaired(traced: &Traced, index: usize, meant: Segment, by: Vector, how: How) -> Traced {
+    let mut repaired = traced.clone();
+    repaired.blocks[index].motion = Motion::Cut(meant);
+    let mut behind = repaired.blocks[index + 1..].iter_mut();
+    if how == How::Relative {
+        for block in behind {
+            match &mut block.motion {
+                Motion::Cut(segment) => *segment = segment.moved(by),
+                Motion::Way(start, _) => *start += by,
+                Motion::Stop => {}
+            }
+        }
+        return repaired;
+    }
+    let next = behind.find_map(|block| match &mut block.motion {
+        Motion::Cut(segment) => Some(segment),
+        _ => None,
+    });
+    if let Some(next) = next {
+        let end = next.end();
+        *next = begun_at(next, next.start() + by, end, by, how);
+    }
+    repaired
+}
+
+fn begun_at(segment: &Segment, start: Point, end: Point, by: Vector, how: How) -> Segment {
+    match segment {
+        Segment::Line(_) => Segment::line(start, end),
+        Segment::Arc(arc) => {
+            let center = match how {
+                How::AbsoluteFrom => arc.center + by,
+                _ => arc.center,
+            };
+            Segment::Arc(Arc::about(center, start, end, arc.sweep > 0.0))
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! What is taken of a program: its blocks as they mean it.
+
+use super::walk::BETWEEN;
+use crate::geometry::{Point, Segment, Vector};
+use crate::program::path::{self, Kind};
+use crate::program::{Document, Language};
+use std::ops::Range;
+
+/// The blocks of a program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Traced {
+    pub(super) blocks: Vec<Block>,
+    /// Indices of the blocks of each cut, the ways in and out among them, and of those of its contour alone.
+    pub(super) cuts: Vec<[Range<usize>; 2]>,
+    /// Its first place is one of the drawing, if the program was written for it.
+    pub(super) is_placed: bool,
+    /// The ends of arcs are where the machine stops counting: a little beside the place that is meant.
+    pub(super) counts: bool,
+    pub(super) four_b: bool,
+}
+
+/// One block.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Block {
+    /// Bytes of it in the text.
+    pub range: Range<usize>,
+    pub line: usize,
+    pub motion: Motion,
+    /// The control offsets it.
+    pub is_offset: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Motion {
+    Cut(Segment),
+    /// From one place to another without the wire, or by a block that means no line or arc.
+    Way(Point, Vector),
+    Stop,
+}
+
+impl Block {
+    pub fn segment(&self) -> Option<&Segment> {
+        match &self.motion {
+            Motion::Cut(segment) => Some(segment),
+            Motion::Way(..) | Motion::Stop => None,
+        }
+    }
+}
+
+impl Traced {
+    pub fn of(program: &Document) -> Traced {
+        let trace = program.trace();
+        let cuts = path::cuts(&trace);
+        let cuts = cuts.iter().filter(|cut| !cut.is_way);
+        // What does not come back to where it began may be a part of a contour that is cut before or behind.
+        let cuts = cuts.map(|cut| {
+            let contour = cut.contour_steps();
+            let is_one = cut.closed || contour.len() > 2 * BETWEEN;
+            [cut.steps.clone(), if is_one { contour } else { 0..0 }]
+        });
+        let cuts = cuts.collect();
+        let (is_placed, trace) = (trace.start_is_known, trace.into_meant());
+        let blocks = trace.steps.into_iter().map(|step| Block {
+            line: step.line,
+            motion: match (step.kind, step.ideal) {
+                (Kind::Line | Kind::Arc, Some(segment)) => Motion::Cut(segment),
+                (Kind::Line | Kind::Arc | Kind::Rapid, _) => {
+                    Motion::Way(step.start, step.end - step.start)
+                }
+                (Kind::Pause | Kind::End, _) => Motion::Stop,
+            },
+            is_offset: step.side.is_some(),
+            range: step.range,
+        });
+        let four_b = match program {
+            Document::ThreeB(program) => program.first_four_b_line().is_some(),
+            Document::Iso(_) => false,
+        };
+        Traced {
+            blocks: blocks.collect(),
+            cuts,
+            is_placed: is_placed || program.language() == Language::Iso,
+            counts: program.language() == Language::ThreeB,
+            four_b,
+        }
+    }
+
+    /// True where nothing is cut.
+    pub fn is_empty(&self) -> bool {
+        self.blocks.iter().all(|block| block.segment().is_none())
+    }
+}

@@ -1,0 +1,70 @@
+//! A program that is not its drawing's, as numbers.
+
+use std::sync::Arc;
+
+/// What is unlike between a program and its drawing. `other` is the name of the other document.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unlike {
+    /// A block of the program does not lead to where a segment of the drawing does; `off` is in mm.
+    Block {
+        other: Arc<str>,
+        handle: String,
+        segment: usize,
+        off: f64,
+    },
+    /// A contour of the program begins `off` mm beside the drawing's.
+    Moved {
+        other: Arc<str>,
+        handle: String,
+        off: f64,
+    },
+    /// The program leaves a contour before it is cut all round, where a segment of the drawing would be next.
+    Unfinished {
+        other: Arc<str>,
+        handle: String,
+        segment: usize,
+    },
+    /// A contour, or a pass, of the program follows nothing of the drawing.
+    Foreign { other: Arc<str> },
+    /// A block of the program, on a line from 1, does not follow this segment of the drawing; `off` is in the drawing's unit.
+    Segment {
+        other: Arc<str>,
+        line: usize,
+        off: f64,
+    },
+    /// The program, on a line from 1, begins this contour elsewhere, so far off in the drawing's unit.
+    Begin {
+        other: Arc<str>,
+        line: usize,
+        off: f64,
+    },
+    /// The program leaves this contour behind a line, from 1, before it has cut this segment.
+    Left { other: Arc<str>, line: usize },
+    /// Nothing of the one is like the other.
+    Nothing { other: Arc<str> },
+    /// The other cannot be read.
+    Unreadable { other: Arc<str>, reason: String },
+    /// The program may belong to `more` as well.
+    Several { other: Arc<str>, more: String },
+}
+
+impl Unlike {
+    /// How far something is off, in the unit of its document.
+    pub fn off(&self) -> Option<f64> {
+        match self {
+            Unlike::Block { off, .. }
+            | Unlike::Moved { off, .. }
+            | Unlike::Segment { off, .. }
+            | Unlike::Begin { off, .. } => Some(*off),
+            _ => None,
+        }
+    }
+
+    /// Said for the whole of both, which is no error of either.
+    pub fn is_of_whole(&self) -> bool {
+        matches!(
+            self,
+            Unlike::Nothing { .. } | Unlike::Unreadable { .. } | Unlike::Several { .. }
+        )
+    }
+}

@@ -1,0 +1,424 @@
+//! Which documents lie beside each other: a program and its drawing. What the client holds open is taken before what is on disk; a change
+//! of the one has the other judged anew.
+
+use super::config;
+use super::content::Content;
+use super::judge::Task;
+use super::state::State;
+use crate::beside::{self, Beside, Drawn, Named, Partner, Traced, head_of, name_of, plain};
+use crate::disk;
+use crate::document::{Document, Source};
+use crate::dxf;
+use crate::finding::Rule;
+use crate::program::{self, Language};
+use crate::settings::Effective;
+use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::SystemTime;
+
+/// What a document is compared by.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Form {
+    Drawn(Arc<Drawn>),
+    Traced(Arc<Traced>),
+}
+
+impl Form {
+    pub fn of(document: &Document) -> Option<Form> {
+        let drawn = || document.drawn().map(|drawn| Form::Drawn(Arc::new(drawn)));
+        let traced = document.traced();
+        traced
+            .map(|traced| Form::Traced(Arc::new(traced)))
+            .or_else(drawn)
+    }
+}
+
+/// What an open document belongs to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) enum Link {
+    #[default]
+    Nothing,
+    /// The drawing of a program.
+    Drawing(Named),
+    /// The programs of a drawing that lie in its folder.
+    Programs(Vec<PathBuf>),
+}
+
+/// How a file was when it was read.
+type Stamp = Option<(SystemTime, u64)>;
+
+/// What is laid beside a document that is judged.
+pub(super) struct Wanted {
+    others: Vec<Arc<str>>,
+    partners: Vec<(Arc<str>, From)>,
+    is_program: bool,
+}
+
+enum From {
+    Known(Result<Form, String>),
+    File {
+        path: PathBuf,
+        stamp: Stamp,
+        settings: Arc<Effective>,
+    },
+}
+
+/// A file that was read for it.
+pub(super) struct Kept {
+    stamp: Stamp,
+    form: Result<Form, String>,
+}
+
+/// A drawing that is larger is not read beside a program, bytes.
+const LARGEST: u64 = 256 * 1024 * 1024;
+
+#[derive(Default)]
+pub(super) struct Links {
+    /// Open documents by their files.
+    paths: FxHashMap<PathBuf, Arc<str>>,
+    /// Open programs by their drawings.
+    programs: FxHashMap<PathBuf, BTreeSet<Arc<str>>>,
+    /// Files that are not open.
+    files: FxHashMap<PathBuf, Kept>,
+}
+
+impl Wanted {
+    /// True where nothing has to be read for it.
+    pub fn is_at_hand(&self) -> bool {
+        let known = |(_, from): &(_, From)| matches!(from, From::Known(_));
+        self.partners.iter().all(known)
+    }
+
+    /// What is laid beside the document, and the files that were read for it.
+    pub fn read(self) -> (Beside, Vec<(PathBuf, Kept)>) {
+        let mut read = Vec::new();
+        let mut forms = Vec::with_capacity(self.partners.len());
+        for (name, from) in self.partners {
+            let form = match from {
+                From::Known(form) => form,
+                From::File {
+                    path,
+                    stamp,
+                    settings,
+                } => {
+                    let form = form_of_file(&path, &settings);
+                    let kept = Kept {
+                        stamp,
+                        form: form.clone(),
+                    };
+                    read.push((path, kept));
+                    form
+                }
+            };
+            forms.push((name, form));
+        }
+        let drawn = |(name, form): (Arc<str>, Result<Form, String>)| {
+            let made = form.and_then(|form| match form {
+                Form::Drawn(drawn) => Ok(drawn),
+                Form::Traced(_) => Err(say!(a_program_is_no_drawing).into()),
+            });
+            Partner { name, made }
+        };
+        let traced = |(name, form): (Arc<str>, Result<Form, String>)| {
+            let made = form.and_then(|form| match form {
+                Form::Traced(traced) => Ok(traced),
+                Form::Drawn(_) => Err(say!(a_drawing_is_no_program).into()),
+            });
+            Partner { name, made }
+        };
+        let beside = if self.is_program {
+            let first = forms.into_iter().next();
+            first.map_or(Beside::Nothing, |form| {
+                Beside::Drawing(drawn(form), self.others)
+            })
+        } else if forms.is_empty() {
+            Beside::Nothing
+        } else {
+            Beside::Programs(forms.into_iter().map(traced).collect())
+        };
+        (beside, read)
+    }
+}
+
+/// Reads a file that is not open.
+fn form_of_file(path: &Path, settings: &Arc<Effective>) -> Result<Form, String> {
+    let file = std::fs::File::open(path).map_err(|error| disk::plain(&error))?;
+    let bytes = disk::read_at_most(&file, LARGEST)?;
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    let language = Language::of_ending(&ending.to_ascii_lowercase());
+    let form = catch_unwind(AssertUnwindSafe(|| {
+        let source = match language {
+            Some(language) => Source::Program(program::Document::read(language, bytes, settings)),
+            None => Source::Dxf(dxf::Document::read_file(bytes)),
+        };
+        Form::of(&Document::new(source, settings.clone()))
+    }));
+    let form = form.ok().flatten();
+    form.ok_or_else(|| say!(internal_error_the_document_could_not_be_judged).into())
+}
+
+fn stamp_of(path: &Path) -> Stamp {
+    let metadata = std::fs::metadata(path).ok()?;
+    Some((metadata.modified().ok()?, metadata.len()))
+}
+
+fn file_of(uri: &str) -> Option<PathBuf> {
+    config::path_of(uri).map(|path| plain(&path))
+}
+
+impl State {
+    /// A document is open now: it may be the drawing of programs that are.
+    pub fn note_path(&mut self, uri: &Arc<str>) {
+        let Some(path) = file_of(uri) else { return };
+        self.links.paths.insert(path, uri.clone());
+        let is_program = |uri: &&Arc<str>| {
+            let open = self.documents.get(*uri);
+            let document = open.and_then(|open| open.document());
+            document.is_some_and(|document| document.program().is_some())
+        };
+        let mut programs: Vec<Arc<str>> = self
+            .links
+            .paths
+            .values()
+            .filter(is_program)
+            .cloned()
+            .collect();
+        programs.sort_unstable();
+        for program in programs {
+            self.relink(&program, false);
+        }
+    }
+
+    /// What lies beside a document that is to be judged.
+    pub fn wanted_beside(&mut self, uri: &Arc<str>) -> Option<Wanted> {
+        let open = self.documents.get(uri)?;
+        let link = open.link.clone();
+        let mut wanted = Wanted {
+            others: Vec::new(),
+            partners: Vec::new(),
+            is_program: matches!(link, Link::Drawing(_)),
+        };
+        let paths = match link {
+            Link::Drawing(Named { path, others }) => {
+                wanted.others = others.iter().map(|path| name_of(path)).collect();
+                vec![path]
+            }
+            Link::Programs(mut programs) => {
+                let path = file_of(uri)?;
+                let open = self.links.programs.get(&path).into_iter().flatten();
+                // What is open says itself whether it belongs here.
+                programs.retain(|path| !self.links.paths.contains_key(path));
+                programs.extend(open.filter_map(|uri| file_of(uri)));
+                programs.sort();
+                programs
+            }
+            Link::Nothing => return Some(wanted),
+        };
+        for path in paths {
+            let from = match self.links.paths.get(&path) {
+                Some(uri) => match self.documents.get(uri).and_then(|open| open.form.clone()) {
+                    Some(form) => From::Known(Ok(form)),
+                    // It is yet to be judged, and says so then.
+                    None => continue,
+                },
+                None => self.on_disk(&path),
+            };
+            wanted.partners.push((name_of(&path), from));
+        }
+        Some(wanted)
+    }
+
+    fn on_disk(&mut self, path: &Path) -> From {
+        let stamp = stamp_of(path);
+        if let Some(kept) = self.links.files.get(path)
+            && kept.stamp == stamp
+        {
+            return From::Known(kept.form.clone());
+        }
+        let uri = config::uri_of(path).unwrap_or_default();
+        From::File {
+            path: path.to_path_buf(),
+            stamp,
+            settings: self.settings_for(&uri),
+        }
+    }
+
+    /// Takes what was read for a document, and has its partners look at what it is now.
+    pub fn judged_beside(
+        &mut self,
+        uri: &Arc<str>,
+        read: Vec<(PathBuf, Kept)>,
+        form: Option<Form>,
+    ) {
+        self.links.files.extend(read);
+        let mut is_new = false;
+        if let Some(open) = self.documents.get_mut(uri)
+            && form.is_some()
+        {
+            is_new = open.form != form;
+            open.form = form;
+        }
+        self.relink(uri, false);
+        if is_new {
+            self.poke_partners(uri);
+        }
+    }
+
+    /// Has the documents that lie beside an open one judged anew.
+    fn poke_partners(&mut self, uri: &Arc<str>) {
+        let Some(path) = file_of(uri) else { return };
+        let mut partners: BTreeSet<Arc<str>> =
+            self.links.programs.get(&path).cloned().unwrap_or_default();
+        let link = self.documents.get(uri).map(|open| &open.link);
+        if let Some(Link::Drawing(named)) = link {
+            partners.extend(self.links.paths.get(&named.path).cloned());
+        }
+        for partner in partners {
+            self.add_task(&partner, Task::Beside);
+        }
+    }
+
+    /// Finds out what a document belongs to now; a drawing is asked again only where files have changed.
+    fn relink(&mut self, uri: &Arc<str>, files_changed: bool) {
+        let Some(open) = self.documents.get(uri) else {
+            return;
+        };
+        let Content::Read(document) = &open.content else {
+            return;
+        };
+        let Some(path) = file_of(uri) else { return };
+        let settings = document.settings();
+        let is_there = |path: &Path| self.links.paths.contains_key(path) || path.is_file();
+        let setting = settings.drawing.as_deref();
+        let link = match document.program() {
+            _ if settings.severity(Rule::NotTheDrawing).is_none() => Link::Nothing,
+            Some(program) => {
+                let head = program.text().bytes();
+                let named = beside::drawing_named(&path, head, setting, &is_there);
+                named.map_or(Link::Nothing, Link::Drawing)
+            }
+            None if files_changed || open.link == Link::Nothing => {
+                let folder = path.parent().map(std::fs::read_dir);
+                let files = folder.and_then(Result::ok).into_iter().flatten();
+                let files = files.filter_map(|entry| Some(plain(&entry.ok()?.path())));
+                let is_own = |program: &Path| {
+                    let head = head_of(program);
+                    let named = beside::drawing_named(program, &head, setting, &is_there);
+                    named.is_some_and(|named| named.path == path)
+                };
+                Link::Programs(beside::programs_beside(files, &is_own))
+            }
+            None => return,
+        };
+        if open.link == link {
+            return;
+        }
+        let is_alone = match &link {
+            Link::Programs(programs) => {
+                programs.is_empty()
+                    && self
+                        .links
+                        .programs
+                        .get(&path)
+                        .is_none_or(BTreeSet::is_empty)
+            }
+            _ => false,
+        };
+        if is_alone && open.link == Link::Nothing {
+            return;
+        }
+        let drawing_of = |link: &Link| match link {
+            Link::Drawing(named) => Some(named.path.clone()),
+            _ => None,
+        };
+        let (old, new) = (drawing_of(&open.link), drawing_of(&link));
+        if let Some(open) = self.documents.get_mut(uri) {
+            open.link = link;
+            open.wants_form = true;
+        }
+        if old != new {
+            for drawing in old.into_iter() {
+                self.links
+                    .programs
+                    .entry(drawing.clone())
+                    .or_default()
+                    .remove(uri);
+                self.poke(&drawing);
+            }
+            for drawing in new.into_iter() {
+                self.links
+                    .programs
+                    .entry(drawing.clone())
+                    .or_default()
+                    .insert(uri.clone());
+                self.poke(&drawing);
+            }
+        }
+        self.add_task(uri, Task::Beside);
+    }
+
+    /// Has an open document compared anew.
+    fn poke(&mut self, path: &Path) {
+        let Some(uri) = self.links.paths.get(path).cloned() else {
+            return;
+        };
+        if let Some(open) = self.documents.get_mut(&uri) {
+            open.wants_form = true;
+            if open.link == Link::Nothing
+                && open.document().is_some_and(|own| own.program().is_none())
+            {
+                open.link = Link::Programs(Vec::new());
+            }
+        }
+        self.add_task(&uri, Task::Beside);
+    }
+
+    /// A document is no longer open: its partners take the file.
+    pub fn closed_beside(&mut self, uri: &Arc<str>, link: &Link) {
+        let Some(path) = file_of(uri) else { return };
+        self.links.paths.remove(&path);
+        if let Link::Drawing(named) = link {
+            if let Some(programs) = self.links.programs.get_mut(&named.path) {
+                programs.remove(uri);
+            }
+            let drawing = self.links.paths.get(&named.path).cloned();
+            if let Some(drawing) = drawing {
+                self.relink(&drawing, true);
+                self.add_task(&drawing, Task::Beside);
+            }
+        }
+        for program in self.links.programs.get(&path).cloned().unwrap_or_default() {
+            self.relink(&program, true);
+            self.add_task(&program, Task::Beside);
+        }
+    }
+
+    /// Files have changed on disk: what belongs to what is found out anew.
+    pub fn files_changed(&mut self) {
+        let mut uris: Vec<Arc<str>> = self.links.paths.values().cloned().collect();
+        uris.sort_unstable();
+        for uri in uris {
+            self.relink(&uri, true);
+            let has_partner = |link: &Link| match link {
+                Link::Nothing => false,
+                Link::Drawing(_) => true,
+                Link::Programs(programs) => !programs.is_empty(),
+            };
+            if self
+                .documents
+                .get(&uri)
+                .is_some_and(|open| has_partner(&open.link))
+            {
+                self.add_task(&uri, Task::Beside);
+            }
+        }
+    }
+
+    /// Settings have changed, and with them what files come to.
+    pub fn forget_files(&mut self) {
+        self.links.files.clear();
+    }
+}

@@ -1,0 +1,69 @@
+//! The ways round one contour without leads: what a program is held against.
+
+use super::job::Job;
+use super::laid::{Along, Laid};
+use super::path::{PathSegment, Refusal};
+use super::paths::Pass;
+use crate::drawing::{ContourSegment, Drawing};
+use crate::geometry::{Point, Side};
+use crate::settings::Effective;
+use rustc_hash::FxHashMap;
+
+/// The paths of all passes beside a closed contour whose segments are in the direction of travel, in that direction, from anywhere;
+/// corrections in mm. Of a pass that has no path nothing is there. Everything else is in the unit of so many mm.
+pub(crate) fn rounds(
+    segments: &[ContourSegment],
+    side: Side,
+    corrections: &[f64],
+    settings: &Effective,
+    unit_mm: f64,
+) -> Vec<Option<Vec<PathSegment>>> {
+    let (drawing, side) = (Drawing::default(), side.sign());
+    let job = Job {
+        drawing: &drawing,
+        outlines: &[],
+        settings,
+        picks: FxHashMap::default(),
+        unit_mm,
+        finishes: false,
+        a_loop_will_do: false,
+        goes_on: &|| true,
+    };
+    let rough = job.units(corrections.iter().copied().fold(0.0, f64::max));
+    let Ok((walls, own, first)) = job.along(segments, side, rough) else {
+        return Vec::new();
+    };
+    let mut first = Some(first);
+    let mut before: Option<Pass> = None;
+    let mut pass = |correction: f64| -> Result<Option<Vec<PathSegment>>, Refusal> {
+        let along = Along {
+            side,
+            correction,
+            corner: settings.corner,
+        };
+        let laid = match (first.take_if(|_| correction == rough), &before) {
+            (Some(first), _) => first,
+            (None, Some(rough)) => job.skim(&walls, &own, rough, along)?,
+            (None, None) => job.laid(&walls, &own, along)?,
+        };
+        let Ok(Laid::Path(path)) = laid else {
+            return Ok(None);
+        };
+        let pieces = path.iter().map(|element| PathSegment {
+            geometry: element.geometry,
+            source: element.source,
+        });
+        let pieces = pieces.collect();
+        before.get_or_insert(Pass {
+            correction,
+            path,
+            element: 0,
+            begin: Point::origin(),
+        });
+        Ok(Some(pieces))
+    };
+    corrections
+        .iter()
+        .map(|&mm| pass(job.units(mm)).unwrap_or_default())
+        .collect()
+}
