@@ -1,62 +1,17 @@
 //! Where a program lies on its drawing.
 
+use super::REACH;
+use super::matching::{Found, matching};
 use super::pose::Pose;
-use super::rounds::{Rounds, Spot};
+use super::rounds::Rounds;
 use super::traced::{Motion, Traced};
 use super::walk::Walk;
-use crate::geometry::{Segment, Vector};
+use crate::geometry::Vector;
 
-/// How near a place of the program lies to that of the drawing which it is, µm.
-pub(super) const REACH: f64 = 2.5;
-/// Blocks from which it is tried, and places on the drawing that are tried for each.
+/// Blocks from which it is tried.
 const TRIED: usize = 60;
-const PLACES: usize = 64;
 /// Blocks by which places are told apart.
 const SURE: usize = 40;
-
-/// A place of the drawing that a block begins at.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Found {
-    pub spot: Spot,
-    pub pose: Pose,
-}
-
-/// Places of the drawing that a block may be, wherever the program lies.
-pub(super) fn matching(rounds: &Rounds, traced: &Traced, index: usize, pose: &Pose) -> Vec<Found> {
-    let Some(block) = traced.blocks[index].segment() else {
-        return Vec::new();
-    };
-    let begin = pose.place(block.start());
-    let mut found = Vec::new();
-    let meant = block.end() - block.start();
-    if meant.norm() > 20.0 {
-        for (spot, whole) in rounds.leading(meant) {
-            let is_arc = |segment: &Segment| segment.as_arc().map(|arc| arc.sweep > 0.0);
-            if is_arc(&whole) == is_arc(block) && found.len() < PLACES {
-                found.push(Found {
-                    spot,
-                    pose: pose.moved(begin - spot.at),
-                });
-            }
-        }
-    }
-    if let Some(arc) = block.as_arc() {
-        let center = pose.place(arc.center);
-        for (round, of) in rounds.rounds.iter().enumerate() {
-            let Some((own, radius)) = of.circle else {
-                continue;
-            };
-            if (radius - arc.radius).abs() > REACH || found.len() >= PLACES {
-                continue;
-            }
-            let moved = pose.moved(center - own);
-            let spots = rounds.near(moved.place(block.start()), 2.0 * REACH);
-            let own = spots.into_iter().filter(|spot| spot.round == round);
-            found.extend(own.map(|spot| Found { spot, pose: moved }));
-        }
-    }
-    found
-}
 
 /// Where the program lies, from the blocks of its cuts; `None` where nothing of it is like the drawing.
 pub(super) fn anchor(traced: &Traced, rounds: &Rounds) -> Option<Pose> {

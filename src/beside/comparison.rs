@@ -1,6 +1,5 @@
 //! What a program does otherwise than its drawing.
 
-use super::TOLERANCE;
 use super::anchor::anchor;
 use super::drawn::Drawn;
 use super::infer;
@@ -9,7 +8,8 @@ use super::pose::Pose;
 use super::rounds::{Course, Rounds};
 use super::single::single;
 use super::traced::{Block, Traced};
-use super::walk::{BETWEEN, Kind, Unlike, Walk, Walked};
+use super::walk::{Kind, Unlike, Walk, Walked};
+use super::{BETWEEN, TOLERANCE};
 use crate::drawing::EntityId;
 use crate::geometry::Segment;
 use crate::settings::{Compensation, Corner, Effective, LengthSetting};

@@ -3,11 +3,11 @@
 //! A walk along both has to guess where a program means to be; that nothing is unlike can be told without: each block but the few that lead
 //! in, out and from pass to pass follows some piece of some round, and each round that is cut is cut as often everywhere.
 
-use super::anchor::REACH;
 use super::pose::Pose;
 use super::rounds::{Rounds, Spot};
 use super::traced::{Motion, Traced};
-use super::walk::{BETWEEN, COVERED, Walked};
+use super::walk::Walked;
+use super::{BETWEEN, COVERED, REACH};
 use std::ops::Range;
 
 /// What is known of a program up to one of its blocks.

@@ -11,6 +11,7 @@ mod comparison;
 mod drawn;
 mod findings;
 mod infer;
+mod matching;
 mod members;
 mod names;
 mod pose;
@@ -27,3 +28,9 @@ pub use traced::Traced;
 
 /// How far a block may lie from where the drawing has it, µm.
 pub const TOLERANCE: f64 = 2.0;
+/// How near a place of the program lies to that of the drawing which it is, µm.
+const REACH: f64 = 2.5;
+/// Blocks that lead from one pass to the next, at most.
+const BETWEEN: usize = 6;
+/// What is less is covered, µm.
+const COVERED: f64 = 5.0;

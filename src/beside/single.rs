@@ -8,7 +8,7 @@ use super::pose::{Pose, stretch};
 use super::rounds::Rounds;
 use super::traced::{Motion, Traced};
 use super::walk::{Kind, Unlike};
-use super::{TOLERANCE, anchor};
+use super::{REACH, TOLERANCE};
 use crate::geometry::{Arc, Point, Segment, Vector};
 
 /// Blocks before and behind a named one that are tried, and blocks that all tries together may look at.
@@ -57,7 +57,7 @@ pub(super) fn single(
     'tries: for index in tried {
         let members = &before[&index];
         let own = *traced.blocks[index].segment()?;
-        let near = rounds.near(members.pose.place(own.start()), 2.0 * anchor::REACH);
+        let near = rounds.near(members.pose.place(own.start()), 2.0 * REACH);
         let near = near.into_iter().map(|spot| (spot, spot));
         let goes_on = members.spot.zip(members.entry);
         for (spot, entry) in goes_on.into_iter().chain(near) {

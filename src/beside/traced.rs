@@ -1,6 +1,6 @@
 //! What is taken of a program: its blocks as they mean it.
 
-use super::walk::BETWEEN;
+use super::BETWEEN;
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::path::{self, Kind};
 use crate::program::{Document, Language};

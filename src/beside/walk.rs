@@ -4,11 +4,11 @@
 //! the program stands, or from where it comes back to the drawing: one change is one difference. What leads to a run and away from it is
 //! not looked at. Where a run ends although its contour goes on, that waits for the end: a tab may be cut later.
 
-use super::TOLERANCE;
-use super::anchor::{self, Found};
+use super::matching::{Found, matching};
 use super::pose::{Pose, Reached, stretch};
 use super::rounds::{Rounds, Spot};
 use super::traced::{Motion, Traced};
+use super::{BETWEEN, COVERED, REACH, TOLERANCE};
 use crate::drawing::EntityId;
 use crate::geometry::Vector;
 use std::ops::Range;
@@ -47,8 +47,6 @@ pub(super) struct Walked {
     pub contours: Vec<usize>,
 }
 
-/// Blocks that lead from one pass to the next, at most.
-pub(super) const BETWEEN: usize = 6;
 /// Blocks that have to follow so that others before them are taken as changed.
 const SURE: usize = 3;
 /// Blocks and pieces that are passed over to find on, at most.
@@ -57,8 +55,6 @@ const PASSED: usize = 8;
 const SPLIT: usize = 400;
 /// How far a wrong first block of a contour may lie from where the contour comes back to it, µm.
 const NEAR: f64 = 1_000.0;
-/// What is less is covered, µm.
-pub(super) const COVERED: f64 = 5.0;
 
 #[derive(Clone, Debug)]
 struct Run {
@@ -335,7 +331,7 @@ impl<'a> Walk<'a> {
                 }
                 return false;
             };
-            let near = self.rounds.near(pose.place(segment.start()), anchor::REACH);
+            let near = self.rounds.near(pose.place(segment.start()), REACH);
             let other = |near: &&Spot| (near.round, near.back) != (spot.round, spot.back);
             if near
                 .iter()
@@ -387,7 +383,7 @@ impl<'a> Walk<'a> {
             let mut spot = ways[pieces];
             if pieces > 0 && blocks > 1 {
                 // It may come back to the drawing within a piece, where a tab begins.
-                let near = self.rounds.near(self.pose.place(end), anchor::REACH);
+                let near = self.rounds.near(self.pose.place(end), REACH);
                 let within = near.iter().find(|near| {
                     (near.round, near.piece, near.back) == (spot.round, spot.piece, spot.back)
                 });
@@ -396,7 +392,7 @@ impl<'a> Walk<'a> {
             let miss = self.pose.place(end) - spot.at;
             for by in [Vector::zeros(), miss] {
                 let is_back = by == Vector::zeros();
-                if is_back && miss.norm() > anchor::REACH {
+                if is_back && miss.norm() > REACH {
                     continue;
                 }
                 let pose = if is_back {
@@ -502,10 +498,7 @@ impl<'a> Walk<'a> {
                 best = Some((count, found));
             }
         };
-        for spot in self
-            .rounds
-            .near(self.pose.place(segment.start()), anchor::REACH)
-        {
+        for spot in self.rounds.near(self.pose.place(segment.start()), REACH) {
             if let Some(count) = self.begins(&self.pose, &spot, index) {
                 let found = Found {
                     spot,
@@ -516,7 +509,7 @@ impl<'a> Walk<'a> {
         }
         let (mut moved, mut is_first) = (None, false);
         if best.is_none() {
-            let found = anchor::matching(self.rounds, self.traced, index, &self.pose)
+            let found = matching(self.rounds, self.traced, index, &self.pose)
                 .into_iter()
                 .filter(|found| {
                     let (count, ends) =
@@ -531,7 +524,7 @@ impl<'a> Walk<'a> {
                 let by = found.pose.shift - self.pose.shift;
                 // Where the program lies was found by its first contour, or one behind that.
                 is_first = self.walked.contours.is_empty();
-                moved = (by.norm() > anchor::REACH).then_some(by);
+                moved = (by.norm() > REACH).then_some(by);
                 best = Some((0, found));
             }
         }
@@ -546,7 +539,7 @@ impl<'a> Walk<'a> {
                 if self.walked.runs[before] {
                     break;
                 }
-                let near = self.rounds.near(pose.place(own.start()), anchor::REACH);
+                let near = self.rounds.near(pose.place(own.start()), REACH);
                 let leads = |near: &&Spot| {
                     near.round == spot.round
                         && self.verify(pose, **near, **near, before, SURE).0 >= 2
@@ -651,11 +644,7 @@ impl<'a> Walk<'a> {
                     (named, off, Kind::Block)
                 }
                 // It ends beside the entry by as much as that was: the first block is wrong, or the way to it.
-                (_, Some(off))
-                    if run
-                        .moved
-                        .is_some_and(|by| (by.norm() - off).abs() <= anchor::REACH) =>
-                {
+                (_, Some(off)) if run.moved.is_some_and(|by| (by.norm() - off).abs() <= REACH) => {
                     (run.first, off, Kind::Block)
                 }
                 (_, Some(off)) => (block, off, Kind::Block),
@@ -668,9 +657,7 @@ impl<'a> Walk<'a> {
         let mut changes: Vec<f64> = self.walked.unlike.iter().map(|unlike| unlike.off).collect();
         for run in std::mem::take(&mut self.moved) {
             let by = run.moved.map_or(0.0, |by| by.norm());
-            let change = changes
-                .iter()
-                .position(|off| (off - by).abs() <= anchor::REACH);
+            let change = changes.iter().position(|off| (off - by).abs() <= REACH);
             match change {
                 Some(change) => {
                     changes.swap_remove(change);
@@ -702,7 +689,7 @@ impl<'a> Walk<'a> {
             if off > worst.1 {
                 worst = (block, off);
             }
-            if off > anchor::REACH {
+            if off > REACH {
                 break;
             }
             match self.rounds.next(&spot) {

@@ -1,8 +1,8 @@
 //! What a document comes to: its source and what was made of it, and what is done to it. All of it may run on a worker.
 
-use super::beside::Form;
 use super::convert;
 use super::kind::Kind;
+use super::partner::Form;
 use super::shown::{self, Shown};
 use super::transport::{Written, panic_text};
 use crate::beside::Beside;

@@ -1,10 +1,10 @@
 //! A document taken through what has come for it, and judged: at once where that is little, else on a worker, so that no document
 //! waits for another.
 
-use super::beside::{Form, Kept, Wanted};
 use super::content::{Content, Remains, is_small_drawing, is_small_text};
 use super::convert;
 use super::kind::Kind;
+use super::partner::{Form, Kept, Wanted};
 use super::shown::Shown;
 use super::transport::Written;
 use crate::drawing::Drawing;

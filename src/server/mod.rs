@@ -18,6 +18,7 @@ mod kind;
 mod methods;
 mod open;
 mod parent;
+mod partner;
 mod settings;
 mod shown;
 mod state;

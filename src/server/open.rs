@@ -1,9 +1,9 @@
 //! An open document: what the client sent, what was made of it, and what the client has been told.
 
-use super::beside::{Form, Link};
 use super::content::Content;
 use super::judge::Task;
 use super::kind::Kind;
+use super::partner::{Form, Link};
 use super::shown::Shown;
 use super::token_memory::TokenMemory;
 use crate::document::Document;

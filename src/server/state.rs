@@ -3,7 +3,6 @@
 //! Handlers and workers hand it closures, in the order in which they came; it drains them before it looks at what has
 //! changed, so that a burst of edits costs one publish. A closure that panics costs its own request, no document.
 
-use super::beside::Links;
 use super::client::{Client, Weight};
 use super::config::{self, Config};
 use super::content::Content;
@@ -11,6 +10,7 @@ use super::convert::{settings_diagnostics, written};
 use super::jobs::Workers;
 use super::judge::{Job, Judged, Task};
 use super::open::Open;
+use super::partner::Links;
 use super::transport::{Publish, Writer, Written, panic_text};
 use crate::text::Encoding;
 use rustc_hash::{FxHashMap, FxHashSet};

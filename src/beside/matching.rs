@@ -1,0 +1,54 @@
+//! Places of a drawing that a block of a program may be.
+
+use super::REACH;
+use super::pose::Pose;
+use super::rounds::{Rounds, Spot};
+use super::traced::Traced;
+use crate::geometry::Segment;
+
+/// Places on the drawing that are tried for a block.
+const PLACES: usize = 64;
+
+/// A place of the drawing that a block begins at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found {
+    pub spot: Spot,
+    pub pose: Pose,
+}
+
+/// Places of the drawing that a block may be, wherever the program lies.
+pub(super) fn matching(rounds: &Rounds, traced: &Traced, index: usize, pose: &Pose) -> Vec<Found> {
+    let Some(block) = traced.blocks[index].segment() else {
+        return Vec::new();
+    };
+    let begin = pose.place(block.start());
+    let mut found = Vec::new();
+    let meant = block.end() - block.start();
+    if meant.norm() > 20.0 {
+        for (spot, whole) in rounds.leading(meant) {
+            let is_arc = |segment: &Segment| segment.as_arc().map(|arc| arc.sweep > 0.0);
+            if is_arc(&whole) == is_arc(block) && found.len() < PLACES {
+                found.push(Found {
+                    spot,
+                    pose: pose.moved(begin - spot.at),
+                });
+            }
+        }
+    }
+    if let Some(arc) = block.as_arc() {
+        let center = pose.place(arc.center);
+        for (round, of) in rounds.rounds.iter().enumerate() {
+            let Some((own, radius)) = of.circle else {
+                continue;
+            };
+            if (radius - arc.radius).abs() > REACH || found.len() >= PLACES {
+                continue;
+            }
+            let moved = pose.moved(center - own);
+            let spots = rounds.near(moved.place(block.start()), 2.0 * REACH);
+            let own = spots.into_iter().filter(|spot| spot.round == round);
+            found.extend(own.map(|spot| Found { spot, pose: moved }));
+        }
+    }
+    found
+}

@@ -1,0 +1,160 @@
+//! What is laid beside a document that is judged: the drawing of a program, the programs of a drawing.
+
+use crate::beside::{Beside, Drawn, Named, Partner, Traced};
+use crate::disk;
+use crate::document::{Document, Source};
+use crate::dxf;
+use crate::program::{self, Language};
+use crate::settings::Effective;
+use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::SystemTime;
+
+/// What a document is compared by.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Form {
+    Drawn(Arc<Drawn>),
+    Traced(Arc<Traced>),
+}
+
+impl Form {
+    pub fn of(document: &Document) -> Option<Form> {
+        let drawn = || document.drawn().map(|drawn| Form::Drawn(Arc::new(drawn)));
+        let traced = document.traced();
+        traced
+            .map(|traced| Form::Traced(Arc::new(traced)))
+            .or_else(drawn)
+    }
+}
+
+/// What an open document belongs to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) enum Link {
+    #[default]
+    Nothing,
+    /// The drawing of a program.
+    Drawing(Named),
+    /// The programs of a drawing that lie in its folder.
+    Programs(Vec<PathBuf>),
+}
+
+/// How a file was when it was read.
+pub(super) type Stamp = Option<(SystemTime, u64)>;
+
+/// What is laid beside a document that is judged.
+pub(super) struct Wanted {
+    pub others: Vec<Arc<str>>,
+    pub partners: Vec<(Arc<str>, From)>,
+    pub is_program: bool,
+}
+
+pub(super) enum From {
+    Known(Result<Form, String>),
+    File {
+        path: PathBuf,
+        stamp: Stamp,
+        settings: Arc<Effective>,
+    },
+}
+
+/// A file that was read for it.
+pub(super) struct Kept {
+    pub stamp: Stamp,
+    pub form: Result<Form, String>,
+}
+
+/// A drawing that is larger is not read beside a program, bytes.
+const LARGEST: u64 = 256 * 1024 * 1024;
+
+#[derive(Default)]
+pub(super) struct Links {
+    /// Open documents by their files.
+    pub paths: FxHashMap<PathBuf, Arc<str>>,
+    /// Open programs by their drawings.
+    pub programs: FxHashMap<PathBuf, BTreeSet<Arc<str>>>,
+    /// Files that are not open.
+    pub files: FxHashMap<PathBuf, Kept>,
+}
+
+impl Wanted {
+    /// True where nothing has to be read for it.
+    pub fn is_at_hand(&self) -> bool {
+        let known = |(_, from): &(_, From)| matches!(from, From::Known(_));
+        self.partners.iter().all(known)
+    }
+
+    /// What is laid beside the document, and the files that were read for it.
+    pub fn read(self) -> (Beside, Vec<(PathBuf, Kept)>) {
+        let mut read = Vec::new();
+        let mut forms = Vec::with_capacity(self.partners.len());
+        for (name, from) in self.partners {
+            let form = match from {
+                From::Known(form) => form,
+                From::File {
+                    path,
+                    stamp,
+                    settings,
+                } => {
+                    let form = form_of_file(&path, &settings);
+                    let kept = Kept {
+                        stamp,
+                        form: form.clone(),
+                    };
+                    read.push((path, kept));
+                    form
+                }
+            };
+            forms.push((name, form));
+        }
+        let drawn = |(name, form): (Arc<str>, Result<Form, String>)| {
+            let made = form.and_then(|form| match form {
+                Form::Drawn(drawn) => Ok(drawn),
+                Form::Traced(_) => Err(say!(a_program_is_no_drawing).into()),
+            });
+            Partner { name, made }
+        };
+        let traced = |(name, form): (Arc<str>, Result<Form, String>)| {
+            let made = form.and_then(|form| match form {
+                Form::Traced(traced) => Ok(traced),
+                Form::Drawn(_) => Err(say!(a_drawing_is_no_program).into()),
+            });
+            Partner { name, made }
+        };
+        let beside = if self.is_program {
+            let first = forms.into_iter().next();
+            first.map_or(Beside::Nothing, |form| {
+                Beside::Drawing(drawn(form), self.others)
+            })
+        } else if forms.is_empty() {
+            Beside::Nothing
+        } else {
+            Beside::Programs(forms.into_iter().map(traced).collect())
+        };
+        (beside, read)
+    }
+}
+
+/// Reads a file that is not open.
+fn form_of_file(path: &Path, settings: &Arc<Effective>) -> Result<Form, String> {
+    let file = std::fs::File::open(path).map_err(|error| disk::plain(&error))?;
+    let bytes = disk::read_at_most(&file, LARGEST)?;
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    let language = Language::of_ending(&ending.to_ascii_lowercase());
+    let form = catch_unwind(AssertUnwindSafe(|| {
+        let source = match language {
+            Some(language) => Source::Program(program::Document::read(language, bytes, settings)),
+            None => Source::Dxf(dxf::Document::read_file(bytes)),
+        };
+        Form::of(&Document::new(source, settings.clone()))
+    }));
+    let form = form.ok().flatten();
+    form.ok_or_else(|| say!(internal_error_the_document_could_not_be_judged).into())
+}
+
+pub(super) fn stamp_of(path: &Path) -> Stamp {
+    let metadata = std::fs::metadata(path).ok()?;
+    Some((metadata.modified().ok()?, metadata.len()))
+}
