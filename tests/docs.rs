@@ -241,7 +241,7 @@ fn the_list_of_rules_in_chinese_is_the_english_one() {
         let row = english
             .lines()
             .find(|line| line.starts_with(&format!("| [{name}](")))
-            .unwrap();
+            .unwrap_or_else(|| panic!("docs/rules/README.md does not list {name} yet"));
         let dots = row.rsplitn(5, " |").collect::<Vec<_>>();
         let dots: String = dots[..4]
             .iter()
@@ -597,7 +597,15 @@ fn the_page_of_settings_shows_the_default_of_every_rule() {
     let row = |rule: Rule| {
         let default = format!("{:?}", rule.default_severity()).to_lowercase();
         let on_page = severity_on_page(rule);
-        let note = on_page[default.len()..].trim_start_matches([',', ';', ' ']);
+        let note = on_page
+            .strip_prefix(&default)
+            .unwrap_or_else(|| {
+                panic!(
+                    "docs/rules/{}.md says {on_page}, not {default}",
+                    rule.name()
+                )
+            })
+            .trim_start_matches([',', ';', ' ']);
         let row = format!("# {} = \"{default}\"", rule.name());
         match note {
             "" => format!("{row}\n"),

@@ -58,11 +58,7 @@ struct CommandLine {
 
 /// The tag of a language, and what editors and environments call it besides.
 fn tag(language: Language) -> PossibleValue {
-    let others: &[&str] = match language {
-        Language::English => &["en-US", "en_US", "en-GB", "en_GB"],
-        Language::Chinese => &["zh-CN", "zh_CN", "zh-cn", "zh-Hans", "zh_CN.UTF-8"],
-    };
-    PossibleValue::new(language.tag()).aliases(others)
+    PossibleValue::new(language.tag()).aliases(language.aliases())
 }
 
 const EXAMPLES: &str = "\

@@ -24,6 +24,14 @@ impl Language {
         }
     }
 
+    /// What `--lang` takes beside its tag.
+    pub(crate) fn aliases(self) -> &'static [&'static str] {
+        match self {
+            Language::English => &["en-US", "en_US", "en-GB", "en_GB"],
+            Language::Chinese => &["zh-CN", "zh_CN", "zh-cn", "zh-Hans", "zh_CN.UTF-8"],
+        }
+    }
+
     /// The language of a tag, whatever its region and encoding: `en`, `en-GB` of a client, `en_US.UTF-8` of an environment; `C` and
     /// `POSIX` are English. `None` for one that is not spoken here.
     pub(crate) fn of(tag: &str) -> Option<Language> {

@@ -13,6 +13,7 @@ use super::plain::{plain, word_at};
 use super::repair::{is_trouble, line_of};
 use super::style::Style;
 use crate::finding::{Detail, Fault, Finding, FixKind, Place as Where, Rule, TextFix};
+use crate::program::path::tolerance;
 use crate::program::repair::{merged, offered};
 use crate::text::TextEdit;
 use centers::center_fixes;
@@ -207,7 +208,7 @@ fn spur_fix(document: &Document, back: usize) -> Option<TextFix> {
         moved: behind.moved,
         ..before
     } == behind;
-    if distance(before.at, behind.at) > SPUR_CLOSED || !is_plain {
+    if !have_met(before.at, behind.at) || !is_plain {
         return None;
     }
     let shown = |line: usize| {
@@ -227,11 +228,13 @@ fn spur_fix(document: &Document, back: usize) -> Option<TextFix> {
     ))
 }
 
+/// Ends of lines this near each other are one.
+pub(super) fn have_met(one: Place, other: Place) -> bool {
+    distance(one, other) / 1e3 <= tolerance(0)
+}
+
 /// Lines before the way back of a spur in which its way out is looked for.
 const SPUR_REACH: usize = 16;
-
-/// Ends of a spur this near each other are one, nm.
-const SPUR_CLOSED: f64 = 2_000.0;
 
 /// The line before which G40 belongs: the last straight cut before the end, where it leads back to where the cut began.
 fn way_out(document: &Document, end: usize) -> Option<usize> {
@@ -240,8 +243,7 @@ fn way_out(document: &Document, end: usize) -> Option<usize> {
         .take(SPUR_REACH)
         .find(|line| document.block(*line).has_coordinates())?;
     let begun = document.begun_cut_with(last)?;
-    let is_out =
-        begun.last.motion == Motion::Line && distance(begun.last.to, begun.from) <= SPUR_CLOSED;
+    let is_out = begun.last.motion == Motion::Line && have_met(begun.last.to, begun.from);
     Some(if is_out { last } else { end })
 }
 

@@ -5,6 +5,7 @@ mod text;
 use super::block::{Code, Motion};
 use super::cut::Cut;
 use super::document::{Document, Table};
+use super::fixes::have_met;
 use super::limits::Limits;
 use super::machine::{Course, Move, Place as Spot, Reading, apart, distance, micrometres};
 use super::plain::word_at;
@@ -28,9 +29,6 @@ const SWITCH_REACH: usize = 1_000;
 
 /// Of more spurs it is not asked whether they are ways out and in again.
 const MOST_SPURS: usize = 32;
-
-/// Places this near each other are one, nm.
-const MET: f64 = 2_000.0;
 
 impl Document {
     /// What is wrong in the program, in the order of the text.
@@ -218,7 +216,7 @@ impl<'a> Report<'a> {
             let is_lead = |finding: &Finding| {
                 let line = line_of(document, finding)?;
                 let tip = document.machine_before(line)?.at;
-                Some(distance(document.begun_cut_with(line)?.from, tip) <= MET)
+                Some(have_met(document.begun_cut_with(line)?.from, tip))
             };
             self.findings
                 .retain(|finding| finding.rule != Rule::Spur || is_lead(finding) != Some(true));

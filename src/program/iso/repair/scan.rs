@@ -7,10 +7,7 @@ use crate::program::iso::machine::{
     Bend, Course, Machine, Move, Place, Reading, added, apart, distance,
 };
 use crate::program::iso::shape::directions;
-use crate::program::path::turn;
-
-/// Ends within this, and what arcs add, have met, nm.
-const CLOSED: f64 = 2_000.0;
+use crate::program::path::{tolerance, turn};
 
 /// A line of a cut.
 #[derive(Clone, Debug)]
@@ -439,7 +436,7 @@ fn closing(cut: &Cut, from: Place, to: Place, reading: &Reading) -> Against {
         .take(taken)
         .map(|(begin, end)| distance(begin, end))
         .fold(f64::INFINITY, f64::min);
-    let tolerance = (CLOSED + 1_000.0 * f64::from(cut.arcs).sqrt()).max(reading.tolerance as f64);
+    let tolerance = (1_000.0 * tolerance(cut.arcs as usize)).max(reading.tolerance as f64);
     if missed > tolerance {
         return Against {
             hard: 1,

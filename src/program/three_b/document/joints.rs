@@ -14,9 +14,6 @@ use std::ops::Range;
 /// Blocks on either side of the end of a stretch that tell its joints.
 const REACH: usize = 3;
 
-/// A spur whose two blocks lead this near to where it began goes without a trace, µm.
-const CLOSED: f64 = 2.0;
-
 impl Document {
     /// The joints about the ends of stretches.
     pub(super) fn judge_joints(&self, view: &mut View) {
@@ -157,7 +154,7 @@ impl Document {
             found: found.join(say!(and)),
             meant: String::new(),
         };
-        both.is_within(CLOSED)
+        both.is_within(tolerance(0))
             .then(|| vec![TextFix::text(kind, false, edit)])
     }
 }
