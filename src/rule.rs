@@ -119,6 +119,7 @@ rules! {
     SideChange "side-change" Error the_correction_changes_its_side_within_a_cut Iso;
     MissingCancel "missing-cancel" Warning the_correction_is_still_on_at_the_end Iso;
     MissingReturn "missing-return" Error a_subprogram_without_its_return Iso;
+    Taper "taper" Error an_arc_has_no_room_for_a_wire_that_leans Iso;
     CornerWord "corner-word" Error the_word_for_a_corner_finds_none Iso;
     MixedNumbers "mixed-numbers" Warning numbers_with_and_without_a_decimal_point Iso;
     SuspectBlock "suspect-block" Warning a_block_that_may_be_wrong ThreeB FourB Iso;

@@ -133,6 +133,10 @@ fn row(text: &mut String, block: &SimulatedBlock) {
     if let (Some(radius), Some(sweep)) = (block.radius, block.sweep) {
         let _ = write!(text, "  R {:.3} mm, {sweep:+.3}°", mm(radius));
     }
+    if let Some(upper) = block.upper_end {
+        text.push_str("  ");
+        text.push_str(&say!(upper_end_at, mm(upper.0), mm(upper.1)));
+    }
     if let Some(ideal) = block.ideal_end.filter(|_| block.deviation > SHOWN) {
         let meant = say!(meant_elsewhere, mm(ideal.0), mm(ideal.1), block.deviation);
         let meant = format!("  {meant}");

@@ -35,6 +35,9 @@ pub(crate) fn program_svg(
     let moving: Vec<&Step> = trace.steps.iter().filter(|step| step.moves()).collect();
     let title = titled(name, say!(path_of_the_wire));
     let mut entries = vec![(WIRE, say!(the_wire)), (THREAD, say!(start_of_a_contour))];
+    if trace.upper.iter().any(|pieces| !pieces.is_empty()) {
+        entries.push((UPPER, say!(the_upper_end)));
+    }
     if moving.iter().any(|step| step.kind == Kind::Rapid) {
         entries.push((JUMP, say!(the_jump)));
     }
@@ -52,6 +55,8 @@ pub(crate) fn program_svg(
     ];
     let alert = alert(faults);
     let alert = alert.as_ref().map(|(class, text)| (*class, text.as_str()));
+    let unknown = trace.upper_unknown.as_deref();
+    let facts: Vec<&str> = facts.iter().map(String::as_str).chain(unknown).collect();
     sheet.heading(&title, &facts.join(" · "), alert);
     sheet.line(format_args!("{}", frame.opening_of_drawing(1.0)));
     let per_path = moving.len().div_ceil(MOST_BLOCKS).max(1);
@@ -59,6 +64,10 @@ pub(crate) fn program_svg(
         for steps in steps.chunks(per_path) {
             path(&mut sheet, &frame, steps, &by_line);
         }
+    }
+    let leaning: Vec<Leaning> = moving.iter().zip(&trace.upper).collect();
+    for run in leaning.chunk_by(leans_on) {
+        upper_path(&mut sheet, &frame, run);
     }
     thread_holes(&mut sheet, &frame, &moving);
     sheet.line(format_args!("</g>"));
@@ -76,17 +85,41 @@ fn mm(point: Point) -> Point {
     point / 1000.0
 }
 
+const UPPER: &str = r#"<path class="upper" d="M0 0h24"/>"#;
+
+/// A move with where the wire's upper end goes.
+type Leaning<'a> = (&'a &'a Step, &'a Vec<Segment>);
+
+/// Both lean, in one contour.
+fn leans_on(a: &Leaning, b: &Leaning) -> bool {
+    !a.1.is_empty() && !b.1.is_empty() && a.0.contour == b.0.contour
+}
+
+/// The way of the wire's upper end along some moves that follow each other.
+fn upper_path(sheet: &mut Sheet, frame: &Frame, run: &[Leaning]) {
+    let pieces = run.iter().flat_map(|(_, pieces)| pieces.iter());
+    let data = path_data(frame, pieces.map(|piece| scaled(*piece)), false);
+    if !data.is_empty() {
+        sheet.path(r#"class="upper""#, &data, say!(the_upper_end));
+    }
+}
+
 fn in_mm(step: &Step) -> Segment {
-    match step.ideal {
-        Some(Segment::Arc(arc)) => Segment::Arc(Arc {
+    let chord = Segment::line(step.start, step.end);
+    scaled(step.ideal.unwrap_or(chord))
+}
+
+/// µm to mm.
+fn scaled(segment: Segment) -> Segment {
+    match segment {
+        Segment::Arc(arc) => Segment::Arc(Arc {
             center: mm(arc.center),
             radius: arc.radius / 1000.0,
             start: mm(arc.start),
             end: mm(arc.end),
             ..arc
         }),
-        Some(Segment::Line(line)) => Segment::line(mm(line.start), mm(line.end)),
-        None => Segment::line(mm(step.start), mm(step.end)),
+        Segment::Line(line) => Segment::line(mm(line.start), mm(line.end)),
     }
 }
 

@@ -23,6 +23,7 @@ text{font-family:system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif;f
 .contour{stroke:#24292f;stroke-width:1.4}
 .aside{stroke:#afb8c1;stroke-width:1}
 .wire{stroke:#0969da;stroke-width:1.4}
+.upper{fill:none;stroke:#8250df;stroke-width:1.2}
 .kerf{fill:none;stroke:#cfe4fb;stroke-linecap:round;stroke-linejoin:round}
 .lost{fill:#f2a33a}
 .lead{stroke:#0969da;stroke-width:1.2;stroke-dasharray:5 4}
@@ -54,6 +55,7 @@ text{fill:#e6edf3}
 .contour{stroke:#e6edf3}
 .aside{stroke:#484f58}
 .wire,.lead{stroke:#58a6ff}
+.upper{stroke:#bc8cff}
 .kerf{stroke:#14365c}
 .lost{fill:#9e6a03}
 .jump,.correction{stroke:#9da7b3}

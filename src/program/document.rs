@@ -156,7 +156,23 @@ impl Document {
 
     /// Where the machine goes, block by block.
     pub fn trace(&self) -> Trace {
-        steps::trace(self.program())
+        let trace = steps::trace(self.program());
+        let taper = match self {
+            Document::ThreeB(_) => None,
+            Document::Iso(document) => document.taper(),
+        };
+        let Some(taper) = taper else {
+            return trace;
+        };
+        let unknown = taper.unknown.map(|unknown| match unknown {
+            iso::Unknown::Angle(line) => say!(how_far_the_wire_leans_needs_the_angle, line + 1),
+            iso::Unknown::Height(_) => say!(how_far_the_wire_leans_needs_the_height).to_owned(),
+        });
+        Trace {
+            upper: taper.upper,
+            upper_unknown: unknown,
+            ..trace
+        }
     }
 
     /// The moves between two stops of which one touches a byte, by their ends, and the number of that one among them. Of two that

@@ -61,6 +61,7 @@ pub(crate) fn trace(program: &dyn Program) -> Trace {
         start,
         start_is_known,
         writing: program.writing(),
+        ..Trace::default()
     };
     let mut contour = 0;
     for chunk in 0..program.chunk_count() {

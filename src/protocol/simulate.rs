@@ -55,6 +55,9 @@ pub(crate) struct SimulatedBlock {
     pub(crate) sweep: Option<f64>,
     /// Index of the contour; a pause is between two of them.
     pub(crate) contour: usize,
+    /// Where the wire's upper end stands behind the block; not there where that is where the machine stops.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) upper_end: Option<Point>,
 }
 
 /// A box, µm.
@@ -98,8 +101,15 @@ impl Simulation {
         let (cut, jumps) = trace.lengths();
         let (cut, jumps) = (cut / 1000.0, jumps / 1000.0);
         let length = cut + jumps;
+        let mut blocks: Vec<SimulatedBlock> = trace.steps.iter().map(SimulatedBlock::of).collect();
+        let moving = blocks.iter_mut().zip(&trace.steps);
+        let moving = moving.filter(|(_, step)| step.moves());
+        for ((block, step), upper) in moving.zip(&trace.upper) {
+            let end = upper.last().map(|last| tidy(last.end()));
+            block.upper_end = end.filter(|end| *end != tidy(step.end)).map(Point::from);
+        }
         Simulation {
-            blocks: trace.steps.iter().map(SimulatedBlock::of).collect(),
+            blocks,
             closure: Closure {
                 x: closure.x,
                 y: closure.y,
@@ -141,6 +151,7 @@ impl SimulatedBlock {
             radius: arc.map(|arc| rounded(arc.radius)),
             sweep: arc.map(|arc| arc.sweep.to_degrees()),
             contour: step.contour,
+            upper_end: None,
         }
     }
 }

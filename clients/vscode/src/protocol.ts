@@ -1370,6 +1370,10 @@ export interface SimulatedBlock {
    * Index of the contour; a pause is between two of them.
    */
   contour: number;
+  /**
+   * Where the wire's upper end stands behind the block; not there where that is where the machine stops.
+   */
+  upperEnd?: Point;
 }
 /**
  * A box, µm.

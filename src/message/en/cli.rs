@@ -164,6 +164,7 @@ declare! {
     holes_that_are_not_written(ending) => "holes are written as .csv or .dxf, not as .{ending}";
     no_holes_of_a_drawing_with(path, errors) => "{path}: no holes are listed of a drawing with {errors}";
     the_holes_are_written(heading, target, holes) => "{heading} {target}: {holes}";
+    upper_end_at(x, y) => "upper end {x:.3}, {y:.3}";
     the_cut_takes(length, minutes, cost) => "cut: {length:.3} mm in {minutes:.2} min{cost}";
     which_costs(cost) => ", which costs {cost:.2}";
     the_cut_of_a_pass_takes(contour, pass, length, minutes) => "  contour {contour}, pass {pass}: {length:.3} mm, {minutes:.2} min";

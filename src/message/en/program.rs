@@ -34,6 +34,10 @@ declare! {
     a_word_takes_the_coordinates_for_a_place_of_the_machine => "a word takes the coordinates for a place of the machine";
     words_lie_on_each_other => "words lie on each other";
     the_second_contour_behind_the_colon_is_not_followed => "the second contour behind the colon is not followed";
+    an_arc_has_no_room_for_the_taper(radius, least, angle, narrows) => "arc R {radius:.3} mm is below {least:.3} mm: under a taper of {angle:.3}° it narrows by {narrows:.3} mm up to the other plane, and the wire needs its correction beside that";
+    an_arc_narrows_to_nothing(radius, narrows, angle) => "arc R {radius:.3} mm narrows by {narrows:.3} mm under a taper of {angle:.3}°: nothing is left of it in the other plane";
+    how_far_the_wire_leans_needs_the_height => "how far the wire leans is not known: expected job.thickness to be set, or TP and TN in the program";
+    how_far_the_wire_leans_needs_the_angle(line) => "how far the wire leans is not known: line {line} says no angle (A or T)";
     a_taper_is_not_followed => "a taper (G51, G52, G140 to G142) is not followed";
     the_planes_of_a_taper_are_not_followed => "the planes of a taper (TP, TN) are not followed";
     its_begin_does_not_say_where_the_wire_stands => "its begin does not say that the wire stands at the start: expected G92 X{x} Y{y}";

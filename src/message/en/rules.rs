@@ -34,6 +34,7 @@ declare! {
     the_correction_changes_its_side_within_a_cut => "The correction changes its side within a cut";
     the_correction_is_still_on_at_the_end => "The correction is still on at the end";
     a_subprogram_without_its_return => "A subprogram without its return";
+    an_arc_has_no_room_for_a_wire_that_leans => "An arc has no room for a wire that leans";
     the_word_for_a_corner_finds_none => "The word for a corner finds none";
     numbers_with_and_without_a_decimal_point => "Numbers with and without a decimal point";
     a_block_that_may_be_wrong => "A block that may be wrong";

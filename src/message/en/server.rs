@@ -128,6 +128,7 @@ declare! {
     the_wire => "wire";
     step_in_line(number, line, what, x, y) => "{number}line {line} · {what} · to {x:.3}, {y:.3}";
     the_lead => "lead";
+    the_upper_end => "upper end of the wire";
     what_the_wire_cuts => "cut to scale";
     what_stays_uncut => "stays uncut";
     the_correction => "correction";

@@ -164,6 +164,7 @@ translate! {
     holes_that_are_not_written(ending) => "穿丝孔写为 .csv 或 .dxf，不写 .{ending}";
     no_holes_of_a_drawing_with(path, errors) => "{path}：图形有{errors}，不列出穿丝孔";
     the_holes_are_written(heading, target, holes) => "{heading} {target}：{holes}";
+    upper_end_at(x, y) => "上端 {x:.3}, {y:.3}";
     the_cut_takes(length, minutes, cost) => "切割：{length:.3} mm，{minutes:.2} min{cost}";
     which_costs(cost) => "，费用 {cost:.2}";
     the_cut_of_a_pass_takes(contour, pass, length, minutes) => "  轮廓 {contour}，第 {pass} 次：{length:.3} mm，{minutes:.2} min";

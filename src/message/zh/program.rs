@@ -34,6 +34,10 @@ translate! {
     a_word_takes_the_coordinates_for_a_place_of_the_machine => "有代码把坐标当作机床位置";
     words_lie_on_each_other => "代码相互重叠";
     the_second_contour_behind_the_colon_is_not_followed => "冒号后的第二个轮廓不支持";
+    an_arc_has_no_room_for_the_taper(radius, least, angle, narrows) => "圆弧 R {radius:.3} mm 小于 {least:.3} mm：锥度 {angle:.3}° 使它到另一平面缩小 {narrows:.3} mm，此外还要留出补偿量";
+    an_arc_narrows_to_nothing(radius, narrows, angle) => "圆弧 R {radius:.3} mm 在锥度 {angle:.3}° 下缩小 {narrows:.3} mm：到另一平面已不存在";
+    how_far_the_wire_leans_needs_the_height => "不知道丝倾斜多少：请设 job.thickness，或在程序中写 TP 和 TN";
+    how_far_the_wire_leans_needs_the_angle(line) => "不知道丝倾斜多少：第 {line} 行没有角度（A 或 T）";
     a_taper_is_not_followed => "锥度（G51、G52、G140 到 G142）不支持";
     the_planes_of_a_taper_are_not_followed => "锥度的平面（TP、TN）不支持";
     its_begin_does_not_say_where_the_wire_stands => "begin 没有说明丝在起点：应有 G92 X{x} Y{y}";

@@ -34,6 +34,7 @@ translate! {
     the_correction_changes_its_side_within_a_cut => "切割中途改变补偿方向";
     the_correction_is_still_on_at_the_end => "程序结束时补偿未取消";
     a_subprogram_without_its_return => "子程序没有返回";
+    an_arc_has_no_room_for_a_wire_that_leans => "圆弧太小，倾斜的丝过不去";
     the_word_for_a_corner_finds_none => "拐角指令找不到拐角";
     numbers_with_and_without_a_decimal_point => "有的数带小数点，有的不带";
     a_block_that_may_be_wrong => "程序段可能有错";

@@ -128,6 +128,7 @@ translate! {
     the_wire => "电极丝";
     step_in_line(number, line, what, x, y) => "{number}第 {line} 行 · {what} · 到 {x:.3}, {y:.3}";
     the_lead => "引线";
+    the_upper_end => "丝的上端";
     what_the_wire_cuts => "切缝（按比例）";
     what_stays_uncut => "未切除";
     the_correction => "补偿量";

@@ -184,6 +184,10 @@ pub struct Code(u32);
 impl Code {
     const NAME: Code = Code(0);
     const SKIP: Code = Code(1);
+    /// What stands behind a colon.
+    const SECOND: Code = Code(2);
+    /// TP and TN.
+    const PLANE: Code = Code(3);
 
     fn of(letter: u8, number: Number) -> Code {
         let tenths = match (letter, number.decimals) {
@@ -192,6 +196,24 @@ impl Code {
             _ => 0,
         };
         Code(u32::from(letter) << 16 | (tenths.unsigned_abs().min(0xffff) as u32))
+    }
+
+    /// It is followed where it is known how the wire leans. T says many things besides.
+    pub(super) fn is_of_taper(self) -> bool {
+        let (letter, tenths) = ((self.0 >> 16) as u8, self.0 & 0xffff);
+        self.tilts()
+            || self == Code::PLANE
+            || letter == b'A'
+            || letter == b'G' && matches!(tenths, 500 | 1400)
+    }
+
+    /// The wire may lean because of it: G51, G52, G141, G142, U, V, and a second contour.
+    pub(super) fn tilts(self) -> bool {
+        match ((self.0 >> 16) as u8, self.0 & 0xffff) {
+            (b'G', tenths) => matches!(tenths, 510 | 520 | 1410 | 1420),
+            (b'U' | b'V', _) => true,
+            _ => self == Code::SECOND,
+        }
     }
 }
 
@@ -310,10 +332,14 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
                 && line
                     .get(range.start - offset)
                     .is_some_and(|byte| b"XYIJRxyijr".contains(byte));
-            note(Note::Foreign {
-                code: Code::NAME,
-                range,
-            });
+            let code = match line.get(range.start - offset) {
+                Some(b':') => Code::SECOND,
+                Some(b'T' | b't') if range.len() > 2 && is_plane(line, range.start - offset) => {
+                    Code::PLANE
+                }
+                _ => Code::NAME,
+            };
+            note(Note::Foreign { code, range });
         }
         Token::Skip { range } => note(Note::Foreign {
             code: Code::SKIP,
@@ -338,6 +364,12 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
         });
     }
     block
+}
+
+/// `TP0.0` or `TN20.0` stands there.
+fn is_plane(line: &[u8], at: usize) -> bool {
+    let behind = line.get(at + 1..).unwrap_or_default();
+    matches!(behind, [b'P' | b'p' | b'N' | b'n', next, ..] if !next.is_ascii_alphabetic())
 }
 
 fn index(number: Number) -> u32 {

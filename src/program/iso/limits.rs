@@ -11,6 +11,8 @@ use std::sync::{Arc, LazyLock};
 pub(crate) struct Limits {
     /// mm, where the program's own table does not say.
     pub(crate) correction: f64,
+    /// Height of the workpiece, mm.
+    pub(crate) thickness: Option<f64>,
     pub(crate) side: crate::settings::SideSetting,
     pub(crate) compensation: crate::settings::Compensation,
     /// The word that ends a program of the settings' profile.
@@ -30,6 +32,7 @@ impl Limits {
     pub(crate) fn of(settings: &Effective) -> Limits {
         Limits {
             correction: settings.correction,
+            thickness: settings.job.thickness,
             side: settings.side,
             compensation: settings.compensation,
             end: end_word(settings),

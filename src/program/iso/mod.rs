@@ -34,6 +34,7 @@ mod table;
 mod taper;
 #[cfg(test)]
 mod tests;
+mod tilt;
 pub(crate) mod word;
 mod write;
 
@@ -44,6 +45,7 @@ pub(crate) use numbers::renamed;
 pub(in crate::program) use taper::{Words as TaperWords, refuse_anywhere as refuse_taper};
 
 pub(crate) use plain::words;
+pub(in crate::program) use tilt::Unknown;
 pub(crate) use word::Token;
 pub use write::write;
 pub(crate) use write::write_with;

@@ -2,17 +2,18 @@
 
 mod text;
 
-use super::block::{Code, Motion};
+use super::block::{Code, Motion, Offset};
 use super::cut::Cut;
 use super::document::{Document, Table};
 use super::fixes::have_met;
 use super::limits::Limits;
-use super::machine::{Course, Move, Place as Spot, Reading, apart, distance, micrometres};
+use super::machine::{Course, Place as Spot, Reading, apart, distance, micrometres};
 use super::plain::word_at;
 use super::repair::found::Repair;
 use super::repair::{is_trouble, line_of};
 use super::run::{Run, RunSide, Tight};
 use super::stretch::{Placed, Stretch};
+use super::tilt::{TiltedArc, Unknown};
 use crate::finding::{Detail, Fault, Finding, NoFix, Place, Rule, Severity, Side, SmallRadius};
 use crate::geometry::cross;
 use crate::program::path::{UM_IN_MM, is_tight, not_closed, tolerance};
@@ -67,6 +68,7 @@ impl Document {
             report.judge(cut);
         }
         report.findings.extend(self.crossings().findings(self));
+        report.taper();
         report.definitions();
         report.bare_numbers();
         report.odd_places();
@@ -434,7 +436,7 @@ impl<'a> Report<'a> {
                     _ => side_of_center,
                 },
             };
-            let required = self.correction(step);
+            let required = self.correction(step.offset);
             if wire_side == side_of_center
                 && is_tight(*radius, required)
                 && let Course::Arc(arc) = step.course(self.reading)
@@ -449,6 +451,49 @@ impl<'a> Report<'a> {
         }
     }
 
+    /// Arcs that have no room for a wire that leans, or none left in the other plane.
+    fn taper(&mut self) {
+        let Some(taper) = self.document.taper() else {
+            return;
+        };
+        if let Some(Unknown::Height(line)) = taper.unknown {
+            let fault = Fault::said(Rule::Taper, say!(how_far_the_wire_leans_needs_the_height));
+            self.add_as(Severity::Information, self.document.words_of(line), fault);
+        }
+        for arc in &taper.arcs {
+            let TiltedArc {
+                line,
+                radius,
+                narrows,
+                is_inside,
+                ..
+            } = *arc;
+            let correction = self.correction(arc.offset);
+            let least = arc.least(correction);
+            // That it is below the correction is said of it anyway.
+            if !is_tight(radius, least) || is_inside && is_tight(radius, correction) {
+                continue;
+            }
+            let [radius, least, narrows] =
+                [radius, least, narrows.max(0.0)].map(|um| um / UM_IN_MM);
+            let angle = arc.angle.to_degrees();
+            let sentence = match is_inside {
+                true => say!(
+                    an_arc_has_no_room_for_the_taper,
+                    radius,
+                    least,
+                    angle,
+                    narrows
+                ),
+                false => say!(an_arc_narrows_to_nothing, radius, narrows, angle),
+            };
+            self.add(
+                self.document.words_of(line),
+                Fault::said(Rule::Taper, sentence),
+            );
+        }
+    }
+
     /// The largest correction that a move may have, µm.
     fn largest_correction(&self) -> f64 {
         let stated = self
@@ -458,9 +503,9 @@ impl<'a> Report<'a> {
         stated.fold(self.limits.correction * 1e3, f64::max)
     }
 
-    /// The correction of a move in µm: what the program's own table says, else the settings.
-    fn correction(&self, step: &Move) -> f64 {
-        let stated = step.offset.and_then(|offset| self.definitions.get(&offset));
+    /// The correction in a place of the control's table, µm: what the program's own table says, else the settings.
+    fn correction(&self, offset: Option<Offset>) -> f64 {
+        let stated = offset.and_then(|offset| self.definitions.get(&offset));
         stated.map_or(self.limits.correction * 1e3, |&value| {
             (value as f64 / 1e3).abs()
         })

@@ -26,19 +26,19 @@ pub(crate) struct Begun {
 }
 
 /// A line that runs, and what it does.
-struct Ran<'a> {
-    line: usize,
+pub(super) struct Ran<'a> {
+    pub(super) line: usize,
     /// Its words, bytes of the text.
     words: Range<usize>,
     block: &'a Block,
     /// Its move, and the corner that the control makes at its end.
     made: [Option<Move>; 2],
     /// Behind it.
-    machine: &'a Machine,
+    pub(super) machine: &'a Machine,
 }
 
 impl Ran<'_> {
-    fn moves(&self) -> impl Iterator<Item = Move> {
+    pub(super) fn moves(&self) -> impl Iterator<Item = Move> {
         self.made.into_iter().flatten()
     }
 
@@ -55,7 +55,7 @@ impl Document {
     }
 
     /// Hands out the lines of a stretch that run.
-    fn run_lines(&self, stretch: usize, each: &mut dyn FnMut(&Ran<'_>)) {
+    pub(super) fn run_lines(&self, stretch: usize, each: &mut dyn FnMut(&Ran<'_>)) {
         let Some(placed) = self.placed_at(stretch) else {
             return;
         };

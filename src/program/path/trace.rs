@@ -81,6 +81,11 @@ pub struct Trace {
     pub(crate) start_is_known: bool,
     /// How it says where its blocks lead.
     pub(crate) writing: Writing,
+    /// Of each step that moves, where the wire's upper end goes, µm; nothing where it goes where the lower one goes. Empty where the wire
+    /// stands upright in the whole program.
+    pub upper: Vec<Vec<Segment>>,
+    /// Why it is not known where the upper end goes.
+    pub(crate) upper_unknown: Option<String>,
 }
 
 impl Trace {
@@ -130,6 +135,9 @@ impl Trace {
             if let Some(ideal) = &step.ideal {
                 bounds.merge(&ideal.bounds());
             }
+        }
+        for piece in self.upper.iter().flatten() {
+            bounds.merge(&piece.bounds());
         }
         bounds.min.x.is_finite().then_some(bounds)
     }

@@ -502,6 +502,8 @@ class SimulatedBlock(Value):
     center: Point | None = None
     radius: float | None = None
     sweep: float | None = None
+    # Of the wire where it leans.
+    upper_end: Point | None = None
 
 
 @dataclass(frozen=True)

@@ -30,7 +30,12 @@ const THINNEST: i64 = 14_000;
 impl Report<'_> {
     pub(super) fn foreign_words(&mut self) {
         let mut words = std::mem::take(&mut self.foreign);
-        words.retain(|code, _| !self.limits.known.contains(code));
+        let taper = self.document.taper();
+        let is_followed = taper.is_some_and(|taper| taper.unknown.is_none());
+        words.retain(|code, _| {
+            let is_explained = is_followed && code.is_of_taper();
+            !is_explained && !self.limits.known.contains(code)
+        });
         let mut words: Vec<_> = words.into_values().collect();
         words.sort_by_key(|(range, _)| range.start);
         for (range, count) in words {
