@@ -14,6 +14,8 @@ export interface Asking {
 export class Cards {
   readonly #card = element("card", HTMLElement);
   #asking: Asking | null = null;
+  /** The contour whose card is open. */
+  #open: Contour | null = null;
 
   constructor(
     /** Shows what a repair would bring; null for nothing. */
@@ -35,14 +37,27 @@ export class Cards {
     return this.#asking;
   }
 
+  /** Another picture: the card of a contour stays with what is said of it now, that of a finding goes. */
+  refresh(contours: readonly Contour[], keeps: boolean): void {
+    const name = this.#open?.handles[0];
+    const contour = contours.find(({ handles }) => name !== undefined && handles.includes(name));
+    if (contour === undefined) {
+      this.close();
+    } else if (this.#asking === null) {
+      this.showContour(contour, keeps);
+    }
+  }
+
   close(): void {
+    this.#open = null;
     this.#ask(null);
     this.ghost(null);
     this.#card.hidden = true;
     this.#card.replaceChildren();
   }
 
-  showFault(fault: Fault, { fault: index, why, repairs }: Card): void {
+  showFault(fault: Fault, { fault: index, why, repairs }: Card, contour: Contour | undefined, keeps: boolean): void {
+    this.#open = null;
     this.#ask(null);
     this.ghost(repairs[0] ?? null);
     const buttons = repairs.map((repair, which) => {
@@ -61,10 +76,19 @@ export class Cards {
       host.postMessage({ type: "explain", rule: fault.rule });
     });
     const heading = made("h2", fault.message, fault.severity);
-    this.#show(heading, made("p", why, "why"), ...buttons, explain);
+    const links = [explain];
+    if (contour !== undefined) {
+      const lead = made("button", t("Contour {0}", contour.number), "link");
+      lead.addEventListener("click", () => {
+        this.showContour(contour, keeps);
+      });
+      links.push(lead);
+    }
+    this.#show(heading, made("p", why, "why"), ...buttons, ...links);
   }
 
   showContour(contour: Contour, keeps: boolean): void {
+    this.#open = contour;
     this.#ask(null);
     this.ghost(null);
     const shape = contour.closed ? t("closed") : t("open");

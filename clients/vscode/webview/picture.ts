@@ -81,7 +81,7 @@ function showCardOf(handle: string, segment: number | null): void {
   if (shown?.isEditor !== true) {
     return;
   }
-  const of = shown.faults.findIndex((fault) => fault.handle === handle && (segment === null || fault.segment === segment));
+  const of = shown.faults.findIndex((fault) => fault.handle === handle && fault.segment === segment && ["error", "warning"].includes(fault.severity));
   const contour = shown.contours.find(({ handles }) => handles.includes(handle));
   if (of >= 0 && segment !== null) {
     host.postMessage({ type: "fault", fault: of });
@@ -134,8 +134,10 @@ function show(message: Shown): void {
   const place = element("alert", HTMLElement);
   place.textContent = place.title = alert;
   place.className = severity;
-  trouble("");
-  cards.close();
+  if (cards.asking === null) {
+    trouble("");
+  }
+  cards.refresh(same ? message.contours : [], message.keeps);
 }
 
 function trouble(message: string, stale = true): void {
@@ -178,7 +180,8 @@ window.addEventListener("message", ({ data }: MessageEvent<ToPage>) => {
     case "card": {
       const fault = shown?.faults[data.card.fault];
       if (fault !== undefined) {
-        cards.showFault(fault, data.card);
+        const contour = shown?.contours.find(({ handles }) => fault.handle !== undefined && handles.includes(fault.handle));
+        cards.showFault(fault, data.card, contour, shown?.keeps === true);
       }
       break;
     }

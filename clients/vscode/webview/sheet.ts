@@ -101,7 +101,9 @@ export class Sheet {
     }
     const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
     path.classList.add("ghost");
-    path.setAttribute("d", segments.map((segment) => this.#dataOf(segment)).join(""));
+    // The neighbours of an arc that is replaced become shorter: that is no news.
+    const arcs = segments.filter(({ radius }) => radius !== undefined);
+    path.setAttribute("d", (arcs.length > 0 ? arcs : segments).map((segment) => this.#dataOf(segment)).join(""));
     this.drawing.append(path);
     this.#ghost = path;
     return path;
