@@ -296,6 +296,8 @@ REFUSALS = [
     ("wedm/contours", {"uri": PROGRAM}, -32803, "is a program, expected a drawing"),
     ("wedm/picture", {"uri": CAD, "options": {"correction": "wide"}}, -32602, "correction"),
     ("wedm/picture", {"uri": CAD, "options": {"nosuch": 1}}, -32602, "nosuch"),
+    ("wedm/export", {"uri": CAD, "format": "jpg"}, -32602, "jpg"),
+    ("wedm/repairs", {"uri": PROGRAM, "rule": "small-radius", "handle": "2A"}, -32803, ""),
     ("wedm/fit", {"uri": CAD}, -32803, "expected pair.drawn-as, pair.clearance, wire-diameter and gap to be set"),
     ("wedm/fit", {"uri": CAD, "options": {"pair": {"clearance": 0.01, "drawnAs": "punch"}}}, -32602, "expected wire-diameter and gap beside it"),
     ("wedm/pair", {"uri": DXF, "format": "3b", "options": PAIR}, -32803, "error"),

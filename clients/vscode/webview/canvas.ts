@@ -65,7 +65,7 @@ export class Canvas {
 
   /** Takes the elements of a drawing out of the tree. False where they are few. */
   take(drawing: SVGGElement): boolean {
-    const elements = [...drawing.querySelectorAll<SVGGraphicsElement>(":scope > path, :scope > circle, :scope > g.thread, :scope > g.turned, :scope > text")];
+    const elements = [...drawing.querySelectorAll<SVGGraphicsElement>(":scope > path, :scope > rect, :scope > circle, :scope > g.thread, :scope > g.turned, :scope > text")];
     this.#items = [];
     this.#threads = [];
     this.#lastView = null;
@@ -99,6 +99,15 @@ export class Canvas {
     } else if (element.tagName === "circle" && kind !== undefined && !element.classList.contains("fine")) {
       const { x, y } = at(attribute("cx"), attribute("cy"));
       this.#items.push({ element, path: new Path2D(), box: { x, y, width: 0, height: 0 }, kind, width: 0 });
+    } else if (element.tagName === "rect" && kind !== undefined) {
+      const [left, low, width, height] = [attribute("x"), attribute("y"), attribute("width"), attribute("height")];
+      const own = new Path2D();
+      own.roundRect(left, low, width, height, attribute("rx"));
+      const path = new Path2D();
+      path.addPath(own, this.#matrix);
+      const [from, to] = [at(left, low), at(left + width, low + height)];
+      const box = { x: Math.min(from.x, to.x), y: Math.min(from.y, to.y), width: Math.abs(from.x - to.x), height: Math.abs(from.y - to.y) };
+      this.#items.push({ element, path, box, kind, width: 0 });
     } else if (element.tagName === "path" && kind !== undefined) {
       const data = element.getAttribute("d") ?? "";
       const path = new Path2D();
