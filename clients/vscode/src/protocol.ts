@@ -1259,7 +1259,8 @@ export interface FindingData {
    */
   at?: Point;
   /**
-   * Width of a slot, distance of two ends, deviation of chords from their circle, or the clearance left between two parts.
+   * Width of a slot, distance of two ends, deviation of chords from their circle, the clearance left between two parts, or how far a
+   * program is beside its drawing.
    */
   distance?: number;
   length?: number;
