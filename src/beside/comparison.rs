@@ -45,6 +45,8 @@ pub struct Comparison {
 const OTHER: f64 = 0.34;
 /// As many differences as this are one change each, whatever their share.
 const FEW: usize = 6;
+/// Several blocks that are off by no more are how a program was rounded, µm: short arcs of 3B end where the machine's counting lets them.
+const ROUNDINGS: f64 = 4.0;
 /// Corrections that are found for further passes, at most.
 const FURTHER: usize = 4;
 
@@ -295,9 +297,13 @@ impl Tried {
         }
     }
 
-    fn told(self, traced: &Traced) -> Option<Comparison> {
+    fn told(mut self, traced: &Traced) -> Option<Comparison> {
         if !self.is_sound(traced) {
             return None;
+        }
+        let is_small = |unlike: &Unlike| unlike.kind == Kind::Block && unlike.off <= ROUNDINGS;
+        if self.unlike.iter().filter(|unlike| is_small(unlike)).count() > 1 {
+            self.unlike.retain(|unlike| !is_small(unlike));
         }
         let differences = self.unlike.into_iter().map(|unlike| {
             let block = &traced.blocks[unlike.block];
