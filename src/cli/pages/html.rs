@@ -88,3 +88,14 @@ mod tests {
         assert!(page("en", "</title>", "").contains("&lt;/title&gt;"));
     }
 }
+
+/// How many more there are than are shown.
+pub(super) fn more(count: usize, shown: usize) -> String {
+    match count.saturating_sub(shown) {
+        0 => String::new(),
+        more => format!(
+            "<p class=\"faint\">{}</p>\n",
+            text(say!(and_more_of_them, more))
+        ),
+    }
+}

@@ -1,6 +1,6 @@
 //! What the job comes to, on its page: the drill list, time and material, and whether the parts fit.
 
-use super::html::{cell, number, table, text};
+use super::html::{cell, more, number, table, text};
 use crate::document::Snapshot;
 use crate::job;
 use crate::message::readable;
@@ -41,8 +41,7 @@ pub(super) fn drill_list(holes: &[StartHole], unit_mm: f64) -> String {
             cell(hole_is),
         ]
     };
-    table(&heads, holes.iter().enumerate().take(MOST).map(row))
-        + &super::page::more(holes.len(), MOST)
+    table(&heads, holes.iter().enumerate().take(MOST).map(row)) + &more(holes.len(), MOST)
 }
 
 /// Lengths, times, what they cost, the largest wire and what drops.
@@ -87,7 +86,7 @@ pub(super) fn time_and_material(work: &Work) -> String {
         .take(MOST)
         .map(|slug| vec![cell(&slug.contour), number(format!("{:.1}", slug.mass))]);
     let heads = [say!(column_contour), say!(column_slug)];
-    facts + &table(&heads, slugs) + &super::page::more(work.slugs.len(), MOST)
+    facts + &table(&heads, slugs) + &more(work.slugs.len(), MOST)
 }
 
 /// Whether punch and plate go into each other, where a clearance is set: the sentence, the places and the picture.

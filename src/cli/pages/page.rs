@@ -3,7 +3,7 @@
 use super::super::files::Opened;
 use super::super::report::{self, Row};
 use super::super::{Failure, output};
-use super::html::{self, Cell, cell, number, table, text};
+use super::html::{self, Cell, cell, more, number, table, text};
 use super::job as of_job;
 use crate::document::Snapshot;
 use crate::drawing::Role;
@@ -417,15 +417,5 @@ fn class_of(severity: Severity) -> &'static str {
         Severity::Error => "error",
         Severity::Warning => "warning",
         Severity::Information | Severity::Hint => "faint",
-    }
-}
-
-pub(super) fn more(count: usize, shown: usize) -> String {
-    match count.saturating_sub(shown) {
-        0 => String::new(),
-        more => format!(
-            "<p class=\"faint\">{}</p>\n",
-            text(say!(and_more_of_them, more))
-        ),
     }
 }
