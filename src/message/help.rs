@@ -329,6 +329,7 @@ const HELP: &[(&str, &str)] = &[
     ("= program.jumps", "一个程序中轮廓之间放什么"),
     ("= program.compensation", "补偿量在哪里加上"),
     ("= program.digits", "3B、4B 控制器数值的位数"),
+    ("= program.drawing", "程序所依据的图形文件，用来与图形对照"),
     (
         "= program.units",
         "没有说明单位（G20、G21）的 ISO 程序的数值单位",
