@@ -1,7 +1,7 @@
 //! wedm: a language server for wire EDM.
 //!
 //! The floors, each of which imports only floors below it: [`cli`] and [`server`] (two faces of the same library),
-//! [`analysis`], [`rules`], [`toolpath`], [`program`], [`dxf`], [`drawing`], [`geometry`].
+//! [`analysis`], `rules`, [`toolpath`], [`program`], [`dxf`], [`drawing`], [`geometry`].
 //! `docs/architecture.md` is the map.
 //!
 //! Nothing here may panic. Rooms that read what others have written index nothing; where the others do, the index was counted from the

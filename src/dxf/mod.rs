@@ -77,7 +77,7 @@ pub struct Document {
 
 impl Document {
     /// Reads a file: DXF text in the code page that it names, or binary DXF or DXB, which become text that says the same
-    /// (see [`Document::is_binary`]). Never fails: what is damaged is in [`Document::findings`].
+    /// (see `Document::is_binary`). Never fails: what is damaged is in [`Document::findings`].
     pub fn read_file(bytes: Vec<u8>) -> Document {
         let (is_dxf, is_dxb) = (
             binary::sentinel(&bytes).is_some(),

@@ -8,7 +8,7 @@ use crate::message::readable;
 
 /// What a finding says, for a person: lower-case, no final dot. `unit_mm` is the drawing's unit in mm.
 ///
-/// Names out of the drawing that stand in it are [`readable`].
+/// Names out of the drawing that stand in it are `readable`.
 pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
     readable(&said(finding, unit_mm)).into_owned()
 }

@@ -1,7 +1,7 @@
 //! What an editor asks about a document: functions without a protocol, whose places are bytes.
 //!
 //! Answers have the same types whatever the document is. What can be asked of one place of any document with text is asked here, what
-//! looks at the whole of it of [`Whole`]; what one kind alone answers, in its own room.
+//! looks at the whole of it of `Whole`; what one kind alone answers, in its own room.
 
 mod amounts;
 pub mod dxf;

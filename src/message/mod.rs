@@ -13,8 +13,8 @@
 //!   on a choice (a plural, a case), the row is a function: `errors(count: usize) => { … }`. Words that are no text of ours (keys, names
 //!   of rules, file endings, letters of a program) are handed in and never translated.
 //! - `en/` says which sentences there are (`declare!`), a file for each room. Another language is a folder with the same rows under
-//!   `translate!`, its line in [`Language`], and its arm in `in_spoken!`; a row that it lacks does not compile.
-//! - A process speaks one language: an editor starts a server of its own, and a command is one person's. [`speak`] chooses it before
+//!   `translate!`, its line in `Language`, and its arm in `in_spoken!`; a row that it lacks does not compile.
+//! - A process speaks one language: an editor starts a server of its own, and a command is one person's. `speak` chooses it before
 //!   anything is read, since readers put their sentences into what they find.
 //! - Lines of the log, what a bug says before it stops (`expect`), and the English help of the command line, which `clap` takes from the
 //!   comments of its options, stand where they are; in Chinese it is a table of its own (`help.rs`). `tests/messages.rs` finds other sentences that stand elsewhere.

@@ -73,6 +73,17 @@ pub(super) fn table(heads: &[&str], rows: impl IntoIterator<Item = Vec<Cell>>) -
     format!("<table>\n<thead><tr>{heads}</tr></thead>\n<tbody>\n{rows}</tbody>\n</table>\n")
 }
 
+/// How many more there are than are shown.
+pub(super) fn more(count: usize, shown: usize) -> String {
+    match count.saturating_sub(shown) {
+        0 => String::new(),
+        more => format!(
+            "<p class=\"faint\">{}</p>\n",
+            text(say!(and_more_of_them, more))
+        ),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -86,16 +97,5 @@ mod tests {
         );
         assert!(!table.contains('\u{202e}'), "{table}");
         assert!(page("en", "</title>", "").contains("&lt;/title&gt;"));
-    }
-}
-
-/// How many more there are than are shown.
-pub(super) fn more(count: usize, shown: usize) -> String {
-    match count.saturating_sub(shown) {
-        0 => String::new(),
-        more => format!(
-            "<p class=\"faint\">{}</p>\n",
-            text(say!(and_more_of_them, more))
-        ),
     }
 }
