@@ -223,6 +223,7 @@ fn several_contours_are_joined_by_pauses_and_a_jump() {
             &Effective {
                 jumps,
                 layout,
+                header: layout != Layout::Compact,
                 ..Effective::default()
             },
         )
