@@ -10,6 +10,7 @@ use wedm::drawing::{Drawing, DrawingEdit, Geometry, Kind};
 use wedm::dxf;
 use wedm::finding::Edit;
 use wedm::finding;
+use wedm::picture::{self, View};
 use wedm::protocol::{Contours, Inspection};
 use wedm::settings::{Effective, Settings, SideSetting};
 use wedm_fuzz::segment_count;
@@ -44,11 +45,19 @@ fuzz_target!(|data: &[u8]| {
         let range = document.range_of(&finding.place).expect("a text");
         assert!(range.end <= length, "{finding:?}");
     }
-    let inspection = Inspection::of(&document, None).expect("a drawing");
-    assert!(inspection.entities.len() <= drawing.len());
+    Inspection::of(&document, None).expect("a drawing");
     if let Some(snapshot) = document.snapshot() {
         Contours::new(&snapshot.drawing, &snapshot.outlines, &snapshot.settings);
-        wedm::picture::svg(&drawing, &snapshot.outlines, &findings, &[], unit.mm);
+        let view = View {
+            name: None,
+            drawing: &drawing,
+            outlines: &snapshot.outlines,
+            findings: &findings,
+            paths: &[],
+            why: None,
+            settings: &snapshot.settings,
+        };
+        picture::svg(&view);
     }
     let fixes = findings.iter().take(REPAIRS).flat_map(|finding| document.fixes(finding)).map(|fix| fix.edit);
     for edit in fixes.chain(document.fix_all()) {

@@ -30,18 +30,18 @@ use sheet::{FIGURE_TOP, Frame, MARGIN, SHEET_WIDTH};
 use subject::{Subject, is_other};
 
 /// What a picture of a drawing shows.
-pub(crate) struct View<'a> {
+pub struct View<'a> {
     /// The name of its file, where it has one.
-    pub(crate) name: Option<&'a str>,
-    pub(crate) drawing: &'a Drawing,
+    pub name: Option<&'a str>,
+    pub drawing: &'a Drawing,
     /// What is cut; entities in none of them are drawn faintly.
-    pub(crate) outlines: &'a [Outline],
-    pub(crate) findings: &'a [Finding],
+    pub outlines: &'a [Outline],
+    pub findings: &'a [Finding],
     /// In the order in which they are cut.
-    pub(crate) paths: &'a [WirePath],
+    pub paths: &'a [WirePath],
     /// Why there are none.
-    pub(crate) why: Option<&'a str>,
-    pub(crate) settings: &'a Effective,
+    pub why: Option<&'a str>,
+    pub settings: &'a Effective,
 }
 
 /// The drawing with its faults and the paths of the wire as one SVG.
@@ -50,7 +50,7 @@ pub(crate) struct View<'a> {
 /// what it leaves of an area that it should cut, are shown to scale: half as wide as the wire's radius and the spark gap, else the last
 /// correction. All figures that a reader sees are in mm. The y axis points up, as in the drawing. A drawing without geometry gives a sheet
 /// that says so.
-pub(crate) fn svg(view: &View) -> String {
+pub fn svg(view: &View) -> String {
     let View {
         findings,
         paths,

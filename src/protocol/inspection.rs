@@ -16,10 +16,10 @@ use serde::{Deserialize, Serialize};
 pub struct Inspection {
     /// Millimetres in one drawing unit.
     pub(crate) units_to_mm: f64,
-    pub entities: Vec<InspectedEntity>,
+    pub(crate) entities: Vec<InspectedEntity>,
     /// The thickest wire that still cuts every arc of a contour, where the gap is set.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub largest_wire: Option<LargestWire>,
+    pub(crate) largest_wire: Option<LargestWire>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

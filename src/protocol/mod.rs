@@ -32,7 +32,7 @@ pub(crate) use drawing::Drawing;
 pub(crate) use fit::{Fit, PairProgram, PairPrograms};
 pub(crate) use generate::{Generate, Program, Refused};
 pub(crate) use in_force::{CorrectionSource, SettingsInForce};
-pub(crate) use inspection::Inspection;
+pub use inspection::Inspection;
 pub(crate) use inspection::{InspectedEntity, InspectedSegment};
 pub(crate) use locate::{Locate, Located};
 pub(crate) use requests::{

@@ -54,11 +54,14 @@ RESULTS = [
     ("Bounds", "SimulatedBounds"),
     ("SettingsInForce", "SettingsInForce"),
     ("FinishedPart", "FinishedPart"),
+    ("Repairs", "Repairs"),
+    ("Repair", "Repair"),
+    ("SegmentShape", "SegmentShape"),
 ]
 # Read by code of the package's own: findings and places, whose lines and columns it counts from 1, and what is handed out bare.
 READ_OTHERWISE = {
     *("Diagnostic", "CodeDescription", "FindingData", "RelatedInformation", "RelatedPlace", "Location", "Located", "Range", "Position"),
-    *("Point", "RulePageText", "Refused"),
+    *("Point", "RulePageText", "Refused", "Exported", "ContourSettings"),
 }
 
 

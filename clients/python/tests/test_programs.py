@@ -142,6 +142,8 @@ CALLS: dict[str, Callable[[Server, dict[str, Any]], Any]] = {
     "wedm/pair": lambda server, open: server.pair(open["pair"], options=PAIR),
     "wedm/settings": lambda server, open: server.settings(open["drawing"]),
     "wedm/generate": lambda server, open: server.generate(open["drawing"]),
+    "wedm/export": lambda server, open: server.export(open["drawing"], "png"),
+    "wedm/repairs": lambda server, open: server.repairs(open["drawing"], "small-radius", "2A", 0),
     "wedm/rulePage": lambda server, open: server.rule_page("small-radius"),
     "wedm/didOpenDrawing": lambda server, open: server.open([Polyline(ROUND, handle="2A")]),
     "wedm/didChangeDrawing": lambda server, open: server.change(open["drawing"], Put(Polyline(TIGHT, handle="2B", role="ignore"))),

@@ -61,8 +61,8 @@ pub(super) struct Crossings {
 pub(super) type Table = FxHashMap<Offset, i64>;
 
 impl Document {
-    #[cfg(test)]
-    pub(crate) fn read(bytes: Vec<u8>) -> Document {
+    /// Reads program text. Never fails: what is damaged is in [`Document::findings`].
+    pub fn read(bytes: Vec<u8>) -> Document {
         Document::read_with(bytes, &Effective::default())
     }
 
@@ -86,12 +86,12 @@ impl Document {
         document
     }
 
-    pub(crate) fn text(&self) -> &SourceText {
+    pub fn text(&self) -> &SourceText {
         &self.text
     }
 
     /// How the numbers of the program were found to be meant.
-    pub(crate) fn reading(&self) -> &Reading {
+    pub fn reading(&self) -> &Reading {
         &self.reading
     }
 
@@ -216,7 +216,7 @@ impl Document {
     }
 
     /// Replaces a range of bytes and runs again what it touched.
-    pub(crate) fn edit(&mut self, range: Range<usize>, replacement: &str) {
+    pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
         self.repairs = OnceLock::new();
         if self.order.is_some() {
             let end = range.end.min(self.text.len());

@@ -21,7 +21,7 @@ use std::ops::Range;
 
 impl Document {
     /// The fixes of one finding, the preferred one first: what its place says by itself, and the slip that may be behind it.
-    pub(crate) fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
+    pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
         let (own, searched) = (of_place(self, finding), searched(self, finding));
         let speaks_for_itself = matches!(finding.rule, Rule::Syntax | Rule::DoubledBlock);
         match speaks_for_itself && !own.is_empty() {

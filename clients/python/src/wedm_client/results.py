@@ -386,6 +386,8 @@ class Program(Value):
     length: float
     closure: Closure
     deviation: float = 0.0
+    #: Of the ways without a cut between contours, mm; ``length`` is without them.
+    jumps: float = 0.0
     finished: FinishedPart | None = None
     minutes: float | None = None
     holes: list[StartHole] = field(default_factory=list)
@@ -516,11 +518,15 @@ class Bounds(Value):
 
 @dataclass(frozen=True)
 class Simulation(Tabled):
-    """Where a program takes the machine. ``length`` is mm, ``deviation`` the largest of a block in µm."""
+    """Where a program takes the machine. ``length`` is mm and the sum of ``cut`` and ``jumps``, ``deviation`` the largest of a block in µm."""
 
     blocks: list[SimulatedBlock]
     closure: Closure
     length: float
+    #: What is cut, mm.
+    cut: float = 0.0
+    #: The ways without a cut, mm.
+    jumps: float = 0.0
     deviation: float = 0.0
     start_is_known: bool = False
     bounds: Bounds | None = None
@@ -549,6 +555,34 @@ class Located(Value):
 
 
 @dataclass(frozen=True)
+class SegmentShape(Value):
+    """A segment in drawing units; ``sweep`` in degrees, positive counter-clockwise."""
+
+    kind: SegmentKind
+    start: Point
+    end: Point
+    length: float
+    center: Point | None = None
+    radius: float | None = None
+    sweep: float | None = None
+    bulge: float | None = None
+
+
+@dataclass(frozen=True)
+class Repair(Value):
+    """What a repair would bring: the segments that were not there before."""
+
+    #: That of its code action.
+    title: str
+    segments: list[SegmentShape]
+
+
+@dataclass(frozen=True)
+class Repairs(Value):
+    repairs: list[Repair]
+
+
+@dataclass(frozen=True)
 class SettingsInForce(Value):
     """The correction that radii of a document are held against, mm, and which level of settings it comes from."""
 
@@ -560,6 +594,8 @@ class SettingsInForce(Value):
     side: Side
     #: URI of the ``wedm.toml`` that holds, if there is one.
     file: str | None = None
+    #: What is said of single contours of this drawing, by the handle of an entity or by a point.
+    contours: dict[str, dict[str, Any]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

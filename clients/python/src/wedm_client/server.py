@@ -6,6 +6,7 @@ are right again; requests are repeated. Methods may be called from several threa
 
 from __future__ import annotations
 
+import base64
 import itertools
 import os
 import sys
@@ -42,6 +43,8 @@ from .results import (
     PairPrograms,
     Picture,
     Program,
+    Repair,
+    Repairs,
     SettingsInForce,
     Simulation,
     Toolpath,
@@ -290,6 +293,16 @@ class Server:
     def picture(self, document: Document, options: Settings | None = None) -> Picture:
         """Contours, faults and wire path as SVG."""
         return from_json(self._ask(document, "wedm/picture", self._with(document, options)), Picture)
+
+    def export(self, document: Document, format: str, options: Settings | None = None) -> bytes:
+        """The same picture as a file: ``svg``, ``png`` or ``pdf``; its texts are outlines in the last two."""
+        answer = self._ask(document, "wedm/export", {**self._with(document, options), "format": format})
+        return base64.b64decode(answer["data"])
+
+    def repairs(self, document: Document, rule: str, handle: str, segment: int | None = None) -> list[Repair]:
+        """What each repair of a finding in a drawing would bring, the preferred one first; none where the finding is not there any more."""
+        place = {"rule": rule, "handle": handle, **({"segment": segment} if segment is not None else {})}
+        return from_json(self._ask(document, "wedm/repairs", {**self._with(document, None), **place}), Repairs).repairs
 
     def generate(
         self,

@@ -22,7 +22,7 @@ use std::ops::Range;
 
 impl Document {
     /// The fixes of one finding, the preferred one first: what explains the whole contour before what the finding alone suggests.
-    pub(crate) fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
+    pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
         merged(self.contour_fixes(finding), self.fixes_of(finding), false)
     }
 
