@@ -52,7 +52,7 @@ export async function large(checks: Checks): Promise<void> {
         const message = { type: "picture", uri: "file:///plates.dxf", name: "plates.dxf", kind: "drawing", svg, faults, contours: [], blocks: [], lines: [], isEditor: true, keeps: true };
         window.postMessage(message, "*");
       }, [svg, faults] as const);
-      await page.locator("#stage > canvas").waitFor({ timeout: 120_000 });
+      await page.locator("#stage > canvas").waitFor({ timeout: 300_000 });
       await page.waitForTimeout(800);
       expectEqual("in the tree", (await page.locator("svg .drawing .contour").count()) < 10, true);
       await checks.shot("large");
