@@ -2,6 +2,7 @@
 
 use super::path::{Chain, Cut, Step, Trace, cut_of};
 use super::repair::gate;
+use super::report::Report;
 use super::steps::{self, Program};
 use super::{iso, three_b};
 use crate::finding::{Finding, Severity, TextFix};
@@ -101,21 +102,10 @@ impl Document {
     /// At most `limit` findings under the settings' severities, errors first, then in the order of the text; and how many there
     /// are in all.
     pub fn findings(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
-        let of_reader = match self {
-            Document::ThreeB(document) => return document.findings_under(settings, limit),
-            Document::Iso(document) => document.findings(),
-        };
-        let mut findings: Vec<Finding> = Vec::new();
-        for finding in of_reader {
-            // The reader knows no severities but its own: the settings' are laid over them here.
-            if let Some(severity) = settings.severity_of(&finding) {
-                findings.push(finding.with(severity));
-            }
+        match self {
+            Document::ThreeB(document) => document.told(settings, limit),
+            Document::Iso(document) => document.told(settings, limit),
         }
-        let count = findings.len();
-        findings.sort_by_key(|finding| finding.severity);
-        findings.truncate(limit);
-        (findings, count)
     }
 
     /// The fixes of one finding as edits of the text, the preferred one first. What would spoil the program is neither preferred nor

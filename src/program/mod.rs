@@ -18,6 +18,7 @@ pub mod path;
 mod refactor;
 mod refactorings;
 mod repair;
+mod report;
 pub(crate) mod steps;
 pub mod three_b;
 pub(crate) mod write;

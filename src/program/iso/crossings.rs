@@ -1,31 +1,22 @@
 //! Where the cuts of a program cross themselves, found anew for what an edit has touched.
 
+use super::cut::Cut;
 use super::cuts::way_of;
 use super::document::{Crossings, Document};
 use crate::finding::Finding;
-use crate::program::path::Found;
+use crate::program::path::{Found, HasCuts};
 use std::sync::Arc;
-
-/// A cut with fewer moves does not cross itself.
-const FEWEST_MOVES: u32 = 4;
 
 impl Crossings {
     /// Looks through a program; what is known of pairs of its parts is taken as it is.
     pub(crate) fn look(&mut self, document: &Document) {
         let Crossings { known, found } = self;
         found.clear();
-        known.begin();
-        for cut in document.contours() {
-            if !cut.run.whole || cut.run.faulty || cut.run.moves < FEWEST_MOVES {
-                continue;
-            }
-            let (mark, parts) = (cut.mark(document), cut.parts.len());
-            let crossings = known.crossings(mark, parts, || cut.way(document));
+        document.look_through(known, document.contours().iter(), |cut: &Cut, crossings| {
             if !crossings.is_clean() {
                 found.push((cut.places(), crossings));
             }
-        }
-        known.tidy();
+        });
     }
 
     /// Whether a cut that crosses itself runs through a stretch.

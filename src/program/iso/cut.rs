@@ -7,7 +7,7 @@ use std::ops::Range;
 
 /// The share of a cut in one stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Part {
+pub(crate) struct Part {
     /// Indices of the stretch, and of the run in there.
     pub(crate) stretch: usize,
     pub(crate) run: usize,
@@ -16,7 +16,7 @@ pub(super) struct Part {
 }
 
 #[derive(Clone, Debug)]
-pub(super) struct Cut {
+pub(crate) struct Cut {
     pub(crate) parts: Vec<Part>,
     pub(crate) run: Run,
     /// The line that begins it, and the one that ends it, in the text.

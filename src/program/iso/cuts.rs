@@ -6,69 +6,69 @@ use super::machine::{Move, Place, apart, micrometres};
 use super::stretch::StopAt;
 use crate::geometry::{Point, Segment};
 use crate::program::path::{
-    self, Blocks, Ends, HeldWay, Lay, Node, PartedWay, Writing, is_tab, mixed, pieces_of,
+    self, Blocks, Ends, HasCuts, HeldWay, Lay, Node, PartedWay, Writing, is_tab, mixed, pieces_of,
 };
 use std::cell::OnceCell;
 use std::ops::Range;
 
-impl Cut {
-    /// Its moves, from where it begins.
-    pub(crate) fn way<'a>(&self, document: &'a Document) -> PartedWay<'a> {
-        let Ends { begin, end, .. } = self.ends(document);
-        let stop = self.before_tab.map(|moves| moves as usize);
-        way_of(
-            document,
-            self.places(),
-            stop,
-            Some([[begin[0], begin[1]], end]),
-        )
-    }
+impl HasCuts for Document {
+    type Cut = Cut;
 
     /// Where it begins and ends, seen from where it begins.
-    fn ends(&self, document: &Document) -> Ends {
-        let ([first, second], [_, last]) = (&self.run.first, &self.run.last);
+    fn ends(&self, cut: &Cut) -> Ends {
+        let ([first, second], [_, last]) = (&cut.run.first, &cut.run.last);
         let seen = |place: Place| Node::at(micrometres(apart(place, first.from)));
         Ends {
             begin: [first.from, first.to, second.to].map(seen),
             end: [last.from, last.to].map(seen),
-            blocks: self.run.moves as usize,
-            tolerance: self.tolerance(document),
+            blocks: cut.run.moves as usize,
+            tolerance: self.tolerance(cut),
         }
     }
 
-    /// Cuts that run on one way, fall into stretches alike and stop before one move of it have one mark.
-    pub(crate) fn mark(&self, document: &Document) -> u64 {
-        let lay = |part: &Part| document.stretches().get(part.stretch)?.lays.get(part.run);
-        let stop = self.before_tab.map_or(0, |moves| u64::from(moves) + 1);
-        let marks = self.parts.iter().filter_map(lay).map(|lay| lay.mark);
+    fn twice_area(&self, cut: &Cut) -> f64 {
+        // nm² in µm².
+        cut.run.twice_area as f64 / 1e6
+    }
+
+    fn only_lay(&self, cut: &Cut) -> Option<&Lay> {
+        let (stretch, run) = cut.only_place()?;
+        self.stretches().get(stretch)?.lays.get(run)
+    }
+
+    fn way<'a>(&'a self, cut: &Cut) -> PartedWay<'a> {
+        let Ends { begin, end, .. } = self.ends(cut);
+        let ends = [[begin[0], begin[1]], end];
+        let stop = cut.before_tab.map(|moves| moves as usize);
+        way_of(self, cut.places(), stop, Some(ends))
+    }
+
+    fn mark(&self, cut: &Cut) -> u64 {
+        let lay = |part: &Part| self.stretches().get(part.stretch)?.lays.get(part.run);
+        let stop = cut.before_tab.map_or(0, |moves| u64::from(moves) + 1);
+        let marks = cut.parts.iter().filter_map(lay).map(|lay| lay.mark);
         marks.fold(stop, mixed)
     }
 
-    /// How far it may end beside a place and still end in it, µm.
-    pub(crate) fn tolerance(&self, document: &Document) -> f64 {
-        path::tolerance(self.run.arcs as usize).max(document.reading().writing().slack)
+    fn last_block(&self, cut: &Cut) -> Option<Range<usize>> {
+        Some(cut.last_range.clone())
     }
 
-    /// How it lies on itself, where it runs through one stretch.
-    fn only_lay<'a>(&self, document: &'a Document) -> Option<&'a Lay> {
-        let (stretch, run) = self.only_place()?;
-        document.stretches().get(stretch)?.lays.get(run)
+    fn part_count(&self, cut: &Cut) -> usize {
+        cut.parts.len()
     }
 
-    fn goes_round(&self, document: &Document) -> bool {
-        // nm² in µm².
-        let twice_area = self.run.twice_area as f64 / 1e6;
-        let (ends, only) = (self.ends(document), self.only_lay(document));
-        ends.go_round(twice_area, only, || self.way(document))
-    }
-
-    pub(crate) fn closes(&self, document: &Document) -> bool {
-        let (ends, only) = (self.ends(document), self.only_lay(document));
-        ends.closes(only, || self.way(document))
+    fn is_doubtful(&self, cut: &Cut) -> bool {
+        !cut.run.whole || cut.run.faulty
     }
 }
 
 impl Document {
+    /// How far a cut may end beside a place and still end in it, µm.
+    pub(super) fn tolerance(&self, cut: &Cut) -> f64 {
+        path::tolerance(cut.run.arcs as usize).max(self.reading().writing().slack)
+    }
+
     /// The cuts with which something may be wrong, each with what goes on behind the stop at its tab; and the stops before tabs.
     pub(super) fn find_contours(&self) -> (Vec<Cut>, Vec<StopAt>) {
         let cuts = cuts(self);
@@ -149,7 +149,7 @@ fn tabs(document: &Document, cuts: &[Option<Cut>]) -> Vec<StopAt> {
     // Cuts that are open, one behind the other.
     let mut open: Vec<OpenCut<'_>> = Vec::new();
     for cut in cuts {
-        let is_open = |cut: &&Cut| cut.run.whole && !cut.goes_round(document);
+        let is_open = |cut: &&Cut| cut.run.whole && !document.goes_round(cut);
         let Some(cut) = cut.as_ref().filter(is_open) else {
             open.clear();
             continue;
@@ -212,7 +212,7 @@ fn held(document: &Document, cuts: &[OpenCut<'_>]) -> HeldWay {
         if nth > 0 {
             way.stop_here();
         }
-        let own = pieces.get_or_init(|| pieces_of(&cut.way(document)).unwrap_or_default());
+        let own = pieces.get_or_init(|| pieces_of(&document.way(cut)).unwrap_or_default());
         let by = micrometres(apart(cut.run.start(), begin)).coords;
         for piece in own.iter().map(|piece| piece.moved(by)) {
             way.push(piece, piece.as_arc().is_some(), Node::at(piece.end()));

@@ -16,14 +16,12 @@ use super::stretch::{Placed, Stretch};
 use super::tilt::{TiltedArc, Unknown};
 use crate::finding::{Detail, Fault, Finding, NoFix, Place, Rule, Severity, Side, SmallRadius};
 use crate::geometry::cross;
-use crate::program::path::{UM_IN_MM, is_tight, not_closed, tolerance};
+use crate::program::path::{HasCuts, UM_IN_MM, is_tight, tolerance};
+use crate::program::report::{self, Found, place_of};
 use crate::settings::{Compensation, SideSetting};
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
-
-/// A run with fewer moves is no contour that could be closed.
-const FEWEST_MOVES: u32 = 3;
 
 /// How many lines before its cut the word that switches the correction is looked for.
 const SWITCH_REACH: usize = 1_000;
@@ -132,11 +130,21 @@ fn suspects(document: &Document, findings: &[Finding]) -> Vec<Finding> {
         .collect()
 }
 
-/// First and last byte of what a finding is said of.
-fn place_of(finding: &Finding) -> (usize, usize) {
-    match &finding.place {
-        Place::Text { range } => (range.start, range.end),
-        _ => (0, 0),
+impl report::Report for Document {
+    type Kept = Finding;
+
+    fn found(&self) -> Vec<Found<Finding>> {
+        let found = |finding: Finding| Found {
+            rule: finding.rule,
+            severity: finding.severity,
+            place: place_of(&finding),
+            kept: finding,
+        };
+        self.findings().into_iter().map(found).collect()
+    }
+
+    fn worded(&self, kept: Finding) -> Option<Finding> {
+        Some(kept)
     }
 }
 
@@ -302,16 +310,11 @@ impl<'a> Report<'a> {
             // What is cut short says nothing of the whole.
             return;
         }
-        let closes = cut.closes(self.document);
-        if let (false, true, Some(fault)) = (closes, run.whole, not_closed(&cut.way(self.document)))
-        {
-            let fragment = run.moves < FEWEST_MOVES;
-            let severity = if fragment {
-                Severity::Information
-            } else {
-                Rule::NotClosed.default_severity()
-            };
-            self.add_as(severity, cut.last_range.clone(), fault);
+        let closes = self.document.is_closed(cut);
+        let is_fragment = self.document.is_fragment(cut);
+        if !closes && run.whole {
+            let finding = self.document.not_closed(cut, is_fragment);
+            self.findings.extend(finding);
         }
         // Contours that are only a line there and back have no inside.
         let orientation = if closes && run.twice_area.unsigned_abs() > 2_000_000 {
@@ -320,7 +323,7 @@ impl<'a> Report<'a> {
             0
         };
         let side = match run.side {
-            RunSide::One(side) if run.moves >= FEWEST_MOVES && orientation != 0 => Some(side),
+            RunSide::One(side) if !is_fragment && orientation != 0 => Some(side),
             _ => None,
         };
         if let Some(side) = side {
@@ -348,7 +351,7 @@ impl<'a> Report<'a> {
             let begins = [run.first[0].from, run.first[0].to];
             if !begins
                 .iter()
-                .any(|begin| distance(*begin, *place) / 1e3 <= cut.tolerance(self.document))
+                .any(|begin| distance(*begin, *place) / 1e3 <= self.document.tolerance(cut))
             {
                 self.side_change(range.clone());
             }
@@ -376,7 +379,7 @@ impl<'a> Report<'a> {
     /// disagree, or the cut has no way in along which the correction goes on.
     fn side_of_entry(&self, run: &Run) -> Option<Side> {
         let lead = &run.first[0];
-        if lead.switches != Some(true) || lead.is_arc() || run.moves < FEWEST_MOVES {
+        if lead.switches != Some(true) || lead.is_arc() {
             return None;
         }
         let near = |spot: Spot| distance(spot, lead.to) / 1e3 <= tolerance(run.arcs as usize);

@@ -1,6 +1,5 @@
 //! Ways in parts: what an edit leaves as it was is not put together again.
 
-use super::contour::{Ends, closing, goes_round};
 use super::lay::Lay;
 use super::way::{Node, Way, Writing};
 use crate::geometry::{Bounds, Point, Segment, Vector};
@@ -177,32 +176,5 @@ impl Way for PartedWay<'_> {
             }
         }
         Some(())
-    }
-}
-
-/// Twice the area of which no way to and fro encloses as much, µm²: 1 mm².
-const LARGE: f64 = 2e6;
-
-/// What is asked of a cut that lies in parts. Its ends tell it of nearly all, else the lay of the `only` part that holds all of it, else
-/// its whole way.
-impl Ends {
-    pub(crate) fn closes<'a>(
-        &self,
-        only: Option<&Lay>,
-        way: impl FnOnce() -> PartedWay<'a>,
-    ) -> bool {
-        let by_way = || closing(&way()).is_some_and(|closing| closing.closed);
-        self.close() || only.map_or_else(by_way, |lay| lay.closes)
-    }
-
-    /// Whether it goes round something: passes to and fro do not. `twice_area` is in µm².
-    pub(crate) fn go_round<'a>(
-        &self,
-        twice_area: f64,
-        only: Option<&Lay>,
-        way: impl FnOnce() -> PartedWay<'a>,
-    ) -> bool {
-        let by_way = || goes_round(&way()) == Some(true);
-        (twice_area.abs() > LARGE && self.close()) || only.map_or_else(by_way, |lay| lay.goes_round)
     }
 }

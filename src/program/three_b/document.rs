@@ -71,12 +71,14 @@ type PartAt = (usize, usize);
 
 /// Blocks between two words.
 #[derive(Clone, Debug, PartialEq)]
-struct Cut {
+pub(crate) struct Cut {
     /// First and last part.
     parts: [PartAt; 2],
     sum: Sum,
     /// The way between two contours, without the wire.
     is_jump: bool,
+    /// Blocks before its first stop, where it goes on behind that.
+    stop: Option<usize>,
 }
 
 /// What hangs on the program as a whole.

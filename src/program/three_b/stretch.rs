@@ -15,7 +15,7 @@ use super::words::{Word, Words};
 use crate::finding::{Detail, Fault, Rule};
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::program::path::{
-    Ends, HeldWay, Lay, Node, Writing, may_be_odd, mixed, odd_joint, tolerance,
+    Ends, FEWEST_CROSSING, HeldWay, Lay, Node, Writing, may_be_odd, mixed, odd_joint, tolerance,
 };
 use std::ops::Range;
 
@@ -280,7 +280,7 @@ pub(super) fn is_jump(sum: &Sum) -> bool {
 
 /// True for what is asked whether it crosses itself: where a block is wrong the path behind it is not the one that is meant.
 pub(super) fn may_cross_itself(sum: &Sum) -> bool {
-    sum.blocks >= 4 && sum.errors == 0
+    sum.blocks >= FEWEST_CROSSING && sum.errors == 0
 }
 
 impl Stretch {

@@ -93,6 +93,7 @@ impl Document {
                     parts: [(stretch, nth); 2],
                     sum: Sum::default(),
                     is_jump: false,
+                    stop: None,
                 });
                 own.parts[1] = (stretch, nth);
                 own.sum = own.sum.then(&part.sum);
@@ -278,11 +279,12 @@ impl Document {
     }
 }
 
-/// A cut and the one behind it as one contour.
+/// A cut and the one behind its stop as one contour.
 pub(super) fn joined(cut: Cut, behind: &Cut) -> Cut {
     Cut {
         parts: [cut.parts[0], behind.parts[1]],
         sum: cut.sum.then(&behind.sum),
         is_jump: false,
+        stop: cut.stop.or(Some(cut.sum.blocks)),
     }
 }

@@ -15,7 +15,7 @@ use super::super::stretch::Sum;
 use super::{At, Document};
 use crate::finding::{Detail, Fault, Finding, FixKind, Place};
 use crate::program::alike::{Alike, alike};
-use crate::program::path::not_closed;
+use crate::program::path::{HasCuts, not_closed};
 use crate::program::repair::merged;
 use crate::text::{TextEdit, WIDEST_COLUMN};
 use std::ops::Range;

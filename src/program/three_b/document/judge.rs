@@ -5,12 +5,11 @@ use super::super::fields::fields_of;
 use super::super::parse::unexpected;
 use super::super::repair::FEWEST_BLAMED;
 use super::super::rules;
-use super::super::stretch::{Sum, may_cross_itself};
 use super::cuts::joined;
 use super::{Cut, Document, PartAt, View};
 use crate::finding::{Axis, Detail, Fault, Finding, Rule, Severity};
 use crate::geometry::{Bounds, Vector};
-use crate::program::path::{Known, Lay, Way, absurd_size, is_tab, mixed, not_closed, tolerance};
+use crate::program::path::{HasCuts, Known, absurd_size, is_tab, tolerance};
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -19,9 +18,6 @@ const PAUSES_WITHIN: usize = 16;
 
 /// Those of them behind which a tab is looked for.
 const TABS_WITHIN: usize = 4;
-
-/// Up to this many blocks are a fragment: they may well be all that was meant.
-const FRAGMENT: usize = 2;
 
 /// Cuts that belong to one contour.
 struct GoesOn {
@@ -125,27 +121,6 @@ impl Document {
         }
     }
 
-    fn is_closed(&self, cut: &Cut) -> bool {
-        let ends = cut.sum.ends();
-        ends.closes(self.only_lay(cut), || self.way(cut))
-    }
-
-    fn goes_round(&self, cut: &Cut) -> bool {
-        let Sum { twice_area, .. } = cut.sum;
-        let ends = cut.sum.ends();
-        ends.go_round(twice_area, self.only_lay(cut), || self.way(cut))
-    }
-
-    /// How a cut lies on itself that is one part of a stretch.
-    fn only_lay(&self, cut: &Cut) -> Option<&Lay> {
-        let [(stretch, part), last] = cut.parts;
-        let of = self
-            .stretches
-            .get(stretch)
-            .filter(|_| (stretch, part) == last)?;
-        of.parts.get(part).map(|part| &part.lay)
-    }
-
     /// What goes on with an open cut behind a stop: a tab, or blocks that come back to the start together, in whatever order they
     /// are cut. `None` where there is nothing.
     fn goes_on(&self, view: &View, cut: &Cut) -> Option<GoesOn> {
@@ -190,22 +165,14 @@ impl Document {
     }
 
     fn judge_open(&self, view: &mut View, cut: &Cut) {
-        let Some(last) = self.last_block_of(cut).filter(|_| cut.sum.unread == 0) else {
+        if cut.sum.unread > 0 {
             return;
-        };
-        let is_fragment = view.end.is_none() || cut.sum.blocks <= FRAGMENT;
+        }
+        let is_fragment = view.end.is_none() || self.is_fragment(cut);
         if is_fragment && self.leads_out(view, cut) {
             return;
         }
-        let Some(fault) = not_closed(&self.way(cut)) else {
-            return;
-        };
-        let severity = if is_fragment {
-            Severity::Information
-        } else {
-            fault.rule().default_severity()
-        };
-        let mut findings = vec![Finding::of(fault, self.range_of(last)).with(severity)];
+        view.findings.extend(self.not_closed(cut, is_fragment));
         let may_be_one_field =
             cut.sum.errors == 0 && cut.sum.blocks >= FEWEST_BLAMED && !self.lacks_a_number(cut);
         if !is_fragment
@@ -224,9 +191,8 @@ impl Document {
             let block = self.range_of(at);
             let range = fields_of(self.text.bytes(), block.clone())
                 .map_or(block.clone(), |fields| spot.range(&fields, block));
-            findings.push(Finding::of(fault, range));
+            view.findings.push(Finding::of(fault, range));
         }
-        view.findings.extend(findings);
     }
 
     /// Whether a number is left out among the numbers of a cut: a block is lost then.
@@ -254,35 +220,19 @@ impl Document {
             let whole = behind.checked_sub(1).and_then(|index| held.get(index));
             whole.is_some_and(|whole| cut.parts[1] <= whole.parts[1])
         };
-        known.begin();
         let mut findings = Vec::new();
         let tangled = self.inner_cuts(view.end, |stretch| &stretch.tangled);
-        let tangled = tangled.filter(|cut| !is_held(cut));
-        let outer = view.outer.iter().filter(|cut| !is_held(cut));
-        let cuts = tangled
-            .map(|cut| (Cow::Owned(cut), Some(true)))
-            .chain(outer.map(|cut| (Cow::Borrowed(cut), Some(false))))
-            .chain(held.iter().map(|whole| (Cow::Borrowed(whole), None)));
-        // Whether a cut lies within one stretch; what stops before its tab is looked at as a whole.
-        for (cut, is_inner) in cuts {
-            if cut.is_jump || !may_cross_itself(&cut.sum) {
-                continue;
-            }
-            let stop = if is_inner.is_none() {
-                self.way(&cut).stop()
-            } else {
-                None
-            };
-            let mark = mixed(cut.sum.mark, stop.map_or(0, |blocks| blocks as u64 + 1));
-            let stretches = cut.parts[1].0 - cut.parts[0].0 + 1;
-            let found = known.crossings(mark, stretches, || self.way(&cut));
+        let tangled = tangled.filter(|cut| !is_held(cut)).map(Cow::Owned);
+        let outer = view.outer.iter().filter(|cut| !is_held(cut)).chain(&held);
+        let cuts = tangled.chain(outer.map(Cow::Borrowed));
+        self.look_through(known, cuts, |cut, found| {
             if found.is_clean() {
-                calm.extend((is_inner == Some(true)).then_some(cut.parts[0]));
+                let is_inner = matches!(cut, Cow::Owned(_));
+                calm.extend(is_inner.then_some(cut.parts[0]));
             } else if !self.is_odd(view, &cut) {
                 findings.extend(found.findings(&self.way(&cut), &self.text));
             }
-        }
-        known.tidy();
+        });
         view.findings.extend(findings);
     }
 

@@ -4,82 +4,58 @@ use super::super::fields::fields_of;
 use super::super::rules::{self, Counts};
 use super::super::stretch::Local;
 use super::{Cut, Document};
-use crate::finding::{Detail, Finding, Place, Rule, Severity};
-use crate::settings::{Effective, SideSetting};
+use crate::finding::{Detail, Finding, Severity};
+use crate::program::report::{Found, Report, place_of};
+use crate::settings::SideSetting;
 
 /// Where a finding is kept.
 #[derive(Clone, Copy, Debug)]
-enum Kept {
+pub(in crate::program) enum Kept {
     InBlock { stretch: usize, index: usize },
     OnWhole { index: usize },
+}
+
+impl Report for Document {
+    type Kept = Kept;
+
+    fn found(&self) -> Vec<Found<Kept>> {
+        let of_stretch = |stretch: usize| {
+            let faults = self.stretches[stretch].faults.iter().enumerate();
+            let counting = faults.filter(move |(_, local)| self.counts(stretch, local));
+            counting.map(move |(index, local)| Found {
+                rule: local.rule,
+                severity: self.own_severity(stretch, local),
+                place: (local.range.start + self.stretches.byte(stretch), 0),
+                kept: Kept::InBlock { stretch, index },
+            })
+        };
+        let on_whole = |(index, finding): (usize, &Finding)| Found {
+            rule: finding.rule,
+            severity: finding.severity,
+            place: (place_of(finding).0, 0),
+            kept: Kept::OnWhole { index },
+        };
+        let of_blocks = (0..self.stretches.len()).flat_map(of_stretch);
+        let of_whole = self.view.findings.iter().enumerate().map(on_whole);
+        of_blocks.chain(of_whole).collect()
+    }
+
+    fn worded(&self, kept: Kept) -> Option<Finding> {
+        match kept {
+            Kept::InBlock { stretch, index } => {
+                let local = self.stretches.get(stretch)?.faults.get(index)?;
+                Some(self.materialized(stretch, local))
+            }
+            Kept::OnWhole { index } => self.view.findings.get(index).cloned(),
+        }
+    }
 }
 
 impl Document {
     /// All findings as the reader and the rules see them, in no order.
     pub fn findings(&self) -> Vec<Finding> {
-        let of_blocks = self
-            .locals()
-            .map(|(stretch, local)| self.materialized(stretch, local));
-        of_blocks
-            .chain(self.view.findings.iter().cloned())
-            .collect()
-    }
-
-    /// At most `limit` findings under the settings' severities, errors first, then in the order of the text; and how many there are.
-    pub fn findings_under(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
-        let severity = |rule: Rule, own: Severity| settings.severity_over(rule, own);
-        let mut order: Vec<(Severity, usize, Rule, Kept)> = Vec::new();
-        for (stretch, of) in self
-            .stretches
-            .iter()
-            .enumerate()
-            .filter(|(_, of)| !of.faults.is_empty())
-        {
-            for (index, local) in of
-                .faults
-                .iter()
-                .enumerate()
-                .filter(|(_, local)| self.counts(stretch, local))
-            {
-                if let Some(severity) = severity(local.rule, self.own_severity(stretch, local)) {
-                    order.push((
-                        severity,
-                        local.range.start + self.stretches.byte(stretch),
-                        local.rule,
-                        Kept::InBlock { stretch, index },
-                    ));
-                }
-            }
-        }
-        for (index, finding) in self.view.findings.iter().enumerate() {
-            if let (Some(severity), Place::Text { range }) =
-                (severity(finding.rule, finding.severity), &finding.place)
-            {
-                order.push((severity, range.start, finding.rule, Kept::OnWhole { index }));
-            }
-        }
-        order.sort_by_key(|(severity, start, rule, _)| (*severity, *start, *rule));
-        let count = order.len();
-        order.truncate(limit);
-        let made = order.into_iter().filter_map(|(severity, _, _, which)| {
-            let finding = match which {
-                Kept::InBlock { stretch, index } => {
-                    self.materialized(stretch, self.stretches.get(stretch)?.faults.get(index)?)
-                }
-                Kept::OnWhole { index } => self.view.findings.get(index)?.clone(),
-            };
-            Some(finding.with(severity))
-        });
-        (made.collect(), count)
-    }
-
-    fn locals(&self) -> impl Iterator<Item = (usize, &Local)> {
-        let all = self
-            .stretches
-            .iter()
-            .enumerate()
-            .flat_map(|(stretch, of)| of.faults.iter().map(move |local| (stretch, local)));
-        all.filter(|(stretch, local)| self.counts(*stretch, local))
+        let worded = |found: Found<Kept>| self.worded(found.kept);
+        self.found().into_iter().filter_map(worded).collect()
     }
 
     fn cut_of_local(&self, stretch: usize, local: &Local) -> Option<Cut> {

@@ -1,10 +1,10 @@
-//! The blocks of a cut as a way.
+//! What the cuts of a program come to, and their blocks as ways.
 
 use super::super::decode::meant;
 use super::super::entry::{BlockEntry, Entry, Move};
 use super::{At, Cut, Document};
 use crate::geometry::{Point, Segment};
-use crate::program::path::{Blocks, Node, Part, PartedWay, Writing};
+use crate::program::path::{Blocks, Ends, HasCuts, Lay, Node, Part, PartedWay, Writing, mixed};
 use std::ops::Range;
 
 /// The blocks of a cut as its stretches hold them.
@@ -20,10 +20,29 @@ struct HeldPart {
     start: Move,
 }
 
-impl Document {
-    pub(super) fn way(&self, cut: &Cut) -> PartedWay<'_> {
+impl HasCuts for Document {
+    type Cut = Cut;
+
+    fn ends(&self, cut: &Cut) -> Ends {
+        cut.sum.ends()
+    }
+
+    fn twice_area(&self, cut: &Cut) -> f64 {
+        cut.sum.twice_area
+    }
+
+    fn only_lay(&self, cut: &Cut) -> Option<&Lay> {
+        let [(stretch, part), last] = cut.parts;
+        let of = self
+            .stretches
+            .get(stretch)
+            .filter(|_| (stretch, part) == last)?;
+        of.parts.get(part).map(|part| &part.lay)
+    }
+
+    fn way<'a>(&'a self, cut: &Cut) -> PartedWay<'a> {
         let (mut held, mut parts) = (Vec::new(), Vec::new());
-        let (mut at, mut count, mut stop) = (Move::default(), 0, None);
+        let mut at = Move::default();
         let [(first_stretch, first_part), (last_stretch, last_part)] = cut.parts;
         let stretches = self.stretches.iter().enumerate();
         for (stretch, of) in stretches.take(last_stretch + 1).skip(first_stretch) {
@@ -49,17 +68,30 @@ impl Document {
                         start: at.meant,
                     });
                     at = at.plus(part.sum.travel);
-                    count += part.sum.blocks;
                 }
-                let is_within = part.word.is_some() && (stretch, index) != cut.parts[1];
-                stop = stop.or(is_within.then_some(count));
             }
         }
         let blocks = Held {
             document: self,
             parts: held,
         };
-        PartedWay::new(Box::new(blocks), parts, stop, None)
+        PartedWay::new(Box::new(blocks), parts, cut.stop, None)
+    }
+
+    fn mark(&self, cut: &Cut) -> u64 {
+        mixed(cut.sum.mark, cut.stop.map_or(0, |blocks| blocks as u64 + 1))
+    }
+
+    fn last_block(&self, cut: &Cut) -> Option<Range<usize>> {
+        self.last_block_of(cut).map(|at| self.range_of(at))
+    }
+
+    fn part_count(&self, cut: &Cut) -> usize {
+        cut.parts[1].0 - cut.parts[0].0 + 1
+    }
+
+    fn is_doubtful(&self, cut: &Cut) -> bool {
+        cut.is_jump || cut.sum.errors > 0
     }
 }
 

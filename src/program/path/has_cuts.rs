@@ -1,0 +1,93 @@
+//! What is asked of the cuts of an open document, however its language puts them together.
+
+use super::contour::{Ends, closing, goes_round, not_closed};
+use super::crossings::{Found, Known};
+use super::lay::Lay;
+use super::parted::PartedWay;
+use crate::finding::{Finding, Severity};
+use std::borrow::Borrow;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A cut of fewer blocks does not cross itself.
+pub(crate) const FEWEST_CROSSING: usize = 4;
+
+/// Up to this many blocks are a fragment: they may well be all that was meant.
+const FRAGMENT: usize = 2;
+
+/// Twice the area of which no way to and fro encloses as much, µm²: 1 mm².
+const LARGE: f64 = 2e6;
+
+/// A document that knows its cuts by their parts, a part being what lies within one stretch of lines: what an edit leaves as it was.
+/// Its ends tell of nearly every cut, else how it lies on itself where it is one part, else all its blocks.
+pub(crate) trait HasCuts {
+    type Cut;
+
+    fn ends(&self, cut: &Self::Cut) -> Ends;
+
+    /// Twice the area between a cut and its chord, µm²; above 0 where it runs to the left.
+    fn twice_area(&self, cut: &Self::Cut) -> f64;
+
+    /// How a cut lies on itself that is one part.
+    fn only_lay(&self, cut: &Self::Cut) -> Option<&Lay>;
+
+    fn way<'a>(&'a self, cut: &Self::Cut) -> PartedWay<'a>;
+
+    /// Cuts that run on one way, fall into parts alike and stop before one block of it have one mark.
+    fn mark(&self, cut: &Self::Cut) -> u64;
+
+    /// Bytes of the last block of a cut.
+    fn last_block(&self, cut: &Self::Cut) -> Option<Range<usize>>;
+
+    fn part_count(&self, cut: &Self::Cut) -> usize;
+
+    /// Something is wrong in it, so the way behind is not the one that is meant; or it cuts nothing.
+    fn is_doubtful(&self, cut: &Self::Cut) -> bool;
+
+    fn is_closed(&self, cut: &Self::Cut) -> bool {
+        let by_way = || closing(&self.way(cut)).is_some_and(|closing| closing.closed);
+        self.ends(cut).close() || self.only_lay(cut).map_or_else(by_way, |lay| lay.closes)
+    }
+
+    /// Whether it goes round something: passes to and fro do not.
+    fn goes_round(&self, cut: &Self::Cut) -> bool {
+        let by_way = || goes_round(&self.way(cut)) == Some(true);
+        let is_large = self.twice_area(cut).abs() > LARGE;
+        (is_large && self.ends(cut).close())
+            || self.only_lay(cut).map_or_else(by_way, |lay| lay.goes_round)
+    }
+
+    /// `not-closed`, of a cut that is not.
+    fn not_closed(&self, cut: &Self::Cut, is_fragment: bool) -> Option<Finding> {
+        let finding = Finding::of(not_closed(&self.way(cut))?, self.last_block(cut)?);
+        Some(match is_fragment {
+            true => finding.with(Severity::Information),
+            false => finding,
+        })
+    }
+
+    /// So short that it may well be all that was meant.
+    fn is_fragment(&self, cut: &Self::Cut) -> bool {
+        self.ends(cut).blocks <= FRAGMENT
+    }
+
+    /// Looks through cuts for crossings; what is known of pairs of their parts is taken as it is. `each` hears of every cut that was
+    /// looked through.
+    fn look_through<C: Borrow<Self::Cut>>(
+        &self,
+        known: &mut Known,
+        cuts: impl Iterator<Item = C>,
+        mut each: impl FnMut(C, Arc<Found>),
+    ) {
+        known.begin();
+        for cut in cuts {
+            let own = cut.borrow();
+            if self.ends(own).blocks < FEWEST_CROSSING || self.is_doubtful(own) {
+                continue;
+            }
+            let found = known.crossings(self.mark(own), self.part_count(own), || self.way(own));
+            each(cut, found);
+        }
+        known.tidy();
+    }
+}
