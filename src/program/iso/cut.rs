@@ -1,24 +1,25 @@
 //! Consecutive moves of an ISO program without a rapid or a stop between, put together from the stretches that they run through.
 
 use super::machine::Place;
-use super::run::{Run, SEVERAL, changes_side};
+use super::part::{Part, SEVERAL, changes_side};
 use super::stretch::{Placed, StopAt};
 use std::ops::Range;
 
-/// The share of a cut in one stretch.
+/// Where a part of a cut is kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Part {
-    /// Indices of the stretch, and of the run in there.
+pub(crate) struct PartAt {
+    /// Indices of the stretch, and of the part in there.
     pub(crate) stretch: usize,
-    pub(crate) run: usize,
+    pub(crate) part: usize,
     /// Byte of the text from which the stretch's places count.
     pub(crate) offset: usize,
 }
 
 #[derive(Clone, Debug)]
 pub(crate) struct Cut {
-    pub(crate) parts: Vec<Part>,
-    pub(crate) run: Run,
+    pub(crate) parts: Vec<PartAt>,
+    /// All of them as one.
+    pub(crate) sum: Part,
     /// The line that begins it, and the one that ends it, in the text.
     pub(crate) range: Range<usize>,
     pub(crate) last_range: Range<usize>,
@@ -32,19 +33,19 @@ pub(crate) struct Cut {
 }
 
 impl Cut {
-    pub(crate) fn of(placed: &Placed<'_>, stretch: usize, run: usize) -> Option<Cut> {
-        let (offset, its) = (placed.offset, placed.stretch.run_at(run)?);
+    pub(crate) fn of(placed: &Placed<'_>, stretch: usize, part: usize) -> Option<Cut> {
+        let (offset, its) = (placed.offset, placed.stretch.part_at(part)?);
         let place = |(start, end): (u32, u32)| offset + start as usize..offset + end as usize;
         let mut cut = Cut {
-            parts: vec![Part {
+            parts: vec![PartAt {
                 stretch,
-                run,
+                part,
                 offset,
             }],
             flip: its.flip.map(|(at, line)| (at, place(line))),
             range: place(its.range),
             last_range: place(its.last_range),
-            run: its,
+            sum: its,
             stop: None,
             stops: 0,
             before_tab: None,
@@ -67,12 +68,12 @@ impl Cut {
     /// This cut and then the next, which goes on from where it ends: behind the stop at its tab, where there was one.
     pub(crate) fn append(&mut self, next: Cut) {
         if self.stops > 0 {
-            self.before_tab.get_or_insert(self.run.moves);
+            self.before_tab.get_or_insert(self.sum.moves);
         }
-        let flips = self.stops == 0 && changes_side(&self.run.last[1], &next.run.first[0]);
-        let flip = flips.then(|| (next.run.start(), next.range.clone()));
+        let flips = self.stops == 0 && changes_side(&self.sum.last[1], &next.sum.first[0]);
+        let flip = flips.then(|| (next.sum.start(), next.range.clone()));
         self.flip = self.flip.take().or(flip).or(next.flip);
-        self.run.append(&next.run);
+        self.sum.append(&next.sum);
         self.last_range = next.last_range;
         self.parts.extend(next.parts);
         (self.stop, self.stops) = (next.stop, next.stops);
@@ -82,15 +83,15 @@ impl Cut {
         self.stop.filter(|_| self.stops == 1)
     }
 
-    /// Indices of its stretches and of its runs in there.
+    /// Indices of its stretches and of its parts in there.
     pub(crate) fn places(&self) -> Vec<(usize, usize)> {
-        let place = |part: &Part| (part.stretch, part.run);
+        let place = |at: &PartAt| (at.stretch, at.part);
         self.parts.iter().map(place).collect()
     }
 
-    /// The stretch that holds all of it, and its run in there.
+    /// The stretch that holds all of it, and its part in there.
     pub(crate) fn only_place(&self) -> Option<(usize, usize)> {
-        let [part] = self.parts[..] else { return None };
-        Some((part.stretch, part.run))
+        let [at] = self.parts[..] else { return None };
+        Some((at.stretch, at.part))
     }
 }

@@ -1,6 +1,6 @@
 //! The cuts of a program, put together from its stretches, whether they close, and which stops stand within a contour, before its tab.
 
-use super::cut::{Cut, Part};
+use super::cut::{Cut, PartAt};
 use super::document::Document;
 use super::machine::{Move, Place, apart, micrometres};
 use super::stretch::StopAt;
@@ -16,24 +16,24 @@ impl HasCuts for Document {
 
     /// Where it begins and ends, seen from where it begins.
     fn ends(&self, cut: &Cut) -> Ends {
-        let ([first, second], [_, last]) = (&cut.run.first, &cut.run.last);
+        let ([first, second], [_, last]) = (&cut.sum.first, &cut.sum.last);
         let seen = |place: Place| Node::at(micrometres(apart(place, first.from)));
         Ends {
             begin: [first.from, first.to, second.to].map(seen),
             end: [last.from, last.to].map(seen),
-            blocks: cut.run.moves as usize,
+            blocks: cut.sum.moves as usize,
             tolerance: self.tolerance(cut),
         }
     }
 
     fn twice_area(&self, cut: &Cut) -> f64 {
         // nm² in µm².
-        cut.run.twice_area as f64 / 1e6
+        cut.sum.twice_area as f64 / 1e6
     }
 
     fn only_lay(&self, cut: &Cut) -> Option<&Lay> {
-        let (stretch, run) = cut.only_place()?;
-        self.stretches().get(stretch)?.lays.get(run)
+        let (stretch, part) = cut.only_place()?;
+        self.stretches().get(stretch)?.lays.get(part)
     }
 
     fn way<'a>(&'a self, cut: &Cut) -> PartedWay<'a> {
@@ -44,7 +44,7 @@ impl HasCuts for Document {
     }
 
     fn mark(&self, cut: &Cut) -> u64 {
-        let lay = |part: &Part| self.stretches().get(part.stretch)?.lays.get(part.run);
+        let lay = |at: &PartAt| self.stretches().get(at.stretch)?.lays.get(at.part);
         let stop = cut.before_tab.map_or(0, |moves| u64::from(moves) + 1);
         let marks = cut.parts.iter().filter_map(lay).map(|lay| lay.mark);
         marks.fold(stop, mixed)
@@ -59,14 +59,14 @@ impl HasCuts for Document {
     }
 
     fn is_doubtful(&self, cut: &Cut) -> bool {
-        !cut.run.whole || cut.run.faulty
+        !cut.sum.whole || cut.sum.faulty
     }
 }
 
 impl Document {
     /// How far a cut may end beside a place and still end in it, µm.
     pub(super) fn tolerance(&self, cut: &Cut) -> f64 {
-        path::tolerance(cut.run.arcs as usize).max(self.reading().writing().slack)
+        path::tolerance(cut.sum.arcs as usize).max(self.reading().writing().slack)
     }
 
     /// The cuts with which something may be wrong, each with what goes on behind the stop at its tab; and the stops before tabs.
@@ -84,12 +84,12 @@ fn cuts(document: &Document) -> Vec<Option<Cut>> {
     let mut open: Option<Cut> = None;
     for (index, placed) in document.placed().enumerate() {
         let stretch = placed.stretch;
-        if let Some(whole) = stretch.ends_run_before
-            && let Some(cut) = open.as_mut().filter(|cut| cut.run.open)
+        if let Some(whole) = stretch.ends_cut_before
+            && let Some(cut) = open.as_mut().filter(|cut| cut.sum.open)
         {
-            cut.run.whole &= whole;
-            cut.run.faulty |= stretch.faulty_before;
-            cut.run.open = false;
+            cut.sum.whole &= whole;
+            cut.sum.faulty |= stretch.faulty_before;
+            cut.sum.open = false;
         }
         if let Some(cut) = &mut open {
             cut.stopped(stretch.stop_before, index);
@@ -101,18 +101,18 @@ fn cuts(document: &Document) -> Vec<Option<Cut>> {
         };
         let before = (0..skipped.start).map(Some);
         let calm = (!skipped.is_empty()).then_some(None);
-        let behind = (skipped.end..stretch.run_count()).map(Some);
-        for run in before.chain(calm).chain(behind) {
-            let Some(run) = run else {
+        let behind = (skipped.end..stretch.part_count()).map(Some);
+        for part in before.chain(calm).chain(behind) {
+            let Some(part) = part else {
                 cuts.extend(open.take().map(Some));
                 cuts.push(None);
                 continue;
             };
-            let Some(own) = Cut::of(&placed, index, run) else {
+            let Some(own) = Cut::of(&placed, index, part) else {
                 continue;
             };
             match &mut open {
-                Some(known) if own.run.continues && known.run.open => known.append(own),
+                Some(known) if own.sum.continues && known.sum.open => known.append(own),
                 _ => cuts.extend(open.replace(own).map(Some)),
             }
         }
@@ -149,13 +149,13 @@ fn tabs(document: &Document, cuts: &[Option<Cut>]) -> Vec<StopAt> {
     // Cuts that are open, one behind the other.
     let mut open: Vec<OpenCut<'_>> = Vec::new();
     for cut in cuts {
-        let is_open = |cut: &&Cut| cut.run.whole && !document.goes_round(cut);
+        let is_open = |cut: &&Cut| cut.sum.whole && !document.goes_round(cut);
         let Some(cut) = cut.as_ref().filter(is_open) else {
             open.clear();
             continue;
         };
         let goes_on = |last: &OpenCut<'_>| {
-            last.cut.single_stop().is_some() && last.cut.run.last[1].to == cut.run.first[0].from
+            last.cut.single_stop().is_some() && last.cut.sum.last[1].to == cut.sum.first[0].from
         };
         if !open.last().is_some_and(goes_on) {
             open.clear();
@@ -169,7 +169,7 @@ fn tabs(document: &Document, cuts: &[Option<Cut>]) -> Vec<StopAt> {
         let moves = |begin: usize| {
             open[begin..]
                 .iter()
-                .map(|open| open.cut.run.moves)
+                .map(|open| open.cut.sum.moves)
                 .sum::<u32>()
         };
         let is_tab = |begin: &usize| {
@@ -206,14 +206,14 @@ struct OpenCut<'a> {
 
 /// Cuts as one way, from where the first begins.
 fn held(document: &Document, cuts: &[OpenCut<'_>]) -> HeldWay {
-    let begin = cuts.first().map_or([0, 0], |open| open.cut.run.start());
+    let begin = cuts.first().map_or([0, 0], |open| open.cut.sum.start());
     let mut way = HeldWay::from(Node::at(Point::origin()), document.reading().writing());
     for (nth, OpenCut { cut, pieces }) in cuts.iter().enumerate() {
         if nth > 0 {
             way.stop_here();
         }
         let own = pieces.get_or_init(|| pieces_of(&document.way(cut)).unwrap_or_default());
-        let by = micrometres(apart(cut.run.start(), begin)).coords;
+        let by = micrometres(apart(cut.sum.start(), begin)).coords;
         for piece in own.iter().map(|piece| piece.moved(by)) {
             way.push(piece, piece.as_arc().is_some(), Node::at(piece.end()));
         }
@@ -224,14 +224,14 @@ fn held(document: &Document, cuts: &[OpenCut<'_>]) -> HeldWay {
 /// Stops in one contour.
 const MOST_STOPS: usize = 4;
 
-/// The way of some parts that go on one behind the other, stretches and their runs, from where the first begins.
+/// The way of some parts that go on one behind the other, stretches and their parts, from where the first begins.
 pub(super) fn way_of(
     document: &Document,
     places: Vec<(usize, usize)>,
     stop: Option<usize>,
     ends: Option<[[Node; 2]; 2]>,
 ) -> PartedWay<'_> {
-    let extent = |&(index, run): &(usize, usize)| document.stretches().get(index)?.extent(run);
+    let extent = |&(index, part): &(usize, usize)| document.stretches().get(index)?.extent(part);
     let begin = places
         .first()
         .and_then(extent)
@@ -258,9 +258,9 @@ struct Held<'a> {
 impl Held<'_> {
     /// Tells of the moves of a part; gives the byte from which their places count.
     fn moves(&self, part: usize, each: &mut dyn FnMut(&Move, Range<usize>)) -> usize {
-        let (stretch, run) = self.places[part];
+        let (stretch, nth) = self.places[part];
         let heard = &mut |index: usize, step: &Move, range: (u32, u32)| {
-            if index == run {
+            if index == nth {
                 each(step, range.0 as usize..range.1 as usize);
             }
         };

@@ -7,9 +7,9 @@ use super::evidence::Evidence;
 use super::limits::Limits;
 use super::machine::{Machine, Reading};
 use super::order::{Order, order};
+use super::part::Hears;
 use super::read::words_of;
 use super::repair::found::Repairs;
-use super::run::Hears;
 use super::stretch::{Placed, StopAt, Stretch};
 use crate::program::chunks::{Chunks, Language};
 use crate::program::path::{Found, Known};
@@ -46,7 +46,7 @@ pub struct Document {
     pub(super) repairs: OnceLock<Arc<Repairs>>,
 }
 
-/// The stretches of a cut, and its runs in there.
+/// The stretches of a cut, and its parts in there.
 type Places = Vec<(usize, usize)>;
 
 /// What was found in the cuts of a program.
@@ -307,8 +307,8 @@ impl Document {
         }
         let stretches = &self.stretches;
         self.contours.retain(|cut| {
-            let is_quiet = |(stretch, run): (usize, usize)| {
-                stretches[stretch].is_quiet && stretches[stretch].inner().contains(&run)
+            let is_quiet = |(stretch, part): (usize, usize)| {
+                stretches[stretch].is_quiet && stretches[stretch].inner().contains(&part)
             };
             !cut.only_place().is_some_and(is_quiet)
         });

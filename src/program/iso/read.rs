@@ -5,7 +5,7 @@
 use super::block::{Block, Note, Stop, read_line};
 use super::corner::{self, Turned, turned};
 use super::machine::{Course, Machine, Move, Reading, Trail, added, apart};
-use super::run::{Hears, Run, SEVERAL, Tight, Ways};
+use super::part::{Hears, Part, SEVERAL, Tight, Ways};
 use super::shape::Shape;
 use super::stretch::{Definition, Foreign, Pathless, Stretch};
 use crate::finding::{Fault, Finding, Rule};
@@ -30,19 +30,25 @@ impl Stretch {
         reading: Reading,
     ) -> Pathless {
         let mut ways: Vec<Ways> = Vec::new();
-        let stretch =
-            Stretch::run_with(lines, count, start, before, reading, &mut |run, step, _| {
-                if ways.len() <= run {
-                    ways.resize_with(run + 1, Ways::default);
+        let stretch = Stretch::run_with(
+            lines,
+            count,
+            start,
+            before,
+            reading,
+            &mut |part, step, _| {
+                if ways.len() <= part {
+                    ways.resize_with(part + 1, Ways::default);
                 }
-                if let Some(way) = ways.get_mut(run) {
+                if let Some(way) = ways.get_mut(part) {
                     way.push(*step);
                 }
-            });
+            },
+        );
         Pathless { stretch, ways }
     }
 
-    /// The same without paths; `each` hears of every move of a run.
+    /// The same without paths; `each` hears of every move of a part.
     pub(crate) fn run_with<'a>(
         mut lines: impl Lines<'a>,
         count: usize,
@@ -200,9 +206,9 @@ impl Stretch {
             if stop == Stop::Pause {
                 self.pauses += 1;
                 let known = self
-                    .runs
+                    .parts
                     .last_mut()
-                    .map_or(&mut self.stop_before, |run| &mut run.stop);
+                    .map_or(&mut self.stop_before, |part| &mut part.stop);
                 *known = Some(known.map_or(range.0, |_| SEVERAL));
             }
             if stop == Stop::End && self.after.side.is_some() && self.after.switches.is_none() {
@@ -266,19 +272,19 @@ impl Stretch {
 
     /// Notes that something is wrong in a line of the cut that is going on.
     fn mark_fault(&mut self) {
-        match self.runs.last_mut() {
-            Some(run) => run.faulty |= run.open,
-            None => self.faulty_before |= self.ends_run_before.is_none(),
+        match self.parts.last_mut() {
+            Some(part) => part.faulty |= part.open,
+            None => self.faulty_before |= self.ends_cut_before.is_none(),
         }
     }
 
     /// What comes next is a cut of its own; `whole` is false where lines between cannot be read.
     fn interrupt(&mut self, whole: bool) {
         self.after.trail = Trail::default();
-        match self.runs.last_mut() {
-            Some(run) if run.open => (run.open, run.whole) = (false, run.whole && whole),
+        match self.parts.last_mut() {
+            Some(part) if part.open => (part.open, part.whole) = (false, part.whole && whole),
             Some(_) => {}
-            None => _ = self.ends_run_before.get_or_insert(whole),
+            None => _ = self.ends_cut_before.get_or_insert(whole),
         }
     }
 
@@ -318,8 +324,8 @@ impl Stretch {
                     // µm² to nm².
                     cap = (arc.twice_cap_area() * 1e6).round();
                     if arc.radius * 1e3 < LARGEST_CORRECTION {
-                        let goes_on = self.runs.last().is_some_and(|run| run.open);
-                        let run = (self.runs.len() - usize::from(goes_on)) as u32;
+                        let goes_on = self.parts.last().is_some_and(|part| part.open);
+                        let part = (self.parts.len() - usize::from(goes_on)) as u32;
                         let tightest = if made.side.is_some() {
                             &mut self.tightest.offset
                         } else {
@@ -330,7 +336,7 @@ impl Stretch {
                             arc: made,
                             radius: arc.radius,
                             range,
-                            run,
+                            part,
                         });
                     }
                 }
@@ -349,15 +355,15 @@ impl Stretch {
         }
         self.examine(&made, range, ahead);
         self.after.trail.push(&made);
-        match self.runs.last_mut() {
-            Some(run) if run.open => run.push(made, cap, range),
+        match self.parts.last_mut() {
+            Some(part) if part.open => part.push(made, cap, range),
             last => {
-                let continues = last.is_none() && self.ends_run_before.is_none();
-                self.runs
-                    .push(Run::begin(made, cap, range, continues, !torn));
+                let continues = last.is_none() && self.ends_cut_before.is_none();
+                self.parts
+                    .push(Part::begin(made, cap, range, continues, !torn));
             }
         }
-        each(self.runs.len() - 1, &made, range);
+        each(self.parts.len() - 1, &made, range);
     }
 
     /// Whether the way turns back on itself at the beginning of a move.

@@ -8,10 +8,10 @@ use super::document::{Document, Table};
 use super::fixes::have_met;
 use super::limits::Limits;
 use super::machine::{Course, Place as Spot, Reading, apart, distance, micrometres};
+use super::part::{Part, Tight, WireSide};
 use super::plain::word_at;
 use super::repair::found::Repair;
 use super::repair::{is_trouble, line_of};
-use super::run::{Run, RunSide, Tight};
 use super::stretch::{Placed, Stretch};
 use super::tilt::{TiltedArc, Unknown};
 use crate::finding::{Detail, Fault, Finding, NoFix, Place, Rule, Severity, Side, SmallRadius};
@@ -271,7 +271,7 @@ impl<'a> Report<'a> {
                     && (tight.arc.side.is_some() || !is_offset_only)
             };
             let tight = is_tight(tightest, self.largest_correction)
-                .then(|| stretch.tight_of(part.run).filter(may_be_tight));
+                .then(|| stretch.tight_of(part.part).filter(may_be_tight));
             found.extend(
                 tight
                     .into_iter()
@@ -285,16 +285,16 @@ impl<'a> Report<'a> {
     /// Whether nothing is wrong with the cuts that begin and end in a stretch, each as a whole.
     fn is_quiet(&mut self, placed: &Placed<'_>, index: usize) -> bool {
         // Passes to and fro are closed for themselves, and may belong to the next or to the one before.
-        let may_be_tab = |run: usize| {
-            let lay = placed.stretch.lays.get(run);
+        let may_be_tab = |part: usize| {
+            let lay = placed.stretch.lays.get(part);
             lay.is_some_and(|lay| lay.closes && !lay.goes_round)
         };
         if self.document.crossings().touch(index) || placed.stretch.inner().any(may_be_tab) {
             return false;
         }
         let known = self.findings.len();
-        for run in placed.stretch.inner() {
-            if let Some(cut) = Cut::of(placed, index, run) {
+        for part in placed.stretch.inner() {
+            if let Some(cut) = Cut::of(placed, index, part) {
                 self.judge(&cut);
             }
         }
@@ -305,25 +305,25 @@ impl<'a> Report<'a> {
 
     /// A cut as a whole: does it close, does the wire run on the right side of it, is an arc too tight.
     fn judge(&mut self, cut: &Cut) {
-        let run = &cut.run;
-        if run.open && !self.is_whole() {
+        let sum = &cut.sum;
+        if sum.open && !self.is_whole() {
             // What is cut short says nothing of the whole.
             return;
         }
         let closes = self.document.is_closed(cut);
         let is_fragment = self.document.is_fragment(cut);
-        if !closes && run.whole {
+        if !closes && sum.whole {
             let finding = self.document.not_closed(cut, is_fragment);
             self.findings.extend(finding);
         }
         // Contours that are only a line there and back have no inside.
-        let orientation = if closes && run.twice_area.unsigned_abs() > 2_000_000 {
-            run.twice_area.signum()
+        let orientation = if closes && sum.twice_area.unsigned_abs() > 2_000_000 {
+            sum.twice_area.signum()
         } else {
             0
         };
-        let side = match run.side {
-            RunSide::One(side) if !is_fragment && orientation != 0 => Some(side),
+        let side = match sum.side {
+            WireSide::One(side) if !is_fragment && orientation != 0 => Some(side),
             _ => None,
         };
         if let Some(side) = side {
@@ -342,13 +342,13 @@ impl<'a> Report<'a> {
                         punch: !inside,
                     },
                 );
-            } else if self.side_of_entry(run).is_some_and(|entry| entry != side) {
+            } else if self.side_of_entry(sum).is_some_and(|entry| entry != side) {
                 self.add(range(), Fault::EntrySide { side });
             }
         }
         if let Some((place, range)) = &cut.flip {
             // The next pass, back along the same contour, has the wire on its other side.
-            let begins = [run.first[0].from, run.first[0].to];
+            let begins = [sum.first[0].from, sum.first[0].to];
             if !begins
                 .iter()
                 .any(|begin| distance(*begin, *place) / 1e3 <= self.document.tolerance(cut))
@@ -377,14 +377,14 @@ impl<'a> Report<'a> {
 
     /// The side of the contour from which the way in comes, told by the contour's directions where it begins and ends; `None` where they
     /// disagree, or the cut has no way in along which the correction goes on.
-    fn side_of_entry(&self, run: &Run) -> Option<Side> {
-        let lead = &run.first[0];
+    fn side_of_entry(&self, sum: &Part) -> Option<Side> {
+        let lead = &sum.first[0];
         if lead.switches != Some(true) || lead.is_arc() {
             return None;
         }
-        let near = |spot: Spot| distance(spot, lead.to) / 1e3 <= tolerance(run.arcs as usize);
-        let last = run.last.iter().rev().find(|step| near(step.to))?;
-        let ahead = run.first[1]
+        let near = |spot: Spot| distance(spot, lead.to) / 1e3 <= tolerance(sum.arcs as usize);
+        let last = sum.last.iter().rev().find(|step| near(step.to))?;
+        let ahead = sum.first[1]
             .at_origin()
             .segment(self.reading)
             .start_tangent();

@@ -5,8 +5,8 @@ use super::control::lines_from;
 use super::corner::turned;
 use super::document::Document;
 use super::machine::{Course, Machine, Move, Place, micrometres};
+use super::part::Part;
 use super::read::words_of;
-use super::run::Run;
 use super::stretch::Stretch;
 use crate::geometry::{Point, Segment};
 use crate::program::chunks::Language;
@@ -163,32 +163,32 @@ impl Document {
     fn begun(&self, (index, own): (usize, Stretch)) -> Option<Begun> {
         // What stands before the last stretch in which a cut begins does not matter.
         let before = &self.stretches()[..index];
-        let from = before.iter().rposition(Stretch::parts_cuts).unwrap_or(0);
+        let from = before.iter().rposition(Stretch::bounds_cuts).unwrap_or(0);
         let mut begun: Option<Begun> = None;
         for stretch in before[from..].iter().chain([&own]) {
-            if stretch.ends_run_before.is_some() {
+            if stretch.ends_cut_before.is_some() {
                 begun = None;
             }
-            for run in stretch.runs() {
-                begun = begun_by(begun.filter(|_| run.continues), &run);
+            for part in stretch.parts() {
+                begun = begun_by(begun.filter(|_| part.continues), &part);
             }
         }
         begun
     }
 }
 
-/// The cut that is under way behind a run, which goes on with what was under way before.
-fn begun_by(before: Option<Begun>, run: &Run) -> Option<Begun> {
-    let last = run.last[1];
+/// The cut that is under way behind a part, which goes on with what was under way before.
+fn begun_by(before: Option<Begun>, part: &Part) -> Option<Begun> {
+    let last = part.last[1];
     let first = before.unwrap_or(Begun {
-        from: run.first[0].from,
-        to: run.first[0].to,
+        from: part.first[0].from,
+        to: part.first[0].to,
         last,
         moves: 0,
     });
-    run.open.then_some(Begun {
+    part.open.then_some(Begun {
         last,
-        moves: first.moves + run.moves,
+        moves: first.moves + part.moves,
         ..first
     })
 }

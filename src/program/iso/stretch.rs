@@ -6,7 +6,7 @@
 use super::block::{Code, Offset};
 use super::evidence::Evidence;
 use super::machine::{Machine, Place, Reading, added, micrometres};
-use super::run::{Run, Tight, Tightest, Ways};
+use super::part::{Part, Tight, Tightest, Ways};
 use super::word::Term;
 use crate::finding::Finding;
 use crate::geometry::Bounds;
@@ -26,15 +26,15 @@ impl Pathless {
         self.stretch.after
     }
 
-    /// How each run lies on itself: what takes time, and hangs on nothing but the moves.
+    /// How each part lies on itself: what takes time, and hangs on nothing but the moves.
     pub(crate) fn with_paths(self) -> Stretch {
         let Pathless { mut stretch, ways } = self;
         stretch.lays = ways
             .into_iter()
             .map(|ways| ways.lay(&stretch.reading))
             .collect();
-        let own = stretch.runs.iter().zip(&stretch.lays);
-        let placed = own.map(|(run, lay)| lay.bounds.moved(micrometres(run.start()).coords));
+        let own = stretch.parts.iter().zip(&stretch.lays);
+        let placed = own.map(|(part, lay)| lay.bounds.moved(micrometres(part.start()).coords));
         stretch.bounds = placed.reduce(|one, other| one.merged(&other));
         stretch
     }
@@ -67,17 +67,17 @@ pub(crate) struct Stretch {
     pub(crate) evidence: Evidence,
     /// What is wrong in single lines; places are bytes from the start of the stretch.
     pub(crate) faults: Vec<Finding>,
-    /// In the order of their runs, where they lay before the stretch was moved, as `runs`.
+    /// In the order of their parts, where they lay before the stretch was moved, as `parts`.
     pub(crate) tight: Vec<Tight>,
     pub(crate) tightest: Tightest,
-    pub(crate) runs: Vec<Run>,
+    pub(crate) parts: Vec<Part>,
     /// By how much it has been moved since its lines were run.
     pub(crate) moved: Place,
-    /// Of each run, how it lies on itself.
+    /// Of each part, how it lies on itself.
     pub(crate) lays: Vec<Lay>,
     /// About all of them, µm, where they lay before the stretch was moved.
     pub(crate) bounds: Option<Bounds>,
-    /// The runs that begin and end here are known to have nothing wrong with them as a whole.
+    /// The parts that begin and end here are known to have nothing wrong with them as a whole.
     pub(crate) is_quiet: bool,
     pub(crate) foreign: Vec<Foreign>,
     pub(crate) definitions: Vec<Definition>,
@@ -96,8 +96,8 @@ pub(crate) struct Stretch {
     /// Where a program or subprogram begins (`O`), whose numbers count for themselves: how many N words stand before it.
     pub(crate) programs: Vec<u32>,
     /// A cut that was going on before these lines ends with none of them; true where all of it could be read.
-    pub(crate) ends_run_before: Option<bool>,
-    /// The stop before the first cut of these lines, as [`Run::stop`].
+    pub(crate) ends_cut_before: Option<bool>,
+    /// The stop before the first cut of these lines, as [`Part::stop`].
     pub(crate) stop_before: Option<u32>,
     /// Something is wrong in a line that belongs to that cut.
     pub(crate) faulty_before: bool,
@@ -141,47 +141,47 @@ impl Stretch {
     }
 
     /// A cut begins or ends in here: what comes behind does not hang on those before.
-    pub(crate) fn parts_cuts(&self) -> bool {
-        self.ends_run_before.is_some() || self.runs.iter().any(|run| !run.continues)
+    pub(crate) fn bounds_cuts(&self) -> bool {
+        self.ends_cut_before.is_some() || self.parts.iter().any(|part| !part.continues)
     }
 
-    pub(crate) fn run_count(&self) -> usize {
-        self.runs.len()
+    pub(crate) fn part_count(&self) -> usize {
+        self.parts.len()
     }
 
-    /// A run, where it lies.
-    pub(crate) fn run_at(&self, index: usize) -> Option<Run> {
-        let mut run = *self.runs.get(index)?;
-        run.shift(self.moved);
-        Some(run)
+    /// A part, where it lies.
+    pub(crate) fn part_at(&self, index: usize) -> Option<Part> {
+        let mut part = *self.parts.get(index)?;
+        part.shift(self.moved);
+        Some(part)
     }
 
-    pub(crate) fn runs(&self) -> impl Iterator<Item = Run> + '_ {
-        (0..self.runs.len()).filter_map(|index| self.run_at(index))
+    pub(crate) fn parts(&self) -> impl Iterator<Item = Part> + '_ {
+        (0..self.parts.len()).filter_map(|index| self.part_at(index))
     }
 
-    /// Where a run begins, how many moves and arcs it has.
+    /// Where a part begins, how many moves and arcs it has.
     pub(crate) fn extent(&self, index: usize) -> Option<(Place, u32, u32)> {
-        self.runs
+        self.parts
             .get(index)
-            .map(|run| (added(run.start(), self.moved), run.moves, run.arcs))
+            .map(|part| (added(part.start(), self.moved), part.moves, part.arcs))
     }
 
-    /// The runs that begin and end here.
+    /// The parts that begin and end here.
     pub(crate) fn inner(&self) -> Range<usize> {
-        let first = usize::from(self.runs.first().is_some_and(|run| run.continues));
-        let end = self.runs.len() - usize::from(self.runs.last().is_some_and(|run| run.open));
+        let first = usize::from(self.parts.first().is_some_and(|part| part.continues));
+        let end = self.parts.len() - usize::from(self.parts.last().is_some_and(|part| part.open));
         first..end.max(first)
     }
 
-    /// The arcs of a run that may be tighter than a correction, where they lie.
-    pub(crate) fn tight_of(&self, run: usize) -> impl Iterator<Item = Tight> + '_ {
+    /// The arcs of a part that may be tighter than a correction, where they lie.
+    pub(crate) fn tight_of(&self, part: usize) -> impl Iterator<Item = Tight> + '_ {
         let first = self
             .tight
-            .partition_point(|tight| (tight.run as usize) < run);
+            .partition_point(|tight| (tight.part as usize) < part);
         let of_run = self.tight[first..]
             .iter()
-            .take_while(move |tight| tight.run as usize == run);
+            .take_while(move |tight| tight.part as usize == part);
         of_run.map(|tight| Tight {
             arc: tight.arc.shifted(self.moved),
             ..*tight

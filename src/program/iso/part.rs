@@ -1,19 +1,18 @@
-//! Consecutive cuts of an ISO program without rapid or stop between, as far as they lie in one stretch, how they lie on themselves, and
-//! their arcs that may be too tight.
+//! The part of a cut of an ISO program that lies in one stretch, how it lies on itself, and its arcs that may be too tight.
 
 use super::machine::{Bend, Move, Place, Reading, added, apart};
 use crate::geometry::{Point, Side};
 use crate::program::path::{HeldWay, Lay, Node, mixed};
 
-/// Consecutive cuts without rapid or stop between, or the part of them that lies in one stretch.
+/// Consecutive moves that cut, without a rapid or a stop between: those of a cut, or the ones of them that lie in one stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Run {
+pub(crate) struct Part {
     /// The first two and the last two moves that lead anywhere; the same one may be several of them.
     pub(crate) first: [Move; 2],
     pub(crate) last: [Move; 2],
     pub(crate) moves: u32,
     pub(crate) arcs: u32,
-    /// Twice the signed area in nm², about the place where the run begins.
+    /// Twice the signed area in nm², about the place where the part begins.
     pub(crate) twice_area: i128,
     /// The line that begins it, bytes from the start of the stretch.
     pub(crate) range: (u32, u32),
@@ -30,7 +29,7 @@ pub(crate) struct Run {
     /// The stop behind it, before anything else moves, bytes from the start of the stretch; [`SEVERAL`] for more than one.
     pub(crate) stop: Option<u32>,
     /// The side that the control let the wire run on, where that was one and the same from the second move to the one before the last.
-    pub(crate) side: RunSide,
+    pub(crate) side: WireSide,
     /// Where the wire was sent to the other side first, and the line that did so.
     pub(crate) flip: Option<(Place, (u32, u32))>,
 }
@@ -38,25 +37,25 @@ pub(crate) struct Run {
 /// Stands for more than one stop.
 pub(crate) const SEVERAL: u32 = u32::MAX;
 
-/// On which side of a run the wire was sent.
+/// On which side of a part the wire was sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum RunSide {
+pub(crate) enum WireSide {
     None,
     One(Side),
     Both,
 }
 
-impl Run {
+impl Part {
     pub(crate) fn begin(
         first: Move,
         cap: f64,
         range: (u32, u32),
         continues: bool,
         whole: bool,
-    ) -> Run {
-        let side = first.side.map_or(RunSide::None, RunSide::One);
+    ) -> Part {
+        let side = first.side.map_or(WireSide::None, WireSide::One);
         let twice_area = cap as i128;
-        Run {
+        Part {
             first: [first; 2],
             last: [first; 2],
             moves: 1,
@@ -97,11 +96,11 @@ impl Run {
         self.moves += 1;
         self.arcs += u32::from(step.is_arc());
         self.last_range = range;
-        self.side = joined(self.side, step.side.map_or(RunSide::None, RunSide::One));
+        self.side = joined(self.side, step.side.map_or(WireSide::None, WireSide::One));
     }
 
-    /// Appends the continuation of a run; the ranges stay those of the beginning.
-    pub(crate) fn append(&mut self, next: &Run) {
+    /// Appends the continuation of a part; the ranges stay those of the beginning.
+    pub(crate) fn append(&mut self, next: &Part) {
         // The area of the continuation was taken about its own beginning.
         let (origin, its) = (self.start(), next.start());
         let between = cross(apart(its, origin), apart(next.last[1].to, its));
@@ -146,18 +145,18 @@ pub(crate) fn changes_side(one: &Move, other: &Move) -> bool {
     matches!((one.side, other.side), (Some(one), Some(other)) if one != other)
 }
 
-fn joined(a: RunSide, b: RunSide) -> RunSide {
+fn joined(a: WireSide, b: WireSide) -> WireSide {
     match (a, b) {
-        (RunSide::None, other) | (other, RunSide::None) => other,
+        (WireSide::None, other) | (other, WireSide::None) => other,
         (one, other) if one == other => one,
-        _ => RunSide::Both,
+        _ => WireSide::Both,
     }
 }
 
-/// Hears of every move of a run: the run's index, the move, the place of its words.
+/// Hears of every move of a part: the part's index, the move, the place of its words.
 pub(crate) type Hears<'a> = dyn FnMut(usize, &Move, (u32, u32)) + 'a;
 
-/// The moves of a run as they are made.
+/// The moves of a part as they are made.
 #[derive(Default)]
 pub(crate) struct Ways(Vec<Move>);
 
@@ -166,7 +165,7 @@ impl Ways {
         self.0.push(step);
     }
 
-    /// How the run lies on itself.
+    /// How the part lies on itself.
     pub(crate) fn lay(self, reading: &Reading) -> Lay {
         let start = self.0.first().map_or([0, 0], |step| step.from);
         let mut way = HeldWay::from(Node::at(Point::origin()), reading.writing());
@@ -212,8 +211,8 @@ pub(crate) struct Tight {
     pub(crate) radius: f64,
     /// Bytes from the start of the stretch; the whole line's words.
     pub(crate) range: (u32, u32),
-    /// The run that it is part of, by its index in the stretch.
-    pub(crate) run: u32,
+    /// The part that it belongs to, by its index in the stretch.
+    pub(crate) part: u32,
 }
 
 /// The smallest radii among some arcs, µm; infinite where there is none.
