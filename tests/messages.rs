@@ -274,6 +274,30 @@ fn every_sentence_has_its_twin_which_speaks_of_the_same() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// A name says what its sentence means; one that was cut off out of its first words ends in a word that leads on to the next.
+#[test]
+fn no_name_of_a_sentence_is_cut_off() {
+    const LEADS_ON: [&str; 11] = [
+        "a", "an", "the", "its", "and", "or", "not", "that", "which", "where", "until",
+    ];
+    // To what the sentence takes, where it takes anything.
+    const LEADS_TO: [&str; 11] = [
+        "of", "to", "from", "with", "for", "at", "by", "as", "than", "is", "are",
+    ];
+    let mut wrong: Vec<String> = Vec::new();
+    for (file, rows) in rows("en") {
+        for row in &rows {
+            let Some((_, last)) = row.name.rsplit_once('_') else {
+                continue;
+            };
+            if LEADS_ON.contains(&last) || (LEADS_TO.contains(&last) && row.takes.is_empty()) {
+                wrong.push(format!("{file}: {}: {:?}", row.name, row.wordings));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
 #[test]
 fn chinese_rows_are_chinese() {
     let is_han = |letter: char| matches!(letter, '\u{4e00}'..='\u{9fff}');

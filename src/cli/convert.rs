@@ -48,7 +48,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         document, writing, ..
     } = files::open_to_use(path, &arguments.common, &last)?;
     if document.program().is_none() {
-        return Err(Failure::of(path, say!(a_drawing_is_generated_from)));
+        return Err(Failure::of(
+            path,
+            say!(a_drawing_where_a_program_is_expected),
+        ));
     }
     let made = match job::convert(&document, target, arguments.force) {
         Ok(made) => made,
@@ -81,9 +84,7 @@ fn target(arguments: &Arguments) -> Result<Target, Failure> {
             out,
             say!(its_name_has_no_ending, ".dxf, .3b, .4b, .iso", ".nc"),
         )),
-        (None, None, _) => Err(Failure(
-            say!(nothing_says_what_the_program_becomes_expected_o).into(),
-        )),
+        (None, None, _) => Err(Failure(say!(nothing_says_what_the_program_becomes).into())),
     }
 }
 
@@ -102,7 +103,7 @@ fn summarise(arguments: &Arguments, target: Target, made: &Converted) {
     if target == Target::Drawing
         && (cuts.four_b.is_some() || cuts.cuts.iter().any(|cut| cut.side.is_some()))
     {
-        output::say(say!(the_contours_are_those_of_the_part_the_correction));
+        output::say(say!(the_correction_is_not_in_the_contours));
     }
     cuts.losses().iter().for_each(|loss| output::say(loss));
     if cuts.closure >= 0.005 {

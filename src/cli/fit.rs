@@ -102,29 +102,11 @@ fn table(fit: &Fit) -> String {
     }
     let (least, wanted) = (fit.least * 1e3, fit.clearance * 1e3);
     let places = say!(places, fit.places.len());
-    let _ = match fit.fits {
-        true => writeln!(
-            text,
-            "{}",
-            say!(
-                it_fits,
-                styled(output::GOOD, say!(fits)),
-                least,
-                wanted,
-                places
-            )
-        ),
-        false => writeln!(
-            text,
-            "{}",
-            say!(
-                it_does_not_fit,
-                styled(output::ERROR, say!(does_not_fit)),
-                least,
-                wanted,
-                places
-            )
-        ),
+    let verdict = match fit.fits {
+        true => styled(output::GOOD, say!(fits)),
+        false => styled(output::ERROR, say!(does_not_fit)),
     };
+    let verdict = say!(verdict_of_the_fit, verdict, least, wanted, places);
+    let _ = writeln!(text, "{verdict}");
     text
 }

@@ -274,7 +274,7 @@ fn table(printed: &Printed) -> String {
     let units = if unit == 1.0 {
         "mm".into()
     } else {
-        say!(drawing_units_of_mm_radius, unit)
+        say!(units_of_the_drawing_and_of_the_radius, unit)
     };
     let _ = writeln!(
         text,

@@ -77,7 +77,7 @@ impl Document {
         }
         edits.sort_by_key(|edit| (edit.range.start, edit.range.end));
         if let Some(line) = edits.iter().find_map(|edit| self.fault_decided_by(edit)) {
-            return Err(say!(lines_would_come_or_go_near_line, line + 1));
+            return Err(say!(lines_would_come_or_go_near_a_damaged_one, line + 1));
         }
         Ok(edits)
     }

@@ -83,7 +83,7 @@ impl Reader<'_> {
         if value.is_finite() {
             Ok(value)
         } else {
-            Err(say!(a_number_is_expected_a_finite_one, value))
+            Err(say!(a_number_is_not_finite, value))
         }
     }
 

@@ -17,17 +17,17 @@ pub(super) fn recognise(bytes: &[u8]) -> Option<&'static str> {
         ),
         (b"%PDF", say!(the_file_is_a_pdf_not_dxf_text)),
         (b"PK\x03\x04", say!(the_file_is_a_zip_archive_not_dxf_text)),
-        (b"\xff\xfe", say!(the_text_is_utf_16_save)),
-        (b"\xfe\xff", say!(the_text_is_utf_16_save)),
-        (b"\x1f\x8b", say!(the_file_is_compressed_gzip_not)),
-        (b"\x89PNG", say!(the_file_is_a_picture_png_not)),
-        (b"II*\0", say!(the_file_is_a_picture_tiff_not)),
+        (b"\xff\xfe", say!(the_text_is_utf_16)),
+        (b"\xfe\xff", say!(the_text_is_utf_16)),
+        (b"\x1f\x8b", say!(the_file_is_compressed)),
+        (b"\x89PNG", say!(the_file_is_a_png_picture)),
+        (b"II*\0", say!(the_file_is_a_tiff_picture)),
     ];
     if let Some((_, sentence)) = known.iter().find(|(magic, _)| head.starts_with(magic)) {
         return Some(sentence);
     }
     if head.starts_with(b"AC10") || head.starts_with(b"AC1.") || head.starts_with(b"AC2.") {
-        return Some(say!(the_file_is_a_dwg_drawing_not_dxf_text));
+        return Some(say!(the_file_is_a_dwg_drawing));
     }
     let alternate = head
         .iter()
@@ -37,7 +37,7 @@ pub(super) fn recognise(bytes: &[u8]) -> Option<&'static str> {
         .count();
     if zeros * 5 > head.len() * 2 && alternate * 10 > head.len() * 4 && zeros < head.len() * 6 / 10
     {
-        return Some(say!(the_text_is_utf_16_save));
+        return Some(say!(the_text_is_utf_16));
     }
     (zeros * 10 > head.len() * 3).then_some(say!(the_file_is_binary_not_dxf_text))
 }

@@ -95,7 +95,7 @@ pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcom
     for (code, axis, value) in [(41, 'x', x_scale), (42, 'y', y_scale), (43, 'z', z_scale)] {
         if value == Some(0.0) {
             let place = lexer.lines.trimmed_range(value_line_of(start, lexer, code));
-            let sentence = say!(group_code_scale_of_insert_is_0, code, axis);
+            let sentence = say!(a_scale_of_insert_is_0, code, axis);
             lexer.oddity_in(place, sentence);
         }
     }

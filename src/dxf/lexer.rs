@@ -181,7 +181,7 @@ impl<'a> Lexer<'a> {
             self.lost_value(tag.line);
         } else {
             let found = quoted(self.lines.trimmed(line));
-            let sentence = say!(stands_where_a_value_is_expected, found, tag.code);
+            let sentence = say!(a_line_off_where_a_value_is_expected, found, tag.code);
             self.damage_in(self.lines.range(line), sentence);
         }
         true
@@ -228,13 +228,9 @@ impl<'a> Lexer<'a> {
             } else if next == line + 2 {
                 say!(stands_where_a_group_code_is_expected, found)
             } else if next > line + 2 {
-                say!(
-                    stands_where_a_group_code_is_expected_lines,
-                    found,
-                    next - line
-                )
+                say!(lines_that_are_no_tags, found, next - line)
             } else {
-                say!(stands_where_a_group_code_is_expected_a_line, found)
+                say!(a_line_off_where_a_group_code_is_expected, found)
             };
         let end = self.lines.range(next.max(line + 1) - 1).end;
         let start = self.lines.range(line).start;

@@ -201,9 +201,9 @@ fn drawn(outcome: Outcome, start: Tag, lexer: &mut Lexer, tolerance: f64) -> Out
         }
         Err(why) => {
             let sentence = match why {
-                Unfit::NoCurve => say!(has_no_length_or_numbers_beyond_all, read.kind),
+                Unfit::NoCurve => say!(has_no_length_or_numbers_beyond_all_measure, read.kind),
                 Unfit::TooManyArcs(most) => {
-                    say!(takes_more_than_arcs_which_is_beyond_all, read.kind, most)
+                    say!(takes_more_arcs_than_are_drawn, read.kind, most)
                 }
             };
             lexer.damage(start.value_line(), sentence);

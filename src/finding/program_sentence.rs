@@ -8,7 +8,7 @@ fn keeps_open(found: &str, meant: &str, is_sure: bool) -> String {
     if is_sure {
         return say!(keeps_the_contour_open_with, found, meant);
     }
-    say!(may_be_wrong_the_contour_does, found, meant)
+    say!(may_keep_the_contour_open, found, meant)
 }
 
 /// What is wrong in a program, and what comes of it at the machine.
@@ -19,7 +19,7 @@ pub(super) fn program(fault: &Fault) -> String {
     };
     match fault {
         Fault::Said { sentence, .. } => sentence.clone(),
-        Fault::MissingB => say!(a_b_of_the_block_is_missing_the_controller).into(),
+        Fault::MissingB => say!(a_missing_b_shifts_the_numbers).into(),
         Fault::BlockNumberAsB { number } => {
             say!(b_stands_where_the_block_number_was_meant, number)
         }
@@ -33,7 +33,7 @@ pub(super) fn program(fault: &Fault) -> String {
             projection,
             axis,
         } => {
-            say!(j_is_0_and_the_projection_is_not, axis.letter(), projection)
+            say!(j_is_0_beside_a_projection, axis.letter(), projection)
         }
         Fault::WrongJ {
             j,
@@ -80,7 +80,7 @@ pub(super) fn program(fault: &Fault) -> String {
             expected: [one, other],
             axis,
         } => say!(
-            is_unusual_for_a_line_along,
+            is_unusual_for_a_line_along_an_axis,
             found,
             axis.letter(),
             one,
@@ -92,7 +92,7 @@ pub(super) fn program(fault: &Fault) -> String {
             axis,
         } => {
             say!(
-                contradicts_a_line_along_expected,
+                contradicts_a_line_along_an_axis,
                 found,
                 axis.letter(),
                 one,
@@ -113,7 +113,7 @@ pub(super) fn program(fault: &Fault) -> String {
             )
         }
         Fault::ExchangedKeepsOpen => say!(x_and_y_stand_for_each_other).into(),
-        Fault::TwinKeepsOpen => say!(the_block_stands_twice_without).into(),
+        Fault::TwinKeepsOpen => say!(without_its_double_the_contour_closes).into(),
         Fault::ArcWithoutRadius => say!(the_arc_has_no_radius).into(),
         Fault::TooManyDigits {
             field,
@@ -134,7 +134,7 @@ pub(super) fn program(fault: &Fault) -> String {
             y / 1000.0
         ),
         Fault::MissingEnd { word } => {
-            say!(the_program_has_no_end_expected, word)
+            say!(the_program_lacks_its_end, word)
         }
         Fault::TextAfterEnd { word } => {
             say!(text_behind_which_ends_the_program, word)
@@ -174,63 +174,56 @@ pub(super) fn program(fault: &Fault) -> String {
             } else {
                 (say!(inside), say!(punch))
             };
-            say!(
-                which_is_this_contour_the_settings,
-                side_word(side),
-                is,
-                wanted
-            )
+            say!(the_settings_say_the_other_side, side_word(side), is, wanted)
         }
         Fault::EntrySide { side } => {
-            say!(
-                of_this_contour_but_it_comes_to_it_from_the_other_side,
-                side_word(side)
-            )
+            say!(it_comes_from_the_other_side, side_word(side))
         }
         Fault::Foreign { word, count: 1 } => {
-            say!(is_a_matter_of_the_machine_it_is_kept_not, word)
+            say!(is_a_matter_of_the_machine, word)
         }
         Fault::Foreign { word, count } => {
-            say!(times_is_a_matter_of_the_machine_it_is_kept, word, count)
+            say!(is_often_a_matter_of_the_machine, word, count)
         }
         Fault::NoSubprogram { number } => say!(subprogram_does_not_stand_in_this_text, number),
-        Fault::EndlessCalls => say!(the_subprograms_call_each_other_without_end_or).into(),
+        Fault::EndlessCalls => say!(the_subprograms_call_each_other_without_end).into(),
         Fault::ReversedArc { is_sure: true } => say!(the_arc_runs_the_wrong_way_round).into(),
         Fault::ReversedArc { is_sure: false } => say!(the_arc_may_run_the_wrong_way_round).into(),
         Fault::Spur { length } => {
             say!(the_wire_goes_out_mm_and_back_on_the_same, mm(length / 1e3))
         }
-        Fault::DoubledBlock { arc: true } => say!(the_block_stands_twice_the_wire).into(),
-        Fault::DoubledBlock { arc: false } => say!(the_block_stands_twice_the_wire_is_there).into(),
+        Fault::DoubledBlock { arc: true } => say!(the_block_stands_twice_and_goes_round).into(),
+        Fault::DoubledBlock { arc: false } => say!(the_block_stands_twice_and_moves_nothing).into(),
         Fault::NoOffset { side } => {
-            say!(and_nothing_says_by_how_much, side_word(side))
+            say!(nothing_says_by_how_much, side_word(side))
         }
         Fault::SideChange { side } => {
-            say!(from_here_on_in_the_middle_of_the_cut, side_word(side))
+            say!(the_side_changes_within_the_cut, side_word(side))
         }
         Fault::StillOn => say!(the_program_ends_with_the_correction_on).into(),
         Fault::NoReturn { number } => {
             say!(subprogram_has_no_m99, number)
         }
         Fault::Bare { word, count: 1 } => {
-            say!(has_no_decimal_point_the_other_numbers_have, word)
+            say!(has_no_decimal_point, word)
         }
-        Fault::Bare { word, count } => say!(and_others_in_all_have_no_decimal, word, count),
+        Fault::Bare { word, count } => say!(several_have_no_decimal_point, word, count),
         Fault::Pointed { word } => {
-            say!(has_a_decimal_point_the_other_numbers_have_none, word)
+            say!(has_a_decimal_point, word)
         }
         Fault::Places { word, usual } => {
-            say!(has_not_decimals_as_all_other_numbers, word, usual)
+            say!(has_other_decimals_than_the_others, word, usual)
         }
         Fault::LooksLikeInches { size } => say!(the_program_does_not_say_its_unit, mm(*size)),
         Fault::AbsurdSize { size } => {
-            say!(the_program_is_mm_long_or_wide, mm(*size), absurd(*size))
+            say!(
+                the_program_is_meant_in_another_unit,
+                mm(*size),
+                absurd(*size)
+            )
         }
         Fault::UnknownValue { word } => {
-            say!(
-                hangs_on_a_place_of_the_control_table_that_the_program_does,
-                word
-            )
+            say!(hangs_on_an_empty_place_of_the_table, word)
         }
         Fault::Suspect {
             found,
@@ -243,9 +236,9 @@ pub(super) fn program(fault: &Fault) -> String {
                 say!(the_cut_would_be_sound)
             };
             match (found.is_empty(), meant.is_empty()) {
-                (true, _) => say!(may_be_missing_here_with, meant, comes_of_it),
+                (true, _) => say!(may_be_missing_here, meant, comes_of_it),
                 (_, true) => say!(may_be_one_too_many, found, comes_of_it),
-                _ => say!(may_be_wrong_with_here, found, comes_of_it, meant),
+                _ => say!(may_be_wrong_here, found, comes_of_it, meant),
             }
         }
     }

@@ -47,7 +47,7 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
             count: Some(1),
             ..
         } => say!(
-            sharp_corner_of_degrees_where,
+            a_sharp_corner_that_the_wire_runs_inside,
             turn.abs().to_degrees(),
             mm(radius * unit_mm)
         ),
@@ -57,14 +57,14 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
             ..
         } => {
             say!(
-                sharp_corners_those_that_the_wire_runs,
+                sharp_corners_that_the_wire_runs_inside,
                 count,
                 mm(radius * unit_mm)
             )
         }
         Detail::NarrowSlot { width, required } => {
             let (width, required) = told_apart(width * unit_mm, required * unit_mm);
-            say!(slot_is_mm_wide_the_wire_needs_mm, width, required)
+            say!(the_slot_is_too_narrow, width, required)
         }
         Detail::LostPocket { .. } => say!(the_offset_loses_this_part_of_the_outline).into(),
         Detail::DeadEnd { uncut, .. } => {
@@ -85,19 +85,13 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
         Detail::OffsetCollapse {
             required,
             point: true,
-        } => say!(
-            at_a_correction_of_mm_a_point_is_left_of_the_outline,
-            mm(required * unit_mm)
-        ),
+        } => say!(a_point_is_left_of_the_outline, mm(required * unit_mm)),
         Detail::UnprovedPath { .. } => say!(no_path_of_the_wire_along_this_contour_holds).into(),
         Detail::OffsetCollapse {
             required,
             point: false,
         } => {
-            say!(
-                nothing_is_left_of_the_outline_at_a_correction_of_mm,
-                mm(required * unit_mm)
-            )
+            say!(nothing_is_left_of_the_outline, mm(required * unit_mm))
         }
         Detail::Unwritable(what) => unwritable(what),
         Detail::OpenContour { distance } => {
@@ -110,13 +104,13 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
         }
         Detail::NotJudged(what) => not_judged(what),
         Detail::ShortSegment { length: 0.0 } => say!(segment_has_no_length).into(),
-        Detail::ShortSegment { length } => say!(segment_is_only_mm_long, mm(length * unit_mm)),
+        Detail::ShortSegment { length } => say!(the_segment_is_too_short, mm(length * unit_mm)),
         Detail::NearTangent { turn } => {
             say!(contour_kinks_by_degrees, turn.abs().to_degrees())
         }
         Detail::SelfIntersection { touches, .. } => {
             say!(
-                contour_here_the_wire_would_cut,
+                the_wire_would_cut_into_the_part,
                 if *touches {
                     say!(touches_itself_or_another)
                 } else {
@@ -136,12 +130,7 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
             } else {
                 say!(within_mm, mm(deviation * unit_mm))
             };
-            say!(
-                chords_lie_on_one_arc_of_r_mm,
-                chords,
-                mm(radius * unit_mm),
-                within
-            )
+            say!(chords_lie_on_one_arc, chords, mm(radius * unit_mm), within)
         }
         Detail::Size { size } => {
             let what = absurd(size * unit_mm);
@@ -227,7 +216,7 @@ fn unwritable(what: &Unwritable) -> String {
             at: [x, y],
             radius,
             correction,
-        } => say!(n4b_cannot_have_the_arc_r_at, radius, x, y, correction),
+        } => say!(an_arc_that_4b_cannot_have, radius, x, y, correction),
         Unwritable::BeginsInCorner { at: [x, y] } => {
             say!(n4b_needs_a_transition_arc_where_the_cut_begins, x, y)
         }
@@ -350,7 +339,7 @@ fn small_radius(numbers: &SmallRadius, unit_mm: f64) -> String {
             mm(numbers.overcut * unit_mm)
         );
         if numbers.stock_left.is_finite() {
-            text += &say!(or_leaves_mm_where, mm(numbers.stock_left * unit_mm));
+            text += &say!(or_leaves_stock, mm(numbers.stock_left * unit_mm));
         }
     } else {
         text += say!(the_control_loses_the_arc);
@@ -368,7 +357,7 @@ fn small_radius(numbers: &SmallRadius, unit_mm: f64) -> String {
             text += say!(the_arc_that_fits_would_leave_a_segment_too_short)
         }
         Some(NoFix::Spoils) => text += say!(the_arc_that_fits_here_would_bring_another_fault),
-        Some(NoFix::NoNeighbour) => text += say!(there_is_no_neighbour_on_both_sides_that_a_larger),
+        Some(NoFix::NoNeighbour) => text += say!(no_neighbours_for_a_larger_arc),
         Some(NoFix::Program) => text += say!(repair_it_in_the_drawing_and_make_the_program_again),
         Some(NoFix::NotEditable) => {
             text += say!(it_is_part_of_an_entity_that_cannot_be_edited_here)

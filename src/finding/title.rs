@@ -24,7 +24,7 @@ pub(crate) fn title(kind: &FixKind, unit_mm: f64) -> String {
             )
         }
         FixKind::KeepEndPoints { radius, kink } => say!(
-            keep_the_end_points_change_only_the_bulge_to_r,
+            change_only_the_bulge,
             mm(radius * unit_mm),
             kink.to_degrees()
         ),
@@ -52,12 +52,12 @@ pub(crate) fn title(kind: &FixKind, unit_mm: f64) -> String {
         FixKind::Close { length } => {
             say!(close_the_contour_with_a_line_of_mm, mm(length * unit_mm))
         }
-        FixKind::Snap { distance } => say!(snap_the_ends_together_moves, mm(distance * unit_mm)),
+        FixKind::Snap { distance } => say!(snap_the_ends_together, mm(distance * unit_mm)),
         FixKind::DeleteDouble => say!(delete_the_double).into(),
         FixKind::DeletePoint => say!(delete_what_has_no_length).into(),
         FixKind::Merge => say!(remove_the_short_segment_its_neighbours_meet).into(),
         FixKind::MakeTangent { moved } => {
-            say!(make_the_segments_tangent_moves, mm(moved * unit_mm))
+            say!(make_the_segments_tangent, mm(moved * unit_mm))
         }
         FixKind::SetJ { j } => say!(set_j_to, j),
         FixKind::SetEnd { axis, value } => say!(set_to, axis.letter(), value),
@@ -105,7 +105,7 @@ pub(crate) fn title(kind: &FixKind, unit_mm: f64) -> String {
             }
             CenterFix::Sign => say!(put_the_sign_of_i_and_j_right, mm(*radius)),
             CenterFix::Swap => say!(swap_i_and_j_r, mm(*radius)),
-            CenterFix::Nearest { moved } => say!(move_the_centre_by_mm, mm(*moved), mm(*radius)),
+            CenterFix::Nearest { moved } => say!(move_the_centre, mm(*moved), mm(*radius)),
         },
         FixKind::Rewrite { found, meant } if meant.is_empty() => say!(delete, found),
         FixKind::Rewrite { found, meant } if found.is_empty() => say!(write, meant),

@@ -31,7 +31,7 @@ pub(super) fn figure(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
         let (handle, segment, detail) = (&fault.handle, fault.segment, fault.detail);
         let (radius, required) = (subject.mm(detail.radius), subject.mm(detail.required));
         let label = say!(
-            segment_r_mm_the_correction,
+            a_segment_tighter_than_the_correction,
             handle,
             segment,
             radius,

@@ -32,7 +32,7 @@ impl Format {
             .find(|format| format.name().eq_ignore_ascii_case(name));
         found.ok_or_else(|| {
             let names = Format::ALL.map(|format| format!("\"{}\"", format.name()));
-            say!(the_format_is_expected, name, names.join(", "))
+            say!(the_format_is_not_known, name, names.join(", "))
         })
     }
 

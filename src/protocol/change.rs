@@ -62,7 +62,10 @@ impl<'de> Deserialize<'de> for DrawingChange {
                 entity,
                 before,
             }),
-            _ => Err(D::Error::custom(say!(the_change_of_holds_neither, handle))),
+            _ => Err(D::Error::custom(say!(
+                a_change_needs_vertices_or_an_entity,
+                handle
+            ))),
         }
     }
 }
@@ -141,7 +144,7 @@ fn try_change<'a>(
             }
             let insert = &vertices.insert;
             if let Some(index) = insert.iter().position(|vertex| !vertex.is_finite()) {
-                return Err(say!(vertex_to_insert_in_is, index, handle));
+                return Err(say!(an_inserted_vertex_is_not_finite, index, handle));
             }
             let count = count - delete_count + insert.len();
             standing.insert(handle, Standing::Polyline(count));
@@ -154,7 +157,7 @@ fn try_change<'a>(
             if let Some(before) = before
                 && matches!(stands(before), Standing::Nothing)
             {
-                return Err(say!(there_is_no_entity_to, before, handle));
+                return Err(say!(no_entity_to_put_it_before, before, handle));
             }
             let becomes = match entity {
                 None if matches!(stands(handle), Standing::Nothing) => {
@@ -162,7 +165,7 @@ fn try_change<'a>(
                 }
                 None => Standing::Nothing,
                 Some(entity) if entity.handle != *handle => {
-                    return Err(say!(the_entity_handle_is_expected, entity.handle, handle));
+                    return Err(say!(the_entity_has_another_handle, entity.handle, handle));
                 }
                 Some(entity) => {
                     entity.check()?;

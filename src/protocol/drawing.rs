@@ -168,7 +168,7 @@ impl<'de> Deserialize<'de> for Entity {
                 text: keys.text.ok_or_else(|| missing("text"))?,
             },
             _ => {
-                let message = say!(entity_type_is_expected_polyline, name, kind);
+                let message = say!(the_entity_is_of_no_known_type, name, kind);
                 return Err(D::Error::custom(message));
             }
         };
@@ -188,7 +188,7 @@ impl Drawing {
         for entity in self.entities {
             let entity = entity.into_core()?;
             if drawing.find(&entity.handle).is_some() {
-                return Err(say!(handle_stands_twice_expected_a, entity.handle));
+                return Err(say!(the_handle_stands_twice, entity.handle));
             }
             drawing.push(entity);
         }
@@ -212,20 +212,20 @@ impl Entity {
         let name = &self.handle;
         let point = |key: &str, at: &Point| match at.x.is_finite() && at.y.is_finite() {
             true => Ok(()),
-            false => Err(say!(entity_is_not_two_finite, name, key)),
+            false => Err(say!(not_two_finite_numbers, name, key)),
         };
         let radius_is_sound = |radius: f64| match radius.is_finite() && radius > 0.0 {
             true => Ok(()),
-            false => Err(say!(entity_radius_is_expected_a, name, radius)),
+            false => Err(say!(the_radius_is_not_finite_and_above_0, name, radius)),
         };
         let angle = |key: &str, angle: f64| match angle.is_finite() {
             true => Ok(()),
-            false => Err(say!(entity_is_not_a_finite, name, key)),
+            false => Err(say!(not_a_finite_number, name, key)),
         };
         match &self.geometry {
             Geometry::Polyline { vertices, .. } => {
                 match vertices.iter().position(|vertex| !vertex.is_finite()) {
-                    Some(index) => Err(say!(entity_vertex_is_not_of, name, index)),
+                    Some(index) => Err(say!(a_vertex_is_not_finite, name, index)),
                     None => Ok(()),
                 }
             }

@@ -142,7 +142,7 @@ impl<S: 'static> Client<S> {
         result: Result<Value, Value>,
     ) -> Option<Answered<S>> {
         let Some(Asked { then, method, .. }) = self.asked.remove(id) else {
-            self.log(Weight::Info, say!(an_answer_to_came_late, id));
+            self.log(Weight::Info, say!(an_answer_came_late, id));
             return None;
         };
         let result = result.map_err(|error| {

@@ -96,16 +96,21 @@ pub(super) fn change(state: &mut State, sent: SentChanges) {
 
 /// A change of a drawing was not made.
 pub(super) fn does_not_apply(state: &mut State, uri: &Arc<str>, reason: &str) {
-    refuse(state, uri, &say!(a_change_of_the_drawing, uri, reason));
+    refuse(
+        state,
+        uri,
+        &say!(a_change_of_the_drawing_does_not_apply, uri, reason),
+    );
 }
 
 pub(super) fn close(state: &mut State, uri: &Arc<str>) {
     state.resending.remove(uri);
     let is_open = state.documents.get(uri).is_some_and(|open| open.is_drawing);
     if !is_open || !state.close(uri) {
-        state
-            .client
-            .log(Weight::Warning, say!(the_drawing_was_closed_without, uri));
+        state.client.log(
+            Weight::Warning,
+            say!(the_drawing_was_closed_without_being_open, uri),
+        );
     }
 }
 

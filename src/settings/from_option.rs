@@ -30,7 +30,7 @@ impl Settings {
         match reader.errors.into_iter().next() {
             None => Ok(settings),
             Some(_) if row.read == "point_setting" => {
-                Err(say!(expected_two_numbers_with_a_comma_between_such).into())
+                Err(say!(expected_two_numbers_with_a_comma_between).into())
             }
             Some(error) => Err(error.message),
         }

@@ -27,7 +27,7 @@ pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, String> {
 /// a mebibyte nothing does.
 pub fn from_toml(text: &str) -> (Settings, Vec<SettingsError>) {
     if text.len() > LARGEST {
-        let message = say!(the_file_has_bytes_expected_at_most, text.len(), LARGEST);
+        let message = say!(the_file_has_too_many_bytes, text.len(), LARGEST);
         return (
             Settings::default(),
             vec![SettingsError::new("", message, Some(0..0))],

@@ -40,23 +40,13 @@ pub(crate) fn pass_faults(
             .and_then(|before| corrections.get(before))
             && correction > before + ROUNDING
         {
-            let message = say!(
-                is_expected_at_most_that_of_the_pass_before,
-                name(pass),
-                correction,
-                before
-            );
+            let message = say!(is_more_than_the_pass_before, name(pass), correction, before);
             faults.push(PassFault { key, pass, message });
         }
         if let Some(radius) = wire_diameter.map(|diameter| diameter / 2.0)
             && correction < radius - ROUNDING
         {
-            let message = say!(
-                is_expected_at_least_the_wire_radius,
-                name(pass),
-                correction,
-                radius
-            );
+            let message = say!(is_less_than_the_wire_radius, name(pass), correction, radius);
             faults.push(PassFault { key, pass, message });
         }
     }

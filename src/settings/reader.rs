@@ -126,7 +126,7 @@ impl Reader {
         let expected = say!(the_reason_in_words);
         let reason = self.text(key, node, expected)?;
         if reason.trim().is_empty() {
-            return self.complain(key, node, say!(is_empty_expected, key, expected));
+            return self.complain(key, node, say!(is_empty, key, expected));
         }
         Some(reason)
     }
@@ -182,7 +182,7 @@ impl Reader {
                 let numbers: Vec<Option<f64>> = numbers.collect();
                 numbers.into_iter().collect()
             }
-            Value::List(_) => self.complain(key, node, say!(is_empty_expected, key, expected)),
+            Value::List(_) => self.complain(key, node, say!(is_empty, key, expected)),
             _ => self.misfit(key, node, expected),
         }
     }
@@ -434,7 +434,7 @@ impl Reader {
         self.complain(
             key,
             node,
-            say!(is_expected, key, node.value.shown(), expected),
+            say!(is_not_what_is_expected, key, node.value.shown(), expected),
         )
     }
 
@@ -447,7 +447,7 @@ impl Reader {
     fn unknown(&mut self, key: &str, entry: &Entry, expected: &str) {
         let message = match nearest(&entry.key, expected) {
             Some(near) => say!(is_not_known_did_you_mean, key, near),
-            None => say!(is_not_known_expected, key, expected),
+            None => say!(is_not_known, key, expected),
         };
         self.errors
             .push(SettingsError::new(key, message, entry.key_range.clone()));

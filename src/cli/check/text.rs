@@ -57,26 +57,14 @@ pub(super) fn summary(survey: &Survey) -> String {
     let result = result + &suppressed;
     let files = say!(files, survey.files);
     let _ = writeln!(text, "{}", say!(checked, files, result));
-    if let [only] = survey.fixable.as_slice() {
-        let _ = writeln!(
-            text,
-            "{}",
-            say!(
-                wedm_fix_in_place,
-                styled(output::NOTE, say!(repair_what_can_be_repaired_with)),
-                output::word(only)
-            )
-        );
-    } else if let Some(first) = survey.fixable.first() {
-        let heading = styled(
-            output::NOTE,
-            say!(can_be_repaired_such_as, say!(files, survey.fixable.len())),
-        );
-        let _ = writeln!(
-            text,
-            "{}",
-            say!(heading_wedm_fix_in_place, heading, output::word(first))
-        );
+    if let Some(first) = survey.fixable.first() {
+        let heading = match survey.fixable.len() {
+            1 => say!(repair_what_can_be_repaired).to_owned(),
+            count => say!(files_that_can_be_repaired, say!(files, count)),
+        };
+        let heading = styled(output::NOTE, heading);
+        let command = say!(the_command_that_fixes, heading, output::word(first));
+        let _ = writeln!(text, "{command}");
     }
     text
 }

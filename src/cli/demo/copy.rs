@@ -65,7 +65,7 @@ impl Copy {
             .map_or(&[][..], Vec::as_slice);
         let [document] = documents else {
             return Err(Failure(say!(
-                the_fix_edits_documents_expected_one,
+                the_fix_edits_several_documents,
                 documents.len()
             )));
         };

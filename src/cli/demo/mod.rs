@@ -62,7 +62,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 
     let mut narrator = Narrator::default();
     narrator.heading(&say!(
-        wedm_a_cutting_plate_a_correction_of_mm,
+        heading_of_the_demo,
         env!("CARGO_PKG_VERSION"),
         correction
     ));
@@ -76,7 +76,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let settings = format!(
         "correction = {correction}\n\n[layers]\nDIE = \"opening\"\nHOLES = \"opening\"\nPLATE = \"ignore\"\n"
     );
-    narrator.step(say!(the_server_has_ended_as_it_should_these_files));
+    narrator.step(say!(the_server_has_ended_as_it_should));
     for (name, bytes, what) in [
         ("demo.dxf", made.dxf.as_bytes(), say!(the_plate_repaired)),
         ("demo.3b", made.program.as_bytes(), say!(its_program)),
@@ -95,7 +95,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         output::write(Some(&path), bytes)?;
         narrator.say(&format!("{}  {what}", output::name(&path)));
     }
-    narrator.step(say!(go_on_with));
+    narrator.step(say!(next_steps));
     let drawing = output::word(&arguments.folder.join("demo.dxf"));
     let program = output::word(&arguments.folder.join("plate.3b"));
     for words in [

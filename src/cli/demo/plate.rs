@@ -222,11 +222,8 @@ impl Session<'_> {
             say!(segments, segments.len()),
             DIE
         ));
-        self.narrator.say(&say!(
-            of_lines_differ_every_other_byte_is_as_it_was,
-            differing,
-            old.len() - 1
-        ));
+        self.narrator
+            .say(&say!(lines_that_differ, differing, old.len() - 1));
         Ok(())
     }
 
@@ -281,7 +278,7 @@ impl Session<'_> {
             proof.open_um
         ));
         self.narrator.say(&say!(
-            along_the_contours_the_wire_centre_keeps_to_mm_from,
+            distance_of_the_wire_from_the_contours,
             proof.least_distance,
             proof.largest_distance,
             correction

@@ -106,13 +106,11 @@ pub(super) fn fit_part(fit: &Result<Fit, String>) -> String {
     };
     let (least, wanted) = (fit.least * 1e3, fit.clearance * 1e3);
     let places = say!(places, fit.places.len());
-    let (class, sentence) = match fit.fits {
-        true => ("good", say!(it_fits, say!(fits), least, wanted, places)),
-        false => (
-            "error",
-            say!(it_does_not_fit, say!(does_not_fit), least, wanted, places),
-        ),
+    let (class, verdict) = match fit.fits {
+        true => ("good", say!(fits)),
+        false => ("error", say!(does_not_fit)),
     };
+    let sentence = say!(verdict_of_the_fit, verdict, least, wanted, places);
     let alone: String = fit
         .alone
         .iter()

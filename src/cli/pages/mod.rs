@@ -48,7 +48,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     }
     let drawings: Vec<&PathBuf> = found.files.iter().filter(|path| is_drawing(path)).collect();
     if drawings.is_empty() {
-        return Err(Failure(say!(no_drawing_to_report_of).into()));
+        return Err(Failure(say!(no_drawing_for_a_report).into()));
     }
     let folder = &arguments.output;
     std::fs::create_dir_all(folder)

@@ -45,7 +45,7 @@ impl Pen<'_> {
         decimals: usize,
     ) -> Result<(), String> {
         if !value.is_finite() {
-            return Err(say!(group_code_of_cannot_be, code, self.name, value));
+            return Err(say!(a_group_code_cannot_be, code, self.name, value));
         }
         let Some(tag) = last(tags, code) else {
             return Err(say!(has_no_group_code, self.name, code));

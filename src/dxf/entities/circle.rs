@@ -15,7 +15,7 @@ fn radius_of(value: f64, kind: &str, start: Tag, lexer: &mut Lexer) -> Option<f6
     }
     let radius_line = value_line_of(start, lexer, 40);
     let found = quoted(lexer.lines.trimmed(radius_line));
-    let sentence = say!(group_code_40_radius, kind, found);
+    let sentence = say!(the_radius_is_not_above_0, kind, found);
     lexer.damage(radius_line, sentence);
     None
 }

@@ -94,7 +94,7 @@ pub(super) fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers)
         && Common::whole(lexer, tag) != i64::try_from(found).ok()
     {
         let stated = quoted(lexer.lines.trimmed(tag.value_line()));
-        let sentence = say!(group_code_90_number, stated, found);
+        let sentence = say!(another_number_of_vertices_is_stated, stated, found);
         lexer.oddity_in(lexer.lines.range(tag.value_line()), sentence);
     }
     polyline_of(

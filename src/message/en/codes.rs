@@ -13,11 +13,11 @@ declare! {
     thickness => "thickness";
     scale_of_the_linetype => "scale of the linetype";
     visibility_0_visible_1_invisible => "visibility: 0 visible, 1 invisible";
-    colour_number_or_whose_it_is => "colour number: 0 by block, 256 by layer, 257 by entity";
+    colour_number_of_an_entity => "colour number: 0 by block, 256 by layer, 257 by entity";
     space_0_model_space_1_paper_space => "space: 0 model space, 1 paper space";
     number_of_bytes_of_the_preview_picture => "number of bytes of the preview picture";
     handle_of_the_material => "handle of the material";
-    line_weight_or_whose_it_is => "line weight in hundredths of a millimetre; -1 by layer, -2 by block, -3 default";
+    line_weight_of_an_entity => "line weight in hundredths of a millimetre; -1 by layer, -2 by block, -3 default";
     handle_of_the_plot_style => "handle of the plot style";
     name_of_the_layout => "name of the layout";
     true_colour_24_bits_red_green_blue => "true colour, 24 bits red, green, blue";
@@ -149,7 +149,7 @@ declare! {
     handle_of_a_record_soft_owner => "handle of a record (soft owner)";
     handle_of_a_record_hard_owner => "handle of a record (hard owner)";
     text_of_another_program => "text of another program";
-    name_of_the_program_that_the_following_codes_belong_to => "name of the program that the following codes belong to";
+    name_of_the_program_of_the_following_codes => "name of the program that the following codes belong to";
     brace_of_a_list_of_another_program => "brace of a list of another program";
     name_of_a_layer_of_another_program => "name of a layer, of another program";
     number_of_another_program => "number of another program";

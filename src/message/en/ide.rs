@@ -97,7 +97,7 @@ declare! {
     the_controller_counts_along(letter, axis, rule) => "**G{letter}** the controller counts steps along {axis}: {rule}";
     x_or_y => "X or Y";
     the_larger_component_of_a_line => "the larger component of a line";
-    the_axis_that_the_end_of_an_arc_lies_further_from => "of an arc, the axis that its end lies further from";
+    the_further_axis_of_the_end_of_an_arc => "of an arc, the axis that its end lies further from";
     the_axis_of_a_line_and_of_an_arc => "of a line its larger component, of an arc the axis that its end lies further from";
     convex_or_concave => "**D** convex, **DD** concave: whether the correction makes a 4B arc larger or smaller";
     the_machine_stops_to_cut_or_thread_the_wire => "**pause**: the machine stops, so that the wire can be cut or threaded";
@@ -164,10 +164,10 @@ declare! {
     a_cutting_condition => "a cutting condition: generator and flushing";
     a_switch => "a switch, such as pump and wire feed";
     a_parameter_of_a_cycle => "a parameter of a cycle";
-    moves_without_cutting_until => "rapid: moves without cutting; in force until another of G00 to G03";
-    cuts_a_line_until => "cuts along a straight line; in force until another of G00 to G03";
-    cuts_an_arc_clockwise_until => "cuts along an arc clockwise, about I and J or with R; in force until another of G00 to G03";
-    cuts_an_arc_counter_clockwise_until => "cuts along an arc counter-clockwise, about I and J or with R; in force until another of G00 to G03";
+    moves_without_cutting_from_here_on => "rapid: moves without cutting; in force until another of G00 to G03";
+    cuts_a_line_from_here_on => "cuts along a straight line; in force until another of G00 to G03";
+    cuts_an_arc_clockwise_from_here_on => "cuts along an arc clockwise, about I and J or with R; in force until another of G00 to G03";
+    cuts_an_arc_counter_clockwise_from_here_on => "cuts along an arc counter-clockwise, about I and J or with R; in force until another of G00 to G03";
     waits => "waits, for as long as P or X says";
     arcs_lie_in_the_plane_of_x_and_y => "arcs lie in the plane of X and Y";
     lengths_are_inches => "lengths are inches";
@@ -187,7 +187,7 @@ declare! {
     ends_the_taper => "ends the taper";
     taper_to_the_left_or_right => "taper: the wire leans to the left (G51) or to the right (G52) of the way";
     chooses_a_system_of_coordinates => "chooses a system of coordinates";
-    how_exactly_a_corner_is_run_to => "how exactly a corner is run to, or what the taper does there";
+    how_exactly_a_corner_is_run => "how exactly a corner is run to, or what the taper does there";
     moves_until_the_wire_touches => "moves until the wire touches";
     aligns_the_wire => "aligns the wire";
     shifts_the_zero => "shifts the zero";

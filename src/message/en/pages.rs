@@ -1,7 +1,7 @@
 //! The pages of `wedm report`.
 
 declare! {
-    no_drawing_to_report_of => "there is no drawing, expected .dxf";
+    no_drawing_for_a_report => "there is no drawing, expected .dxf";
     pages_are_written(written, pages, index) => "{written} {pages}: {index}";
     pages(count: usize) => { if *count == 1 { "1 page".into() } else { format!("{count} pages") } };
     report_of_drawings(count: usize) => { if *count == 1 { "Report of 1 drawing".into() } else { format!("Report of {count} drawings") } };

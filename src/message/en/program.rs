@@ -8,7 +8,7 @@ declare! {
     not_written_the_corrections_of_the_program(corrections) => "not written: the program's own corrections, {corrections}; set them at the machine";
     not_written_the_taper(taper) => "not written: the taper; {taper}";
     not_written_the_stop_before_a_tab(line) => "not written: the stop in line {line}, which holds the part while its tab is cut";
-    the_format_is_expected(name, formats) => "format is \"{name}\", expected {formats}";
+    the_format_is_not_known(name, formats) => "format is \"{name}\", expected {formats}";
     a_line_is_in_another_code_page => "a line is in another code page";
     the_new_line_does_not_move => "the new line does not move";
     the_new_line_leads_elsewhere => "the new line leads elsewhere";
@@ -60,7 +60,7 @@ declare! {
     the_new_program_reads_otherwise_than_it_was_meant => "the new program reads otherwise than it was meant";
     a_stop_would_be_lost => "a stop would be lost";
     the_new_program_ends_elsewhere(miss) => "the new program ends {miss:.1} µm from where it should";
-    the_new_program_would_have_a_fault_that_this_one_has_not(rule) => "the new program would have a fault that this one has not: {rule}";
+    the_new_program_would_have_a_new_fault(rule) => "the new program would have a fault that this one has not: {rule}";
     the_new_program_would_have_more_faults_than_this_one => "the new program would have more faults than this one";
     the_edits_lie_on_each_other => "the edits lie on each other";
     the_numbers_are_part_of_what_the_machine_does => "the numbers are part of what the machine does";
@@ -109,7 +109,7 @@ declare! {
     found_letters_of_another_script(at, found, expected, script) => "column {at}: found `{found}`, expected {expected}, these are {script} ones";
     n4b_needs_the_side_of_the_contour => "4B holds the part's contour: set compensation to controller, and say opening or punch";
     a_written_block_cannot_be_read_again(sentence) => "a written block cannot be read again: {sentence}";
-    a_written_block_reads_as_not_as(read, block) => "a written block reads as {read}, not as {block}";
+    a_written_block_reads_otherwise(read, block) => "a written block reads as {read}, not as {block}";
     a_block_cannot_be_decoded(block, fault) => "{block} cannot be decoded: {fault}";
     a_block_ends_beside_its_node(block, distance, to) => "{block} ends {distance:.3} µm from its node {to}";
     a_block_runs_beside_the_path(block, aside, from) => "{block} runs {aside:.3} µm beside the path at {from}";

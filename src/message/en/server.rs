@@ -16,13 +16,13 @@ declare! {
     was_changed_without_being_open(uri) => "{uri} was changed without being open as a text: nothing was done";
     was_closed_without_being_open(uri) => "{uri} was closed without being open as a text";
     no_reason_given => "no reason given";
-    an_answer_to_came_late(id) => "an answer to {id} came late or answers nothing that was asked";
+    an_answer_came_late(id) => "an answer to {id} came late or answers nothing that was asked";
     was_not_answered_within_s(method, seconds) => "{method} was not answered within {seconds} s";
     the_client_did_not_answer(method, seconds) => "the client did not answer {method} within {seconds} s";
     drawing_uri_is_no_string => "drawing.uri is missing or not a string";
     the_drawing_is_not_sound(uri, reason) => "the drawing {uri} is not sound: {reason}";
-    a_change_of_the_drawing(uri, reason) => "a change of the drawing {uri} does not apply: {reason}";
-    the_drawing_was_closed_without(uri) => "the drawing {uri} was closed without being open";
+    a_change_of_the_drawing_does_not_apply(uri, reason) => "a change of the drawing {uri} does not apply: {reason}";
+    the_drawing_was_closed_without_being_open(uri) => "the drawing {uri} was closed without being open";
     the_drawing_was_not_sent(uri, reason) => "the drawing {uri} was not sent again as it should be: {reason}";
     its_uri_is(uri) => "its uri is {uri}";
     version_is_older_than(version, newest) => "version {version} is older than {newest}";
@@ -35,7 +35,7 @@ declare! {
     version_is_not_newer_than(newer, version) => "version {newer} is not newer than {version}";
     the_command_takes_one_argument(shape) => "the command takes one argument {shape}";
     the_argument_misfits(misfit, error) => "the argument {misfit}: {error}";
-    command_is_expected(command, expected) => "command is \"{command}\", expected \"{expected}\"";
+    the_command_is_not_known(command, expected) => "command is \"{command}\", expected \"{expected}\"";
     is_no_drawing_edit => "is no drawing edit";
     is_a_text_expected_a_drawing(uri) => "{uri} is a text, expected a drawing";
     the_client_applies_no_drawing_edits => "the client did not declare experimental.wedm.applyDrawingEdit: apply the argument yourself";
@@ -69,7 +69,7 @@ declare! {
     is_no_header_line(shown) => "\"{shown}\" is no header line, expected Content-Length and a blank line";
     the_next_frame_begins_within_a_body(length) => "the next frame begins before {length} bytes of body came";
     the_stream_ends_within_a_body(length) => "the stream ends within a body of {length} bytes";
-    segment_r_mm_the_correction(handle, segment, radius, required) => "{handle} · segment {segment} · R {radius:.3} mm, the correction is {required:.3} mm";
+    a_segment_tighter_than_the_correction(handle, segment, radius, required) => "{handle} · segment {segment} · R {radius:.3} mm, the correction is {required:.3} mm";
     on_layer_not_cut(kind, handle, layer) => "{kind} {handle} on layer {layer}, not cut";
     path_of_the_wire_centre(distance) => "path of the wire's centre, {distance:.3} mm from the contour";
     segment_overcut(handle, segment, overcut) => "{handle} segment {segment}, overcut {overcut:.3}";

@@ -26,14 +26,14 @@ declare! {
     suppresses_nothing(handle, rule) => "the suppression of {rule} at {handle} suppresses nothing here: take it out";
     no_contour_of_that_name(drawing, key) => "nothing in this drawing is {key}: what [drawings.\"{drawing}\".contours] says of it holds for nothing";
     one_or_other(ones, other) => "{ones} or {other}";
-    is_expected(key, found, expected) => "{key} is {found}, expected {expected}";
-    is_empty_expected(key, expected) => "{key} is empty, expected {expected}";
-    is_not_known_expected(key, expected) => "{key} is not known, expected {expected}";
+    is_not_what_is_expected(key, found, expected) => "{key} is {found}, expected {expected}";
+    is_empty(key, expected) => "{key} is empty, expected {expected}";
+    is_not_known(key, expected) => "{key} is not known, expected {expected}";
     holds_an_unknown_name(key, name) => "{key} holds {name}, expected {{x}}, {{y}}, {{side}} or {{register}}";
     there_is_no_profile(name, names) => "there is no profile {name:?}, expected {names}";
-    is_expected_at_most_that_of_the_pass_before(pass, correction, before) => "{pass} is {correction}, expected at most {before}, that of the pass before: corrections fall";
+    is_more_than_the_pass_before(pass, correction, before) => "{pass} is {correction}, expected at most {before}, that of the pass before: corrections fall";
     is_of_passes_expected_one_for_each(key, count, passes) => "{key} is a list of {count}, expected one for each of the {passes} passes";
-    is_expected_at_least_the_wire_radius(pass, correction, radius) => "{pass} is {correction}, expected at least the wire's radius {radius}: the wire would cut into the part";
+    is_less_than_the_wire_radius(pass, correction, radius) => "{pass} is {correction}, expected at least the wire's radius {radius}: the wire would cut into the part";
     a_list_of_layers => "a list of names of layers such as [\"PUNCH\"]";
     the_name_of_a_layer => "the name of a layer";
     a_fit_needs(key, missing) => "{key} asks whether the parts fit: expected {missing} beside it";
@@ -43,6 +43,6 @@ declare! {
     a_pair_on_one_side(key, side) => "{key} says that each contour is cut from both sides, but side is {side}: expected both";
     an_extra_needs_a_drawn_part(key) => "{key} needs a contour that is cut for several parts: expected pair.drawn-as beside it";
     a_layer_in_two_workpieces(layer, one, other) => "the layer {layer} is of the workpieces {one} and {other}: expected one of them";
-    the_file_has_bytes_expected_at_most(bytes, most) => "the file has {bytes} bytes, expected at most {most}: none of it holds";
+    the_file_has_too_many_bytes(bytes, most) => "the file has {bytes} bytes, expected at most {most}: none of it holds";
     not_toml(reason) => "not TOML: {reason}";
 }

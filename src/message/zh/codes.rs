@@ -13,11 +13,11 @@ translate! {
     thickness => "厚度";
     scale_of_the_linetype => "线型比例";
     visibility_0_visible_1_invisible => "可见性：0 可见，1 不可见";
-    colour_number_or_whose_it_is => "颜色号：0 随块，256 随层，257 随图元";
+    colour_number_of_an_entity => "颜色号：0 随块，256 随层，257 随图元";
     space_0_model_space_1_paper_space => "空间：0 模型空间，1 图纸空间";
     number_of_bytes_of_the_preview_picture => "预览图的字节数";
     handle_of_the_material => "材质的句柄";
-    line_weight_or_whose_it_is => "线宽，0.01 mm；-1 随层，-2 随块，-3 默认";
+    line_weight_of_an_entity => "线宽，0.01 mm；-1 随层，-2 随块，-3 默认";
     handle_of_the_plot_style => "打印样式的句柄";
     name_of_the_layout => "布局名";
     true_colour_24_bits_red_green_blue => "真彩色，24 位，红、绿、蓝";
@@ -149,7 +149,7 @@ translate! {
     handle_of_a_record_soft_owner => "记录的句柄（软所有者）";
     handle_of_a_record_hard_owner => "记录的句柄（硬所有者）";
     text_of_another_program => "其他程序的文字";
-    name_of_the_program_that_the_following_codes_belong_to => "以下组码所属程序的名称";
+    name_of_the_program_of_the_following_codes => "以下组码所属程序的名称";
     brace_of_a_list_of_another_program => "其他程序的列表的花括号";
     name_of_a_layer_of_another_program => "其他程序的图层名";
     number_of_another_program => "其他程序的数";

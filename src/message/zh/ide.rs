@@ -97,7 +97,7 @@ translate! {
     the_controller_counts_along(letter, axis, rule) => "**G{letter}** 计数方向，控制器沿 {axis} 计数：{rule}";
     x_or_y => "X 或 Y";
     the_larger_component_of_a_line => "直线取投影较大的轴";
-    the_axis_that_the_end_of_an_arc_lies_further_from => "圆弧取终点坐标绝对值较小的轴";
+    the_further_axis_of_the_end_of_an_arc => "圆弧取终点坐标绝对值较小的轴";
     the_axis_of_a_line_and_of_an_arc => "直线取投影较大的轴，圆弧取终点坐标绝对值较小的轴";
     convex_or_concave => "**D** 凸圆弧，**DD** 凹圆弧：决定补偿使 4B 圆弧变大还是变小";
     the_machine_stops_to_cut_or_thread_the_wire => "**暂停**：机床停下，以便拆丝或穿丝";
@@ -164,10 +164,10 @@ translate! {
     a_cutting_condition => "加工条件：脉冲电源和冲液";
     a_switch => "开关，如水泵和走丝";
     a_parameter_of_a_cycle => "循环的参数";
-    moves_without_cutting_until => "快速移动：不切割；有效到下一个 G00 至 G03";
-    cuts_a_line_until => "直线切割；有效到下一个 G00 至 G03";
-    cuts_an_arc_clockwise_until => "顺时针圆弧切割，用 I、J 或 R；有效到下一个 G00 至 G03";
-    cuts_an_arc_counter_clockwise_until => "逆时针圆弧切割，用 I、J 或 R；有效到下一个 G00 至 G03";
+    moves_without_cutting_from_here_on => "快速移动：不切割；有效到下一个 G00 至 G03";
+    cuts_a_line_from_here_on => "直线切割；有效到下一个 G00 至 G03";
+    cuts_an_arc_clockwise_from_here_on => "顺时针圆弧切割，用 I、J 或 R；有效到下一个 G00 至 G03";
+    cuts_an_arc_counter_clockwise_from_here_on => "逆时针圆弧切割，用 I、J 或 R；有效到下一个 G00 至 G03";
     waits => "暂停，时间由 P 或 X 给出";
     arcs_lie_in_the_plane_of_x_and_y => "圆弧在 XY 平面内";
     lengths_are_inches => "长度单位为英寸";
@@ -187,7 +187,7 @@ translate! {
     ends_the_taper => "取消锥度";
     taper_to_the_left_or_right => "锥度：丝向路线左侧（G51）或右侧（G52）倾斜";
     chooses_a_system_of_coordinates => "选择坐标系";
-    how_exactly_a_corner_is_run_to => "拐角的准停方式，或锥度在拐角的处理";
+    how_exactly_a_corner_is_run => "拐角的准停方式，或锥度在拐角的处理";
     moves_until_the_wire_touches => "移动到电极丝接触工件";
     aligns_the_wire => "校正电极丝";
     shifts_the_zero => "平移零点";

@@ -1,7 +1,7 @@
 //! The pages of `wedm report`.
 
 translate! {
-    no_drawing_to_report_of => "没有图纸，应为 .dxf";
+    no_drawing_for_a_report => "没有图纸，应为 .dxf";
     pages_are_written(written, pages, index) => "{written} {pages}：{index}";
     pages(count: usize) => { format!("{count} 页") };
     report_of_drawings(count: usize) => { format!("{count} 张图纸的报告") };

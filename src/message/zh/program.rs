@@ -8,7 +8,7 @@ translate! {
     not_written_the_corrections_of_the_program(corrections) => "未写出：程序自带的补偿量 {corrections}；请在机床上设定";
     not_written_the_taper(taper) => "未写出：锥度；{taper}";
     not_written_the_stop_before_a_tab(line) => "未写出：第 {line} 行的暂停，切暂留段时用它固定工件";
-    the_format_is_expected(name, formats) => "format 是“{name}”，应为 {formats}";
+    the_format_is_not_known(name, formats) => "format 是“{name}”，应为 {formats}";
     a_line_is_in_another_code_page => "有一行用的是另一种编码";
     the_new_line_does_not_move => "新的一段没有移动";
     the_new_line_leads_elsewhere => "新的一段走到了别处";
@@ -60,7 +60,7 @@ translate! {
     the_new_program_reads_otherwise_than_it_was_meant => "新程序读入后与原意不符";
     a_stop_would_be_lost => "会丢失一个暂停";
     the_new_program_ends_elsewhere(miss) => "新程序终点偏离 {miss:.1} µm";
-    the_new_program_would_have_a_fault_that_this_one_has_not(rule) => "新程序会多出原程序没有的问题：{rule}";
+    the_new_program_would_have_a_new_fault(rule) => "新程序会多出原程序没有的问题：{rule}";
     the_new_program_would_have_more_faults_than_this_one => "新程序的问题会比原程序多";
     the_edits_lie_on_each_other => "各处修改相互重叠";
     the_numbers_are_part_of_what_the_machine_does => "这些数字是机床动作的一部分";
@@ -109,7 +109,7 @@ translate! {
     found_letters_of_another_script(at, found, expected, script) => "第 {at} 列：是 `{found}`，应为：{expected}，这些是{script}字符";
     n4b_needs_the_side_of_the_contour => "4B 写工件轮廓：请把 compensation 设为 controller，并说明 opening（型孔）或 punch（凸模）";
     a_written_block_cannot_be_read_again(sentence) => "写出的程序段不能再读入：{sentence}";
-    a_written_block_reads_as_not_as(read, block) => "写出的程序段读成 {read}，而不是 {block}";
+    a_written_block_reads_otherwise(read, block) => "写出的程序段读成 {read}，而不是 {block}";
     a_block_cannot_be_decoded(block, fault) => "{block} 无法解码：{fault}";
     a_block_ends_beside_its_node(block, distance, to) => "{block} 终点偏离节点 {to} 有 {distance:.3} µm";
     a_block_runs_beside_the_path(block, aside, from) => "{block} 在 {from} 偏离切割路线 {aside:.3} µm";

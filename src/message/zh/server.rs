@@ -16,13 +16,13 @@ translate! {
     was_changed_without_being_open(uri) => "{uri} 未作为文本打开就被修改：未作处理";
     was_closed_without_being_open(uri) => "{uri} 未作为文本打开就被关闭";
     no_reason_given => "没有说明原因";
-    an_answer_to_came_late(id) => "对 {id} 的应答来迟，或无对应的请求";
+    an_answer_came_late(id) => "对 {id} 的应答来迟，或无对应的请求";
     was_not_answered_within_s(method, seconds) => "{method} 在 {seconds} s 内没有应答";
     the_client_did_not_answer(method, seconds) => "客户端在 {seconds} s 内没有应答 {method}";
     drawing_uri_is_no_string => "缺 drawing.uri，或它不是字符串";
     the_drawing_is_not_sound(uri, reason) => "图形 {uri} 有缺陷：{reason}";
-    a_change_of_the_drawing(uri, reason) => "图形 {uri} 的修改无法套用：{reason}";
-    the_drawing_was_closed_without(uri) => "图形 {uri} 未打开就被关闭";
+    a_change_of_the_drawing_does_not_apply(uri, reason) => "图形 {uri} 的修改无法套用：{reason}";
+    the_drawing_was_closed_without_being_open(uri) => "图形 {uri} 未打开就被关闭";
     the_drawing_was_not_sent(uri, reason) => "图形 {uri} 没有按要求重新发送：{reason}";
     its_uri_is(uri) => "它的 uri 是 {uri}";
     version_is_older_than(version, newest) => "版本 {version} 比 {newest} 旧";
@@ -35,7 +35,7 @@ translate! {
     version_is_not_newer_than(newer, version) => "版本 {newer} 不比 {version} 新";
     the_command_takes_one_argument(shape) => "命令要一个参数 {shape}";
     the_argument_misfits(misfit, error) => "参数{misfit}：{error}";
-    command_is_expected(command, expected) => "command 是“{command}”，应为“{expected}”";
+    the_command_is_not_known(command, expected) => "command 是“{command}”，应为“{expected}”";
     is_no_drawing_edit => "不是图形修改";
     is_a_text_expected_a_drawing(uri) => "{uri} 是文本，此处要图形";
     the_client_applies_no_drawing_edits => "客户端没有声明 experimental.wedm.applyDrawingEdit：请自行套用参数中的修改";
@@ -69,7 +69,7 @@ translate! {
     is_no_header_line(shown) => "“{shown}”不是头的一行，应为 Content-Length 和一个空行";
     the_next_frame_begins_within_a_body(length) => "正文不足 {length} 字节，下一帧就已开始";
     the_stream_ends_within_a_body(length) => "数据流在 {length} 字节的正文中间结束";
-    segment_r_mm_the_correction(handle, segment, radius, required) => "{handle} · 段 {segment} · R {radius:.3} mm，补偿量为 {required:.3} mm";
+    a_segment_tighter_than_the_correction(handle, segment, radius, required) => "{handle} · 段 {segment} · R {radius:.3} mm，补偿量为 {required:.3} mm";
     on_layer_not_cut(kind, handle, layer) => "图层 {layer} 上的 {kind} {handle}，不切割";
     path_of_the_wire_centre(distance) => "丝中心轨迹，离轮廓 {distance:.3} mm";
     segment_overcut(handle, segment, overcut) => "{handle} 段 {segment}，过切 {overcut:.3}";

@@ -26,14 +26,14 @@ translate! {
     suppresses_nothing(handle, rule) => "对 {handle} 处 {rule} 的忽略不起作用：请删去";
     no_contour_of_that_name(drawing, key) => "本图中没有 {key}：[drawings.\"{drawing}\".contours] 中对它的规定不起作用";
     one_or_other(ones, other) => "{ones} 或 {other}";
-    is_expected(key, found, expected) => "{key} 是 {found}，应为 {expected}";
-    is_empty_expected(key, expected) => "{key} 为空，应为 {expected}";
-    is_not_known_expected(key, expected) => "没有 {key} 这一项，应为 {expected}";
+    is_not_what_is_expected(key, found, expected) => "{key} 是 {found}，应为 {expected}";
+    is_empty(key, expected) => "{key} 为空，应为 {expected}";
+    is_not_known(key, expected) => "没有 {key} 这一项，应为 {expected}";
     holds_an_unknown_name(key, name) => "{key} 含有 {name}，应为 {{x}}、{{y}}、{{side}} 或 {{register}}";
     there_is_no_profile(name, names) => "没有名为 {name:?} 的 profile，应为 {names}";
-    is_expected_at_most_that_of_the_pass_before(pass, correction, before) => "{pass} 是 {correction}，最多应为上一次切割的 {before}：补偿量须逐次减小";
+    is_more_than_the_pass_before(pass, correction, before) => "{pass} 是 {correction}，最多应为上一次切割的 {before}：补偿量须逐次减小";
     is_of_passes_expected_one_for_each(key, count, passes) => "{key} 列出 {count} 个，应与切割次数一致，共 {passes} 个";
-    is_expected_at_least_the_wire_radius(pass, correction, radius) => "{pass} 是 {correction}，不得小于电极丝半径 {radius}：否则丝会切入工件";
+    is_less_than_the_wire_radius(pass, correction, radius) => "{pass} 是 {correction}，不得小于电极丝半径 {radius}：否则丝会切入工件";
     a_list_of_layers => "图层名的列表，如 [\"PUNCH\"]";
     the_name_of_a_layer => "图层名";
     a_fit_needs(key, missing) => "{key} 要求检查配合：同时须设置 {missing}";
@@ -43,6 +43,6 @@ translate! {
     a_pair_on_one_side(key, side) => "{key} 表示每个轮廓两侧都切，而 side 是 {side}：应为 both";
     an_extra_needs_a_drawn_part(key) => "{key} 需要为多个零件切割的轮廓：同时应设 pair.drawn-as";
     a_layer_in_two_workpieces(layer, one, other) => "图层 {layer} 同时属于工件 {one} 和 {other}：只能属于一个";
-    the_file_has_bytes_expected_at_most(bytes, most) => "文件有 {bytes} 字节，最多允许 {most}：整个文件无效";
+    the_file_has_too_many_bytes(bytes, most) => "文件有 {bytes} 字节，最多允许 {most}：整个文件无效";
     not_toml(reason) => "不是 TOML：{reason}";
 }

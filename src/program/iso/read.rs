@@ -250,7 +250,7 @@ impl Stretch {
         let turned = turned(made, &mut self.after, ahead.lines(), &self.reading);
         self.ahead = self.ahead.max(ahead.beyond(turned.looked_at));
         if turned.corner.is_none() {
-            let sentence = say!(the_word_for_a_corner_finds_none_here_or);
+            let sentence = say!(the_word_for_a_corner_finds_none_here);
             self.fault(Fault::said(Rule::CornerWord, sentence), range);
         }
         turned

@@ -84,7 +84,7 @@ impl Document {
         if self.evidence().leaves_centers_open()
             && let Some(range) = report.first_center()
         {
-            let sentence = say!(full_circles_alone_do_not_tell_how);
+            let sentence = say!(full_circles_do_not_tell_how_i_and_j_are_meant);
             report.add(range, Fault::said(Rule::AmbiguousCenter, sentence));
         }
         report.finish()

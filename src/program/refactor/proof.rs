@@ -56,10 +56,7 @@ fn refuse_new_errors<N: Notation>(before: &N::Document, after: &N::Document) -> 
     };
     let (before, after) = (errors(before), errors(after));
     match after.iter().find(|rule| !before.contains(rule)) {
-        Some(rule) => Err(say!(
-            the_new_program_would_have_a_fault_that_this_one_has_not,
-            rule.name()
-        )),
+        Some(rule) => Err(say!(the_new_program_would_have_a_new_fault, rule.name())),
         None if after.len() > before.len() => {
             Err(say!(the_new_program_would_have_more_faults_than_this_one).into())
         }

@@ -45,7 +45,7 @@ impl Proof {
                 self.check_block(&block, encoded)
             }
             _ => Err(say!(
-                a_written_block_reads_as_not_as,
+                a_written_block_reads_otherwise,
                 format_args!("{read:?}"),
                 format_args!("{:?}", encoded.block)
             )),

@@ -22,7 +22,7 @@ fn argument<T: DeserializeOwned>(arguments: Vec<Value>, misfit: &str, shape: &st
 pub(in crate::server) fn drawing_edit(command: &str, arguments: Vec<Value>) -> Result<DrawingEdit> {
     if command != method::APPLY_DRAWING_EDIT_COMMAND {
         let expected = method::APPLY_DRAWING_EDIT_COMMAND;
-        let message = say!(command_is_expected, command, expected);
+        let message = say!(the_command_is_not_known, command, expected);
         return Err(Error::invalid_params(message));
     }
     argument(

@@ -28,10 +28,10 @@ pub(super) fn usual(letter: u8, number: Number) -> Option<&'static str> {
 
 fn known_g(number: Number) -> Option<&'static str> {
     Some(match (number.mantissa, number.decimals) {
-        (0, 0) => say!(moves_without_cutting_until),
-        (1, 0) => say!(cuts_a_line_until),
-        (2, 0) => say!(cuts_an_arc_clockwise_until),
-        (3, 0) => say!(cuts_an_arc_counter_clockwise_until),
+        (0, 0) => say!(moves_without_cutting_from_here_on),
+        (1, 0) => say!(cuts_a_line_from_here_on),
+        (2, 0) => say!(cuts_an_arc_clockwise_from_here_on),
+        (3, 0) => say!(cuts_an_arc_counter_clockwise_from_here_on),
         (4, 0) => say!(waits),
         (17, 0) => say!(arcs_lie_in_the_plane_of_x_and_y),
         (20 | 70, 0) => say!(lengths_are_inches),
@@ -60,7 +60,7 @@ fn usual_g(number: Number) -> Option<&'static str> {
         50 => say!(ends_the_taper),
         51 | 52 => say!(taper_to_the_left_or_right),
         54..=59 => say!(chooses_a_system_of_coordinates),
-        60 | 61 => say!(how_exactly_a_corner_is_run_to),
+        60 | 61 => say!(how_exactly_a_corner_is_run),
         80..=82 => say!(moves_until_the_wire_touches),
         84 => say!(aligns_the_wire),
         93 => say!(shifts_the_zero),

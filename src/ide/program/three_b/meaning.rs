@@ -54,7 +54,7 @@ pub(crate) fn meaning(document: &Document, word: Range<usize>) -> Option<String>
         Field::Axis => {
             let rule = match is_line {
                 Some(true) => say!(the_larger_component_of_a_line),
-                Some(false) => say!(the_axis_that_the_end_of_an_arc_lies_further_from),
+                Some(false) => say!(the_further_axis_of_the_end_of_an_arc),
                 None => say!(the_axis_of_a_line_and_of_an_arc),
             };
             let (letter, axis) = match axis {

@@ -12,7 +12,7 @@ pub(super) const RULE: BlockRule = BlockRule {
 fn look(seen: &Seen) -> Option<Sight> {
     let block = seen.block;
     let is_zero = block.j == 0 && (!seen.is_line() || (block.x == 0 && block.y == 0));
-    let sentence = || say!(the_block_moves_nothing_its_j);
+    let sentence = || say!(the_block_moves_nothing);
     is_zero.then(|| Sight::at(Spot::Block, Fault::said(Rule::ZeroBlock, sentence())))
 }
 
