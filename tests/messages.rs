@@ -128,10 +128,15 @@ fn is_sentence(literal: &str) -> bool {
     })
 }
 
-/// What stands before the tests of a file.
+/// What stands before the tests of a file; a line that names a file of tests ends nothing.
 fn product(text: &str) -> &str {
-    let tests = text.find("\n#[cfg(test)]\nmod ");
-    tests.map_or(text, |at| &text[..at])
+    const TESTS: &str = "\n#[cfg(test)]\nmod ";
+    let has_body = |at: &usize| {
+        let line = text[at + TESTS.len()..].lines().next();
+        line.is_some_and(|line| line.ends_with('{'))
+    };
+    let mut tests = text.match_indices(TESTS).map(|(at, _)| at);
+    tests.find(has_body).map_or(text, |at| &text[..at])
 }
 
 #[test]

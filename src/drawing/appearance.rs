@@ -33,7 +33,7 @@ pub(crate) struct Linetype {
 
 /// All that a drawing knows of how one entity looks.
 #[derive(Clone, Debug)]
-pub(crate) struct Look {
+pub(crate) struct Appearance {
     pub(super) unseen: Option<(Visibility, Arc<str>)>,
     pub(super) linetype: Option<Linetype>,
     pub(super) color: Option<Color>,

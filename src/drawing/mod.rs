@@ -22,7 +22,7 @@ mod nesting;
 mod outline;
 mod slots;
 
-pub(crate) use appearance::{Color, Linetype, Look, Visibility};
+pub(crate) use appearance::{Appearance, Color, Linetype, Visibility};
 pub use chain::Chains;
 pub(crate) use chain::Key as ContourKey;
 pub(crate) use chain::stated_role;
@@ -345,20 +345,20 @@ impl Drawing {
     }
 
     /// How an entity looks, for one that is removed and may come back.
-    pub(crate) fn look(&self, id: EntityId) -> Look {
-        Look {
+    pub(crate) fn appearance(&self, id: EntityId) -> Appearance {
+        Appearance {
             unseen: self.unseen.get(&id).cloned(),
             linetype: self.linetypes.get(&id).cloned(),
             color: self.colors.get(id.0 as usize).copied().flatten(),
         }
     }
 
-    pub(crate) fn set_look(&mut self, id: EntityId, look: Look) {
-        if let Some(unseen) = look.unseen {
+    pub(crate) fn set_appearance(&mut self, id: EntityId, appearance: Appearance) {
+        if let Some(unseen) = appearance.unseen {
             self.unseen.insert(id, unseen);
         }
-        self.set_linetype(id, look.linetype);
-        self.set_color(id, look.color);
+        self.set_linetype(id, appearance.linetype);
+        self.set_color(id, appearance.color);
     }
 
     /// Gives an entity a colour of its own, or leaves it that of its layer. True when that is something new.

@@ -12,7 +12,7 @@ use super::lines::Lines;
 use super::number::{self, Code, Number};
 use super::reader::range_key;
 use super::table::{Became, NO_ITEM, Named};
-use crate::drawing::{Delta, Entity, EntityId, Look, Touched};
+use crate::drawing::{Appearance, Delta, Entity, EntityId, Touched};
 use crate::finding::{Finding, Place, Rule};
 use std::ops::Range;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ pub(super) struct Suspended {
     item: usize,
     id: EntityId,
     entity: Arc<Entity>,
-    look: Look,
+    appearance: Appearance,
     vertices: VertexLines,
     index: usize,
     /// The vertex, as it stood when the number was one.
@@ -76,7 +76,7 @@ impl Document {
         {
             return None;
         }
-        let look = self.drawing.look(id);
+        let appearance = self.drawing.appearance(id);
         let vertices = self.table.vertices.remove(&id)?;
         let entity = Arc::make_mut(&mut self.drawing).remove(id)?;
         self.table.set_item_of(id, NO_ITEM);
@@ -87,7 +87,7 @@ impl Document {
             item,
             id,
             entity,
-            look,
+            appearance,
             vertices,
             index,
             lines: old.clone(),
@@ -137,7 +137,7 @@ impl Document {
         if !drawing.put_back(suspended.id, suspended.entity) {
             return None;
         }
-        drawing.set_look(suspended.id, suspended.look);
+        drawing.set_appearance(suspended.id, suspended.appearance);
         let touched = drawing
             .splice(suspended.id, suspended.index, 1, &[vertex])
             .ok()?;

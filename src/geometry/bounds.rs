@@ -61,7 +61,6 @@ impl Bounds {
             && other.min.y <= self.max.y
     }
 
-    /// The box grown by `margin` on every side.
     /// The box elsewhere.
     pub(crate) fn moved(&self, by: Vector) -> Bounds {
         Bounds {
@@ -70,6 +69,7 @@ impl Bounds {
         }
     }
 
+    /// The box grown by `margin` on every side.
     pub(crate) fn grown(&self, margin: f64) -> Bounds {
         Bounds {
             min: self.min.map(|c| c - margin),

@@ -94,15 +94,15 @@ fn cuts(document: &Document) -> Vec<Option<Cut>> {
         if let Some(cut) = &mut open {
             cut.stopped(stretch.stop_before, index);
         }
-        let skipped = if stretch.is_quiet {
+        let skipped = if stretch.is_clean {
             stretch.inner()
         } else {
             0..0
         };
         let before = (0..skipped.start).map(Some);
-        let calm = (!skipped.is_empty()).then_some(None);
+        let clean = (!skipped.is_empty()).then_some(None);
         let behind = (skipped.end..stretch.part_count()).map(Some);
-        for part in before.chain(calm).chain(behind) {
+        for part in before.chain(clean).chain(behind) {
             let Some(part) = part else {
                 cuts.extend(open.take().map(Some));
                 cuts.push(None);

@@ -128,7 +128,7 @@ impl Document {
     fn look_at_all(&mut self) {
         self.stretches
             .iter_mut()
-            .for_each(|stretch| stretch.is_quiet = false);
+            .for_each(|stretch| stretch.is_clean = false);
     }
 
     /// A line's bytes, without its end.
@@ -302,15 +302,15 @@ impl Document {
         let mut crossings = std::mem::take(&mut self.crossings);
         crossings.look(self);
         self.crossings = crossings;
-        for index in self.quiet() {
-            self.stretches[index].is_quiet = true;
+        for index in self.clean() {
+            self.stretches[index].is_clean = true;
         }
         let stretches = &self.stretches;
         self.contours.retain(|cut| {
-            let is_quiet = |(stretch, part): (usize, usize)| {
-                stretches[stretch].is_quiet && stretches[stretch].inner().contains(&part)
+            let is_clean = |(stretch, part): (usize, usize)| {
+                stretches[stretch].is_clean && stretches[stretch].inner().contains(&part)
             };
-            !cut.only_place().is_some_and(is_quiet)
+            !cut.only_place().is_some_and(is_clean)
         });
         self.contours.shrink_to_fit();
     }

@@ -1,24 +1,24 @@
 //! What is wrong in a program, out of what its stretches have seen.
 
+mod arcs;
 mod text;
 
-use super::block::{Code, Motion, Offset};
+use super::block::Code;
 use super::cut::Cut;
 use super::document::{Document, Table};
 use super::fixes::have_met;
 use super::limits::Limits;
-use super::machine::{Course, Place as Spot, Reading, apart, distance, micrometres};
-use super::part::{Part, Tight, WireSide};
+use super::machine::{Place as Spot, Reading, apart, distance, micrometres};
+use super::part::{Part, WireSide};
 use super::plain::word_at;
 use super::repair::found::Repair;
 use super::repair::{is_trouble, line_of};
 use super::stretch::{Placed, Stretch};
-use super::tilt::{TiltedArc, Unknown};
-use crate::finding::{Detail, Fault, Finding, NoFix, Place, Rule, Severity, Side, SmallRadius};
+use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity, Side};
 use crate::geometry::cross;
-use crate::program::path::{HasCuts, UM_IN_MM, is_tight, tolerance};
+use crate::program::path::{HasCuts, tolerance};
 use crate::program::report::{self, Found, place_of};
-use crate::settings::{Compensation, SideSetting};
+use crate::settings::SideSetting;
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
@@ -90,13 +90,13 @@ impl Document {
         report.finish()
     }
 
-    /// The stretches not known to be quiet that are: with the cuts that begin and end in there nothing is wrong as a whole.
-    pub(super) fn quiet(&self) -> Vec<usize> {
+    /// The stretches not known to be clean that are: with the cuts that begin and end in there nothing is wrong as a whole.
+    pub(super) fn clean(&self) -> Vec<usize> {
         let mut report = Report::new(self);
         let placed = self.placed().enumerate();
-        let not_known = placed.filter(|(_, placed)| !placed.stretch.is_quiet);
+        let not_known = placed.filter(|(_, placed)| !placed.stretch.is_clean);
         not_known
-            .filter(|(index, placed)| report.is_quiet(placed, *index))
+            .filter(|(index, placed)| report.is_clean(placed, *index))
             .map(|(index, _)| index)
             .collect()
     }
@@ -252,38 +252,8 @@ impl<'a> Report<'a> {
             .is_none_or(|order| order.left_out.is_none())
     }
 
-    /// The arcs of a cut that may be too tight, with their places in the text.
-    fn tight_of(&self, cut: &Cut) -> Vec<(Tight, Range<usize>)> {
-        let mut found = Vec::new();
-        for part in &cut.parts {
-            let Some(stretch) = self.document.stretches().get(part.stretch) else {
-                continue;
-            };
-            // Most programs have no arc as tight as any correction.
-            let is_offset_only = self.limits.compensation == Compensation::Path;
-            let tightest = stretch.tightest.offset.min(if is_offset_only {
-                f64::INFINITY
-            } else {
-                stretch.tightest.plain
-            });
-            let may_be_tight = |tight: &Tight| {
-                is_tight(tight.radius, self.largest_correction)
-                    && (tight.arc.side.is_some() || !is_offset_only)
-            };
-            let tight = is_tight(tightest, self.largest_correction)
-                .then(|| stretch.tight_of(part.part).filter(may_be_tight));
-            found.extend(
-                tight
-                    .into_iter()
-                    .flatten()
-                    .map(|tight| (tight, at(part.offset, tight.range))),
-            );
-        }
-        found
-    }
-
     /// Whether nothing is wrong with the cuts that begin and end in a stretch, each as a whole.
-    fn is_quiet(&mut self, placed: &Placed<'_>, index: usize) -> bool {
+    fn is_clean(&mut self, placed: &Placed<'_>, index: usize) -> bool {
         // Passes to and fro are closed for themselves, and may belong to the next or to the one before.
         let may_be_tab = |part: usize| {
             let lay = placed.stretch.lays.get(part);
@@ -298,9 +268,9 @@ impl<'a> Report<'a> {
                 self.judge(&cut);
             }
         }
-        let is_quiet = self.findings.len() == known;
+        let is_clean = self.findings.len() == known;
         self.findings.truncate(known);
-        is_quiet
+        is_clean
     }
 
     /// A cut as a whole: does it close, does the wire run on the right side of it, is an arc too tight.
@@ -414,104 +384,6 @@ impl<'a> Report<'a> {
             }
         }
         start..self.text.line_range(line).end.max(start)
-    }
-
-    /// Arcs that the wire cannot follow at its distance: those of a part's contour, where the control or nobody offsets it.
-    fn tight_arcs(&mut self, cut: &Cut, orientation: i128) {
-        for (
-            Tight {
-                arc: step, radius, ..
-            },
-            range,
-        ) in &self.tight_of(cut)
-        {
-            let side_of_center = if step.motion == Motion::CounterClockwise {
-                Side::Left
-            } else {
-                Side::Right
-            };
-            let wire_side = match step.side {
-                Some(side) => side,
-                None if self.limits.compensation == Compensation::Path => continue,
-                None => match (self.limits.side, orientation) {
-                    (SideSetting::Opening, 1..) | (SideSetting::Punch, ..=-1) => Side::Left,
-                    (SideSetting::Opening, ..=-1) | (SideSetting::Punch, 1..) => Side::Right,
-                    _ => side_of_center,
-                },
-            };
-            let required = self.correction(step.offset);
-            if wire_side == side_of_center
-                && is_tight(*radius, required)
-                && let Course::Arc(arc) = step.course(self.reading)
-            {
-                let detail = SmallRadius {
-                    no_fix: Some(NoFix::Program),
-                    ..SmallRadius::of(&arc, arc.radius, required, UM_IN_MM)
-                };
-                let detail = Detail::SmallRadius(Box::new(detail));
-                self.push(Rule::SmallRadius, range.clone(), detail);
-            }
-        }
-    }
-
-    /// Arcs that have no room for a wire that leans, or none left in the other plane.
-    fn taper(&mut self) {
-        let Some(taper) = self.document.taper() else {
-            return;
-        };
-        if let Some(Unknown::Height(line)) = taper.unknown {
-            let fault = Fault::said(Rule::Taper, say!(how_far_the_wire_leans_needs_the_height));
-            self.add_as(Severity::Information, self.document.words_of(line), fault);
-        }
-        for arc in &taper.arcs {
-            let TiltedArc {
-                line,
-                radius,
-                narrows,
-                is_inside,
-                ..
-            } = *arc;
-            let correction = self.correction(arc.offset);
-            let least = arc.least(correction);
-            // That it is below the correction is said of it anyway.
-            if !is_tight(radius, least) || is_inside && is_tight(radius, correction) {
-                continue;
-            }
-            let [radius, least, narrows] =
-                [radius, least, narrows.max(0.0)].map(|um| um / UM_IN_MM);
-            let angle = arc.angle.to_degrees();
-            let sentence = match is_inside {
-                true => say!(
-                    an_arc_has_no_room_for_the_taper,
-                    radius,
-                    least,
-                    angle,
-                    narrows
-                ),
-                false => say!(an_arc_narrows_to_nothing, radius, narrows, angle),
-            };
-            self.add(
-                self.document.words_of(line),
-                Fault::said(Rule::Taper, sentence),
-            );
-        }
-    }
-
-    /// The largest correction that a move may have, µm.
-    fn largest_correction(&self) -> f64 {
-        let stated = self
-            .definitions
-            .values()
-            .map(|&value| (value as f64 / 1e3).abs());
-        stated.fold(self.limits.correction * 1e3, f64::max)
-    }
-
-    /// The correction in a place of the control's table, µm: what the program's own table says, else the settings.
-    fn correction(&self, offset: Option<Offset>) -> f64 {
-        let stated = offset.and_then(|offset| self.definitions.get(&offset));
-        stated.map_or(self.limits.correction * 1e3, |&value| {
-            (value as f64 / 1e3).abs()
-        })
     }
 
     /// Sorted by place; a line that a subprogram runs several times is said once.

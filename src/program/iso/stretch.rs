@@ -78,7 +78,7 @@ pub(crate) struct Stretch {
     /// About all of them, µm, where they lay before the stretch was moved.
     pub(crate) bounds: Option<Bounds>,
     /// The parts that begin and end here are known to have nothing wrong with them as a whole.
-    pub(crate) is_quiet: bool,
+    pub(crate) is_clean: bool,
     pub(crate) foreign: Vec<Foreign>,
     pub(crate) definitions: Vec<Definition>,
     /// The first lengths without a decimal point that are not 0, and the first with one.

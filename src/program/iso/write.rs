@@ -1,17 +1,16 @@
 //! Paths to the text of one ISO program, as a profile says, each line of which is read again while it is written.
 
+mod proof;
+
 use super::block::{Block, Motion, Note, read_line};
 use super::encode::{Encoded, Moves};
-use super::machine::{
-    CenterRule, Course, MICROMETRE, Machine, Move, Place, Reading, micrometres, to_center,
-};
+use super::machine::{CenterRule, MICROMETRE, Machine, Place, Reading, to_center};
 use crate::finding::Side;
 use crate::geometry::Segment;
-use crate::program::encode::{ASIDE_TOLERANCE, Encoder};
-use crate::program::grid::{Node, largest_distance, point_of};
+use crate::program::encode::Encoder;
+use crate::program::grid::Node;
 use crate::program::write::{
-    ProofError, ProvedProgram, Writer, cuts, nothing_to_write, push_number, push_places, scaled,
-    walk, way,
+    ProofError, ProvedProgram, Writer, cuts, nothing_to_write, push_number, push_places, walk, way,
 };
 use crate::settings::{Coordinates, Effective, Jumps, LineEnd, NumberUnit, Profile, Zero};
 use crate::toolpath::{Source, WirePath};
@@ -380,61 +379,6 @@ impl<'a> Lines<'a> {
             self.push_length(&mut out, j);
         }
         self.out = out;
-    }
-
-    /// Holds what the control does with the line against the node and the piece of the path; how far it lies from that at most, µm.
-    fn check(&self, step: &Encoded, made: Option<Move>) -> Result<f64, ProofError> {
-        let Some(made) = made else {
-            return Err(ProofError::Mismatch(say!(
-                a_written_move_does_not_move,
-                format_args!("{:?}", step.to)
-            )));
-        };
-        let (from, to) = (self.place(step.from), self.place(step.to));
-        if made.from != from || made.to != to || made.motion != step.motion {
-            // Only the profile can have changed what coordinates count from, or in which unit.
-            let profile = say!(
-                its_lines_lead_elsewhere,
-                format_args!("{to:?}"),
-                format_args!("{:?}", made.to)
-            );
-            return Err(self.refused(&profile));
-        }
-        if made.is_cut() && !self.is_switched_off && made.side != self.side {
-            return Err(self.refused(say!(the_correction_is_not_in_force_along_the_contour)));
-        }
-        let decoded = match made.course(&self.reading) {
-            Course::Line => Segment::line(micrometres(made.from), micrometres(made.to)),
-            Course::Arc(arc) => Segment::Arc(arc),
-            Course::OffRadius { start, end, .. } => {
-                return Err(ProofError::Mismatch(say!(
-                    the_ends_of_the_arc_lie_apart_from_its_centre,
-                    format_args!("{:?}", step.to),
-                    start,
-                    end
-                )));
-            }
-            Course::NoRadius => {
-                return Err(ProofError::Mismatch(say!(
-                    the_arc_to_a_place_has_no_radius,
-                    format_args!("{:?}", step.to)
-                )));
-            }
-        };
-        let piece = scaled(
-            &step.piece.moved(-point_of(self.zero).coords),
-            self.step_um(),
-        );
-        let middles = (decoded.point_at(0.5) - piece.point_at(0.5)).norm();
-        let aside = largest_distance(&decoded, &piece);
-        if aside.max(middles) > ASIDE_TOLERANCE + 1e-6 || aside.is_nan() || middles.is_nan() {
-            return Err(ProofError::Mismatch(say!(
-                the_move_runs_beside_the_path,
-                format_args!("{:?}", step.to),
-                aside.max(middles)
-            )));
-        }
-        Ok(aside)
     }
 
     /// A length in steps, as the profile writes lengths.

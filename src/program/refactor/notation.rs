@@ -30,8 +30,9 @@ pub(in crate::program) trait Notation: Sized {
 
     /// A step of its nodes, µm.
     const STEP: f64;
+
     /// Title of the refactoring that numbers its blocks.
-    const NUMBER: &'static str;
+    fn title_of_numbering() -> &'static str;
 
     fn read(bytes: Vec<u8>, settings: &Effective) -> Self::Document;
     fn findings(document: &Self::Document) -> Vec<Finding>;

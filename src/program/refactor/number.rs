@@ -12,7 +12,7 @@ pub(super) fn all<N: Notation>() -> [Refactoring<N>; 2] {
     [
         Refactoring {
             id: "refactor.rewrite.number",
-            title: |_| N::NUMBER.into(),
+            title: |_| N::title_of_numbering().into(),
             rewrite: |sheet| same_way(sheet, N::numbered(sheet.document)?),
         },
         Refactoring {

@@ -126,7 +126,7 @@ impl Document {
             view: Box::default(),
             known: Box::default(),
         };
-        document.look_again();
+        document.judge_again();
         document
     }
 
@@ -159,7 +159,7 @@ impl Document {
         };
         self.stretches
             .edit(&reader, &mut self.text, range, replacement);
-        self.look_again();
+        self.judge_again();
     }
 
     fn entry(&self, at: At) -> Option<&Entry> {
@@ -174,24 +174,24 @@ impl Document {
         })
     }
 
-    fn look_again(&mut self) {
+    fn judge_again(&mut self) {
         let mut known = std::mem::take(&mut self.known);
-        let mut calm = Vec::new();
-        *self.view = self.look(&mut known, &mut calm);
+        let mut clean = Vec::new();
+        *self.view = self.judged(&mut known, &mut clean);
         self.known = known;
         // What a contour within one stretch comes to hangs on nothing else: it is not asked again.
-        for of_stretch in calm.chunk_by(|a, b| a.0 == b.0) {
+        for of_stretch in clean.chunk_by(|a, b| a.0 == b.0) {
             let stretch = of_stretch
                 .first()
                 .and_then(|(stretch, _)| self.stretches.get_mut(*stretch));
-            let is_calm = |part: &usize| {
+            let is_clean = |part: &usize| {
                 of_stretch
                     .binary_search_by_key(part, |(_, part)| *part)
                     .is_ok()
             };
             stretch
                 .into_iter()
-                .for_each(|stretch| stretch.tangled.retain(|part| !is_calm(part)));
+                .for_each(|stretch| stretch.may_cross.retain(|part| !is_clean(part)));
         }
     }
 }

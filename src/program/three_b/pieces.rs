@@ -1,6 +1,6 @@
 //! A line of 3B cut into its pieces: which byte belongs to which field, damaged lines too.
 //!
-//! The reader in [`super::super::parse`] says what a sound line means. Here nothing is judged: an editor asks where the cursor stands
+//! The reader in [`super::parse`] says what a sound line means. Here nothing is judged: an editor asks where the cursor stands
 //! while a block is still being written.
 
 use crate::program::three_b::around::{before_comment, is_remark, start_point, two_numbers};

@@ -263,7 +263,7 @@ pub(super) struct Stretch {
     /// Parts between two words of the stretch that hold no closed contour, and those that come near themselves, until it is known
     /// that they do not cross.
     pub(crate) open: Vec<usize>,
-    pub(crate) tangled: Vec<usize>,
+    pub(crate) may_cross: Vec<usize>,
     /// How its first part begins, and how its last one ends; `None` where there is no block in it.
     pub(crate) edges: [Option<Edge>; 2],
 }
@@ -353,7 +353,7 @@ impl Stretch {
                 self.open
                     .extend((!is_jump(&part.sum) && !part.lay.goes_round).then_some(index));
                 let may_cross = !part.lay.near.is_empty() && may_cross_itself(&part.sum);
-                self.tangled.extend(may_cross.then_some(index));
+                self.may_cross.extend(may_cross.then_some(index));
             }
         }
     }
@@ -371,13 +371,18 @@ impl Stretch {
                 let entry = BlockEntry::new(block, part, stated_end);
                 let range = local(range);
                 let part_index = self.parts.len();
-                for sight in rules::look(&block, part, limits) {
+                for observation in rules::check(&block, part, limits) {
                     // What is only unusual, or too tight, leads where it says.
                     open.sum.errors += usize::from(
-                        sight.counts == Counts::Always && sight.rule != Rule::SmallRadius,
+                        observation.counts == Counts::Always
+                            && observation.rule != Rule::SmallRadius,
                     );
-                    let (rule, spot, counts, detail) =
-                        (sight.rule, sight.spot, sight.counts, sight.detail);
+                    let (rule, spot, counts, detail) = (
+                        observation.rule,
+                        observation.spot,
+                        observation.counts,
+                        observation.detail,
+                    );
                     self.faults.push(Local {
                         range: range.clone(),
                         rule,

@@ -58,7 +58,10 @@ impl Notation for Iso {
     type Extra = Extra;
 
     const STEP: f64 = 1e-3;
-    const NUMBER: &'static str = "Number the blocks in tens";
+
+    fn title_of_numbering() -> &'static str {
+        say!(number_the_blocks_in_tens)
+    }
 
     fn read(bytes: Vec<u8>, settings: &Effective) -> Document {
         Document::read_with(bytes, settings)
@@ -165,7 +168,7 @@ impl Notation for Iso {
             }
             Bent::Center(center) => Bent::Center(
                 fitting([from, to], center, factor, &style)
-                    .ok_or("the program would run too far out")?,
+                    .ok_or(say!(the_program_would_run_too_far_out))?,
             ),
         };
         Ok(vec![Target { to, bend, ..old }])
@@ -204,7 +207,7 @@ impl Notation for Iso {
         let words = swapped_sides(sheet.document, before..last + 1);
         let mut of_contour = content.rows[contour.rows.clone()].iter();
         if words.is_empty() && of_contour.any(|row| row.own.made.side.is_some()) {
-            return Err("the correction was switched on for another contour before".into());
+            return Err(say!(the_correction_was_switched_on_for_another_contour).into());
         }
         rewrite.extra.words.extend(words);
         for index in contour.rows.clone() {
@@ -244,12 +247,12 @@ impl Notation for Iso {
     fn agree(after: &Document, row: &Row<Iso>, meant: &Target) -> Result<(), String> {
         let made = &row.own.made;
         if (made.to, made.motion, made.side) != (meant.to, meant.motion, meant.side) {
-            return Err("the new line would lead elsewhere".into());
+            return Err(say!(the_new_line_leads_elsewhere).into());
         }
         match meant.bend {
             _ if meant.is_along(made, after.reading()) => Ok(()),
-            Bent::Center(_) => Err("the arcs would not tell any more how I and J are meant".into()),
-            _ => Err("the new line would lead elsewhere".into()),
+            Bent::Center(_) => Err(say!(the_arcs_would_not_tell_how_i_and_j_are_meant).into()),
+            _ => Err(say!(the_new_line_leads_elsewhere).into()),
         }
     }
 
@@ -328,10 +331,7 @@ fn positions(document: &Document, factor: f64) -> Result<Vec<TextEdit>, String> 
     for line in 0..text.line_count() {
         let block = document.block(line);
         if block.takes_coordinates && block.has_coordinates() {
-            return Err(format!(
-                "line {}: a word takes the coordinates for a place of the machine",
-                line + 1
-            ));
+            return Err(say!(a_word_takes_the_coordinates, line + 1));
         }
         if !block.sets_position {
             continue;

@@ -203,7 +203,7 @@ impl Document {
 
     fn number_fixes(&self, range: &Range<usize>) -> Vec<TextFix> {
         let (places, blocks) = self.numbered(self.view.end);
-        let found = block_number::look(&blocks);
+        let found = block_number::check(&blocks);
         let Some((index, _, meant)) = found.into_iter().find(|(index, ..)| {
             places
                 .get(*index)

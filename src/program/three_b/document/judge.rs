@@ -30,8 +30,8 @@ struct GoesOn {
 }
 
 impl Document {
-    /// `calm` takes the contours within one stretch of which is known now that they do not cross themselves, in their order.
-    pub(super) fn look(&self, known: &mut Known, calm: &mut Vec<PartAt>) -> View {
+    /// `clean` takes the contours within one stretch of which is known now that they do not cross themselves, in their order.
+    pub(super) fn judged(&self, known: &mut Known, clean: &mut Vec<PartAt>) -> View {
         let mut view = View {
             begins: self.begins(),
             ..View::default()
@@ -41,7 +41,7 @@ impl Document {
         view.last_block = self.last_block(view.end);
         self.judge_contours(&mut view);
         self.judge_joints(&mut view);
-        self.judge_crossings(&mut view, known, calm);
+        self.judge_crossings(&mut view, known, clean);
         self.judge_end(&mut view);
         self.judge_texts(&mut view);
         self.judge_numbers(&mut view);
@@ -213,7 +213,7 @@ impl Document {
     }
 
     /// `path-crosses-itself`. What stands before and behind the stop at a tab is one contour.
-    fn judge_crossings(&self, view: &mut View, known: &mut Known, calm: &mut Vec<PartAt>) {
+    fn judge_crossings(&self, view: &mut View, known: &mut Known, clean: &mut Vec<PartAt>) {
         let held = std::mem::take(&mut view.held);
         let is_held = |cut: &Cut| {
             let behind = held.partition_point(|whole| whole.parts[0] <= cut.parts[0]);
@@ -221,14 +221,14 @@ impl Document {
             whole.is_some_and(|whole| cut.parts[1] <= whole.parts[1])
         };
         let mut findings = Vec::new();
-        let tangled = self.inner_cuts(view.end, |stretch| &stretch.tangled);
-        let tangled = tangled.filter(|cut| !is_held(cut)).map(Cow::Owned);
+        let may_cross = self.inner_cuts(view.end, |stretch| &stretch.may_cross);
+        let may_cross = may_cross.filter(|cut| !is_held(cut)).map(Cow::Owned);
         let outer = view.outer.iter().filter(|cut| !is_held(cut)).chain(&held);
-        let cuts = tangled.chain(outer.map(Cow::Borrowed));
+        let cuts = may_cross.chain(outer.map(Cow::Borrowed));
         self.look_through(known, cuts, |cut, found| {
             if found.is_clean() {
                 let is_inner = matches!(cut, Cow::Owned(_));
-                calm.extend(is_inner.then_some(cut.parts[0]));
+                clean.extend(is_inner.then_some(cut.parts[0]));
             } else if !self.is_odd(view, &cut) {
                 findings.extend(found.findings(&self.way(&cut), &self.text));
             }

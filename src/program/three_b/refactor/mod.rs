@@ -52,7 +52,10 @@ impl Notation for ThreeB {
     type Extra = ();
 
     const STEP: f64 = 1.0;
-    const NUMBER: &'static str = "Number the blocks from 1";
+
+    fn title_of_numbering() -> &'static str {
+        say!(number_the_blocks_from_1)
+    }
 
     fn read(bytes: Vec<u8>, settings: &Effective) -> Document {
         Document::read_with(bytes, settings)
@@ -197,9 +200,9 @@ impl Notation for ThreeB {
             piece,
         } = &meant.encoded;
         if row.own.block != *block || row.own.part != meant.part {
-            return Err("the new block reads otherwise than it was meant".into());
+            return Err(say!(the_new_block_reads_otherwise).into());
         }
-        let beside = || "the block does not run along its piece of the path".to_owned();
+        let beside = || say!(the_block_does_not_run_along_its_piece).to_owned();
         let decoded = decode(block, point_of(*from)).map_err(|_| beside())?;
         let apart =
             |share: f64| -> f64 { (decoded.point_at(share) - piece.point_at(share)).norm() };
@@ -250,10 +253,7 @@ impl Notation for ThreeB {
 /// An error where a block carries 4B's radius: the program then holds the part's contour.
 fn refuse_four_b(content: &Content<ThreeB>) -> Result<(), String> {
     match content.rows.iter().find(|row| row.own.part.is_some()) {
-        Some(row) => Err(format!(
-            "line {}: a 4B block cannot be calculated anew",
-            row.line + 1
-        )),
+        Some(row) => Err(say!(a_4b_block_cannot_be_calculated_anew, row.line + 1)),
         None => Ok(()),
     }
 }
@@ -267,8 +267,13 @@ fn encoded(
     source: usize,
 ) -> Result<Vec<New>, String> {
     let (mut blocks, largest) = (Vec::new(), sheet.document.largest());
-    encode(&fitted(piece, from, to), from, to, largest, &mut blocks)
-        .ok_or_else(|| format!("no blocks within tolerance lead from {from:?} to {to:?}"))?;
+    encode(&fitted(piece, from, to), from, to, largest, &mut blocks).ok_or_else(|| {
+        say!(
+            no_blocks_within_tolerance_lead_from_to,
+            format_args!("{from:?}"),
+            format_args!("{to:?}")
+        )
+    })?;
     let new = |encoded| New {
         encoded,
         part,

@@ -78,10 +78,11 @@ impl Wanted {
 
 /// True for a block in which no rule finds a fault.
 pub(in super::super) fn is_sound(block: &Block, limits: &Limits) -> bool {
-    let is_fault = |sight: &rules::Sight| {
-        sight.rule != Rule::SmallRadius && !matches!(sight.counts, Counts::IfInside { .. })
+    let is_fault = |observation: &rules::Observation| {
+        observation.rule != Rule::SmallRadius
+            && !matches!(observation.counts, Counts::IfInside { .. })
     };
-    !rules::look(block, None, limits).iter().any(is_fault)
+    !rules::check(block, None, limits).iter().any(is_fault)
 }
 
 /// True where the quadrant is the one that is written for a start or a direction on an axis.

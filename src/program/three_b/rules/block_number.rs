@@ -92,7 +92,7 @@ pub(in super::super) const FIRST: usize = 16;
 ///
 /// The step is the one that most of the first numbers have. Where fewer than three of four blocks have a number, or more than half of
 /// them are out of turn, the numbers follow another rule, and nothing is said.
-pub(in super::super) fn look(blocks: &[Numbered]) -> Vec<(usize, Fault, Option<u32>)> {
+pub(in super::super) fn check(blocks: &[Numbered]) -> Vec<(usize, Fault, Option<u32>)> {
     let first = blocks.iter().find_map(|block| block.number);
     let Some(mut sequence) = Sequence::of(&blocks[..blocks.len().min(FIRST)], first) else {
         return Vec::new();
@@ -241,7 +241,7 @@ mod tests {
                 is_unread: number == UNREAD,
             })
             .collect();
-        let found: Vec<String> = look(&blocks)
+        let found: Vec<String> = super::check(&blocks)
             .into_iter()
             .map(|(index, fault, meant)| {
                 let kind = match fault {

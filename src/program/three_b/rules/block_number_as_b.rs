@@ -6,7 +6,7 @@ use crate::text::TextEdit;
 
 pub(super) const RULE: BlockRule = BlockRule {
     rule: Rule::BlockNumberAsB,
-    look: |_| None,
+    check: |_| None,
     fixes,
 };
 

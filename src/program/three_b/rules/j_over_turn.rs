@@ -1,23 +1,23 @@
 //! `j-over-turn`: J of an arc counts more than once round, 4R.
 
-use super::{BlockRule, J_TOLERANCE, Seen, Sight, Site, Spot, TextFix, one_edit};
+use super::{BlockRule, J_TOLERANCE, Observation, Outlook, Site, Spot, TextFix, one_edit};
 use crate::finding::{Fault, FixKind, Rule};
 use crate::program::three_b::block::Block;
 
 pub(super) const RULE: BlockRule = BlockRule {
     rule: Rule::JOverTurn,
-    look,
+    check,
     fixes,
 };
 
-fn look(seen: &Seen) -> Option<Sight> {
-    let turn = 4.0 * seen.radius();
-    let is_over = !seen.is_line() && seen.block.j as f64 > turn + J_TOLERANCE;
+fn check(outlook: &Outlook) -> Option<Observation> {
+    let turn = 4.0 * outlook.radius();
+    let is_over = !outlook.is_line() && outlook.block.j as f64 > turn + J_TOLERANCE;
     is_over.then(|| {
-        Sight::at(
+        Observation::at(
             Spot::J,
             Fault::JOverTurn {
-                j: seen.block.j,
+                j: outlook.block.j,
                 turn: turn.round() as i64,
             },
         )

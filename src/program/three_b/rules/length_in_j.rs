@@ -1,36 +1,36 @@
 //! `length-in-j`: J holds the length of the line, where the controller counts its projection.
 
 use super::projection::{Length, length};
-use super::{BlockRule, Seen, Sight, Site, Spot, TextFix, one_edit};
+use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix, one_edit};
 use crate::finding::{Axis, Fault, FixKind, Rule};
 use crate::program::three_b::block::Block;
 
 pub(super) const RULE: BlockRule = BlockRule {
     rule: Rule::LengthInJ,
-    look,
+    check,
     fixes,
 };
 
-fn look(seen: &Seen) -> Option<Sight> {
-    if !seen.is_line() || length(seen) != Length::Euclid {
+fn check(outlook: &Outlook) -> Option<Observation> {
+    if !outlook.is_line() || length(outlook) != Length::Euclid {
         return None;
     }
-    let projection = seen.block.x.max(seen.block.y);
-    Some(Sight::at(
+    let projection = outlook.block.x.max(outlook.block.y);
+    Some(Observation::at(
         Spot::J,
         Fault::LengthInJ {
-            j: seen.block.j,
+            j: outlook.block.j,
             projection,
-            axis: larger_axis(seen),
+            axis: larger_axis(outlook),
         },
     ))
 }
 
-fn larger_axis(seen: &Seen) -> Axis {
-    match seen.block.x.cmp(&seen.block.y) {
+fn larger_axis(outlook: &Outlook) -> Axis {
+    match outlook.block.x.cmp(&outlook.block.y) {
         std::cmp::Ordering::Greater => Axis::X,
         std::cmp::Ordering::Less => Axis::Y,
-        std::cmp::Ordering::Equal => seen.block.axis,
+        std::cmp::Ordering::Equal => outlook.block.axis,
     }
 }
 

@@ -9,7 +9,7 @@ use crate::text::TextEdit;
 
 pub(super) const RULE: BlockRule = BlockRule {
     rule: Rule::MissingB,
-    look: |_| None,
+    check: |_| None,
     fixes,
 };
 

@@ -1,6 +1,6 @@
 //! The rules on 3B programs: one file each, its check and its fixes.
 //!
-//! A rule on a single block sees that block alone ([`Seen`]) and is asked when its line is read; a rule on the whole program sees the
+//! A rule on a single block sees that block alone ([`Outlook`]) and is asked when its line is read; a rule on the whole program sees the
 //! stretches of lines that have been read. Fixes are made when somebody asks for them, from the text as it stands then ([`Site`]).
 
 mod arc_without_radius;
@@ -117,16 +117,16 @@ pub(super) enum Counts {
 
 /// What a rule sees in a block.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Sight {
+pub(super) struct Observation {
     pub(crate) rule: Rule,
     pub(crate) spot: Spot,
     pub(crate) detail: Detail,
     pub(crate) counts: Counts,
 }
 
-impl Sight {
-    fn at(spot: Spot, fault: Fault) -> Sight {
-        Sight {
+impl Observation {
+    fn at(spot: Spot, fault: Fault) -> Observation {
+        Observation {
             rule: fault.rule(),
             spot,
             detail: Detail::Program(Box::new(fault)),
@@ -136,13 +136,13 @@ impl Sight {
 }
 
 /// A block as a rule sees it.
-pub(super) struct Seen<'a> {
+pub(super) struct Outlook<'a> {
     pub(crate) block: &'a Block,
     pub(crate) part: Option<PartArc>,
     pub(crate) limits: &'a Limits,
 }
 
-impl Seen<'_> {
+impl Outlook<'_> {
     fn is_line(&self) -> bool {
         matches!(self.block.motion, Motion::Line(_))
     }
@@ -155,7 +155,7 @@ impl Seen<'_> {
 /// A rule on single blocks.
 struct BlockRule {
     rule: Rule,
-    look: fn(&Seen) -> Option<Sight>,
+    check: fn(&Outlook) -> Option<Observation>,
     /// The preferred one first.
     fixes: fn(&Site, &Fault) -> Vec<TextFix>,
 }
@@ -178,18 +178,18 @@ const RULES: [BlockRule; 12] = [
 const ALONE: usize = 2;
 
 /// What is wrong with a block for itself.
-pub(super) fn look(block: &Block, part: Option<PartArc>, limits: &Limits) -> Vec<Sight> {
-    let seen = Seen {
+pub(super) fn check(block: &Block, part: Option<PartArc>, limits: &Limits) -> Vec<Observation> {
+    let outlook = Outlook {
         block,
         part,
         limits,
     };
     let (first, others) = RULES.split_at(ALONE);
-    match first.iter().find_map(|rule| (rule.look)(&seen)) {
-        Some(sight) => vec![sight],
+    match first.iter().find_map(|rule| (rule.check)(&outlook)) {
+        Some(observation) => vec![observation],
         None => others
             .iter()
-            .filter_map(|rule| (rule.look)(&seen))
+            .filter_map(|rule| (rule.check)(&outlook))
             .collect(),
     }
 }

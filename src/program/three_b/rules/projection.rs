@@ -1,6 +1,6 @@
 //! How the J of a line stands to its X and Y.
 
-use super::{J_TOLERANCE, Seen};
+use super::{J_TOLERANCE, Outlook};
 use crate::program::three_b::block::{Block, CountingAxis, Motion};
 
 /// What J of a line says.
@@ -16,8 +16,8 @@ pub(super) enum Length {
     Misfit { is_certain: bool },
 }
 
-pub(super) fn length(seen: &Seen) -> Length {
-    length_of(seen.block)
+pub(super) fn length(outlook: &Outlook) -> Length {
+    length_of(outlook.block)
 }
 
 /// True for a line whose J is neither a projection nor the scale of a ratio.

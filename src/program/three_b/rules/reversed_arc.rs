@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 pub(super) const RULE: BlockRule = BlockRule {
     rule: Rule::ReversedArc,
-    look: |_| None,
+    check: |_| None,
     fixes,
 };
 

@@ -3,7 +3,7 @@
 //! A 4B block says on which side of the arc the wire runs (`DD` inside). A 3B program holds the part's contour only where the
 //! settings say so (`compensation = "controller"` or `"none"`); the wire's own path rightly has arcs down to nothing.
 
-use super::{BlockRule, Counts, Seen, Sight, Spot};
+use super::{BlockRule, Counts, Observation, Outlook, Spot};
 use crate::finding::{Detail, Rule, SmallRadius};
 use crate::geometry::{Point, Segment};
 use crate::program::path::{UM_IN_MM, is_tight};
@@ -13,45 +13,53 @@ use crate::settings::SideSetting;
 
 pub(super) const RULE: BlockRule = BlockRule {
     rule: Rule::SmallRadius,
-    look,
+    check,
     fixes: |_, _| Vec::new(),
 };
 
-fn look(seen: &Seen) -> Option<Sight> {
-    let turns_left = match seen.block.motion {
+fn check(outlook: &Outlook) -> Option<Observation> {
+    let turns_left = match outlook.block.motion {
         Motion::Line(_) => return None,
         Motion::Clockwise(_) => false,
         Motion::CounterClockwise(_) => true,
     };
-    let counts = match seen.part {
+    let counts = match outlook.part {
         Some(part) if part.concave => Counts::Always,
         Some(_) => return None,
-        None if !seen.limits.holds_part => return None,
-        None if matches!(seen.limits.side, SideSetting::Opening | SideSetting::Punch) => {
+        None if !outlook.limits.holds_part => return None,
+        None if matches!(
+            outlook.limits.side,
+            SideSetting::Opening | SideSetting::Punch
+        ) =>
+        {
             Counts::IfInside { turns_left }
         }
         None => Counts::Always,
     };
-    let stated = seen.part.map_or(0.0, |part| part.radius as f64);
-    let radius = if stated > 0.0 { stated } else { seen.radius() };
-    let required = seen.limits.correction * 1000.0;
+    let stated = outlook.part.map_or(0.0, |part| part.radius as f64);
+    let radius = if stated > 0.0 {
+        stated
+    } else {
+        outlook.radius()
+    };
+    let required = outlook.limits.correction * 1000.0;
     // A 4B controller refuses an arc as large as its correction, too.
-    let is_tight = if seen.part.is_some() {
+    let is_tight = if outlook.part.is_some() {
         !is_tight(required, radius)
     } else {
         is_tight(radius, required)
     };
-    let Ok(Segment::Arc(arc)) = decode(seen.block, Point::origin()) else {
+    let Ok(Segment::Arc(arc)) = decode(outlook.block, Point::origin()) else {
         return None;
     };
     if !is_tight {
         return None;
     }
     let detail = SmallRadius {
-        pass: seen.limits.pass,
+        pass: outlook.limits.pass,
         ..SmallRadius::of(&arc, radius, required, UM_IN_MM)
     };
-    Some(Sight {
+    Some(Observation {
         rule: Rule::SmallRadius,
         spot: Spot::Block,
         detail: Detail::SmallRadius(Box::new(detail)),

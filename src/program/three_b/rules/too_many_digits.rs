@@ -1,7 +1,7 @@
 //! `too-many-digits`: a number that the controller has no digits for.
 
 use super::projection::is_misfit;
-use super::{BlockRule, Seen, Sight, Site, Spot, TextFix, one_edit};
+use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix, one_edit};
 use crate::finding::{Fault, FixKind, Rule};
 use crate::geometry::Point;
 use crate::program::three_b::block::Node;
@@ -11,12 +11,12 @@ use crate::program::three_b::layout::{layout_in, push_fields};
 
 pub(super) const RULE: BlockRule = BlockRule {
     rule: Rule::TooManyDigits,
-    look,
+    check,
     fixes,
 };
 
-fn look(seen: &Seen) -> Option<Sight> {
-    let block = seen.block;
+fn check(outlook: &Outlook) -> Option<Observation> {
+    let block = outlook.block;
     let numbers = [
         (Spot::J, "J", block.j),
         (Spot::X, "X", block.x),
@@ -24,13 +24,13 @@ fn look(seen: &Seen) -> Option<Sight> {
     ];
     let (spot, field, value) = numbers
         .into_iter()
-        .find(|(_, _, value)| *value > seen.limits.largest())?;
-    Some(Sight::at(
+        .find(|(_, _, value)| *value > outlook.limits.largest())?;
+    Some(Observation::at(
         spot,
         Fault::TooManyDigits {
             field,
             value,
-            digits: seen.limits.digits,
+            digits: outlook.limits.digits,
         },
     ))
 }

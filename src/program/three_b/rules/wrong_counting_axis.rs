@@ -3,7 +3,7 @@
 //! A line counts its larger projection. An arc counts the axis along which it runs at its end: X where the end lies nearer to the Y
 //! axis of its centre, Y where it lies nearer to the X axis. Counted on the other axis, one µm of J is many µm of the way.
 
-use super::{ARC_TIE, BlockRule, Seen, Sight, Site, Spot, TIE, TextFix, one_edit};
+use super::{ARC_TIE, BlockRule, Observation, Outlook, Site, Spot, TIE, TextFix, one_edit};
 use crate::finding::{Axis, Fault, FixKind, Rule};
 use crate::geometry::{Point, Segment};
 use crate::program::three_b::block::{Block, Motion};
@@ -12,20 +12,20 @@ use crate::program::three_b::encode::counted;
 
 pub(super) const RULE: BlockRule = BlockRule {
     rule: Rule::WrongCountingAxis,
-    look,
+    check,
     fixes,
 };
 
-fn look(seen: &Seen) -> Option<Sight> {
-    let axis = seen.block.axis;
-    if seen.is_line() {
-        let Block { x, y, j, .. } = *seen.block;
+fn check(outlook: &Outlook) -> Option<Observation> {
+    let axis = outlook.block.axis;
+    if outlook.is_line() {
+        let Block { x, y, j, .. } = *outlook.block;
         let (counted, other) = if axis == Axis::X { (x, y) } else { (y, x) };
         // A ratio is as near to a tie as the line that it stands for.
         let scale = if other > 0 && j > other { j / other } else { 1 };
         let contradicts = other > 0 && (other - counted).saturating_mul(scale) > TIE;
         return contradicts.then(|| {
-            Sight::at(
+            Observation::at(
                 Spot::Axis,
                 Fault::SmallerProjection {
                     axis,
@@ -35,7 +35,7 @@ fn look(seen: &Seen) -> Option<Sight> {
             )
         });
     }
-    let Ok(Segment::Arc(arc)) = decode(seen.block, Point::origin()) else {
+    let Ok(Segment::Arc(arc)) = decode(outlook.block, Point::origin()) else {
         return None;
     };
     let out = arc.end - arc.center;
@@ -54,7 +54,7 @@ fn look(seen: &Seen) -> Option<Sight> {
         );
         Fault::said(Rule::WrongCountingAxis, sentence)
     };
-    (along > across + ARC_TIE).then(|| Sight::at(Spot::Axis, fault()))
+    (along > across + ARC_TIE).then(|| Observation::at(Spot::Axis, fault()))
 }
 
 fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {

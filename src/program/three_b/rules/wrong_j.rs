@@ -4,26 +4,26 @@
 //! tells which.
 
 use super::projection::{Length, length};
-use super::{BlockRule, Counts, Seen, Sight, Site, Spot, TextFix, one_edit};
+use super::{BlockRule, Counts, Observation, Outlook, Site, Spot, TextFix, one_edit};
 use crate::finding::{Axis, Fault, FixKind, Rule};
 use crate::program::three_b::block::Block;
 
 pub(super) const RULE: BlockRule = BlockRule {
     rule: Rule::WrongJ,
-    look,
+    check,
     fixes,
 };
 
-fn look(seen: &Seen) -> Option<Sight> {
-    let Block { x, y, j, .. } = *seen.block;
-    if !seen.is_line() {
+fn check(outlook: &Outlook) -> Option<Observation> {
+    let Block { x, y, j, .. } = *outlook.block;
+    if !outlook.is_line() {
         return None;
     }
-    let Length::Misfit { is_certain } = length(seen) else {
+    let Length::Misfit { is_certain } = length(outlook) else {
         return None;
     };
     let axis = if x >= y { Axis::X } else { Axis::Y };
-    let sight = Sight::at(
+    let observation = Observation::at(
         Spot::J,
         Fault::WrongJ {
             j,
@@ -31,13 +31,13 @@ fn look(seen: &Seen) -> Option<Sight> {
             axis,
         },
     );
-    Some(Sight {
+    Some(Observation {
         counts: if is_certain {
             Counts::Always
         } else {
             Counts::IfOpen
         },
-        ..sight
+        ..observation
     })
 }
 

@@ -3,22 +3,22 @@
 //! +X is `L1`, +Y `L2`, −X `L3`, −Y `L4`. Since a zero has no sign, the other quadrant at the same half axis leads to the same place;
 //! it is an error only where nothing but Z tells the direction, or where the contour does not close.
 
-use super::{BlockRule, Counts, Seen, Sight, Site, Spot, TextFix, one_edit};
+use super::{BlockRule, Counts, Observation, Outlook, Site, Spot, TextFix, one_edit};
 use crate::finding::{Axis, Fault, FixKind, Rule};
 use crate::program::three_b::block::{Block, Motion, Quadrant};
 
 pub(super) const RULE: BlockRule = BlockRule {
     rule: Rule::WrongQuadrant,
-    look,
+    check,
     fixes,
 };
 
-fn look(seen: &Seen) -> Option<Sight> {
-    let Motion::Line(quadrant) = seen.block.motion else {
+fn check(outlook: &Outlook) -> Option<Observation> {
+    let Motion::Line(quadrant) = outlook.block.motion else {
         return None;
     };
-    let Block { x, y, j, .. } = *seen.block;
-    let axis = seen.block.axis;
+    let Block { x, y, j, .. } = *outlook.block;
+    let axis = outlook.block.axis;
     let along = match (x, y) {
         (0, 0) => axis,
         (_, 0) => Axis::X,
@@ -37,21 +37,21 @@ fn look(seen: &Seen) -> Option<Sight> {
     } else {
         ["L2", "L4"]
     };
-    let sight = Sight::at(
+    let observation = Observation::at(
         Spot::Motion,
         Fault::AxisQuadrant {
-            found: seen.block.motion.name(),
+            found: outlook.block.motion.name(),
             expected,
             axis: along,
         },
     );
-    Some(Sight {
+    Some(Observation {
         counts: if (x, y) == (0, 0) {
             Counts::Always
         } else {
             Counts::MildIfClosed
         },
-        ..sight
+        ..observation
     })
 }
 

@@ -1,19 +1,19 @@
 //! `zero-block`: a block that moves nothing.
 
-use super::{BlockRule, Seen, Sight, Site, Spot, TextFix};
+use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix};
 use crate::finding::{Fault, FixKind, Rule};
 
 pub(super) const RULE: BlockRule = BlockRule {
     rule: Rule::ZeroBlock,
-    look,
+    check,
     fixes,
 };
 
-fn look(seen: &Seen) -> Option<Sight> {
-    let block = seen.block;
-    let is_zero = block.j == 0 && (!seen.is_line() || (block.x == 0 && block.y == 0));
+fn check(outlook: &Outlook) -> Option<Observation> {
+    let block = outlook.block;
+    let is_zero = block.j == 0 && (!outlook.is_line() || (block.x == 0 && block.y == 0));
     let sentence = || say!(the_block_moves_nothing);
-    is_zero.then(|| Sight::at(Spot::Block, Fault::said(Rule::ZeroBlock, sentence())))
+    is_zero.then(|| Observation::at(Spot::Block, Fault::said(Rule::ZeroBlock, sentence())))
 }
 
 fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {

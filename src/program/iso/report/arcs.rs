@@ -1,0 +1,142 @@
+//! Arcs that the wire cannot follow at its distance, upright or leaning.
+
+use super::super::block::{Motion, Offset};
+use super::super::cut::Cut;
+use super::super::machine::Course;
+use super::super::part::Tight;
+use super::super::tilt::{TiltedArc, Unknown};
+use super::{Report, at};
+use crate::finding::{Detail, Fault, NoFix, Rule, Severity, Side, SmallRadius};
+use crate::program::path::{UM_IN_MM, is_tight};
+use crate::settings::{Compensation, SideSetting};
+use std::ops::Range;
+
+impl Report<'_> {
+    /// The arcs of a cut that may be too tight, with their places in the text.
+    fn tight_of(&self, cut: &Cut) -> Vec<(Tight, Range<usize>)> {
+        let mut found = Vec::new();
+        for part in &cut.parts {
+            let Some(stretch) = self.document.stretches().get(part.stretch) else {
+                continue;
+            };
+            // Most programs have no arc as tight as any correction.
+            let is_offset_only = self.limits.compensation == Compensation::Path;
+            let tightest = stretch.tightest.offset.min(if is_offset_only {
+                f64::INFINITY
+            } else {
+                stretch.tightest.plain
+            });
+            let may_be_tight = |tight: &Tight| {
+                is_tight(tight.radius, self.largest_correction)
+                    && (tight.arc.side.is_some() || !is_offset_only)
+            };
+            let tight = is_tight(tightest, self.largest_correction)
+                .then(|| stretch.tight_of(part.part).filter(may_be_tight));
+            found.extend(
+                tight
+                    .into_iter()
+                    .flatten()
+                    .map(|tight| (tight, at(part.offset, tight.range))),
+            );
+        }
+        found
+    }
+
+    /// Arcs that the wire cannot follow at its distance: those of a part's contour, where the control or nobody offsets it.
+    pub(super) fn tight_arcs(&mut self, cut: &Cut, orientation: i128) {
+        for (
+            Tight {
+                arc: step, radius, ..
+            },
+            range,
+        ) in &self.tight_of(cut)
+        {
+            let side_of_center = if step.motion == Motion::CounterClockwise {
+                Side::Left
+            } else {
+                Side::Right
+            };
+            let wire_side = match step.side {
+                Some(side) => side,
+                None if self.limits.compensation == Compensation::Path => continue,
+                None => match (self.limits.side, orientation) {
+                    (SideSetting::Opening, 1..) | (SideSetting::Punch, ..=-1) => Side::Left,
+                    (SideSetting::Opening, ..=-1) | (SideSetting::Punch, 1..) => Side::Right,
+                    _ => side_of_center,
+                },
+            };
+            let required = self.correction(step.offset);
+            if wire_side == side_of_center
+                && is_tight(*radius, required)
+                && let Course::Arc(arc) = step.course(self.reading)
+            {
+                let detail = SmallRadius {
+                    no_fix: Some(NoFix::Program),
+                    ..SmallRadius::of(&arc, arc.radius, required, UM_IN_MM)
+                };
+                let detail = Detail::SmallRadius(Box::new(detail));
+                self.push(Rule::SmallRadius, range.clone(), detail);
+            }
+        }
+    }
+
+    /// Arcs that have no room for a wire that leans, or none left in the other plane.
+    pub(super) fn taper(&mut self) {
+        let Some(taper) = self.document.taper() else {
+            return;
+        };
+        if let Some(Unknown::Height(line)) = taper.unknown {
+            let fault = Fault::said(Rule::Taper, say!(how_far_the_wire_leans_needs_the_height));
+            self.add_as(Severity::Information, self.document.words_of(line), fault);
+        }
+        for arc in &taper.arcs {
+            let TiltedArc {
+                line,
+                radius,
+                narrows,
+                is_inside,
+                ..
+            } = *arc;
+            let correction = self.correction(arc.offset);
+            let least = arc.least(correction);
+            // That it is below the correction is said of it anyway.
+            if !is_tight(radius, least) || is_inside && is_tight(radius, correction) {
+                continue;
+            }
+            let [radius, least, narrows] =
+                [radius, least, narrows.max(0.0)].map(|um| um / UM_IN_MM);
+            let angle = arc.angle.to_degrees();
+            let sentence = match is_inside {
+                true => say!(
+                    an_arc_has_no_room_for_the_taper,
+                    radius,
+                    least,
+                    angle,
+                    narrows
+                ),
+                false => say!(an_arc_narrows_to_nothing, radius, narrows, angle),
+            };
+            self.add(
+                self.document.words_of(line),
+                Fault::said(Rule::Taper, sentence),
+            );
+        }
+    }
+
+    /// The largest correction that a move may have, µm.
+    pub(super) fn largest_correction(&self) -> f64 {
+        let stated = self
+            .definitions
+            .values()
+            .map(|&value| (value as f64 / 1e3).abs());
+        stated.fold(self.limits.correction * 1e3, f64::max)
+    }
+
+    /// The correction in a place of the control's table, µm: what the program's own table says, else the settings.
+    fn correction(&self, offset: Option<Offset>) -> f64 {
+        let stated = offset.and_then(|offset| self.definitions.get(&offset));
+        stated.map_or(self.limits.correction * 1e3, |&value| {
+            (value as f64 / 1e3).abs()
+        })
+    }
+}

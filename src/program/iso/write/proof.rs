@@ -1,0 +1,66 @@
+//! The proof of a written line: what the control does with it is held against the piece of the path.
+
+use super::Lines;
+use crate::geometry::Segment;
+use crate::program::encode::ASIDE_TOLERANCE;
+use crate::program::grid::{largest_distance, point_of};
+use crate::program::iso::encode::Encoded;
+use crate::program::iso::machine::{Course, Move, micrometres};
+use crate::program::write::{ProofError, scaled};
+
+impl Lines<'_> {
+    /// Holds what the control does with the line against the node and the piece of the path; how far it lies from that at most, µm.
+    pub(super) fn check(&self, step: &Encoded, made: Option<Move>) -> Result<f64, ProofError> {
+        let Some(made) = made else {
+            return Err(ProofError::Mismatch(say!(
+                a_written_move_does_not_move,
+                format_args!("{:?}", step.to)
+            )));
+        };
+        let (from, to) = (self.place(step.from), self.place(step.to));
+        if made.from != from || made.to != to || made.motion != step.motion {
+            // Only the profile can have changed what coordinates count from, or in which unit.
+            let profile = say!(
+                its_lines_lead_elsewhere,
+                format_args!("{to:?}"),
+                format_args!("{:?}", made.to)
+            );
+            return Err(self.refused(&profile));
+        }
+        if made.is_cut() && !self.is_switched_off && made.side != self.side {
+            return Err(self.refused(say!(the_correction_is_not_in_force_along_the_contour)));
+        }
+        let decoded = match made.course(&self.reading) {
+            Course::Line => Segment::line(micrometres(made.from), micrometres(made.to)),
+            Course::Arc(arc) => Segment::Arc(arc),
+            Course::OffRadius { start, end, .. } => {
+                return Err(ProofError::Mismatch(say!(
+                    the_ends_of_the_arc_lie_apart_from_its_centre,
+                    format_args!("{:?}", step.to),
+                    start,
+                    end
+                )));
+            }
+            Course::NoRadius => {
+                return Err(ProofError::Mismatch(say!(
+                    the_arc_to_a_place_has_no_radius,
+                    format_args!("{:?}", step.to)
+                )));
+            }
+        };
+        let piece = scaled(
+            &step.piece.moved(-point_of(self.zero).coords),
+            self.step_um(),
+        );
+        let middles = (decoded.point_at(0.5) - piece.point_at(0.5)).norm();
+        let aside = largest_distance(&decoded, &piece);
+        if aside.max(middles) > ASIDE_TOLERANCE + 1e-6 || aside.is_nan() || middles.is_nan() {
+            return Err(ProofError::Mismatch(say!(
+                the_move_runs_beside_the_path,
+                format_args!("{:?}", step.to),
+                aside.max(middles)
+            )));
+        }
+        Ok(aside)
+    }
+}
