@@ -159,16 +159,16 @@ fn reading(c: &mut Criterion) {
     });
     group.bench_function("open with findings", |b| {
         b.iter(|| {
-            let document = three_b::Document::read_with(bytes.to_vec(), &settings);
-            black_box(document.findings_under(&settings, 500))
+            let document = Document::read(Language::ThreeB, bytes.to_vec(), &settings);
+            black_box(document.findings(&settings, 500))
         })
     });
     group.bench_function("trace", |b| {
-        let document = three_b::Document::read_with(bytes.to_vec(), &settings);
+        let document = Document::read(Language::ThreeB, bytes.to_vec(), &settings);
         b.iter(|| black_box(document.trace()))
     });
     // A digit in front of J in the middle of the file comes and goes: the contour is torn, and whole again.
-    let mut document = three_b::Document::read_with(bytes.to_vec(), &settings);
+    let mut document = Document::read(Language::ThreeB, bytes.to_vec(), &settings);
     let line = text[..text.len() / 2].rfind('\n').map_or(0, |at| at + 1);
     let at = line
         + text[line..]
@@ -186,7 +186,7 @@ fn reading(c: &mut Criterion) {
                 document.edit(at..at, "1")
             }
             is_in = !is_in;
-            black_box(document.findings_under(&settings, 500))
+            black_box(document.findings(&settings, 500))
         })
     });
     group.finish();
