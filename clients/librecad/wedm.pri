@@ -6,9 +6,11 @@ DEFINES += WEDM_PLUGIN_VERSION=\\\"$$VERSION\\\" QT_DEPRECATED_WARNINGS
 INCLUDEPATH += $$PWD/src
 HEADERS += \
     $$PWD/src/core/connection.h \
+    $$PWD/src/core/contours.h \
     $$PWD/src/core/difference.h \
     $$PWD/src/core/drawing.h \
     $$PWD/src/core/frame.h \
+    $$PWD/src/core/kept_hole.h \
     $$PWD/src/core/language.h \
     $$PWD/src/core/messages.h \
     $$PWD/src/core/program_search.h \
@@ -17,9 +19,11 @@ HEADERS += \
     $$PWD/src/core/session.h
 SOURCES += \
     $$PWD/src/core/connection.cpp \
+    $$PWD/src/core/contours.cpp \
     $$PWD/src/core/difference.cpp \
     $$PWD/src/core/drawing.cpp \
     $$PWD/src/core/frame.cpp \
+    $$PWD/src/core/kept_hole.cpp \
     $$PWD/src/core/language.cpp \
     $$PWD/src/core/messages.cpp \
     $$PWD/src/core/program_search.cpp \

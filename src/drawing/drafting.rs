@@ -47,6 +47,9 @@ const LINETYPES_IN_HAN: &[&str] = &[
 /// The layer of the holes that the wire is threaded through: they are drilled.
 pub(crate) const START_HOLES: &str = "START-HOLES";
 
+/// The layers on which the plugins for CAD programs draw marks about faults and the wire's path.
+const OF_PLUGINS: &[&str] = &["WEDM_MARKS", "WEDM_PATH"];
+
 /// Words of layers with centre marks, hatches, dimensions, texts and construction lines; sorted.
 const LAYERS: &[&str] = &[
     "achse",
@@ -182,6 +185,7 @@ pub(crate) fn is_drafting_layer(name: &str) -> bool {
             || is_iso_13567(own)
             || OF_MECHANICAL
                 .iter()
+                .chain(OF_PLUGINS)
                 .any(|layer| layer.eq_ignore_ascii_case(own))
             || is_of_words(own);
     }
@@ -332,6 +336,8 @@ mod tests {
             "M-41----T-N01",
             "AM_7",
             "START-HOLES",
+            "WEDM_MARKS",
+            "WEDM_PATH",
             "PLATE$0$DIM",
         ] {
             assert!(is_drafting_layer(name), "{name}");

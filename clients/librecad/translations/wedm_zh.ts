@@ -2,6 +2,13 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="zh" sourcelanguage="en">
 <context>
+    <name>QG_CommandWidget</name>
+    <message>
+        <source>Command:</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
     <name>QObject</name>
     <message>
         <source>This plugin was built for LibreCAD %1, and this is LibreCAD %2. The plugin interface changes between versions without notice, so nothing is done. Build the plugin against the source of this version.</source>
@@ -72,24 +79,8 @@
         <translation>正在生成程序…</translation>
     </message>
     <message>
-        <source>Written: %1, %2 blocks, wire path %3 mm. Every block was decoded again: at most %4 µm from the path; a control that counts J drifts by %5, %6 µm.</source>
-        <translation>已写出：%1，%2 个程序段，切割路线 %3 mm。已逐段重新解码：偏离切割路线最多 %4 µm；按 J 计数的控制器累计偏差 %5, %6 µm。</translation>
-    </message>
-    <message>
-        <source>Findings that stand in the drawing: %1</source>
-        <translation>图形中的问题：%1</translation>
-    </message>
-    <message>
         <source>Nothing was changed.</source>
         <translation>未作任何修改。</translation>
-    </message>
-    <message>
-        <source>Another drawing has come to the front while the repair was on its way; nothing was changed.</source>
-        <translation>等待修复期间已切换到另一图形，未作任何修改。</translation>
-    </message>
-    <message>
-        <source>The drawing was changed by Undo while the repair was on its way; nothing was changed. Ask for it again.</source>
-        <translation>等待修复期间图形已被撤销操作改变，未作任何修改。请重新要求修复。</translation>
     </message>
     <message>
         <source>Done: %1. One Undo takes it back.</source>
@@ -104,6 +95,58 @@
         <translation>
             <numerusform>图层 WEDM_MARKS 上有 %n 个标记，清除之前随图形保存。</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>The wire path is taken away.</source>
+        <translation>已清除切割路线。</translation>
+    </message>
+    <message>
+        <source>No wire path is drawn.</source>
+        <translation>没有画出切割路线。</translation>
+    </message>
+    <message>
+        <source>what stands there cannot take it, write it there yourself</source>
+        <translation>文件中已有的写法容不下它，请自行写入</translation>
+    </message>
+    <message>
+        <source>Another drawing has come to the front while the answer was on its way; nothing was changed.</source>
+        <translation>等待答复期间另一张图形已到前面，未作任何修改。</translation>
+    </message>
+    <message>
+        <source>The drawing was changed by Undo while the answer was on its way; nothing was changed. Ask for it again.</source>
+        <translation>等待答复期间图形因撤销而改变，未作任何修改。请重新要求。</translation>
+    </message>
+    <message>
+        <source>The drawing has changed while the path was on its way; nothing was drawn. Ask for it again.</source>
+        <translation>等待切割路线期间图形已改变，未画出任何内容。请重新要求。</translation>
+    </message>
+    <message>
+        <source>The wire path is on the layer %1: cut %2 mm, jumps %3 mm. It is never checked, and saved with the drawing until it is cleared.</source>
+        <translation>切割路线在图层 %1 上：切割 %2 mm，空走 %3 mm。它不参与检查，清除之前随图形保存。</translation>
+    </message>
+    <message>
+        <source>A thread hole is kept in wedm.toml beside the drawing: save the drawing first.</source>
+        <translation>穿丝孔记在图形旁的 wedm.toml 中：请先保存图形。</translation>
+    </message>
+    <message>
+        <source>Thread hole: click where the wire is threaded</source>
+        <translation>穿丝孔：请点选穿丝的位置</translation>
+    </message>
+    <message>
+        <source>No thread hole was picked; nothing was changed.</source>
+        <translation>没有点选穿丝孔，未作任何修改。</translation>
+    </message>
+    <message>
+        <source>There is no contour that the thread hole could belong to; nothing was kept.</source>
+        <translation>没有此穿丝孔所属的轮廓，未作任何记录。</translation>
+    </message>
+    <message>
+        <source>Thread hole %1 for the contour at %2, kept in %3.</source>
+        <translation>穿丝孔 %1，属于 %2 处的轮廓，已记入 %3。</translation>
+    </message>
+    <message>
+        <source>The thread hole could not be kept in %1: %2.</source>
+        <translation>穿丝孔无法记入 %1：%2。</translation>
     </message>
 </context>
 <context>
@@ -203,10 +246,6 @@
         <translation>全部修复</translation>
     </message>
     <message>
-        <source>3B…</source>
-        <translation>3B…</translation>
-    </message>
-    <message>
         <source>Mark</source>
         <translation>标记</translation>
     </message>
@@ -229,10 +268,6 @@
     <message>
         <source>Repair the selected segment</source>
         <translation>修复选中的段</translation>
-    </message>
-    <message>
-        <source>Write the 3B program to a file</source>
-        <translation>把 3B 程序写到文件</translation>
     </message>
     <message>
         <source>Draw a circle about each fault, on the layer WEDM_MARKS</source>
@@ -263,8 +298,12 @@
         <translation>当前补偿量 %1 mm，来自%2</translation>
     </message>
     <message>
-        <source>, entity %1 vertex %2</source>
-        <translation>，图元 %1 顶点 %2</translation>
+        <source>, entity %1</source>
+        <translation>，图元 %1</translation>
+    </message>
+    <message>
+        <source> vertex %1</source>
+        <translation> 顶点 %1</translation>
     </message>
     <message>
         <source>and more: %1 that were sent are not listed</source>
@@ -289,6 +328,50 @@
     <message>
         <source>%1 at the last check</source>
         <translation>上次检查：%1</translation>
+    </message>
+    <message>
+        <source>Program</source>
+        <translation>程序</translation>
+    </message>
+    <message>
+        <source>Write the program to a file</source>
+        <translation>把程序写入文件</translation>
+    </message>
+    <message>
+        <source>Thread hole…</source>
+        <translation>穿丝孔…</translation>
+    </message>
+    <message>
+        <source>Click where the wire is threaded for the contour nearest to that point; it is kept in wedm.toml</source>
+        <translation>点选穿丝的位置，属于离该点最近的轮廓；记入 wedm.toml</translation>
+    </message>
+    <message>
+        <source>Wire path</source>
+        <translation>切割路线</translation>
+    </message>
+    <message>
+        <source>Draw the path of the wire on the layer WEDM_PATH, which is never checked</source>
+        <translation>在图层 WEDM_PATH 上画出切割路线，该图层不参与检查</translation>
+    </message>
+    <message>
+        <source>Clear path</source>
+        <translation>清除路线</translation>
+    </message>
+    <message>
+        <source>Take the path of the wire away</source>
+        <translation>清除切割路线</translation>
+    </message>
+    <message>
+        <source>Take the circles away</source>
+        <translation>清除这些圆圈</translation>
+    </message>
+    <message>
+        <source>not checked since the last change</source>
+        <translation>上次改动后尚未检查</translation>
+    </message>
+    <message>
+        <source>   notes: %1</source>
+        <translation>   说明：%1</translation>
     </message>
 </context>
 <context>
@@ -438,6 +521,18 @@
         <source>No program was written to %1: %2.</source>
         <translation>程序未写到 %1：%2。</translation>
     </message>
+    <message>
+        <source>line %1 is not understood</source>
+        <translation>无法理解第 %1 行</translation>
+    </message>
+    <message>
+        <source>There is no path of the wire: %1.</source>
+        <translation>没有切割路线：%1。</translation>
+    </message>
+    <message>
+        <source>The server is not there; nothing was drawn.</source>
+        <translation>服务器不在，未画出任何内容。</translation>
+    </message>
 </context>
 <context>
     <name>wedm::command</name>
@@ -465,20 +560,32 @@
         <source>Clear marks</source>
         <translation>清除标记</translation>
     </message>
+    <message>
+        <source>Generate 4B…</source>
+        <translation>生成 4B…</translation>
+    </message>
+    <message>
+        <source>Generate ISO…</source>
+        <translation>生成 ISO…</translation>
+    </message>
+    <message>
+        <source>Pick thread hole</source>
+        <translation>点选穿丝孔</translation>
+    </message>
+    <message>
+        <source>Draw wire path</source>
+        <translation>画出切割路线</translation>
+    </message>
+    <message>
+        <source>Clear wire path</source>
+        <translation>清除切割路线</translation>
+    </message>
 </context>
 <context>
     <name>wedm::dialogs</name>
     <message>
         <source>Wire EDM</source>
         <translation>线切割</translation>
-    </message>
-    <message>
-        <source>Write the 3B program</source>
-        <translation>写出 3B 程序</translation>
-    </message>
-    <message>
-        <source>3B programs (*.3b);;All files (*)</source>
-        <translation>3B 程序 (*.3b);;所有文件 (*)</translation>
     </message>
     <message>
         <source>The program of the wedm server</source>
@@ -499,6 +606,29 @@
     <message>
         <source>Repair it here</source>
         <translation>在此修复</translation>
+    </message>
+    <message>
+        <source>Write the %1 program</source>
+        <translation>写出 %1 程序</translation>
+    </message>
+    <message>
+        <source>%1 programs (%2);;All files (*)</source>
+        <translation>%1 程序 (%2);;所有文件 (*)</translation>
+    </message>
+</context>
+<context>
+    <name>wedm::programs</name>
+    <message>
+        <source>Written: %1, %2 blocks, cut %3 mm, jumps %4 mm. Every block was decoded again: at most %5 µm from the path.</source>
+        <translation>已写出：%1，%2 段，切割 %3 mm，空走 %4 mm。每段均已重新解码：偏离路线最多 %5 µm。</translation>
+    </message>
+    <message>
+        <source>A control that counts J drifts by %1, %2 µm.</source>
+        <translation>按 J 计数的控制器漂移 %1, %2 µm。</translation>
+    </message>
+    <message>
+        <source>Findings that stand in the drawing: %1</source>
+        <translation>图形中的问题：%1</translation>
     </message>
 </context>
 </TS>

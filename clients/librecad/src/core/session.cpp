@@ -37,6 +37,7 @@ void registerSessionTypes()
     qRegisterMetaType<wedm::InForce>("wedm::InForce");
     qRegisterMetaType<wedm::Repair>("wedm::Repair");
     qRegisterMetaType<wedm::Program>("wedm::Program");
+    qRegisterMetaType<wedm::Toolpath>("wedm::Toolpath");
     qRegisterMetaType<wedm::Server::State>("wedm::Server::State");
     qRegisterMetaType<QVector<wedm::Entity>>("QVector<wedm::Entity>");
     qRegisterMetaType<QVector<wedm::Finding>>("QVector<wedm::Finding>");
@@ -128,15 +129,13 @@ void Session::watchRadii(const QString &uri, bool on)
 
 void Session::requestRepair(const QString &uri, const QString &handle, int segment)
 {
-    if (m_server.state() == Server::State::Starting) {
-        whenSettled([=] { requestRepair(uri, handle, segment); });
-        return;
-    }
+    withServer(uri, [=] { askRepair(uri, handle, segment); },
+               [=] { emit repairFailed(uri, tr("The server is not there; nothing was changed.")); });
+}
+
+void Session::askRepair(const QString &uri, const QString &handle, int segment)
+{
     const QSharedPointer<Document> document = m_documents.value(uri);
-    if (!document || !m_server.isReady()) {
-        emit repairFailed(uri, tr("The server is not there; nothing was changed."));
-        return;
-    }
     QJsonArray diagnostics;
     QJsonArray only{QStringLiteral("source.fixAll.wedm")};
     if (!handle.isEmpty()) {
@@ -168,31 +167,86 @@ void Session::requestRepair(const QString &uri, const QString &handle, int segme
     });
 }
 
-void Session::generate(const QString &uri, const QString &path, bool force)
+void Session::generate(const QString &uri, const QString &format, const QString &path, bool force)
 {
-    if (m_server.state() == Server::State::Starting) {
-        whenSettled([=] { generate(uri, path, force); });
-        return;
-    }
-    const QSharedPointer<Document> document = m_documents.value(uri);
-    if (!document || !m_server.isReady()) {
-        emit generateFailed(uri, path, tr("The server is not there; nothing was written."), QStringList());
-        return;
-    }
-    QByteArray params = "{\"uri\":" + toJson(uri) + ",\"format\":\"3b\"";
-    params += force ? ",\"force\":true}" : "}";
-    m_server.connection().request("wedm/generate", params, [this, uri, path](const Answer &answer) {
-        if (!answer.failed) {
-            takeProgram(uri, path, answer.result.toObject());
-            return;
-        }
-        QStringList findings;
-        const QJsonArray diagnostics = answer.data.value("diagnostics").toArray();
-        for (const QJsonValue &each : diagnostics)
-            findings += each.toObject().value("message").toString();
-        const QString reason = answer.code == Connection::ENDED ? tr("the server ended before it answered") : answer.message;
-        emit generateFailed(uri, path, tr("No program was written: %1.").arg(reason), findings);
-    });
+    const auto fail = [this, uri, format, path](const QString &reason, const QStringList &findings) {
+        emit generateFailed(uri, format, path, reason, findings);
+    };
+    const auto ask = [=] {
+        QByteArray params = "{\"uri\":" + toJson(uri) + ",\"format\":" + toJson(format);
+        params += force ? ",\"force\":true}" : "}";
+        m_server.connection().request("wedm/generate", params, [=](const Answer &answer) {
+            if (!answer.failed) {
+                takeProgram(uri, format, path, answer.result.toObject());
+                return;
+            }
+            QStringList findings;
+            const QJsonArray diagnostics = answer.data.value("diagnostics").toArray();
+            for (const QJsonValue &each : diagnostics)
+                findings += each.toObject().value("message").toString();
+            const QString reason = answer.code == Connection::ENDED ? tr("the server ended before it answered") : answer.message;
+            fail(tr("No program was written: %1.").arg(reason), findings);
+        });
+    };
+    withServer(uri, ask, [=] { fail(tr("The server is not there; nothing was written."), QStringList()); });
+}
+
+void Session::requestToolpath(const QString &uri)
+{
+    const auto ask = [=] {
+        m_server.connection().request("wedm/toolpath", uriOnly(uri), [=](const Answer &answer) {
+            if (!answer.failed)
+                emit toolpathReady(uri, toolpathFromJson(answer.result.toObject()));
+            else
+                emit toolpathFailed(uri, tr("There is no path of the wire: %1.")
+                                             .arg(answer.code == Connection::ENDED ? tr("the server ended before it answered") : answer.message));
+        });
+    };
+    withServer(uri, ask, [=] { emit toolpathFailed(uri, tr("The server is not there; nothing was drawn.")); });
+}
+
+void Session::requestContour(const QString &uri, const QPointF &hole)
+{
+    const auto none = [=] { emit contourFound(uri, QString(), hole); };
+    const auto ask = [=] {
+        m_server.connection().request("wedm/contours", uriOnly(uri), [=](const Answer &answer) {
+            const QJsonArray contours = answer.result.toObject().value("contours").toArray();
+            const int nearest = nearestContour(contours, hole);
+            if (nearest < 0 || !m_server.isReady()) {
+                none();
+                return;
+            }
+            const QJsonObject contour = contours.at(nearest).toObject();
+            m_server.connection().request("wedm/settings", uriOnly(uri), [=](const Answer &answer) {
+                emit contourFound(uri, nameOfContour(contour, answer.result.toObject().value("contours").toObject().keys()), hole);
+            });
+        });
+    };
+    withServer(uri, ask, none);
+}
+
+void Session::confirmHole(const QString &uri, const QString &contour, const QPointF &hole)
+{
+    const auto ask = [=] {
+        m_server.connection().request("wedm/settings", uriOnly(uri), [=](const Answer &answer) {
+            const QJsonArray thread =
+                answer.result.toObject().value("contours").toObject().value(contour).toObject().value("thread").toArray();
+            const QPointF kept(thread.at(0).toDouble(), thread.at(1).toDouble());
+            emit holeConfirmed(uri, thread.size() == 2 && pointText(kept, ",") == pointText(hole, ","));
+        });
+    };
+    // Where nobody can be asked, nobody has refused it.
+    withServer(uri, ask, [=] { emit holeConfirmed(uri, true); });
+}
+
+void Session::withServer(const QString &uri, std::function<void()> ask, std::function<void()> cannot)
+{
+    if (m_server.state() == Server::State::Starting)
+        whenSettled([=] { withServer(uri, ask, cannot); });
+    else if (m_documents.contains(uri) && m_server.isReady())
+        ask();
+    else
+        cannot();
 }
 
 void Session::serverChanged(Server::State state, const QString &text)
@@ -370,20 +424,22 @@ void Session::takeRepair(const QString &uri, const QJsonArray &actions)
     emit repairReady(repair);
 }
 
-void Session::takeProgram(const QString &uri, const QString &path, const QJsonObject &result)
+void Session::takeProgram(const QString &uri, const QString &format, const QString &path, const QJsonObject &result)
 {
     const QByteArray text = result.value("program").toString().toUtf8();
     QSaveFile file(path);
     const bool written = !text.isEmpty() && file.open(QIODevice::WriteOnly) && file.write(text) == text.size() && file.commit();
     if (!written) {
         const QString reason = text.isEmpty() ? tr("the server sent none") : file.errorString();
-        emit generateFailed(uri, path, tr("No program was written to %1: %2.").arg(QDir::toNativeSeparators(path), reason), QStringList());
+        emit generateFailed(uri, format, path, tr("No program was written to %1: %2.").arg(QDir::toNativeSeparators(path), reason), QStringList());
         return;
     }
     Program program;
     program.path = path;
+    program.format = format;
     program.blocks = result.value("blocks").toInt();
-    program.length = result.value("length").toDouble();
+    program.cut = result.value("length").toDouble();
+    program.jumps = result.value("jumps").toDouble();
     program.deviation = result.value("deviation").toDouble();
     program.closureX = result.value("closure").toObject().value("x").toDouble();
     program.closureY = result.value("closure").toObject().value("y").toDouble();

@@ -3,6 +3,7 @@
 // of its own, so that no list however long holds up the host. Knows nothing of LibreCAD.
 #pragma once
 
+#include "contours.h"
 #include "difference.h"
 #include "messages.h"
 #include "server.h"
@@ -20,11 +21,14 @@ struct Repair {
     QVector<Entity> after;
 };
 
-/// What a program came to.
+/// What a program came to: `cut` and `jumps` in mm, what is cut and the ways between contours.
 struct Program {
     QString path;
+    /// "3b", "4b" or "iso".
+    QString format;
     int blocks = 0;
-    double length = 0;
+    double cut = 0;
+    double jumps = 0;
     double deviation = 0;
     double closureX = 0;
     double closureY = 0;
@@ -65,8 +69,14 @@ public slots:
     void watchRadii(const QString &uri, bool on);
     /// Asks for the repair of one finding, or, with an empty handle, of all that can be repaired safely.
     void requestRepair(const QString &uri, const QString &handle, int segment);
-    /// Writes the 3B program beside `path` and renames it.
-    void generate(const QString &uri, const QString &path, bool force);
+    /// Writes the program of that format ("3b", "4b", "iso") beside `path` and renames it.
+    void generate(const QString &uri, const QString &format, const QString &path, bool force);
+    /// Asks for the path of the wire.
+    void requestToolpath(const QString &uri);
+    /// Asks for the contour nearest to a thread hole, to keep it by.
+    void requestContour(const QString &uri, const QPointF &hole);
+    /// Asks whether the settings hold the thread hole for the contour of that name, once they have been read again.
+    void confirmHole(const QString &uri, const QString &contour, const QPointF &hole);
 
 signals:
     void stateChanged(wedm::Server::State state, const QString &text);
@@ -79,7 +89,12 @@ signals:
     void repairFailed(const QString &uri, const QString &reason);
     void generated(const QString &uri, const wedm::Program &program);
     /// `findings` are the errors that stand in the way; only with some of them would `force` help.
-    void generateFailed(const QString &uri, const QString &path, const QString &reason, const QStringList &findings);
+    void generateFailed(const QString &uri, const QString &format, const QString &path, const QString &reason, const QStringList &findings);
+    void toolpathReady(const QString &uri, const wedm::Toolpath &path);
+    void toolpathFailed(const QString &uri, const QString &reason);
+    /// `contour` is the name that the hole is kept by; empty where the drawing has no contour, or the server did not answer.
+    void contourFound(const QString &uri, const QString &contour, const QPointF &hole);
+    void holeConfirmed(const QString &uri, bool holds);
     void said(const QString &text);
 
 private:
@@ -100,8 +115,11 @@ private:
     void sendSettings();
     void inspect(const QString &uri);
     void askSettings(const QString &uri);
+    void askRepair(const QString &uri, const QString &handle, int segment);
     void takeRepair(const QString &uri, const QJsonArray &actions);
-    void takeProgram(const QString &uri, const QString &path, const QJsonObject &result);
+    void takeProgram(const QString &uri, const QString &format, const QString &path, const QJsonObject &result);
+    /// Waits for a server that is starting, then calls `ask` where there is one and it knows the drawing, else `cannot`.
+    void withServer(const QString &uri, std::function<void()> ask, std::function<void()> cannot);
     /// Does `call` now, or as soon as a server that is starting is ready or is not going to be.
     void whenSettled(std::function<void()> call);
     void settled();
@@ -124,4 +142,5 @@ Q_DECLARE_METATYPE(wedm::InForce)
 Q_DECLARE_METATYPE(wedm::ProgramSearch)
 Q_DECLARE_METATYPE(wedm::Repair)
 Q_DECLARE_METATYPE(wedm::Program)
+Q_DECLARE_METATYPE(wedm::Toolpath)
 Q_DECLARE_METATYPE(wedm::Units)

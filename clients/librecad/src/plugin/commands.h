@@ -12,10 +12,18 @@ constexpr char CHECK[] = QT_TRANSLATE_NOOP("wedm::command", "Check radii");
 constexpr char LIVE[] = QT_TRANSLATE_NOOP("wedm::command", "Live check");
 constexpr char FIX[] = QT_TRANSLATE_NOOP("wedm::command", "Fix");
 constexpr char GENERATE[] = QT_TRANSLATE_NOOP("wedm::command", "Generate 3B…");
+constexpr char GENERATE_4B[] = QT_TRANSLATE_NOOP("wedm::command", "Generate 4B…");
+constexpr char GENERATE_ISO[] = QT_TRANSLATE_NOOP("wedm::command", "Generate ISO…");
+constexpr char HOLE[] = QT_TRANSLATE_NOOP("wedm::command", "Pick thread hole");
+constexpr char PATH[] = QT_TRANSLATE_NOOP("wedm::command", "Draw wire path");
+constexpr char CLEAR_PATH[] = QT_TRANSLATE_NOOP("wedm::command", "Clear wire path");
 constexpr char MARK[] = QT_TRANSLATE_NOOP("wedm::command", "Mark faults");
 constexpr char CLEAR[] = QT_TRANSLATE_NOOP("wedm::command", "Clear marks");
 constexpr char LOOK[] = "wedm look";
 constexpr char APPLY[] = "wedm apply";
+
+/// Those of the menu, in its order.
+constexpr const char *SHOWN[] = {CHECK, LIVE, FIX, HOLE, PATH, CLEAR_PATH, GENERATE, GENERATE_4B, GENERATE_ISO, MARK, CLEAR};
 
 } // namespace command
 } // namespace wedm

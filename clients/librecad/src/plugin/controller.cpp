@@ -3,7 +3,9 @@
 
 #include "dialogs.h"
 #include "host.h"
+#include "document_interface.h"
 #include "marks.h"
+#include "programs.h"
 
 #include <QAction>
 #include <QApplication>
@@ -13,6 +15,7 @@
 #include <QMdiArea>
 #include <QMenu>
 #include <QMessageBox>
+#include <QUrl>
 
 namespace wedm {
 
@@ -24,13 +27,13 @@ constexpr qint64 LONG_REBUILD = 1000;
 constexpr int AGAIN = 100;
 /// How often it is looked whether LibreCAD has started, in ms.
 constexpr int SETTLING = 50;
+/// How often it is looked whether the drawing is still the one that was checked, in ms.
+constexpr int COMPARISON = 150;
 /// How long a host may need to quit for the server's sake.
 constexpr int PATIENCE_AT_QUIT = 2000;
 /// What is seen of the neighbourhood, as a multiple of the segment's size, and at least, in drawing units.
 constexpr double NEIGHBOURHOOD = 4;
 constexpr double LEAST_NEIGHBOURHOOD = 0.05;
-/// So many findings are named in one message.
-constexpr int NAMED = 5;
 
 /// The automation's way in: a command that is run once the host has loaded its drawing.
 QString firstCommand()
@@ -65,6 +68,8 @@ Controller::Controller(QObject *actions)
             showCurrent();
     });
     connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, this, &Controller::quit);
+    connect(&m_comparison, &QTimer::timeout, this, &Controller::compare);
+    m_comparison.start(COMPARISON);
     // LibreCAD makes the actions after it has asked for the menu, and its window after it has loaded the plugins.
     QTimer::singleShot(0, this, &Controller::settle);
 }
@@ -80,6 +85,7 @@ Controller::~Controller()
 void Controller::quit()
 {
     m_looks.live().setOn(false);
+    m_comparison.stop();
     // From here on LibreCAD takes its windows apart.
     m_running = true;
     m_drawings.forgetWindows();
@@ -135,7 +141,7 @@ void Controller::settle()
     }
     actionOf(command::LIVE)->setCheckable(true);
     // LibreCAD knows a command by the action's data, not by its text.
-    for (const char *name : {command::CHECK, command::LIVE, command::FIX, command::GENERATE, command::MARK, command::CLEAR}) {
+    for (const char *name : command::SHOWN) {
         if (QAction *action = actionOf(name))
             action->setText(QCoreApplication::translate("wedm::command", name));
     }
@@ -157,6 +163,7 @@ void Controller::run(const QString &command, Document_Interface &drawing)
     }
     if (m_running)
         return;
+    compare();
     m_running = true;
     if (!m_panel)
         makePanel();
@@ -167,29 +174,50 @@ void Controller::run(const QString &command, Document_Interface &drawing)
     }
 
     if (command == QLatin1String(command::APPLY)) {
-        apply(drawing);
+        Write write;
+        std::swap(write, m_write);
+        if (write)
+            write(drawing);
     } else if (command == QLatin1String(command::CLEAR)) {
-        const int count = clearMarks(drawing);
+        const int count = clearLayer(drawing, MARK_LAYER);
         m_panel->setMessage(tr("%n mark(s) taken away.", nullptr, count), Panel::Tone::Plain);
+    } else if (command == QLatin1String(command::CLEAR_PATH)) {
+        const bool any = clearLayer(drawing, PATH_LAYER) > 0;
+        m_panel->setMessage(any ? tr("The wire path is taken away.") : tr("No wire path is drawn."), Panel::Tone::Plain);
     } else if (command == QLatin1String(command::LIVE)) {
         setLive(!m_looks.live().isOn());
         m_kept.setLive(m_looks.live().isOn());
     } else if (command == QLatin1String(command::LOOK)) {
         m_looks.slice(drawing);
     } else {
-        if (!own)
-            startServer();
+        startServer();
         if (command == QLatin1String(command::CHECK))
             post([](Session &session) { session.reloadSettings(); });
         m_looks.whole(drawing);
         const QString uri = m_drawings.of(host::currentWindow()).uri;
+        const auto program = [&](const char *format) {
+            QTimer::singleShot(0, this, [this, uri, format] { askForFile(uri, QString::fromLatin1(format)); });
+        };
         if (command == QLatin1String(command::FIX))
             post([uri](Session &session) { session.requestRepair(uri, QString(), -1); });
         else if (command == QString::fromUtf8(command::GENERATE))
-            QTimer::singleShot(0, this, [this, uri] { askForFile(uri); });
+            program("3b");
+        else if (command == QString::fromUtf8(command::GENERATE_4B))
+            program("4b");
+        else if (command == QString::fromUtf8(command::GENERATE_ISO))
+            program("iso");
         else if (command == QLatin1String(command::MARK))
             mark(drawing);
+        else if (command == QLatin1String(command::PATH))
+            post([uri](Session &session) { session.requestToolpath(uri); });
+        else if (command == QLatin1String(command::HOLE))
+            pickHole(drawing, uri);
     }
+    // LibreCAD closes its step of undo behind this call. What the command has drawn is no change of what was looked at; while a point is
+    // picked, the user can draw.
+    m_settling = command != QLatin1String(command::HOLE);
+    if (m_settling)
+        QTimer::singleShot(0, this, &Controller::settleChanges);
     m_running = false;
 }
 
@@ -228,6 +256,27 @@ void Controller::connectSession()
             showCurrent();
         }
     });
+    connect(m_session, &Session::looked, this, [this](const QString &uri, int version, bool) {
+        if (OpenDrawing *open = m_drawings.find(uri)) {
+            open->looking = qMax(0, open->looking - 1);
+            open->looked = version;
+            if (open == m_drawings.current() && m_panel)
+                m_panel->setStale(open->staleness());
+        }
+    });
+    connect(m_session, &Session::toolpathReady, this, &Controller::pathReady);
+    connect(m_session, &Session::toolpathFailed, this, [this](const QString &, const QString &reason) {
+        if (m_panel)
+            m_panel->setMessage(reason, Panel::Tone::Bad);
+    });
+    connect(m_session, &Session::contourFound, this, &Controller::keepHole);
+    connect(m_session, &Session::holeConfirmed, this, [this](const QString &, bool holds) {
+        if (!holds) {
+            m_hole.takeBack();
+            post([](Session &session) { session.reloadSettings(); });
+        }
+        holeKept(holds ? QString() : tr("what stands there cannot take it, write it there yourself"));
+    });
     connect(m_session, &Session::inspected, this, [this](const QString &uri, int, const QSharedPointer<Inspection> &inspection) {
         if (OpenDrawing *open = m_drawings.find(uri)) {
             open->inspection = inspection;
@@ -247,8 +296,19 @@ void Controller::connectSession()
         if (m_panel)
             m_panel->setMessage(reason, Panel::Tone::Bad);
     });
-    connect(m_session, &Session::generateFailed, this, &Controller::generateFailed);
-    connect(m_session, &Session::generated, this, [this](const QString &, const Program &program) { written(program); });
+    connect(m_session, &Session::generateFailed, this,
+            [this](const QString &uri, const QString &format, const QString &path, const QString &reason, const QStringList &findings) {
+                if (m_panel)
+                    m_panel->setMessage(programs::refused(reason, findings), Panel::Tone::Bad);
+                if (!findings.isEmpty())
+                    dialogs::writeAllTheSame(reason, findings, [this, uri, format, path] {
+                        post([uri, format, path](Session &session) { session.generate(uri, format, path, true); });
+                    });
+            });
+    connect(m_session, &Session::generated, this, [this](const QString &, const Program &program) {
+        if (m_panel)
+            m_panel->setMessage(programs::written(program), program.warnings.isEmpty() ? Panel::Tone::Good : Panel::Tone::Plain);
+    });
 }
 
 void Controller::makePanel()
@@ -264,11 +324,7 @@ void Controller::makePanel()
 void Controller::connectPanel()
 {
     m_panel->setSettings(m_kept.correction(), m_kept.side());
-    connect(m_panel, &Panel::checkWanted, this, [this] { trigger(command::CHECK); });
-    connect(m_panel, &Panel::fixWanted, this, [this] { trigger(command::FIX); });
-    connect(m_panel, &Panel::generateWanted, this, [this] { trigger(command::GENERATE); });
-    connect(m_panel, &Panel::marksWanted, this, [this] { trigger(command::MARK); });
-    connect(m_panel, &Panel::marksUnwanted, this, [this] { trigger(command::CLEAR); });
+    connect(m_panel, &Panel::commandWanted, this, &Controller::trigger);
     connect(m_panel, &Panel::serverWanted, this, &Controller::chooseServer);
     connect(m_panel, &Panel::placeWanted, this, &Controller::zoom);
     connect(m_panel, &Panel::fixOneWanted, this, [this](const QString &handle, int segment) {
@@ -289,12 +345,36 @@ void Controller::connectPanel()
 
 void Controller::undone()
 {
+    if (!m_running)
+        becomesStale(Stale::Undone);
+}
+
+void Controller::compare()
+{
+    const OpenDrawing *open = m_drawings.current();
+    if (open && !m_running && !m_settling && !(open->changes == ChangeCount()) && !(changesOf(host::currentWindow()) == open->changes))
+        becomesStale(Stale::Changed);
+}
+
+void Controller::becomesStale(Stale why)
+{
     OpenDrawing *open = m_drawings.current();
-    if (!open || m_running)
+    if (!open || open->stale != Stale::No)
         return;
-    open->stale = true;
-    if (m_panel)
-        m_panel->setStale(true);
+    open->stale = why;
+    if (m_panel) {
+        // What was said of a repair or a path was said of the drawing before.
+        m_panel->setMessage(QString(), Panel::Tone::Plain);
+        m_panel->setStale(open->staleness());
+    }
+}
+
+void Controller::settleChanges()
+{
+    OpenDrawing *open = m_drawings.current();
+    m_settling = false;
+    if (open && open->stale == Stale::No && !m_running)
+        open->changes = changesOf(host::currentWindow());
 }
 
 /// What was seen goes to the session.
@@ -304,8 +384,9 @@ void Controller::looked(const Snapshot &snapshot)
     QStringList unchecked;
     for (auto each = snapshot.unchecked.constBegin(); each != snapshot.unchecked.constEnd(); ++each)
         unchecked += QStringLiteral("%1 × %2").arg(each.value()).arg(each.key());
-    open.stale = false;
-    m_panel->setStale(false);
+    open.stale = Stale::No;
+    ++open.looking;
+    open.changes = changesOf(host::currentWindow());
     open.unchecked = unchecked.isEmpty() ? QString() : tr("Not checked here: %1. Explode them, or check the saved DXF.").arg(unchecked.join(QStringLiteral(", ")));
     if (snapshot.otherUnit != 0)
         open.unchecked += tr(" The drawing's unit is neither mm nor inch; it is taken as the settings say, else as mm.");
@@ -352,7 +433,7 @@ void Controller::showCurrent()
     if (open->version < 0)
         return;
     m_panel->setFindings(open->findings);
-    m_panel->setStale(open->stale);
+    m_panel->setStale(open->staleness());
     if (open->settings.correction > 0)
         m_panel->setInForce(open->settings);
 }
@@ -366,7 +447,7 @@ void Controller::setLive(bool on)
         m_panel->setLive(on ? tr("live check on") : QString());
 }
 
-void Controller::askForFile(const QString &uri)
+void Controller::askForFile(const QString &uri, const QString &format)
 {
     QMdiSubWindow *window = nullptr;
     const OpenDrawing *open = m_drawings.find(uri, &window);
@@ -375,82 +456,50 @@ void Controller::askForFile(const QString &uri)
     const QString path = host::filePath(window);
     const QString base = path.isEmpty() ? QStringLiteral("drawing") : QFileInfo(path).completeBaseName();
     const QString folder = open->folder.isEmpty() ? m_lastFolder : open->folder;
-    dialogs::programFile(folder.isEmpty() ? QDir::currentPath() : folder, base, [this, uri](const QString &chosen) {
+    dialogs::programFile(format, folder.isEmpty() ? QDir::currentPath() : folder, base, [this, uri, format](const QString &chosen) {
         m_lastFolder = QFileInfo(chosen).absolutePath();
         if (OpenDrawing *open = m_drawings.find(uri))
             open->folder = m_lastFolder;
         m_panel->setMessage(tr("The program is being made…"), Panel::Tone::Plain);
-        post([uri, chosen](Session &session) { session.generate(uri, chosen, false); });
-    });
-}
-
-void Controller::written(const Program &program)
-{
-    if (!m_panel)
-        return;
-    QString text = tr("Written: %1, %2 blocks, wire path %3 mm. Every block was decoded again: at most %4 µm from the path; a control "
-                      "that counts J drifts by %5, %6 µm.")
-                       .arg(QDir::toNativeSeparators(program.path))
-                       .arg(program.blocks)
-                       .arg(program.length, 0, 'f', 3)
-                       .arg(program.deviation, 0, 'f', 2)
-                       .arg(program.closureX, 0, 'f', 2)
-                       .arg(program.closureY, 0, 'f', 2);
-    if (!program.warnings.isEmpty())
-        text += QLatin1Char('\n') + tr("Findings that stand in the drawing: %1").arg(program.warnings.mid(0, NAMED).join(QStringLiteral("; ")));
-    m_panel->setMessage(text, program.warnings.isEmpty() ? Panel::Tone::Good : Panel::Tone::Plain);
-}
-
-void Controller::generateFailed(const QString &uri, const QString &path, const QString &reason, const QStringList &findings)
-{
-    if (!m_panel)
-        return;
-    m_panel->setMessage(findings.isEmpty() ? reason : reason + QLatin1Char('\n') + findings.mid(0, NAMED).join(QLatin1Char('\n')), Panel::Tone::Bad);
-    if (findings.isEmpty())
-        return;
-    dialogs::writeAllTheSame(reason, findings, [this, uri, path] {
-        post([uri, path](Session &session) { session.generate(uri, path, true); });
+        post([uri, format, chosen](Session &session) { session.generate(uri, format, chosen, false); });
     });
 }
 
 void Controller::repairReady(const Repair &repair)
 {
+    const auto write = [this, repair](Document_Interface &drawing) { applyRepairTo(drawing, repair); };
     const qint64 milliseconds = rebuildTime(repair);
     if (milliseconds <= LONG_REBUILD) {
-        applyNow(repair);
+        writeInto(repair.uri, write);
         return;
     }
-    const auto go = [this, repair] { QTimer::singleShot(0, this, [this, repair] { applyNow(repair); }); };
+    const auto go = [this, repair, write] { QTimer::singleShot(0, this, [this, repair, write] { writeInto(repair.uri, write); }); };
     dialogs::longRebuild(milliseconds, go, [this] { m_panel->setMessage(tr("Nothing was changed."), Panel::Tone::Plain); });
 }
 
-void Controller::applyNow(const Repair &repair)
+void Controller::writeInto(const QString &uri, const Write &write)
 {
     const OpenDrawing *open = m_drawings.current();
-    if (!open || open->uri != repair.uri) {
-        m_panel->setMessage(tr("Another drawing has come to the front while the repair was on its way; nothing was changed."), Panel::Tone::Bad);
+    if (!open || open->uri != uri) {
+        m_panel->setMessage(tr("Another drawing has come to the front while the answer was on its way; nothing was changed."), Panel::Tone::Bad);
         return;
     }
     // LibreCAD drops what could be done again when a plugin is called: after an undo not even a look is taken.
     if (host::redoIsPossible()) {
-        m_panel->setMessage(tr("The drawing was changed by Undo while the repair was on its way; nothing was changed. Ask for it again."),
+        m_panel->setMessage(tr("The drawing was changed by Undo while the answer was on its way; nothing was changed. Ask for it again."),
                             Panel::Tone::Bad);
         return;
     }
-    if (host::userIsBusy()) {
-        QTimer::singleShot(AGAIN, this, [this, repair] { applyNow(repair); });
+    if (m_running || host::userIsBusy()) {
+        QTimer::singleShot(AGAIN, this, [this, uri, write] { writeInto(uri, write); });
         return;
     }
-    m_repair = repair;
+    m_write = write;
     trigger(command::APPLY);
 }
 
-void Controller::apply(Document_Interface &drawing)
+void Controller::applyRepairTo(Document_Interface &drawing, const Repair &repair)
 {
-    const Repair repair = m_repair;
-    m_repair = Repair();
-    if (repair.uri.isEmpty() || m_drawings.of(host::currentWindow()).uri != repair.uri)
-        return;
     QString failure;
     QElapsedTimer clock;
     clock.start();
@@ -461,6 +510,74 @@ void Controller::apply(Document_Interface &drawing)
         m_panel->setMessage(tr("Done: %1. One Undo takes it back.").arg(repair.title), Panel::Tone::Good);
     else
         m_panel->setMessage(failure, Panel::Tone::Bad);
+}
+
+void Controller::pathReady(const QString &uri, const Toolpath &path)
+{
+    if (!m_panel)
+        return;
+    writeInto(uri, [this, uri, path](Document_Interface &drawing) {
+        const OpenDrawing *open = m_drawings.find(uri);
+        if (!open || open->stale != Stale::No || !(changesOf(host::currentWindow()) == open->changes)) {
+            m_panel->setMessage(tr("The drawing has changed while the path was on its way; nothing was drawn. Ask for it again."), Panel::Tone::Bad);
+            return;
+        }
+        drawPath(drawing, path);
+        m_panel->setMessage(tr("The wire path is on the layer %1: cut %2 mm, jumps %3 mm. It is never checked, and saved with the drawing until it is cleared.")
+                                .arg(QString::fromLatin1(PATH_LAYER))
+                                .arg(path.cut, 0, 'f', 3)
+                                .arg(path.jumped, 0, 'f', 3),
+                            Panel::Tone::Good);
+    });
+}
+
+/// LibreCAD asks for the point, and goes on while it does.
+void Controller::pickHole(Document_Interface &drawing, const QString &uri)
+{
+    if (host::filePath(host::currentWindow()).isEmpty()) {
+        m_panel->setMessage(tr("A thread hole is kept in wedm.toml beside the drawing: save the drawing first."), Panel::Tone::Bad);
+        return;
+    }
+    const QString question = tr("Thread hole: click where the wire is threaded");
+    m_panel->setMessage(question, Panel::Tone::Plain);
+    QPointF hole;
+    const bool picked = drawing.getPoint(&hole, question);
+    m_panel->setMessage(picked ? QString() : tr("No thread hole was picked; nothing was changed."), Panel::Tone::Plain);
+    if (picked)
+        post([uri, hole](Session &session) { session.requestContour(uri, hole); });
+}
+
+void Controller::keepHole(const QString &uri, const QString &contour, const QPointF &hole)
+{
+    if (!m_panel)
+        return;
+    QMdiSubWindow *window = nullptr;
+    const OpenDrawing *open = m_drawings.find(uri, &window);
+    const QString drawn = open ? host::filePath(window) : QString();
+    if (contour.isEmpty() || drawn.isEmpty()) {
+        m_panel->setMessage(tr("There is no contour that the thread hole could belong to; nothing was kept."), Panel::Tone::Bad);
+        return;
+    }
+    const QString failure = m_hole.keep(QUrl(open->settings.file).toLocalFile(), drawn, contour, hole);
+    if (!failure.isEmpty()) {
+        holeKept(failure);
+        return;
+    }
+    m_hole.told = tr("Thread hole %1 for the contour at %2, kept in %3.").arg(pointText(hole, ", "), contour, QDir::toNativeSeparators(m_hole.file()));
+    post([uri, contour, hole](Session &session) {
+        session.reloadSettings();
+        session.confirmHole(uri, contour, hole);
+    });
+}
+
+void Controller::holeKept(const QString &failure)
+{
+    if (!m_panel)
+        return;
+    if (failure.isEmpty())
+        m_panel->setMessage(m_hole.told, Panel::Tone::Good);
+    else
+        m_panel->setMessage(tr("The thread hole could not be kept in %1: %2.").arg(QDir::toNativeSeparators(m_hole.file()), failure), Panel::Tone::Bad);
 }
 
 void Controller::mark(Document_Interface &drawing)

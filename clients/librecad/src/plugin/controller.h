@@ -3,12 +3,16 @@
 #pragma once
 
 #include "commands.h"
+#include "core/kept_hole.h"
 #include "drawings.h"
 #include "kept.h"
 #include "looks.h"
 #include "panel.h"
 
 #include <QThread>
+#include <QTimer>
+
+#include <functional>
 
 class QAction;
 
@@ -28,6 +32,11 @@ private:
     void settle();
     void quit();
     void undone();
+    /// Sees whether the drawing in front is still as it was looked at.
+    void compare();
+    void becomesStale(Stale why);
+    /// The drawing in front as it is now is the one that was looked at.
+    void settleChanges();
     void connectSession();
     void connectPanel();
     void makePanel();
@@ -44,12 +53,17 @@ private:
     void sendSettings();
     void showCurrent();
     void setLive(bool on);
-    void askForFile(const QString &uri);
-    void written(const Program &program);
-    void generateFailed(const QString &uri, const QString &path, const QString &reason, const QStringList &findings);
+    void askForFile(const QString &uri, const QString &format);
     void repairReady(const Repair &repair);
-    void applyNow(const Repair &repair);
-    void apply(Document_Interface &drawing);
+    void applyRepairTo(Document_Interface &drawing, const Repair &repair);
+    void pathReady(const QString &uri, const Toolpath &path);
+    void pickHole(Document_Interface &drawing, const QString &uri);
+    void keepHole(const QString &uri, const QString &contour, const QPointF &hole);
+    /// Says that the hole is kept, or why it is not.
+    void holeKept(const QString &failure);
+    /// Calls `write` with the drawing as soon as nothing is in the way.
+    using Write = std::function<void(Document_Interface &)>;
+    void writeInto(const QString &uri, const Write &write);
     void mark(Document_Interface &drawing);
     void chooseServer();
     void zoom(const QPointF &middle, double size);
@@ -61,8 +75,12 @@ private:
     Session *m_session;
     Looks m_looks;
     Drawings m_drawings;
-    Repair m_repair;
+    Write m_write;
+    QTimer m_comparison;
+    KeptHole m_hole;
     bool m_running = false;
+    /// A command has ended, and LibreCAD has not closed its step of undo yet.
+    bool m_settling = false;
     QString m_lastFolder;
 };
 

@@ -36,15 +36,18 @@ QMessageBox *box(QMessageBox::Icon icon, const char *name, const QString &text)
 
 } // namespace
 
-void programFile(const QString &folder, const QString &base, std::function<void(const QString &)> chosen)
+void programFile(const QString &format, const QString &folder, const QString &base, std::function<void(const QString &)> chosen)
 {
-    QFileDialog *dialog = new QFileDialog(host::mainWindow(), tr("Write the 3B program"), QDir(folder).filePath(base + QStringLiteral(".3b")),
-                                          tr("3B programs (*.3b);;All files (*)"));
+    const QString name = base + QLatin1Char('.') + format;
+    const QString title = format.toUpper();
+    const QString endings = format == QLatin1String("iso") ? QStringLiteral("*.iso *.nc") : QStringLiteral("*.") + format;
+    QFileDialog *dialog = new QFileDialog(host::mainWindow(), tr("Write the %1 program").arg(title), QDir(folder).filePath(name),
+                                          tr("%1 programs (%2);;All files (*)").arg(title, endings));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setObjectName(QStringLiteral("wedm_file"));
     dialog->setAcceptMode(QFileDialog::AcceptSave);
-    dialog->setDefaultSuffix(QStringLiteral("3b"));
-    dialog->selectFile(base + QStringLiteral(".3b"));
+    dialog->setDefaultSuffix(format);
+    dialog->selectFile(name);
     QObject::connect(dialog, &QFileDialog::fileSelected, chosen);
     dialog->open();
 }

@@ -9,8 +9,8 @@
 namespace wedm {
 namespace dialogs {
 
-/// Where the 3B program is to be written; `base` is the name that is proposed, without its ending.
-void programFile(const QString &folder, const QString &base, std::function<void(const QString &)> chosen);
+/// Where the program of a format ("3b", "4b", "iso") is to be written; `base` is the name that is proposed, without its ending.
+void programFile(const QString &format, const QString &folder, const QString &base, std::function<void(const QString &)> chosen);
 
 /// Which program is the server; `now` is the one that is set.
 void serverProgram(const QString &now, std::function<void(const QString &)> chosen);

@@ -3,23 +3,35 @@
 #pragma once
 
 #include "core/session.h"
+#include "view.h"
 
 #include <QMdiSubWindow>
 
 namespace wedm {
+
+/// Why what is shown of a drawing does not hold any more.
+enum class Stale { No, Changed, Undone };
 
 /// A drawing that has been looked at, and what is known of it.
 struct OpenDrawing {
     QString uri;
     /// Where programs of it are written, as proposed: the folder of its file, then that of its last program.
     QString folder;
-    /// Changed by Undo or Redo since it was looked at.
-    bool stale = false;
+    /// Changed since it was looked at, by Undo or Redo or otherwise.
+    Stale stale = Stale::No;
+    /// What LibreCAD counts of its changes, as it was at the last look.
+    ChangeCount changes;
+    /// Looks whose differences the session has not found yet, the version that the last of them came to, and that of the findings.
+    int looking = 0;
+    int looked = -1;
     int version = -1;
     QVector<Finding> findings;
     QSharedPointer<Inspection> inspection;
     QString unchecked;
     InForce settings;
+
+    /// Whether what was found is of the drawing as it is.
+    Stale staleness() const { return stale == Stale::No && looking == 0 && looked != version ? Stale::Changed : stale; }
 };
 
 class Drawings : public QObject {

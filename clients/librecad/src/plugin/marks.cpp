@@ -37,7 +37,7 @@ double size(const QVector<Entity> &entities)
 
 int markFaults(Document_Interface &drawing, const QVector<Finding> &findings)
 {
-    clearMarks(drawing);
+    clearLayer(drawing, MARK_LAYER);
     QVector<QPointF> places;
     for (const Finding &finding : findings) {
         if (finding.placed && finding.severity <= Severity::Warning)

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "panel.h"
 
+#include "commands.h"
+#include "severity_looks.h"
+
 #include <QBoxLayout>
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QDir>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QListWidget>
+#include <QMenu>
 #include <QPushButton>
 #include <QSplitter>
 #include <QTableView>
@@ -126,6 +131,7 @@ Panel::Panel(QWidget *parent)
     m_show->addItem(tr("All vertices"), int(RadiusTable::Show::All));
     m_show->setCurrentIndex(1);
     m_live->setWordWrap(true);
+    m_count->setWordWrap(true);
 
     m_view->setObjectName(QStringLiteral("wedm_radii"));
     m_view->setModel(m_table);
@@ -146,18 +152,20 @@ Panel::Panel(QWidget *parent)
     m_list->setWordWrap(true);
     m_list->setUniformItemSizes(false);
 
-    QPushButton *check = new QPushButton(tr("Check"));
-    QPushButton *fix = new QPushButton(tr("Fix all"));
-    QPushButton *generate = new QPushButton(tr("3B…"));
-    QPushButton *mark = new QPushButton(tr("Mark"));
-    QPushButton *unmark = new QPushButton(tr("Clear marks"));
-    QPushButton *server = new QPushButton(tr("Server…"));
-    check->setToolTip(tr("Look at the drawing now"));
-    fix->setToolTip(tr("Make every repair that is safe, in one undo step"));
+    QPushButton *check = button(tr("Check"), command::CHECK, tr("Look at the drawing now"));
+    QPushButton *fix = button(tr("Fix all"), command::FIX, tr("Make every repair that is safe, in one undo step"));
+    QPushButton *program = button(tr("Program"), nullptr, tr("Write the program to a file"));
+    QMenu *formats = new QMenu(program);
+    for (const char *each : {command::GENERATE, command::GENERATE_4B, command::GENERATE_ISO})
+        connect(formats->addAction(QCoreApplication::translate("wedm::command", each)), &QAction::triggered, this, [this, each] { emit commandWanted(each); });
+    program->setMenu(formats);
+    QPushButton *hole = button(tr("Thread hole…"), command::HOLE, tr("Click where the wire is threaded for the contour nearest to that point; it is kept in wedm.toml"));
+    QPushButton *path = button(tr("Wire path"), command::PATH, tr("Draw the path of the wire on the layer WEDM_PATH, which is never checked"));
+    QPushButton *noPath = button(tr("Clear path"), command::CLEAR_PATH, tr("Take the path of the wire away"));
+    QPushButton *mark = button(tr("Mark"), command::MARK, tr("Draw a circle about each fault, on the layer WEDM_MARKS"));
+    QPushButton *unmark = button(tr("Clear marks"), command::CLEAR, tr("Take the circles away"));
+    QPushButton *server = button(tr("Server…"), nullptr, tr("Choose the program of the wedm server"));
     m_fixOne->setToolTip(tr("Repair the selected segment"));
-    generate->setToolTip(tr("Write the 3B program to a file"));
-    mark->setToolTip(tr("Draw a circle about each fault, on the layer WEDM_MARKS"));
-    server->setToolTip(tr("Choose the program of the wedm server"));
     m_fixOne->setObjectName(QStringLiteral("wedm_fix_one"));
     m_fixOne->setEnabled(false);
 
@@ -171,9 +179,13 @@ Panel::Panel(QWidget *parent)
     layout->addLayout(form);
     layout->addWidget(m_inForce);
     QHBoxLayout *buttons = new QHBoxLayout;
-    for (QPushButton *button : {check, fix, m_fixOne, generate})
+    for (QPushButton *button : {check, fix, m_fixOne})
         buttons->addWidget(button);
     layout->addLayout(buttons);
+    QHBoxLayout *wire = new QHBoxLayout;
+    for (QPushButton *button : {hole, path, noPath, program})
+        wire->addWidget(button);
+    layout->addLayout(wire);
     layout->addWidget(m_message);
     QHBoxLayout *filter = new QHBoxLayout;
     filter->addWidget(m_count, 1);
@@ -193,11 +205,6 @@ Panel::Panel(QWidget *parent)
     layout->addLayout(foot);
     setWidget(content);
 
-    connect(check, &QPushButton::clicked, this, &Panel::checkWanted);
-    connect(fix, &QPushButton::clicked, this, &Panel::fixWanted);
-    connect(generate, &QPushButton::clicked, this, &Panel::generateWanted);
-    connect(mark, &QPushButton::clicked, this, &Panel::marksWanted);
-    connect(unmark, &QPushButton::clicked, this, &Panel::marksUnwanted);
     connect(server, &QPushButton::clicked, this, &Panel::serverWanted);
     connect(m_fixOne, &QPushButton::clicked, this, [this] {
         if (const Row *row = m_table->row(m_view->currentIndex().row()))
@@ -225,6 +232,15 @@ Panel::Panel(QWidget *parent)
             emit placeWanted((finding.start + finding.end) / 2, std::hypot(along.x(), along.y()));
         }
     });
+}
+
+QPushButton *Panel::button(const QString &text, const char *command, const QString &tip)
+{
+    QPushButton *made = new QPushButton(text);
+    made->setToolTip(tip);
+    if (command)
+        connect(made, &QPushButton::clicked, this, [this, command] { emit commandWanted(command); });
+    return made;
 }
 
 void Panel::setServer(Server::State state, const QString &text)
@@ -255,11 +271,13 @@ void Panel::setLive(const QString &text)
     showCount();
 }
 
-void Panel::setStale(bool stale)
+void Panel::setStale(Stale stale)
 {
-    if (stale && !m_isStale)
-        setMessage(QString(), Tone::Plain);
-    m_isStale = stale;
+    if (stale == m_stale)
+        return;
+    m_stale = stale;
+    m_table->setStale(stale != Stale::No);
+    colourList();
     showCount();
     showDetails();
 }
@@ -278,25 +296,32 @@ void Panel::setFindings(const QVector<Finding> &findings)
         m_findings.resize(MOST_LISTED);
     m_list->clear();
     for (const Finding &finding : qAsConst(m_findings)) {
-        const QString place = finding.handle.isEmpty() ? QString() : tr(", entity %1 vertex %2").arg(finding.handle).arg(finding.segment);
+        QString place = finding.handle.isEmpty() ? QString() : tr(", entity %1").arg(finding.handle);
+        if (!place.isEmpty() && finding.segment >= 0)
+            place += tr(" vertex %1").arg(finding.segment);
         QListWidgetItem *item =
             new QListWidgetItem(QStringLiteral("%1%2: %3").arg(QString::fromLatin1(severityName(finding.severity)), place, finding.message));
         item->setToolTip(finding.rule);
-        if (finding.severity == Severity::Error)
-            item->setForeground(QColor(150, 0, 0));
         m_list->addItem(item);
     }
     if (unlisted > 0)
         m_list->addItem(tr("and more: %1 that were sent are not listed").arg(unlisted));
     m_isChecked = true;
-    m_errors = 0;
-    m_warnings = 0;
-    for (const Finding &finding : findings) {
-        m_errors += finding.severity == Severity::Error;
-        m_warnings += finding.severity == Severity::Warning;
-    }
+    for (int severity = 0; severity < 3; ++severity)
+        m_counts[severity] = int(std::count_if(findings.begin(), findings.end(), [=](const Finding &each) { return int(each.severity) == severity + 1; }));
+    m_table->setFindings(findings);
+    colourList();
     showCount();
     showDetails();
+}
+
+void Panel::colourList()
+{
+    for (int i = 0; i < m_list->count(); ++i) {
+        const Look look = m_stale != Stale::No ? staleLook() : i < m_findings.size() ? lookOf(m_findings.at(i).severity) : lookOf(Severity::Hint);
+        m_list->item(i)->setForeground(look.text);
+        m_list->item(i)->setBackground(look.ground);
+    }
 }
 
 /// Green is said of what was looked at, and of nothing that has changed since.
@@ -306,17 +331,21 @@ void Panel::showCount()
         m_count->clear();
         return;
     }
-    if (m_isStale) {
-        m_count->setText(tr("not checked since Undo"));
+    if (m_stale != Stale::No) {
+        m_count->setText(m_stale == Stale::Undone ? tr("not checked since Undo") : tr("not checked since the last change"));
         m_count->setToolTip(tr("What is listed was found before. Check looks at the drawing again; what Redo could bring back is lost then."));
-        m_count->setStyleSheet(QStringLiteral("font-weight: bold; color: #805000"));
+        m_count->setStyleSheet(QStringLiteral("font-weight: bold; padding: 2px; color: %1; background: %2").arg(staleLook().text.name(), staleLook().ground.name()));
         return;
     }
-    const bool clean = m_errors == 0 && m_warnings == 0;
-    const QString found = clean ? tr("no fault found") : tr("errors: %1   warnings: %2").arg(m_errors).arg(m_warnings);
+    const bool clean = m_counts[0] == 0 && m_counts[1] == 0;
+    QString found = clean ? tr("no fault found") : tr("errors: %1   warnings: %2").arg(m_counts[0]).arg(m_counts[1]);
+    if (m_counts[2] > 0)
+        found += tr("   notes: %1").arg(m_counts[2]);
     m_count->setText(m_isLive ? found : tr("%1 at the last check").arg(found));
     m_count->setToolTip(QString());
-    m_count->setStyleSheet(QStringLiteral("font-weight: bold; color: %1").arg(m_errors > 0 ? "#a00000" : clean ? "#066006" : "#805000"));
+    const Look look = lookOf(m_counts[0] > 0 ? Severity::Error : Severity::Warning);
+    m_count->setStyleSheet(clean ? QStringLiteral("font-weight: bold; padding: 2px; %1").arg(QLatin1String(GOOD))
+                                 : QStringLiteral("font-weight: bold; padding: 2px; color: %1; background: %2").arg(look.text.name(), look.ground.name()));
 }
 
 void Panel::setInspection(const QSharedPointer<Inspection> &inspection)
@@ -335,7 +364,7 @@ void Panel::clear()
     m_findings.clear();
     m_list->clear();
     m_isChecked = false;
-    m_isStale = false;
+    setStale(Stale::No);
     showCount();
     say(m_inForce, QString(), PLAIN);
     m_table->setInspection(QSharedPointer<Inspection>());
@@ -380,7 +409,7 @@ void Panel::showDetails()
             break;
         }
     }
-    m_fixOne->setEnabled(repairable && !m_isStale);
+    m_fixOne->setEnabled(repairable && m_stale == Stale::No);
 }
 
 } // namespace wedm

@@ -2,7 +2,7 @@
 // The dock: the radius list, what was found, the settings, the buttons. Knows neither the drawing nor the server.
 #pragma once
 
-#include "core/session.h"
+#include "drawings.h"
 #include "radius_table.h"
 
 #include <QDockWidget>
@@ -32,8 +32,8 @@ public:
     void setLive(const QString &text);
     void setFindings(const QVector<Finding> &findings);
     void setInspection(const QSharedPointer<Inspection> &inspection);
-    /// The drawing was changed by Undo or Redo since it was looked at.
-    void setStale(bool stale);
+    /// Whether the drawing has changed since what is shown was found, and how: then it is grey, and said to be old.
+    void setStale(Stale stale);
     /// What of the drawing is not looked at; empty for nothing.
     void setUnchecked(const QString &text);
     /// Everything that belongs to a drawing goes.
@@ -44,12 +44,9 @@ public:
     QString side() const;
 
 signals:
-    void checkWanted();
-    void fixWanted();
+    /// One of those of the menu.
+    void commandWanted(const char *command);
     void fixOneWanted(const QString &handle, int segment);
-    void generateWanted();
-    void marksWanted();
-    void marksUnwanted();
     void serverWanted();
     void settingsChanged();
     void placeWanted(const QPointF &middle, double size);
@@ -58,11 +55,13 @@ private:
     void placeOf(const Row &row);
     void showDetails();
     void showCount();
+    void colourList();
+    QPushButton *button(const QString &text, const char *command, const QString &tip);
 
-    int m_errors = 0;
-    int m_warnings = 0;
+    /// Errors, warnings and notes.
+    int m_counts[3] = {};
     bool m_isChecked = false;
-    bool m_isStale = false;
+    Stale m_stale = Stale::No;
     bool m_isLive = false;
 
     RadiusTable *m_table;

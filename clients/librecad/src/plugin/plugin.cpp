@@ -24,9 +24,13 @@ QString WedmPlugin::name() const
 PluginCapabilities WedmPlugin::getCapabilities() const
 {
     PluginCapabilities capabilities;
-    for (const char *command : {wedm::command::CHECK, wedm::command::LIVE, wedm::command::FIX, wedm::command::GENERATE, wedm::command::MARK,
-                                wedm::command::CLEAR, wedm::command::LOOK, wedm::command::APPLY})
+    const auto add = [&](const char *command) {
         capabilities.menuEntryPoints << PluginMenuLocation(QString::fromLatin1(MENU), QString::fromUtf8(command));
+    };
+    for (const char *command : wedm::command::SHOWN)
+        add(command);
+    add(wedm::command::LOOK);
+    add(wedm::command::APPLY);
     return capabilities;
 }
 

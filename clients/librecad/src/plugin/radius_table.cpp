@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "radius_table.h"
 
-#include <QColor>
+#include "severity_looks.h"
 
 namespace wedm {
 
@@ -10,8 +10,13 @@ namespace {
 const char OK[] = "ok";
 constexpr int DECIMALS = 4;
 constexpr int DEGREE_DECIMALS = 2;
-const QColor FAULT_BACKGROUND(255, 205, 205);
-const QColor FAULT_TEXT(120, 0, 0);
+
+/// Keeps the worse of two.
+template <typename Key>
+void worsen(QHash<Key, Severity> &known, const Key &key, Severity severity)
+{
+    known.insert(key, qMin(known.value(key, severity), severity));
+}
 
 } // namespace
 
@@ -26,6 +31,47 @@ void RadiusTable::setInspection(const QSharedPointer<Inspection> &inspection)
     m_inspection = inspection;
     choose();
     endResetModel();
+}
+
+void RadiusTable::setFindings(const QVector<Finding> &findings)
+{
+    m_bySegment.clear();
+    m_byRule.clear();
+    for (const Finding &finding : findings) {
+        worsen(m_bySegment, qMakePair(finding.handle, finding.segment), finding.severity);
+        worsen(m_byRule, finding.rule, finding.severity);
+    }
+    recolour();
+}
+
+void RadiusTable::setStale(bool stale)
+{
+    if (stale == m_isStale)
+        return;
+    m_isStale = stale;
+    recolour();
+}
+
+void RadiusTable::recolour()
+{
+    if (!m_shown.isEmpty())
+        emit dataChanged(index(0, 0), index(m_shown.size() - 1, Columns - 1), {Qt::BackgroundRole, Qt::ForegroundRole});
+}
+
+bool RadiusTable::severityOf(const Row &row, Severity *severity) const
+{
+    const auto there = m_bySegment.constFind(qMakePair(row.handle, row.segment));
+    if (there != m_bySegment.constEnd()) {
+        *severity = *there;
+        return true;
+    }
+    if (row.verdict == QLatin1String(OK))
+        return false;
+    *severity = Severity::Hint;
+    const QStringList rules = row.verdict.split(QLatin1Char(','));
+    for (const QString &rule : rules)
+        *severity = qMin(*severity, m_byRule.value(rule.trimmed(), Severity::Error));
+    return true;
 }
 
 void RadiusTable::setShow(Show show)
@@ -68,11 +114,13 @@ QVariant RadiusTable::data(const QModelIndex &index, int role) const
     const Row *each = row(index.row());
     if (!each)
         return QVariant();
-    const bool fault = each->verdict != QLatin1String(OK);
-    if (role == Qt::BackgroundRole)
-        return fault ? QVariant(FAULT_BACKGROUND) : QVariant();
-    if (role == Qt::ForegroundRole)
-        return fault ? QVariant(FAULT_TEXT) : QVariant();
+    if (role == Qt::BackgroundRole || role == Qt::ForegroundRole) {
+        Severity severity;
+        if (!severityOf(*each, &severity))
+            return m_isStale && role == Qt::ForegroundRole ? QVariant(staleLook().text) : QVariant();
+        const Look look = m_isStale ? staleLook() : lookOf(severity);
+        return role == Qt::BackgroundRole ? look.ground : look.text;
+    }
     const bool text = index.column() == Entity || index.column() == Layer || index.column() == Kind || index.column() == Verdict;
     if (role == Qt::TextAlignmentRole)
         return int((text ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);

@@ -5,6 +5,7 @@
 #include "core/messages.h"
 
 #include <QAbstractTableModel>
+#include <QHash>
 #include <QSharedPointer>
 
 namespace wedm {
@@ -17,6 +18,10 @@ public:
 
     explicit RadiusTable(QObject *parent = nullptr);
 
+    /// What was found, for the colours of the rows.
+    void setFindings(const QVector<Finding> &findings);
+    /// Whether the drawing has changed since: then all rows are grey.
+    void setStale(bool stale);
     void setInspection(const QSharedPointer<Inspection> &inspection);
     void setShow(Show show);
     const Row *row(int index) const;
@@ -32,9 +37,15 @@ public:
 private:
     void choose();
     QString unit() const;
+    /// The worst of what was found on a segment. Of more findings than are sent, a verdict counts as its rule does elsewhere.
+    bool severityOf(const Row &row, Severity *severity) const;
+    void recolour();
 
     QSharedPointer<Inspection> m_inspection;
     QVector<int> m_shown;
+    QHash<QPair<QString, int>, Severity> m_bySegment;
+    QHash<QString, Severity> m_byRule;
+    bool m_isStale = false;
     Show m_show = Show::Arcs;
     int m_faults = 0;
 };

@@ -14,13 +14,15 @@
 namespace wedm {
 
 const char MARK_LAYER[] = "WEDM_MARKS";
+const char PATH_LAYER[] = "WEDM_PATH";
 
 namespace {
 
 using Data = QHash<int, QVariant>;
 
-/// The colour of marks, 24 bits.
+/// The colours of marks and of the wire's path, 24 bits.
 constexpr int MARK_COLOUR = 0xff00ff;
+constexpr int PATH_COLOUR = 0x00a0ff;
 /// Starting points are marked by the letter O: longer texts are none.
 constexpr int LONGEST_START_MARK = 64;
 /// Adding one vertex to a polyline makes LibreCAD 2.2.0 look at all before it, so a polyline takes the square of its size:
@@ -47,6 +49,12 @@ public:
 private:
     QList<Plug_Entity *> m_list;
 };
+
+bool isOwn(const Data &data)
+{
+    const QString layer = data.value(DPI::LAYER).toString();
+    return layer == QLatin1String(MARK_LAYER) || layer == QLatin1String(PATH_LAYER);
+}
 
 double number(const Data &data, int key)
 {
@@ -152,7 +160,7 @@ void readEntity(Plug_Entity &source, Snapshot *snapshot)
 {
     Data data;
     source.getData(&data);
-    if (data.value(DPI::LAYER).toString() == QLatin1String(MARK_LAYER))
+    if (isOwn(data))
         return;
     Entity entity;
     if (read(source, data, &entity))
@@ -228,6 +236,31 @@ bool add(Document_Interface &drawing, const Entity &entity, const Data &look)
     }
     drawing.addEntity(added);
     return true;
+}
+
+/// How things on a layer of the plugin's own look; the layer is made where it is not there yet.
+Data ownLook(Document_Interface &drawing, const char *layer, int colour, const char *linetype)
+{
+    if (!drawing.getAllLayer().contains(QLatin1String(layer))) {
+        const QString active = drawing.getCurrentLayer();
+        drawing.setLayer(QString::fromLatin1(layer));
+        drawing.setCurrentLayerProperties(colour, DPI::WidthByLayer, DPI::SolidLine);
+        drawing.setLayer(active);
+    }
+    return {{DPI::LAYER, QString::fromLatin1(layer)},
+            {DPI::COLOR, colour},
+            {DPI::LTYPE, QString::fromLatin1(linetype)},
+            {DPI::LWIDTH, QStringLiteral("0.00mm")}};
+}
+
+void addCircle(Document_Interface &drawing, const QPointF &centre, double radius, const Data &look)
+{
+    Entity circle;
+    circle.kind = Kind::Circle;
+    circle.x = centre.x();
+    circle.y = centre.y();
+    circle.radius = radius;
+    add(drawing, circle, look);
 }
 
 /// Whether `found` is `meant` within what passes through LibreCAD's angles and centres.
@@ -333,7 +366,7 @@ bool applyRepair(Document_Interface &drawing, const Repair &repair, QString *fai
         Data data;
         each->getData(&data);
         Entity entity;
-        if (data.value(DPI::LAYER).toString() == QLatin1String(MARK_LAYER) || !read(*each, data, &entity))
+        if (isOwn(data) || !read(*each, data, &entity))
             continue;
         const int old = identities.value(entity.identity, -1);
         if (old < 0 || !alike(repair.before.at(old), entity)) {
@@ -424,34 +457,34 @@ void drawMarks(Document_Interface &drawing, const QVector<QPointF> &places, doub
     // No layer for nothing.
     if (places.isEmpty())
         return;
-    if (!drawing.getAllLayer().contains(QLatin1String(MARK_LAYER))) {
-        const QString active = drawing.getCurrentLayer();
-        drawing.setLayer(QString::fromLatin1(MARK_LAYER));
-        drawing.setCurrentLayerProperties(MARK_COLOUR, DPI::WidthByLayer, DPI::SolidLine);
-        drawing.setLayer(active);
-    }
-    const Data look{{DPI::LAYER, QString::fromLatin1(MARK_LAYER)},
-                    {DPI::COLOR, MARK_COLOUR},
-                    {DPI::LTYPE, QStringLiteral("SolidLine")},
-                    {DPI::LWIDTH, QStringLiteral("0.25mm")}};
-    for (const QPointF &place : places) {
-        Entity mark;
-        mark.kind = Kind::Circle;
-        mark.x = place.x();
-        mark.y = place.y();
-        mark.radius = radius;
-        add(drawing, mark, look);
-    }
+    const Data look = ownLook(drawing, MARK_LAYER, MARK_COLOUR, "SolidLine");
+    for (const QPointF &place : places)
+        addCircle(drawing, place, radius, look);
 }
 
-int clearMarks(Document_Interface &drawing)
+void drawPath(Document_Interface &drawing, const Toolpath &path)
+{
+    clearLayer(drawing, PATH_LAYER);
+    if (path.pieces.isEmpty())
+        return;
+    const Data look = ownLook(drawing, PATH_LAYER, PATH_COLOUR, "SolidLine");
+    for (const Entity &piece : path.pieces)
+        add(drawing, piece, look);
+    for (const ThreadHole &hole : path.holes)
+        addCircle(drawing, hole.at, hole.radius, look);
+    const Data dashed = ownLook(drawing, PATH_LAYER, PATH_COLOUR, "DashLine");
+    for (const Entity &jump : path.jumps)
+        add(drawing, jump, dashed);
+}
+
+int clearLayer(Document_Interface &drawing, const char *layer)
 {
     int count = 0;
     const Entities entities(drawing);
     for (Plug_Entity *each : entities.list()) {
         Data data;
         each->getData(&data);
-        if (data.value(DPI::LAYER).toString() != QLatin1String(MARK_LAYER))
+        if (data.value(DPI::LAYER).toString() != QLatin1String(layer))
             continue;
         drawing.removeEntity(each);
         ++count;

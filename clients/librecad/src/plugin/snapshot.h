@@ -11,8 +11,10 @@ class Document_Interface;
 
 namespace wedm {
 
-/// The layer that marks are drawn on. What lies on it is no part of the drawing.
+/// The layers that marks and the wire's path are drawn on. What lies on them is no part of the drawing, here and where the server reads
+/// the saved file.
 extern const char MARK_LAYER[];
+extern const char PATH_LAYER[];
 
 struct Snapshot {
     QVector<Entity> entities;
@@ -55,7 +57,10 @@ qint64 rebuildTime(const Repair &repair);
 /// Draws a circle about each place on the layer of marks, radius in drawing units. The active layer stays what it was.
 void drawMarks(Document_Interface &drawing, const QVector<QPointF> &places, double radius);
 
-/// Takes away what lies on the layer of marks; returns how many entities that were.
-int clearMarks(Document_Interface &drawing);
+/// Draws the wire's path on its layer, in place of what lies there. The active layer stays what it was.
+void drawPath(Document_Interface &drawing, const Toolpath &path);
+
+/// Takes away what lies on one of the plugin's layers; returns how many entities that were.
+int clearLayer(Document_Interface &drawing, const char *layer);
 
 } // namespace wedm

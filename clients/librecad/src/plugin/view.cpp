@@ -14,6 +14,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"
 #pragma GCC diagnostic ignored "-Wunused-parameter"
+#include "rs_document.h"
 #include "rs_graphicview.h"
 #pragma GCC diagnostic pop
 
@@ -51,7 +52,26 @@ RS_Vector vector(double x, double y)
     return result;
 }
 
+/// The function that hands it out is not to be had from outside of LibreCAD.
+struct Viewed : RS_GraphicView {
+    static RS_EntityContainer *of(RS_GraphicView &view) { return view.*&Viewed::container; }
+};
+
 } // namespace
+
+ChangeCount changesOf(QMdiSubWindow *window)
+{
+    ChangeCount count;
+    QWidget *widget = graphicView(window);
+    RS_EntityContainer *shown = widget ? Viewed::of(*static_cast<RS_GraphicView *>(widget)) : nullptr;
+    // Blocks are drawings of their own, in windows of their own.
+    if (!shown || !shown->isDocument())
+        return count;
+    RS_Document *document = static_cast<RS_Document *>(shown);
+    count.undo = document->countUndoCycles();
+    count.redo = document->countRedoCycles();
+    return count;
+}
 
 bool zoomTo(QMdiSubWindow *window, const QPointF &centre, double half)
 {

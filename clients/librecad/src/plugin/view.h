@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Shows a place of the drawing. The plugin interface has no way to do that, so this is the one file that uses LibreCAD's own view,
-// by its virtual functions only; `host::versionFault` has made sure that it is the one the plugin was built for.
+// Shows a place of the drawing, and tells that it has changed. The plugin interface has no way to do that, so this is the one file that uses
+// LibreCAD's own view and document, by their virtual functions only; `host::versionFault` has made sure that it is the one the plugin was built for.
 #pragma once
 
 #include <QPointF>
@@ -9,6 +9,16 @@ class QMdiSubWindow;
 class QWidget;
 
 namespace wedm {
+
+/// How many changes of a drawing can be undone and done again: another count is another drawing.
+struct ChangeCount {
+    int undo = -1;
+    int redo = -1;
+    bool operator==(const ChangeCount &other) const { return undo == other.undo && redo == other.redo; }
+};
+
+/// That of the drawing in `window`; −1 and −1 where it is not known.
+ChangeCount changesOf(QMdiSubWindow *window);
 
 /// Zooms `window` so that `half` drawing units are seen to each side of `centre`.
 bool zoomTo(QMdiSubWindow *window, const QPointF &centre, double half);

@@ -22,6 +22,7 @@
 #include <QTableView>
 #include <QtTest>
 
+#include <algorithm>
 #include <cstdio>
 
 Blocks::Blocks(QObject *parent)
@@ -250,6 +251,17 @@ QString Driver::saved(const QString &key)
     }
     result.sort();
     return result.join(' ');
+}
+
+QString Driver::checked()
+{
+    QProcess server;
+    server.start(qEnvironmentVariable("WEDM"), {"check", "--side", "opening", "--output", "concise", m_file});
+    server.waitForFinished(20000);
+    // That something on the layer of the path is not cut is said, and no finding on the drawing.
+    QStringList lines = QString::fromUtf8(server.readAllStandardOutput()).split('\n');
+    lines.erase(std::remove_if(lines.begin(), lines.end(), [](const QString &line) { return line.contains("WEDM_PATH") || line.contains("checked:"); }), lines.end());
+    return lines.join('\n');
 }
 
 int Driver::entitiesSaved(const QByteArray &type)

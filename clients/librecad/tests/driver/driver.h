@@ -27,6 +27,11 @@ private:
     void fixChain();
     void fixOne();
     void generate();
+    void formats();
+    void path();
+    void hole();
+    void stale();
+    void colours();
     void marks();
     void live();
     void missing();
@@ -65,6 +70,8 @@ private:
 
     // What stands in the saved file, as the command line sees it.
     QString saved(const QString &key);
+    /// What the command line finds in the saved file.
+    QString checked();
     int entitiesSaved(const QByteArray &type);
     /// Whether the saved file has a line that is exactly this.
     bool isSaved(const QByteArray &line);

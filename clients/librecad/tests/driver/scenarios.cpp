@@ -10,9 +10,12 @@
 #include <QFile>
 #include <QFileInfo>
 #include <QLabel>
+#include <QListWidget>
 #include <QMap>
 #include <QMdiArea>
 #include <QMdiSubWindow>
+#include <QRegularExpression>
+#include <QSet>
 #include <QSettings>
 #include <QTableView>
 #include <QtTest>
@@ -36,6 +39,11 @@ void Driver::scenario(const QString &name)
         {"fixChain", &Driver::fixChain},
         {"fixOne", &Driver::fixOne},
         {"generate", &Driver::generate},
+        {"formats", &Driver::formats},
+        {"path", &Driver::path},
+        {"hole", &Driver::hole},
+        {"stale", &Driver::stale},
+        {"colours", &Driver::colours},
         {"marks", &Driver::marks},
         {"live", &Driver::live},
         {"missing", &Driver::missing},
@@ -160,6 +168,176 @@ void Driver::generate()
     const QByteArray program = file.readAll();
     expect("it is 3B, from the first block to DD", program.startsWith("B") && program.trimmed().endsWith("DD"), program);
     expect("nothing else lies beside it", QDir(QFileInfo(path).path()).entryList({"plate.3b*", "*.XXXXXX"}, QDir::Files).size() == 1);
+}
+
+/// ISO and 4B, from the same drawing.
+void Driver::formats()
+{
+    choose("Check radii");
+    set("wedm_side", "opening");
+    choose("Fix");
+    expectSoon("the repair is done", [this] { return text("wedm_message").startsWith("Done"); }, [this] { return text("wedm_message"); });
+    const QString iso = QFileInfo(m_file).absoluteDir().filePath("plate.iso");
+    choose("Generate ISO…");
+    acceptFile(iso);
+    expectSoon("an ISO program is written", [this] { return text("wedm_message").startsWith("Written") && text("wedm_message").contains("plate.iso"); },
+               [this] { return text("wedm_message"); });
+    expect("lengths have their one name", text("wedm_message").contains("cut ") && text("wedm_message").contains("jumps 0.000 mm"), text("wedm_message"));
+    expect("nothing is counted in it", !text("wedm_message").contains("counts J"), text("wedm_message"));
+    QFile file(iso);
+    expect("it is ISO", file.open(QIODevice::ReadOnly) && file.readAll().contains("G92"));
+    choose("Generate 4B…");
+    acceptFile(QFileInfo(m_file).absoluteDir().filePath("plate.4b"));
+    expectSoon("a 4B program is written", [this] { return text("wedm_message").startsWith("Written") && text("wedm_message").contains("plate.4b"); },
+               [this] { return text("wedm_message"); });
+    expect("a drift that rounds to zero has no sign", text("wedm_message").contains("drifts by 0.00, 0.00"), text("wedm_message"));
+}
+
+/// The wire's path is drawn on a layer of its own, which is no part of the drawing, here and in the saved file.
+void Driver::path()
+{
+    choose("Draw wire path");
+    expectSoon("without a side there is none, and it is said why", [this] { return text("wedm_message").startsWith("There is no path of the wire"); },
+               [this] { return text("wedm_message"); });
+    set("wedm_side", "opening");
+    choose("Fix");
+    expectSoon("the repair is done", [this] { return text("wedm_message").startsWith("Done"); }, [this] { return text("wedm_message"); });
+    save();
+    const QString findings = checked();
+    choose("Draw wire path");
+    expectSoon("the path is drawn, with its lengths", [this] { return text("wedm_message").startsWith("The wire path is on the layer WEDM_PATH: cut "); },
+               [this] { return text("wedm_message"); });
+    save();
+    const int arcs = entitiesSaved("ARC");
+    const int lines = entitiesSaved("LINE");
+    expect("of lines and arcs", arcs > 0 && lines > 0, QStringLiteral("%1 arcs, %2 lines").arg(arcs).arg(lines));
+    expect("whose layer is in the file", isSaved("WEDM_PATH"));
+    expect("the saved file is judged as without it", checked() == findings, checked());
+    choose("Check radii");
+    QTest::qWait(500);
+    expect("it is no part of the drawing", text("wedm_count").startsWith("no fault found"), text("wedm_count"));
+    const QString picture = qEnvironmentVariable("WEDM_TEST_PICTURE");
+    if (!picture.isEmpty()) {
+        press("ZoomAuto");
+        QTest::qWait(300);
+        m_main->grab().save(picture);
+    }
+    choose("Draw wire path");
+    QTest::qWait(500);
+    save();
+    expect("drawn again it takes the place of the old one", entitiesSaved("ARC") == arcs && entitiesSaved("LINE") == lines,
+           QStringLiteral("%1 arcs, %2 lines").arg(entitiesSaved("ARC")).arg(entitiesSaved("LINE")));
+    press("EditUndo");
+    press("EditUndo");
+    save();
+    expect("two steps of undo take both away", entitiesSaved("LINE") == 0, QString::number(entitiesSaved("LINE")));
+    press("EditRedo");
+    press("EditRedo");
+    choose("Clear wire path");
+    save();
+    expect("cleared, it is gone", entitiesSaved("ARC") == 0 && entitiesSaved("LINE") == 0);
+}
+
+/// A thread hole is picked, and kept beside the drawing by a point of its contour.
+void Driver::hole()
+{
+    choose("Check radii");
+    set("wedm_side", "opening");
+    choose("Fix");
+    expectSoon("the repair is done", [this] { return text("wedm_message").startsWith("Done"); }, [this] { return text("wedm_message"); });
+    QString asked;
+    QTimer::singleShot(300, this, [&] {
+        asked = text("wedm_message");
+        type("8,4");
+    });
+    choose("Pick thread hole");
+    expect("the click is asked for", asked.contains("click where the wire is threaded"), asked);
+    expectSoon("the hole is kept", [this] { return text("wedm_message").startsWith("Thread hole 8, 4 for the contour at "); }, [this] { return text("wedm_message"); });
+    const QString path = QFileInfo(m_file).absoluteDir().filePath("wedm.toml");
+    QFile file(path);
+    expect("beside the drawing", file.open(QIODevice::ReadOnly));
+    const QByteArray first = file.readAll();
+    file.close();
+    expect("by a point of its contour", first.contains("[drawings.\"plate.dxf\".contours.\"") && first.contains("thread = [8, 4]"), first);
+    const QString program = QFileInfo(m_file).absoluteDir().filePath("plate.iso");
+    choose("Generate ISO…");
+    acceptFile(program);
+    expectSoon("a program is written", [this] { return text("wedm_message").startsWith("Written"); }, [this] { return text("wedm_message"); });
+    QFile written(program);
+    const QByteArray blocks = written.open(QIODevice::ReadOnly) ? written.readAll() : QByteArray();
+    expect("that begins there", blocks.contains("G92 X8.") && blocks.contains("Y4."), blocks);
+    QTimer::singleShot(300, this, [&] { type("9,5"); });
+    choose("Pick thread hole");
+    expectSoon("another one takes its place", [this] { return text("wedm_message").startsWith("Thread hole 9, 5"); }, [this] { return text("wedm_message"); });
+    expect("in the same line", file.open(QIODevice::ReadOnly) && file.readAll() == QByteArray(first).replace("[8, 4]", "[9, 5]"));
+    file.close();
+    QTimer::singleShot(300, this, [&] { QTest::keyClick(view(), Qt::Key_Escape); });
+    choose("Pick thread hole");
+    expectSoon("Escape changes nothing", [this] { return text("wedm_message").contains("nothing was changed"); }, [this] { return text("wedm_message"); });
+    choose("Check radii");
+    expectSoon("and the plugin goes on", [this] { return text("wedm_count").startsWith("no fault found"); }, [this] { return text("wedm_count"); });
+}
+
+/// What was found before the drawing changed is grey, and said to be old.
+void Driver::stale()
+{
+    QTableView *view = nullptr;
+    const auto ground = [&] { return view->model()->index(0, 0).data(Qt::BackgroundRole).value<QColor>(); };
+    const auto isGrey = [](const QColor &colour) { return colour.isValid() && colour.red() == colour.green() && colour.green() == colour.blue(); };
+    choose("Check radii");
+    expectSoon("the fault is found", [this] { return verdictOf("0.0800").contains("small-radius"); });
+    view = m_main->findChild<QTableView *>("wedm_radii");
+    QTest::qWait(400);
+    expect("red, and it stays so while nothing changes", text("wedm_count").startsWith("errors: 1") && !isGrey(ground()), ground().name());
+    press("ZoomAuto");
+    QTest::qWait(400);
+    expect("whatever is looked at", text("wedm_count").startsWith("errors: 1"), text("wedm_count"));
+    drawLine();
+    expectSoon("a line is drawn: it is not checked", [this] { return text("wedm_count") == "not checked since the last change"; }, [this] { return text("wedm_count"); });
+    expect("and grey", isGrey(ground()), ground().name());
+    const QString picture = qEnvironmentVariable("WEDM_TEST_PICTURE");
+    if (!picture.isEmpty())
+        m_main->grab().save(picture);
+    choose("Check radii");
+    expectSoon("checked, it has its colour again", [&] { return text("wedm_count").startsWith("errors: 2") && !isGrey(ground()); }, [this] { return text("wedm_count"); });
+    choose("Mark faults");
+    QTest::qWait(400);
+    expect("the plugin's own marks are no change", text("wedm_count").startsWith("errors: 2"), text("wedm_count"));
+    choose("Clear marks");
+    QTest::qWait(400);
+    expect("nor is their going", text("wedm_count").startsWith("errors: 2"), text("wedm_count"));
+    ::kill(pid_t(controller()->property("serverProcessId").toLongLong()), SIGSTOP);
+    drawLine();
+    choose("Check radii");
+    QTest::qWait(400);
+    expect("while the server does not answer, nothing is said of what it has not seen", text("wedm_count").contains("not checked") && isGrey(ground()), text("wedm_count"));
+    ::kill(pid_t(controller()->property("serverProcessId").toLongLong()), SIGCONT);
+    expectSoon("then it is", [this] { return text("wedm_count").startsWith("errors:"); }, [this] { return text("wedm_count"); });
+}
+
+/// One colour for each severity, in the list and in the table.
+void Driver::colours()
+{
+    choose("Check radii");
+    expectSoon("something is found", [this] { return !findings().isEmpty(); });
+    QTest::qWait(300);
+    const QListWidget *list = m_main->findChild<QListWidget *>("wedm_findings");
+    QMap<QString, QColor> colours;
+    for (int i = 0; i < list->count(); ++i)
+        colours.insert(list->item(i)->text().section(QRegularExpression("[,:]"), 0, 0), list->item(i)->background().color());
+    expect("errors, warnings and notes", colours.contains("error") && colours.contains("warning") && colours.contains("note"), colours.keys().join(' '));
+    expect("each in its own colour", QSet<QString>({colours["error"].name(), colours["note"].name(), colours["warning"].name()}).size() == 3);
+    const QTableView *view = m_main->findChild<QTableView *>("wedm_radii");
+    QSet<QString> inTable;
+    for (int i = 0; i < view->model()->rowCount(); ++i) {
+        const QColor colour = view->model()->index(i, 0).data(Qt::BackgroundRole).value<QColor>();
+        if (colour.isValid())
+            inTable.insert(colour.name());
+    }
+    expect("the same in the table", inTable.contains(colours["error"].name()) && inTable.contains(colours["warning"].name()), inTable.values().join(' '));
+    const QString picture = qEnvironmentVariable("WEDM_TEST_PICTURE");
+    if (!picture.isEmpty())
+        m_main->grab().save(picture);
 }
 
 void Driver::marks()

@@ -2,11 +2,13 @@
 // The core apart from LibreCAD: framing, differences, messages, the search for the server, and the talk with the real one.
 #include "core/connection.h"
 #include "core/difference.h"
+#include "core/kept_hole.h"
 #include "core/session.h"
 
 #include <QJsonArray>
 #include <QSignalSpy>
 #include <QTemporaryDir>
+#include <QUrl>
 #include <QtTest>
 
 #include <algorithm>
@@ -102,6 +104,10 @@ struct Talk {
     QSignalSpy noRepairs{&session, &Session::repairFailed};
     QSignalSpy programs{&session, &Session::generated};
     QSignalSpy noPrograms{&session, &Session::generateFailed};
+    QSignalSpy paths{&session, &Session::toolpathReady};
+    QSignalSpy noPaths{&session, &Session::toolpathFailed};
+    QSignalSpy contours{&session, &Session::contourFound};
+    QSignalSpy confirmed{&session, &Session::holeConfirmed};
 
     Talk()
     {
@@ -455,9 +461,9 @@ private slots:
         talk.start();
         talk.session.look("librecad:1", {polyline(1, opening(0.08))}, Units::Millimetre);
         QTRY_COMPARE_WITH_TIMEOUT(talk.version(), 1, LONG);
-        talk.session.generate("librecad:1", path, false);
+        talk.session.generate("librecad:1", "3b", path, false);
         QTRY_COMPARE_WITH_TIMEOUT(talk.noPrograms.size(), 1, LONG);
-        QVERIFY(talk.noPrograms.last().at(3).toStringList().join(' ').contains("0.080"));
+        QVERIFY(talk.noPrograms.last().at(4).toStringList().join(' ').contains("0.080"));
         QVERIFY(!QFile::exists(path));
 
         QFile old(path);
@@ -466,18 +472,154 @@ private slots:
         old.close();
         talk.session.setSettings(QJsonObject{{"side", "opening"}});
         talk.session.look("librecad:1", {polyline(1, opening(0.3))}, Units::Millimetre);
-        talk.session.generate("librecad:1", path, false);
+        talk.session.generate("librecad:1", "3b", path, false);
         QTRY_COMPARE_WITH_TIMEOUT(talk.programs.size() + talk.noPrograms.size(), 2, LONG);
-        QVERIFY2(talk.programs.size() == 1, qPrintable(talk.noPrograms.last().at(2).toString()));
+        QVERIFY2(talk.programs.size() == 1, qPrintable(talk.noPrograms.last().at(3).toString()));
         QFile file(path);
         QVERIFY(file.open(QIODevice::ReadOnly));
         const QByteArray text = file.readAll();
         QVERIFY2(text.contains("GXL") && text.trimmed().endsWith("DD"), text.constData());
         QCOMPARE(QDir(folder.path()).entryList(QDir::Files), QStringList{"plate.3b"});
 
-        talk.session.generate("librecad:1", folder.filePath("no/such/folder/plate.3b"), false);
+        talk.session.generate("librecad:1", "3b", folder.filePath("no/such/folder/plate.3b"), false);
         QTRY_COMPARE_WITH_TIMEOUT(talk.noPrograms.size(), 2, LONG);
-        QVERIFY(talk.noPrograms.last().at(2).toString().contains("no/such/folder"));
+        QVERIFY(talk.noPrograms.last().at(3).toString().contains("no/such/folder"));
+    }
+
+    void programsOfEachFormat_data()
+    {
+        QTest::addColumn<QString>("format");
+        QTest::addColumn<QByteArray>("holds");
+        QTest::newRow("3B") << "3b" << QByteArray("GXL1");
+        QTest::newRow("4B") << "4b" << QByteArray("B");
+        QTest::newRow("ISO") << "iso" << QByteArray("G92");
+    }
+
+    void programsOfEachFormat()
+    {
+        QFETCH(QString, format);
+        QFETCH(QByteArray, holds);
+        QTemporaryDir folder;
+        const QString path = folder.filePath("plate." + format);
+        Talk talk;
+        talk.start();
+        talk.session.setSettings(QJsonObject{{"side", "opening"}});
+        talk.session.look("librecad:1", {polyline(1, opening(0.3))}, Units::Millimetre);
+        talk.session.generate("librecad:1", format, path, false);
+        QTRY_COMPARE_WITH_TIMEOUT(talk.programs.size() + talk.noPrograms.size(), 1, LONG);
+        QVERIFY2(talk.programs.size() == 1, qPrintable(talk.noPrograms.value(0).value(3).toString()));
+        const Program written = talk.programs.last().at(1).value<Program>();
+        QCOMPARE(written.format, format);
+        QVERIFY(written.cut > 50 && written.jumps == 0);
+        QFile file(path);
+        QVERIFY(file.open(QIODevice::ReadOnly));
+        const QByteArray text = file.readAll();
+        QVERIFY2(text.contains(holds), text.constData());
+    }
+
+    /// Every piece of the path begins where the one before it ends, and what is not refused can be drawn.
+    void pathOfTheWire()
+    {
+        Talk talk;
+        talk.start();
+        talk.session.look("librecad:1", {polyline(1, opening(0.3))}, Units::Millimetre);
+        talk.session.requestToolpath("librecad:1");
+        QTRY_COMPARE_WITH_TIMEOUT(talk.noPaths.size(), 1, LONG);
+        QVERIFY(talk.noPaths.last().at(1).toString().startsWith("There is no path of the wire: "));
+        talk.session.setSettings(QJsonObject{{"side", "opening"}});
+        talk.session.requestToolpath("librecad:1");
+        QTRY_COMPARE_WITH_TIMEOUT(talk.paths.size(), 1, LONG);
+        const Toolpath path = talk.paths.last().at(1).value<Toolpath>();
+        const auto kinds = [&](Kind kind) { return std::count_if(path.pieces.begin(), path.pieces.end(), [=](const Entity &each) { return each.kind == kind; }); };
+        QCOMPARE(int(kinds(Kind::Arc)), 1);
+        QVERIFY(kinds(Kind::Line) >= 6);
+        const auto fillet = std::find_if(path.pieces.begin(), path.pieces.end(), [](const Entity &each) { return each.kind == Kind::Arc; });
+        QVERIFY(std::abs(fillet->radius - 0.2) < 1e-9 && std::abs(fillet->x - 19.7) < 1e-9);
+        QVERIFY(std::abs(std::remainder(fillet->startAngle - 270, 360.0)) < 1e-6 && std::abs(std::remainder(fillet->endAngle, 360.0)) < 1e-6);
+        QCOMPARE(path.holes.size(), 1);
+        QVERIFY(path.cut > 50 && path.jumped == 0 && path.jumps.isEmpty());
+    }
+
+    /// A hole belongs to the nearest contour, which is kept by a point of it; the next hole of it goes by the same name.
+    void holeIsKeptByAPoint()
+    {
+        QTemporaryDir folder;
+        const QString drawing = folder.filePath("plate.dxf");
+        const QString uri = QUrl::fromLocalFile(drawing).toString(QUrl::FullyEncoded);
+        QFile(drawing).open(QIODevice::WriteOnly);
+        Talk talk;
+        talk.start();
+        QVector<Vertex> other = opening(0.3);
+        for (Vertex &vertex : other)
+            vertex.x += 40;
+        talk.session.setSettings(QJsonObject{{"side", "opening"}});
+        talk.session.look(uri, {polyline(1, opening(0.3)), polyline(2, other)}, Units::Millimetre);
+        talk.session.requestContour(uri, {45, 5});
+        QTRY_COMPARE_WITH_TIMEOUT(talk.contours.size(), 1, LONG);
+        const QString name = talk.contours.last().at(1).toString();
+        // The middle of the longest side.
+        QCOMPARE(name, QString("50,10"));
+        KeptHole kept;
+        QCOMPARE(kept.keep(QString(), drawing, name, {45, 5}), QString());
+        talk.session.reloadSettings();
+        talk.session.confirmHole(uri, name, {45, 5});
+        QTRY_COMPARE_WITH_TIMEOUT(talk.confirmed.size(), 1, LONG);
+        QVERIFY(talk.confirmed.last().at(1).toBool());
+        talk.session.requestToolpath(uri);
+        QTRY_COMPARE_WITH_TIMEOUT(talk.paths.size() + talk.noPaths.size(), 1, LONG);
+        const Toolpath path = talk.paths.value(0).value(1).value<Toolpath>();
+        QVERIFY(std::any_of(path.holes.begin(), path.holes.end(), [](const ThreadHole &hole) { return hole.at == QPointF(45, 5); }));
+        QCOMPARE(path.jumps.size(), 1);
+        QVERIFY(path.jumped > 0);
+
+        // Another point of the same contour is its name from then on.
+        QFile file(kept.file());
+        QVERIFY(file.open(QIODevice::WriteOnly));
+        file.write("side = \"opening\" # inside\n[drawings.\"plate.dxf\".contours.\"40,5\"]\nentry = [40, 5]\n");
+        file.close();
+        talk.session.reloadSettings();
+        talk.session.requestContour(uri, {46, 5});
+        QTRY_COMPARE_WITH_TIMEOUT(talk.contours.size(), 2, LONG);
+        QCOMPARE(talk.contours.last().at(1).toString(), QString("40,5"));
+
+        // A file that cannot take it becomes what it was.
+        const QByteArray inLine = "drawings = { \"plate.dxf\" = { contours = { \"40,5\" = { order = 1 } } } }\n";
+        QVERIFY(file.open(QIODevice::WriteOnly));
+        file.write(inLine);
+        file.close();
+        QCOMPARE(kept.keep(file.fileName(), drawing, "40,5", {46, 5}), QString());
+        talk.session.reloadSettings();
+        talk.session.confirmHole(uri, "40,5", {46, 5});
+        QTRY_COMPARE_WITH_TIMEOUT(talk.confirmed.size(), 2, LONG);
+        QVERIFY(!talk.confirmed.last().at(1).toBool());
+        kept.takeBack();
+        QVERIFY(file.open(QIODevice::ReadOnly));
+        QCOMPARE(file.readAll(), inLine);
+    }
+
+    void threadHoleInAText_data()
+    {
+        QTest::addColumn<QByteArray>("before");
+        QTest::addColumn<QByteArray>("after");
+        const QByteArray head = "[drawings.\"a.dxf\".contours.\"1,2\"]";
+        QTest::newRow("an empty file") << QByteArray() << head + "\nthread = [3.5, -4]\n";
+        QTest::newRow("at the end") << QByteArray("correction = 0.1") << "correction = 0.1\n\n" + head + "\nthread = [3.5, -4]\n";
+        QTest::newRow("lines end as they did") << QByteArray("side = \"auto\"\r\n") << "side = \"auto\"\r\n\r\n" + head + "\r\nthread = [3.5, -4]\r\n";
+        QTest::newRow("in its table") << head + " # left\norder = 1\n\n[rules]\n" << head + " # left\norder = 1\nthread = [3.5, -4]\n\n[rules]\n";
+        QTest::newRow("in place of another") << head + "\nthread = [1, 1] # drilled\n" << head + "\nthread = [3.5, -4] # drilled\n";
+        QTest::newRow("not that of another contour") << QByteArray("[drawings.\"a.dxf\".contours.2A]\nthread = [1, 1]\n")
+                                                     << "[drawings.\"a.dxf\".contours.2A]\nthread = [1, 1]\n\n" + head + "\nthread = [3.5, -4]\n";
+        QTest::newRow("not understood") << head + "\nthread = [1,\n1]\n" << QByteArray();
+    }
+
+    void threadHoleInAText()
+    {
+        QFETCH(QByteArray, before);
+        QFETCH(QByteArray, after);
+        QString failure;
+        const QByteArray kept = withThread(before, "a.dxf", "1,2", {3.5, -4}, &failure);
+        QCOMPARE(failure, after.isEmpty() ? QString("line 2 is not understood") : QString());
+        QCOMPARE(kept, after.isEmpty() ? before : after);
     }
 
     /// The server is killed; a drawing that changed meanwhile is right again in the next one.

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "programs.h"
+
+#include <QCoreApplication>
+#include <QDir>
+
+#include <cmath>
+
+namespace wedm {
+namespace programs {
+
+namespace {
+
+/// So many findings are named in one message.
+constexpr int NAMED = 5;
+
+QString tr(const char *text)
+{
+    return QCoreApplication::translate("wedm::programs", text);
+}
+
+/// A drift that rounds to zero has no sign.
+QString micrometres(double drift)
+{
+    return QString::number(std::round(drift * 100) / 100 + 0.0, 'f', 2);
+}
+
+} // namespace
+
+QString written(const Program &program)
+{
+    QString text = tr("Written: %1, %2 blocks, cut %3 mm, jumps %4 mm. Every block was decoded again: at most %5 µm from the path.")
+                       .arg(QDir::toNativeSeparators(program.path))
+                       .arg(program.blocks)
+                       .arg(program.cut, 0, 'f', 3)
+                       .arg(program.jumps, 0, 'f', 3)
+                       .arg(program.deviation, 0, 'f', 2);
+    // ISO programs write where a block ends: nothing is counted.
+    if (program.format != QLatin1String("iso"))
+        text += QLatin1Char(' ') + tr("A control that counts J drifts by %1, %2 µm.").arg(micrometres(program.closureX), micrometres(program.closureY));
+    if (!program.warnings.isEmpty())
+        text += QLatin1Char('\n') + tr("Findings that stand in the drawing: %1").arg(program.warnings.mid(0, NAMED).join(QStringLiteral("; ")));
+    return text;
+}
+
+QString refused(const QString &reason, const QStringList &findings)
+{
+    return (QStringList{reason} + findings.mid(0, NAMED)).join(QLatin1Char('\n'));
+}
+
+} // namespace programs
+} // namespace wedm
