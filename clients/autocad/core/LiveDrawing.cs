@@ -21,6 +21,12 @@ namespace Wedm.Core
         /// Writes entities (null: delete) as one step of undo. Returns null, or why nothing was written.
         /// </summary>
         string Write(IReadOnlyList<KeyValuePair<string, Entity>> entities);
+
+        /// <summary>
+        /// Draws entities without handles on a layer, which is made where it is not there, as one step of undo; with
+        /// <paramref name="anew"/> in place of all that lies there. Returns null, or why nothing was drawn.
+        /// </summary>
+        string Draw(string layer, IReadOnlyList<Entity> entities, bool anew);
     }
 
     /// <summary>
@@ -75,7 +81,7 @@ namespace Wedm.Core
             foreach (var handle in _dirtyInOrder)
             {
                 _sent.TryGetValue(handle, out var before);
-                var after = _host.Read(handle);
+                var after = Cut(_host.Read(handle));
                 var change = Changes.Between(handle, before, after);
                 if (change == null)
                 {
@@ -102,6 +108,20 @@ namespace Wedm.Core
             return changes.Count;
         }
 
+        /// <summary>Draws on a layer of the plugin's own, which is no part of what is cut. Returns null, or why nothing was drawn.</summary>
+        internal string Draw(string layer, IReadOnlyList<Entity> entities, bool anew)
+        {
+            var refusal = _host.Draw(layer, entities, anew);
+            Flush();
+            return refusal;
+        }
+
+        /// <summary>Null for the wire's path that the plugin has drawn: it is no part of the drawing.</summary>
+        private static Entity Cut(Entity entity)
+        {
+            return entity != null && string.Equals(entity.Layer, Toolpath.PathLayer, StringComparison.OrdinalIgnoreCase) ? null : entity;
+        }
+
         /// <summary>Reads the drawing anew and sends it whole.</summary>
         internal void Open()
         {
@@ -115,7 +135,7 @@ namespace Wedm.Core
             _dirty.Clear();
             _dirtyInOrder.Clear();
             var entities = new JArray();
-            foreach (var entity in _host.ReadAll())
+            foreach (var entity in _host.ReadAll().Where(entity => Cut(entity) != null))
             {
                 _sent[entity.Handle] = entity;
                 entities.Add(entity.ToJson());

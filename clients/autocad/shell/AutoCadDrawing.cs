@@ -19,6 +19,9 @@ namespace Wedm.AutoCad
     {
         private const double DegreesPerRadian = 180.0 / Math.PI;
 
+        /// <summary>Of the mark of a thread hole, drawing units.</summary>
+        private const double MarkHeight = 1;
+
         private readonly Document _document;
 
         public AutoCadDrawing(Document document)
@@ -71,7 +74,50 @@ namespace Wedm.AutoCad
                 && !id.IsErased;
         }
 
+        public string Draw(string layer, IReadOnlyList<Entity> entities, bool anew)
+        {
+            return Change(transaction =>
+            {
+                MakeLayer(transaction, layer);
+                var modelspace = (BlockTableRecord)transaction.GetObject(SymbolUtilityServices.GetBlockModelSpaceId(Database), OpenMode.ForRead);
+                foreach (var id in anew ? modelspace.Cast<ObjectId>().ToArray() : new ObjectId[0])
+                {
+                    var there = transaction.GetObject(id, OpenMode.ForRead) as CadEntity;
+                    if (there != null && string.Equals(there.Layer, layer, StringComparison.OrdinalIgnoreCase))
+                    {
+                        ((CadEntity)transaction.GetObject(id, OpenMode.ForWrite)).Erase();
+                    }
+                }
+                foreach (var entity in entities)
+                {
+                    Append(transaction, entity);
+                }
+            });
+        }
+
+        private void MakeLayer(Transaction transaction, string name)
+        {
+            var layers = (LayerTable)transaction.GetObject(Database.LayerTableId, OpenMode.ForRead);
+            if (!layers.Has(name))
+            {
+                var fresh = new LayerTableRecord { Name = name };
+                ((LayerTable)transaction.GetObject(Database.LayerTableId, OpenMode.ForWrite)).Add(fresh);
+                transaction.AddNewlyCreatedDBObject(fresh, true);
+            }
+        }
+
         public string Write(IReadOnlyList<KeyValuePair<string, Entity>> entities)
+        {
+            return Change(transaction =>
+            {
+                foreach (var entity in entities)
+                {
+                    Write(transaction, entity.Key, entity.Value);
+                }
+            });
+        }
+
+        private string Change(Action<Transaction> change)
         {
             try
             {
@@ -79,10 +125,7 @@ namespace Wedm.AutoCad
                 using (_document.LockDocument())
                 using (var transaction = Database.TransactionManager.StartTransaction())
                 {
-                    foreach (var entity in entities)
-                    {
-                        Write(transaction, entity.Key, entity.Value);
-                    }
+                    change(transaction);
                     transaction.Commit();
                     return null;
                 }
@@ -147,7 +190,7 @@ namespace Wedm.AutoCad
             {
                 return new Circle();
             }
-            throw new NotSupportedException("a text is never written");
+            return new DBText { Height = MarkHeight };
         }
 
         /// <summary>Gives an object of AutoCAD's the geometry of an entity; false where it is of another kind.</summary>
@@ -174,6 +217,11 @@ namespace Wedm.AutoCad
             {
                 circle.Center = At(wantedCircle.Center, circle.Center.Z);
                 circle.Radius = wantedCircle.Radius;
+            }
+            else if (there is DBText text && entity is TextEntity wantedText)
+            {
+                text.Position = At(wantedText.At, text.Position.Z);
+                text.TextString = wantedText.Text;
             }
             else
             {

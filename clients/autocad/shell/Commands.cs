@@ -9,7 +9,7 @@ using CadApplication = Autodesk.AutoCAD.ApplicationServices.Core.Application;
 
 namespace Wedm.AutoCad
 {
-    /// <summary>RMIN, RMINFIX, WEDM3B. Each asks the server and returns; what it answers is dealt with when it arrives.</summary>
+    /// <summary>The commands. Each asks the server and returns; what it answers is dealt with when it arrives.</summary>
     public sealed class Commands
     {
         private static Palette _palette;
@@ -33,19 +33,88 @@ namespace Wedm.AutoCad
 
         /// <summary>Writes the 3B program of the drawing to a file that the user chooses.</summary>
         [CommandMethod("WEDM3B")]
-        public static void Generate()
+        public static void Generate3B() => Generate("3b");
+
+        [CommandMethod("WEDM4B")]
+        public static void Generate4B() => Generate("4b");
+
+        [CommandMethod("WEDMISO")]
+        public static void GenerateIso() => Generate("iso");
+
+        /// <summary>Draws the wire's path on its layer.</summary>
+        [CommandMethod("WEDMPATH")]
+        public static void DrawPath()
+        {
+            var watch = Plugin.Instance.Watch();
+            Plugin.Instance.Session.DrawPath(watch.Drawing, Plugin.Say, Plugin.Say);
+        }
+
+        /// <summary>Asks for a point and marks it as the thread hole of the contour nearest to it.</summary>
+        [CommandMethod("WEDMHOLE")]
+        public static void PickHole()
+        {
+            var watch = Plugin.Instance.Watch();
+            var answer = CadApplication.DocumentManager.MdiActiveDocument.Editor.GetPoint("\nThread hole");
+            if (answer.Status == PromptStatus.OK)
+            {
+                Plugin.Say(Plugin.Instance.Session.MarkHole(watch.Drawing, answer.Value.X, answer.Value.Y) ?? "the thread hole is marked on the layer " + Toolpath.HoleLayer);
+            }
+        }
+
+        /// <summary>Draws the start holes and writes the drill list to a file that the user chooses.</summary>
+        [CommandMethod("WEDMHOLES")]
+        public static void DrillList()
         {
             var document = CadApplication.DocumentManager.MdiActiveDocument;
             var watch = Plugin.Instance.Watch();
-            var options = new PromptSaveFileOptions("\nSave the 3B program as")
+            Plugin.Instance.Session.DrawHoles(watch.Drawing, Plugin.Say, Plugin.Say);
+            WithFile("drill list", ".csv", path => Plugin.Instance.Session.FindPath(
+                watch.Drawing, found => Save(path, found.DrillList(Path.GetFileName(document.Name))), Plugin.Say));
+        }
+
+        /// <summary>Says whether punch and plate fit, and writes the picture to a file that the user chooses.</summary>
+        [CommandMethod("WEDMFIT")]
+        public static void CheckFit()
+        {
+            var watch = Plugin.Instance.Watch();
+            WithFile("picture of the fit", ".svg", path => Plugin.Instance.Session.CheckFit(
+                watch.Drawing,
+                found =>
+                {
+                    Plugin.Say(found.InWords());
+                    Save(path, found.Svg);
+                },
+                Plugin.Say));
+        }
+
+        /// <summary>Says what the drawing comes to on the machine.</summary>
+        [CommandMethod("WEDMWORK")]
+        public static void SayFigures()
+        {
+            var watch = Plugin.Instance.Watch();
+            Plugin.Instance.Session.FindPath(watch.Drawing, found => Plugin.Say(found.Figures()), Plugin.Say);
+        }
+
+        private static void Generate(string format)
+        {
+            var watch = Plugin.Instance.Watch();
+            WithFile(format.ToUpperInvariant() + " program", "." + format, path => Plugin.Instance.Session.Generate(
+                watch.Drawing, format, program => Save(path, program), Plugin.Say));
+        }
+
+        /// <summary>Asks for a file beside the drawing.</summary>
+        private static void WithFile(string what, string ending, System.Action<string> chosen)
+        {
+            var document = CadApplication.DocumentManager.MdiActiveDocument;
+            var options = new PromptSaveFileOptions("\nSave the " + what + " as")
             {
-                Filter = "3B program (*.3b)|*.3b",
-                InitialFileName = Path.ChangeExtension(document.Name, ".3b"),
+                Filter = what + " (*" + ending + ")|*" + ending,
+                InitialFileName = Path.ChangeExtension(document.Name, ending),
             };
             var answer = document.Editor.GetFileNameForSave(options);
             if (answer.Status == PromptStatus.OK)
             {
-                Plugin.Instance.Session.Generate(watch.Drawing, "3b", program => Save(answer.StringResult, program), Plugin.Say);
+                chosen(answer.StringResult);
             }
         }
 

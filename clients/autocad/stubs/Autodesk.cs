@@ -196,8 +196,9 @@ namespace Autodesk.AutoCAD.DatabaseServices
 
     public class DBText : Entity
     {
-        public Point3d Position => throw null;
-        public string TextString => throw null;
+        public Point3d Position { get => throw null; set => throw null; }
+        public string TextString { get => throw null; set => throw null; }
+        public double Height { get => throw null; set => throw null; }
     }
 
     public class MText : Entity
@@ -210,6 +211,21 @@ namespace Autodesk.AutoCAD.DatabaseServices
     {
         public IEnumerator GetEnumerator() => throw null;
         public ObjectId AppendEntity(Entity entity) => throw null;
+    }
+
+    public abstract class SymbolTableRecord : DBObject
+    {
+        public string Name { get => throw null; set => throw null; }
+    }
+
+    public class LayerTableRecord : SymbolTableRecord
+    {
+    }
+
+    public class LayerTable : DBObject
+    {
+        public bool Has(string key) => throw null;
+        public ObjectId Add(SymbolTableRecord record) => throw null;
     }
 
     public static class SymbolUtilityServices
@@ -252,6 +268,7 @@ namespace Autodesk.AutoCAD.DatabaseServices
     public class Database : DisposableWrapper
     {
         public UnitsValue Insunits => throw null;
+        public ObjectId LayerTableId => throw null;
         public TransactionManager TransactionManager => throw null;
         public bool TryGetObjectId(Handle handle, out ObjectId id) => throw null;
         public event ObjectEventHandler ObjectAppended;
@@ -290,8 +307,15 @@ namespace Autodesk.AutoCAD.EditorInput
         public string StringResult => throw null;
     }
 
+    public class PromptPointResult
+    {
+        public PromptStatus Status => throw null;
+        public Autodesk.AutoCAD.Geometry.Point3d Value => throw null;
+    }
+
     public class Editor
     {
+        public PromptPointResult GetPoint(string message) => throw null;
         public void WriteMessage(string message) => throw null;
         public PromptFileNameResult GetFileNameForSave(PromptSaveFileOptions options) => throw null;
         public ViewTableRecord GetCurrentView() => throw null;

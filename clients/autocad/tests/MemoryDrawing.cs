@@ -27,6 +27,13 @@ namespace Wedm.Tests
 
         public Entity Read(string handle) => _entities.FirstOrDefault(entity => entity.Key == handle).Value;
 
+        public string Draw(string layer, IReadOnlyList<Entity> entities, bool anew)
+        {
+            var old = _entities.Where(entity => anew && entity.Value.Layer == layer).Select(entity => new KeyValuePair<string, Entity>(entity.Key, null));
+            var fresh = entities.Select((entity, index) => new KeyValuePair<string, Entity>("new" + index, entity));
+            return Write(old.Concat(fresh).ToArray());
+        }
+
         public string Write(IReadOnlyList<KeyValuePair<string, Entity>> entities)
         {
             var next = _entities.ToList();

@@ -153,6 +153,103 @@ namespace Wedm.Tests
             StringAssert.EndsWith("DD\n", program);
         }
 
+        [TestCase("iso", "G92")]
+        [TestCase("4b", "B")]
+        public void Programs_are_made_in_other_formats(string format, string holds)
+        {
+            _session.Settings = JObject.Parse(@"{ ""side"": ""opening"" }");
+            var drawing = Open(new MemoryDrawing(Plates.WithFillet(2)));
+            var program = Outcome((done, refused) => _session.Generate(drawing, format, done, refused));
+            StringAssert.StartsWith("done: ", program);
+            StringAssert.Contains(holds, program);
+        }
+
+        [Test]
+        public void The_path_is_drawn_on_a_layer_of_its_own_that_is_no_part_of_the_drawing()
+        {
+            _session.Settings = JObject.Parse(@"{ ""side"": ""opening"" }");
+            var host = new MemoryDrawing(Plates.WithFillet(2));
+            var drawing = Open(host);
+            Func<string> draw = () => Outcome((done, refused) => _session.DrawPath(drawing, done, refused));
+            StringAssert.StartsWith("done: the wire's path is on the layer WEDM_PATH, cut ", draw());
+            Assert.AreEqual(1, host.StepsOfUndo);
+            Func<Entity[]> path = () => host.ReadAll().Where(entity => entity.Layer == "WEDM_PATH").ToArray();
+            var fillet = path().OfType<ArcEntity>().Single();
+            Assert.AreEqual(1.9, fillet.Radius, 1e-9);
+            Assert.AreEqual(18, fillet.Center[0], 1e-9);
+            Assert.AreEqual(90, Math.IEEERemainder(fillet.EndAngleDeg - fillet.StartAngleDeg, 360), 1e-6);
+            Assert.GreaterOrEqual(path().OfType<LineEntity>().Count(), 6);
+            // Nothing of it goes to the server, at once or with the whole drawing.
+            Assert.AreEqual(1, drawing.Version);
+            Assert.AreEqual(1, ((JArray)drawing.Whole()["entities"]).Count);
+            var before = path().Length;
+            _session.Settings = null;
+            StringAssert.StartsWith("done: ", draw());
+            Assert.AreEqual(before, path().Length, "it takes the place of the old one");
+        }
+
+        [Test]
+        public void Without_a_side_there_is_no_path_and_it_is_said_why()
+        {
+            var host = new MemoryDrawing(Plates.WithFillet(2));
+            var drawing = Open(host);
+            StringAssert.StartsWith("refused: side of contour", Outcome((done, refused) => _session.DrawPath(drawing, done, refused)));
+            Assert.AreEqual(0, host.StepsOfUndo);
+        }
+
+        [Test]
+        public void A_thread_hole_that_is_marked_is_where_the_wire_is_threaded()
+        {
+            _session.Settings = JObject.Parse(@"{ ""side"": ""opening"", ""program"": { ""startHole"": 2 } }");
+            var host = new MemoryDrawing(Plates.WithFillet(2));
+            var drawing = Open(host);
+            Assert.IsNull(_session.MarkHole(drawing, 8, 5));
+            Toolpath path = null;
+            _session.FindPath(drawing, found => path = found, Assert.Fail);
+            _session.Until(() => path != null, "the path");
+            var hole = path.Holes.Single();
+            CollectionAssert.AreEqual(new[] { 8.0, 5.0 }, hole.At);
+            Assert.IsTrue(hole.IsGiven);
+            Assert.AreEqual("drawing,x_mm,y_mm,diameter_mm,contour,hole\n\"a, b.dwg\",8.0000,5.0000,2,2A,given\n", path.DrillList("a, b.dwg"));
+            StringAssert.StartsWith("done: 1 start holes are on the layer START-HOLES", Outcome((done, refused) => _session.DrawHoles(drawing, done, refused)));
+            Assert.AreEqual(1.0, host.ReadAll().OfType<CircleEntity>().Single().Radius, 1e-9);
+            Assert.AreEqual(1, host.ReadAll().OfType<TextEntity>().Count(), "the mark takes the place of the one before");
+            _session.UntilChecked(drawing);
+            CollectionAssert.IsEmpty(Rules(drawing), "holes are drilled, not cut");
+        }
+
+        [TestCase(@"{ ""side"": ""opening"" }", "not known without these keys of wedm.toml: job.thickness, passes.rates, job.machine-rate, gap")]
+        [TestCase(@"{ ""side"": ""opening"", ""gap"": 0.01, ""job"": { ""thickness"": 40, ""machineRate"": 60 }, ""passes"": { ""rates"": [60] } }",
+            "minutes on the machine, cost ", "what drops out of contour 2A: ", "largest wire: ")]
+        public void What_it_comes_to_on_the_machine_is_said_with_the_keys_that_are_missing(string settings, params string[] holds)
+        {
+            _session.Settings = JObject.Parse(settings);
+            var drawing = Open(new MemoryDrawing(Plates.WithFillet(2)));
+            var figures = Outcome((done, refused) => _session.FindPath(drawing, path => done(path.Figures()), refused));
+            StringAssert.StartsWith("done: cut ", figures);
+            foreach (var words in holds)
+            {
+                StringAssert.Contains(words, figures);
+            }
+        }
+
+        [TestCase(@"{ ""wireDiameter"": 0.18, ""gap"": 0.01, ""pair"": { ""drawnAs"": ""punch"", ""clearance"": 0.005 } }", "done: the parts bind: ",
+            "0.0050 mm is asked for", "(entity 2A segment 3, the plate)")]
+        [TestCase("{}", "refused: ")]
+        public void Whether_punch_and_plate_fit_is_said_with_the_places_where_they_bind(string settings, string starts, params string[] holds)
+        {
+            _session.Settings = JObject.Parse(settings);
+            var drawing = Open(new MemoryDrawing(Plates.WithFillet(2)));
+            Fit fit = null;
+            var said = Outcome((done, refused) => _session.CheckFit(drawing, found => done((fit = found).InWords()), refused));
+            StringAssert.StartsWith(starts, said);
+            foreach (var words in holds)
+            {
+                StringAssert.Contains(words, said);
+            }
+            Assert.AreEqual(holds.Length > 0, fit != null && fit.Svg.StartsWith("<svg"));
+        }
+
         [Test]
         public void What_is_asked_before_the_server_has_greeted_is_answered_when_it_has()
         {
