@@ -1,6 +1,6 @@
 //! Which language a text is in whose name does not say it: programs come as `.txt`, `.cnc`, `.cmd` and `.eia`, too.
 
-use super::Language;
+use super::document::Language;
 
 /// Lines that are looked at: behind the header of a program there are blocks soon.
 const LINES: usize = 400;

@@ -1,7 +1,7 @@
 //! A program as its cuts: what the machine runs from one stop or rapid to the next, joined, to be drawn or written in another language.
 
-use super::Format;
 use super::document::Document;
+use super::format::Format;
 use super::iso;
 use super::path::{self, Kind, Step, tolerance};
 use super::three_b::StatedPoint;

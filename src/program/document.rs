@@ -111,7 +111,11 @@ impl Document {
     /// The fixes of one finding as edits of the text, the preferred one first. What would spoil the program is neither preferred nor
     /// made without asking.
     pub(crate) fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
-        gate::gated(self, finding, self.offered(finding))
+        let offered = self.offered(finding);
+        match self {
+            Document::ThreeB(document) => gate::gated(document, finding, offered),
+            Document::Iso(document) => gate::gated(&**document, finding, offered),
+        }
     }
 
     /// What the language has to offer.
@@ -133,7 +137,11 @@ impl Document {
                 .find(|fix| fix.preferred && fix.in_fix_all)?;
             Some((finding.rule, fix))
         };
-        let edits = gate::together(self, findings.iter().filter_map(safe).collect());
+        let fixes = findings.iter().filter_map(safe).collect();
+        let edits = match self {
+            Document::ThreeB(document) => gate::together(document, fixes),
+            Document::Iso(document) => gate::together(&**document, fixes),
+        };
         (!edits.is_empty()).then_some(edits)
     }
 

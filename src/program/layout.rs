@@ -1,6 +1,7 @@
 //! A program brought into a layout.
 
-use crate::program::{Document, iso, three_b};
+use crate::program::document::Document;
+use crate::program::{iso, three_b};
 use crate::settings::Effective;
 use crate::text::TextEdit;
 use std::ops::Range;

@@ -15,6 +15,7 @@ pub(crate) mod grid;
 pub mod iso;
 mod layout;
 pub mod path;
+mod profile;
 mod refactor;
 mod refactorings;
 mod repair;

@@ -1,7 +1,8 @@
 //! Refactorings of a program, whatever its language.
 
-use crate::program::Document;
-use crate::program::iso::refactor::{self as of_iso, Iso};
+use crate::program::document::Document;
+use crate::program::iso::refactor::Iso;
+use crate::program::profile;
 use crate::program::refactor::{self, Proposal, Sheet};
 use crate::program::three_b::refactor::ThreeB;
 use crate::settings::Effective;
@@ -19,7 +20,13 @@ pub fn refactorings(
         Document::ThreeB(program) => {
             refactor::proposals::<ThreeB>(program, settings, selection, &wanted)
         }
-        Document::Iso(program) => of_iso::proposals(program, settings, selection, &wanted),
+        Document::Iso(program) => {
+            let mut found = refactor::proposals::<Iso>(program, settings, selection, &wanted);
+            if wanted(profile::ID) {
+                found.extend(profile::proposals(document, settings));
+            }
+            found
+        }
     }
 }
 

@@ -22,6 +22,17 @@ pub(super) trait Report {
 
     fn worded(&self, kept: Self::Kept) -> Option<Finding>;
 
+    /// All findings, as the rules see them.
+    fn all(&self) -> Vec<Finding> {
+        let worded = |found: Found<Self::Kept>| self.worded(found.kept);
+        self.found().into_iter().filter_map(worded).collect()
+    }
+
+    /// Those without the blocks that are only suspected: what is wrong by itself, without a search for what is behind it.
+    fn plain(&self) -> Vec<Finding> {
+        self.all()
+    }
+
     /// At most `limit` findings, and how many there are in all.
     fn told(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
         let under = |found: Found<Self::Kept>| {

@@ -31,7 +31,7 @@ pub(crate) mod steps;
 mod stretch;
 pub(crate) mod style;
 mod table;
-mod taper;
+pub(in crate::program) mod taper;
 #[cfg(test)]
 mod tests;
 mod tilt;

@@ -17,6 +17,7 @@ use super::stretch::{Placed, Stretch};
 use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity, Side};
 use crate::geometry::cross;
 use crate::program::path::{HasCuts, tolerance};
+use crate::program::repair::gate::Tried;
 use crate::program::report::{self, Found, place_of};
 use crate::settings::SideSetting;
 use crate::text::SourceText;
@@ -145,6 +146,16 @@ impl report::Report for Document {
 
     fn worded(&self, kept: Finding) -> Option<Finding> {
         Some(kept)
+    }
+
+    fn plain(&self) -> Vec<Finding> {
+        self.plain_findings()
+    }
+}
+
+impl Tried for Document {
+    fn edit(&mut self, range: Range<usize>, replacement: &str) {
+        Document::edit(self, range, replacement);
     }
 }
 

@@ -7,10 +7,12 @@
 use super::keys::is_slip;
 use crate::finding::{Detail, Fault, Finding, FixKind, Rule, Severity, TextFix};
 use crate::geometry::{Arc, Segment};
-use crate::program::Document;
 use crate::program::path::Kind;
+use crate::program::report::Report;
+use crate::program::steps::{self, Program};
 use crate::text::TextEdit;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// Texts up to this length are tried with each repair for itself; longer ones with all that are to be made at once.
 const TRIED: usize = 64 << 10;
@@ -18,6 +20,12 @@ const TRIED: usize = 64 << 10;
 /// Repairs that are tried one by one where all of them together are refused; so many in a long text.
 const ONE_BY_ONE: usize = 32;
 const ONE_BY_ONE_OF_LONG: usize = 4;
+
+/// A program on which repairs can be tried.
+pub(in crate::program) trait Tried: Report + Program + Clone {
+    /// Replaces a range of bytes and reads again what it touched.
+    fn edit(&mut self, range: Range<usize>, replacement: &str);
+}
 
 /// What a program comes to, as far as a repair must not make it worse.
 #[derive(Clone, Debug, Default)]
@@ -31,11 +39,11 @@ pub(super) struct Standing {
 }
 
 impl Standing {
-    fn of(program: &Document) -> Standing {
-        Standing::with(program, &plain_findings(program))
+    fn of(program: &impl Tried) -> Standing {
+        Standing::with(program, &program.plain())
     }
 
-    fn with(program: &Document, findings: &[Finding]) -> Standing {
+    fn with(program: &impl Tried, findings: &[Finding]) -> Standing {
         let mut standing = Standing::default();
         let is_said = |finding: &&Finding| finding.severity <= Severity::Information;
         for finding in findings.iter().filter(is_said) {
@@ -45,7 +53,11 @@ impl Standing {
                 standing.gap += gap;
             }
         }
-        for step in program.trace().steps.iter().filter(|step| step.moves()) {
+        for step in steps::trace(program)
+            .steps
+            .iter()
+            .filter(|step| step.moves())
+        {
             let (arc, by) = (step.ideal.as_ref().and_then(Segment::as_arc), step.meant());
             standing.full_turns += usize::from(arc.is_some_and(Arc::is_full_turn));
             let sweep = arc.map_or(0.0, |arc| arc.sweep);
@@ -74,14 +86,6 @@ impl Standing {
     }
 }
 
-/// What is said of a program, without the blocks that are only suspected.
-fn plain_findings(program: &Document) -> Vec<Finding> {
-    match program {
-        Document::ThreeB(program) => program.findings(),
-        Document::Iso(program) => program.plain_findings(),
-    }
-}
-
 /// What a program comes to, and how often a finding is said of it.
 struct Judged {
     standing: Standing,
@@ -90,10 +94,10 @@ struct Judged {
 }
 
 impl Judged {
-    fn of(program: &Document, finding: &Finding) -> Judged {
-        let plain = plain_findings(program);
-        let alike = match (program, finding.rule) {
-            (Document::Iso(program), Rule::SuspectBlock) => alike(&program.findings(), finding),
+    fn of(program: &impl Tried, finding: &Finding) -> Judged {
+        let plain = program.plain();
+        let alike = match finding.rule {
+            Rule::SuspectBlock => alike(&program.all(), finding),
             _ => alike(&plain, finding),
         };
         Judged {
@@ -161,7 +165,7 @@ fn invents(kind: &FixKind) -> bool {
 const FEW: usize = 8;
 
 /// The program with edits made, which are sorted and disjoint.
-fn edited(program: &Document, edits: &[TextEdit]) -> Document {
+fn edited<P: Tried>(program: &P, edits: &[TextEdit]) -> P {
     let mut edited = program.clone();
     if let ([first, .., last], true) = (edits, edits.len() > FEW)
         && let Some(bytes) = crate::text::edited(program.text().bytes(), edits)
@@ -182,14 +186,14 @@ fn edited(program: &Document, edits: &[TextEdit]) -> Document {
     edited
 }
 
-fn is_by_a_slip(program: &Document, edits: &[TextEdit]) -> bool {
+fn is_by_a_slip(program: &impl Tried, edits: &[TextEdit]) -> bool {
     let found = |edit: &TextEdit| program.text().bytes().get(edit.range.clone());
     matches!(edits, [edit] if is_slip(found(edit).unwrap_or_default(), edit.text.as_bytes()))
 }
 
 /// The repairs of a finding for which it goes, those that pass the gate before those that do not, which are neither preferred nor made without asking.
 pub(in crate::program) fn gated(
-    program: &Document,
+    program: &impl Tried,
     finding: &Finding,
     mut fixes: Vec<TextFix>,
 ) -> Vec<TextFix> {
@@ -234,7 +238,7 @@ fn refuse(fix: &mut TextFix) {
 /// Those of the repairs that go together and leave the program no worse, as one sorted list of disjoint edits: all, or else one after
 /// another as far as they pass. At most one changes a line.
 pub(in crate::program) fn together(
-    program: &Document,
+    program: &impl Tried,
     fixes: Vec<(Rule, TextFix)>,
 ) -> Vec<TextEdit> {
     let mut taken = Taken::default();
@@ -281,7 +285,7 @@ struct Taken {
 
 impl Taken {
     /// Takes the edits of a repair where nothing else changes their lines; false where something does.
-    fn take(&mut self, program: &Document, edits: &[TextEdit]) -> bool {
+    fn take(&mut self, program: &impl Tried, edits: &[TextEdit]) -> bool {
         let text = program.text();
         let is_free = |edit: &TextEdit| {
             let before = self.edits.range(..=edit.range.end).next_back();

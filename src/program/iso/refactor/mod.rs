@@ -2,7 +2,6 @@
 
 mod centers;
 mod mode;
-mod profile;
 mod rows;
 #[cfg(test)]
 mod tests;
@@ -23,8 +22,7 @@ use crate::geometry::Arc;
 use crate::program::grid::{Node, best_center, snap};
 use crate::program::path::Trace;
 use crate::program::refactor::{
-    Change, Content, Contour, Notation, Proposal, Refactoring, Rewrite, Row, Sheet, Transform,
-    proposals as common,
+    Change, Content, Contour, Notation, Refactoring, Rewrite, Row, Sheet, Transform,
 };
 use crate::settings::Effective;
 use crate::text::TextEdit;
@@ -34,22 +32,6 @@ use write::Extra;
 
 /// ISO.
 pub(in crate::program) struct Iso;
-
-/// What can be done with a program at a selection of bytes; refactorings that would change nothing are left out.
-///
-/// `wanted` chooses by id.
-pub(in crate::program) fn proposals(
-    document: &Document,
-    settings: &Effective,
-    selection: Range<usize>,
-    wanted: &dyn Fn(&str) -> bool,
-) -> Vec<Proposal> {
-    let mut found = common::<Iso>(document, settings, selection, wanted);
-    if wanted(profile::ID) {
-        found.extend(profile::proposals(document, settings));
-    }
-    found
-}
 
 impl Notation for Iso {
     type Document = Document;

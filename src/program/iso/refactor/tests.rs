@@ -1,13 +1,15 @@
 //! Each refactoring leads where it says. The cursor is `|` in the text.
 
-use super::{Iso, proposals};
+use super::Iso;
 use crate::geometry::{Point, Segment};
+use crate::program;
 use crate::program::iso::document::Document;
 use crate::program::iso::numbers::renamed;
 use crate::program::refactor::{Proposal, Sheet, scaled};
 use crate::settings::Effective;
 use crate::text::{TextEdit, edited};
 use proptest::prelude::*;
+use std::ops::Range;
 
 fn read(text: &str) -> Document {
     Document::read(text.as_bytes().to_vec())
@@ -23,9 +25,16 @@ fn scaled_by(document: &Document, factor: f64) -> Result<Vec<TextEdit>, String> 
 fn proposed(text: &str, id: &str) -> Vec<Proposal> {
     let offset = text.find('|').unwrap_or(0);
     let document = read(&text.replacen('|', "", 1));
-    proposals(&document, &Effective::default(), offset..offset, &|its| {
-        its == id
-    })
+    proposals(document, offset..offset, &|its| its == id)
+}
+
+fn proposals(
+    document: Document,
+    selection: Range<usize>,
+    wanted: &dyn Fn(&str) -> bool,
+) -> Vec<Proposal> {
+    let program = program::Document::Iso(Box::new(document));
+    program::refactorings(&program, &Effective::default(), selection, wanted)
 }
 
 fn after(text: &str, id: &str) -> Result<String, String> {
@@ -453,7 +462,7 @@ proptest! {
         let text = text.repeat(copies);
         let document = read(&text);
         let start = start.min(text.len());
-        for proposal in proposals(&document, &Effective::default(), start..(start + length).min(text.len()), &|_| true) {
+        for proposal in proposals(document.clone(), start..(start + length).min(text.len()), &|_| true) {
             let Ok(edits) = proposal.edits else { continue };
             prop_assert!(edits.windows(2).all(|pair| pair[0].range.end <= pair[1].range.start), "{}: {edits:?}", proposal.id);
             prop_assert!(edits.iter().all(|edit| edit.range.start <= edit.range.end && edit.range.end <= text.len()), "{}", proposal.id);

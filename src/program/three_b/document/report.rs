@@ -5,8 +5,10 @@ use super::super::rules::{self, Counts};
 use super::super::stretch::Local;
 use super::{Cut, Document};
 use crate::finding::{Detail, Finding, Severity};
+use crate::program::repair::gate::Tried;
 use crate::program::report::{Found, Report, place_of};
 use crate::settings::SideSetting;
+use std::ops::Range;
 
 /// Where a finding is kept.
 #[derive(Clone, Copy, Debug)]
@@ -51,11 +53,16 @@ impl Report for Document {
     }
 }
 
+impl Tried for Document {
+    fn edit(&mut self, range: Range<usize>, replacement: &str) {
+        Document::edit(self, range, replacement);
+    }
+}
+
 impl Document {
     /// All findings as the reader and the rules see them, in no order.
     pub fn findings(&self) -> Vec<Finding> {
-        let worded = |found: Found<Kept>| self.worded(found.kept);
-        self.found().into_iter().filter_map(worded).collect()
+        self.all()
     }
 
     fn cut_of_local(&self, stretch: usize, local: &Local) -> Option<Cut> {

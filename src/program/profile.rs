@@ -1,11 +1,11 @@
-//! Write a program anew as a profile has it.
+//! Write an ISO program anew as a profile has it.
 
-use crate::program::convert::cuts;
-use crate::program::iso::document::Document;
-use crate::program::iso::taper::{Words, refuse_anywhere};
-use crate::program::iso::write::write;
-use crate::program::refactor::Proposal;
-use crate::program::{self, Format};
+use super::convert::cuts;
+use super::document::Document;
+use super::format::Format;
+use super::iso;
+use super::iso::taper::{Words, refuse_anywhere};
+use super::refactor::Proposal;
 use crate::settings::{Effective, Profile, shipped_profiles};
 use crate::text::TextEdit;
 
@@ -34,7 +34,7 @@ pub(super) fn proposals(document: &Document, settings: &Effective) -> Vec<Propos
                 profile: Ok(profile),
                 ..settings.clone()
             };
-            let written = write(&paths, 1e-3, &settings).map_err(|error| error.to_string())?;
+            let written = iso::write(&paths, 1e-3, &settings).map_err(|error| error.to_string())?;
             let whole = 0..document.text().len();
             let same = document.text().bytes() == written.text.as_bytes();
             Ok(if same {
@@ -58,11 +58,13 @@ fn paths(
     document: &Document,
     settings: &Effective,
 ) -> Result<Vec<crate::toolpath::WirePath>, String> {
-    let cuts = cuts(&program::Document::Iso(Box::new(document.clone())));
+    let cuts = cuts(document);
     if let Some(line) = cuts.lost.first() {
         return Err(say!(the_arc_of_a_line_leads_nowhere, line + 1));
     }
-    refuse_anywhere(document, Words::All)?;
+    if let Document::Iso(program) = document {
+        refuse_anywhere(program, Words::All)?;
+    }
     if let Some(reason) = cuts.refusal(Format::Iso, settings) {
         return Err(reason);
     }
