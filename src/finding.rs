@@ -1,6 +1,6 @@
 //! What a rule or a reader has found, as data: the rule, the place, the numbers.
 //!
-//! [`sentence`] makes of it what a person reads, the server its form in the protocol.
+//! [`sentence()`] makes of it what a person reads, the server its form in the protocol.
 
 mod aside;
 mod fault;

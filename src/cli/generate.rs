@@ -67,13 +67,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let findings = document.all_findings().to_vec();
     let made = match job::generate(&snapshot, findings, &wanted, &()) {
         Ok(made) => made,
-        Err(refusal) => {
-            let advice = |errors| {
-                let word = output::word(path);
-                say!(no_program_of_a_drawing_with, path.display(), errors, word)
-            };
-            return report::refuse(path, document, &refusal, advice);
-        }
+        Err(refusal) => return report::refuse_programs(path, document, &refusal),
     };
     output::write(arguments.output.as_deref(), made.program.text.as_bytes())?;
     // What is wrong with the drawing says `wedm check`; these are of the program.

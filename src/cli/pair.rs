@@ -61,13 +61,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     };
     let made = match job::pair(&snapshot, &document.all_findings(), &wanted, &()) {
         Ok(made) => made,
-        Err(refusal) => {
-            let advice = |errors| {
-                let word = output::word(path);
-                say!(no_program_of_a_drawing_with, path.display(), errors, word)
-            };
-            return report::refuse(path, document, &refusal, advice);
-        }
+        Err(refusal) => return report::refuse_programs(path, document, &refusal),
     };
     let folder = match (&arguments.output, path.parent()) {
         (Some(folder), _) => folder.clone(),

@@ -128,6 +128,17 @@ pub(crate) fn refuse(
     Ok(Verdict::Errors)
 }
 
+/// Why no program is made of a drawing.
+pub(crate) fn refuse_programs(
+    path: &Path,
+    document: &Document,
+    refusal: &Refusal,
+) -> Result<Verdict, Failure> {
+    let word = output::word(path);
+    let advice = |errors| say!(no_program_of_a_drawing_with, path.display(), errors, word);
+    refuse(path, document, refusal, advice)
+}
+
 /// One finding of a document.
 pub(crate) fn row(path: &Path, document: &Document, finding: &Finding) -> Row {
     let drawing = document.drawing();

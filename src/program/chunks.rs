@@ -13,7 +13,7 @@ use std::ops::{Deref, DerefMut, Range};
 const AT_ONCE: usize = 256;
 
 /// How a language reads its lines.
-pub(in crate::program) trait Language: Sync {
+pub(in crate::program) trait ChunkReader: Sync {
     /// What is in force between two lines; `()` where a line hangs on no other.
     type State: Copy + PartialEq;
     /// Lines of which is done what has to be done one after another.
@@ -102,7 +102,7 @@ impl<C> DerefMut for Chunks<C> {
 
 impl<C: Send> Chunks<C> {
     /// Reads some lines of a text as if they were the first ones.
-    pub(crate) fn read<L: Language<Chunk = C>>(
+    pub(crate) fn read<L: ChunkReader<Chunk = C>>(
         language: &L,
         text: &SourceText,
         lines: Range<usize>,
@@ -112,7 +112,7 @@ impl<C: Send> Chunks<C> {
     }
 
     /// Reads lines in another order than that of the text, perhaps more than once: a chunk for each range. Such a list cannot be edited.
-    pub(crate) fn read_in_order<L: Language<Chunk = C>>(
+    pub(crate) fn read_in_order<L: ChunkReader<Chunk = C>>(
         language: &L,
         text: &SourceText,
         order: &[Range<usize>],
@@ -122,7 +122,7 @@ impl<C: Send> Chunks<C> {
     }
 
     /// Replaces a range of bytes of the text and reads again what that touched.
-    pub(crate) fn edit<L: Language<Chunk = C>>(
+    pub(crate) fn edit<L: ChunkReader<Chunk = C>>(
         &mut self,
         language: &L,
         text: &mut SourceText,
@@ -207,13 +207,13 @@ impl<C> Chunks<C> {
 }
 
 /// Lines in ranges of as many as a chunk holds.
-fn pieces<L: Language>(lines: Range<usize>) -> impl Iterator<Item = Range<usize>> {
+fn pieces<L: ChunkReader>(lines: Range<usize>) -> impl Iterator<Item = Range<usize>> {
     let pieces = (lines.len() / L::LINES).max(1);
     let at = move |piece: usize| lines.start + lines.len() * piece / pieces;
     (0..pieces).map(move |piece| at(piece)..at(piece + 1))
 }
 
-fn read<L: Language>(
+fn read<L: ChunkReader>(
     language: &L,
     text: &SourceText,
     mut pieces: impl Iterator<Item = Range<usize>>,

@@ -2,7 +2,7 @@
 
 use super::machine::{Machine, Reading, apart};
 use super::stretch::{Pathless, Stretch};
-use crate::program::chunks::Language;
+use crate::program::chunks::ChunkReader;
 use crate::text::SourceText;
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ pub(super) struct Control {
     pub(crate) reading: Reading,
 }
 
-impl Language for Control {
+impl ChunkReader for Control {
     type State = Machine;
     type Begun = Pathless;
     type Chunk = Stretch;

@@ -11,7 +11,7 @@ use super::part::Hears;
 use super::read::words_of;
 use super::repair::found::Repairs;
 use super::stretch::{Placed, StopAt, Stretch};
-use crate::program::chunks::{Chunks, Language};
+use crate::program::chunks::{ChunkReader, Chunks};
 use crate::program::path::{Found, Known};
 use crate::settings::Effective;
 use crate::text::SourceText;

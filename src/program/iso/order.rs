@@ -2,7 +2,7 @@
 
 use super::block::{Block, Stop};
 use super::control::Control;
-use crate::program::chunks::Language;
+use crate::program::chunks::ChunkReader;
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;

@@ -9,7 +9,7 @@ use super::part::Part;
 use super::read::words_of;
 use super::stretch::Stretch;
 use crate::geometry::{Point, Segment};
-use crate::program::chunks::Language;
+use crate::program::chunks::ChunkReader;
 use crate::program::path::{Kind, Step, Trace, Writing};
 use crate::program::steps::{self, Program, Sum};
 use crate::text::SourceText;

@@ -19,7 +19,7 @@ use super::stretch::{Stretch, Sum};
 use super::words::Words;
 use crate::finding::Finding;
 use crate::geometry::Point;
-use crate::program::chunks::{Chunks, Language};
+use crate::program::chunks::{ChunkReader, Chunks};
 use crate::program::path::Known;
 use crate::settings::Effective;
 use crate::text::SourceText;
@@ -202,7 +202,7 @@ struct Reader<'a> {
     limits: &'a Limits,
 }
 
-impl Language for Reader<'_> {
+impl ChunkReader for Reader<'_> {
     type State = ();
     type Begun = Range<usize>;
     type Chunk = Stretch;
