@@ -814,6 +814,136 @@ fn a_file_is_known_by_what_stands_in_it_where_its_name_does_not_say_it() {
     assert_eq!(Ended::of(command.output().unwrap()).code, Some(0));
 }
 
+/// What the words of a command are refused with, too; not a word of clap's own is left.
+#[test]
+fn what_is_refused_is_said_in_chinese_where_that_is_spoken() {
+    let desk = Desk::new();
+    for (arguments, texts) in [
+        (
+            "check --corection 1",
+            [
+                "没有 '--corection' 这个选项",
+                "是否想写：--correction",
+                "用法：wedm check",
+            ],
+        ),
+        (
+            "chek",
+            ["没有 'chek' 这个命令", "是否想写：check", "用法：wedm"],
+        ),
+        (
+            "check --output foo",
+            [
+                "'--output <OUTPUT>' 的值 'foo' 无效",
+                "可选：text, concise",
+                "详见 '--help'。",
+            ],
+        ),
+        (
+            "check --select smal-radius",
+            [
+                "的值 'smal-radius' 无效",
+                "是否想写：small-radius",
+                "错误：",
+            ],
+        ),
+        (
+            "check --correction",
+            [
+                "'--correction <MM>' 需要一个值",
+                "详见 '--help'。",
+                "错误：",
+            ],
+        ),
+        (
+            "check --correction=x",
+            [
+                "'--correction <MM>' 的值 'x' 无效：",
+                "详见 '--help'。",
+                "错误：",
+            ],
+        ),
+        (
+            "draw",
+            ["缺少必需的参数：", "用法：wedm draw", "详见 '--help'。"],
+        ),
+        (
+            "fix tight.dxf --in-place --diff",
+            ["不能与", "同时使用", "用法：wedm fix"],
+        ),
+        (
+            "draw tight.dxf two.dxf",
+            ["'two.dxf'", "用法：wedm draw", "详见 '--help'。"],
+        ),
+    ] {
+        let ended = desk.run(&format!("--lang zh {arguments}"));
+        assert_eq!(ended.code, Some(2), "{arguments}: {ended:?}");
+        for text in texts {
+            assert!(
+                ended.stderr.contains(text),
+                "{arguments}: no {text} in {}",
+                ended.stderr
+            );
+        }
+        for english in [
+            "error:", "Usage:", "tip:", "For more", "similar", "possible", "{",
+        ] {
+            assert!(
+                !ended.stderr.contains(english),
+                "{arguments}: {english} in {}",
+                ended.stderr
+            );
+        }
+        check(&desk, arguments, 2, &["!error:"]);
+    }
+}
+
+/// What can be repaired is told with what is said; where some rules alone are asked about, nothing is known of it.
+#[test]
+fn the_way_to_a_repair_is_told_where_all_rules_are_asked() {
+    let desk = Desk::new();
+    check(
+        &desk,
+        "check tight.dxf",
+        1,
+        &["wedm fix tight.dxf --in-place"],
+    );
+    for arguments in [
+        "check tight.dxf --ignore small-radius",
+        "check tight.dxf --select gap",
+    ] {
+        let ended = desk.run(arguments);
+        assert_eq!(ended.code, Some(0));
+        assert_eq!(
+            ended.stdout, "1 file checked: nothing found\n",
+            "{arguments}"
+        );
+    }
+}
+
+/// A small part in the program of each profile: its numbers are millimetres, as they are written.
+#[test]
+fn programs_of_small_parts_are_not_taken_for_inches() {
+    let desk = Desk::new();
+    let fillet = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures/fillet.dxf");
+    desk.write("small.dxf", std::fs::read(fillet).unwrap());
+    assert_eq!(
+        desk.run("fix small.dxf --in-place --side opening").code,
+        Some(0)
+    );
+    for profile in ["robofil", "fast-wire", "generic"] {
+        for compensation in ["path", "controller"] {
+            let name = format!("{profile}-{compensation}.iso");
+            let generate = format!(
+                "generate small.dxf --side opening --format iso --profile {profile} --compensation {compensation} -o {name}"
+            );
+            assert_eq!(desk.run(&generate).code, Some(0), "{generate}");
+            let checked = desk.run(&format!("check {name} --output concise"));
+            assert!(!checked.stdout.contains("[units]"), "{}", checked.stdout);
+        }
+    }
+}
+
 /// The help speaks the language that is asked for; what is typed stays.
 #[test]
 fn the_help_is_in_chinese_where_that_is_spoken() {

@@ -928,6 +928,65 @@ fn what_is_below_the_resolution_is_not_said() {
     assert_eq!(said(&drawing, 1.0, Rule::SmallRadius), 1);
 }
 
+/// Ends that miss each other by less than anybody can measure change nothing of what is said of the outline: at corners of both kinds, in
+/// drawings of mm and of inches, wherever they lie.
+#[test]
+fn ends_that_are_off_by_less_than_the_resolution_are_no_fault() {
+    let outline = closed(&[
+        (0.0, 0.0, 0.0),
+        (57.15, 0.0, 0.0),
+        (57.15, 20.0, 0.0),
+        (40.0, 32.0, 0.0),
+        (40.0, 63.5, 0.0),
+        (57.15, 63.5, 0.0),
+        (57.15, 76.2, 0.414_213_562_373_095),
+        (44.45, 88.9, 0.0),
+        (0.0, 88.9, 0.0),
+    ]);
+    // Corners are sharp, whatever meets in them.
+    let loud = |drawing: &Drawing| {
+        let mut analysis = Analysis::new(drawing, saying_from(0.001));
+        let found = analysis.findings(drawing, usize::MAX).0;
+        found
+            .into_iter()
+            .filter(|found| found.severity <= Severity::Warning && found.rule != Rule::SharpCorner)
+            .map(|found| (found.rule, format!("{:?}", found.detail)))
+            .collect::<Vec<_>>()
+    };
+    let mut seed = 7_u64;
+    let mut chance = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    for (unit, scale) in [(Unit::MILLIMETRE, 1.0), (Unit::INCH, 25.4)] {
+        for off_mm in [0.0, 1e-14, 1e-9, 4e-7, 4e-5, 8e-4] {
+            for role in [None, Some(Role::Opening), Some(Role::Punch)] {
+                let mut drawing = Drawing::new(Some(unit));
+                for segment in outline.geometry().segments() {
+                    let [mut start, mut end] =
+                        [segment.start(), segment.end()].map(|point| point / scale);
+                    for point in [&mut start, &mut end] {
+                        point.x += chance() * off_mm / scale;
+                        point.y += chance() * off_mm / scale;
+                    }
+                    let bulge = match segment {
+                        Segment::Line(_) => 0.0,
+                        Segment::Arc(arc) => (arc.sweep / 4.0).tan(),
+                    };
+                    let vertices = vec![
+                        Vertex::new(start.x, start.y, bulge),
+                        Vertex::new(end.x, end.y, 0.0),
+                    ];
+                    let closed = false;
+                    drawing.push(entity(Geometry::Polyline { closed, vertices }, role));
+                }
+                let said = loud(&drawing);
+                assert!(said.is_empty(), "{unit:?} {off_mm} {role:?}: {said:?}");
+            }
+        }
+    }
+}
+
 /// Three entities in one place are one finding, whose fix leaves the first.
 #[test]
 fn what_lies_in_one_place_is_one_finding() {

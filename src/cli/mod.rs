@@ -184,18 +184,13 @@ pub fn run() -> ExitCode {
             let code = output::print(shown).map_or(Verdict::Failed, |()| Verdict::Clean);
             std::process::exit(code.code().into());
         }
+        let translated = translated::refusal(&error).filter(|_| error.use_stderr());
         // Words that stand in the message may be names of files that a shell has put there.
-        if std::env::args_os().any(|word| word.to_string_lossy().contains(is_hidden))
-            && error.use_stderr()
-        {
-            output::say(
-                &error
-                    .to_string()
-                    .lines()
-                    .map(readable)
-                    .collect::<Vec<_>>()
-                    .join("\n"),
-            );
+        let has_hidden = std::env::args_os().any(|word| word.to_string_lossy().contains(is_hidden));
+        if translated.is_some() || (has_hidden && error.use_stderr()) {
+            let text = translated.unwrap_or_else(|| error.to_string());
+            let lines: Vec<_> = text.trim_end().lines().map(readable).collect();
+            output::say(&(lines.join("\n") + "\n"));
             std::process::exit(Verdict::Failed.code().into());
         }
         error.exit()

@@ -2,7 +2,9 @@
 
 use super::options::{row_of_option, shown_default};
 use crate::message::help;
-use clap::{Arg, Command};
+use clap::error::ContextKind;
+use clap::{Arg, Command, Error};
+use std::error::Error as _;
 
 /// The command with its help in the language that is spoken.
 pub(super) fn translated(mut command: Command) -> Command {
@@ -64,6 +66,43 @@ fn translate_argument(command: &str, argument: Arg) -> Arg {
         Some(text) => argument.long_help(None::<&str>).help(text),
         None => argument,
     }
+}
+
+/// What is wrong with the words that the process was called with; `None` in the language that clap speaks by itself.
+pub(super) fn refusal(error: &Error) -> Option<String> {
+    let value = |kind| error.get(kind).map(ToString::to_string);
+    let row = match value(ContextKind::InvalidValue) {
+        Some(none) if none.is_empty() => "NoValue".to_owned(),
+        _ => format!("{:?}", error.kind()),
+    };
+    let mut sentence = help(&format!("refused {row}"))?.to_owned();
+    for (kind, value) in error.context() {
+        sentence = sentence.replace(&format!("{{{kind:?}}}"), &value.to_string());
+    }
+    let source = error.source().map_or_else(String::new, ToString::to_string);
+    let mut text = format!(
+        "{}{}",
+        help("refused")?,
+        sentence.replace("{source}", &source)
+    );
+    for kind in [
+        ContextKind::ValidValue,
+        ContextKind::ValidSubcommand,
+        ContextKind::SuggestedArg,
+        ContextKind::SuggestedSubcommand,
+        ContextKind::SuggestedValue,
+    ] {
+        if let (Some(heading), Some(value)) = (help(&format!("refused {kind:?}")), value(kind))
+            && !value.is_empty()
+        {
+            text += &format!("\n  {heading}{value}");
+        }
+    }
+    if let Some(usage) = value(ContextKind::Usage) {
+        let usage = usage.trim_start_matches("Usage:").trim();
+        text += &format!("\n\n{}{usage}", help("heading Usage")?);
+    }
+    Some(format!("{text}\n\n{}", help("refused-more")?))
 }
 
 #[cfg(test)]

@@ -137,12 +137,12 @@ const HELP: &[(&str, &str)] = &[
     ("inspect handle", "只列此图元"),
     (
         "draw",
-        "把图形的轮廓、问题和切割路线，或程序的路线画成 SVG；轮廓和切割路线也可画成 DXF",
+        "把图形的轮廓、问题和切割路线，或程序的路线画成 SVG、PNG 或 PDF；轮廓和切割路线也可画成 DXF",
     ),
     ("draw path", "图形或程序"),
     (
         "draw output",
-        "图片写到这里（.svg 或 .dxf）[默认：SVG，写到标准输出]",
+        "图片写到这里（.svg、.png、.pdf 或 .dxf）[默认：SVG，写到标准输出]",
     ),
     (
         "contours",
@@ -174,7 +174,7 @@ const HELP: &[(&str, &str)] = &[
     ("simulate feed", "切割速度，用来算时间"),
     (
         "report",
-        "每个图形写一页，并有索引：图片、轮廓、半径列表、问题、程序",
+        "每个图形写一页，并有索引：图片、轮廓、半径列表、问题、各次切割、时间、钻孔列表、配合、程序",
     ),
     (
         "report/",
@@ -207,7 +207,7 @@ const HELP: &[(&str, &str)] = &[
     ("demo", "用自带的图形与真实的服务器演示全过程"),
     (
         "demo/",
-        "打开凹模板图形，像设计员一样修改，显示每个诊断，采用修复，取得 3B 程序，重新解码，写出 demo.dxf、demo.3b 和 demo.svg。所说的全部属实才以 0 结束。",
+        "打开凹模板图形，像设计员一样修改，显示每个诊断，采用修复，取得 3B 程序，重新解码，写出 demo.dxf、demo.3b、demo.svg 和 wedm.toml。所说的全部属实才以 0 结束。",
     ),
     ("demo folder", "文件写到此文件夹"),
     (
@@ -240,6 +240,50 @@ const HELP: &[(&str, &str)] = &[
         "lang",
         "所有语句的语言 [默认：LC_ALL、LC_MESSAGES 或 LANG 的，否则 en]",
     ),
+    ("refused", "错误："),
+    (
+        "refused UnknownArgument",
+        "没有 '{InvalidArg}' 这个选项或参数",
+    ),
+    (
+        "refused InvalidSubcommand",
+        "没有 '{InvalidSubcommand}' 这个命令",
+    ),
+    (
+        "refused InvalidValue",
+        "'{InvalidArg}' 的值 '{InvalidValue}' 无效",
+    ),
+    ("refused NoValue", "'{InvalidArg}' 需要一个值"),
+    (
+        "refused ValueValidation",
+        "'{InvalidArg}' 的值 '{InvalidValue}' 无效：{source}",
+    ),
+    (
+        "refused MissingRequiredArgument",
+        "缺少必需的参数：{InvalidArg}",
+    ),
+    (
+        "refused ArgumentConflict",
+        "'{InvalidArg}' 不能与 {PriorArg} 同时使用",
+    ),
+    (
+        "refused TooManyValues",
+        "'{InvalidArg}' 的值 '{InvalidValue}' 多余",
+    ),
+    (
+        "refused TooFewValues",
+        "'{InvalidArg}' 需要 {MinValues} 个值，只给了 {ActualNumValues} 个",
+    ),
+    (
+        "refused WrongNumberOfValues",
+        "'{InvalidArg}' 需要 {ExpectedNumValues} 个值，给了 {ActualNumValues} 个",
+    ),
+    ("refused ValidValue", "可选："),
+    ("refused ValidSubcommand", "命令："),
+    ("refused SuggestedArg", "是否想写："),
+    ("refused SuggestedSubcommand", "是否想写："),
+    ("refused SuggestedValue", "是否想写："),
+    ("refused-more", "详见 '--help'。"),
     ("heading Settings", "设置"),
     ("heading Program", "程序"),
     ("heading Words", "代码"),

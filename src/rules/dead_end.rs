@@ -165,6 +165,7 @@ impl DeadEnd {
             steps,
         };
         match end.joints().count() {
+            _ if end.is_at_one_joint(outlook) => None,
             0 => None,
             1 => (end.is_between_tips()
                 && end
@@ -185,6 +186,23 @@ impl DeadEnd {
     fn segments(&self) -> impl Iterator<Item = isize> + use<> {
         let from = self.from.index as isize;
         from + isize::from(!self.from.at_vertex)..from + self.steps as isize
+    }
+
+    /// True where both places are the one corner that the contour turns away in, and all of the contour seems to lie beyond it: ends that
+    /// miss each other by g let the disc touch the wall before the corner up to √(2 g r) from it.
+    fn is_at_one_joint(&self, outlook: &Outlook) -> bool {
+        let before = (self.from.index + outlook.contour.len() - 1) % outlook.contour.len();
+        if self.steps == 0 || !self.from.at_vertex || self.to.index != before {
+            return false;
+        }
+        let [Some(before), Some(behind)] =
+            [before, self.from.index].map(|index| outlook.segment(index as isize))
+        else {
+            return false;
+        };
+        let gap = (behind.geometry.start() - before.geometry.end()).norm();
+        let apart = self.radius * (self.from.normal - self.to.normal).norm();
+        apart * apart <= 8.0 * self.radius * (gap + slack(outlook.limits, self.radius))
     }
 
     fn is_between_tips(&self) -> bool {

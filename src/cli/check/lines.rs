@@ -37,21 +37,21 @@ fn told(row: &Row) -> String {
         style,
         format!("{}[{}]", name(row.severity), row.rule.name()),
     );
+    format!("{}:{}: {head}: {}\n", row.line, row.column, said(row))
+}
+
+/// The sentence, where that is, what else it concerns, and why it is let stand.
+fn said(row: &Row) -> String {
     let others = row.related.iter().map(|related| related.message.clone());
-    let places: Vec<String> = row.whereabouts().into_iter().chain(others).collect();
     let reason = row
         .suppressed
         .iter()
         .map(|reason| say!(suppressed_since, readable(reason)));
-    let places: Vec<String> = places.into_iter().chain(reason).collect();
-    let place = match places.join("; ") {
-        none if none.is_empty() => none,
-        places => format!(" ({places})"),
-    };
-    format!(
-        "{}:{}: {head}: {}{place}\n",
-        row.line, row.column, row.message
-    )
+    let places = row.whereabouts().into_iter().chain(others).chain(reason);
+    match places.collect::<Vec<_>>().join("; ") {
+        none if none.is_empty() => row.message.clone(),
+        places => format!("{} ({places})", row.message),
+    }
 }
 
 /// How often each rule speaks, most often first.
@@ -101,7 +101,7 @@ pub(super) fn github(survey: &Survey) -> String {
             row.column,
             row.end_column,
             row.rule.name(),
-            escaped(&row.message, false)
+            escaped(&said(row), false)
         )
     };
     survey.rows.iter().map(of_row).collect()
@@ -138,7 +138,7 @@ pub(super) fn junit(survey: &Survey) -> String {
                 "    <testcase classname=\"{path}\" name=\"{rule}\" line=\"{}\" column=\"{}\"><failure type=\"{severity}\" message=\"{}\"/></testcase>",
                 row.line,
                 row.column,
-                xml(&row.message)
+                xml(&said(row))
             );
         }
         text.push_str("  </testsuite>\n");

@@ -78,6 +78,11 @@ impl Arguments {
         }
     }
 
+    /// True where some rules alone are asked about: `wedm fix` goes by all of them.
+    fn is_choosy(&self) -> bool {
+        !self.select.is_empty() || !self.ignore.is_empty()
+    }
+
     /// True for a rule that is asked about. That a file could not be judged is no answer to leave out unasked.
     fn wants(&self, rule: Rule) -> bool {
         let always = [Rule::Syntax, Rule::Settings, Rule::NotJudged, Rule::More];
@@ -245,8 +250,8 @@ fn check(path: &Path, arguments: &Arguments, settings: &Settings, folders: &Fold
             Checked {
                 rows,
                 suppressed: super::report::suppressed(name, &document),
-                // What came on stdin is in no file that could be repaired.
-                fixable: !stdin && document.can_be_fixed(),
+                // What came on stdin is in no file that could be repaired, and what is not asked about is not spoken of.
+                fixable: !stdin && !arguments.is_choosy() && document.can_be_fixed(),
                 failure: None,
                 docs_url: document.settings().docs_url.clone(),
             }

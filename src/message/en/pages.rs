@@ -41,7 +41,7 @@ declare! {
     column_left => "µm left";
     column_part => "part";
     the_cut_is_long(length) => "cut: {length:.3} mm";
-    the_jumps_are_long(length) => "ways between contours: {length:.3} mm";
+    the_jumps_are_long(length) => "jumps: {length:.3} mm";
     cut_off_in_pass(pass) => "cut-off, pass {pass}";
     a_program_and_its_proof(language, blocks, contours, length, deviation) => "{language}: {blocks}, {contours}, {length}; decoded again, at most {deviation:.2} µm from the path";
     its_text => "text";

@@ -41,7 +41,7 @@ translate! {
     column_left => "剩余 µm";
     column_part => "零件";
     the_cut_is_long(length) => "切割：{length:.3} mm";
-    the_jumps_are_long(length) => "轮廓之间空走：{length:.3} mm";
+    the_jumps_are_long(length) => "空走：{length:.3} mm";
     cut_off_in_pass(pass) => "切断，第 {pass} 次";
     a_program_and_its_proof(language, blocks, contours, length, deviation) => "{language}：{blocks}，{contours}，{length}；反解校核，偏离路线不超过 {deviation:.2} µm";
     its_text => "程序文本";

@@ -265,7 +265,10 @@ impl Report<'_> {
     /// `size` in mm.
     fn speaks_for_inches(&self, size: f64) -> bool {
         let evidence = self.document.evidence();
-        if evidence.says_unit || evidence.with_point == 0 || self.limits.has_unit {
+        // Every number to the thousandth is how millimetres are written; of inches that would be 25 µm.
+        let has_micrometres = evidence.places[3] == evidence.with_point;
+        let is_said = evidence.says_unit || self.limits.has_unit;
+        if is_said || evidence.with_point == 0 || has_micrometres {
             return false;
         }
         // No wire is as thin as the corrections that the program fills in, or its numbers are as fine as those in inches are.
