@@ -14,6 +14,7 @@ use crate::drawing::EntityId;
 use crate::geometry::Segment;
 use crate::settings::{Compensation, Corner, Effective, LengthSetting};
 use std::ops::Range;
+use std::rc::Rc;
 use std::sync::Arc;
 
 pub use super::walk::Kind as DifferenceKind;
@@ -45,21 +46,42 @@ pub struct Comparison {
 const OTHER: f64 = 0.34;
 /// As many differences as this are one change each, whatever their share.
 const FEW: usize = 6;
-/// Several blocks that are off by no more are how a program was rounded, µm: short arcs of 3B end where the machine's counting lets them.
-const ROUNDINGS: f64 = 4.0;
+/// So many blocks have to be as we write them for each that is not: it is a change then, and not another writer's rounding.
+const OWN: usize = 8;
 /// Corrections that are found for further passes, at most.
 const FURTHER: usize = 4;
 
 /// Holds a program against a drawing; `None` where it follows nothing of it.
+///
+/// A program that is ours is known block by block, and so is a change of 3 µm in it; one of another writer has room for its roundings.
 pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     if traced.is_empty() || drawn.contours.is_empty() {
         return None;
     }
     let courses = courses(&drawn.settings, traced);
-    let mut best = try_with(drawn, traced, &courses);
+    let own = try_with(drawn, traced, &courses, true);
+    if own.is_clean() {
+        return own.told(traced);
+    }
+    let near = nearest(drawn, traced, &courses);
+    let own = near.exactly(drawn, traced).or_better(|| own);
+    let own = if own.unlike.len() <= 2 * FEW {
+        own.surely(traced)
+    } else {
+        own
+    };
+    if own.is_own() {
+        return own.told(traced);
+    }
+    near.surely(traced).told(traced)
+}
+
+/// The way of laying a program on its drawing that explains it best, with room for roundings.
+fn nearest(drawn: &Drawn, traced: &Traced, courses: &[Course]) -> Tried {
+    let mut best = try_with(drawn, traced, courses, false);
     if !best.is_clean() {
         let other = with_other_corner(drawn);
-        best = best.or_better(|| try_with(&other, traced, &courses));
+        best = best.or_better(|| try_with(&other, traced, courses, false));
     }
     if !best.is_sound(traced) {
         let blocks = longest_cut(traced);
@@ -72,13 +94,13 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
             wanted.push(vec![Course::Beside(mm)]);
         }
         for courses in wanted {
-            best = best.or_better(|| try_with(drawn, traced, &courses));
+            best = best.or_better(|| try_with(drawn, traced, &courses, false));
             if best.is_clean() {
                 break;
             }
         }
     }
-    best.surely(traced).told(traced)
+    best
 }
 
 fn courses(settings: &Effective, traced: &Traced) -> Vec<Course> {
@@ -113,19 +135,32 @@ struct Tried {
     /// Blocks that follow.
     followed: usize,
     follows: Vec<usize>,
-    laid: Option<(Rounds, Pose)>,
+    laid: Option<(Rc<Rounds>, Pose)>,
 }
 
-fn try_with(drawn: &Drawn, traced: &Traced, courses: &[Course]) -> Tried {
+/// `exact`: by what our own writers make of the drawing.
+fn try_with(drawn: &Drawn, traced: &Traced, courses: &[Course], exact: bool) -> Tried {
     let mut rounds = Rounds::default();
     rounds.add(drawn, courses, None);
-    let Some(pose) = anchor(traced, &rounds) else {
-        return Tried::nothing();
-    };
-    let tabs: Vec<f64> = match &drawn.settings.tab {
-        LengthSetting::One(tab) => vec![tab * 1e3],
-        LengthSetting::ByHandle(tabs) => tabs.values().map(|tab| tab * 1e3).collect(),
-    };
+    let pose = anchor(traced, &rounds).and_then(|pose| match exact {
+        true => pose.exactly(),
+        false => Some(pose),
+    });
+    match pose {
+        Some(pose) => along(drawn, traced, courses, rounds, pose),
+        None => Tried::nothing(),
+    }
+}
+
+/// Goes along the rounds that are laid, and along those of further corrections.
+fn along(
+    drawn: &Drawn,
+    traced: &Traced,
+    courses: &[Course],
+    mut rounds: Rounds,
+    pose: Pose,
+) -> Tried {
+    let tabs = tabs(drawn);
     let mut walked = Walk::new(traced, &rounds, pose).go(&tabs);
     let mut foreign = foreign(traced, &walked);
     // A pass at a correction that the settings do not have.
@@ -164,18 +199,14 @@ fn try_with(drawn: &Drawn, traced: &Traced, courses: &[Course]) -> Tried {
         }
         (walked, foreign) = (again, left);
     }
-    // The writer of 4B and we may round its transitions otherwise.
-    walked
-        .unlike
-        .retain(|unlike| !traced.four_b || unlike.kind != Kind::Block || unlike.off > TOLERANCE);
-    let followed = walked.runs.iter().filter(|runs| **runs).count();
-    let mut unlike = walked.unlike;
-    followed_or_named(&mut unlike, &foreign);
-    Tried {
-        unlike,
-        followed,
-        follows: walked.follows,
-        laid: Some((rounds, pose)),
+    Tried::of(traced, walked, &foreign, (Rc::new(rounds), pose))
+}
+
+/// What may be left standing, µm.
+fn tabs(drawn: &Drawn) -> Vec<f64> {
+    match &drawn.settings.tab {
+        LengthSetting::One(tab) => vec![tab * 1e3],
+        LengthSetting::ByHandle(tabs) => tabs.values().map(|tab| tab * 1e3).collect(),
     }
 }
 
@@ -251,6 +282,46 @@ impl Tried {
         }
     }
 
+    fn of(
+        traced: &Traced,
+        mut walked: Walked,
+        foreign: &[Range<usize>],
+        laid: (Rc<Rounds>, Pose),
+    ) -> Tried {
+        // Another writer of 4B may round its transitions otherwise.
+        let is_loose = traced.four_b && !laid.1.is_exact();
+        walked
+            .unlike
+            .retain(|unlike| !is_loose || unlike.kind != Kind::Block || unlike.off > TOLERANCE);
+        let mut unlike = walked.unlike;
+        followed_or_named(&mut unlike, foreign);
+        Tried {
+            unlike,
+            followed: walked.runs.iter().filter(|runs| **runs).count(),
+            follows: walked.follows,
+            laid: Some(laid),
+        }
+    }
+
+    /// The same program by what our own writers make of the drawing.
+    fn exactly(&self, drawn: &Drawn, traced: &Traced) -> Tried {
+        let laid = self.laid.as_ref();
+        let laid = laid.and_then(|(rounds, pose)| Some((rounds.clone(), pose.exactly()?)));
+        let Some((rounds, pose)) = laid else {
+            return Tried::nothing();
+        };
+        let walked = Walk::new(traced, &rounds, pose).go(&tabs(drawn));
+        let foreign = foreign(traced, &walked);
+        Tried::of(traced, walked, &foreign, (rounds, pose))
+    }
+
+    /// It is as we write it, but for what somebody has changed.
+    fn is_own(&self) -> bool {
+        let unlike = self.unlike.len();
+        let own = if unlike > 2 { 4 * OWN } else { OWN };
+        self.followed > 0 && self.followed >= own * unlike
+    }
+
     /// What a walk has named need not be so: perhaps all of it follows, or all but one block.
     fn surely(mut self, traced: &Traced) -> Tried {
         let Some((rounds, pose)) = self.laid.take().filter(|_| !self.unlike.is_empty()) else {
@@ -297,13 +368,9 @@ impl Tried {
         }
     }
 
-    fn told(mut self, traced: &Traced) -> Option<Comparison> {
+    fn told(self, traced: &Traced) -> Option<Comparison> {
         if !self.is_sound(traced) {
             return None;
-        }
-        let is_small = |unlike: &Unlike| unlike.kind == Kind::Block && unlike.off <= ROUNDINGS;
-        if self.unlike.iter().filter(|unlike| is_small(unlike)).count() > 1 {
-            self.unlike.retain(|unlike| !is_small(unlike));
         }
         let differences = self.unlike.into_iter().map(|unlike| {
             let block = &traced.blocks[unlike.block];

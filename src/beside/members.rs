@@ -80,6 +80,9 @@ impl Members {
                 self.left = Some(spot);
                 self.away = 0;
             }
+            if traced.counts && segment.as_arc().is_some() {
+                self.pose = self.pose.behind_arcs();
+            }
             self.entry = None;
             self.away += 1;
             self.is_broken |= self.away > BETWEEN;

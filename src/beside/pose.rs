@@ -14,11 +14,12 @@ pub(super) struct Pose {
     pub shift: Vector,
     /// The shift is of whole µm, and so are the program's nodes.
     pub on_grid: bool,
+    /// Blocks are held against what our own writers make of the drawing, not against it with room for the roundings of others.
+    exact: bool,
     /// What is added to the program's places: from where a chain of its blocks leads to the node that is meant.
     lag: Vector,
-    /// What arcs have missed their nodes by, together.
-    drift: Vector,
-    arcs: usize,
+    /// How far the node that is meant may lie from where it is thought to be, µm.
+    unsure: f64,
 }
 
 /// What a block comes to.
@@ -45,15 +46,25 @@ const CRUMB: f64 = 2.5;
 const HUGE: f64 = 1e6;
 /// How far an arc may lie from where the drawing has it where its writer had no better one, µm.
 const ROUNDED: f64 = 3.3;
+/// How far our own blocks end from their nodes: lines and arcs that name their ends, as the grid lets them; arcs that count, µm.
+const SNAPPED: f64 = 0.75;
+const COUNTED: f64 = 1.52;
+/// How far our own arcs have their centres from where the drawing has them, in X and in Y, and run beside it, µm.
+const CENTRED: f64 = 1.501;
+const ASIDE: f64 = 2.6;
+/// How far a node may be from where it is thought to be where arcs before it have ended beside theirs, µm.
+const UNSURE: f64 = 1.5;
+/// What lies so near to the middle between two nodes may be rounded either way, µm.
+const TIE: f64 = 1e-3;
 
 impl Pose {
     pub fn at(shift: Vector) -> Pose {
         Pose {
             shift,
             on_grid: false,
+            exact: false,
             lag: Vector::zeros(),
-            drift: Vector::zeros(),
-            arcs: 0,
+            unsure: 0.0,
         }
     }
 
@@ -65,14 +76,33 @@ impl Pose {
         }
     }
 
+    /// The same for a program whose every block is one that we would have written; there is none where the grid is not known.
+    pub fn exactly(self) -> Option<Pose> {
+        self.on_grid.then_some(Pose {
+            exact: true,
+            ..self
+        })
+    }
+
+    pub fn is_exact(&self) -> bool {
+        self.exact
+    }
+
     /// The same where everything behind is moved by so much more.
     pub fn moved(&self, by: Vector) -> Pose {
         let by = if self.on_grid { by.map(f64::round) } else { by };
         Pose {
             shift: self.shift + by,
-            drift: Vector::zeros(),
-            arcs: 0,
+            unsure: UNSURE,
             ..*self
+        }
+    }
+
+    /// The same behind blocks that lead beside the drawing and stop where the machine has counted so far.
+    pub fn behind_arcs(self) -> Pose {
+        Pose {
+            unsure: self.unsure.max(UNSURE),
+            ..self
         }
     }
 
@@ -129,23 +159,53 @@ impl Pose {
             let next = rounds.next(from).filter(|_| is_crumb)?;
             self.reach(rounds, block, kind, &next, entry)
         })?;
-        if counts && reached.whole {
-            let meant = reached.end - reached.off;
-            let node = if self.on_grid {
-                (meant + self.shift).map(f64::round) - self.shift
-            } else {
-                meant
-            };
-            let miss = reached.end - node;
-            self.lag -= miss;
-            self.drift += miss;
-            self.arcs += 1;
-            let allowed = TOLERANCE + (self.arcs as f64).sqrt();
-            if self.drift.norm() > allowed {
-                return None;
-            }
-        }
+        self.stand(rounds, &reached, (from, entry), counts);
         Some(reached)
+    }
+
+    /// Stands at the node behind a block: where the machine has counted to is beside it, and that is no fault of what comes behind.
+    fn stand(
+        &mut self,
+        rounds: &Rounds,
+        reached: &Reached,
+        (from, entry): (&Spot, &Spot),
+        counts: bool,
+    ) {
+        let is_unsure = self.exact && self.unsure > 0.0;
+        // Where a run began within a piece is as near to its node as its first block is.
+        let at_entry = reached.spot == Some(*entry) && !rounds.is_begin(entry);
+        let is_known = reached.whole && (!self.exact || !at_entry);
+        let node = match (counts || is_unsure, is_known) {
+            (true, true) => {
+                let meant = reached.end - reached.off + self.shift;
+                self.unsure = slack_of(meant);
+                if self.on_grid {
+                    meant.map(f64::round)
+                } else {
+                    meant
+                }
+            }
+            (true, false) if self.exact && counts => {
+                self.unsure = UNSURE;
+                self.node_within(rounds, reached, from)
+            }
+            _ => return,
+        };
+        self.lag += node - (reached.end + self.shift);
+    }
+
+    /// The node at which a block ends within a piece: writers divide one into equal parts.
+    fn node_within(&self, rounds: &Rounds, reached: &Reached, from: &Spot) -> Point {
+        let stands = reached.end + self.shift;
+        let whole = rounds.whole(&reached.spot.unwrap_or(*from));
+        let parts = (whole.length() / reached.length).round();
+        let share = (whole.share_of(reached.end) * parts).round() / parts;
+        let part = whole.point_at(share) + self.shift;
+        if (part - stands).norm() <= COUNTED + 0.75 {
+            part.map(f64::round)
+        } else {
+            stands.map(f64::round)
+        }
     }
 
     fn reach(
@@ -158,7 +218,8 @@ impl Pose {
     ) -> Option<Reached> {
         let way = block.moved(self.lag - self.shift);
         let (length, end) = (way.length(), way.end());
-        let aside = if counts { ROUNDED } else { TOLERANCE };
+        let unsure = if self.exact { self.unsure } else { 0.0 };
+        let aside = unsure + if counts { ROUNDED } else { TOLERANCE };
         let (mut spot, mut share, mut travelled) = (*from, 0.0, 0.0);
         loop {
             let (rest, next) = stretch(rounds, &spot, entry);
@@ -169,7 +230,7 @@ impl Pose {
             };
             let is_last = (1.0 - share) * length - rest.length();
             let merged = share > 0.0;
-            if off.norm() <= ROUNDED && is_last.abs() <= 4.0 * ROUNDED + 1e-3 * length {
+            if off.norm() <= ROUNDED + unsure && is_last.abs() <= 4.0 * ROUNDED + 1e-3 * length {
                 let fits = alike(&way, &rest)
                     && goes_along(1.0)
                     && self.fits(&way, &rest, off, counts, (merged, four_b), spot.at);
@@ -188,7 +249,7 @@ impl Pose {
             if behind > share
                 && (1.0 - behind) * length > LEAST_PART
                 && rest.length() < (1.0 - share) * length + ROUNDED
-                && way.distance_to(rest.end()) <= TOLERANCE
+                && way.distance_to(rest.end()) <= TOLERANCE + unsure
                 && goes_along(behind)
                 && let Some(behind_spot) = next
             {
@@ -204,7 +265,8 @@ impl Pose {
             let (done, left) = (within * rest.length(), (1.0 - within) * rest.length());
             let ends_within = done > LEAST_PART
                 && left > LEAST_PART
-                && rest.distance_to(end) <= if counts { TOLERANCE + 0.5 } else { TOLERANCE }
+                && rest.distance_to(end) <= unsure + self.beside(counts)
+                && (!self.exact || self.is_centred(&way, &rest))
                 && ((1.0 - share) * length - done).abs() <= 4.0 * ROUNDED + 1e-3 * length
                 && goes_along(1.0);
             let at = rest.point_at(within);
@@ -215,6 +277,24 @@ impl Pose {
                 off: Vector::zeros(),
                 end,
             });
+        }
+    }
+
+    /// How far a block may end beside a piece within which it ends, µm.
+    fn beside(&self, counts: bool) -> f64 {
+        match (self.exact, counts) {
+            (true, true) => COUNTED + SNAPPED,
+            (true, false) => SNAPPED,
+            (false, true) => TOLERANCE + 0.5,
+            (false, false) => TOLERANCE,
+        }
+    }
+
+    /// Whether an arc has its centre where the grid has one for that of the drawing.
+    fn is_centred(&self, way: &Segment, rest: &Segment) -> bool {
+        match (way.as_arc(), rest.as_arc()) {
+            (Some(own), Some(meant)) => (own.center - meant.center).amax() <= CENTRED + self.unsure,
+            _ => true,
         }
     }
 
@@ -229,6 +309,18 @@ impl Pose {
         at: Point,
     ) -> bool {
         let middle = rest.distance_to(way.point_at(0.5));
+        if self.exact {
+            let end = rest.end() + self.shift;
+            let away = if counts {
+                let node = end.map(f64::round) - self.shift;
+                (way.end() - node).norm() - COUNTED - slack_of(end)
+            } else {
+                off.norm() - SNAPPED
+            };
+            return away <= self.unsure
+                && middle <= ASIDE + self.unsure
+                && self.is_centred(way, rest);
+        }
         if !counts || merged {
             return off.norm() <= TOLERANCE + if counts { 0.3 } else { 0.0 };
         }
@@ -276,6 +368,12 @@ pub(super) fn stretch(rounds: &Rounds, spot: &Spot, entry: &Spot) -> (Segment, O
         }
     }
     (rest, rounds.next(spot))
+}
+
+/// How far the node of a place may be from the nearest one, µm: in the middle between two it is either.
+fn slack_of(place: Point) -> f64 {
+    let is_tie = |at: &f64| (at - at.floor() - 0.5).abs() < TIE;
+    f64::from(u8::from(place.iter().any(is_tie)))
 }
 
 /// Both straight, or both round in the same sense, as far as that can be told.

@@ -204,6 +204,11 @@ impl Rounds {
         }
     }
 
+    /// A spot at the beginning of a piece, not within it.
+    pub fn is_begin(&self, spot: &Spot) -> bool {
+        *spot == self.at_begin(spot.round, spot.piece, spot.back)
+    }
+
     /// How far a spot lies along its round, µm.
     pub fn along(&self, spot: &Spot) -> f64 {
         let piece = self.piece(spot);

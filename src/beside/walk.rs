@@ -7,7 +7,7 @@
 use super::matching::{Found, matching};
 use super::pose::{Pose, Reached, stretch};
 use super::rounds::{Rounds, Spot};
-use super::traced::{Motion, Traced};
+use super::traced::{Block, Motion, Traced};
 use super::{BETWEEN, COVERED, REACH, TOLERANCE};
 use crate::drawing::EntityId;
 use crate::geometry::Vector;
@@ -492,6 +492,9 @@ impl<'a> Walk<'a> {
     /// A run that begins with a block.
     fn enter(&mut self, index: usize) -> Option<Run> {
         let segment = *self.traced.blocks[index].segment()?;
+        if self.comes_by_arcs(index) {
+            self.pose = self.pose.behind_arcs();
+        }
         let mut best: Option<(usize, Found)> = None;
         let mut consider = |count: usize, found: Found| {
             if best.as_ref().is_none_or(|(most, _)| count > *most) {
@@ -566,6 +569,18 @@ impl<'a> Walk<'a> {
             passed: None,
             moved,
         })
+    }
+
+    /// Whether an arc that counts leads to a block beside the drawing.
+    fn comes_by_arcs(&self, index: usize) -> bool {
+        let before = (0..index)
+            .rev()
+            .take_while(|&before| !self.walked.runs[before]);
+        let mut blocks = before
+            .map(|before| &self.traced.blocks[before])
+            .take(BETWEEN);
+        let is_arc = |block: &Block| block.segment().is_some_and(|own| own.as_arc().is_some());
+        self.traced.counts && blocks.any(is_arc)
     }
 
     /// The block ends where a piece does.
