@@ -284,6 +284,9 @@ fn one_changed_block_is_named_and_no_other() {
     let (mut invented, mut missed) = (0, 0);
     for number in 0..count {
         let (case, picks) = strategy.new_tree(&mut runner).unwrap().current();
+        if std::env::var("WEDM_CASE").is_ok_and(|only| only != number.to_string()) {
+            continue;
+        }
         let Err(wrong) = judge(&case, &picks) else {
             continue;
         };

@@ -60,7 +60,7 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     }
     let courses = courses(&drawn.settings, traced);
     let own = try_with(drawn, traced, &courses, true);
-    if own.is_clean() {
+    if own.is_sure {
         return own.told(traced);
     }
     let near = nearest(drawn, traced, &courses);
@@ -70,6 +70,12 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     } else {
         own
     };
+    if std::env::var("WEDM_DEBUG").is_ok() {
+        eprintln!(
+            "own {} {:?} near {} {:?}",
+            own.followed, own.unlike, near.followed, near.unlike
+        );
+    }
     if own.is_own() {
         return own.told(traced);
     }
@@ -136,6 +142,8 @@ struct Tried {
     followed: usize,
     follows: Vec<usize>,
     laid: Option<(Rc<Rounds>, Pose)>,
+    /// Every block is known to follow.
+    is_sure: bool,
 }
 
 /// `exact`: by what our own writers make of the drawing.
@@ -160,6 +168,11 @@ fn along(
     mut rounds: Rounds,
     pose: Pose,
 ) -> Tried {
+    if pose.is_exact()
+        && let Some((walked, _)) = sound(traced, &rounds, pose)
+    {
+        return Tried::of(traced, walked, &[], (Rc::new(rounds), pose)).sure();
+    }
     let tabs = tabs(drawn);
     let mut walked = Walk::new(traced, &rounds, pose).go(&tabs);
     let mut foreign = foreign(traced, &walked);
@@ -200,6 +213,12 @@ fn along(
         (walked, foreign) = (again, left);
     }
     Tried::of(traced, walked, &foreign, (Rc::new(rounds), pose))
+}
+
+/// All blocks of a program, where each lies on the drawing; and by how much they miss their places together, µm.
+fn sound(traced: &Traced, rounds: &Rounds, pose: Pose) -> Option<(Walked, f64)> {
+    let members = Members::all(traced, rounds, pose);
+    members.filter(|(walked, _)| foreign(traced, walked).is_empty())
 }
 
 /// What may be left standing, µm.
@@ -279,6 +298,7 @@ impl Tried {
             followed: 0,
             follows: Vec::new(),
             laid: None,
+            is_sure: false,
         }
     }
 
@@ -300,6 +320,14 @@ impl Tried {
             followed: walked.runs.iter().filter(|runs| **runs).count(),
             follows: walked.follows,
             laid: Some(laid),
+            is_sure: false,
+        }
+    }
+
+    fn sure(self) -> Tried {
+        Tried {
+            is_sure: true,
+            ..self
         }
     }
 
@@ -310,6 +338,9 @@ impl Tried {
         let Some((rounds, pose)) = laid else {
             return Tried::nothing();
         };
+        if let Some((walked, _)) = sound(traced, &rounds, pose) {
+            return Tried::of(traced, walked, &[], (rounds, pose)).sure();
+        }
         let walked = Walk::new(traced, &rounds, pose).go(&tabs(drawn));
         let foreign = foreign(traced, &walked);
         Tried::of(traced, walked, &foreign, (rounds, pose))
@@ -324,13 +355,13 @@ impl Tried {
 
     /// What a walk has named need not be so: perhaps all of it follows, or all but one block.
     fn surely(mut self, traced: &Traced) -> Tried {
-        let Some((rounds, pose)) = self.laid.take().filter(|_| !self.unlike.is_empty()) else {
+        if self.is_sure {
+            return self;
+        }
+        let Some((rounds, pose)) = self.laid.take() else {
             return self;
         };
-        let miss = |traced: &Traced, pose: Pose| {
-            let (walked, miss) = Members::all(traced, &rounds, pose)?;
-            foreign(traced, &walked).is_empty().then_some(miss)
-        };
+        let miss = |traced: &Traced, pose: Pose| Some(sound(traced, &rounds, pose)?.1);
         if miss(traced, pose).is_some() {
             self.unlike.clear();
         } else if let Some(only) = single(traced, &rounds, pose, &self.unlike, &miss) {
@@ -361,7 +392,7 @@ impl Tried {
     fn or_better(self, other: impl FnOnce() -> Tried) -> Tried {
         let score = |tried: &Tried| tried.followed as i64 - tried.unlike.len() as i64;
         let other = other();
-        if score(&other) > score(&self) || self.followed == 0 {
+        if other.is_sure || score(&other) > score(&self) || self.followed == 0 {
             other
         } else {
             self

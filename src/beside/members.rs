@@ -18,6 +18,8 @@ pub(super) struct Members {
     pub spot: Option<Spot>,
     pub entry: Option<Spot>,
     runs: Vec<bool>,
+    /// Blocks that end where the drawing says.
+    follows: Vec<usize>,
     cuts: Vec<Vec<Range<f64>>>,
     contours: Vec<usize>,
     /// Blocks since the last that follows; one that follows has been left for them.
@@ -34,6 +36,7 @@ impl Members {
             spot: None,
             entry: None,
             runs: vec![false; traced.blocks.len()],
+            follows: Vec::new(),
             cuts: vec![Vec::new(); rounds.rounds.len()],
             contours: Vec::new(),
             away: 0,
@@ -94,8 +97,8 @@ impl Members {
             pose,
             to,
             length,
+            whole,
             miss,
-            ..
         } = found;
         // Away and back to the same place: that is no way from pass to pass.
         self.is_broken |= self.spot.is_none()
@@ -106,6 +109,7 @@ impl Members {
         (self.pose, self.spot, self.entry) = (pose, to, Some(entry));
         (self.left, self.away) = (None, 0);
         self.runs[index] = true;
+        self.follows.extend(whole.then_some(index));
         self.miss += miss;
         self.contours.push(rounds.rounds[from.round].contour);
         rounds.cover(&from, length, |part| self.cuts[from.round].push(part));
@@ -166,6 +170,7 @@ impl Members {
         let whole = members.cuts.iter().enumerate().all(is_whole);
         let walked = Walked {
             runs: members.runs,
+            follows: members.follows,
             contours: members.contours,
             ..Walked::default()
         };

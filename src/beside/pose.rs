@@ -318,7 +318,7 @@ impl Pose {
                 off.norm() - SNAPPED
             };
             return away <= self.unsure
-                && middle <= ASIDE + self.unsure
+                && (merged || middle <= ASIDE + self.unsure)
                 && self.is_centred(way, rest);
         }
         if !counts || merged {

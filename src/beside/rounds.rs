@@ -25,6 +25,8 @@ pub(super) enum Course {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     pub segment: Segment,
+    /// The same against the direction of the round.
+    back: Segment,
     pub source: Option<(EntityId, usize)>,
     /// Where it begins along the round, µm.
     pub before: f64,
@@ -70,6 +72,8 @@ pub(super) struct Rounds {
 
 /// µm.
 const CELL: f64 = 8.0;
+/// How far a transition of 4B may lie from the one that is cut the other way round, µm.
+const SAME: f64 = 6.0;
 /// How much two that lead the same way may differ by their roundings, µm.
 const ALIKE: f64 = 2.9;
 
@@ -92,6 +96,39 @@ impl Rounds {
                 for pieces in along(contour, side, &new, drawn) {
                     self.push(index, contour.closed, pieces, drawn.unit_mm * 1e3);
                 }
+                if new.contains(&Course::FourB) && contour.closed {
+                    self.turn_back(contour, side, drawn);
+                }
+            }
+        }
+    }
+
+    /// The transitions of 4B are rounded otherwise where its contour is cut the other way round.
+    fn turn_back(&mut self, contour: &Contour, side: Side, drawn: &Drawn) {
+        let scale = drawn.unit_mm * 1e3;
+        let reversed = own(contour).into_iter().rev().map(|piece| PathSegment {
+            geometry: piece.geometry.reversed(),
+            ..piece
+        });
+        let path = joined(reversed.collect(), true);
+        let (settings, unit_mm) = (&*drawn.settings, drawn.unit_mm);
+        let Some(mut path) = of_four_b(path, side.reversed(), settings, unit_mm) else {
+            return;
+        };
+        // Both begin in the middle of a piece, the one of the first and the other of the last.
+        path.retain(|piece| piece.geometry.length() * scale > CRUMB);
+        let Some(round) = self.rounds.last_mut() else {
+            return;
+        };
+        for piece in &mut round.pieces {
+            let own = piece.segment.reversed();
+            let is_same = |other: &Segment| {
+                (other.start() - own.start()).norm() <= SAME
+                    && (other.end() - own.end()).norm() <= SAME
+            };
+            let all = path.iter().map(|piece| scaled(&piece.geometry, scale));
+            if let Some(back) = all.into_iter().find(is_same) {
+                piece.back = back;
             }
         }
     }
@@ -157,12 +194,8 @@ impl Rounds {
 
     /// A piece in the direction of a spot's way.
     pub fn whole(&self, spot: &Spot) -> Segment {
-        let segment = &self.piece(spot).segment;
-        if spot.back {
-            segment.reversed()
-        } else {
-            *segment
-        }
+        let piece = self.piece(spot);
+        if spot.back { piece.back } else { piece.segment }
     }
 
     /// What is left of a spot's piece from it on.
@@ -194,8 +227,12 @@ impl Rounds {
 
     /// The spot at the beginning of a piece, seen in its way.
     pub fn at_begin(&self, round: usize, piece: usize, back: bool) -> Spot {
-        let segment = &self.rounds[round].pieces[piece].segment;
-        let at = if back { segment.end() } else { segment.start() };
+        let piece_of = &self.rounds[round].pieces[piece];
+        let at = if back {
+            piece_of.back.start()
+        } else {
+            piece_of.segment.start()
+        };
         Spot {
             round,
             piece,
@@ -277,12 +314,12 @@ impl Rounds {
         self.index
             .near(&Bounds::of_disc(point, reach), |(round, piece)| {
                 let (round, piece) = (round as usize, piece as usize);
-                let segment = &self.rounds[round].pieces[piece].segment;
-                if segment.distance_to(point) > reach {
+                let own = &self.rounds[round].pieces[piece];
+                if own.segment.distance_to(point) > reach {
                     return;
                 }
                 for back in [false, true] {
-                    let way = if back { segment.reversed() } else { *segment };
+                    let way = if back { own.back } else { own.segment };
                     let share = way.share_of(point).clamp(0.0, 1.0);
                     let at = match share * way.length() {
                         begin if begin <= reach => way.start(),
@@ -309,6 +346,7 @@ impl Round {
         if length > CRUMB {
             self.pieces.push(Piece {
                 segment,
+                back: segment.reversed(),
                 source,
                 before: self.length,
             });
@@ -325,22 +363,12 @@ fn along(
     drawn: &Drawn,
 ) -> Vec<Vec<PathSegment>> {
     let settings = &*drawn.settings;
-    let own = || -> Vec<PathSegment> {
-        let segments = contour.segments.iter().map(|segment| PathSegment {
-            geometry: segment.geometry,
-            source: Source::Segment {
-                entity: segment.entity,
-                segment: segment.segment,
-            },
-        });
-        segments.collect()
-    };
     let (mut ways, mut corrections) = (Vec::new(), Vec::new());
     for course in courses {
         match course {
-            Course::Drawn => ways.push(joined(own(), contour.closed)),
-            Course::FourB if contour.closed => ways.extend(toolpath_of_four_b(
-                joined(own(), true),
+            Course::Drawn => ways.push(joined(own(contour), contour.closed)),
+            Course::FourB if contour.closed => ways.extend(of_four_b(
+                joined(own(contour), true),
                 side,
                 settings,
                 drawn.unit_mm,
@@ -366,6 +394,18 @@ fn along(
     ways
 }
 
+/// The contour itself, in the drawing's unit.
+fn own(contour: &Contour) -> Vec<PathSegment> {
+    let segments = contour.segments.iter().map(|segment| PathSegment {
+        geometry: segment.geometry,
+        source: Source::Segment {
+            entity: segment.entity,
+            segment: segment.segment,
+        },
+    });
+    segments.collect()
+}
+
 /// A circle that is drawn as one arc comes back to its start.
 fn joined(mut path: Vec<PathSegment>, closed: bool) -> Vec<PathSegment> {
     if let [only] = &mut path[..]
@@ -383,7 +423,7 @@ fn joined(mut path: Vec<PathSegment>, closed: bool) -> Vec<PathSegment> {
 }
 
 /// The part's contour with the transitions of 4B, in the drawing's unit; none where it cannot be written.
-fn toolpath_of_four_b(
+fn of_four_b(
     mut path: Vec<PathSegment>,
     side: Side,
     settings: &Effective,
