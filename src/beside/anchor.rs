@@ -92,7 +92,7 @@ fn refined(traced: &Traced, rounds: &Rounds, found: Found, index: usize) -> Pose
     let is_whole = (whole - shift).amax() <= 0.5 - (high - low).amax() / 2.0 + 0.01
         && (high - low).amax() <= 1.02;
     if is_whole {
-        Pose::at(whole).gridded()
+        Pose::at(whole).gridded().unsurely()
     } else {
         Pose::at(shift)
     }

@@ -10,6 +10,7 @@ mod anchor;
 mod comparison;
 mod drawn;
 mod findings;
+mod goes;
 mod infer;
 mod matching;
 mod members;

@@ -98,12 +98,17 @@ impl Pose {
         }
     }
 
-    /// The same behind blocks that lead beside the drawing and stop where the machine has counted so far.
-    pub fn behind_arcs(self) -> Pose {
+    /// The same where the node may be another one: where it lies was found by few blocks, or arcs have led beside the drawing.
+    pub fn unsurely(self) -> Pose {
         Pose {
             unsure: self.unsure.max(UNSURE),
             ..self
         }
+    }
+
+    /// The same with another shift.
+    pub fn shifted(&self, shift: Vector) -> Pose {
+        self.moved(shift - self.shift)
     }
 
     /// A place of the program in the drawing.
@@ -151,7 +156,7 @@ impl Pose {
                     spot: Some(*from),
                     whole: true,
                     length: 0.0,
-                    off: Vector::zeros(),
+                    off: end - from.at,
                     end,
                 });
             }

@@ -2,7 +2,7 @@
 
 use super::drawn::{Contour, Drawn};
 use crate::drawing::EntityId;
-use crate::geometry::{Arc, Bounds, Grid, Point, Segment, Side, Vector};
+use crate::geometry::{Arc, Bounds, Grid, Point, Segment, Side, Vector, left_normal};
 use crate::program::write::scaled;
 use crate::settings::{Compensation, Effective};
 use crate::toolpath::{self, PathSegment, Source};
@@ -41,6 +41,8 @@ pub(super) struct Round {
     pub length: f64,
     /// Centre and radius, where it is a circle.
     pub circle: Option<(Point, f64)>,
+    /// How far to the left of it the wire runs, where the control offsets it: 4B puts it there where the wire begins.
+    beside: Option<f64>,
 }
 
 /// A place on a round, with the way that is gone from there.
@@ -93,11 +95,12 @@ impl Rounds {
                 new.retain(|course| !self.is_laid(index, side, *course));
                 self.laid
                     .extend(new.iter().map(|course| (index, side, *course)));
-                for pieces in along(contour, side, &new, drawn) {
+                let is_four_b = contour.closed && new.contains(&Course::FourB);
+                for (nth, pieces) in along(contour, side, &new, drawn).into_iter().enumerate() {
                     self.push(index, contour.closed, pieces, drawn.unit_mm * 1e3);
-                }
-                if new.contains(&Course::FourB) && contour.closed {
-                    self.turn_back(contour, side, drawn);
+                    if nth == 0 && is_four_b {
+                        self.turn_back(contour, side, drawn);
+                    }
                 }
             }
         }
@@ -115,11 +118,11 @@ impl Rounds {
         let Some(mut path) = of_four_b(path, side.reversed(), settings, unit_mm) else {
             return;
         };
-        // Both begin in the middle of a piece, the one of the first and the other of the last.
         path.retain(|piece| piece.geometry.length() * scale > CRUMB);
         let Some(round) = self.rounds.last_mut() else {
             return;
         };
+        round.beside = Some(side.sign() * settings.correction * 1e3);
         for piece in &mut round.pieces {
             let own = piece.segment.reversed();
             let is_same = |other: &Segment| {
@@ -155,6 +158,7 @@ impl Rounds {
             pieces: Vec::with_capacity(path.len()),
             length: 0.0,
             circle: None,
+            beside: None,
         };
         for piece in path {
             let source = match piece.source {
@@ -257,6 +261,13 @@ impl Rounds {
         piece.before + share * piece.segment.length()
     }
 
+    /// How far one spot of a round lies ahead of another in its way, µm.
+    pub fn ahead(&self, from: &Spot, to: &Spot) -> f64 {
+        let way = self.along(to) - self.along(from);
+        let way = if from.back { -way } else { way };
+        way.rem_euclid(self.rounds[from.round].length)
+    }
+
     /// The stretches of a round that are cut by going so far from a spot.
     pub fn cover(&self, from: &Spot, length: f64, mut cut: impl FnMut(Range<f64>)) {
         let whole = self.rounds[from.round].length;
@@ -304,6 +315,44 @@ impl Rounds {
                 }
             }
         }
+        found.sort_by_key(|(spot, _)| (spot.round, spot.piece, spot.back));
+        found
+    }
+
+    /// By how much 4B moves a contour that it begins at a spot, µm; `None` where the wire runs as it is written.
+    pub fn beside(&self, spot: &Spot) -> Option<Vector> {
+        let round = &self.rounds[spot.round];
+        let segment = &round.pieces[spot.piece].segment;
+        let tangent = segment.tangent_at(segment.share_of(spot.at).clamp(0.0, 1.0));
+        Some(left_normal(tangent) * round.beside?)
+    }
+
+    /// Spots from which 4B begins at a point, in either way, and by how much it moves the contour there.
+    pub fn near_beside(&self, point: Point, reach: f64) -> Vec<(Spot, Vector)> {
+        let all = self.rounds.iter().filter_map(|round| round.beside);
+        let farthest = all.map(f64::abs).fold(0.0, f64::max) + reach;
+        let mut found = Vec::new();
+        self.index
+            .near(&Bounds::of_disc(point, farthest), |(round, piece)| {
+                let (round, piece) = (round as usize, piece as usize);
+                let segment = &self.rounds[round].pieces[piece].segment;
+                let share = segment.share_of(point);
+                if !(0.0..=1.0).contains(&share) {
+                    return;
+                }
+                let at = segment.point_at(share);
+                for back in [false, true] {
+                    let spot = Spot {
+                        round,
+                        piece,
+                        back,
+                        at,
+                    };
+                    let by = self.beside(&spot);
+                    let by = by.filter(|by| (at + by - point).norm() <= reach);
+                    found.extend(by.map(|by| (spot, by)));
+                }
+            });
         found.sort_by_key(|(spot, _)| (spot.round, spot.piece, spot.back));
         found
     }

@@ -45,7 +45,7 @@ pub(super) fn single(
     tried.sort_by_key(|index| named.iter().all(|unlike| unlike.block != *index));
     let mut order = tried.clone();
     order.sort_unstable();
-    let mut members = Members::new(traced, rounds, pose);
+    let mut members = Members::new(traced, pose);
     let mut at = 0;
     let mut before = std::collections::BTreeMap::new();
     for index in order {
@@ -66,7 +66,8 @@ pub(super) fn single(
             let share = rest.share_of(members.pose.place(own.end()));
             let part = (share > 0.0 && share < 1.0).then(|| rest.part(0.0, share));
             for meant in [Some(rest), part].into_iter().flatten() {
-                let Some((meant, by)) = meant_by(&meant, &own, &members.pose) else {
+                let is_lost = traced.blocks[index].is_lost;
+                let Some((meant, by)) = meant_by(&meant, &own, is_lost, &members.pose) else {
                     continue;
                 };
                 for how in How::ALL {
@@ -101,7 +102,12 @@ pub(super) fn single(
 }
 
 /// A stretch of the drawing in the place of a block, and by how much its end is elsewhere.
-fn meant_by(stretch: &Segment, own: &Segment, pose: &Pose) -> Option<(Segment, Vector)> {
+fn meant_by(
+    stretch: &Segment,
+    own: &Segment,
+    is_lost: bool,
+    pose: &Pose,
+) -> Option<(Segment, Vector)> {
     // In a program that counts from block to block, what lies before a change is moved where the change is what lies behind it by.
     let aside = own.start() - pose.program(stretch.start());
     let aside = if aside.norm() > NODE {
@@ -111,8 +117,9 @@ fn meant_by(stretch: &Segment, own: &Segment, pose: &Pose) -> Option<(Segment, V
     };
     let end = pose.program(stretch.end()) + aside;
     let by = end - own.end();
-    let is_alike = stretch.as_arc().is_some() == own.as_arc().is_some()
-        && (stretch.length() - own.length()).abs() <= 2.0 * by.norm() + TOLERANCE;
+    let is_alike = is_lost
+        || stretch.as_arc().is_some() == own.as_arc().is_some()
+            && (stretch.length() - own.length()).abs() <= 2.0 * by.norm() + TOLERANCE;
     let meant = match stretch.moved(end - stretch.end()) {
         Segment::Line(_) => Segment::line(own.start(), end),
         arc => arc,

@@ -28,6 +28,8 @@ pub(super) struct Block {
     pub motion: Motion,
     /// The control offsets it.
     pub is_offset: bool,
+    /// An arc that is none; it is taken as its chord.
+    pub is_lost: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,12 +66,16 @@ impl Traced {
             line: step.line,
             motion: match (step.kind, step.ideal) {
                 (Kind::Line | Kind::Arc, Some(segment)) => Motion::Cut(segment),
+                (Kind::Arc, None) if step.end != step.start => {
+                    Motion::Cut(Segment::line(step.start, step.end))
+                }
                 (Kind::Line | Kind::Arc | Kind::Rapid, _) => {
                     Motion::Way(step.start, step.end - step.start)
                 }
                 (Kind::Pause | Kind::End, _) => Motion::Stop,
             },
             is_offset: step.side.is_some(),
+            is_lost: step.kind == Kind::Arc && step.ideal.is_none(),
             range: step.range,
         });
         let four_b = match program {

@@ -493,7 +493,7 @@ impl<'a> Walk<'a> {
     fn enter(&mut self, index: usize) -> Option<Run> {
         let segment = *self.traced.blocks[index].segment()?;
         if self.comes_by_arcs(index) {
-            self.pose = self.pose.behind_arcs();
+            self.pose = self.pose.unsurely();
         }
         let mut best: Option<(usize, Found)> = None;
         let mut consider = |count: usize, found: Found| {
@@ -630,12 +630,7 @@ impl<'a> Walk<'a> {
             }
             // Up to where the run began? Then a block before it may be the one.
             let entry = run.entry;
-            let ahead = {
-                let round = &self.rounds.rounds[run.spot.round];
-                let (from, to) = (self.rounds.along(&run.spot), self.rounds.along(&entry));
-                let way = if run.spot.back { from - to } else { to - from };
-                way.rem_euclid(round.length)
-            };
+            let ahead = self.rounds.ahead(&run.spot, &entry);
             let own = self.off(&pose, &run, block);
             let of_block = is_behind.then_some(own);
             let before = self
