@@ -7,9 +7,12 @@ use super::rounds::Rounds;
 use super::traced::{Motion, Traced};
 use super::walk::Walk;
 use crate::geometry::Vector;
+use std::ops::Range;
 
 /// Blocks from which it is tried.
 const TRIED: usize = 60;
+/// What lies farther away than this is no slip, µm.
+const FAR: f64 = 1e4;
 /// Blocks by which places are told apart.
 const SURE: usize = 40;
 
@@ -17,10 +20,8 @@ const SURE: usize = 40;
 pub(super) fn anchor(traced: &Traced, rounds: &Rounds) -> Option<Pose> {
     let still = Pose::at(Vector::zeros());
     let walk = Walk::new(traced, rounds, still);
-    let cuts = traced.blocks.iter().enumerate();
-    let cuts = cuts.filter(|(_, block)| matches!(block.motion, Motion::Cut(_)));
-    let tried: Vec<usize> = cuts.map(|(index, _)| index).take(TRIED).collect();
-    let mut best: Option<(usize, Found, usize)> = None;
+    let tried = cuts(traced, 0..traced.blocks.len());
+    let mut best = 0;
     if traced.is_placed {
         for &index in &tried {
             let Some(begin) = still.begin(&traced.blocks[index]) else {
@@ -28,21 +29,47 @@ pub(super) fn anchor(traced: &Traced, rounds: &Rounds) -> Option<Pose> {
             };
             for spot in rounds.near(begin, REACH) {
                 let (count, ends) = walk.verify(still, spot, spot, index, SURE);
-                let count = count + usize::from(ends);
-                if best.as_ref().is_none_or(|(most, ..)| count > *most) {
-                    best = Some((count, Found { spot, pose: still }, index));
-                }
+                best = best.max(count + usize::from(ends));
             }
-            if best.as_ref().is_some_and(|(most, ..)| *most >= 3) {
+            if best >= 3 {
                 break;
             }
         }
-        if best.as_ref().is_some_and(|(most, ..)| *most >= 2) {
+        if best >= 2 {
             return Some(still.gridded());
         }
     }
-    // The first contour says it: whatever is wrong in one moves what comes behind.
-    for &index in &tried {
+    found_by(traced, rounds, &walk, &tried)
+}
+
+/// Other places where the program may lie: whatever is wrong in one block moves what comes behind, and the most of it may be there.
+pub(super) fn others(traced: &Traced, rounds: &Rounds, pose: &Pose) -> Vec<Pose> {
+    let still = Pose::at(Vector::zeros());
+    let walk = Walk::new(traced, rounds, still);
+    let stated = traced.is_placed.then(|| still.gridded());
+    let first = traced.cuts.first().and_then(|[all, _]| {
+        let tried = cuts(traced, all.clone());
+        found_by(traced, rounds, &walk, &tried)
+    });
+    let all = stated.into_iter().chain(first);
+    let is_near = |other: &Pose| {
+        let away = (other.shift - pose.shift).norm();
+        away > 0.5 && away < FAR
+    };
+    all.filter(is_near).collect()
+}
+
+/// Blocks from which a place is tried.
+fn cuts(traced: &Traced, among: Range<usize>) -> Vec<usize> {
+    let is_cut = |index: &usize| matches!(traced.blocks[*index].motion, Motion::Cut(_));
+    among.filter(is_cut).take(TRIED).collect()
+}
+
+/// The first contour says it: whatever is wrong in one moves what comes behind.
+fn found_by(traced: &Traced, rounds: &Rounds, walk: &Walk, tried: &[usize]) -> Option<Pose> {
+    let still = Pose::at(Vector::zeros());
+    let mut best: Option<(usize, Found, usize)> = None;
+    for &index in tried {
         for found in matching(rounds, traced, index, &still) {
             let (count, ends) = walk.verify(found.pose, found.spot, found.spot, index, SURE);
             let count = count + usize::from(ends);

@@ -1,6 +1,6 @@
 //! What a program does otherwise than its drawing.
 
-use super::anchor::anchor;
+use super::anchor::{anchor, others};
 use super::drawn::Drawn;
 use super::infer;
 use super::members::Members;
@@ -70,12 +70,6 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     } else {
         own
     };
-    if std::env::var("WEDM_DEBUG").is_ok() {
-        eprintln!(
-            "own {} {:?} near {} {:?}",
-            own.followed, own.unlike, near.followed, near.unlike
-        );
-    }
     if own.is_own() {
         return own.told(traced);
     }
@@ -364,7 +358,17 @@ impl Tried {
         let miss = |traced: &Traced, pose: Pose| Some(sound(traced, &rounds, pose)?.1);
         if miss(traced, pose).is_some() {
             self.unlike.clear();
-        } else if let Some(only) = single(traced, &rounds, pose, &self.unlike, &miss) {
+            return self;
+        }
+        let more = others(traced, &rounds, &pose).into_iter();
+        let more = more.filter_map(|other| match pose.is_exact() {
+            true => other.exactly(),
+            false => Some(other),
+        });
+        let mut poses = std::iter::once(pose).chain(more);
+        if let Some(only) =
+            poses.find_map(|pose| single(traced, &rounds, pose, &self.unlike, &miss))
+        {
             self.unlike = vec![only];
         }
         self

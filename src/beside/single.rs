@@ -5,15 +5,19 @@
 
 use super::members::Members;
 use super::pose::{Pose, stretch};
-use super::rounds::Rounds;
+use super::rounds::{Rounds, Spot};
 use super::traced::{Motion, Traced};
 use super::walk::{Kind, Unlike};
 use super::{REACH, TOLERANCE};
 use crate::geometry::{Arc, Point, Segment, Vector};
+use std::f64::consts::TAU;
 
 /// Blocks before and behind a named one that are tried, and blocks that all tries together may look at.
 const ABOUT: usize = 3;
 const MOST: usize = 60_000;
+/// Pieces that one block may be, and how far apart they may lie as one line or arc, µm.
+const TOGETHER: usize = 5;
+const SAME: f64 = 1e-2;
 /// What lies nearer to a node is that node, µm.
 const NODE: f64 = 1.6;
 
@@ -61,11 +65,14 @@ pub(super) fn single(
         let near = near.into_iter().map(|spot| (spot, spot));
         let goes_on = members.spot.zip(members.entry);
         for (spot, entry) in goes_on.into_iter().chain(near) {
-            let (rest, _) = stretch(rounds, &spot, &entry);
+            let all = stretches(rounds, spot, &entry);
             // To the end of a piece, or to where a tab begins.
-            let share = rest.share_of(members.pose.place(own.end()));
-            let part = (share > 0.0 && share < 1.0).then(|| rest.part(0.0, share));
-            for meant in [Some(rest), part].into_iter().flatten() {
+            let end = members.pose.place(own.end());
+            let part = all.last().and_then(|rest| {
+                let share = rest.share_of(end);
+                (share > 0.0 && share < 1.0).then(|| rest.part(0.0, share))
+            });
+            for meant in all.into_iter().chain(part) {
                 let is_lost = traced.blocks[index].is_lost;
                 let Some((meant, by)) = meant_by(&meant, &own, is_lost, &members.pose) else {
                     continue;
@@ -99,6 +106,43 @@ pub(super) fn single(
         }
     }
     best.map(|(_, unlike)| unlike)
+}
+
+/// What a block may be from a spot on: what is left of its piece, and more where that goes on as one line or arc.
+fn stretches(rounds: &Rounds, spot: Spot, entry: &Spot) -> Vec<Segment> {
+    let (mut rest, mut next) = stretch(rounds, &spot, entry);
+    let mut all = vec![rest];
+    while let Some(further) = next.filter(|_| all.len() < TOGETHER) {
+        let (piece, behind) = stretch(rounds, &further, entry);
+        let Some(both) = joined(&rest, &piece) else {
+            break;
+        };
+        (rest, next) = (both, behind);
+        all.push(rest);
+    }
+    all
+}
+
+/// Two pieces as one line or arc.
+fn joined(first: &Segment, second: &Segment) -> Option<Segment> {
+    match (first, second) {
+        (Segment::Line(first), Segment::Line(second)) => {
+            let both = Segment::line(first.start, second.end);
+            (both.distance_to(first.end) < SAME).then_some(both)
+        }
+        (Segment::Arc(first), Segment::Arc(second)) => {
+            let sweep = first.sweep + second.sweep;
+            let is_same = (first.center - second.center).norm() < SAME
+                && first.sweep * second.sweep > 0.0
+                && sweep.abs() <= TAU + 1e-9;
+            is_same.then_some(Segment::Arc(Arc {
+                sweep,
+                end: second.end,
+                ..*first
+            }))
+        }
+        _ => None,
+    }
 }
 
 /// A stretch of the drawing in the place of a block, and by how much its end is elsewhere.

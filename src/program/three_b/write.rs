@@ -76,7 +76,7 @@ pub(crate) fn write_four_b(
     blocks.finish(cuts(&paths))
 }
 
-/// A part's closed contour as 4B holds it, without leads, in the drawing's unit; `None` where it cannot.
+/// A part's closed contour as 4B holds it, without leads, where it is drawn and in the drawing's unit; `None` where it cannot.
 pub(crate) fn of_part(
     segments: Vec<PathSegment>,
     side: Side,
@@ -97,9 +97,11 @@ pub(crate) fn of_part(
     let (correction, radius) = transitions(settings);
     let mut segments = rounded(&path, scale, correction, radius).ok()?.segments;
     segments.retain(|piece| !matches!(piece.source, Source::LeadIn | Source::LeadOut));
+    // Where it is drawn, not where the wire begins it.
+    let by = path.thread_hole * scale - segments.first()?.geometry.start();
     segments
         .iter_mut()
-        .for_each(|piece| piece.geometry = scaled(&piece.geometry, 1.0 / scale));
+        .for_each(|piece| piece.geometry = scaled(&piece.geometry.moved(by), 1.0 / scale));
     Some(segments)
 }
 
