@@ -63,6 +63,9 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     if own.is_sure {
         return own.told(traced);
     }
+    if std::env::var("WEDM_DEBUG").is_ok() {
+        eprintln!("UNSURE {:?}", own.unlike);
+    }
     let near = nearest(drawn, traced, &courses);
     let own = near.exactly(drawn, traced).or_better(|| own);
     let own = if own.unlike.len() <= 2 * FEW {

@@ -163,6 +163,7 @@ impl Members {
                 breaks.extend(index.saturating_sub(2)..=index);
             }
             if members.is_broken {
+                breaks.extend(index.saturating_sub(BETWEEN + 2)..=index);
                 break;
             }
         }

@@ -20,6 +20,8 @@ pub(super) struct Pose {
     lag: Vector,
     /// How far the node that is meant may lie from where it is thought to be, µm.
     unsure: f64,
+    /// The same where a run began: its end comes back to there.
+    begun: f64,
 }
 
 /// What a block comes to.
@@ -65,6 +67,7 @@ impl Pose {
             exact: false,
             lag: Vector::zeros(),
             unsure: 0.0,
+            begun: 0.0,
         }
     }
 
@@ -148,6 +151,9 @@ impl Pose {
         let block = traced.blocks[index].segment()?;
         let counts = traced.counts && block.as_arc().is_some();
         let kind = (counts, traced.four_b);
+        if from == entry {
+            self.begun = self.begun.max(self.unsure);
+        }
         let reached = self.reach(rounds, block, kind, from, entry).or_else(|| {
             // Crumbs are left out by the one or by the other.
             if block.length() <= CRUMB {
@@ -238,7 +244,14 @@ impl Pose {
             if off.norm() <= ROUNDED + unsure && is_last.abs() <= 4.0 * ROUNDED + 1e-3 * length {
                 let fits = alike(&way, &rest)
                     && goes_along(1.0)
-                    && self.fits(&way, &rest, off, counts, (merged, four_b), spot.at);
+                    && self.coming_back(rounds, next == Some(*entry), entry).fits(
+                        &way,
+                        &rest,
+                        off,
+                        counts,
+                        (merged, four_b),
+                        spot.at,
+                    );
                 return fits.then_some(Reached {
                     spot: next,
                     whole: true,
@@ -283,6 +296,15 @@ impl Pose {
                 end,
             });
         }
+    }
+
+    /// The same where a run comes back to where it began within a piece.
+    fn coming_back(&self, rounds: &Rounds, is_back: bool, entry: &Spot) -> Pose {
+        let unsure = match is_back && !rounds.is_begin(entry) {
+            true => self.unsure.max(self.begun),
+            false => self.unsure,
+        };
+        Pose { unsure, ..*self }
     }
 
     /// How far a block may end beside a piece within which it ends, µm.

@@ -18,6 +18,9 @@ const MOST: usize = 60_000;
 /// Pieces that one block may be, and how far apart they may lie as one line or arc, µm.
 const TOGETHER: usize = 5;
 const SAME: f64 = 1e-2;
+/// What is off by less is no change, µm; nor is what is off by more, where nothing was named.
+const LEAST: f64 = 1.4;
+const MOST_UNNAMED: f64 = 50.0;
 /// What lies nearer to a node is that node, µm.
 const NODE: f64 = 1.6;
 
@@ -77,6 +80,9 @@ pub(super) fn single(
                 let Some((meant, by)) = meant_by(&meant, &own, is_lost, &members.pose) else {
                     continue;
                 };
+                if named.is_empty() && by.norm() > MOST_UNNAMED {
+                    continue;
+                }
                 for how in How::ALL {
                     if fuel == 0 {
                         break 'tries;
@@ -168,7 +174,7 @@ fn meant_by(
         Segment::Line(_) => Segment::line(own.start(), end),
         arc => arc,
     };
-    (is_alike && by.norm() > 0.0).then_some((meant, by))
+    (is_alike && by.norm() >= LEAST).then_some((meant, by))
 }
 
 /// What lies behind a block that ends elsewhere.

@@ -1,0 +1,171 @@
+//! Where a run begins: a block that lies on the drawing, with others behind it that go on there.
+
+use super::super::matching::{Found, matching};
+use super::super::pose::Pose;
+use super::super::rounds::Spot;
+use super::super::traced::{Block, Motion};
+use super::super::{BETWEEN, COVERED, REACH};
+use super::{Run, SURE, Walk};
+
+impl Walk<'_> {
+    /// A run that begins with a block.
+    pub(super) fn enter(&mut self, index: usize) -> Option<Run> {
+        let segment = *self.traced.blocks[index].segment()?;
+        if self.comes_by_arcs(index) {
+            self.pose = self.pose.unsurely();
+        }
+        let mut best: Option<(usize, Found)> = None;
+        let mut consider = |count: usize, found: Found| {
+            if best.as_ref().is_none_or(|(most, _)| count > *most) {
+                best = Some((count, found));
+            }
+        };
+        for spot in self.rounds.near(self.pose.place(segment.start()), REACH) {
+            if let Some(count) = self.begins(&self.pose, &spot, index) {
+                let found = Found {
+                    spot,
+                    pose: self.pose,
+                };
+                consider(count, found);
+            }
+        }
+        let (mut moved, mut is_first) = (None, false);
+        if best.is_none() {
+            let found = matching(self.rounds, self.traced, index, &self.pose)
+                .into_iter()
+                .filter(|found| {
+                    let (count, ends) =
+                        self.verify(found.pose, found.spot, found.spot, index, SURE);
+                    count >= 2 || ends && self.is_circle(&found.spot)
+                })
+                .min_by(|a, b| {
+                    let away = |found: &Found| (found.pose.shift - self.pose.shift).norm();
+                    away(a).total_cmp(&away(b))
+                });
+            if let Some(found) = found {
+                let by = found.pose.shift - self.pose.shift;
+                // Where the program lies was found by its first contour, or one behind that.
+                is_first = self.walked.contours.is_empty();
+                moved = (by.norm() > REACH).then_some(by);
+                best = Some((0, found));
+            }
+        }
+        let (_, Found { mut spot, pose }) = best?;
+        let mut first = index;
+        if moved.is_some() {
+            // What came before could not be told from a lead.
+            for before in (1..=2).filter_map(|back| index.checked_sub(back)) {
+                let Some(own) = self.traced.blocks[before].segment() else {
+                    break;
+                };
+                if self.walked.runs[before] {
+                    break;
+                }
+                let near = self.rounds.near(pose.place(own.start()), REACH);
+                let leads = |near: &&Spot| {
+                    near.round == spot.round
+                        && self.verify(pose, **near, **near, before, SURE).0 >= 2
+                };
+                if let Some(near) = near.iter().find(leads) {
+                    (first, spot) = (before, *near);
+                }
+            }
+        }
+        if self.is_all_cut(spot.round) {
+            self.lap(spot.round);
+        }
+        if moved.is_some() {
+            self.pose = pose;
+        }
+        let moved = moved.filter(|_| !is_first);
+        Some(Run {
+            first,
+            entry: spot,
+            spot,
+            travelled: 0.0,
+            complete: false,
+            split: 0,
+            passed: None,
+            moved,
+        })
+    }
+
+    /// Whether an arc that counts leads to a block beside the drawing.
+    pub(super) fn comes_by_arcs(&self, index: usize) -> bool {
+        let before = (0..index)
+            .rev()
+            .take_while(|&before| !self.walked.runs[before]);
+        let mut blocks = before
+            .map(|before| &self.traced.blocks[before])
+            .take(BETWEEN);
+        let is_arc = |block: &Block| block.segment().is_some_and(|own| own.as_arc().is_some());
+        self.traced.counts && blocks.any(is_arc)
+    }
+
+    /// The block ends where a piece does.
+    pub(super) fn is_whole(&self, spot: &Spot, index: usize) -> bool {
+        let mut pose = self.pose;
+        let reached = pose.follow(self.rounds, self.traced, index, spot, spot);
+        reached.is_some_and(|reached| reached.whole)
+    }
+
+    /// How much speaks for a run that begins with a block at a spot; `None` where it may lead there, or away.
+    pub(super) fn begins(&self, pose: &Pose, spot: &Spot, index: usize) -> Option<usize> {
+        let (count, ends) = self.verify(*pose, *spot, *spot, index, SURE);
+        let is_rest = || !self.is_cut(spot) && !self.covered[spot.round].is_empty();
+        let is_run = count >= 2 || count >= 1 && (ends || self.is_whole(spot, index) || is_rest());
+        is_run.then_some(2 * count + usize::from(ends))
+    }
+
+    pub(super) fn is_circle(&self, spot: &Spot) -> bool {
+        self.rounds.rounds[spot.round].circle.is_some()
+    }
+
+    /// Follows from a spot on, at most so many blocks: how many do, and whether the contour or the program's cut ends behind them.
+    pub(in crate::beside) fn verify(
+        &self,
+        mut pose: Pose,
+        from: Spot,
+        entry: Spot,
+        index: usize,
+        most: usize,
+    ) -> (usize, bool) {
+        let (mut spot, mut count, mut length) = (from, 0, 0.0);
+        let mut stop = None;
+        let round = &self.rounds.rounds[from.round];
+        for next in index..self.traced.blocks.len() {
+            match self.traced.blocks[next].motion {
+                Motion::Stop => {
+                    stop = Some(count);
+                    continue;
+                }
+                Motion::Way(..) => return (count, true),
+                Motion::Cut(_) => {}
+            }
+            let followed = pose.follow(self.rounds, self.traced, next, &spot, &entry);
+            let Some(reached) = followed else {
+                return (
+                    count,
+                    stop == Some(count) || count > 0 && self.leads_out(next),
+                );
+            };
+            count += 1;
+            length += reached.length;
+            match reached.spot {
+                Some(further) if count < most => spot = further,
+                Some(_) => return (count, false),
+                None => return (count, true),
+            }
+            if length >= round.length - COVERED || reached.whole && spot == entry {
+                return (count, true);
+            }
+        }
+        (count, true)
+    }
+
+    /// Whether a block and one more at most are the last before a stop.
+    pub(super) fn leads_out(&self, index: usize) -> bool {
+        let behind = self.traced.blocks[index..].iter();
+        behind.take_while(|block| block.segment().is_some()).count() <= 2
+    }
+}

@@ -1,0 +1,203 @@
+//! Behind a block that does not follow: whether the run goes on, and where.
+
+use super::super::pose::{Pose, Reached, stretch};
+use super::super::rounds::Spot;
+use super::super::traced::Motion;
+use super::super::{BETWEEN, REACH};
+use super::{Kind, NEAR, Run, SURE, Walk};
+use crate::geometry::Vector;
+
+/// Blocks and pieces that are passed over to find on, at most.
+const PASSED: usize = 8;
+/// Blocks that are looked at for the end of a piece that several of them are on.
+const SPLIT: usize = 400;
+
+impl Walk<'_> {
+    /// Goes on with a run behind a block that does not follow, and names it. The block to go on with; `None` where nothing follows.
+    pub(super) fn resume(&mut self, run: &mut Run, index: usize) -> Option<usize> {
+        if run.complete {
+            return None;
+        }
+        let mut ways = vec![run.spot];
+        while ways.len() <= PASSED {
+            match ways.last().and_then(|spot| self.rounds.next(spot)) {
+                Some(next) => ways.push(next),
+                None => break,
+            }
+        }
+        let mut turns: Option<bool> = None;
+        let cut = |nth: &usize| {
+            self.traced
+                .blocks
+                .get(*nth)
+                .and_then(|block| block.segment())
+        };
+        let cuts = (index..index + PASSED)
+            .take_while(|nth| cut(nth).is_some())
+            .count();
+        let mut choices: Vec<(usize, usize)> = (0..=cuts)
+            .flat_map(|blocks| (0..ways.len()).map(move |pieces| (blocks, pieces)))
+            .filter(|&(blocks, pieces)| blocks > 0 || pieces > 0 && run.passed != Some(index))
+            .collect();
+        choices.sort_by_key(|&(blocks, pieces)| {
+            let size = blocks.max(pieces);
+            (size, blocks != pieces, blocks.abs_diff(pieces), blocks)
+        });
+        for (blocks, pieces) in choices {
+            let last = index + blocks;
+            let end = match blocks.checked_sub(1) {
+                Some(before) => cut(&(index + before))?.end(),
+                None => cut(&index)?.start(),
+            };
+            let mut spot = ways[pieces];
+            if pieces > 0 && blocks > 1 {
+                // It may come back to the drawing within a piece, where a tab begins.
+                let near = self.rounds.near(self.pose.place(end), REACH);
+                let within = near.iter().find(|near| {
+                    (near.round, near.piece, near.back) == (spot.round, spot.piece, spot.back)
+                });
+                spot = within.copied().unwrap_or(spot);
+            }
+            let miss = self.pose.place(end) - spot.at;
+            for by in [Vector::zeros(), miss] {
+                let is_back = by == Vector::zeros();
+                if is_back && miss.norm() > REACH {
+                    continue;
+                }
+                let pose = if is_back {
+                    self.pose
+                } else {
+                    self.pose.moved(by)
+                };
+                let (count, ends) = self.verify(pose, spot, run.entry, last, SURE);
+                let is_back_at_stop = is_back && ends && spot.at != ways[pieces].at;
+                if count < SURE && !(ends && count >= 1 || is_back_at_stop) {
+                    continue;
+                }
+                // Little speaks for it, and something for another pass or a tab.
+                if count < SURE
+                    && *turns.get_or_insert_with(|| self.turns(&self.pose, &run.spot, index))
+                {
+                    return None;
+                }
+                let off = match blocks {
+                    1 => miss.norm(),
+                    _ => self.off(&self.pose, run, index),
+                };
+                self.name(run, index, off, Kind::Block);
+                (index..last).for_each(|block| self.walked.runs[block] = true);
+                let mut gone = run.spot;
+                for next in &ways[1..=pieces] {
+                    let length = self.rounds.rest(&gone).length();
+                    self.cover(&gone, length);
+                    run.travelled += length;
+                    gone = *next;
+                }
+                let within = self.rounds.rest(&gone).length() - self.rounds.rest(&spot).length();
+                if within > 0.0 {
+                    self.cover(&gone, within);
+                    run.travelled += within;
+                }
+                self.pose = pose;
+                run.spot = spot;
+                run.passed = (blocks == 0).then_some(index);
+                return Some(last);
+            }
+        }
+        None
+    }
+
+    /// How far the end of a block lies from that of the piece which it should follow.
+    pub(super) fn off(&self, pose: &Pose, run: &Run, index: usize) -> f64 {
+        let Some(segment) = self.traced.blocks[index].segment() else {
+            return 0.0;
+        };
+        // It may stand for several pieces.
+        let end = pose.place(segment.end());
+        let (mut spot, mut off) = (run.spot, f64::INFINITY);
+        for _ in 0..4 {
+            let (rest, next) = stretch(self.rounds, &spot, &run.entry);
+            off = off.min((end - rest.end()).norm());
+            match next {
+                Some(next) if next != run.entry => spot = next,
+                _ => break,
+            }
+        }
+        off
+    }
+
+    /// The block behind those that share a piece of the drawing with the one at `index`, which ends within it; `None` where they do not
+    /// come to its end, nor to a stop or another pass.
+    pub(super) fn split_ends(
+        &self,
+        pose: &Pose,
+        run: &Run,
+        reached: &Reached,
+        index: usize,
+    ) -> Option<usize> {
+        let (mut pose, mut spot) = (*pose, reached.spot?);
+        let mut length = reached.length;
+        for next in index + 1..self.traced.blocks.len().min(index + SPLIT) {
+            match self.traced.blocks[next].motion {
+                Motion::Stop => return Some(next),
+                Motion::Way(..) => return None,
+                Motion::Cut(_) => {}
+            }
+            let followed = pose.follow(self.rounds, self.traced, next, &spot, &run.entry);
+            let Some(further) = followed else {
+                return self.turns(&pose, &spot, next).then_some(next);
+            };
+            length += further.length;
+            if further.whole || self.covers_all(run, length) {
+                return Some(next);
+            }
+            spot = further.spot?;
+        }
+        None
+    }
+
+    /// Whether another pass, or the way back, begins at a block or behind a few that lead to it.
+    pub(super) fn turns(&self, pose: &Pose, spot: &Spot, index: usize) -> bool {
+        for next in index..self.traced.blocks.len().min(index + BETWEEN + 1) {
+            let block = &self.traced.blocks[next];
+            let Motion::Cut(segment) = &block.motion else {
+                if matches!(block.motion, Motion::Stop) {
+                    continue;
+                }
+                return false;
+            };
+            let near = self.rounds.near(pose.place(segment.start()), REACH);
+            let other = |near: &&Spot| (near.round, near.back) != (spot.round, spot.back);
+            if near
+                .iter()
+                .filter(other)
+                .any(|near| self.begins(pose, near, next).is_some())
+            {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Whether a block before the run begins about where this one ends: it was the first of its contour, which comes back to there.
+    pub(super) fn begins_before(&self, pose: &Pose, run: &Run, reached: &Reached) -> bool {
+        let Some(spot) = reached.spot else {
+            return false;
+        };
+        let left = self.rounds.rest(&spot).length();
+        self.before(run).any(|before| {
+            let start = self.traced.blocks[before]
+                .segment()
+                .map(|own| pose.place(own.start()));
+            start.is_some_and(|start| (start - spot.at).norm() < left.min(NEAR))
+        })
+    }
+
+    /// Blocks right before a run that follow nothing, the nearest first.
+    pub(super) fn before(&self, run: &Run) -> impl Iterator<Item = usize> {
+        (1..=BETWEEN)
+            .map_while(|back| run.first.checked_sub(back))
+            .take_while(|&before| self.traced.blocks[before].segment().is_some())
+            .take_while(|&before| !self.walked.runs[before])
+    }
+}
