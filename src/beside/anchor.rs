@@ -56,7 +56,12 @@ pub(super) fn others(traced: &Traced, rounds: &Rounds, pose: &Pose) -> Vec<Pose>
         let away = (other.shift - pose.shift).norm();
         away > 0.5 && away < FAR
     };
-    all.filter(is_near).collect()
+    let all = all.filter(is_near);
+    all.filter_map(|other| match pose.is_exact() {
+        true => other.exactly(),
+        false => Some(other),
+    })
+    .collect()
 }
 
 /// Blocks from which a place is tried.

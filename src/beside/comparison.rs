@@ -63,9 +63,6 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     if own.is_sure {
         return own.told(traced);
     }
-    if std::env::var("WEDM_DEBUG").is_ok() {
-        eprintln!("UNSURE {:?}", own.unlike);
-    }
     let near = nearest(drawn, traced, &courses);
     let own = near.exactly(drawn, traced).or_better(|| own);
     let own = if own.unlike.len() <= 2 * FEW {
@@ -166,7 +163,7 @@ fn along(
     pose: Pose,
 ) -> Tried {
     if pose.is_exact()
-        && let Some((walked, _)) = sound(traced, &rounds, pose)
+        && let Some(walked) = sound_somewhere(traced, &rounds, pose)
     {
         return Tried::of(traced, walked, &[], (Rc::new(rounds), pose)).sure();
     }
@@ -216,6 +213,12 @@ fn along(
 fn sound(traced: &Traced, rounds: &Rounds, pose: Pose) -> Option<(Walked, f64)> {
     let members = Members::all(traced, rounds, pose);
     members.filter(|(walked, _)| foreign(traced, walked).is_empty())
+}
+
+/// The same from any place where the program may lie.
+fn sound_somewhere(traced: &Traced, rounds: &Rounds, pose: Pose) -> Option<Walked> {
+    let mut poses = std::iter::once(pose).chain(others(traced, rounds, &pose));
+    poses.find_map(|pose| Some(sound(traced, rounds, pose)?.0))
 }
 
 /// What may be left standing, µm.
@@ -335,7 +338,7 @@ impl Tried {
         let Some((rounds, pose)) = laid else {
             return Tried::nothing();
         };
-        if let Some((walked, _)) = sound(traced, &rounds, pose) {
+        if let Some(walked) = sound_somewhere(traced, &rounds, pose) {
             return Tried::of(traced, walked, &[], (rounds, pose)).sure();
         }
         let walked = Walk::new(traced, &rounds, pose).go(&tabs(drawn));
@@ -363,12 +366,10 @@ impl Tried {
             self.unlike.clear();
             return self;
         }
-        let more = others(traced, &rounds, &pose).into_iter();
-        let more = more.filter_map(|other| match pose.is_exact() {
-            true => other.exactly(),
-            false => Some(other),
-        });
-        let mut poses = std::iter::once(pose).chain(more);
+        if !pose.is_exact() && self.unlike.is_empty() {
+            return self;
+        }
+        let mut poses = std::iter::once(pose).chain(others(traced, &rounds, &pose));
         if let Some(only) =
             poses.find_map(|pose| single(traced, &rounds, pose, &self.unlike, &miss))
         {

@@ -49,8 +49,10 @@ impl Goes {
         for go in self.done {
             let length = rounds.rounds[go.round].length;
             let counts = counts(&go.parts, length);
-            let uncut = counts.iter().filter(|(count, _)| *count == 0);
-            if uncut.map(|(_, length)| length).sum::<f64>() <= COVERED {
+            if !counts
+                .iter()
+                .any(|(count, length)| *count == 0 && *length > COVERED)
+            {
                 continue;
             }
             match partial.iter_mut().find(|other| other.round == go.round) {

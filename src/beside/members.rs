@@ -141,15 +141,15 @@ impl Members {
             let entry = goes_on.and_then(own).unwrap_or(spot);
             follow(self.pose, traced, rounds, index, (spot, entry))
         });
-        let first = whole_or_first(all);
-        first.or_else(|| {
-            // 4B puts each contour where its wire begins.
-            let base = self.pose.shifted(self.base?);
+        // 4B puts each contour where its wire begins.
+        let base = self.base.map(|base| self.pose.shifted(base));
+        let beside = base.into_iter().flat_map(|base| {
             let near = rounds.near_beside(base.place(segment.start()), REACH);
-            whole_or_first(near.into_iter().filter_map(|(spot, by)| {
+            near.into_iter().filter_map(move |(spot, by)| {
                 follow(base.moved(by), traced, rounds, index, (spot, spot))
-            }))
-        })
+            })
+        });
+        whole_or_first(all.chain(beside))
     }
 
     /// Blocks about those where blocks begin to follow, or no longer do.

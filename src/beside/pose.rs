@@ -54,8 +54,10 @@ const COUNTED: f64 = 1.52;
 /// How far our own arcs have their centres from where the drawing has them, in X and in Y, and run beside it, µm.
 const CENTRED: f64 = 1.501;
 const ASIDE: f64 = 2.6;
-/// How far a node may be from where it is thought to be where arcs before it have ended beside theirs, µm.
-const UNSURE: f64 = 1.5;
+/// How far a node may be from where it is thought to be: where the program lies was found by places that are rounded; the arc before it
+/// has ended within a piece, µm.
+const UNSURE: f64 = 1.0;
+const WITHIN: f64 = 1.5;
 /// What lies so near to the middle between two nodes may be rounded either way, µm.
 const TIE: f64 = 1e-3;
 
@@ -197,7 +199,7 @@ impl Pose {
                 }
             }
             (true, false) if self.exact && counts => {
-                self.unsure = UNSURE;
+                self.unsure = WITHIN;
                 self.node_within(rounds, reached, from)
             }
             _ => return,
