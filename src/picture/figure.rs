@@ -7,7 +7,7 @@ use super::subject::{Subject, is_other};
 use crate::drawing::{Entity, EntityId, Geometry, Role};
 use crate::finding::{Detail, Finding, Place};
 use crate::geometry::{Point, Segment};
-use crate::toolpath::{Source, WirePath};
+use crate::toolpath::{Source, WirePath, lengths};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// How far the material reaches beyond an opening that no outline holds.
@@ -20,7 +20,10 @@ const TOOLTIP_SEGMENTS: usize = 4000;
 pub(super) fn figure(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     sheet.line(format_args!(
         "{}",
-        frame.opening_of_drawing(subject.unit_mm)
+        frame.opening_of_drawing(
+            subject.unit_mm,
+            (!subject.paths.is_empty()).then(|| subject.mm(lengths(subject.paths).0))
+        )
     ));
     areas(sheet, frame, subject);
     asides(sheet, frame, subject);

@@ -47,7 +47,7 @@ pub(crate) fn fit_svg(fit: &Fit, unit_mm: f64) -> String {
     sheet.heading(title, &facts, None);
     sheet.line(format_args!(
         "<g class=\"figure\">{}",
-        frame.opening_of_drawing(unit_mm)
+        frame.opening_of_drawing(unit_mm, None)
     ));
     outlines(&mut sheet, fit, &frame);
     sheet.line(format_args!("</g>"));

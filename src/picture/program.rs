@@ -58,7 +58,10 @@ pub(crate) fn program_svg(
     let unknown = trace.upper_unknown.as_deref();
     let facts: Vec<&str> = facts.iter().map(String::as_str).chain(unknown).collect();
     sheet.heading(&title, &facts.join(" · "), alert);
-    sheet.line(format_args!("{}", frame.opening_of_drawing(1.0)));
+    sheet.line(format_args!(
+        "{}",
+        frame.opening_of_drawing(1.0, Some(cut / 1000.0))
+    ));
     let per_path = moving.len().div_ceil(MOST_BLOCKS).max(1);
     for steps in moving.chunk_by(|a, b| joins(a, b)) {
         for steps in steps.chunks(per_path) {

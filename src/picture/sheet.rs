@@ -112,12 +112,14 @@ impl Frame {
     }
 
     /// The same for the drawing itself, with what turns coordinates within the group into the drawing's:
-    /// `data-origin` + local / `data-scale`, of which one is `data-unit-mm` millimetres.
-    pub(crate) fn opening_of_drawing(&self, unit_mm: f64) -> String {
+    /// `data-origin` + local / `data-scale`, of which one is `data-unit-mm` millimetres; and with what is cut, mm, where the wire's path
+    /// is in it.
+    pub(crate) fn opening_of_drawing(&self, unit_mm: f64, cut: Option<f64>) -> String {
         let [left, bottom] = [self.left, self.bottom].map(number);
         let (origin, scale) = (self.origin, self.scale);
+        let cut = cut.map_or_else(String::new, |cut| format!(r#" data-cut="{cut:?}""#));
         format!(
-            r#"<g class="drawing" transform="matrix(1 0 0 -1 {left} {bottom})" data-origin="{:?} {:?}" data-scale="{scale:?}" data-unit-mm="{unit_mm:?}">"#,
+            r#"<g class="drawing" transform="matrix(1 0 0 -1 {left} {bottom})" data-origin="{:?} {:?}" data-scale="{scale:?}" data-unit-mm="{unit_mm:?}"{cut}>"#,
             origin.x, origin.y
         )
     }

@@ -48,7 +48,22 @@ def pytest_configure() -> None:
 
 
 class Plain(LanguageClientProtocol):
-    """Leaves every message as JSON gives it."""
+    """Leaves every message as JSON gives it, and knows what it has answered."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        #: Ids of the server's requests by method, as they came.
+        self.questions: dict[str, list[Any]] = {}
+        #: Ids of those to which the answer was sent.
+        self.answered: set[Any] = set()
+
+    def _handle_request(self, msg_id: Any, method_name: str, params: Any) -> None:
+        self.questions.setdefault(method_name, []).append(msg_id)
+        super()._handle_request(msg_id, method_name, params)
+
+    def _send_response(self, msg_id: Any, *args: Any, **kwargs: Any) -> None:
+        super()._send_response(msg_id, *args, **kwargs)
+        self.answered.add(msg_id)
 
     def get_message_type(self, method: str) -> Any:
         return None

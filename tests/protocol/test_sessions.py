@@ -74,6 +74,12 @@ def parts(session: list[dict[str, Any]]) -> list[list[dict[str, Any]]]:
     return cut
 
 
+def of_version(message: dict[str, Any], at: tuple[str, Any]) -> bool:
+    """A publish of one version of a document."""
+    params = message.get("params") or {}
+    return message.get("method") == "textDocument/publishDiagnostics" and (params["uri"], params.get("version")) == at
+
+
 RECORDED = {path: whole(path) for path in SESSIONS}
 CUT = [pytest.param(part, id=f"{path.stem} {number}") for path, session in RECORDED.items() for number, part in enumerate(parts(session), 1)]
 
@@ -106,7 +112,7 @@ async def test_replay(stranger: Client, said: list[dict[str, Any]]) -> None:
         stranger.answers[method] = lambda params, method=method: later(method)
     cancelled = {one["message"]["params"]["id"] for one in said if one["message"].get("method") == "$/cancelRequest"}
     compared = 0
-    for message, by in ((one["message"], one["from"]) for one in said):
+    for place, (message, by) in enumerate((one["message"], one["from"]) for one in said):
         if by == "client" and "method" in message:
             method, params = message["method"], message.get("params")
             if method == "initialize":
@@ -126,16 +132,19 @@ async def test_replay(stranger: Client, said: list[dict[str, Any]]) -> None:
         elif by == "client" and message.get("id") in asked:
             method = asked[message["id"]]
             await stranger.until(lambda method=method: unanswered[method], f"request {method} of the server")
+            number = stranger.protocol.questions[method].pop(0)
             unanswered[method].pop(0).set_result(message.get("result"))
-            # It is sent at the loop's next turns, and before what follows.
-            await asyncio.sleep(0.01)
+            # It is sent at one of the loop's next turns, and before what follows.
+            while number not in stranger.protocol.answered:
+                await asyncio.sleep(0)
         elif by == "server" and "method" not in message and message.get("id") in waiting:
             try:
                 found: Any = {"result": await waiting.pop(message["id"])}
             except JsonRpcException as error:
                 found = {"error": {"code": error.code}}
-            if message["id"] in cancelled and found == CANCELLED:
-                # The answer once was faster.
+            if message["id"] in cancelled:
+                # Whether the answer or its end is faster is chance: what was recorded is never brought up to date where it is the end.
+                assert found == CANCELLED or "result" in found, found
                 continue
             if "error" in message:
                 assert found == {"error": {"code": message["error"]["code"]}}
@@ -152,9 +161,11 @@ async def test_replay(stranger: Client, said: list[dict[str, Any]]) -> None:
         elif message.get("method") == "textDocument/publishDiagnostics":
             params = message["params"]
             at = (params["uri"], params.get("version"))
-            # Other settings give one version other diagnostics: it is waited for these.
+            # Other settings give one version other diagnostics: it is waited for these, or for those of the same version that came behind
+            # them, since a publish that is overtaken may be left out.
+            behind = [one["message"]["params"]["diagnostics"] for one in said[place:] if of_version(one["message"], at)]
             try:
-                await stranger.until(lambda at=at, said=params: differs(said["diagnostics"], stranger.published.get(at)) is None, "publish", 10)
+                await stranger.until(lambda at=at, behind=behind: any(differs(one, stranger.published.get(at)) is None for one in behind), "publish", 10)
             except AssertionError:
                 if UPDATES and at in stranger.published:
                     params["diagnostics"] = stranger.published[at]

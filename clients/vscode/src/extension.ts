@@ -4,6 +4,7 @@ import * as vscode from "vscode";
 import { PathCheck } from "./commands/check";
 import { convertToDxf } from "./commands/convert";
 import { changeCorrection } from "./commands/correction";
+import { saveDrillList } from "./commands/drillList";
 import { exportPicture } from "./commands/exportPicture";
 import { fixAll } from "./commands/fixAll";
 import { generate } from "./commands/generate";
@@ -42,6 +43,8 @@ export function activate(context: vscode.ExtensionContext): void {
     "wedm.openPicture": (uri) => pictures.open(uri, false),
     "wedm.openText": (uri) => editor.openAs(uri, "default"),
     "wedm.openDrawing": (uri) => editor.openAs(uri, EDITOR),
+    "wedm.showFit": (uri) => pictures.openFit(uri),
+    "wedm.saveDrillList": (uri) => saveDrillList(server, front, uri),
     "wedm.exportPicture": (uri) => exportPicture(server, front, uri),
     "wedm.simulate": (uri) => pictures.open(uri, true),
     "wedm.convertToDxf": (uri) => convertToDxf(server, front, uri),

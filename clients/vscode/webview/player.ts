@@ -28,6 +28,7 @@ export class Player {
   #lines: readonly string[] = [];
   /** What is cut, and what is jumped over, up to the end of each piece. */
   #cut: number[] = [];
+  #mmPerUnit = 0;
   #distance = 0;
   #playing = false;
   #last = 0;
@@ -66,6 +67,8 @@ export class Player {
     this.#track = new Track(lengths);
     let cut = 0;
     this.#cut = this.#pieces.map((piece, index) => (cut += isJump(piece) ? 0 : (lengths[index] ?? 0)));
+    // The sheet is drawn with few digits: what is cut is the server's figure, and the picture only shares it out.
+    this.#mmPerUnit = cut > 0 && sheet.cut > 0 ? sheet.cut / cut : sheet.unitsPerMm > 0 ? 1 / sheet.unitsPerMm : 0;
     this.#section.hidden = this.#track.length === 0;
     this.#shown = -1;
     this.#wire = this.#trail = null;
@@ -194,11 +197,11 @@ export class Player {
       this.#where.textContent = this.#motion.textContent = this.#block.textContent = "";
       return;
     }
-    const toMm = this.#sheet?.unitsPerMm ?? 0;
     const jumps = isJump(piece);
     const before = this.#cut[spot.piece - 1] ?? 0;
     const cut = jumps ? before : before + spot.along;
-    const travelled = toMm > 0 ? t("cut {0} of {1} mm", (cut / toMm).toFixed(1), ((this.#cut.at(-1) ?? 0) / toMm).toFixed(1)) : "";
+    const mm = (length: number): string => (length * this.#mmPerUnit).toFixed(1);
+    const travelled = this.#mmPerUnit > 0 ? t("cut {0} of {1} mm", mm(cut), mm(this.#cut.at(-1) ?? 0)) : "";
     const line = piece.dataset["line"];
     this.#motion.className = jumps ? "jumps" : "cuts";
     this.#motion.textContent = jumps ? t("Jump") : t("Cut");

@@ -74,6 +74,11 @@ export class Sheet {
     }
   }
 
+  /** What is cut, mm, as the server counts it; 0 where there is no wire's path. */
+  get cut(): number {
+    return Number(this.drawing?.dataset["cut"] ?? 0);
+  }
+
   /** What is written about the picture, for the page's own head. */
   heading(): { title: string; note: string; alert: string; severity: string } {
     const text = (selector: string): string => this.svg.querySelector(`.chrome ${selector}`)?.textContent ?? "";

@@ -18,6 +18,9 @@ type Format = "3b" | "4b" | "iso";
 
 const TITLES: Record<Format, string> = { "3b": "3B", "4b": "4B", iso: "ISO" };
 
+/** So many slugs are named. */
+const SLUGS = 4;
+
 interface How {
   options?: { program?: { profile: string } };
   /** What the user has said of contours that nothing says it of. */
@@ -136,8 +139,10 @@ function told(generated: Program, format: Format): string {
   const [x, y] = [generated.closure.x, generated.closure.y].map((drift) => (Math.round(drift * 100) / 100 + 0).toFixed(2));
   const drift = format === "iso" ? "" : t("; a controller that counts J drifts by {0}, {1} µm", x ?? "", y ?? "");
   const minutes = generated.minutes === undefined ? "" : t("; {0} minutes on the machine", generated.minutes.toFixed(1));
+  const slugs = (generated.work?.slugs ?? []).map(({ contour, mass }) => t("{0}: {1} g", contour, mass.toFixed(1)));
+  const drops = slugs.length === 0 ? "" : t("; what drops out: {0}", slugs.slice(0, SLUGS).join(", ") + (slugs.length > SLUGS ? ", …" : ""));
   const { length } = generated.warnings;
   const stand = length === 1 ? t(" 1 finding stands in the drawing.") : t(" {0} findings stand in the drawing.", length);
   const warnings = length === 0 ? "" : stand;
-  return t("{0}, {1}{2}.", blocks, path, drift + minutes) + warnings;
+  return t("{0}, {1}{2}.", blocks, path, drift + minutes + drops) + warnings;
 }

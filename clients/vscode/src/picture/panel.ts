@@ -23,6 +23,8 @@ const SEVERITIES: readonly Severity[] = ["error", "warning", "information", "hin
 export interface Role {
   /** It is the editor of one document; else it stands beside the text, and follows whatever is in front. */
   isEditor?: boolean;
+  /** It shows whether punch and plate fit, in place of the drawing. */
+  isFit?: boolean;
   closed?: () => void;
 }
 
@@ -83,7 +85,8 @@ export class Picture implements vscode.Disposable {
         }
       }),
       vscode.window.onDidChangeActiveTextEditor((editor) => {
-        if (role.isEditor !== true && editor !== undefined && isOurs(editor.document)) {
+        const isFor = ({ languageId }: vscode.TextDocument): boolean => role.isFit !== true || isDrawing(languageId);
+        if (role.isEditor !== true && editor !== undefined && isOurs(editor.document) && isFor(editor.document)) {
           this.show(editor.document.uri);
         }
       }),
@@ -160,7 +163,11 @@ export class Picture implements vscode.Disposable {
     const document = await vscode.workspace.openTextDocument(uri);
     const name = uri.path.split("/").pop() ?? "";
     if (this.role.isEditor !== true) {
-      this.#panel.title = t("Picture of {0}", name);
+      this.#panel.title = this.role.isFit === true ? t("Fit of {0}", name) : t("Picture of {0}", name);
+    }
+    if (this.role.isFit === true) {
+      await this.#drawFit(uri, name);
+      return;
     }
     const kind = isDrawing(document.languageId) ? "drawing" : "program";
     const { svg } = await this.server.request("wedm/picture", { uri: uri.toString() });
@@ -181,6 +188,19 @@ export class Picture implements vscode.Disposable {
       this.#playWhenShown = false;
       await this.#tell({ type: "play" });
     }
+  }
+
+  /** One outline in the other, and the places where less is left than there should be, the tightest first. */
+  async #drawFit(uri: vscode.Uri, name: string): Promise<void> {
+    const { svg, places } = await this.server.request("wedm/fit", { uri: uri.toString() });
+    this.#found = [];
+    const sorted = [...places].sort((a, b) => a.clearance - b.clearance);
+    const faults = sorted.map(({ clearance, handle, segment, of }): Fault => {
+      const message = t("{0} mm are left ({1})", clearance.toFixed(4), of);
+      return { severity: clearance < 0 ? "error" : "warning", rule: "does-not-fit", message, handle, segment };
+    });
+    const nothing = { contours: [], blocks: [], lines: [], isEditor: false, keeps: false };
+    await this.#tell({ type: "picture", uri: uri.toString(), name, kind: "drawing", svg, faults, ...nothing });
   }
 
   /** The contours with what is said of them. */

@@ -1,15 +1,19 @@
 // The one panel of the picture, which follows the document in front.
 
 import * as vscode from "vscode";
-import { uriOf } from "../commands/subject";
+import { subject, uriOf } from "../commands/subject";
 import type { Front } from "../front";
-import { isOurs } from "../languages";
+import { isDrawing, isOurs } from "../languages";
 import type { Server } from "../server/server";
 import { Picture, VIEW_TYPE } from "./panel";
 import { t } from "../words";
 
+/** Not restored after a reload of the window: it is asked for again. */
+const FIT_TYPE = "wedm.fit";
+
 export class Pictures implements vscode.WebviewPanelSerializer, vscode.Disposable {
   #picture: Picture | undefined;
+  #fit: Picture | undefined;
   readonly #restored: vscode.Disposable;
 
   constructor(
@@ -37,6 +41,26 @@ export class Pictures implements vscode.WebviewPanelSerializer, vscode.Disposabl
     if (play) {
       this.#picture?.play();
     }
+  }
+
+  /** Shows whether punch and plate fit, beside the text. */
+  async openFit(argument: unknown): Promise<void> {
+    const document = await subject(this.front, argument, isDrawing);
+    if (document === undefined) {
+      return;
+    }
+    if (this.#fit !== undefined) {
+      this.#fit.show(document.uri);
+      this.#fit.panel.reveal(undefined, true);
+      return;
+    }
+    const panel = vscode.window.createWebviewPanel(FIT_TYPE, t("Fit of {0}", document.uri.path.split("/").pop() ?? ""), { viewColumn: vscode.ViewColumn.Beside, preserveFocus: true }, { retainContextWhenHidden: true });
+    this.#fit = new Picture(panel, document.uri, this.server, this.extension, {
+      isFit: true,
+      closed: () => {
+        this.#fit = undefined;
+      },
+    });
   }
 
   /** Marks entities that the user is asked about; null when they have answered. */
@@ -71,6 +95,7 @@ export class Pictures implements vscode.WebviewPanelSerializer, vscode.Disposabl
 
   dispose(): void {
     this.#picture?.panel.dispose();
+    this.#fit?.panel.dispose();
     this.#restored.dispose();
   }
 }

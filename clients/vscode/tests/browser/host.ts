@@ -6,21 +6,12 @@ import { createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { promisify } from "node:util";
-import { type Browser, type BrowserContextOptions, chromium, type Page } from "playwright-core";
-import { ARTIFACTS, CHROMIUM, CODE_SERVER, EXTENSION, WEDM } from "./paths";
+import { type Browser, type BrowserContextOptions, type Page } from "playwright-core";
+import { ARTIFACTS, CODE_SERVER, EXTENSION, WEDM } from "./paths";
+import { startBrowser } from "./start";
 
 /** Longer than anything here takes on a busy machine. */
 export const PATIENCE = Number(process.env["PATIENCE"] ?? 30_000);
-
-const FLAGS = [
-  "--no-sandbox",
-  "--disable-gpu",
-  "--disable-quic",
-  "--no-first-run",
-  "--disable-background-networking",
-  "--disable-component-update",
-  "--disable-sync",
-];
 
 const QUIET = {
   "workbench.startupEditor": "none",
@@ -90,7 +81,7 @@ export class Host {
     const options = ["--auth", "none", "--bind-addr", `127.0.0.1:${port}`, "--disable-telemetry", "--disable-update-check", "--disable-workspace-trust"];
     const server = spawn(process.execPath, [CODE_SERVER, ...places, ...options, folder], { env: environment, stdio: ["ignore", "pipe", "pipe"], detached: true });
     await listening(server);
-    const browser = await chromium.launch({ executablePath: CHROMIUM, args: FLAGS });
+    const browser = await startBrowser();
     const page = await browser.newPage({ viewport: { width: 1600, height: 960 }, colorScheme: "dark", ...view });
     page.setDefaultTimeout(PATIENCE);
     const host = new Host(folder, page, root, browser, server);

@@ -7,13 +7,16 @@ import { large } from "./large";
 import { picture } from "./picture";
 import { program } from "./program";
 import { readme } from "./readme";
+import { states } from "./states";
 import { text } from "./text";
+import { themes } from "./themes";
 import { withServer } from "./withServer";
 
 /** Made when it is asked for by name: it changes a picture that is committed. */
 const ONLY_BY_NAME = "readme";
 type Scenario = (checks: Checks) => Promise<void>;
-const scenarios: Record<string, Scenario> = { text, picture, drawing, large, program, badDays, withServer, [ONLY_BY_NAME]: readme };
+const pages = { states, large, themes };
+const scenarios: Record<string, Scenario> = { text, picture, drawing, ...pages, program, badDays, withServer, [ONLY_BY_NAME]: readme };
 const checks = new Checks();
 const named = process.argv.slice(2);
 

@@ -103,13 +103,16 @@ export class Window {
     return Number(await this.page.locator(".monaco-editor .line-numbers.active-line-number").first().innerText());
   }
 
-  async picture(): Promise<Frame> {
+  /** The page of the picture that is seen; once something is drawn in it, or at once. */
+  async picture(drawn = true): Promise<Frame> {
     const outer = await (await this.page.locator("iframe.webview.ready:visible").elementHandle())?.contentFrame();
     const inner = await (await outer?.locator("iframe#active-frame").elementHandle())?.contentFrame();
     if (inner === null || inner === undefined) {
       throw new Error("there is no picture");
     }
-    await inner.locator("#stage > svg").waitFor();
+    if (drawn) {
+      await inner.locator("#stage > svg").waitFor();
+    }
     return inner;
   }
 
