@@ -82,7 +82,8 @@ export class Faults {
     const name = document.createElement("b");
     name.textContent = this.#placeOf(fault);
     const what = document.createElement("span");
-    what.textContent = fault.radius !== undefined && fault.rule === "small-radius" ? `R ${fault.radius.toFixed(3)} mm` : fault.rule;
+    const radius = fault.radius !== undefined && fault.rule === "small-radius" ? `R ${fault.radius.toFixed(3)} mm` : null;
+    what.textContent = fault.left ?? radius ?? fault.rule;
     button.append(name, what);
     button.addEventListener("click", () => {
       this.chosen(index);

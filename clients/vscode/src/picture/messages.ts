@@ -14,6 +14,8 @@ export interface Fault {
   segment?: number;
   /** mm, of an arc that is too tight. */
   radius?: number;
+  /** Of a place of a fit, in words: what is left there. */
+  left?: string;
   /** In a program; counts from 0. */
   line?: number;
 }
@@ -43,7 +45,8 @@ export interface Shown {
   type: "picture";
   uri: string;
   name: string;
-  kind: "drawing" | "program";
+  /** Of a fit there is no wire to be played, and nothing to be saved. */
+  kind: "drawing" | "program" | "fit";
   svg: string;
   faults: Fault[];
   contours: Contour[];

@@ -196,11 +196,11 @@ export class Picture implements vscode.Disposable {
     this.#found = [];
     const sorted = [...places].sort((a, b) => a.clearance - b.clearance);
     const faults = sorted.map(({ clearance, handle, segment, of }): Fault => {
-      const message = t("{0} mm are left ({1})", clearance.toFixed(4), of);
-      return { severity: clearance < 0 ? "error" : "warning", rule: "does-not-fit", message, handle, segment };
+      const left = t("{0} mm left", clearance.toFixed(4));
+      return { severity: clearance < 0 ? "error" : "warning", rule: "does-not-fit", message: `${left} (${of})`, left, handle, segment };
     });
     const nothing = { contours: [], blocks: [], lines: [], isEditor: false, keeps: false };
-    await this.#tell({ type: "picture", uri: uri.toString(), name, kind: "drawing", svg, faults, ...nothing });
+    await this.#tell({ type: "picture", uri: uri.toString(), name, kind: "fit", svg, faults, ...nothing });
   }
 
   /** The contours with what is said of them. */

@@ -158,13 +158,16 @@ export async function picture(checks: Checks): Promise<void> {
       await expectSoon("what is missing", async () => (await trouble()).includes("pair.drawn-as"), trouble);
       await writeFile(
         join(host.folder, "wedm.toml"),
-        'side = "auto"\nwire-diameter = 0.18\ngap = 0.01\n[pair]\ndrawn-as = "punch"\nclearance = 0.005\n',
+        'wire-diameter = 0.18\ngap = 0.01\n[pair]\ndrawn-as = "punch"\nclearance = 0.005\n',
       );
       const fit = async (): Promise<string> => (await window.picture()).locator("#title, #note").allInnerTexts().then((texts) => texts.join(" "));
       await expectSoon("one outline in the other", async () => (await fit()).includes("µm"), fit);
+      const shown = await window.picture();
+      const chip = async (): Promise<string> => (await shown.locator("#chips .chip").first().innerText()).replace(/\s+/g, " ");
+      await expectSoon("what is left, the tightest first", async () => /^2A · \d -[\d.]+ mm left$/.test(await chip()), chip);
+      expectEqual("a player", await shown.locator("#player").isVisible(), false);
       await checks.shot("fit");
-      await host.page.keyboard.press("Control+2");
-      await window.command("View: Close Editor");
+      await window.close("Fit of");
       await rm(join(host.folder, "wedm.toml"));
     });
     await checks.check("wedm.toml wins over the settings, and the status bar says so", async () => {

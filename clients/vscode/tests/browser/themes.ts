@@ -85,9 +85,7 @@ export async function themes(checks: Checks): Promise<void> {
         await expectSoon("chips", async () => (await page.locator("#faults .chip").count()) >= 4);
         await checks.shot(`theme-${name}-picture`);
         const tooFaint = await faint(page);
-        await host.page.keyboard.press("Control+2");
-        await window.command("View: Close Editor");
-        await host.page.keyboard.press("Control+1");
+        await window.close("Picture of");
         await expectNone(tooFaint);
       });
       await checks.check(`${name}: the card of a finding can be read`, async () => {

@@ -103,6 +103,14 @@ export class Window {
     return Number(await this.page.locator(".monaco-editor .line-numbers.active-line-number").first().innerText());
   }
 
+  /** Closes a tab by its name. */
+  async close(name: string): Promise<void> {
+    const tab = this.page.locator(".tabs-container .tab", { hasText: name });
+    await tab.hover();
+    await tab.locator(".codicon-close").click();
+    await tab.waitFor({ state: "detached" });
+  }
+
   /** The page of the picture that is seen; once something is drawn in it, or at once. */
   async picture(drawn = true): Promise<Frame> {
     const outer = await (await this.page.locator("iframe.webview.ready:visible").elementHandle())?.contentFrame();
