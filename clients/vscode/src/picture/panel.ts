@@ -11,6 +11,7 @@ import { rulePage } from "../rulePages";
 import type { Server } from "../server/server";
 import { type Contour, type Fault, fromPage, type FromPage, type Said, type Severity, type ToPage } from "./messages";
 import { page } from "./page";
+import { whyOf } from "./why";
 import { t } from "../words";
 
 export const VIEW_TYPE = "wedm.picture";
@@ -238,7 +239,7 @@ export class Picture implements vscode.Disposable {
       handle === undefined ? none : this.server.request("wedm/repairs", asked).then((answer) => answer, () => none),
     ]);
     this.#repairs = repairs;
-    await this.#tell({ type: "card", card: { fault, why: firstParagraph(text), repairs } });
+    await this.#tell({ type: "card", card: { fault, why: whyOf(text), repairs } });
   }
 
   /** Makes a repair by its code action, so that it is undone as any edit is. */
@@ -378,13 +379,6 @@ function faultOf(diagnostic: vscode.Diagnostic, toMm: number): Fault {
     ...(typeof segment === "number" ? { segment } : {}),
     ...(typeof radius === "number" ? { radius: radius * toMm } : {}),
   };
-}
-
-/** The first paragraph of a page, behind its heading. */
-export function firstParagraph(page: string): string {
-  const paragraphs = page.split(/\r?\n\s*\r?\n/).map((paragraph) => paragraph.trim());
-  const first = paragraphs.find((paragraph) => paragraph !== "" && !/^[#|>!*`-]/.test(paragraph)) ?? "";
-  return first.replace(/\[([^\]]*)\]\([^)]*\)/g, "$1").replace(/[`*]/g, "").replace(/\s+/g, " ");
 }
 
 /** The client keeps the server's `data` on the diagnostics that it makes. */
