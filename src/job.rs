@@ -3,6 +3,7 @@
 //! One pipeline for both faces, which bring a document under its settings and show what comes of it; why nothing is made is decided and worded
 //! here. Nothing here reads or writes a file, or knows who asked.
 
+mod milling;
 mod pair;
 
 pub use pair::pair;
@@ -318,14 +319,32 @@ pub struct Generated {
 /// Writes and proves the program of a drawing, of which `findings` are all that there are.
 pub fn generate(
     snapshot: &Snapshot,
+    findings: Vec<Finding>,
+    wanted: &Wanted,
+    watch: &dyn Watch,
+) -> Result<Generated, Refusal> {
+    if wanted.format == Format::Milling {
+        let (milled, findings) = milling::judged(snapshot, &findings)?;
+        return written(&milled, findings, wanted, watch);
+    }
+    let settings = &snapshot.settings;
+    if settings.mills {
+        let format = wanted.format.name();
+        return Err(Refusal::Sentence(say!(nothing_is_said_of_a_wire, format)));
+    }
+    if let Some(sentence) = settings.pass_error() {
+        return Err(Refusal::Sentence(sentence));
+    }
+    written(snapshot, findings, wanted, watch)
+}
+
+fn written(
+    snapshot: &Snapshot,
     mut findings: Vec<Finding>,
     wanted: &Wanted,
     watch: &dyn Watch,
 ) -> Result<Generated, Refusal> {
     let settings = &snapshot.settings;
-    if let Some(sentence) = settings.pass_error() {
-        return Err(Refusal::Sentence(sentence));
-    }
     let is_error = |finding: &Finding| finding.severity == Severity::Error;
     // A program that was written before is no fault of the drawing.
     findings.retain(|finding| finding.rule != Rule::NotTheDrawing);
@@ -348,6 +367,9 @@ pub fn generate(
         finished,
         holes,
     } = planned(snapshot, &of_format, chosen.as_deref(), true, watch)?;
+    if settings.mills {
+        milling::too_short(snapshot, &paths)?;
+    }
     let mut go_on = |done, all| {
         watch.at(say!(writing_and_proving), Some((done, all)));
         watch.is_wanted()
@@ -362,20 +384,24 @@ pub fn generate(
                 say!(no_program_of_this_drawing, reason)
             })
         })?;
-    let warnings = findings
-        .into_iter()
-        .filter(|finding| finding.severity <= Severity::Warning);
+    let mut warnings = findings;
+    warnings.retain(|finding| finding.severity <= Severity::Warning);
+    let mut work = toolpath::work(&snapshot.drawing, &snapshot.outlines, settings, &paths);
+    if let Some(milled) = &program.milled {
+        warnings.extend(milling::uneven(snapshot, milled));
+        work = milling::in_layers(work, milled);
+    }
     Ok(Generated {
         program,
         contours: paths.iter().filter(|path| path.is_first()).count(),
-        work: toolpath::work(&snapshot.drawing, &snapshot.outlines, settings, &paths),
+        work,
         holes,
         finished: finished.map(|finished| Finished {
             uncut: finished.uncut * unit_mm,
             overcut: finished.overcut * unit_mm,
             ..finished
         }),
-        warnings: warnings.collect(),
+        warnings,
     })
 }
 
@@ -387,13 +413,23 @@ pub(crate) enum Target {
 }
 
 impl Target {
+    /// What a program can become; to mill a drawing takes more than the path of a wire.
+    const PROGRAMS: [Format; 3] = [Format::ThreeB, Format::FourB, Format::Iso];
+
+    fn program(name: &str) -> Option<Target> {
+        let format = Target::PROGRAMS
+            .into_iter()
+            .find(|format| format.name() == name);
+        format.map(Target::Program)
+    }
+
     /// What a name, or the ending of a file's name, stands for. The error says which there are.
     pub(crate) fn of(name: &str) -> Result<Target, String> {
         match name.to_ascii_lowercase().as_str() {
             "dxf" => Ok(Target::Drawing),
             "nc" => Ok(Target::Program(Format::Iso)),
-            lower => Format::of(lower).map(Target::Program).map_err(|_| {
-                let names = Format::ALL.map(Format::name).join(", ");
+            lower => Target::program(lower).ok_or_else(|| {
+                let names = Target::PROGRAMS.map(Format::name).join(", ");
                 say!(a_target_that_is_not_written, name, names)
             }),
         }
@@ -426,6 +462,9 @@ pub(crate) fn convert(
     errors.retain(|finding| !matches!(finding.rule, Rule::SmallRadius | Rule::NotTheDrawing));
     if !force && !errors.is_empty() {
         return Err(Refusal::Errors(errors));
+    }
+    if program.mills() {
+        return Err(Refusal::Sentence(say!(it_is_milled).into()));
     }
     let cuts = convert::cuts(program);
     if cuts.cuts.is_empty() {

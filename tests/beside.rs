@@ -80,7 +80,7 @@ fn program_of(document: &Document, format: Format) -> Option<String> {
 
 fn traced(text: &str, format: Format, settings: &Effective) -> Traced {
     let language = match format {
-        Format::Iso => Language::Iso,
+        Format::Iso | Format::Milling => Language::Iso,
         Format::ThreeB | Format::FourB => Language::ThreeB,
     };
     Traced::of(&program::Document::read(language, text.into(), settings))

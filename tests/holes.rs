@@ -113,7 +113,7 @@ fn said(drawing: &Drawing, settings: &Effective) -> Vec<(Severity, String)> {
 fn held(drawing: &Drawing, settings: &Effective, format: Format) -> String {
     let text = generated(drawing, settings, format).program.text;
     let language = match format {
-        Format::Iso => Language::Iso,
+        Format::Iso | Format::Milling => Language::Iso,
         _ => Language::ThreeB,
     };
     if format != Format::FourB {

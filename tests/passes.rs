@@ -387,7 +387,7 @@ fn held(drawing: &Drawing, settings: &Effective, format: Format) -> Document {
     let made = generated(drawing, settings, format);
     assert_eq!(made.contours, 1);
     let language = match format {
-        Format::Iso => Language::Iso,
+        Format::Iso | Format::Milling => Language::Iso,
         _ => Language::ThreeB,
     };
     let text = made.program.text;

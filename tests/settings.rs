@@ -197,6 +197,12 @@ fn the_page_of_settings_shows_every_key_with_its_default() {
         "pair.clearance" => "0.01",
         "pair.stripper" => "0.02",
         "pair.holder" => "0.005",
+        "milling.tool-diameter" => "1.0",
+        "milling.gap" => "0.05",
+        "milling.layer" => "0.010",
+        "milling.depth" => "0.2",
+        "milling.wear" => "0.02",
+        "milling.step" => "0.5",
         "workpieces" => "{ PUNCH = [\"PUNCH\"] }",
         "job.machine-rate" => "60",
         "layers" => "{ DIE = \"opening\", FRAME = \"ignore\" }",
@@ -444,6 +450,7 @@ fn the_python_client_has_every_key() {
         ("Passes", "passes.", "Several passes."),
         ("Job", "job.", "The workpiece."),
         ("Pair", "pair.", "A punch and its plate."),
+        ("MillingSettings", "milling.", "Milling by an electrode."),
         ("ProgramSettings", "program.", "How a program is written."),
         (
             "Profile",
@@ -493,8 +500,7 @@ fn the_python_client_has_every_key() {
             text += &format!("    {}: {kind}\n", key.replace('-', "_"));
         }
         if prefix.is_empty() {
-            text +=
-                "    passes: Passes\n    job: Job\n    pair: Pair\n    program: ProgramSettings\n";
+            text += "    passes: Passes\n    job: Job\n    pair: Pair\n    milling: MillingSettings\n    program: ProgramSettings\n";
         }
     }
     hold(

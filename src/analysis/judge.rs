@@ -91,10 +91,20 @@ impl Analysis {
             .into_iter()
             .map(|key| (key, side_of(self, key)))
             .collect();
-        for &(key, wire_side) in &notable {
+        // Along the middle of an open contour an electrode goes as it is drawn.
+        let is_middle = |analysis: &Analysis, key: ContourKey| {
+            let contour = analysis.chains.get(key);
+            analysis.settings.mills && contour.is_some_and(|contour| !contour.closed)
+        };
+        let beside: Vec<(ContourKey, Option<Side>)> = notable
+            .iter()
+            .copied()
+            .filter(|(key, _)| !is_middle(self, *key))
+            .collect();
+        for &(key, wire_side) in &beside {
             self.report_small_radii(drawing, key, wire_side, &mut report);
         }
-        for &(key, wire_side) in &notable {
+        for &(key, wire_side) in &beside {
             if self
                 .notable
                 .get(&key)

@@ -207,6 +207,9 @@ impl Pairs {
         let concerned = |key: ContourKey, side: Option<Side>| {
             side.is_none() || side_of(key).is_none() || side == side_of(key)
         };
+        // Slots that are milled along their middle have no walls to be near to each other.
+        let is_middle =
+            |key: ContourKey| report.mills() && outlook(key).is_some_and(|it| !it.contour.closed);
         let mut seen: Vec<(usize, Ends, &Observed)> = Vec::new();
         for each in self.seen.values().flatten() {
             let ends = |(key, index): SegmentId| {
@@ -216,6 +219,8 @@ impl Pairs {
             };
             if !each.blocked
                 && PAIR_RULES[each.rule].pair_by_pair
+                && !(PAIR_RULES[each.rule].rule == Rule::NarrowSlot
+                    && (is_middle(each.one.0) || is_middle(each.other.0)))
                 && concerned(each.one.0, each.sides.0)
                 && concerned(each.other.0, each.sides.1)
                 && let (Some(one), Some(other)) = (ends(each.one), ends(each.other))

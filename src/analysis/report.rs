@@ -100,6 +100,11 @@ impl Report {
         self.limit > 0
     }
 
+    /// An electrode cuts.
+    pub(crate) fn mills(&self) -> bool {
+        self.settings.mills
+    }
+
     /// True where the settings take a contour as the path of the wire.
     pub(crate) fn is_for_a_path(&self) -> bool {
         self.settings.compensation == Compensation::None

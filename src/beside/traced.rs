@@ -50,8 +50,12 @@ impl Block {
 }
 
 impl Traced {
+    /// A program that mills is no path of a wire, and is compared with nothing.
     pub fn of(program: &Document) -> Traced {
-        let trace = program.trace();
+        let mut trace = program.trace();
+        if program.mills() {
+            trace.steps.clear();
+        }
         let cuts = path::cuts(&trace);
         let cuts = cuts.iter().filter(|cut| !cut.is_way);
         // What does not come back to where it began may be a part of a contour that is cut before or behind.

@@ -8,7 +8,7 @@ use crate::finding::{Detail, Finding};
 use crate::job::{self, Wanted};
 use crate::message::{lengths, readable};
 use crate::program::{Format, ProvedProgram};
-use crate::protocol::Work;
+use crate::protocol::{Milling, Work};
 use crate::toolpath;
 use clap::Args;
 use std::path::PathBuf;
@@ -23,12 +23,13 @@ Examples:
   wedm generate plate.dxf --side opening -o plate.3b
   wedm generate plate.dxf --side opening --format iso --profile robofil --compensation controller -o plate.iso
   wedm generate plate.dxf --handle 2A --thread -115,-10 --layout checking
-  wedm generate plate.dxf --side punch --correction 0.12 --corner intersection --direction cw")]
+  wedm generate plate.dxf --side punch --correction 0.12 --corner intersection --direction cw
+  wedm generate slot.dxf --format milling -o slot.iso")]
 pub(crate) struct Arguments {
     /// The drawing
     #[arg(value_name = "PATH")]
     path: PathBuf,
-    /// Language of the program: 3b, 4b, iso
+    /// Language of the program: 3b, 4b, iso; milling by an electrode
     #[arg(long, default_value = "3b", value_parser = Format::of)]
     format: Format,
     /// Write the program there [default: stdout]
@@ -73,12 +74,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     // What is wrong with the drawing says `wedm check`; these are of the program.
     let of_program = |finding: &&Finding| {
         let detail = &finding.detail;
-        matches!(detail, Detail::OffsetCollapse { point: true, .. })
+        matches!(
+            detail,
+            Detail::OffsetCollapse { point: true, .. } | Detail::Settings(_)
+        )
     };
     let said: Vec<Finding> = made.warnings.iter().filter(of_program).cloned().collect();
     report::say(path, document, &said);
     summarise(arguments, &made.program, made.contours);
     output::say_thread_hole(&made.holes, document.unit_mm());
+    if let Some(milled) = &made.program.milled {
+        for line in Milling::new(&snapshot, milled).told(CUTS) {
+            output::say(&line);
+        }
+    }
     told(&snapshot, &made.work);
     if let Some(finished) = made.finished {
         output::say(&say!(
@@ -161,7 +170,7 @@ fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
         Format::ThreeB | Format::FourB => {
             say!(a_controller_that_counts_j_drifts, x, y)
         }
-        Format::Iso => String::new(),
+        Format::Iso | Format::Milling => String::new(),
     };
     output::say(&say!(decoded_again, program.deviation, drift));
 }

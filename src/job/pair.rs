@@ -6,6 +6,7 @@ use crate::document::Snapshot;
 use crate::drawing::Role;
 use crate::finding::{Finding, Severity};
 use crate::fit;
+use crate::program::Format;
 use crate::rule::Rule;
 use crate::settings::{Compensation, Effective, Partners, Use};
 use std::sync::Arc;
@@ -38,6 +39,9 @@ pub fn pair(
     watch: &dyn Watch,
 ) -> Result<Vec<PartProgram>, Refusal> {
     let settings = &snapshot.settings;
+    if wanted.format == Format::Milling {
+        return Err(Refusal::Sentence(say!(a_pair_is_not_milled).into()));
+    }
     let (partners, _) = settings
         .fit()
         .map_err(|missing| Refusal::Sentence(say!(a_pair_needs, missing.listed())))?;

@@ -94,7 +94,10 @@ const HELP: &[(&str, &str)] = &[
         "generate/",
         "写出之前，每个程序段都重新解码并与切割路线核对。有错误的图形会被拒绝，除非用 --force。程序写到标准输出，或用 -o 写到文件；结果说明在标准错误中。",
     ),
-    ("generate format", "程序的语言：3b、4b、iso"),
+    (
+        "generate format",
+        "程序的语言：3b、4b、iso；milling 为电极铣削",
+    ),
     ("generate output", "程序写到这里 [默认：标准输出]"),
     (
         "generate handle",
@@ -182,7 +185,10 @@ const HELP: &[(&str, &str)] = &[
     ),
     ("report paths", "图形，或图形的文件夹"),
     ("report output", "放这些页的文件夹；没有则建立"),
-    ("report format", "程序的语言：3b、4b、iso"),
+    (
+        "report format",
+        "程序的语言：3b、4b、iso；milling 为电极铣削",
+    ),
     (
         "explain",
         "说明一条规则查什么，对切割有什么影响，可以怎么办",
@@ -403,4 +409,12 @@ const HELP: &[(&str, &str)] = &[
     ("= pair.clearance", "凸模与凹模的单边配合间隙，mm"),
     ("= pair.stripper", "卸料板与凸模的单边间隙，mm"),
     ("= pair.holder", "固定板比凸模紧多少，单边，mm"),
+    ("= milling.tool-diameter", "电极直径，mm"),
+    ("= milling.gap", "电极侧面的放电间隙，mm"),
+    ("= milling.layer", "每层高度，mm"),
+    ("= milling.depth", "从表面起的深度，mm"),
+    ("= milling.wear", "每蚀除一份体积，电极损耗多少"),
+    ("= milling.wear-compensation", "进给怎样补偿电极损耗"),
+    ("= milling.step", "linear 每走多少 mm 进给一次"),
+    ("= milling.slot-ends", "每层蚀除量是否计入开口槽的圆端"),
 ];

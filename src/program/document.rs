@@ -145,6 +145,14 @@ impl Document {
         (!edits.is_empty()).then_some(edits)
     }
 
+    /// An electrode mills it: no wire cuts it out.
+    pub(crate) fn mills(&self) -> bool {
+        match self {
+            Document::ThreeB(_) => false,
+            Document::Iso(document) => document.mills(),
+        }
+    }
+
     pub(super) fn program(&self) -> &dyn Program {
         match self {
             Document::ThreeB(document) => document,

@@ -12,16 +12,20 @@ pub enum Format {
     ThreeB,
     FourB,
     Iso,
+    /// ISO with heights, layer by layer, for an electrode.
+    Milling,
 }
 
 impl Format {
-    pub(crate) const ALL: [Format; 3] = [Format::ThreeB, Format::FourB, Format::Iso];
+    pub(crate) const ALL: [Format; 4] =
+        [Format::ThreeB, Format::FourB, Format::Iso, Format::Milling];
 
     pub(crate) fn name(self) -> &'static str {
         match self {
             Format::ThreeB => "3b",
             Format::FourB => "4b",
             Format::Iso => "iso",
+            Format::Milling => "milling",
         }
     }
 
@@ -70,6 +74,7 @@ impl Format {
             Format::ThreeB => three_b::write_with(paths, unit_mm, settings, go_on),
             Format::FourB => three_b::write_four_b(paths, unit_mm, settings, go_on),
             Format::Iso => iso::write_with(paths, unit_mm, settings, go_on),
+            Format::Milling => iso::write_milled(paths, unit_mm, settings, go_on),
         }
     }
 }

@@ -20,6 +20,8 @@ pub fn refactorings(
         Document::ThreeB(program) => {
             refactor::proposals::<ThreeB>(program, settings, selection, &wanted)
         }
+        // The heights of an electrode belong to the moves as they are.
+        Document::Iso(program) if program.mills() => Vec::new(),
         Document::Iso(program) => {
             let mut found = refactor::proposals::<Iso>(program, settings, selection, &wanted);
             if wanted(profile::ID) {
@@ -40,6 +42,7 @@ pub fn scaled(
         Document::ThreeB(program) => {
             refactor::scaled(&Sheet::<ThreeB>::new(program, settings, 0..0), factor)
         }
+        Document::Iso(program) if program.mills() => Err(say!(it_is_milled).into()),
         Document::Iso(program) => {
             refactor::scaled(&Sheet::<Iso>::new(program, settings, 0..0), factor)
         }

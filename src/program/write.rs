@@ -6,7 +6,7 @@
 use super::grid::{Node, point_of, snap};
 use crate::finding::{Finding, sentence};
 use crate::geometry::{Arc, Point, Segment};
-use crate::toolpath::{Source, WirePath};
+use crate::toolpath::{Milled, Source, WirePath};
 use std::fmt;
 
 /// A program that has been decoded again and held against its path.
@@ -23,6 +23,8 @@ pub struct ProvedProgram {
     pub(crate) closure: [f64; 2],
     /// Largest distance in µm of the decoded blocks from the path, over their whole length.
     pub(crate) deviation: f64,
+    /// What milling it comes to, where an electrode does.
+    pub milled: Option<Milled>,
 }
 
 /// Why no program came out.
@@ -51,7 +53,7 @@ impl fmt::Display for ProofError {
 impl std::error::Error for ProofError {}
 
 /// The path is shorter than a step of the grid.
-pub(super) fn nothing_to_write() -> ProofError {
+pub(crate) fn nothing_to_write() -> ProofError {
     ProofError::Refused(say!(the_path_is_shorter_than_the_smallest_step).into())
 }
 
@@ -147,7 +149,7 @@ pub(crate) fn cuts(paths: &[WirePath]) -> bool {
     paths.is_empty() || paths.iter().any(|path| !path.segments.is_empty())
 }
 
-fn node_of(point: Point) -> Result<Node, ProofError> {
+pub(crate) fn node_of(point: Point) -> Result<Node, ProofError> {
     snap(point).ok_or_else(|| too_far_out(point))
 }
 

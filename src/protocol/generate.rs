@@ -1,6 +1,7 @@
 //! `wedm/generate`: a program for the machine.
 
 use super::diagnostic::Diagnostic;
+use super::milling::Milling;
 use super::work::{StartHole, Work};
 use crate::document::Snapshot;
 use crate::geometry::Xy as Point;
@@ -15,7 +16,7 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Generate {
     pub(crate) uri: String,
-    /// Language of the program: `3b`, `4b` or `iso`.
+    /// Language of the program: `3b`, `4b` or `iso`; `milling` for an electrode.
     pub(crate) format: String,
     /// Only the contours that hold one of these entities.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -59,6 +60,9 @@ pub(crate) struct Program {
     /// What all passes leave of the contours, where several are cut.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) finished: Option<FinishedPart>,
+    /// The layers and the wear of an electrode, of the format `milling`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) milling: Option<Milling>,
     /// Where the wire is threaded, in the order of the cuts.
     #[serde(default)]
     pub(crate) holes: Vec<StartHole>,
@@ -101,6 +105,10 @@ impl Program {
                 .iter()
                 .map(|hole| StartHole::new(drawing, outlines, settings, hole))
                 .collect(),
+            milling: proved
+                .milled
+                .as_ref()
+                .map(|milled| Milling::new(snapshot, milled)),
             minutes: work.minutes,
             work: Some(Work::new(drawing, outlines, work)),
             program: proved.text,

@@ -13,6 +13,7 @@ mod generate;
 mod in_force;
 mod inspection;
 mod locate;
+mod milling;
 mod number;
 mod requests;
 mod schema;
@@ -35,6 +36,7 @@ pub(crate) use in_force::{CorrectionSource, SettingsInForce};
 pub use inspection::Inspection;
 pub(crate) use inspection::{InspectedEntity, InspectedSegment};
 pub(crate) use locate::{Locate, Located};
+pub(crate) use milling::Milling;
 pub(crate) use requests::{
     Applied, ApplyDrawingEdit, ChangeDrawing, CloseDrawing, DrawingEdit, DrawingName, Export,
     Exported, Inspect, OpenDrawing, OptionsOf, Picture, PictureForm, Repair, Repairs, RepairsOf,

@@ -29,9 +29,10 @@ fn holds(outlook: &Outlook) -> bool {
             .has_length(outlook.drawing, outlook.limits.tolerances.zero_length)
 }
 
-/// Where the contour itself is the wire's path, it may well be open.
+/// Where the contour itself is the wire's path, or the middle of a slot that is milled, it may well be open.
 fn mildest(settings: &Effective) -> Option<Severity> {
-    (settings.compensation == Compensation::None).then_some(Severity::Information)
+    let is_path = settings.compensation == Compensation::None || settings.mills;
+    is_path.then_some(Severity::Information)
 }
 
 fn places(outlook: &Outlook) -> Option<(Place, Vec<Place>)> {

@@ -2,8 +2,8 @@
 
 use super::{
     Budget, Compensation, ContourSettings, Corner, Direction, JobSettings, Jumps, Layout, Lead,
-    LengthSetting, Order, PairSettings, Passes, PointSetting, Profile, RuleSeverity, Sequence,
-    Settings, SideSetting, SkimCorner, UnitSetting, Workpieces,
+    LengthSetting, MillingSettings, Order, PairSettings, Passes, PointSetting, Profile,
+    RuleSeverity, Sequence, Settings, SideSetting, SkimCorner, UnitSetting, Workpieces,
 };
 use crate::drawing::{Color, Role, Unit};
 use crate::finding::{Finding, Rule, Severity};
@@ -74,6 +74,10 @@ pub struct Effective {
     /// What is set of a pair.
     pub pair: PairSettings,
     pub workpieces: Workpieces,
+    /// What is set of a milling electrode.
+    pub milling: MillingSettings,
+    /// An electrode cuts, not a wire: it comes from above and leads nowhere, and it goes along the middle of contours that are open.
+    pub mills: bool,
     /// Nothing but this workpiece is cut.
     pub only: Option<u16>,
     pub order: Order,
@@ -103,9 +107,18 @@ impl Effective {
 
     /// Fills the defaults in. Values that do not fit have been reported and left out before.
     pub fn of(settings: &Settings) -> Effective {
+        let milling = settings.milling.clone().unwrap_or_default();
+        let says_a_wire = settings.correction.is_some()
+            || settings.wire_diameter.is_some()
+            || settings.gap.is_some()
+            || settings
+                .passes
+                .as_ref()
+                .is_some_and(|passes| passes.corrections.is_some());
+        let of_electrode = milling.correction().filter(|_| !says_a_wire);
         let single = match (settings.correction, settings.wire_diameter, settings.gap) {
             (Some(correction), ..) => correction,
-            (None, None, None) => settings.correction(),
+            (None, None, None) => of_electrode.unwrap_or_else(|| settings.correction()),
             (None, ..) => settings.wire_diameter() / 2.0 + settings.gap(),
         };
         let passes = settings
@@ -194,6 +207,12 @@ impl Effective {
             job: settings.job.clone().unwrap_or_default(),
             pair: settings.pair.clone().unwrap_or_default(),
             workpieces: Workpieces::of(settings),
+            milling: MillingSettings {
+                wear_compensation: Some(milling.wear_compensation()),
+                slot_ends: Some(milling.slot_ends()),
+                ..milling
+            },
+            mills: of_electrode.is_some(),
             only: None,
             order: program.order(),
             jumps: program.jumps(),

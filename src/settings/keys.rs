@@ -10,7 +10,7 @@ use super::value::Node;
 use super::{
     CenterRule, Compensation, Coordinates, Corner, Direction, DrawnAs, Jumps, Layout, Lead,
     LengthSetting, LineEnd, NumberUnit, Order, PointSetting, RuleSeverity, Sequence, SideSetting,
-    SkimCorner, UnitSetting, Zero,
+    SkimCorner, UnitSetting, WearCompensation, Zero,
 };
 use crate::drawing::Role;
 use schemars::JsonSchema;
@@ -25,6 +25,12 @@ const DIGITS: Range = Range::of(4.0, 9.0);
 
 /// Digits behind the point of millimetres: from micrometres to nanometres.
 const DECIMALS: Range = Range::of(3.0, 6.0);
+
+/// Ways after which an electrode is fed: finer than a micrometre no machine goes.
+const MILLING_STEPS: Range = Range {
+    least: 0.001,
+    ..Range::FROM_ZERO
+};
 
 /// Contours of a drawing, counted by people.
 const ORDERS: Range = Range::of(1.0, 1e6);
@@ -83,6 +89,8 @@ tables! {
         job: JobSettings => table;
         /// A punch and its plate.
         pair: PairSettings => table;
+        /// Milling by an electrode.
+        milling: MillingSettings => table;
         /// Parts that are drawn in one place and never meet in one rule, each by its name with the layers it is drawn on; what is on no layer
         /// of them is a part of its own. With `pair.clearance`, parts are held against each other:
         /// [`does-not-fit`](rules/does-not-fit.md).
@@ -224,6 +232,30 @@ tables! {
         holder: f64 => number in Range::FROM_ZERO;
     }
 
+    /// Milling by a cylindrical electrode that wears while it erodes, layer by layer: [milling](programs.md#milling). Where nothing is said of
+    /// a wire, a drawing is judged for the electrode: half its diameter + `milling.gap` is the correction then.
+    MillingSettings() {
+        /// Diameter of the electrode, mm.
+        #[serde(alias = "tool-diameter")]
+        tool_diameter: f64 => number in Range::ABOVE_ZERO;
+        /// Spark gap beside the electrode, mm.
+        gap: f64 => number in Range::FROM_ZERO;
+        /// Height of a layer, mm. The last one is as thin as what is left of `milling.depth`.
+        layer: f64 => number in Range::ABOVE_ZERO;
+        /// Depth below the surface, mm.
+        depth: f64 => number in Range::ABOVE_ZERO;
+        /// Volume that the electrode loses of each volume that it erodes.
+        wear: f64 => number in Range::FROM_ZERO;
+        /// How the feed makes up for the wear of the electrode.
+        #[serde(alias = "wear-compensation")]
+        wear_compensation: WearCompensation = WearCompensation::Uniform => name;
+        /// Way after which `linear` feeds anew, mm.
+        step: f64 => number in MILLING_STEPS;
+        /// Whether the round ends of an open slot are counted among what a layer erodes.
+        #[serde(alias = "slot-ends")]
+        slot_ends: bool = false => truth;
+    }
+
     /// What somebody has set of a profile.
     ProfileSettings(as Profile, name: String) {
         /// The profile whose values hold where none is set: one that ships, `generic` by default.
@@ -270,13 +302,14 @@ tables! {
 
 /// Every key, in the order of the documentation.
 pub fn rows() -> Vec<Row> {
-    let tables = ["passes", "program", "job", "pair"];
+    let tables = ["passes", "program", "job", "pair", "milling"];
     let mut rows = Settings::rows("");
     rows.retain(|row| !tables.contains(&row.key.as_str()));
     rows.extend(Passes::rows("passes."));
     rows.extend(ProgramSettings::rows("program."));
     rows.extend(JobSettings::rows("job."));
     rows.extend(PairSettings::rows("pair."));
+    rows.extend(MillingSettings::rows("milling."));
     rows.extend(DrawingSettings::rows("drawings.NAME."));
     rows.extend(ContourSettings::rows("drawings.NAME.contours.HANDLE."));
     rows.extend(ProfileSettings::rows("profiles.NAME."));

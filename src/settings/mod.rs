@@ -11,6 +11,7 @@ mod from_toml;
 mod table;
 mod keep;
 mod keys;
+mod milling;
 mod pair;
 mod passes;
 mod profile;
@@ -27,9 +28,11 @@ pub use from_toml::from_toml;
 pub(crate) use from_toml::{FILE_NAME, place_in, read_file};
 pub(crate) use keep::{as_lines, keep, table_of_suppressions};
 pub(crate) use keys::{
-    ContourSettings, JobSettings, PairSettings, Passes, Profile, ProfileSettings, ProgramSettings,
+    ContourSettings, JobSettings, MillingSettings, PairSettings, Passes, Profile, ProfileSettings,
+    ProgramSettings,
 };
 pub use keys::{Settings, rows};
+pub use milling::Electrode;
 pub(crate) use pair::{Partners, Use, Workpieces};
 pub(crate) use passes::{PassFault, pass_faults, passes_table};
 pub use profile::shipped_profiles;
@@ -190,6 +193,19 @@ pub enum DrawnAs {
     Plate,
 }
 
+/// How the feed of a milling electrode makes up for its wear.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum WearCompensation {
+    /// Not at all: each layer is fed its height.
+    None,
+    /// Each layer is fed its height and the wear of the whole layer, and the next one goes back along it, so that the floor wears even.
+    #[default]
+    Uniform,
+    /// Each layer is fed its height, and on its way, step by step, what has been worn.
+    Linear,
+}
+
 /// Where the correction is applied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -244,7 +260,7 @@ pub enum LengthSetting {
 
 plain! {
     bool, f64, u8, u32, String, [f64; 2], Vec<f64>, Vec<String>, Role, RuleSeverity, PointSetting, LengthSetting, Lead, SideSetting, UnitSetting, Layout, Direction,
-    Corner, Order, Jumps, Sequence, SkimCorner, Compensation, DrawnAs, CenterRule, Coordinates, Zero, NumberUnit, LineEnd,
+    Corner, Order, Jumps, Sequence, SkimCorner, Compensation, WearCompensation, DrawnAs, CenterRule, Coordinates, Zero, NumberUnit, LineEnd,
 }
 
 impl Settings {
@@ -274,18 +290,19 @@ impl Settings {
         laid
     }
 
-    /// What contradicts itself once all levels are laid over each other: the corrections of the passes, and what is said of a pair. `place`
-    /// says where a text speaks of it.
+    /// What contradicts itself once all levels are laid over each other: the corrections of the passes, what is said of a pair and of an
+    /// electrode. `place` says where a text speaks of it.
     pub(crate) fn contradictions(
         &self,
         place: &dyn Fn(&PassFault) -> Option<std::ops::Range<usize>>,
     ) -> Vec<SettingsError> {
-        let of_pair = pair::faults(self).into_iter().map(|fault| SettingsError {
+        let others = pair::faults(self).into_iter().chain(milling::faults(self));
+        let others = others.map(|fault| SettingsError {
             of_levels: true,
             ..SettingsError::new(fault.key, fault.message.clone(), place(&fault))
         });
         let mut errors = self.pass_errors(place);
-        errors.extend(of_pair);
+        errors.extend(others);
         errors
     }
 

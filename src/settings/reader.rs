@@ -462,9 +462,11 @@ pub(super) fn place_of(root: &Node, fault: &PassFault) -> Option<std::ops::Range
         // A key of its own, of which there is one value.
         usize::MAX if table == "pair" => entry_of(&entry.node, &named),
         _ if table == "workpieces" => Some(entry),
+        // What it lacks is said of the table.
+        _ if table == "milling" => Some(entry_of(&entry.node, &named).unwrap_or(entry)),
         _ => entry_of(&entry.node, &named),
     });
-    if ["pair", "workpieces"].contains(&table) {
+    if ["pair", "workpieces", "milling"].contains(&table) {
         return list.and_then(|entry| entry.key_range.clone());
     }
     let of_list = list.and_then(|entry| match &entry.node.value {

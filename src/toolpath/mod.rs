@@ -13,6 +13,7 @@ mod job;
 mod laid;
 mod leads;
 mod loops;
+pub(crate) mod milling;
 mod offset;
 mod order;
 mod part;
@@ -31,6 +32,7 @@ pub(crate) use clearance::{Walls, distance_between};
 pub(crate) use finished::Finished;
 pub use hole::StartHole;
 pub(crate) use hole::hole_faults;
+pub use milling::{Milled, MilledContour};
 pub(crate) use part::{Cutting, Part, part};
 pub(crate) use path::lengths;
 pub use path::{PathSegment, Refusal, Source, WirePath};
@@ -212,7 +214,10 @@ pub(crate) fn plan_while(
             at: path.thread_hole,
             is_given: is_given.get(&path.outline) == Some(&true),
         };
-        let firsts = paths.iter().filter(|path| path.is_first());
+        // An electrode comes from above.
+        let firsts = paths
+            .iter()
+            .filter(|path| path.is_first() && !settings.mills);
         Ok(Planned {
             holes: firsts.map(hole).collect(),
             paths,

@@ -19,6 +19,7 @@ use crate::drawing::{Contour, Role};
 use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::{Point, Segment, Side};
 use crate::settings::{Compensation, Corner, Jumps, Lead, SkimCorner};
+use rustc_hash::FxHashMap;
 
 /// The offsets of a contour, before they have leads, all in the direction of the first pass.
 pub(super) struct Unled {
@@ -112,6 +113,14 @@ impl Job<'_> {
         let mut offsets = Vec::with_capacity(chosen.len());
         for (&index, wanted) in chosen.iter().zip(wanted) {
             self.go_on()?;
+            if self.settings.mills && !self.outlines[index].contour.closed {
+                let thread = wanted.thread.or(wanted.beside);
+                let mut path = self.as_drawn(index, &Wanted { thread, ..*wanted })?;
+                path.segments.retain(|piece| piece.source.place().is_some());
+                path.thread_hole = path.begin();
+                planned.paths.push(path);
+                continue;
+            }
             let wanted = self.with_proposed(index, *wanted, contours);
             match self.compensated(index, &wanted) {
                 Ok(offset) => offsets.push((wanted, offset)),
@@ -143,6 +152,10 @@ impl Job<'_> {
                 Err(Refusal::Findings(found)) => findings.extend(found),
                 Err(refusal) => return Err(refusal),
             }
+        }
+        if self.settings.mills {
+            let places: FxHashMap<usize, usize> = chosen.iter().copied().zip(0..).collect();
+            planned.paths.sort_by_key(|path| places.get(&path.outline));
         }
         Ok((planned, findings))
     }
@@ -490,6 +503,9 @@ impl Job<'_> {
         let (Some(rough), Some(entry)) = (unled.passes.first(), &unled.entry) else {
             return Ok(stand.map_or_else(Point::origin, |pass| pass.begin));
         };
+        if self.settings.mills {
+            return Ok(rough.begin);
+        }
         let lead = self.lead(wanted);
         let surroundings =
             |correction: f64| self.surroundings(unled, contours, kerfs, lead, correction);

@@ -445,3 +445,38 @@ fn a_program_is_followed_drawn_and_repaired() {
     );
     client.shut_down();
 }
+
+/// Layers, feeds and the simulated wear stand beside the program of an electrode.
+#[test]
+fn an_electrode_mills_a_slot() {
+    let mut client = Client::start();
+    let slot = json!({ "handle": "2A", "type": "line", "start": [0, 0], "end": [10, 0] });
+    client.open_drawing(URI, json!([slot]));
+    let mut generate = |milling: Value| {
+        let params = json!({ "uri": URI, "format": "milling", "options": { "milling": milling } });
+        client.request("wedm/generate", params)
+    };
+    let electrode =
+        json!({ "toolDiameter": 1, "gap": 0.05, "layer": 0.01, "depth": 0.2, "wear": 0.02 });
+    let made = generate(electrode).unwrap();
+    assert_eq!(made["milling"]["layers"], 20);
+    let contour = &made["milling"]["contours"][0];
+    assert_eq!(contour["contour"], "2A");
+    let near = |value: &Value, expected: f64| (value.as_f64().unwrap() - expected).abs() < 6e-5;
+    assert!(near(&contour["wearOfLayer"], 0.28011), "{contour}");
+    assert!(near(&contour["feed"], 0.0128011), "{contour}");
+    assert!(near(&contour["depth"], 0.2010), "{contour}");
+    assert!(near(&contour["floor"]["least"], 0.1997), "{contour}");
+    assert!(near(&contour["floor"]["most"], 0.2025), "{contour}");
+    assert_eq!((made.get("threadHole"), &made["holes"]), (None, &json!([])));
+    assert!(made["program"].as_str().unwrap().contains("G01 Z-0.013\n"));
+    // An option that does not fit.
+    let error = generate(json!({ "toolDiameter": 1, "gap": 0.05 })).unwrap_err();
+    assert_eq!(error["code"], -32602);
+    let sentence = error["message"].as_str().unwrap();
+    assert!(
+        sentence.contains("milling.layer, milling.depth, milling.wear"),
+        "{sentence}"
+    );
+    client.shut_down();
+}

@@ -245,3 +245,15 @@ def test_closed_documents_are_not_asked_about(server: Server) -> None:
 def test_inch(server: Server) -> None:
     drawing = server.open([Polyline(ROUND, handle="2A")], units="inch")
     assert server.inspect(drawing).units_to_mm == 25.4
+
+
+def test_an_electrode_mills_a_slot(server: Server) -> None:
+    slot = drawing_of(server, [Line((0, 0), (10, 0), "2A")])
+    made = server.generate(slot, "milling", options={"milling": {"tool_diameter": 1, "gap": 0.05, "layer": 0.01, "depth": 0.2, "wear": 0.02}})
+    assert made.milling is not None and made.thread_hole is None
+    assert made.milling.layers == 20
+    (contour,) = made.milling.contours
+    assert contour.depth == pytest.approx(0.2010, abs=6e-5)
+    assert contour.feed == pytest.approx(0.0128011, abs=1e-7)
+    assert contour.floor.least == pytest.approx(0.1997, abs=6e-5)
+    assert "G01 Z-0.013" in made.text

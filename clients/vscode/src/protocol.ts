@@ -86,6 +86,10 @@ export type Compensation = "path" | "controller" | "none";
  */
 export type DrawnAs = "punch" | "plate";
 /**
+ * How the feed of a milling electrode makes up for its wear.
+ */
+export type WearCompensation = "none" | "uniform" | "linear";
+/**
  * G90 or G91.
  */
 export type Coordinates = "absolute" | "incremental";
@@ -457,6 +461,10 @@ export interface Settings {
    */
   pair?: PairSettings;
   /**
+   * Milling by an electrode.
+   */
+  milling?: MillingSettings;
+  /**
    * Parts that are drawn in one place and never meet in one rule, each by its name with the layers it is drawn on; what is on no layer of them is a part of its own. With `pair.clearance`, parts are held against each other: `does-not-fit`.
    */
   workpieces?: {
@@ -670,6 +678,44 @@ export interface PairSettings {
    * By how much the holder is tighter than the punch, mm a side.
    */
   holder?: number;
+}
+/**
+ * Milling by a cylindrical electrode that wears while it erodes, layer by layer: [milling](programs.md#milling). Where nothing is said of
+ * a wire, a drawing is judged for the electrode: half its diameter + `milling.gap` is the correction then.
+ */
+export interface MillingSettings {
+  /**
+   * Diameter of the electrode, mm.
+   */
+  toolDiameter?: number;
+  /**
+   * Spark gap beside the electrode, mm.
+   */
+  gap?: number;
+  /**
+   * Height of a layer, mm. The last one is as thin as what is left of `milling.depth`.
+   */
+  layer?: number;
+  /**
+   * Depth below the surface, mm.
+   */
+  depth?: number;
+  /**
+   * Volume that the electrode loses of each volume that it erodes.
+   */
+  wear?: number;
+  /**
+   * How the feed makes up for the wear of the electrode.
+   */
+  wearCompensation?: WearCompensation;
+  /**
+   * Way after which `linear` feeds anew, mm.
+   */
+  step?: number;
+  /**
+   * Whether the round ends of an open slot are counted among what a layer erodes.
+   */
+  slotEnds?: boolean;
 }
 /**
  * What somebody has set of a profile.
@@ -1048,7 +1094,7 @@ export interface FitAlone {
 export interface Generate {
   uri: string;
   /**
-   * Language of the program: `3b`, `4b` or `iso`.
+   * Language of the program: `3b`, `4b` or `iso`; `milling` for an electrode.
    */
   format: string;
   /**
@@ -1117,6 +1163,10 @@ export interface PairProgram {
    */
   finished?: FinishedPart;
   /**
+   * The layers and the wear of an electrode, of the format `milling`.
+   */
+  milling?: Milling;
+  /**
    * Where the wire is threaded, in the order of the cuts.
    */
   holes?: StartHole[];
@@ -1153,6 +1203,87 @@ export interface FinishedPart {
    * How far the wire cuts beyond the contour, mm.
    */
   overcut: number;
+}
+/**
+ * The layers of an electrode, and what a simulation of its wear says of them. Lengths in mm; depths are below the surface.
+ */
+export interface Milling {
+  /**
+   * How far the electrode's axis runs beside a closed contour: half its diameter + the gap.
+   */
+  correction: number;
+  /**
+   * How many layers there are.
+   */
+  layers: number;
+  /**
+   * Height of a layer.
+   */
+  layer: number;
+  /**
+   * Height of the last one.
+   */
+  lastLayer: number;
+  /**
+   * The depth that is wanted.
+   */
+  depth: number;
+  /**
+   * In the order of the cuts.
+   */
+  contours: MilledContour[];
+}
+/**
+ * What milling one contour comes to.
+ */
+export interface MilledContour {
+  /**
+   * Handle of the contour's first entity.
+   */
+  contour: string;
+  /**
+   * Of the way in each layer.
+   */
+  length: number;
+  /**
+   * K: by how much the electrode gets shorter in a layer, as a share of its height.
+   */
+  wearOfLayer: number;
+  /**
+   * What each layer is fed at its begin.
+   */
+  feed: number;
+  /**
+   * What the last one is.
+   */
+  lastFeed: number;
+  /**
+   * What is fed on each mm of the way, where the wear is compensated linearly.
+   */
+  feedAlong?: number;
+  /**
+   * Where the electrode is told to go at last.
+   */
+  fed: number;
+  /**
+   * Simulated: mean depth of the floor along the way.
+   */
+  depth: number;
+  /**
+   * Simulated: the highest and the deepest place of the floor.
+   */
+  floor: Floor;
+  /**
+   * Simulated: by how much the electrode is shorter then, the contours before among it.
+   */
+  worn: number;
+}
+/**
+ * How deep a floor lies.
+ */
+export interface Floor {
+  least: number;
+  most: number;
 }
 /**
  * One finding. In a drawing's diagnostics the line is the segment's index within its entity.
@@ -1488,6 +1619,10 @@ export interface Program {
    * What all passes leave of the contours, where several are cut.
    */
   finished?: FinishedPart;
+  /**
+   * The layers and the wear of an electrode, of the format `milling`.
+   */
+  milling?: Milling;
   /**
    * Where the wire is threaded, in the order of the cuts.
    */

@@ -76,17 +76,19 @@ pub(super) fn time_and_material(work: &Work) -> String {
     if !work.missing.is_empty() {
         facts.push(say!(keys_are_missing, work.missing.join(", ")));
     }
-    let facts: String = facts
-        .iter()
-        .map(|fact| format!("<p class=\"fact\">{}</p>\n", text(fact)))
-        .collect();
     let slugs = work
         .slugs
         .iter()
         .take(MOST)
         .map(|slug| vec![cell(&slug.contour), number(format!("{:.1}", slug.mass))]);
     let heads = [say!(column_contour), say!(column_slug)];
-    facts + &table(&heads, slugs) + &more(work.slugs.len(), MOST)
+    self::facts(&facts) + &table(&heads, slugs) + &more(work.slugs.len(), MOST)
+}
+
+/// Sentences, a line each.
+pub(super) fn facts(facts: &[String]) -> String {
+    let line = |fact: &String| format!("<p class=\"fact\">{}</p>\n", text(fact));
+    facts.iter().map(line).collect()
 }
 
 /// Whether punch and plate go into each other, where a clearance is set: the sentence, the places and the picture.

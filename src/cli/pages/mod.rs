@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
     /// The folder for the pages; it is made where it is not there
     #[arg(short, long, value_name = "FOLDER", default_value = "report")]
     output: PathBuf,
-    /// Language of the programs: 3b, 4b, iso
+    /// Language of the programs: 3b, 4b, iso; milling by an electrode
     #[arg(long, default_value = "3b", value_parser = Format::of)]
     format: Format,
     #[command(flatten)]

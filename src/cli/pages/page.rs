@@ -11,13 +11,15 @@ use crate::finding::{Rule, Severity};
 use crate::job::{self, Generated, Wanted};
 use crate::message::{lengths, spoken};
 use crate::program::Format;
-use crate::protocol::{Contours, Fit, Inspection, SegmentKind, StartHole, Work};
+use crate::protocol::{Contours, Fit, Inspection, Milling, SegmentKind, StartHole, Work};
 use crate::toolpath::{self, WirePath};
 use std::collections::BTreeMap;
 
 /// Arcs of the radius list, and findings of one rule, that a page shows: who wants all asks for them.
 const MOST_ARCS: usize = 100;
 const MOST_OF_A_RULE: usize = 50;
+/// The same of contours that are milled.
+const MOST_MILLED: usize = 500;
 
 /// All that a page tells.
 pub(super) struct Page {
@@ -35,6 +37,8 @@ pub(super) struct Page {
     /// Where it is asked for, or why it is not known.
     fit: Option<Result<Fit, String>>,
     /// The program, or why there is none.
+    /// The layers of an electrode, and what comes of them.
+    milling: Vec<String>,
     program: Result<Generated, String>,
     format: Format,
 }
@@ -88,6 +92,11 @@ impl Page {
             Work::new(drawing, outlines, &work)
         });
         let hole = |hole| StartHole::new(drawing, outlines, settings, hole);
+        let milled = program
+            .as_ref()
+            .ok()
+            .and_then(|made| made.program.milled.as_ref());
+        let milling = milled.map(|milled| Milling::new(&snapshot, milled).told(MOST_MILLED));
         Ok(Page {
             line: Line {
                 minutes: work.as_ref().and_then(|work| work.minutes),
@@ -107,6 +116,7 @@ impl Page {
             holes: planned.holes.iter().map(hole).collect(),
             work,
             fit: of_job::fit(&snapshot, unit_mm),
+            milling: milling.unwrap_or_default(),
             program,
             format,
         })
@@ -149,6 +159,7 @@ impl Page {
                 say!(head_fit),
                 self.fit.as_ref().map(of_job::fit_part).unwrap_or_default(),
             ),
+            section(say!(head_milling), of_job::facts(&self.milling)),
             section(say!(head_program), self.program()),
         ];
         html::page(spoken().tag(), name, &parts.concat())

@@ -229,4 +229,9 @@ declare! {
     extents_from(width, height, x, y) => "{width:.3} × {height:.3} mm from {x:.3}, {y:.3}";
     smallest_radius(radius) => ", smallest R {radius:.3} mm";
     on_layers(layers) => ", layer {layers}";
+    the_electrode_mills(layers, layer, last, correction) => "{layers} layers of {layer} mm{last}, beside the contour by {correction:.4} mm";
+    the_last_of(last) => ", the last one of {last:.4} mm";
+    a_contour_is_milled(contour, feed, last, along, mean, least, most, worn) => "contour {contour}: fed {feed:.4} mm a layer{last}{along}; simulated: {mean:.4} mm deep, the floor from {least:.4} to {most:.4} mm, the electrode {worn:.4} mm shorter";
+    the_last_is_fed(last) => ", the last one {last:.4} mm";
+    it_is_fed_along(along) => " and {along:.5} µm on each mm of its way";
 }

@@ -46,4 +46,5 @@ declare! {
     a_program_and_its_proof(language, blocks, contours, length, deviation) => "{language}: {blocks}, {contours}, {length}; decoded again, at most {deviation:.2} µm from the path";
     its_text => "text";
     and_more_of_them(count) => "and {count} more";
+    head_milling => "Milling";
 }

@@ -156,4 +156,6 @@ declare! {
     the_block_does_not_run_along_its_piece => "the block does not run along its piece of the path";
     a_word_takes_the_coordinates(line) => "line {line}: a word takes the coordinates for a place of the machine";
     of_profile(name, why) => "profile {name}: {why}";
+    its_lines_change_heights(line) => "its lines change how heights are meant in {line:?}";
+    a_layer_is_finer(layer, step) => "milling.layer is {layer} mm, finer than the numbers of the profile, {step} mm: expected a thicker layer, or more decimals";
 }

@@ -43,6 +43,9 @@ declare! {
     a_pair_on_one_side(key, side) => "{key} says that each contour is cut from both sides, but side is {side}: expected both";
     an_extra_needs_a_drawn_part(key) => "{key} needs a contour that is cut for several parts: expected pair.drawn-as beside it";
     a_layer_in_two_workpieces(layer, one, other) => "the layer {layer} is of the workpieces {one} and {other}: expected one of them";
+    milling_needs(missing) => "milling takes an electrode and its layers: expected {missing} to be set";
+    a_layer_above_the_depth(key, layer, depth) => "{key} is {layer}, expected at most milling.depth {depth}";
+    too_many_layers(key, layer, layers, most) => "{key} is {layer}, which makes {layers:.0} layers of milling.depth, expected at most {most}";
     the_file_has_too_many_bytes(bytes, most) => "the file has {bytes} bytes, expected at most {most}: none of it holds";
     not_toml(reason) => "not TOML: {reason}";
 }

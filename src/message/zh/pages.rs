@@ -46,4 +46,5 @@ translate! {
     a_program_and_its_proof(language, blocks, contours, length, deviation) => "{language}：{blocks}，{contours}，{length}；反解校核，偏离路线不超过 {deviation:.2} µm";
     its_text => "程序文本";
     and_more_of_them(count) => "另有 {count} 项";
+    head_milling => "铣削";
 }

@@ -156,4 +156,6 @@ translate! {
     the_block_does_not_run_along_its_piece => "程序段没有沿着它那段切割路线走";
     a_word_takes_the_coordinates(line) => "第 {line} 行：有一个字把坐标当作机床的位置";
     of_profile(name, why) => "profile {name}：{why}";
+    its_lines_change_heights(line) => "它的行改变了 {line:?} 中高度的含义";
+    a_layer_is_finer(layer, step) => "milling.layer 是 {layer} mm，比 profile 的最小单位 {step} mm 还小：每层应厚一些，或增加小数位数";
 }

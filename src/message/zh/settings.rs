@@ -43,6 +43,9 @@ translate! {
     a_pair_on_one_side(key, side) => "{key} 表示每个轮廓两侧都切，而 side 是 {side}：应为 both";
     an_extra_needs_a_drawn_part(key) => "{key} 需要为多个零件切割的轮廓：同时应设 pair.drawn-as";
     a_layer_in_two_workpieces(layer, one, other) => "图层 {layer} 同时属于工件 {one} 和 {other}：只能属于一个";
+    milling_needs(missing) => "铣削需要电极和分层的数据：应设置 {missing}";
+    a_layer_above_the_depth(key, layer, depth) => "{key} 是 {layer}，最多应为 milling.depth {depth}";
+    too_many_layers(key, layer, layers, most) => "{key} 是 {layer}，milling.depth 要分 {layers:.0} 层，最多允许 {most} 层";
     the_file_has_too_many_bytes(bytes, most) => "文件有 {bytes} 字节，最多允许 {most}：整个文件无效";
     not_toml(reason) => "不是 TOML：{reason}";
 }

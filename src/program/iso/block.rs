@@ -96,6 +96,8 @@ pub struct Block {
     pub(crate) sets_position: bool,
     pub(crate) x: Option<Number>,
     pub(crate) y: Option<Number>,
+    /// The height of an electrode that mills; what else it moves is a matter of the machine.
+    pub(crate) z: Option<Number>,
     pub(crate) i: Option<Number>,
     pub(crate) j: Option<Number>,
     pub(crate) r: Option<Number>,
@@ -198,6 +200,11 @@ impl Code {
         Code(u32::from(letter) << 16 | (tenths.unsigned_abs().min(0xffff) as u32))
     }
 
+    /// It is no matter of the machine in a program that mills.
+    pub(super) fn is_height(self) -> bool {
+        self.0 == u32::from(b'Z') << 16
+    }
+
     /// It is followed where it is known how the wire leans. T says many things besides.
     pub(super) fn is_of_taper(self) -> bool {
         let (letter, tenths) = ((self.0 >> 16) as u8, self.0 & 0xffff);
@@ -292,6 +299,10 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
                 b'L' => block.repeat = Some(index(number)),
                 // The feed does not change where the wire goes.
                 b'F' => {}
+                b'Z' => {
+                    block.z = Some(number);
+                    note(Note::foreign(letter, number, range));
+                }
                 _ => note(Note::foreign(letter, number, range)),
             }
         }

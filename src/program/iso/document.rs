@@ -90,6 +90,11 @@ impl Document {
         &self.text
     }
 
+    /// It feeds an electrode downwards.
+    pub(crate) fn mills(&self) -> bool {
+        self.stretches().iter().any(|stretch| stretch.after.mills)
+    }
+
     /// How the numbers of the program were found to be meant.
     pub fn reading(&self) -> &Reading {
         &self.reading

@@ -291,6 +291,8 @@ pub(crate) struct Machine {
     /// G92 has said where the wire stands.
     pub(crate) stated: bool,
     pub(crate) ended: bool,
+    /// An electrode has been fed downwards: what it goes along it mills, layer by layer, and no wire cuts it out.
+    pub(crate) mills: bool,
     /// The corner behind the last move was cut off: how far from its sharp point the next one begins.
     pub(crate) cut_short: Option<Place>,
     pub(crate) trail: Trail,
@@ -337,6 +339,7 @@ impl Default for Machine {
             moved: false,
             stated: false,
             ended: false,
+            mills: false,
             cut_short: None,
             trail: Trail::default(),
         }
@@ -369,6 +372,8 @@ impl Machine {
             }
             self.side = side;
         }
+        let feeds_down = block.z.is_some_and(|z| z.mantissa < 0) && self.motion != Motion::Rapid;
+        self.mills |= feeds_down && !block.sets_position && !block.takes_coordinates;
         let moved = if block.sets_position {
             self.set_position(block, reading);
             None

@@ -18,6 +18,7 @@ mod layout;
 mod limits;
 mod line;
 pub(crate) mod machine;
+mod mill;
 mod numbers;
 mod order;
 mod part;
@@ -41,6 +42,7 @@ mod write;
 pub use block::read_line;
 pub use document::Document;
 pub(crate) use layout::format;
+pub(crate) use mill::write_milled;
 pub(crate) use numbers::renamed;
 pub(in crate::program) use taper::{Words as TaperWords, refuse_anywhere as refuse_taper};
 

@@ -301,6 +301,10 @@ impl Stretch {
         self.sum.arcs += usize::from(made.is_arc());
         self.sum.rapids += usize::from(!made.is_cut());
         self.sum.travel = added(self.sum.travel, apart(made.to, made.from));
+        if self.after.mills {
+            // Layers are no contours of a part, nor passes along one.
+            return self.interrupt(true);
+        }
         if made.switches == Some(true) && made.offset.is_none() {
             let side = made.side.unwrap_or(Side::Left);
             self.fault(Fault::NoOffset { side }, range);

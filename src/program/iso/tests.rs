@@ -351,7 +351,7 @@ fn line() -> impl Strategy<Value = String> {
         2 => (-50_i32..50).prop_map(|x| format!("G01 X{x}.5")),
         1 => prop::sample::select(vec![
             "G90", "G91", "G92 X0 Y0", "G41 D1", "G42", "G40", "M00", "M02", "G20", "X1 Y", "(comment)", "", "G28 X0", "T84", "G03 X5 Y5 J5", "M30", "%",
-            "G03 X0 Y0 I5", "R5 G02 X5", "H1=80", "X#1",
+            "G03 X0 Y0 I5", "R5 G02 X5", "H1=80", "X#1", "G01 Z-3", "Z-2 X5",
         ])
         .prop_map(str::to_owned),
         1 => "[GXYIJN0-9. (;%/-]{0,8}",
@@ -400,7 +400,7 @@ proptest! {
     #[test]
     fn an_edit_among_sound_contours_leaves_them_as_read_afresh(
         contours in prop::collection::vec(contour(), 1..60),
-        edits in prop::collection::vec((0_usize..6000, 0_usize..3, prop::sample::select(vec!["", "5", "1", "\n", "G90 ", "M00\n", "H1=2000\n", "X"])), 1..6),
+        edits in prop::collection::vec((0_usize..6000, 0_usize..3, prop::sample::select(vec!["", "5", "1", "\n", "G90 ", "M00\n", "H1=2000\n", "X", "G01 Z-9\n"])), 1..6),
         side in prop::sample::select(vec!["auto", "opening", "punch"]),
     ) {
         let settings = crate::settings::Effective::of(&crate::settings::from_toml(&format!("side = \"{side}\"\n")).0);

@@ -32,15 +32,10 @@ pub(crate) fn write_with(
     settings: &Effective,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Result<ProvedProgram, ProofError> {
-    let profile = settings
-        .profile
-        .as_ref()
-        .map_err(|sentence| ProofError::Refused(sentence.clone()))?;
-    let per_mm = 10_i64.pow(u32::from(profile.decimals.clamp(3, 6)));
-    let mut lines = Lines::new(profile, settings, 1_000_000 / per_mm);
+    let mut lines = Lines::of(settings)?;
     walk(
         paths,
-        unit_mm * per_mm as f64,
+        unit_mm * lines.per_mm(),
         lines.step_um(),
         go_on,
         &mut lines,
@@ -48,17 +43,17 @@ pub(crate) fn write_with(
     lines.finish(cuts(paths))
 }
 
-struct Lines<'a> {
-    profile: &'a Profile,
+pub(super) struct Lines<'a> {
+    pub(super) profile: &'a Profile,
     settings: &'a Effective,
     /// 1-based number of the pass.
     pass: usize,
     /// nm in one step of the grid.
-    step: i64,
-    reading: Reading,
+    pub(super) step: i64,
+    pub(super) reading: Reading,
     /// The control that runs every line once more.
-    machine: Machine,
-    out: Vec<u8>,
+    pub(super) machine: Machine,
+    pub(super) out: Vec<u8>,
     /// What absolute coordinates count from.
     zero: Node,
     side: Option<Side>,
@@ -68,11 +63,11 @@ struct Lines<'a> {
     number: u32,
     /// What is in force for a profile that leaves it out.
     motion: Option<Motion>,
-    blocks: usize,
+    pub(super) blocks: usize,
     /// Steps.
     length: f64,
     /// Of the ways without a cut among it.
-    jumps: f64,
+    pub(super) jumps: f64,
     /// Steps.
     deviation: f64,
     encoded: Vec<Encoded>,
@@ -170,7 +165,13 @@ impl Writer for Lines<'_> {
 }
 
 impl<'a> Lines<'a> {
-    fn new(profile: &'a Profile, settings: &'a Effective, step: i64) -> Lines<'a> {
+    /// No lines yet, in the profile of the settings; the error where it is not there.
+    pub(super) fn of(settings: &'a Effective) -> Result<Lines<'a>, ProofError> {
+        let profile = settings
+            .profile
+            .as_ref()
+            .map_err(|sentence| ProofError::Refused(sentence.clone()))?;
+        let per_mm = 10_i64.pow(u32::from(profile.decimals.clamp(3, 6)));
         let reading = Reading {
             whole_numbers_are_fine: profile.unit == NumberUnit::Um,
             absolute: profile.center,
@@ -181,11 +182,11 @@ impl<'a> Lines<'a> {
             },
             tolerance: 3 * MICROMETRE,
         };
-        Lines {
+        Ok(Lines {
             profile,
             settings,
             pass: 1,
-            step,
+            step: 1_000_000 / per_mm,
             reading,
             machine: Machine::default(),
             out: Vec::new(),
@@ -200,7 +201,12 @@ impl<'a> Lines<'a> {
             jumps: 0.0,
             deviation: 0.0,
             encoded: Vec::new(),
-        }
+        })
+    }
+
+    /// Steps of the grid in 1 mm.
+    pub(super) fn per_mm(&self) -> f64 {
+        1e6 / self.step as f64
     }
 
     fn step_um(&self) -> f64 {
@@ -215,7 +221,7 @@ impl<'a> Lines<'a> {
         ]
     }
 
-    fn refused(&self, why: &str) -> ProofError {
+    pub(super) fn refused(&self, why: &str) -> ProofError {
         ProofError::Refused(say!(of_profile, self.profile.name, why))
     }
 
@@ -319,7 +325,7 @@ impl<'a> Lines<'a> {
         Ok(())
     }
 
-    fn end_line(&mut self) {
+    pub(super) fn end_line(&mut self) {
         self.out.extend_from_slice(match self.profile.line_end {
             LineEnd::Lf => b"\n",
             LineEnd::Crlf => b"\r\n",
@@ -327,7 +333,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Writes one move, and reads it again.
-    fn step_out(&mut self, step: &Encoded) -> Result<(), ProofError> {
+    pub(super) fn step_out(&mut self, step: &Encoded) -> Result<(), ProofError> {
         let start = self.out.len();
         self.push_move(step);
         let block = Block::of(&self.out[start..]);
@@ -339,22 +345,28 @@ impl<'a> Lines<'a> {
         Ok(())
     }
 
-    fn push_move(&mut self, step: &Encoded) {
-        let modal = self.profile.modal;
+    /// What a line with a move begins with: its number, and G00 to G03.
+    pub(super) fn push_head(&mut self, out: &mut Vec<u8>, motion: Motion) -> Separator {
         let mut separate = Separator {
             wanted: self.profile.spaces,
             first: true,
         };
-        let mut out = std::mem::take(&mut self.out);
         if self.profile.numbers > 0 {
             self.number = self.number.saturating_add(self.profile.numbers);
-            separate.push(&mut out, b"N");
-            push_number(&mut out, u64::from(self.number), 0);
+            separate.push(out, b"N");
+            push_number(out, u64::from(self.number), 0);
         }
-        if !modal || self.motion != Some(step.motion) {
-            separate.push(&mut out, step.motion.word().as_bytes());
-            self.motion = Some(step.motion);
+        if !self.profile.modal || self.motion != Some(motion) {
+            separate.push(out, motion.word().as_bytes());
+            self.motion = Some(motion);
         }
+        separate
+    }
+
+    fn push_move(&mut self, step: &Encoded) {
+        let modal = self.profile.modal;
+        let mut out = std::mem::take(&mut self.out);
+        let mut separate = self.push_head(&mut out, step.motion);
         let from = match self.profile.coordinates {
             Coordinates::Absolute => self.zero,
             Coordinates::Incremental => step.from,
@@ -382,7 +394,7 @@ impl<'a> Lines<'a> {
     }
 
     /// A length in steps, as the profile writes lengths.
-    fn push_length(&self, out: &mut Vec<u8>, steps: i64) {
+    pub(super) fn push_length(&self, out: &mut Vec<u8>, steps: i64) {
         if steps < 0 {
             out.push(b'-');
         }
@@ -397,7 +409,7 @@ impl<'a> Lines<'a> {
     }
 
     /// `cuts` tells that there is more to the paths than places where the wire is threaded.
-    fn finish(mut self, cuts: bool) -> Result<ProvedProgram, ProofError> {
+    pub(super) fn finish(mut self, cuts: bool) -> Result<ProvedProgram, ProofError> {
         if self.blocks == 0 && cuts {
             return Err(nothing_to_write());
         }
@@ -414,18 +426,19 @@ impl<'a> Lines<'a> {
             jumps: self.jumps * step_um / 1000.0,
             closure: [0.0, 0.0],
             deviation,
+            milled: None,
         })
     }
 }
 
 /// A space before every word but the first.
-struct Separator {
+pub(super) struct Separator {
     wanted: bool,
     first: bool,
 }
 
 impl Separator {
-    fn push(&mut self, out: &mut Vec<u8>, word: &[u8]) {
+    pub(super) fn push(&mut self, out: &mut Vec<u8>, word: &[u8]) {
         if self.wanted && !self.first {
             out.push(b' ');
         }

@@ -348,6 +348,7 @@ impl<'a> Blocks<'a> {
             jumps: self.jumps / 1000.0,
             closure: [self.proof.drift.x, self.proof.drift.y],
             deviation: self.proof.deviation,
+            milled: None,
         })
     }
 }

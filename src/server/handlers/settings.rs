@@ -35,6 +35,12 @@ fn source(of_client: &Settings, of_file: Option<&Settings>) -> CorrectionSource 
             .or(settings.gap)
             .is_some()
     };
+    let has_electrode = |settings: &Settings| {
+        settings
+            .milling
+            .as_ref()
+            .is_some_and(|milling| milling.is_said())
+    };
     if of_file.is_some_and(has_passes) {
         CorrectionSource::File
     } else if has_passes(of_client) {
@@ -42,6 +48,10 @@ fn source(of_client: &Settings, of_file: Option<&Settings>) -> CorrectionSource 
     } else if of_file.is_some_and(has_single) {
         CorrectionSource::File
     } else if has_single(of_client) {
+        CorrectionSource::Client
+    } else if of_file.is_some_and(has_electrode) {
+        CorrectionSource::File
+    } else if has_electrode(of_client) {
         CorrectionSource::Client
     } else {
         CorrectionSource::Default

@@ -45,11 +45,14 @@ from .results import (
     FitAlone,
     FitPlace,
     Fixed,
+    Floor,
     Gap,
     InspectedEntity,
     Inspection,
     LargestWire,
     Located,
+    MilledContour,
+    Milling,
     PairProgram,
     PairPrograms,
     PathPiece,
@@ -70,7 +73,7 @@ from .results import (
     WorkCut,
 )
 from .server import Action, Server
-from .settings import ContourSettings, DrawingSettings, Job, Pair, Passes, Profile, ProgramSettings, Settings
+from .settings import ContourSettings, DrawingSettings, Job, MillingSettings, Pair, Passes, Profile, ProgramSettings, Settings
 from .shown import Rows
 
 __version__ = "0.1.0"
@@ -104,6 +107,7 @@ __all__ = [
     "FitAlone",
     "FitPlace",
     "Fixed",
+    "Floor",
     "Gap",
     "InspectedEntity",
     "Inspection",
@@ -111,6 +115,9 @@ __all__ = [
     "LargestWire",
     "Line",
     "Located",
+    "MilledContour",
+    "Milling",
+    "MillingSettings",
     "NoAnswer",
     "NotOpen",
     "NotSaved",

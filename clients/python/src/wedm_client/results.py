@@ -376,19 +376,58 @@ class FinishedPart(Value):
 
 
 @dataclass(frozen=True)
+class Floor(Value):
+    """How deep a milled floor lies, mm: its highest and its deepest place."""
+
+    least: float
+    most: float
+
+
+@dataclass(frozen=True)
+class MilledContour(Value):
+    """What milling one contour comes to, mm: ``depth`` (the mean), ``floor`` and ``worn`` are simulated."""
+
+    contour: str
+    length: float
+    #: By how much the electrode gets shorter in a layer, as a share of its height.
+    wear_of_layer: float
+    feed: float
+    last_feed: float
+    fed: float
+    depth: float
+    floor: Floor
+    worn: float
+    #: On each mm of the way, where the wear is compensated linearly.
+    feed_along: float | None = None
+
+
+@dataclass(frozen=True)
+class Milling(Value):
+    """The layers of an electrode, mm, and what comes of them."""
+
+    correction: float
+    layers: int
+    layer: float
+    last_layer: float
+    depth: float
+    contours: list[MilledContour]
+
+
+@dataclass(frozen=True)
 class Program(Value):
     """A program for the machine, decoded again by the server before it was handed out. ``length`` is mm, ``deviation`` µm."""
 
     text: str
-    #: Where the wire is threaded first, drawing units.
-    thread_hole: Point
     blocks: int
     length: float
     closure: Closure
     deviation: float = 0.0
+    #: Where the wire is threaded first, drawing units; an electrode that mills is threaded nowhere.
+    thread_hole: Point | None = None
     #: Of the ways without a cut between contours, mm; ``length`` is without them.
     jumps: float = 0.0
     finished: FinishedPart | None = None
+    milling: Milling | None = None
     minutes: float | None = None
     holes: list[StartHole] = field(default_factory=list)
     work: Work | None = None

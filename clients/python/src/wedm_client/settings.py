@@ -41,6 +41,19 @@ class Pair(TypedDict, total=False):
     holder: float
 
 
+class MillingSettings(TypedDict, total=False):
+    """Milling by an electrode."""
+
+    tool_diameter: float
+    gap: float
+    layer: float
+    depth: float
+    wear: float
+    wear_compensation: Literal["none", "uniform", "linear"]
+    step: float
+    slot_ends: bool
+
+
 class ProgramSettings(TypedDict, total=False):
     """How a program is written."""
 
@@ -128,12 +141,13 @@ class Settings(TypedDict, total=False):
     passes: Passes
     job: Job
     pair: Pair
+    milling: MillingSettings
     program: ProgramSettings
 
 
 def to_json(settings: Settings) -> dict[str, Any]:
     """The settings with the keys of the protocol. Names of layers, rules and handles stay as they are."""
-    written = _camel(settings, {"passes", "program", "job", "pair"})
+    written = _camel(settings, {"passes", "program", "job", "pair", "milling"})
     if "profiles" in written:
         written["profiles"] = {name: _camel(profile, set()) for name, profile in written["profiles"].items()}
     if "drawings" in written:

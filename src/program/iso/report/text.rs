@@ -32,8 +32,9 @@ impl Report<'_> {
         let mut words = std::mem::take(&mut self.foreign);
         let taper = self.document.taper();
         let is_followed = taper.is_some_and(|taper| taper.unknown.is_none());
+        let mills = self.document.mills();
         words.retain(|code, _| {
-            let is_explained = is_followed && code.is_of_taper();
+            let is_explained = is_followed && code.is_of_taper() || mills && code.is_height();
             !is_explained && !self.limits.known.contains(code)
         });
         let mut words: Vec<_> = words.into_values().collect();

@@ -1,0 +1,277 @@
+//! Paths of an electrode to the text of one ISO program: layer by layer, each line read again while it is written.
+//!
+//! The electrode stands above the place where a contour is entered, is fed down, goes to and fro along the contour and comes up again. Heights
+//! count from the surface; way and feed never stand in one line. What is written steers a simulation of the wear beside it.
+
+use super::block::{Block, Motion};
+use super::encode::Encoded;
+use super::write::Lines;
+use crate::geometry::Segment;
+use crate::program::grid::Node;
+use crate::program::write::{
+    ProofError, ProvedProgram, Writer, node_of, nothing_to_write, scaled, way,
+};
+use crate::settings::{Coordinates, Effective};
+use crate::toolpath::milling::{Floor, Layers, Step};
+use crate::toolpath::{Milled, MilledContour, Source, WirePath};
+
+/// So high above the surface the electrode goes from one contour to the next, mm.
+const CLEARANCE: f64 = 1.0;
+
+/// Writes the electrode's paths as one program and proves it. `unit_mm` is the drawing's unit in mm; `go_on` hears how many contours are done and
+/// how many there are, and ends the work with `false`.
+pub(crate) fn write_milled(
+    paths: &[WirePath],
+    unit_mm: f64,
+    settings: &Effective,
+    go_on: &mut dyn FnMut(usize, usize) -> bool,
+) -> Result<ProvedProgram, ProofError> {
+    let electrode = settings.electrode().map_err(ProofError::Refused)?;
+    let mut lines = Lines::of(settings)?;
+    let per_mm = lines.per_mm();
+    if electrode.layer * per_mm < 1.0 {
+        let sentence = say!(a_layer_is_finer, electrode.layer, 1.0 / per_mm);
+        return Err(ProofError::Refused(sentence));
+    }
+    let clear = (CLEARANCE * per_mm).round() as i64;
+    let (mut fed_before, mut worn) = (0.0, 0.0);
+    let mut contours = Vec::with_capacity(paths.len());
+    let mut tool: Option<Tool> = None;
+    for (done, path) in paths.iter().enumerate() {
+        let way = Way::of(path, unit_mm, per_mm);
+        let layers = Layers {
+            electrode,
+            length: way.length(),
+            is_closed: path.counter_clockwise.is_some(),
+            fed_before,
+        };
+        if layers.length * per_mm < 1.0 {
+            return Err(nothing_to_write());
+        }
+        let first = node_of(path.begin() * (unit_mm * per_mm))?;
+        let mut over = match tool.take() {
+            None => {
+                lines.begin(None, first, path)?;
+                Tool {
+                    at: first,
+                    height: 0,
+                }
+            }
+            Some(tool) => tool,
+        };
+        over.goes_over(first, clear, &mut lines)?;
+        let mut floor = Floor::new(&electrode, layers.length, layers.is_closed, worn);
+        // The way since the last feed that comes to another place of the grid.
+        let mut waiting: Option<(f64, f64)> = None;
+        let mut last = 0.0;
+        fed_before = layers.each(&mut |step| {
+            if !go_on(done, paths.len()) {
+                return Err(ProofError::Cancelled);
+            }
+            match step {
+                Step::Feed(depth) => {
+                    floor.feed(depth);
+                    last = depth;
+                    let height = -(depth * per_mm).round() as i64;
+                    if height == over.height {
+                        return Ok(());
+                    }
+                    over.goes_along(&way, waiting.take(), &mut lines)?;
+                    over.goes_to(Motion::Line, height, &mut lines)
+                }
+                Step::Along { from, to } => {
+                    floor.along(from, to);
+                    let goes_on =
+                        |&(begin, end): &(f64, f64)| end == from && (begin < end) == (from < to);
+                    match waiting.filter(goes_on) {
+                        Some((begin, _)) => waiting = Some((begin, to)),
+                        None => {
+                            let before = waiting.replace((from, to));
+                            over.goes_along(&way, before, &mut lines)?;
+                        }
+                    }
+                    Ok(())
+                }
+            }
+        })?;
+        over.goes_along(&way, waiting, &mut lines)?;
+        over.goes_to(Motion::Rapid, clear, &mut lines)?;
+        tool = Some(over);
+        worn = floor.worn;
+        let feed_along = match electrode.step > 0.0 {
+            true => electrode.wear_along() * electrode.layer,
+            false => 0.0,
+        };
+        contours.push(MilledContour {
+            outline: path.outline,
+            length: layers.length,
+            wear_of_layer: layers.wear(),
+            feed: layers.feed(electrode.layer),
+            last_feed: layers.feed(electrode.last_layer()),
+            feed_along,
+            fed: last,
+            floor: floor.depths(),
+            worn,
+        });
+    }
+    Ok(ProvedProgram {
+        milled: Some(Milled {
+            electrode,
+            contours,
+        }),
+        ..lines.finish(true)?
+    })
+}
+
+/// The way along a contour.
+struct Way {
+    /// Each piece in steps of the grid, and how far from the begin of the way it begins, mm.
+    pieces: Vec<(f64, Segment, Source)>,
+    /// mm, as many as pieces and one.
+    ends: Vec<f64>,
+}
+
+impl Way {
+    fn of(path: &WirePath, unit_mm: f64, per_mm: f64) -> Way {
+        let mut ends = vec![0.0];
+        let mut pieces = Vec::with_capacity(path.segments.len());
+        let mut at = 0.0;
+        for piece in &path.segments {
+            let geometry = scaled(&piece.geometry, unit_mm * per_mm);
+            pieces.push((at, geometry, piece.source));
+            at += piece.geometry.length() * unit_mm;
+            ends.push(at);
+        }
+        Way { pieces, ends }
+    }
+
+    fn length(&self) -> f64 {
+        self.ends.last().copied().unwrap_or_default()
+    }
+
+    /// The pieces between two places, in the direction from the one to the other.
+    fn between(&self, from: f64, to: f64) -> Vec<(Segment, Source)> {
+        /// Share of a piece that is none.
+        const NOTHING: f64 = 1e-9;
+        let (least, most) = (from.min(to), from.max(to));
+        let first = self.ends.partition_point(|end| *end <= least).max(1) - 1;
+        let concerned = self.pieces.iter().zip(&self.ends[1..]).skip(first);
+        let concerned = concerned.take_while(|((begin, ..), _)| *begin < most);
+        let parts = concerned.filter_map(|((begin, piece, source), end)| {
+            let share = |at: f64| ((at - begin) / (end - begin)).clamp(0.0, 1.0);
+            let (from, to) = (share(least), share(most));
+            if to - from <= NOTHING || (to - from).is_nan() {
+                return None;
+            }
+            let is_whole = from <= NOTHING && to >= 1.0 - NOTHING;
+            let part = if is_whole {
+                *piece
+            } else {
+                piece.part(from, to)
+            };
+            Some((part, *source))
+        });
+        let mut parts: Vec<_> = parts.collect();
+        if to < from {
+            parts.reverse();
+            parts
+                .iter_mut()
+                .for_each(|(part, _)| *part = part.reversed());
+        }
+        parts
+    }
+}
+
+/// Where the electrode is, in steps of the grid.
+struct Tool {
+    at: Node,
+    /// Above the surface.
+    height: i64,
+}
+
+impl Tool {
+    /// Up, and over the place where a contour is entered.
+    fn goes_over(
+        &mut self,
+        first: Node,
+        clear: i64,
+        lines: &mut Lines<'_>,
+    ) -> Result<(), ProofError> {
+        if self.height != clear {
+            self.goes_to(Motion::Rapid, clear, lines)?;
+        }
+        if self.at == first {
+            return Ok(());
+        }
+        let piece = way(self.at, first);
+        lines.jumps += piece.length();
+        lines.step_out(&Encoded {
+            motion: Motion::Rapid,
+            from: self.at,
+            to: first,
+            center: self.at,
+            piece,
+        })?;
+        self.at = first;
+        Ok(())
+    }
+
+    fn goes_to(
+        &mut self,
+        motion: Motion,
+        height: i64,
+        lines: &mut Lines<'_>,
+    ) -> Result<(), ProofError> {
+        lines.height_out(motion, self.height, height)?;
+        self.height = height;
+        Ok(())
+    }
+
+    fn goes_along(
+        &mut self,
+        way: &Way,
+        between: Option<(f64, f64)>,
+        lines: &mut Lines<'_>,
+    ) -> Result<(), ProofError> {
+        let Some((from, to)) = between else {
+            return Ok(());
+        };
+        for (piece, source) in way.between(from, to) {
+            let end = node_of(piece.end())?;
+            lines.piece(&piece, self.at, end, source)?;
+            self.at = end;
+        }
+        Ok(())
+    }
+}
+
+impl Lines<'_> {
+    /// Writes a move up or down, and reads it again.
+    fn height_out(&mut self, motion: Motion, from: i64, to: i64) -> Result<(), ProofError> {
+        let start = self.out.len();
+        let mut out = std::mem::take(&mut self.out);
+        let mut separate = self.push_head(&mut out, motion);
+        separate.push(&mut out, b"Z");
+        let written = match self.profile.coordinates {
+            Coordinates::Absolute => to,
+            Coordinates::Incremental => to - from,
+        };
+        self.push_length(&mut out, written);
+        self.out = out;
+        let block = Block::of(&self.out[start..]);
+        let made = self.machine.run(&block, &self.reading);
+        let read = block.z.map(|z| self.reading.length(z, self.machine.inch));
+        let is_absolute = self.profile.coordinates == Coordinates::Absolute;
+        if made.is_some()
+            || read != Some(written * self.step)
+            || self.machine.motion != motion
+            || self.machine.incremental == is_absolute
+        {
+            let line = String::from_utf8_lossy(&self.out[start..]);
+            return Err(self.refused(&say!(its_lines_change_heights, line)));
+        }
+        self.end_line();
+        self.blocks += 1;
+        Ok(())
+    }
+}

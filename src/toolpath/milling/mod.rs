@@ -1,0 +1,164 @@
+//! Milling by a cylindrical electrode that wears, layer by layer: how deep it is fed where.
+//!
+//! The uniform wear method feeds each layer its height and the wear of the whole layer, and lets the next layer go back along it, so that the
+//! floor wears even (Yu, Masuzawa, Fujino 1998). Linear compensation feeds what has been worn on the way, step by step. Lengths are in mm.
+
+mod floor;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use floor::Floor;
+
+use crate::settings::{Electrode, WearCompensation};
+use std::f64::consts::PI;
+
+impl Electrode {
+    /// How far its axis runs beside a contour: b = δ + D/2.
+    pub fn correction(&self) -> f64 {
+        self.diameter / 2.0 + self.gap
+    }
+
+    /// Width of what it erodes: W = D + 2δ.
+    pub fn width(&self) -> f64 {
+        self.diameter + 2.0 * self.gap
+    }
+
+    /// Its cross-section: A = πD²/4.
+    pub fn section(&self) -> f64 {
+        PI * self.diameter.powi(2) / 4.0
+    }
+
+    /// By how much it gets shorter on a way of 1 mm in a layer of 1 mm: ν W/A.
+    pub fn wear_along(&self) -> f64 {
+        self.wear * self.width() / self.section()
+    }
+
+    /// By how much it gets shorter in a layer along a way of `length`, as a share of the layer's height: K = ν S/A, where S = W·l, and
+    /// + πW²/4 where the round ends of an open slot count.
+    pub fn wear_of_layer(&self, length: f64, is_closed: bool) -> f64 {
+        let ends = match self.slot_ends && !is_closed {
+            true => PI * self.width().powi(2) / 4.0,
+            false => 0.0,
+        };
+        self.wear * (self.width() * length + ends) / self.section()
+    }
+
+    /// Of how many layers the depth is; the last one may be thinner.
+    pub fn layers(&self) -> usize {
+        // A depth of so many layers is no layer more by its rounding.
+        (self.depth / self.layer - 1e-6).ceil().max(1.0) as usize
+    }
+
+    /// Height of the last layer.
+    pub fn last_layer(&self) -> f64 {
+        self.depth - self.layer * (self.layers() - 1) as f64
+    }
+}
+
+/// What the electrode does next on its way along a contour. Ways count from where the contour is entered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Step {
+    /// It is fed to so many mm below the surface.
+    Feed(f64),
+    /// It goes along the contour; back where `to` lies before `from`.
+    Along { from: f64, to: f64 },
+}
+
+/// The layers of one contour: to and fro along it, each from where the last one ended; a closed one the one way round and the other.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Layers {
+    pub(crate) electrode: Electrode,
+    /// Of the way.
+    pub(crate) length: f64,
+    pub(crate) is_closed: bool,
+    /// What the electrode has been fed to make up for its wear along other contours.
+    pub(crate) fed_before: f64,
+}
+
+impl Layers {
+    /// K.
+    pub(crate) fn wear(&self) -> f64 {
+        self.electrode.wear_of_layer(self.length, self.is_closed)
+    }
+
+    /// How deep a layer of a height is fed at its begin.
+    pub(crate) fn feed(&self, height: f64) -> f64 {
+        match self.electrode.compensation {
+            WearCompensation::Uniform => height * (1.0 + self.wear()),
+            WearCompensation::None | WearCompensation::Linear => height,
+        }
+    }
+
+    /// Tells the steps of all layers in their order; gives what has been fed for the wear up to their end, the contours before among it.
+    pub(crate) fn each<E>(&self, step: &mut dyn FnMut(Step) -> Result<(), E>) -> Result<f64, E> {
+        let Electrode {
+            compensation,
+            depth,
+            ..
+        } = self.electrode;
+        let count = self.electrode.layers();
+        let mut fed = self.fed_before;
+        for number in 0..count {
+            let height = match number + 1 == count {
+                true => self.electrode.last_layer(),
+                false => self.electrode.layer,
+            };
+            fed += self.feed(height);
+            step(Step::Feed(fed))?;
+            let is_back = number % 2 == 1;
+            let along = |from: f64, to: f64| match is_back {
+                true => Step::Along {
+                    from: self.length - from,
+                    to: self.length - to,
+                },
+                false => Step::Along { from, to },
+            };
+            let mut done = 0.0;
+            if compensation == WearCompensation::Linear {
+                let per_mm = self.electrode.wear_along() * height;
+                // What is worn behind the last step is fed with the next layer.
+                let steps = (self.length / self.electrode.step - 1e-9).floor() as usize;
+                for at in (1..=steps).map(|number| number as f64 * self.electrode.step) {
+                    step(along(done, at))?;
+                    step(Step::Feed(fed + at * per_mm))?;
+                    done = at;
+                }
+                fed += self.length * per_mm;
+            }
+            if done < self.length {
+                step(along(done, self.length))?;
+            }
+        }
+        Ok(fed - depth)
+    }
+}
+
+/// What milling a contour comes to; depths are below the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MilledContour {
+    /// Index of the outline in the drawing's list.
+    pub outline: usize,
+    /// Of the way that each layer goes.
+    pub length: f64,
+    /// K.
+    pub wear_of_layer: f64,
+    /// What each layer is fed at its begin, and the last one.
+    pub feed: f64,
+    pub last_feed: f64,
+    /// What is fed on 1 mm of the way; 0 but for `linear`.
+    pub feed_along: f64,
+    /// Where the electrode is told to go at last.
+    pub fed: f64,
+    /// Where the floor lies after all layers: its mean along the way, its highest and its deepest place.
+    pub floor: [f64; 3],
+    /// By how much the electrode has got shorter, the contours before among it.
+    pub worn: f64,
+}
+
+/// What milling a drawing comes to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Milled {
+    pub electrode: Electrode,
+    /// In the order of the cuts.
+    pub contours: Vec<MilledContour>,
+}
