@@ -34,7 +34,7 @@ def main() -> None:
 
         program = drawing.generate("3b")
         program.save(target)
-        print(f"{target}: {program.blocks} blocks, wire path {program.length:.3f} mm, at most {program.deviation:.2f} µm from it")
+        print(f"{target}: {program.blocks} blocks, cut {program.length:.3f} mm, at most {program.deviation:.2f} µm from the path")
 
 
 if __name__ == "__main__":

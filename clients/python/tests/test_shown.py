@@ -29,7 +29,7 @@ ASKED: list[tuple[str, Callable[[Drawing], Any], dict[str, Any], str]] = [
     ("contours", lambda drawing: drawing.contours(), {"contour": 0, "closed": True, "segments": 5, "handles": ["2A"]}, "1, 0 of them open"),
     ("fix", lambda drawing: drawing.fix(), {"is": "repaired", "rule": "small-radius", "handle": "2A"}, "findings before"),
     ("toolpath", lambda drawing: drawing.toolpath(PUNCH), {"contour": 0, "pass": 1, "cuts off": None, "correction": 0.15}, "4 paths"),
-    ("generate", lambda drawing: drawing.generate(options=PUNCH), {}, "blocks, wire path"),
+    ("generate", lambda drawing: drawing.generate(options=PUNCH), {}, "blocks, cut "),
     ("fit", lambda drawing: drawing.fit(PAIR), {"handle": "2A", "of": "plate"}, "does not fit"),
     ("pair", lambda drawing: drawing.pair(options=PAIR, force=True), {"part": "punch", "other side": False}, "PairProgram of the punch"),
 ]

@@ -445,7 +445,8 @@ class Program(Value):
 
     def __repr__(self) -> str:
         warned = counted(len(self.warnings), "warning") if self.warnings else ""
-        said = listed([counted(self.blocks, "block"), f"wire path {self.length:.3f} mm", f"at most {self.deviation:.2f} µm beside it", warned])
+        lengths = [f"cut {self.length:.3f} mm", f"jumps {self.jumps:.3f} mm" if self.jumps else ""]
+        said = listed([counted(self.blocks, "block"), *lengths, f"at most {self.deviation:.2f} µm beside it", warned])
         return f"<{type(self).__name__}: {said}>"
 
     def __str__(self) -> str:
