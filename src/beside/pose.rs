@@ -245,7 +245,8 @@ impl Pose {
             let merged = share > 0.0;
             if off.norm() <= ROUNDED + unsure && is_last.abs() <= 4.0 * ROUNDED + 1e-3 * length {
                 let fits = alike(&way, &rest)
-                    && goes_along(1.0)
+                    // One piece is held against its middle below.
+                    && (self.exact && !merged || goes_along(1.0))
                     && self.coming_back(rounds, next == Some(*entry), entry).fits(
                         &way,
                         &rest,
