@@ -107,10 +107,13 @@ impl Milling {
                 milled.feed,
                 rest(say!(the_last_is_fed, milled.last_feed)),
                 along.unwrap_or_default(),
-                milled.depth,
-                milled.floor.least,
-                milled.floor.most,
-                milled.worn
+                say!(
+                    a_floor_comes_out,
+                    milled.depth,
+                    milled.floor.least,
+                    milled.floor.most,
+                    milled.worn
+                )
             )
         };
         let contours = self.contours.iter().take(contours).map(contour);

@@ -231,7 +231,8 @@ declare! {
     on_layers(layers) => ", layer {layers}";
     the_electrode_mills(layers, layer, last, correction) => "{layers} layers of {layer} mm{last}, beside the contour by {correction:.4} mm";
     the_last_of(last) => ", the last one of {last:.4} mm";
-    a_contour_is_milled(contour, feed, last, along, mean, least, most, worn) => "contour {contour}: fed {feed:.4} mm a layer{last}{along}; simulated: {mean:.4} mm deep, the floor from {least:.4} to {most:.4} mm, the electrode {worn:.4} mm shorter";
+    a_contour_is_milled(contour, feed, last, along, out) => "contour {contour}: fed {feed:.4} mm a layer{last}{along}; simulated: {out}";
+    a_floor_comes_out(mean, least, most, worn) => "{mean:.4} mm deep, the floor from {least:.4} to {most:.4} mm, the electrode {worn:.4} mm shorter";
     the_last_is_fed(last) => ", the last one {last:.4} mm";
     it_is_fed_along(along) => " and {along:.5} µm on each mm of its way";
 }

@@ -231,7 +231,8 @@ translate! {
     on_layers(layers) => "，图层 {layers}";
     the_electrode_mills(layers, layer, last, correction) => "共 {layers} 层，每层 {layer} mm{last}，偏离轮廓 {correction:.4} mm";
     the_last_of(last) => "，最后一层 {last:.4} mm";
-    a_contour_is_milled(contour, feed, last, along, mean, least, most, worn) => "轮廓 {contour}：每层进给 {feed:.4} mm{last}{along}；模拟结果：深 {mean:.4} mm，底面 {least:.4} 到 {most:.4} mm，电极缩短 {worn:.4} mm";
+    a_contour_is_milled(contour, feed, last, along, out) => "轮廓 {contour}：每层进给 {feed:.4} mm{last}{along}；模拟结果：{out}";
+    a_floor_comes_out(mean, least, most, worn) => "深 {mean:.4} mm，底面 {least:.4} 到 {most:.4} mm，电极缩短 {worn:.4} mm";
     the_last_is_fed(last) => "，最后一层 {last:.4} mm";
     it_is_fed_along(along) => "，每走 1 mm 进给 {along:.5} µm";
 }
