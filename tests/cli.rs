@@ -234,9 +234,9 @@ fn commands_print_and_end_as_they_say() {
         ("check clean.dxf --correction -1", 2, &["!above 0"]),
         ("check clean.dxf --correction NaN", 2, &["!above 0"]),
         (
-            "check clean.dxf --side left",
+            "check clean.dxf --side inside",
             2,
-            &["!both, auto, opening, punch"],
+            &["!both, auto, opening, punch, left, right"],
         ),
         (
             "check clean.dxf --config missing.toml",

@@ -44,7 +44,7 @@ impl Analysis {
     }
 
     pub(super) fn wire_side(&self, key: ContourKey, role: Role) -> Option<Side> {
-        if !matches!(role, Role::Opening | Role::Punch) {
+        if matches!(role, Role::Both | Role::Ignore) {
             return None;
         }
         let closed = self.chains.get(key)?.closed;
@@ -95,7 +95,8 @@ impl Analysis {
         depths
     }
 
-    /// The role of each contour: stated by an entity, by its layer, by the `side` setting, or by nesting.
+    /// The role of each contour: stated by an entity, by its layer, by the `side` setting, or by nesting. A side of its direction says
+    /// nothing of a closed one.
     pub(super) fn roles(&self, drawing: &Drawing, keys: &[ContourKey]) -> Vec<Role> {
         let everywhere = self.settings.side.role();
         let depths = match everywhere {
@@ -115,12 +116,14 @@ impl Analysis {
                 Role::Punch
             }
         };
+        let is_closed = |key: &ContourKey| self.chains.get(*key).is_none_or(|it| it.closed);
         let role = |(position, key): (usize, &ContourKey)| {
-            self.known
-                .get(key)
-                .and_then(|known| known.stated)
-                .or(everywhere)
-                .unwrap_or_else(|| nested(position))
+            let said = self.known.get(key).and_then(|known| known.stated);
+            match said.or(everywhere) {
+                Some(Role::Left | Role::Right) if is_closed(key) => Role::Both,
+                Some(role) => role,
+                None => nested(position),
+            }
         };
         keys.iter().enumerate().map(role).collect()
     }

@@ -76,7 +76,9 @@ impl Analysis {
         let everywhere = self.settings.side.role().filter(|_| self.stated == 0);
         let role_of = |analysis: &Analysis, key: ContourKey| match &nested {
             Some(roles) => roles.get(&key).copied().unwrap_or(Role::Both),
-            None if everywhere.is_some() => everywhere.unwrap_or(Role::Both),
+            None if matches!(everywhere, Some(Role::Both | Role::Opening | Role::Punch)) => {
+                everywhere.unwrap_or(Role::Both)
+            }
             None => analysis
                 .roles(drawing, &[key])
                 .first()
@@ -122,7 +124,11 @@ impl Analysis {
         };
         self.report_contours(
             drawing,
-            notable.iter().map(|(key, _)| *key).filter(as_a_whole),
+            // An open contour with a side is meant so.
+            notable
+                .iter()
+                .filter(|(key, side)| side.is_none() && as_a_whole(key))
+                .map(|(key, _)| *key),
             &mut report,
         );
         self.report_size(drawing, &mut report);

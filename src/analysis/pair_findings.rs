@@ -256,6 +256,7 @@ impl Pairs {
             .collect();
         let is_told_open = |key: ContourKey| {
             let contour = outlook(key).map(|it| it.contour);
+            let contour = contour.filter(|_| side_of(key).is_none());
             contour.is_some_and(|it| {
                 !it.closed
                     && !it

@@ -145,8 +145,7 @@ impl Analysis {
     /// wire's path itself, or of whose arcs each says so.
     pub(super) fn misfit(&self, drawing: &Drawing, key: ContourKey, side: Side) -> Option<Finding> {
         let (contour, known) = (self.chains.get(key)?, self.known.get(&key)?);
-        if !contour.closed
-            || contour.len() > lost_pocket::MOST_SEGMENTS
+        if contour.len() > lost_pocket::MOST_SEGMENTS
             || self.settings.compensation == Compensation::None
         {
             return None;
@@ -155,10 +154,11 @@ impl Analysis {
             return None;
         }
         let twice_area = known.index.twice_area();
-        let role = if side.sign() * twice_area > 0.0 {
-            Role::Opening
-        } else {
-            Role::Punch
+        let role = match (contour.closed, side) {
+            (false, Side::Left) => Role::Left,
+            (false, Side::Right) => Role::Right,
+            (true, side) if side.sign() * twice_area > 0.0 => Role::Opening,
+            (true, _) => Role::Punch,
         };
         toolpath::misfit(
             drawing,

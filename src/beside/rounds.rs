@@ -115,7 +115,7 @@ impl Rounds {
         });
         let path = joined(reversed.collect(), true);
         let (settings, unit_mm) = (&*drawn.settings, drawn.unit_mm);
-        let Some(mut path) = of_four_b(path, side.reversed(), settings, unit_mm) else {
+        let Some(mut path) = of_four_b(path, (side.reversed(), contour.closed), settings, unit_mm) else {
             return;
         };
         path.retain(|piece| piece.geometry.length() * scale > CRUMB);
@@ -412,13 +412,14 @@ fn along(
     drawn: &Drawn,
 ) -> Vec<Vec<PathSegment>> {
     let settings = &*drawn.settings;
+    let has_side = contour.closed || contour.side.is_some();
     let (mut ways, mut corrections) = (Vec::new(), Vec::new());
     for course in courses {
         match course {
             Course::Drawn => ways.push(joined(own(contour), contour.closed)),
-            Course::FourB if contour.closed => ways.extend(of_four_b(
-                joined(own(contour), true),
-                side,
+            Course::FourB if has_side => ways.extend(of_four_b(
+                joined(own(contour), contour.closed),
+                (side, contour.closed),
                 settings,
                 drawn.unit_mm,
             )),
@@ -426,14 +427,14 @@ fn along(
             Course::Beside(_) | Course::FourB => {}
         }
     }
-    if !corrections.is_empty() && contour.closed {
+    if !corrections.is_empty() && has_side {
         let of_path = Effective {
             compensation: Compensation::Path,
             ..settings.clone()
         };
         let rounds = toolpath::rounds(
             &contour.segments,
-            side,
+            (side, contour.closed),
             &corrections,
             &of_path,
             drawn.unit_mm,
@@ -474,16 +475,18 @@ fn joined(mut path: Vec<PathSegment>, closed: bool) -> Vec<PathSegment> {
 /// The part's contour with the transitions of 4B, in the drawing's unit; none where it cannot be written.
 fn of_four_b(
     mut path: Vec<PathSegment>,
-    side: Side,
+    (side, closed): (Side, bool),
     settings: &Effective,
     unit_mm: f64,
 ) -> Option<Vec<PathSegment>> {
-    // It may not begin in a corner.
     let first = *path.first()?;
-    path[0].geometry = first.geometry.part(0.5, 1.0);
-    path.push(PathSegment {
-        geometry: first.geometry.part(0.0, 0.5),
-        ..first
-    });
+    if closed {
+        // It may not begin in a corner.
+        path[0].geometry = first.geometry.part(0.5, 1.0);
+        path.push(PathSegment {
+            geometry: first.geometry.part(0.0, 0.5),
+            ..first
+        });
+    }
     crate::program::three_b::of_part(path, side, settings, unit_mm)
 }

@@ -93,6 +93,8 @@ pub(super) fn heading(index: usize, contour: &ContoursContour, unit_mm: f64) -> 
         Role::Opening => say!(opening),
         Role::Punch => say!(punch),
         Role::Both => say!(both_sides),
+        Role::Left => say!(wire_on_the_left),
+        Role::Right => say!(wire_on_the_right),
         Role::Ignore => say!(not_cut),
     };
     let length = contour.length * unit_mm;

@@ -44,6 +44,10 @@ pub enum Role {
     Punch,
     /// Cut once as the punch and once as the plate: every arc must survive both sides.
     Both,
+    /// An open contour: the wire runs to the left of its direction, that in which the first drawn of its entities is drawn.
+    Left,
+    /// The same to the right.
+    Right,
     /// Not cut.
     Ignore,
 }
@@ -55,6 +59,8 @@ impl Role {
             Role::Opening => "opening",
             Role::Punch => "punch",
             Role::Both => "both",
+            Role::Left => "left",
+            Role::Right => "right",
             Role::Ignore => "ignore",
         }
     }

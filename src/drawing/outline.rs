@@ -7,7 +7,7 @@ use crate::geometry::Side;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
     pub contour: Contour,
-    /// Never [`Role::Ignore`]: such entities are in no contour.
+    /// Never [`Role::Ignore`]: such entities are in no contour. Of a closed contour neither [`Role::Left`] nor [`Role::Right`].
     pub role: Role,
     /// Twice the signed area in square drawing units, positive counter-clockwise; 0 for an open contour.
     pub twice_area: f64,
@@ -28,18 +28,18 @@ impl Outline {
     }
 }
 
-/// Side of the direction of travel on which the wire runs: inside an opening, outside a punch.
-/// `None` where every arc must survive both sides, for an open contour and for one without area.
+/// Side of the direction of travel on which the wire runs: inside an opening, outside a punch; that of an open contour is its role.
+/// `None` where every arc must survive both sides, for an open contour with another role and for a closed one without area.
 pub(crate) fn wire_side(role: Role, closed: bool, twice_area: f64) -> Option<Side> {
-    if !closed || twice_area == 0.0 {
-        return None;
-    }
     let counter_clockwise = twice_area > 0.0;
     match role {
+        Role::Left if !closed => Some(Side::Left),
+        Role::Right if !closed => Some(Side::Right),
+        _ if !closed || twice_area == 0.0 => None,
         Role::Opening if counter_clockwise => Some(Side::Left),
         Role::Opening => Some(Side::Right),
         Role::Punch if counter_clockwise => Some(Side::Right),
         Role::Punch => Some(Side::Left),
-        Role::Both | Role::Ignore => None,
+        Role::Both | Role::Left | Role::Right | Role::Ignore => None,
     }
 }

@@ -91,6 +91,9 @@ pub(crate) trait Writer {
         last: Node,
         goes_on: bool,
     ) -> Result<(), ProofError>;
+    /// A path along an open contour ended at `last`. `for_good`: the contour is not cut any more, and the wire stays away from where it
+    /// was threaded. So many `stops` more, two with what stands before the next path, say that this is meant.
+    fn end_open(&mut self, last: Node, for_good: bool, stops: usize) -> Result<(), ProofError>;
 }
 
 /// Walks along the paths. `step_mm` is the drawing's unit in steps of the grid. `go_on` hears every few thousand segments how many are
@@ -139,6 +142,12 @@ pub(crate) fn walk(
                 && next.begin() == path.end()
         });
         writer.end(closed, first_node, from, goes_on)?;
+        if path.is_open() {
+            let next = paths.get(index + 1);
+            let is_last = next.is_none_or(|next| next.outline != path.outline);
+            let for_good = is_last && path.end() != path.thread_hole;
+            writer.end_open(from, for_good, 1 + usize::from(next.is_none()))?;
+        }
         node = Some(from);
     }
     Ok(())

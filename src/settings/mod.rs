@@ -60,6 +60,10 @@ pub enum SideSetting {
     Opening,
     /// The wire runs outside.
     Punch,
+    /// Of open contours: the wire runs to the left of their direction. Closed ones count as `both`.
+    Left,
+    /// The same to the right.
+    Right,
 }
 
 impl SideSetting {
@@ -70,6 +74,8 @@ impl SideSetting {
             SideSetting::Both => Some(Role::Both),
             SideSetting::Opening => Some(Role::Opening),
             SideSetting::Punch => Some(Role::Punch),
+            SideSetting::Left => Some(Role::Left),
+            SideSetting::Right => Some(Role::Right),
         }
     }
 }

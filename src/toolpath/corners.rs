@@ -112,6 +112,14 @@ impl Raw {
         raw
     }
 
+    /// Of an open contour that is gone there and back, so many walls either way: the element that leads round its end. Those before it
+    /// lie on the side of the wire.
+    pub(crate) fn end_roll(&self, walls: usize) -> usize {
+        self.elements
+            .partition_point(|element| element.wall < walls)
+            .saturating_sub(1)
+    }
+
     fn push(&mut self, element: Element, joint: Joint) {
         self.elements.push(element);
         self.joints.push(joint);

@@ -74,7 +74,7 @@ impl Job<'_> {
         let mut given: Vec<(Point, usize)> = Vec::new();
         for (&index, Wanted { thread, .. }) in chosen.outlines.iter().zip(wanted) {
             let outline = &outlines[index];
-            if !outline.contour.closed {
+            if !outline.contour.closed && outline.wire_side().is_none() {
                 continue;
             }
             if let Some(at) = thread {

@@ -1,16 +1,18 @@
-//! The path along one closed contour, proved, or the fault that stands in its place.
+//! The path along one contour, proved, or the fault that stands in its place.
 
 use super::clearance::Walls;
 use super::corners::{Element, Joining, Raw, with_tips};
 use super::job::{Job, ROUNDING};
 use super::loops::{self, Found};
 use super::offset::{Wall, walls};
+use super::open::{one_side, there_and_back};
 use super::path::Refusal;
 use super::proof::{Proof, Unproved};
 use crate::drawing::ContourSegment;
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::Point;
 use crate::settings::Corner;
+use std::borrow::Cow;
 use std::sync::OnceLock;
 
 /// Walls up to this long, mm, are left out where there is no path otherwise.
@@ -27,6 +29,7 @@ pub(super) struct Along {
     /// Drawing units.
     pub(crate) correction: f64,
     pub(crate) corner: Corner,
+    pub(crate) closed: bool,
 }
 
 /// What a contour gives the wire.
@@ -51,16 +54,17 @@ pub(super) enum Fault {
 }
 
 impl Job<'_> {
-    /// The walls of a closed contour with the wire on the side of that sign, and the path along them, proved. Where there is none because
+    /// The walls of a contour with the wire on the side of that sign, and the path along them, proved. Where there is none because
     /// of crumbs, they are left out: their neighbours move by less than what any control can follow.
     pub(crate) fn along(
         &self,
         segments: &[ContourSegment],
         side: f64,
         correction: f64,
+        closed: bool,
     ) -> Result<(Vec<Wall>, Walls, Outcome), Refusal> {
         let of = |shortest: f64| {
-            let walls = walls(segments.iter().copied(), true, self.units(shortest));
+            let walls = walls(segments.iter().copied(), closed, self.units(shortest));
             let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
             (walls, own)
         };
@@ -69,6 +73,7 @@ impl Job<'_> {
             side,
             correction,
             corner: self.settings.corner,
+            closed,
         };
         let laid = self.laid(&walls, &own, along)?;
         if laid.is_err()
@@ -84,7 +89,8 @@ impl Job<'_> {
         Ok((walls, own, laid))
     }
 
-    /// The path along a closed contour, proved; `walls` have the wire on the side of that sign.
+    /// The path along a contour, proved; `walls` have the wire on the side of that sign. That of an open one runs from beside the begin of
+    /// the first wall to beside the end of the last.
     pub(super) fn laid(
         &self,
         walls: &[Wall],
@@ -95,7 +101,15 @@ impl Job<'_> {
             side,
             correction,
             corner,
+            closed,
         } = along;
+        if walls.is_empty() {
+            return Ok(Err(Fault::Nothing));
+        }
+        let round = match closed {
+            true => Cow::Borrowed(walls),
+            false => Cow::Owned(there_and_back(walls)),
+        };
         let joining = Joining {
             correction,
             side,
@@ -103,22 +117,23 @@ impl Job<'_> {
             tolerance: self.units(self.settings.tolerances.report),
         };
         self.go_on()?;
-        let raw = Raw::new(walls, &joining);
+        let raw = Raw::new(&round, &joining);
         let rounding = self.units(ROUNDING);
         let proof = Proof {
-            walls,
+            walls: &round,
             raw: &raw,
             own,
             correction,
             side,
             rounding,
+            closed,
             near_raw: OnceLock::new(),
         };
         let tipped = |path: Vec<(usize, Element)>| {
             let path: Vec<Element> = path.into_iter().map(|(_, element)| element).collect();
             Laid::Path(match corner {
                 Corner::Intersection => {
-                    with_tips(path, walls, &joining, own, correction - rounding)
+                    with_tips(path, &round, &joining, own, correction - rounding)
                 }
                 Corner::Arc => path,
             })
@@ -128,7 +143,11 @@ impl Job<'_> {
             [circle] if circle.geometry.length() > 0.0 => Some(vec![(0, *circle)]),
             _ => raw.trimmed(),
         };
-        if let Some(path) = found.filter(|path| keeps_its_side(path, walls, side))
+        let found = match closed {
+            true => found.filter(|path| keeps_its_side(path, walls, side)),
+            false => found.and_then(|path| one_side(vec![path], &raw, walls.len()).ok()),
+        };
+        if let Some(path) = found
             && self.holds(&proof, &path)?.is_ok()
         {
             return Ok(Ok(tipped(path)));
@@ -150,6 +169,14 @@ impl Job<'_> {
             }
             Found::Cancelled => return Err(Refusal::Cancelled),
         };
+        if !closed {
+            let path = match one_side(loops, &raw, walls.len()) {
+                Ok(path) => path,
+                Err(None) => return Ok(Err(Fault::Nothing)),
+                Err(Some((near, wall))) => return Ok(Err(Fault::Several { near, wall })),
+            };
+            return self.vouched(&proof, path, tipped);
+        }
         if loops.len() > 1 {
             loops.retain(|path| {
                 path.first()
@@ -175,8 +202,18 @@ impl Job<'_> {
         if !keeps_its_side(&path, walls, side) {
             return Ok(Err(Fault::Unproved { wall: 0 }));
         }
+        self.vouched(&proof, path, tipped)
+    }
+
+    /// A path, where it holds its proof.
+    fn vouched(
+        &self,
+        proof: &Proof,
+        path: Vec<(usize, Element)>,
+        tipped: impl Fn(Vec<(usize, Element)>) -> Laid,
+    ) -> Result<Outcome, Refusal> {
         Ok(self
-            .holds(&proof, &path)?
+            .holds(proof, &path)?
             .map(|()| tipped(path))
             .map_err(|Unproved { wall }| Fault::Unproved { wall }))
     }
@@ -203,7 +240,7 @@ impl Job<'_> {
                 .share_of(piece.geometry.start())
         };
         by_raw.sort_by(|a, b| a.0.cmp(&b.0).then_with(|| share(a).total_cmp(&share(b))));
-        let count = proof.raw.elements.len();
+        let count = proof.followed();
         for first in (0..count).step_by(STEP) {
             self.go_on()?;
             if let Err(fault) = proof.nothing_is_missing(&by_raw, first..(first + STEP).min(count))

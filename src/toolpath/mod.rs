@@ -15,6 +15,7 @@ mod leads;
 mod loops;
 pub(crate) mod milling;
 mod offset;
+mod open;
 mod order;
 mod part;
 mod path;
@@ -270,7 +271,9 @@ pub(crate) fn misfit(
     };
     let correction = job.units(settings.correction);
     let segments: Vec<_> = outline.contour.segments(drawing).collect();
-    let (walls, _, laid) = job.along(&segments, side, correction).ok()?;
+    let (walls, _, laid) = job
+        .along(&segments, side, correction, outline.contour.closed)
+        .ok()?;
     match laid {
         Ok(Laid::Path(_)) => None,
         Ok(Laid::Point(_)) => {

@@ -131,6 +131,7 @@ pub(crate) fn part(
         side: -side.sign(),
         correction: half,
         corner: Corner::Arc,
+        closed: true,
     };
     let outline = match job.laid(&beside, &near_path, back)? {
         Ok(Laid::Path(outline)) => outline,
@@ -188,7 +189,7 @@ impl Job<'_> {
         }
         let first = if is_beside_rough { rough } else { last };
         let segments: Vec<_> = contour.segments(self.drawing).collect();
-        let (walls, own, laid) = self.along(&segments, side.sign(), first)?;
+        let (walls, own, laid) = self.along(&segments, side.sign(), first, true)?;
         let laid = match (laid, is_beside_rough) {
             (Ok(Laid::Path(path)), true) => {
                 let rough = Pass {
@@ -201,6 +202,7 @@ impl Job<'_> {
                     side: side.sign(),
                     correction: last,
                     corner: settings.corner,
+                    closed: true,
                 };
                 self.skim(&walls, &own, &rough, along)?
             }

@@ -79,6 +79,12 @@ impl WirePath {
         self.cut_off && self.pass > 1 && self.begin() != self.thread_hole
     }
 
+    /// It runs beside an open contour, and does not end where it begins.
+    pub(crate) fn is_open(&self) -> bool {
+        let has_side = self.correction > 0.0 || self.side.is_some();
+        self.counter_clockwise.is_none() && has_side && self.end() != self.begin()
+    }
+
     /// Where the path begins; where the wire is threaded if it only stands.
     pub fn begin(&self) -> Point {
         let first = self.segments.first();

@@ -209,11 +209,12 @@ impl Job<'_> {
         }
     }
 
-    /// The wall of a closed contour, `but` for one of them, that a straight way cuts.
+    /// The wall of a contour, `but` for one of them, that a straight way cuts. One that is open and has no side is nobody's part.
     fn crossed(&self, way: &Segment, contours: &Contours, but: Option<usize>) -> Option<usize> {
         let counts = |wall: usize, _| {
-            let outline = contours.outline_of(wall);
-            Some(outline) != but && self.outlines[outline].contour.closed
+            let index = contours.outline_of(wall);
+            let outline = &self.outlines[index];
+            Some(index) != but && (outline.contour.closed || outline.wire_side().is_some())
         };
         let clearance = self.clearance(self.units(self.settings.correction));
         contours.walls.find_near(way, clearance, counts)
@@ -264,12 +265,41 @@ impl Job<'_> {
         directed(outline, self.settings.direction, picked)
     }
 
+    /// The same, but that an open contour is begun at the end that is entered, or that the thread hole is nearer to.
+    fn towards(&self, index: usize, wanted: &Wanted) -> Result<(Contour, bool), Refusal> {
+        let (contour, turned) = self.directed(index);
+        let ends = || {
+            let first = contour.segment(self.drawing, 0)?.geometry.start();
+            let last = contour.len().checked_sub(1)?;
+            Some((first, contour.segment(self.drawing, last)?.geometry.end()))
+        };
+        let begin = wanted.entry.or(wanted.thread).filter(|_| !contour.closed);
+        let Some((begin, (first, last))) = begin.zip(ends()) else {
+            return Ok((contour, turned));
+        };
+        let (to_first, to_last) = ((begin - first).norm(), (begin - last).norm());
+        let join = self.units(self.settings.tolerances.join);
+        if wanted.entry.is_some() && to_first.min(to_last) > join {
+            let handle = name(self.drawing, &self.outlines[index]);
+            return Err(Refusal::Sentence(say!(
+                contour_is_open_and_cannot_be_entered_at,
+                handle,
+                begin.x,
+                begin.y
+            )));
+        }
+        Ok(match to_last < to_first {
+            true => (contour.reversed(), !turned),
+            false => (contour, turned),
+        })
+    }
+
     /// The contour itself as the wire's path.
     fn as_drawn(&self, index: usize, wanted: &Wanted) -> Result<WirePath, Refusal> {
         let outline = &self.outlines[index];
         let zero_length = self.units(self.settings.tolerances.zero_length);
-        let (contour, _) = self.directed(index);
-        let mut walls = walls(contour.segments(self.drawing), contour.closed, zero_length);
+        let (contour, _) = self.towards(index, wanted)?;
+        let walls = walls(contour.segments(self.drawing), contour.closed, zero_length);
         let handle = name(self.drawing, outline);
         let empty = || Refusal::Sentence(say!(contour_has_no_length, handle));
         let path = if contour.closed {
@@ -279,29 +309,6 @@ impl Job<'_> {
                 None => path,
             }
         } else {
-            let (first, last) = (
-                walls.first().ok_or_else(empty)?.geometry.start(),
-                walls.last().ok_or_else(empty)?.geometry.end(),
-            );
-            if let Some(begin) = wanted.entry.or(wanted.thread) {
-                let (to_first, to_last) = ((begin - first).norm(), (begin - last).norm());
-                if wanted.entry.is_some()
-                    && to_first.min(to_last) > self.units(self.settings.tolerances.join)
-                {
-                    return Err(Refusal::Sentence(say!(
-                        contour_is_open_and_cannot_be_entered_at,
-                        handle,
-                        begin.x,
-                        begin.y
-                    )));
-                }
-                if to_last < to_first {
-                    walls.reverse();
-                    walls
-                        .iter_mut()
-                        .for_each(|wall| wall.geometry = wall.geometry.reversed());
-                }
-            }
             elements(&walls)
         };
         let begin = path.first().ok_or_else(empty)?.geometry.start();
@@ -312,23 +319,18 @@ impl Job<'_> {
         Ok(self.with_leads(index, 0.0, thread, path, contour.closed))
     }
 
-    /// The offsets of a closed contour, one for each pass.
+    /// The offsets of a contour, one for each pass.
     fn compensated(&self, index: usize, wanted: &Wanted) -> Result<Unled, Refusal> {
         let (outline, settings) = (&self.outlines[index], self.settings);
         let handle = name(self.drawing, outline);
-        if !outline.contour.closed {
-            return Err(Refusal::Sentence(say!(
-                contour_is_open_the_side_of_the_wire_is_not_known,
-                handle
-            )));
-        }
+        let closed = outline.contour.closed;
         let Some(own_side) = outline.wire_side() else {
-            return Err(Refusal::Sentence(say!(
-                side_of_contour_is_not_known,
-                handle
-            )));
+            return Err(Refusal::Sentence(match closed {
+                true => say!(side_of_contour_is_not_known, handle),
+                false => say!(contour_is_open_the_side_of_the_wire_is_not_known, handle),
+            }));
         };
-        let (contour, turned) = self.directed(index);
+        let (contour, turned) = self.towards(index, wanted)?;
         let side = if turned {
             own_side.reversed()
         } else {
@@ -339,7 +341,7 @@ impl Job<'_> {
         let corrections = || corrections.iter().map(|&mm| self.units(mm));
         let rough = corrections().fold(0.0, f64::max);
         let segments: Vec<_> = contour.segments(self.drawing).collect();
-        let (walls, own, first) = self.along(&segments, side, rough)?;
+        let (walls, own, first) = self.along(&segments, side, rough, closed)?;
         let mut first = Some(first);
         let mut entry = None;
         let mut passes: Vec<Pass> = Vec::with_capacity(corrections().len());
@@ -348,6 +350,7 @@ impl Job<'_> {
                 side,
                 correction,
                 corner: settings.corner,
+                closed,
             };
             let laid = match (first.take(), passes.first()) {
                 (None, Some(rough)) => self.skim(&walls, &own, rough, along)?,
@@ -372,6 +375,11 @@ impl Job<'_> {
             };
             let at = match entry {
                 Some(entry) => Some(entry),
+                None if !closed => walls.first().map(|first| Entry {
+                    wall: 0,
+                    share: 0.0,
+                    point: first.geometry.start(),
+                }),
                 None => self
                     .entry(index, &walls, wanted)?
                     .or_else(|| default_entry(&walls)),
@@ -379,11 +387,14 @@ impl Job<'_> {
             let Some(at) = at else {
                 return Err(Refusal::Sentence(say!(contour_has_no_length, handle)));
             };
-            let (element, begin) =
-                path_point(&path, &walls, &at, correction, side).ok_or_else(|| {
-                    let fault = Fault::Unproved { wall: at.wall };
-                    Refusal::Findings(vec![self.no_path(&fault, &walls, correction)])
-                })?;
+            let first = path.first().map(|first| (0, first.geometry.start()));
+            let begin = first
+                .filter(|_| !closed)
+                .or_else(|| path_point(&path, &walls, &at, correction, side));
+            let (element, begin) = begin.ok_or_else(|| {
+                let fault = Fault::Unproved { wall: at.wall };
+                Refusal::Findings(vec![self.no_path(&fault, &walls, correction)])
+            })?;
             entry = Some(at);
             passes.push(Pass {
                 correction,
@@ -431,6 +442,7 @@ impl Job<'_> {
             side: -along.side,
             correction: by,
             corner: Corner::Arc,
+            closed: along.closed,
         };
         let laid = self.laid(&beside, &near, back)?;
         Ok(match laid {
@@ -532,7 +544,10 @@ impl Job<'_> {
         };
         let thread = if let Some(stand) = stand {
             stand.begin
-        } else if wanted.thread.is_none() && goes_out_and_back(&rough.path) {
+        } else if wanted.thread.is_none()
+            && self.outlines[unled.outline].contour.closed
+            && goes_out_and_back(&rough.path)
+        {
             // There is no room beside the path.
             rough.begin
         } else {
@@ -595,15 +610,18 @@ impl Job<'_> {
         wanted: &Wanted,
     ) -> Result<(Vec<Element>, Option<Side>), Refusal> {
         let outline = &self.outlines[index];
-        let (contour, turned) = self.directed(index);
+        let (contour, turned) = self.towards(index, wanted)?;
         let side = outline
             .wire_side()
             .map(|side| if turned { side.reversed() } else { side });
         let walls = walls(
             contour.segments(self.drawing),
-            true,
+            contour.closed,
             self.units(self.settings.tolerances.zero_length),
         );
+        if !contour.closed {
+            return Ok((elements(&walls), side));
+        }
         let Some(entry) = self
             .entry(index, &walls, wanted)?
             .or_else(|| default_entry(&walls))

@@ -22,6 +22,8 @@ pub(super) struct Proof<'a> {
     pub(crate) side: f64,
     /// How far a path may be off by rounding.
     pub(crate) rounding: f64,
+    /// False for the walls there and back along an open contour.
+    pub(crate) closed: bool,
     /// The raw elements, to ask what is near.
     pub(crate) near_raw: OnceLock<Walls>,
 }
@@ -35,11 +37,24 @@ pub(super) struct Unproved {
 impl Proof<'_> {
     /// True where the wire runs, beside the contour. Costs a look at every wall.
     pub(crate) fn is_on_wire_side(&self, point: Point) -> bool {
-        (winding_of(self.walls.iter().map(|wall| wall.geometry), point) != 0) == self.is_inside()
+        !self.closed
+            || (winding_of(self.walls.iter().map(|wall| wall.geometry), point) != 0)
+                == self.is_inside()
+    }
+
+    /// How many of the raw elements the path follows: of an open contour those on the side of the wire.
+    pub(crate) fn followed(&self) -> usize {
+        match self.closed {
+            true => self.raw.elements.len(),
+            false => self.raw.end_roll(self.walls.len() / 2),
+        }
     }
 
     /// True where the wire runs inside of the contour.
     pub(crate) fn is_inside(&self) -> bool {
+        if !self.closed {
+            return false;
+        }
         let origin = self
             .walls
             .first()

@@ -9,11 +9,11 @@ use crate::geometry::{Point, Side};
 use crate::settings::Effective;
 use rustc_hash::FxHashMap;
 
-/// The paths of all passes beside a closed contour whose segments are in the direction of travel, in that direction, from anywhere;
+/// The paths of all passes beside a contour whose segments are in the direction of travel, in that direction, from anywhere;
 /// corrections in mm. Of a pass that has no path nothing is there. Everything else is in the unit of so many mm.
 pub(crate) fn rounds(
     segments: &[ContourSegment],
-    side: Side,
+    (side, closed): (Side, bool),
     corrections: &[f64],
     settings: &Effective,
     unit_mm: f64,
@@ -30,7 +30,7 @@ pub(crate) fn rounds(
         goes_on: &|| true,
     };
     let rough = job.units(corrections.iter().copied().fold(0.0, f64::max));
-    let Ok((walls, own, first)) = job.along(segments, side, rough) else {
+    let Ok((walls, own, first)) = job.along(segments, side, rough, closed) else {
         return Vec::new();
     };
     let mut first = Some(first);
@@ -40,6 +40,7 @@ pub(crate) fn rounds(
             side,
             correction,
             corner: settings.corner,
+            closed,
         };
         let laid = match (first.take_if(|_| correction == rough), &before) {
             (Some(first), _) => first,

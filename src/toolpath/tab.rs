@@ -58,6 +58,7 @@ impl Job<'_> {
             side = of_control;
         }
         let outline = &self.outlines[unled.outline];
+        let closed = outline.contour.closed;
         let counter_clockwise = (outline.twice_area > 0.0) != self.directed(unled.outline).1;
         let mut paths = Vec::with_capacity(2 * count);
         // Where the wire stands, if that is at the tab.
@@ -72,8 +73,9 @@ impl Job<'_> {
                 true => at_tab.is_none() && !returns,
                 false => self.settings.runs_back(number),
             };
-            let from_tab = tab.is_some() && cut_off != back;
-            let to_tab = tab.is_some() && !from_tab;
+            // The far end of an open contour is where a tab would begin, and there is none.
+            let from_tab = (tab.is_some() || !closed) && cut_off != back;
+            let to_tab = (tab.is_some() || !closed) && !from_tab;
             let way = directed(if cut_off { &round.held } else { &round.main }, back);
             let (begin, end) = match (way.first(), way.last()) {
                 (Some(first), Some(last)) => (first.geometry.start(), last.geometry.end()),
@@ -117,7 +119,7 @@ impl Job<'_> {
                 geometry: element.geometry,
                 source: element.source,
             }));
-            let overlaps = overlap > 0.0 && !to_tab && (cut_off || tab.is_none());
+            let overlaps = overlap > 0.0 && closed && !to_tab && (cut_off || tab.is_none());
             if overlaps {
                 segments.extend(beyond(&directed(&round.main, back), overlap));
             }
@@ -135,7 +137,8 @@ impl Job<'_> {
                     if last == thread {
                     } else if is_straight {
                         // The control moves the way out as it moves the contour.
-                        if (overlaps || to_tab) && control == 0.0 && unled.entry.is_some() {
+                        let is_held = control == 0.0 || !closed;
+                        if (overlaps || to_tab) && is_held && unled.entry.is_some() {
                             hold(&landing)?;
                         }
                         segments.extend(lead(last, thread, Source::LeadOut));
@@ -148,7 +151,7 @@ impl Job<'_> {
             paths.push(WirePath {
                 outline: unled.outline,
                 pass: number + 1,
-                counter_clockwise: Some(counter_clockwise != back),
+                counter_clockwise: closed.then_some(counter_clockwise != back),
                 cut_off,
                 correction: round.correction,
                 thread_hole: thread,
@@ -169,6 +172,7 @@ impl Job<'_> {
         count: usize,
     ) -> Result<(Round, Option<Side>), Refusal> {
         let wire = pass.correction;
+        let closed = self.outlines[unled.outline].contour.closed;
         let (ring, tab_at, correction, side) =
             if self.settings.compensation == Compensation::Controller {
                 let (ring, side) = self.controlled(unled.outline, wanted)?;
@@ -176,13 +180,30 @@ impl Job<'_> {
             } else {
                 let at =
                     tab.and_then(|tab| path_point(&pass.path, &unled.walls, tab, wire, unled.side));
-                let ring = begin_at(pass.path, pass.element, pass.begin);
+                let ring = match closed {
+                    true => begin_at(pass.path, pass.element, pass.begin),
+                    false => pass.path,
+                };
                 (ring, at.map(|(_, at)| at), wire, None)
             };
+        // One pass goes on as it came.
+        let returns = self.settings.passes.sequence() == Sequence::OneWay;
+        let aside = |at: &Entry| {
+            let away = normal(&unled.walls[at.wall].geometry, at.share, unled.side);
+            let aside = at.point + away * (wire + self.units(CLEAR));
+            (side.is_some() && count > 1 && !returns).then_some(aside)
+        };
         let (Some(at), Some(tab)) = (tab_at, tab) else {
+            let last = unled.walls.last().filter(|_| !closed);
+            let far_end = last.map(|last| Entry {
+                wall: unled.walls.len() - 1,
+                share: 1.0,
+                point: last.geometry.end(),
+            });
             let round = Round {
                 main: ring,
                 correction,
+                aside: far_end.as_ref().and_then(aside),
                 ..Round::default()
             };
             return Ok((round, side));
@@ -194,17 +215,11 @@ impl Job<'_> {
             let finding = fault(self.severity(), Some(wall.source), sentence, None);
             return Err(Refusal::Findings(vec![finding]));
         }
-        // One pass goes on along the tab as it came.
-        let returns = self.settings.passes.sequence() == Sequence::OneWay;
-        let aside = (side.is_some() && count > 1 && !returns).then(|| {
-            let away = normal(&wall.geometry, tab.share, unled.side);
-            tab.point + away * (wire + self.units(CLEAR))
-        });
         let round = Round {
             main,
             held,
             correction,
-            aside,
+            aside: aside(tab),
         };
         Ok((round, side))
     }
@@ -217,6 +232,12 @@ impl Job<'_> {
         let entities = outline.contour.pieces.iter();
         let of = entities.filter_map(|piece| Some(&*self.drawing.get(piece.entity)?.handle));
         let length_mm = settings.tab_of(of);
+        if length_mm > 0.0 && !outline.contour.closed {
+            let sentence = say!(an_open_contour_keeps_no_tab, name(self.drawing, outline));
+            let source = unled.walls.first().map(|wall| wall.source);
+            let finding = fault(self.severity(), source, sentence, None);
+            return Err(Refusal::Findings(vec![finding]));
+        }
         let keeps_one = length_mm > 0.0
             && match outline.role {
                 Role::Punch => true,
@@ -251,7 +272,7 @@ impl Job<'_> {
     /// How far each pass goes on past its start, drawing units.
     fn overlap(&self, unled: &Unled) -> Result<f64, Refusal> {
         let overlap = self.settings.closing_overlap;
-        if overlap > 0.0 {
+        if overlap > 0.0 && self.outlines[unled.outline].contour.closed {
             self.hold_shorter(unled, overlap, |overlap, handle, length| {
                 say!(the_overlap_is_longer_than_contour, overlap, handle, length)
             })?;

@@ -99,7 +99,7 @@ fn settings_are_asked_for_at_the_start_and_after_each_change() {
 fn misfits_are_shown_by_name_and_the_other_keys_hold() {
     let mut client = Client::start_with(
         capabilities(),
-        json!({ "correction": 0.2, "side": "left", "wiredia": 1 }),
+        json!({ "correction": 0.2, "side": "inside", "wiredia": 1 }),
     );
     let first = client.told("window/showMessage")["message"].clone();
     let second = client.told("window/showMessage")["message"].clone();
@@ -107,7 +107,7 @@ fn misfits_are_shown_by_name_and_the_other_keys_hold() {
         first
             .as_str()
             .unwrap()
-            .contains("initializationOptions: side is \"left\""),
+            .contains("initializationOptions: side is \"inside\""),
         "{first}"
     );
     assert!(

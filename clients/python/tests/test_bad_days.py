@@ -232,7 +232,7 @@ def test_the_process_is_gone_at_the_end() -> None:
     [
         ({"correction": -1}, "correction is -1, expected a number above 0"),
         ({"sied": "auto"}, "sied is not known"),
-        ({"side": "left", "margin": "x"}, "side is \"left\", expected one of both, auto, opening, punch"),
+        ({"side": "inside", "margin": "x"}, "side is \"inside\", expected one of both, auto, opening, punch, left, right"),
     ],
 )
 def test_settings_that_do_not_fit_are_refused_and_named(settings: Any, said: str) -> None:

@@ -18,11 +18,11 @@ export type Direction = "ccw" | "cw";
 /**
  * What an outline is of: decides on which side of it the wire runs.
  */
-export type Role = "opening" | "punch" | "both" | "ignore";
+export type Role = "opening" | "punch" | "both" | "left" | "right" | "ignore";
 /**
  * Side of the contour on which the wire runs, where neither the entity nor its layer says.
  */
-export type SideSetting = "both" | "auto" | "opening" | "punch";
+export type SideSetting = "both" | "auto" | "opening" | "punch" | "left" | "right";
 export type UnitSetting = "mm" | "inch";
 /**
  * Which way the passes of a contour go.

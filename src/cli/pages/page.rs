@@ -184,6 +184,8 @@ impl Page {
                 Role::Opening => say!(opening),
                 Role::Punch => say!(punch),
                 Role::Both => say!(both_sides),
+                Role::Left => say!(wire_on_the_left),
+                Role::Right => say!(wire_on_the_right),
                 Role::Ignore => say!(not_cut),
             };
             let area = contour

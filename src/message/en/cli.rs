@@ -61,6 +61,8 @@ declare! {
     closed_counter_clockwise => "closed, counter-clockwise";
     closed_clockwise => "closed, clockwise";
     closed_without_area => "closed, without area";
+    wire_on_the_left => "wire on the left";
+    wire_on_the_right => "wire on the right";
     both_sides => "both sides";
     not_cut => "not cut";
     cut_number(order) => ", cut number {order}";

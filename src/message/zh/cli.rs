@@ -61,6 +61,8 @@ translate! {
     closed_counter_clockwise => "封闭，逆时针";
     closed_clockwise => "封闭，顺时针";
     closed_without_area => "封闭，无面积";
+    wire_on_the_left => "丝在左侧";
+    wire_on_the_right => "丝在右侧";
     both_sides => "两侧";
     not_cut => "不切割";
     cut_number(order) => "，第 {order} 个切割";

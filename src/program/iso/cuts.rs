@@ -93,6 +93,7 @@ fn cuts(document: &Document) -> Vec<Option<Cut>> {
         }
         if let Some(cut) = &mut open {
             cut.stopped(stretch.stop_before, index);
+            cut.sum.ends_open |= stretch.ends_open_before;
         }
         let skipped = if stretch.is_clean {
             stretch.inner()

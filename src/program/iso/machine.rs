@@ -288,6 +288,8 @@ pub(crate) struct Machine {
     pub(crate) switches: Option<bool>,
     /// The wire has moved since the beginning or the last stop.
     pub(crate) moved: bool,
+    /// What came last.
+    pub(crate) behind: Behind,
     /// G92 has said where the wire stands.
     pub(crate) stated: bool,
     pub(crate) ended: bool,
@@ -296,6 +298,17 @@ pub(crate) struct Machine {
     /// The corner behind the last move was cut off: how far from its sharp point the next one begins.
     pub(crate) cut_short: Option<Place>,
     pub(crate) trail: Trail,
+}
+
+/// What a program did last of all that moves or stops.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Behind {
+    /// Nothing of the following.
+    #[default]
+    Rest,
+    Cut,
+    /// A stop, and before it a cut.
+    Stop,
 }
 
 /// What was cut last without a stop or a rapid behind it.
@@ -337,6 +350,7 @@ impl Default for Machine {
             offset: None,
             switches: None,
             moved: false,
+            behind: Behind::Rest,
             stated: false,
             ended: false,
             mills: false,
@@ -380,6 +394,14 @@ impl Machine {
         } else {
             self.travel(block, reading)
         };
+        self.behind = match (&moved, self.behind) {
+            (Some(moved), _) if moved.is_cut() => Behind::Cut,
+            (Some(_), _) => Behind::Rest,
+            (None, behind) => behind,
+        };
+        if block.stop.is_some() && self.behind == Behind::Cut {
+            self.behind = Behind::Stop;
+        }
         match block.stop {
             Some(Stop::End) => self.ended = true,
             Some(Stop::Pause) => self.moved = false,

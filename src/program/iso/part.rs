@@ -28,6 +28,8 @@ pub(crate) struct Part {
     pub(crate) continues: bool,
     /// The stop behind it, before anything else moves, bytes from the start of the stretch; [`SEVERAL`] for more than one.
     pub(crate) stop: Option<u32>,
+    /// Another stop follows the one behind it, and nothing moves between: what is open is meant to end there.
+    pub(crate) ends_open: bool,
     /// The side that the control let the wire run on, where that was one and the same from the second move to the one before the last.
     pub(crate) side: WireSide,
     /// Where the wire was sent to the other side first, and the line that did so.
@@ -68,6 +70,7 @@ impl Part {
             open: true,
             continues,
             stop: None,
+            ends_open: false,
             side,
             flip: None,
         }
@@ -122,6 +125,7 @@ impl Part {
         self.faulty |= next.faulty;
         self.open = next.open;
         self.stop = next.stop;
+        self.ends_open = next.ends_open;
         self.side = joined(self.side, next.side);
     }
 

@@ -4,7 +4,7 @@
 
 use super::block::{Block, Note, Stop, read_line};
 use super::corner::{self, Turned, turned};
-use super::machine::{Course, Machine, Move, Reading, Trail, added, apart};
+use super::machine::{Behind, Course, Machine, Move, Reading, Trail, added, apart};
 use super::part::{Hears, Part, SEVERAL, Tight, Ways};
 use super::shape::Shape;
 use super::stretch::{Definition, Foreign, Pathless, Stretch};
@@ -170,6 +170,7 @@ impl Stretch {
         self.fixed |= block.sets_position;
         let torn = self.after.torn;
         let cut_short = self.after.cut_short;
+        let behind = self.after.behind;
         let made = self.after.run(&block, &self.reading);
         let is_free = self.faults.len() == known_faults;
         if is_free && self.has_stray_center(&block) {
@@ -203,6 +204,10 @@ impl Stretch {
         if let Some(stop) = block.stop {
             self.sum.stops += 1;
             self.interrupt(true);
+            if made.is_none() && behind == Behind::Stop && stop == Stop::Pause {
+                let known = self.parts.last_mut();
+                *known.map_or(&mut self.ends_open_before, |part| &mut part.ends_open) = true;
+            }
             if stop == Stop::Pause {
                 self.pauses += 1;
                 let known = self

@@ -293,7 +293,7 @@ impl<'a> Report<'a> {
         }
         let closes = self.document.is_closed(cut);
         let is_fragment = self.document.is_fragment(cut);
-        if !closes && sum.whole {
+        if !closes && sum.whole && !sum.ends_open {
             let finding = self.document.not_closed(cut, is_fragment);
             self.findings.extend(finding);
         }
@@ -312,7 +312,7 @@ impl<'a> Report<'a> {
             let is_wrong = match self.limits.side {
                 SideSetting::Opening => !inside,
                 SideSetting::Punch => inside,
-                SideSetting::Both | SideSetting::Auto => false,
+                _ => false,
             };
             let range = || self.switch_range(cut.range.start);
             if is_wrong {

@@ -99,6 +99,8 @@ pub(crate) struct Stretch {
     pub(crate) ends_cut_before: Option<bool>,
     /// The stop before the first cut of these lines, as [`Part::stop`].
     pub(crate) stop_before: Option<u32>,
+    /// As [`Part::ends_open`] of the last cut before these lines.
+    pub(crate) ends_open_before: bool,
     /// Something is wrong in a line that belongs to that cut.
     pub(crate) faulty_before: bool,
     /// The first words behind the end.

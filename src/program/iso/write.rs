@@ -162,6 +162,11 @@ impl Writer for Lines<'_> {
             false => self.switch_off(last),
         }
     }
+
+    fn end_open(&mut self, last: Node, for_good: bool, stops: usize) -> Result<(), ProofError> {
+        let stops = if for_good { stops } else { 0 };
+        (0..stops).try_for_each(|_| self.fixed(&self.profile.pause, last))
+    }
 }
 
 impl<'a> Lines<'a> {

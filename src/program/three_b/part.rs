@@ -97,7 +97,8 @@ pub(super) fn rounded(
         }
     }
     let entry = first.geometry.start();
-    if turn(last.geometry.end_tangent(), first.geometry.start_tangent()).abs() > TANGENT {
+    let closed = !path.is_open();
+    if closed && turn(last.geometry.end_tangent(), first.geometry.start_tangent()).abs() > TANGENT {
         return Err(unwritable(
             &first,
             Unwritable::BeginsInCorner { at: mm(entry) },
@@ -124,11 +125,14 @@ pub(super) fn rounded(
         arc_of(Source::LeadIn),
         arc_of(Source::LeadOut).map(|arc| arc.reversed()),
     ];
-    let [way_in, way_out] = ways.map(|arc| match arc {
+    let [way_in, mut way_out] = ways.map(|arc| match arc {
         _ if !leads => Vec::new(),
         Some(arc) => along_wire(thread, &arc, begin, correction),
         None => vec![Segment::line(thread, begin)],
     });
+    if !closed {
+        way_out.clear();
+    }
     segments.extend(way_in.into_iter().map(|geometry| PathSegment {
         geometry,
         source: Source::LeadIn,

@@ -52,6 +52,12 @@ pub(crate) fn write_four_b(
     if paths.iter().any(is_of_tab) || settings.closing_overlap > 0.0 {
         return Err(ProofError::Refused(say!(four_b_has_no_tab).into()));
     }
+    let mut before_last = paths.iter().rev().skip(1);
+    if before_last.any(WirePath::is_open) {
+        return Err(ProofError::Refused(
+            say!(four_b_ends_with_an_open_contour).into(),
+        ));
+    }
     let mut made = Vec::with_capacity(paths.len());
     for (index, path) in paths.iter().enumerate().filter(|(_, path)| !path.cut_off) {
         let tab = paths.get(index + 1).filter(|next| next.cut_off);
@@ -233,6 +239,11 @@ impl Writer for Blocks<'_> {
         self.proof
             .finish_contour(closed, first, last)
             .map_err(ProofError::Mismatch)
+    }
+
+    /// Some straight blocks between two pauses would be the way to the next contour.
+    fn end_open(&mut self, _: Node, _: bool, stops: usize) -> Result<(), ProofError> {
+        (0..stops).try_for_each(|_| self.word(Word::Pause))
     }
 }
 

@@ -20,11 +20,11 @@ fn what_was_most_likely_meant_is_asked() {
         ),
         (
             "side = \"openning\"",
-            "side is \"openning\", expected both, auto, opening, punch: did you mean opening?",
+            "side is \"openning\", expected both, auto, opening, punch, left, right: did you mean opening?",
         ),
         (
             "[layers]\nDIE = \"Punch\"",
-            "layers.DIE is \"Punch\", expected opening, punch, both, ignore",
+            "layers.DIE is \"Punch\", expected opening, punch, both, left, right, ignore",
         ),
     ] {
         let (_, errors) = from_toml(text);
@@ -172,9 +172,9 @@ fn a_misfit_is_named_with_its_place_and_the_other_keys_hold() {
         "gap is -0.1, expected a number of 0 or above",
     );
     check(
-        "side = \"left\"",
-        "\"left\"",
-        "side is \"left\", expected one of both, auto, opening, punch",
+        "side = \"inside\"",
+        "\"inside\"",
+        "side is \"inside\", expected one of both, auto, opening, punch, left, right",
     );
     check(
         "arc-fit = 0",

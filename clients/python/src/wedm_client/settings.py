@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal, TypedDict, Union
 
-Role = Literal["opening", "punch", "both", "ignore"]
-Side = Literal["both", "auto", "opening", "punch"]
+Role = Literal["opening", "punch", "both", "left", "right", "ignore"]
+Side = Literal["both", "auto", "opening", "punch", "left", "right"]
 Units = Literal["mm", "inch"]
 RuleSeverity = Literal["error", "warning", "information", "hint", "off"]
 Place = Union[Sequence[float], Mapping[str, Sequence[float]]]
@@ -124,14 +124,14 @@ class Settings(TypedDict, total=False):
     correction: float
     wire_diameter: float
     gap: float
-    side: Literal["both", "auto", "opening", "punch"]
+    side: Literal["both", "auto", "opening", "punch", "left", "right"]
     units: Literal["mm", "inch"]
     margin: float
     resolution: float
-    layers: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
-    linetypes: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
-    contours: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
-    colors: Mapping[str, Literal["opening", "punch", "both", "ignore"]]
+    layers: Mapping[str, Literal["opening", "punch", "both", "left", "right", "ignore"]]
+    linetypes: Mapping[str, Literal["opening", "punch", "both", "left", "right", "ignore"]]
+    contours: Mapping[str, Literal["opening", "punch", "both", "left", "right", "ignore"]]
+    colors: Mapping[str, Literal["opening", "punch", "both", "left", "right", "ignore"]]
     drawings: Mapping[str, DrawingSettings]
     arc_fit: float
     rules: Mapping[str, Literal["error", "warning", "information", "hint", "off"]]

@@ -106,7 +106,8 @@ impl Document {
                     own.is_jump = start != (0, 0)
                         && self.is_behind_word(start)
                         && !is_end
-                        && is_jump(&own.sum);
+                        && is_jump(&own.sum)
+                        && !self.stops_again((stretch, nth), end);
                     return cut;
                 }
             }
@@ -122,6 +123,25 @@ impl Document {
                 .iter()
                 .rev()
                 .any(|stretch| stretch.words > 0)
+    }
+
+    /// Whether another word follows the one behind a part, with no block between: what is open before them is meant to end there. The
+    /// word that ends the program is none: a tab may be left standing.
+    pub(super) fn stops_again(&self, part: PartAt, end: Option<At>) -> bool {
+        let (mut stretch, mut index) = self.part_behind(part);
+        while let Some(of) = self.stretches.get(stretch) {
+            for part in of.parts.iter().skip(index) {
+                if part.sum.blocks + part.sum.unread > 0 {
+                    return false;
+                }
+                if part.word.is_some() {
+                    let entry = part.entries.end;
+                    return Some(At { stretch, entry }) != end;
+                }
+            }
+            (stretch, index) = (stretch + 1, 0);
+        }
+        false
     }
 
     /// The part behind another one.

@@ -6,7 +6,7 @@ use super::super::parse::unexpected;
 use super::super::repair::FEWEST_BLAMED;
 use super::super::rules;
 use super::cuts::joined;
-use super::{Cut, Document, PartAt, View};
+use super::{At, Cut, Document, PartAt, View};
 use crate::finding::{Axis, Detail, Fault, Finding, Rule, Severity};
 use crate::geometry::{Bounds, Vector};
 use crate::program::path::{HasCuts, Known, absurd_size, is_tab, tolerance};
@@ -105,6 +105,10 @@ impl Document {
             if cut.parts[0] < behind {
                 continue;
             }
+            let is_empty = cut.sum.blocks + cut.sum.unread == 0;
+            if is_empty || self.ends_open(view, &cut) {
+                continue;
+            }
             match self.goes_on(view, &cut) {
                 Some(goes_on) => {
                     view.tabs.extend(goes_on.begins);
@@ -119,6 +123,19 @@ impl Document {
                 }
             }
         }
+    }
+
+    /// Whether the machine stops twice where a cut ends.
+    fn ends_open(&self, view: &View, cut: &Cut) -> bool {
+        let last = cut.parts[1];
+        let word = self.stretches.get(last.0).and_then(|of| {
+            let part = of.parts.get(last.1)?;
+            part.word.map(|_| At {
+                stretch: last.0,
+                entry: part.entries.end,
+            })
+        });
+        word.is_some() && word != view.end && self.stops_again(last, view.end)
     }
 
     /// What goes on with an open cut behind a stop: a tab, or blocks that come back to the start together, in whatever order they
