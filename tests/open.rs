@@ -227,7 +227,7 @@ fn followed(corners: Corners, correction: f64, text: &str, format: Format) -> Op
     let trace = read(text, format, &settings).trace();
     let cut: Vec<_> = trace.steps.iter().filter_map(|step| step.ideal).collect();
     // A control that counts 3B stops a little beside the end of an arc. The first block is the lead.
-    let tolerance = if format == Format::Iso { 1.6e-3 } else { 8e-3 };
+    let tolerance = if format == Format::Iso { 2.5e-3 } else { 15e-3 };
     for piece in &cut[1..] {
         for step in 0..=16 {
             let at = piece.point_at(f64::from(step) / 16.0);
