@@ -115,7 +115,8 @@ impl Rounds {
         });
         let path = joined(reversed.collect(), true);
         let (settings, unit_mm) = (&*drawn.settings, drawn.unit_mm);
-        let Some(mut path) = of_four_b(path, (side.reversed(), contour.closed), settings, unit_mm) else {
+        let Some(mut path) = of_four_b(path, (side.reversed(), contour.closed), settings, unit_mm)
+        else {
             return;
         };
         path.retain(|piece| piece.geometry.length() * scale > CRUMB);
