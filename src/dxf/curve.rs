@@ -1,11 +1,13 @@
 //! ELLIPSE and SPLINE: their records to curves. Their points are world coordinates.
 
 use super::entity::{Common, Numbers, Outcome, Plane, missing, tag_of_record};
+use super::fault;
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::shape::{Shape, ellipse};
 use super::space::{FLAT, Lies, Space, Vector3, in_space};
 use crate::drawing::Kind;
+use crate::finding::Severity;
 use crate::geometry::{Point, Spline, Vector};
 use std::f64::consts::TAU;
 
@@ -220,6 +222,12 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) ->
     };
     if lacks_knots && spline.is_ok() {
         lexer.oddity(start.value_line(), say!(spline_has_no_knots).to_owned());
+    }
+    // Every release that knows splines writes the marks, and most programs ask for them.
+    if !common.is_marked && spline.is_ok() {
+        let name = lexer.lines.trimmed_range(start.value_line());
+        let sentence = say!(spline_has_no_subclass_mark).to_owned();
+        fault::push(&mut lexer.findings, name, Severity::Hint, sentence);
     }
     match spline {
         Ok(spline) => common.finish(

@@ -139,6 +139,8 @@ pub(super) struct Common {
     pub(super) foreign: bool,
     /// Within a group `{` … `}` of another program.
     pub(super) group: bool,
+    /// A mark says which part of the record is of which class.
+    pub(super) is_marked: bool,
 }
 
 impl Common {
@@ -177,6 +179,7 @@ impl Common {
     fn take_foreign(&mut self, lexer: &Lexer, tag: Tag) {
         match tag.code {
             // An embedded object uses the same codes with other meanings.
+            100 => self.is_marked = true,
             101 | 1000.. => self.foreign = true,
             102 => self.group = lexer.lines.trimmed(tag.value_line()).starts_with(b"{"),
             _ => {}

@@ -160,7 +160,7 @@ tables! {
         thread: PointSetting => point_setting;
         /// Point `[x, y]` of the contour where the cut begins, in drawing units. A table has them by handle. Else the point beside an "O"
         /// that means it, under `as-picked` the begin of the entity picked first, the point nearest to the thread hole, else the middle of
-        /// the longest line, else the point of the longest arc with the largest x.
+        /// the longest line, else the point of the longest arc with the largest x, or its middle.
         entry: PointSetting => point_setting;
         /// Length of the lead from thread hole to the wire's path where no thread hole is given, mm. Halved until it fits. Not set: the hole
         /// lies 3 mm from the contour.

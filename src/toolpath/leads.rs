@@ -62,7 +62,7 @@ pub(super) fn nearest(walls: &[Wall], point: Point, tie: f64) -> Option<(Entry, 
     best
 }
 
-/// The middle of the longest line, else the +X-most point of the longest arc. The first drawn one where several are as long.
+/// The middle of the longest line, else the +X-most point of the longest arc, or its middle. The first drawn one where several are as long.
 pub(super) fn default_entry(walls: &[Wall]) -> Option<Entry> {
     let rank = |wall: &Wall| match wall.source {
         Source::Segment { entity, segment } | Source::Corner { entity, segment } => {
@@ -102,13 +102,15 @@ pub(super) fn default_entry(walls: &[Wall]) -> Option<Entry> {
     })
 }
 
-/// Share of an arc's point with the largest x.
+/// Share of the point where an arc's circle goes furthest along x; of an arc that does not come there, of its middle: its ends may be
+/// corners that the wire does not come into.
 fn furthest_x(arc: &Arc) -> f64 {
     let share = arc.share_of(arc.center + crate::geometry::Vector::x() * arc.radius);
     if (0.0..=1.0).contains(&share) {
-        return share;
+        share
+    } else {
+        0.5
     }
-    if arc.start.x >= arc.end.x { 0.0 } else { 1.0 }
 }
 
 /// The element of a closed path and the point on it that belong to an entry. Where the entry's own offset is cut off or left out, the

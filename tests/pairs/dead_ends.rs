@@ -416,6 +416,40 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig { cases: cases(600), failure_persistence: None, rng_seed: RngSeed::Fixed(20261123), ..ProptestConfig::default() })]
+
+    /// Arcs of kilometres are told what the lines are told of that they hardly differ from.
+    #[test]
+    fn arcs_that_are_nearly_flat_are_told_what_lines_are(
+        corners in proptest::collection::vec((5.0..60.0f64, prop_oneof![Just(f64::NEG_INFINITY), -9.0..-3.5f64], any::<bool>()), 3..9),
+        at in (-50.0..50.0f64, -50.0..50.0f64),
+        punch: bool,
+    ) {
+        let count = corners.len() as f64;
+        let bent: Vec<Vertex> = corners
+            .iter()
+            .enumerate()
+            .map(|(index, &(radius, power, negative))| {
+                let point = direction(TAU * index as f64 / count) * radius;
+                let rounded = |value: f64| (value * 1e3).round() / 1e3;
+                let bulge = 10.0f64.powf(power);
+                Vertex::new(rounded(point.x + at.0), rounded(point.y + at.1), if negative { -bulge } else { bulge })
+            })
+            .collect();
+        let flat: Vec<Vertex> = bent.iter().map(|vertex| Vertex { bulge: 0.0, ..*vertex }).collect();
+        let role = if punch { Role::Punch } else { Role::Opening };
+        let errors = |vertices: &[Vertex]| -> Vec<(Rule, String)> {
+            let found = found(vertices, role);
+            let errors = found.iter().filter(|finding| finding.severity == Severity::Error);
+            errors.map(|finding| (finding.rule, format!("{:?}", finding.detail))).collect()
+        };
+        let rules = |errors: &[(Rule, String)]| -> Vec<Rule> { errors.iter().map(|error| error.0).collect() };
+        let (told, expected) = (errors(&bent), errors(&flat));
+        prop_assert_eq!(rules(&told), rules(&expected), "{:?} for {:?}", told, expected);
+    }
+}
+
 /// Figures that were told by a corner of theirs alone: the outline, how deep it is where it is deepest beyond the corner, and the segment.
 #[test]
 fn what_was_told_as_a_corner_is_told_with_its_depth() {

@@ -577,7 +577,7 @@ export interface ProgramSettings {
    */
   thread?: PointSetting;
   /**
-   * Point `[x, y]` of the contour where the cut begins, in drawing units. A table has them by handle. Else the point beside an "O" that means it, under `as-picked` the begin of the entity picked first, the point nearest to the thread hole, else the middle of the longest line, else the point of the longest arc with the largest x.
+   * Point `[x, y]` of the contour where the cut begins, in drawing units. A table has them by handle. Else the point beside an "O" that means it, under `as-picked` the begin of the entity picked first, the point nearest to the thread hole, else the middle of the longest line, else the point of the longest arc with the largest x, or its middle.
    */
   entry?: PointSetting;
   /**

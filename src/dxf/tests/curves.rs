@@ -34,7 +34,7 @@ fn a_periodic_spline_closes_without_running_through_its_control_points() {
         .collect();
     let document = Document::read(
         dxf(&format!(
-            "0 SPLINE 5 A 70 11 71 3 72 11 73 7 {knots}{points}"
+            "0 SPLINE 5 A 100 AcDbSpline 70 11 71 3 72 11 73 7 {knots}{points}"
         ))
         .into_bytes(),
     );
@@ -66,7 +66,9 @@ fn a_periodic_spline_closes_without_running_through_its_control_points() {
 #[test]
 fn a_spline_without_knots_is_drawn_and_one_with_too_few_is_an_error() {
     let points = "10 0 20 0 10 1 20 3 10 4 20 3 10 5 20 0";
-    let document = Document::read(dxf(&format!("0 SPLINE 5 A 70 8 71 3 {points}")).into_bytes());
+    let document = Document::read(
+        dxf(&format!("0 SPLINE 5 A 100 AcDbSpline 70 8 71 3 {points}")).into_bytes(),
+    );
     assert_eq!(
         findings(&document),
         [r#"warning at "SPLINE": SPLINE has no knots (group code 40): even ones are taken"#]
@@ -83,6 +85,21 @@ fn a_spline_without_knots_is_drawn_and_one_with_too_few_is_an_error() {
             r#"error at "SPLINE": SPLINE has 2 knots, expected 8 for 4 control points of degree 3: it is not drawn"#
         ]
     );
+}
+
+/// Its like is found in drawings that scripts wrote: read as any other, and other programs refuse it.
+#[test]
+fn a_spline_without_the_mark_of_its_class_is_drawn_with_a_hint() {
+    let document = Document::read(
+        dxf("0 SPLINE 5 A 70 8 71 1 40 0 40 0 40 1 40 1 10 0 20 0 10 3 20 4").into_bytes(),
+    );
+    assert_eq!(
+        findings(&document),
+        [
+            r#"hint at "SPLINE": SPLINE has no mark of its class (group code 100, AcDbSpline): it is read here, other programs may refuse the drawing"#
+        ]
+    );
+    assert_eq!(segments(&document).len(), 1);
 }
 
 #[test]

@@ -100,7 +100,7 @@ fn a_text_that_is_cut_anywhere_has_one_finding() {
         "0 LINE 5 A1 8 DIE 10 1.5 20 2.5 11 3.5 21 4.5 0 ARC 5 A2 8 0 10 1.0 20 2.0 40 3.5 50 0.0 51 90.0 \
          0 LWPOLYLINE 5 A3 8 0 90 3 70 1 10 0.5 20 0.5 42 0.5 10 9.5 20 0.5 10 9.5 20 9.5 \
          0 POLYLINE 5 A4 8 0 66 1 70 0 0 VERTEX 8 0 10 1.0 20 2.0 0 VERTEX 8 0 10 3.0 20 4.0 0 SEQEND \
-         0 SPLINE 8 0 70 8 71 1 40 0 40 0 40 1 40 1 10 0.5 20 0.5 10 1.5 20 1.5 \
+         0 SPLINE 8 0 100 AcDbSpline 70 8 71 1 40 0 40 0 40 1 40 1 10 0.5 20 0.5 10 1.5 20 1.5 \
          0 ELLIPSE 8 0 10 0.5 20 0.5 11 3.5 21 0.0 40 0.5 41 0.0 42 3.0 0 TEXT 8 0 10 1.0 20 1.0 40 2.5 1 O",
     );
     let mut report = String::new();

@@ -153,11 +153,11 @@ fn each_kind_of_entity() {
         ),
         ("0 POINT 5 B 10 1 20 2", "POINT B on 0: 1 2 O"),
         (
-            "0 SPLINE 5 B 70 8 71 1 40 0 40 0 40 1 40 1 10 0 20 0 10 3 20 4",
+            "0 SPLINE 5 B 100 AcDbSpline 70 8 71 1 40 0 40 0 40 1 40 1 10 0 20 0 10 3 20 4",
             "SPLINE B on 0: 0 0 0, 3 4 0",
         ),
         (
-            "0 SPLINE 5 B 70 8 71 3 11 0 21 0 11 3 21 4",
+            "0 SPLINE 5 B 100 AcDbSpline 70 8 71 3 11 0 21 0 11 3 21 4",
             "SPLINE B on 0: 0 0 0, 3 4 0",
         ),
         (

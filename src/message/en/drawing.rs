@@ -40,6 +40,7 @@ declare! {
     has_less_than_two_different_points => "has less than two different points";
     has_the_degree(degree) => "has the degree {degree}";
     spline_has_no_knots => "SPLINE has no knots (group code 40): even ones are taken";
+    spline_has_no_subclass_mark => "SPLINE has no mark of its class (group code 100, AcDbSpline): it is read here, other programs may refuse the drawing";
     spline_it_is_not_drawn(why) => "SPLINE {why}: it is not drawn";
     the_file_ends_inside_an_item => "the file ends inside an item";
     a_number_is_not_finite(value) => "a number is {value}, expected a finite one";

@@ -40,6 +40,7 @@ translate! {
     has_less_than_two_different_points => "不同的点少于两个";
     has_the_degree(degree) => "次数为 {degree}";
     spline_has_no_knots => "SPLINE 没有节点（组码 40）：按均匀节点处理";
+    spline_has_no_subclass_mark => "SPLINE 没有类标记（组码 100，AcDbSpline）：这里照常读取，其他程序可能拒绝打开该图纸";
     spline_it_is_not_drawn(why) => "SPLINE {why}：不画";
     the_file_ends_inside_an_item => "文件在一项中间结束";
     a_number_is_not_finite(value) => "数值是 {value}，应为有限数";
