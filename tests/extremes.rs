@@ -201,7 +201,7 @@ fn what_a_few_lines_ask_for_is_bounded_in_steps() {
         .collect();
     let curve = block(
         "S",
-        &format!("0\nSPLINE\n70\n8\n71\n3\n72\n64\n73\n60\n{knots}{points}"),
+        &format!("0\nSPLINE\n100\nAcDbSpline\n70\n8\n71\n3\n72\n64\n73\n60\n{knots}{points}"),
     );
     for (name, mut document) in [
         (
@@ -281,7 +281,7 @@ fn a_curve_that_takes_arcs_beyond_all_measure_is_named_and_not_drawn() {
         });
         let points: String = knots.chain(points).collect();
         format!(
-            "0\nSPLINE\n70\n8\n71\n3\n72\n{}\n73\n{count}\n{points}",
+            "0\nSPLINE\n100\nAcDbSpline\n70\n8\n71\n3\n72\n{}\n73\n{count}\n{points}",
             count + 4
         )
     };

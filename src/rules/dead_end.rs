@@ -26,10 +26,6 @@ pub(crate) const RULE: PairRule = PairRule {
 /// A turn (radians) up to which two walls that face each other are parallel: the normals of arcs of kilometres are no better known.
 const OPPOSITE: f64 = 1e-6;
 
-/// A turn (radians) up to which a disc touches two walls in one place: what lies between them is no deeper than a hundredth of
-/// [`LEAST_MM`], whatever the disc.
-const ONE_PLACE: f64 = 1e-4;
-
 /// Less than this, mm, is what rounding to three decimals makes of a contour.
 const LEAST_MM: f64 = 5e-4;
 
@@ -148,9 +144,8 @@ impl DeadEnd {
             touch(other, side, center, radius)?,
         );
         let spin = cross(first.normal, second.normal) * side.sign();
-        // Walls right opposite to each other let it pass, and where the two places are one, nothing lies between them.
-        let alike = first.normal.dot(&second.normal) > 0.0;
-        if spin.abs() < if alike { ONE_PLACE } else { OPPOSITE } {
+        // Walls right opposite to each other let it pass.
+        if spin.abs() < OPPOSITE {
             return None;
         }
         let (from, to) = if spin > 0.0 {
