@@ -303,7 +303,7 @@ fn doubles_of_curves_are_deleted_and_those_in_blocks_are_not() {
     };
     let spline = |handle: &str| {
         format!(
-            "0 SPLINE 5 {handle} 100 AcDbSpline 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 50 10 10 20 70 10 20 20 50 "
+            "0 SPLINE 5 {handle} 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 50 10 10 20 70 10 20 20 50 "
         )
     };
     let ellipse = |handle: &str| format!("0 ELLIPSE 5 {handle} 10 0 20 0 11 10 21 0 40 0.5 ");
