@@ -2,13 +2,6 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="zh" sourcelanguage="en">
 <context>
-    <name>QG_CommandWidget</name>
-    <message>
-        <source>Command:</source>
-        <translation type="unfinished"></translation>
-    </message>
-</context>
-<context>
     <name>QObject</name>
     <message>
         <source>This plugin was built for LibreCAD %1, and this is LibreCAD %2. The plugin interface changes between versions without notice, so nothing is done. Build the plugin against the source of this version.</source>

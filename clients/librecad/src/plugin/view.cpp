@@ -34,12 +34,14 @@ QWidget *graphicView(QMdiSubWindow *window)
     return nullptr;
 }
 
-/// The prompt of the command line is "Command:" while none is running.
+/// The prompt of the command line is "Command:" while none is running. That is a sentence of LibreCAD, which has its own translation:
+/// in a name, so that it is not taken for one of the plugin's.
 bool commandIsRunning()
 {
+    const char *const idle = "Command:";
     const QMainWindow *main = host::mainWindow();
     const QLabel *prompt = main ? main->findChild<QLabel *>(QStringLiteral("lCommand")) : nullptr;
-    return !prompt || prompt->text() != QCoreApplication::translate("QG_CommandWidget", "Command:");
+    return !prompt || prompt->text() != QCoreApplication::translate("QG_CommandWidget", idle);
 }
 
 /// The constructors of RS_Vector are not to be had from outside of LibreCAD.
