@@ -105,7 +105,10 @@ fn held(drawing: &Drawing, settings: &Effective, format: Format) -> String {
 }
 
 /// What the tests know of a contour, by formulas of their own: centre, radius, begin and sweep of each arc.
-struct Walls(Vec<(Point, Point, Option<(Point, f64, f64, f64)>)>);
+struct Walls(Vec<Wall>);
+
+/// Start and end; of an arc also what it is.
+type Wall = (Point, Point, Option<(Point, f64, f64, f64)>);
 
 impl Walls {
     fn of(corners: Corners) -> Walls {
@@ -126,7 +129,7 @@ impl Walls {
     }
 
     fn distance(&self, at: Point) -> f64 {
-        let of_wall = |(from, to, arc): &(Point, Point, Option<(Point, f64, f64, f64)>)| {
+        let of_wall = |(from, to, arc): &Wall| {
             let ends = (at - from).norm().min((at - to).norm());
             match arc {
                 Some((center, radius, begin, sweep)) => {

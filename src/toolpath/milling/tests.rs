@@ -7,6 +7,7 @@ use crate::settings::{Electrode, WearCompensation};
 type Case = (f64, f64, f64, f64, f64, usize);
 
 const ROW_1: Case = (1.0, 0.05, 0.02, 0.010, 10.0, 20);
+#[expect(clippy::approx_constant, reason = "the length that the case states")]
 const ROW_2: Case = (0.5, 0.02, 0.1, 0.005, 6.28318, 40);
 
 fn layers(
