@@ -56,7 +56,12 @@ pub(super) fn summary(survey: &Survey) -> String {
     };
     let result = result + &suppressed;
     let files = say!(files, survey.files);
-    let _ = writeln!(text, "{}", say!(checked, files, result));
+    let checked = match survey.files {
+        // Of nothing there is nothing good to say.
+        0 if survey.rows.is_empty() => say!(nothing_to_check, files),
+        _ => say!(checked, files, result),
+    };
+    let _ = writeln!(text, "{checked}");
     if let Some(first) = survey.fixable.first() {
         let heading = match survey.fixable.len() {
             1 => say!(repair_what_can_be_repaired).to_owned(),

@@ -197,6 +197,7 @@ declare! {
     repair_what_can_be_repaired => "repair what can be repaired with:";
     of_unknown_version => "of unknown version";
     rule_and_place_of_a_segment(rule, line, handle, segment, x, y) => "{rule} {line}{handle} segment {segment}, at {x:.3}, {y:.3}";
+    nothing_to_check(files) => "{files} checked";
     checked(files, result) => "{files} checked: {result}";
     says(level, sentence) => "{level}: {sentence}";
     area_of(area) => ", area {area:.3} mm²";

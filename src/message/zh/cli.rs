@@ -197,6 +197,7 @@ translate! {
     repair_what_can_be_repaired => "可修复的用以下命令修复：";
     of_unknown_version => "（版本未知）";
     rule_and_place_of_a_segment(rule, line, handle, segment, x, y) => "{rule} {line}{handle} 段 {segment}，位于 {x:.3}, {y:.3}";
+    nothing_to_check(files) => "已检查 {files}";
     checked(files, result) => "已检查 {files}：{result}";
     says(level, sentence) => "{level}：{sentence}";
     area_of(area) => "，面积 {area:.3} mm²";
