@@ -4,18 +4,17 @@
 
 use super::clearance::Walls;
 use super::corners::Element;
+use super::entry::Entry;
 use super::job::ROUNDING;
-use super::offset::{Wall, normal};
+use super::offset::Wall;
 use super::order::name;
 use super::path::{Refusal, Source};
 use super::wanted::Wanted;
 use super::way::{Landing, Way};
 use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
-use crate::geometry::{Arc, Point, Segment};
+use crate::geometry::{Point, Segment};
 use crate::settings::{Effective, Lead};
-
-use std::f64::consts::TAU;
 
 /// mm that a start hole keeps from what the wire cuts.
 pub(super) const HOLE_CLEAR: f64 = 0.1;
@@ -25,146 +24,6 @@ const MOST_HALVED: usize = 64;
 
 /// So often what a lead reaches beyond the path is halved, where the last of the longer ones does not fit.
 const HALVED_BEYOND: u32 = 4;
-
-/// A place on the walls.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Entry {
-    pub(crate) wall: usize,
-    pub(crate) share: f64,
-    pub(crate) point: Point,
-}
-
-/// The place on the walls that is nearest to `point`, and how far it is. Among equally near ones that with the largest x, so that
-/// a thread hole in the centre of a circle leads to its +X-most point.
-pub(super) fn nearest(walls: &[Wall], point: Point, tie: f64) -> Option<(Entry, f64)> {
-    let mut best: Option<(Entry, f64)> = None;
-    for (wall, segment) in walls.iter().map(|wall| &wall.geometry).enumerate() {
-        let share = match segment {
-            Segment::Arc(arc) if (point - arc.center).norm() <= tie => furthest_x(arc),
-            segment => segment.share_of(point).clamp(0.0, 1.0),
-        };
-        let at = segment.point_at(share);
-        let distance = (at - point).norm();
-        let better = best.is_none_or(|(entry, least)| {
-            distance < least - tie || (distance <= least + tie && at.x > entry.point.x + tie)
-        });
-        if better {
-            best = Some((
-                Entry {
-                    wall,
-                    share,
-                    point: at,
-                },
-                distance,
-            ));
-        }
-    }
-    best
-}
-
-/// The middle of the longest line, else the +X-most point of the longest arc, or its middle. The first drawn one where several are as long.
-pub(super) fn default_entry(walls: &[Wall]) -> Option<Entry> {
-    let rank = |wall: &Wall| match wall.source {
-        Source::Segment { entity, segment } | Source::Corner { entity, segment } => {
-            (entity, segment)
-        }
-        _ => (crate::drawing::EntityId(u32::MAX), 0),
-    };
-    let longest = |arcs: bool| {
-        let mut best: Option<usize> = None;
-        for (index, wall) in walls
-            .iter()
-            .enumerate()
-            .filter(|(_, wall)| wall.geometry.as_arc().is_some() == arcs)
-        {
-            let better = best.is_none_or(|best| {
-                let (length, least) = (wall.geometry.length(), walls[best].geometry.length());
-                let equal = (length - least).abs() <= 1e-9 * least;
-                if equal {
-                    rank(wall) < rank(&walls[best])
-                } else {
-                    length > least
-                }
-            });
-            if better {
-                best = Some(index);
-            }
-        }
-        best
-    };
-    let wall = longest(false).or_else(|| longest(true))?;
-    let segment = &walls[wall].geometry;
-    let share = segment.as_arc().map_or(0.5, furthest_x);
-    Some(Entry {
-        wall,
-        share,
-        point: segment.point_at(share),
-    })
-}
-
-/// Share of the point where an arc's circle goes furthest along x; of an arc that does not come there, of its middle: its ends may be
-/// corners that the wire does not come into.
-fn furthest_x(arc: &Arc) -> f64 {
-    let share = arc.share_of(arc.center + crate::geometry::Vector::x() * arc.radius);
-    if (0.0..=1.0).contains(&share) {
-        share
-    } else {
-        0.5
-    }
-}
-
-/// The element of a closed path and the point on it that belong to an entry. Where the entry's own offset is cut off or left out, the
-/// nearest point that remains of it, or the point that stands for it.
-pub(super) fn path_point(
-    path: &[Element],
-    walls: &[Wall],
-    entry: &Entry,
-    correction: f64,
-    side: f64,
-) -> Option<(usize, Point)> {
-    let wall = &walls.get(entry.wall)?.geometry;
-    let wanted = entry.point + normal(wall, entry.share, side) * correction;
-    let own = |element: &Element| {
-        element.wall == entry.wall && !matches!(element.source, Source::Corner { .. })
-    };
-    let away = |index: &usize| path[*index].geometry.distance_to(wanted);
-    let own = (0..path.len())
-        .filter(|&index| own(&path[index]))
-        .min_by(|a, b| away(a).total_cmp(&away(b)));
-    let Some(index) = own else {
-        // Elements stand in the order of their walls.
-        let index = path
-            .iter()
-            .position(|element| element.wall > entry.wall)
-            .unwrap_or(0);
-        return Some((index, path.get(index)?.geometry.start()));
-    };
-    let element = &path[index].geometry;
-    let point = match element.share_of(wanted) {
-        _ if path.len() == 1 => wanted,
-        share if share <= 0.0 => element.start(),
-        share if share >= 1.0 => element.end(),
-        _ => wanted,
-    };
-    Some((index, point))
-}
-
-/// The centre of walls that are one circle.
-pub(super) fn circle_center(walls: &[Wall], tolerance: f64) -> Option<Point> {
-    let first = *walls.first()?.geometry.as_arc()?;
-    let same = |arc: &&Arc| {
-        (arc.center - first.center).norm() <= tolerance
-            && (arc.radius - first.radius).abs() <= tolerance
-    };
-    let arcs: Vec<&Arc> = walls
-        .iter()
-        .map_while(|wall| wall.geometry.as_arc())
-        .filter(same)
-        .collect();
-    let sweep: f64 = arcs.iter().map(|arc| arc.sweep).sum();
-    (arcs.len() == walls.len() && (sweep.abs() - TAU).abs() * first.radius <= tolerance)
-        .then_some(first.center)
-}
 
 /// The walls of all contours.
 pub(super) struct Contours {

@@ -7,6 +7,7 @@
 mod clearance;
 mod corners;
 mod drawn;
+mod entry;
 mod finished;
 mod hole;
 mod job;
@@ -25,6 +26,7 @@ mod rounds;
 mod tab;
 #[cfg(test)]
 mod tests;
+mod threading;
 mod wanted;
 mod way;
 mod work;

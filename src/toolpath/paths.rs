@@ -3,29 +3,27 @@
 use super::Planned;
 use super::clearance::Walls;
 use super::corners::{Element, elements};
+use super::entry::{Entry, default_entry, path_point};
 use super::finished::{Finished, Kerf, finished};
 use super::job::{Job, ROUNDING};
-use super::laid::{Along, Fault, Laid, Outcome, goes_out_and_back};
-use super::leads::{
-    Contours, Entry, Kerfs, Surroundings, Threading, circle_center, default_entry, fault, nearest,
-    off_contour, path_point, thread_hole,
-};
+use super::laid::{Along, Fault, Laid, Outcome};
+use super::leads::{Contours, Kerfs, fault};
 use super::offset::{Wall, walls};
 use super::order::{begin_at, directed, name};
-use super::path::{PathSegment, Refusal, Source, WirePath};
+use super::path::{Refusal, Source, WirePath};
 use super::wanted::Wanted;
 use super::way::Landing;
 use crate::drawing::{Contour, Role};
 use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::{Point, Segment, Side};
-use crate::settings::{Compensation, Corner, Jumps, Lead, SkimCorner};
+use crate::settings::{Compensation, Corner, Jumps, SkimCorner};
 use rustc_hash::FxHashMap;
 
 /// The offsets of a contour, before they have leads, all in the direction of the first pass.
 pub(super) struct Unled {
     pub(crate) outline: usize,
     pub(crate) walls: Vec<Wall>,
-    own: Walls,
+    pub(crate) own: Walls,
     /// `None` where the wire only stands.
     pub(crate) entry: Option<Entry>,
     /// +1 where the wire runs to the left of the walls, −1 to the right.
@@ -46,7 +44,7 @@ pub(super) struct Pass {
 
 impl Pass {
     /// Where the wire comes to the path, on the `side` of the walls.
-    fn landing(&self, side: f64) -> Landing {
+    pub(super) fn landing(&self, side: f64) -> Landing {
         let along = self.path.get(self.element).map(|element| {
             let geometry = element.geometry;
             geometry.tangent_at(geometry.share_of(self.begin).clamp(0.0, 1.0))
@@ -199,14 +197,6 @@ impl Job<'_> {
         self.settings
             .severity(Rule::LeadIn)
             .unwrap_or(Severity::Error)
-    }
-
-    /// How near a path at a correction, drawing units, may come to the walls.
-    fn clearance(&self, correction: f64) -> f64 {
-        match self.settings.compensation {
-            Compensation::None => self.units(ROUNDING),
-            _ => correction - self.units(ROUNDING),
-        }
     }
 
     /// The wall of a contour, `but` for one of them, that a straight way cuts. One that is open and has no side is nobody's part.
@@ -470,137 +460,6 @@ impl Job<'_> {
         })
     }
 
-    /// The form of the leads of a contour. A hole that is found, or the nearest point to one, lies at right angles to it anyway.
-    pub(super) fn lead(&self, wanted: &Wanted) -> Lead {
-        match self.settings.lead {
-            Lead::Perpendicular if wanted.thread.and(wanted.entry).is_none() => Lead::Straight,
-            lead => lead,
-        }
-    }
-
-    /// What the leads of a pass are held against; its correction is in drawing units.
-    pub(super) fn surroundings<'a>(
-        &'a self,
-        unled: &'a Unled,
-        contours: &'a Contours,
-        kerfs: &'a Kerfs,
-        lead: Lead,
-        correction: f64,
-    ) -> Surroundings<'a> {
-        Surroundings {
-            drawing: self.drawing,
-            outlines: self.outlines,
-            outline: unled.outline,
-            own: &unled.own,
-            contours,
-            kerfs,
-            clearance: self.clearance(correction),
-            unit_mm: self.unit_mm,
-            severity: self.severity(),
-            lead,
-            length: self.units(self.settings.lead_in),
-        }
-    }
-
-    /// The thread hole for the offset of a contour, or what is in the way. `holes` are those of the others.
-    fn thread_hole(
-        &self,
-        unled: &Unled,
-        wanted: &Wanted,
-        contours: &Contours,
-        kerfs: &Kerfs,
-        holes: &[Point],
-    ) -> Result<Point, Finding> {
-        let stand = unled.passes.iter().find(|pass| pass.path.is_empty());
-        let (Some(rough), Some(entry)) = (unled.passes.first(), &unled.entry) else {
-            return Ok(stand.map_or_else(Point::origin, |pass| pass.begin));
-        };
-        if self.settings.mills {
-            return Ok(rough.begin);
-        }
-        let lead = self.lead(wanted);
-        let surroundings =
-            |correction: f64| self.surroundings(unled, contours, kerfs, lead, correction);
-        let is_opening = self.outlines[unled.outline].role == Role::Opening;
-        let says_nothing = wanted.entry.is_none()
-            && wanted.beside.is_none()
-            && self.settings.stated_lead_in.is_none();
-        let center = if is_opening && says_nothing {
-            circle_center(&unled.walls, self.units(self.settings.tolerances.report))
-        } else {
-            None
-        };
-        let first: Vec<Point> = center.into_iter().chain(wanted.proposed).collect();
-        let deepest = || {
-            let (at, _) = self.deepest(unled.outline, contours, f64::INFINITY)?;
-            is_opening.then_some(at)
-        };
-        let has_room = |at: Point| self.has_room(at, contours, holes);
-        let threading = Threading {
-            first: &first,
-            last: &deepest,
-            reach: self.hole_reach(),
-            has_room: &has_room,
-        };
-        let thread = if let Some(stand) = stand {
-            stand.begin
-        } else if wanted.thread.is_none()
-            && self.outlines[unled.outline].contour.closed
-            && goes_out_and_back(&rough.path)
-        {
-            // There is no room beside the path.
-            rough.begin
-        } else {
-            thread_hole(
-                wanted,
-                &threading,
-                entry,
-                &rough.landing(unled.side),
-                &unled.walls,
-                self.settings,
-                &surroundings(rough.correction),
-            )?
-        };
-        // The first lead has been held against everything.
-        let first = usize::from(stand.is_none());
-        for pass in unled.passes.iter().skip(first) {
-            if pass.begin != thread && !pass.path.is_empty() {
-                let surroundings = surroundings(pass.correction);
-                let landing = pass.landing(unled.side);
-                surroundings.hold(thread, &landing, entry, &unled.walls, pass.correction)?;
-            }
-        }
-        Ok(thread)
-    }
-
-    /// Where the wire's centre can only stand it is threaded, and cuts nothing more: no other thread hole will do.
-    fn refuse_other_thread(
-        &self,
-        wanted: &Wanted,
-        walls: &[Wall],
-        stand: &Pass,
-    ) -> Result<(), Refusal> {
-        let (join, point) = (self.units(self.settings.tolerances.join), stand.begin);
-        let Some(thread) = wanted
-            .thread
-            .filter(|thread| (thread - point).norm() > join)
-        else {
-            return Ok(());
-        };
-        let wall = nearest(walls, thread, join).map_or(0, |(entry, _)| entry.wall);
-        let sentence = say!(
-            the_thread_hole_comes_nearer_to_the_contour,
-            thread.x,
-            thread.y,
-            stand.correction * self.unit_mm,
-            point.x,
-            point.y
-        );
-        let source = walls.get(wall).map(|wall| wall.source);
-        let finding = fault(self.severity(), source, sentence, None);
-        Err(Refusal::Findings(vec![finding]))
-    }
-
     /// The part's contour, which the control offsets, from its entry on; and the side of travel on which the wire runs.
     ///
     /// The wire's path has been made all the same: where it cannot be, the control would cut into the part or stop.
@@ -633,98 +492,4 @@ impl Job<'_> {
         };
         Ok((begin_at(elements(&walls), entry.wall, entry.point), side))
     }
-
-    /// The entry that is asked for, that beside the mark, the begin of the entity that was picked first, or the point nearest to the
-    /// thread hole; `None` where nothing of it is given.
-    fn entry(
-        &self,
-        index: usize,
-        walls: &[Wall],
-        wanted: &Wanted,
-    ) -> Result<Option<Entry>, Refusal> {
-        let outline = &self.outlines[index];
-        let tie = self.units(ROUNDING);
-        if let Some(point) = wanted.entry {
-            return match nearest(walls, point, tie) {
-                Some((entry, distance))
-                    if distance <= self.units(self.settings.tolerances.join) =>
-                {
-                    Ok(Some(entry))
-                }
-                found => {
-                    let distance_mm =
-                        found.map_or(f64::INFINITY, |(_, distance)| distance * self.unit_mm);
-                    Err(off_contour(self.drawing, outline, point, distance_mm))
-                }
-            };
-        }
-        let near = |point: Option<Point>| {
-            point
-                .and_then(|point| nearest(walls, point, tie))
-                .map(|(entry, _)| entry)
-        };
-        let picked = || {
-            let first = self.picks.get(&index)?.first;
-            let is_of = |wall: &Wall| matches!(wall.source, Source::Segment { entity, .. } if entity == first);
-            let begins = |&at: &usize| {
-                is_of(&walls[at]) && !is_of(&walls[(at + walls.len() - 1) % walls.len()])
-            };
-            let wall = (0..walls.len()).find(begins)?;
-            Some(Entry {
-                wall,
-                share: 0.0,
-                point: walls[wall].geometry.start(),
-            })
-        };
-        let proposed = wanted
-            .proposed
-            .filter(|_| self.settings.lead != Lead::Straight);
-        Ok(near(wanted.beside)
-            .or_else(picked)
-            .or_else(|| near(wanted.thread.or(proposed))))
-    }
-
-    /// The path with the way from and back to the thread hole, where that is another point than its begin. An open path ends where it ends.
-    pub(super) fn with_leads(
-        &self,
-        outline: usize,
-        correction: f64,
-        thread_hole: Point,
-        path: Vec<Element>,
-        closed: bool,
-    ) -> WirePath {
-        let (begin, end) = match (path.first(), path.last()) {
-            (Some(first), Some(last)) => (first.geometry.start(), last.geometry.end()),
-            _ => (thread_hole, thread_hole),
-        };
-        let mut segments: Vec<PathSegment> = Vec::with_capacity(path.len() + 2);
-        segments.extend(lead(thread_hole, begin, Source::LeadIn));
-        segments.extend(path.iter().map(|element| PathSegment {
-            geometry: element.geometry,
-            source: element.source,
-        }));
-        if closed {
-            segments.extend(lead(end, thread_hole, Source::LeadOut));
-        }
-        let turned = || self.directed(outline).1;
-        WirePath {
-            outline,
-            pass: 1,
-            counter_clockwise: closed
-                .then(|| (self.outlines[outline].twice_area > 0.0) != turned()),
-            cut_off: false,
-            correction,
-            thread_hole,
-            side: None,
-            segments,
-        }
-    }
-}
-
-/// A straight way between two points, where they are two.
-pub(super) fn lead(from: Point, to: Point, source: Source) -> Option<PathSegment> {
-    (from != to).then(|| PathSegment {
-        geometry: Segment::line(from, to),
-        source,
-    })
 }

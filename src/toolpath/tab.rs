@@ -5,12 +5,14 @@
 //! fro from where the wire stands, or one way from the thread hole.
 
 use super::corners::Element;
+use super::entry::{Entry, path_point};
 use super::job::{Job, ROUNDING};
-use super::leads::{Contours, Entry, Kerfs, fault, path_point};
+use super::leads::{Contours, Kerfs, fault};
 use super::offset::normal;
 use super::order::{begin_at, name};
 use super::path::{PathSegment, Refusal, Source, WirePath};
-use super::paths::{Pass, Unled, lead};
+use super::paths::{Pass, Unled};
+use super::threading::lead;
 use super::wanted::Wanted;
 use super::way::{Landing, lead_in, lead_out};
 use crate::drawing::Role;
