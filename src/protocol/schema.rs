@@ -132,6 +132,7 @@ fn place_of(row: &Row) -> (&'static str, &str) {
         Some(("program", key)) => ("ProgramSettings", key),
         Some(("job", key)) => ("JobSettings", key),
         Some(("pair", key)) => ("PairSettings", key),
+        Some(("milling", key)) => ("MillingSettings", key),
         Some((_, key)) => ("ProfileSettings", key),
         None => ("Settings", row.key.as_str()),
     }

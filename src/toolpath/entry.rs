@@ -2,10 +2,11 @@
 
 use super::corners::Element;
 use super::job::{Job, ROUNDING};
-use super::leads::off_contour;
 use super::offset::{Wall, normal};
+use super::order::name;
 use super::path::{Refusal, Source};
 use super::wanted::Wanted;
+use crate::drawing::{Drawing, Outline};
 use crate::geometry::{Arc, Point, Segment};
 use crate::settings::Lead;
 use std::f64::consts::TAU;
@@ -200,4 +201,16 @@ impl Job<'_> {
             .or_else(picked)
             .or_else(|| near(wanted.thread.or(proposed))))
     }
+}
+
+/// The refusal of an entry that does not lie on the contour.
+fn off_contour(drawing: &Drawing, outline: &Outline, entry: Point, distance_mm: f64) -> Refusal {
+    let handle = name(drawing, outline);
+    Refusal::Sentence(say!(
+        the_entry_lies_from_contour,
+        entry.x,
+        entry.y,
+        distance_mm,
+        handle
+    ))
 }

@@ -8,7 +8,7 @@ use super::entry::Entry;
 use super::job::ROUNDING;
 use super::offset::Wall;
 use super::order::name;
-use super::path::{Refusal, Source};
+use super::path::Source;
 use super::wanted::Wanted;
 use super::way::{Landing, Way};
 use crate::drawing::{Drawing, EntityId, Outline};
@@ -392,21 +392,4 @@ pub(super) fn thread_hole(
         ),
     };
     Err(fault(severity, source, sentence, place))
-}
-
-/// The refusal of an entry that does not lie on the contour.
-pub(super) fn off_contour(
-    drawing: &Drawing,
-    outline: &Outline,
-    entry: Point,
-    distance_mm: f64,
-) -> Refusal {
-    let handle = name(drawing, outline);
-    Refusal::Sentence(say!(
-        the_entry_lies_from_contour,
-        entry.x,
-        entry.y,
-        distance_mm,
-        handle
-    ))
 }

@@ -16,7 +16,7 @@ use super::way::Landing;
 use crate::drawing::{Contour, Role};
 use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::{Point, Segment, Side};
-use crate::settings::{Compensation, Corner, Jumps, SkimCorner};
+use crate::settings::{Corner, Jumps, SkimCorner};
 use rustc_hash::FxHashMap;
 
 /// The offsets of a contour, before they have leads, all in the direction of the first pass.

@@ -2,7 +2,7 @@
 
 use super::corners::Element;
 use super::entry::{circle_center, nearest};
-use super::job::Job;
+use super::job::{Job, ROUNDING};
 use super::laid::goes_out_and_back;
 use super::leads::{Contours, Kerfs, Surroundings, Threading, fault, thread_hole};
 use super::offset::Wall;
@@ -12,7 +12,7 @@ use super::wanted::Wanted;
 use crate::drawing::Role;
 use crate::finding::Finding;
 use crate::geometry::{Point, Segment};
-use crate::settings::Lead;
+use crate::settings::{Compensation, Lead};
 
 impl Job<'_> {
     /// How near a path at a correction, drawing units, may come to the walls.
