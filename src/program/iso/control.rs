@@ -1,6 +1,7 @@
 //! How ISO text is read by the engine that all languages share.
 
-use super::machine::{Machine, Reading, apart};
+use super::machine::Machine;
+use super::moves::{Reading, apart};
 use super::stretch::{Pathless, Stretch};
 use crate::program::chunks::ChunkReader;
 use crate::text::SourceText;

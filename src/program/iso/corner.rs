@@ -2,7 +2,8 @@
 //! next one begins where that ends.
 
 use super::block::{Block, Corner, Motion};
-use super::machine::{Bend, Course, Machine, Move, Reading, added, apart, bend_about, micrometres};
+use super::machine::Machine;
+use super::moves::{Bend, Course, Move, Reading, added, apart, bend_about, micrometres};
 use crate::geometry::{Locus, Point, Segment, cross, turn};
 
 /// Lines behind a corner's in which the move that it leads to is looked for.

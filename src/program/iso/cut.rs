@@ -1,6 +1,6 @@
 //! Consecutive moves of an ISO program without a rapid or a stop between, put together from the stretches that they run through.
 
-use super::machine::Place;
+use super::moves::Place;
 use super::part::{Part, SEVERAL, changes_side};
 use super::stretch::{Placed, StopAt};
 use std::ops::Range;

@@ -2,7 +2,7 @@
 
 use super::cut::{Cut, PartAt};
 use super::document::Document;
-use super::machine::{Move, Place, apart, micrometres};
+use super::moves::{Move, Place, apart, micrometres};
 use super::stretch::StopAt;
 use crate::geometry::{Point, Segment};
 use crate::program::path::{

@@ -3,7 +3,7 @@
 //! Nothing of it is assumed: the readings are held against the arcs, and the one that fits the most of them is taken.
 
 use super::block::{Block, Motion};
-use super::machine::{CenterRule, MICROMETRE, Move, Place, Reading, apart};
+use super::moves::{CenterRule, MICROMETRE, Move, Place, Reading, apart};
 
 /// Ends of an arc lie no more unlike far from its centre than this many steps of the finest number: each of the three points may be
 /// off by half a step on both axes.

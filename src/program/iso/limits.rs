@@ -1,7 +1,7 @@
 //! What of the settings decides what is a fault of an ISO program.
 
 use super::block::{Block, Code, Note, Stop, read_line};
-use super::machine::CenterRule;
+use super::moves::CenterRule;
 use crate::settings::{Effective, Profile, UnitSetting, shipped_profiles};
 use std::collections::BTreeSet;
 use std::sync::{Arc, LazyLock};

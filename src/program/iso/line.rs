@@ -3,7 +3,8 @@
 use super::block::{Block, Motion};
 use super::document::Document;
 use super::layout::is_parted;
-use super::machine::{Bend, CenterRule, Course, Machine, Move, Place, Reading, apart, to_center};
+use super::machine::Machine;
+use super::moves::{Bend, CenterRule, Course, Move, Place, Reading, apart, to_center};
 use super::plain::words_in;
 use super::style::Style;
 use super::word::Token;

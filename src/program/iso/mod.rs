@@ -19,6 +19,7 @@ mod limits;
 mod line;
 pub(crate) mod machine;
 mod mill;
+pub(crate) mod moves;
 mod numbers;
 mod order;
 mod part;

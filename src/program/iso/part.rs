@@ -1,6 +1,6 @@
 //! The part of a cut of an ISO program that lies in one stretch, how it lies on itself, and its arcs that may be too tight.
 
-use super::machine::{Bend, Move, Place, Reading, added, apart};
+use super::moves::{Bend, Move, Place, Reading, added, apart};
 use crate::geometry::{Point, Side};
 use crate::program::path::{HeldWay, Lay, Node, mixed};
 

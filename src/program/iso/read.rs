@@ -4,7 +4,8 @@
 
 use super::block::{Block, Note, Stop, read_line};
 use super::corner::{self, Turned, turned};
-use super::machine::{Behind, Course, Machine, Move, Reading, Trail, added, apart};
+use super::machine::{Behind, Machine, Trail};
+use super::moves::{Course, Move, Reading, added, apart};
 use super::part::{Hears, Part, SEVERAL, Tight, Ways};
 use super::shape::Shape;
 use super::stretch::{Definition, Foreign, Pathless, Stretch};

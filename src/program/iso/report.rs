@@ -8,7 +8,7 @@ use super::cut::Cut;
 use super::document::{Document, Table};
 use super::fixes::have_met;
 use super::limits::Limits;
-use super::machine::{Place as Spot, Reading, apart, distance, micrometres};
+use super::moves::{Place as Spot, Reading, apart, distance, micrometres};
 use super::part::{Part, WireSide};
 use super::plain::word_at;
 use super::repair::found::Repair;

@@ -1,7 +1,7 @@
 //! A move as its joints with others see it.
 
 use super::block::Motion;
-use super::machine::{Bend, Course, Move, Reading, micrometres};
+use super::moves::{Bend, Course, Move, Reading, micrometres};
 use crate::geometry::{Segment, Vector};
 use crate::program::path::Heading;
 

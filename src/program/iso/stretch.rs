@@ -5,7 +5,8 @@
 
 use super::block::{Code, Offset};
 use super::evidence::Evidence;
-use super::machine::{Machine, Place, Reading, added, micrometres};
+use super::machine::Machine;
+use super::moves::{Place, Reading, added, micrometres};
 use super::part::{Part, Tight, Tightest, Ways};
 use super::word::Term;
 use crate::finding::Finding;

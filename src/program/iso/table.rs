@@ -2,7 +2,7 @@
 
 use super::block::Offset;
 use super::document::{Document, Table};
-use super::machine::Reading;
+use super::moves::Reading;
 use super::stretch::Definition;
 use super::word::Value;
 use std::collections::BTreeMap;

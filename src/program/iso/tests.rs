@@ -6,7 +6,7 @@ mod repairs;
 mod writing;
 
 use super::document::Document;
-use super::machine::CenterRule;
+use super::moves::CenterRule;
 use super::plain::words;
 use super::word::{Number, Token, WordFault};
 use crate::finding;

@@ -6,7 +6,8 @@
 
 use super::block::{Offset, read_line};
 use super::document::Document;
-use super::machine::{Machine, Move, Place, Reading, added, apart, micrometres};
+use super::machine::Machine;
+use super::moves::{Move, Place, Reading, added, apart, micrometres};
 use super::plain::words;
 use super::word::{Number, Token};
 use crate::geometry::{

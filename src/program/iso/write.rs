@@ -4,7 +4,8 @@ mod proof;
 
 use super::block::{Block, Motion, Note, read_line};
 use super::encode::{Encoded, Moves};
-use super::machine::{CenterRule, MICROMETRE, Machine, Place, Reading, to_center};
+use super::machine::Machine;
+use super::moves::{CenterRule, MICROMETRE, Place, Reading, to_center};
 use crate::finding::Side;
 use crate::geometry::Segment;
 use crate::program::encode::Encoder;

@@ -4,7 +4,7 @@ use super::completion::Offer;
 use crate::geometry::{Arc, Point, left_normal};
 use crate::program::grid::{best_center, snap};
 use crate::program::iso::block::Motion;
-use crate::program::iso::machine::{CenterRule, Course, Move, Place, Reading, added, micrometres};
+use crate::program::iso::moves::{CenterRule, Course, Move, Place, Reading, added, micrometres};
 use crate::program::iso::steps::Begun;
 use std::f64::consts::{FRAC_PI_2, PI};
 

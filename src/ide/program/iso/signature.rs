@@ -4,7 +4,8 @@ use super::holds;
 use crate::ide::Signature;
 use crate::program::iso::block::{Block, Compensation, Motion, read_line};
 use crate::program::iso::document::Document;
-use crate::program::iso::machine::{CenterRule, Machine};
+use crate::program::iso::machine::Machine;
+use crate::program::iso::moves::CenterRule;
 use crate::program::iso::plain::words;
 use crate::program::iso::word::{Token, WordFault};
 

@@ -2,7 +2,7 @@
 
 use super::super::document::Document;
 use super::super::line::{Bent, Target, line_to};
-use super::super::machine::{Bend, CenterRule, Move, Place, added, apart, distance, micrometres};
+use super::super::moves::{Bend, CenterRule, Move, Place, added, apart, distance, micrometres};
 use super::super::style::Style;
 use crate::finding::{CenterFix, FixKind, TextFix};
 use crate::geometry::Arc;

@@ -5,7 +5,7 @@
 //! ```
 
 use super::Iso;
-use crate::program::iso::machine::{Bend, CenterRule, Reading};
+use crate::program::iso::moves::{Bend, CenterRule, Reading};
 use crate::program::refactor::{Refactoring, Rewrite, Sheet};
 use crate::text::TextEdit;
 

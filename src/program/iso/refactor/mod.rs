@@ -11,7 +11,7 @@ mod write;
 use super::block::Motion;
 use super::document::Document;
 use super::line::{Bent, Target};
-use super::machine::{Place, micrometres};
+use super::moves::{Place, micrometres};
 use super::numbers;
 use super::plain::{words_at, words_in};
 use super::style::Style;

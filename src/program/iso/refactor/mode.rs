@@ -7,7 +7,7 @@
 //! ```
 
 use super::Iso;
-use crate::program::iso::machine::{CenterRule, Reading};
+use crate::program::iso::moves::{CenterRule, Reading};
 use crate::program::iso::plain::words_at;
 use crate::program::iso::taper::{Words, refuse_anywhere};
 use crate::program::refactor::{Refactoring, Rewrite, Sheet};

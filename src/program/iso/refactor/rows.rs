@@ -3,7 +3,7 @@
 use super::{Iso, node_of};
 use crate::finding::{Detail, Place as Where, Severity};
 use crate::program::iso::document::Document;
-use crate::program::iso::machine::{Course, Move};
+use crate::program::iso::moves::{Course, Move};
 use crate::program::iso::style::Style;
 use crate::program::refactor::Row;
 

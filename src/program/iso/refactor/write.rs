@@ -4,7 +4,7 @@ use super::Iso;
 use crate::program::iso::block::Block;
 use crate::program::iso::layout::is_parted;
 use crate::program::iso::line::{Line, Target, prove, push_changed, with_word};
-use crate::program::iso::machine::Reading;
+use crate::program::iso::moves::Reading;
 use crate::program::iso::style::Style;
 use crate::program::refactor::{Content, Rewrite, Sheet};
 use crate::text::{TextEdit, edited};

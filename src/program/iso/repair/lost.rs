@@ -6,7 +6,7 @@ use crate::geometry::{Segment, Vector, left_normal};
 use crate::program::iso::block::Motion;
 use crate::program::iso::document::Document;
 use crate::program::iso::line::with_word;
-use crate::program::iso::machine::{
+use crate::program::iso::moves::{
     Bend, CenterRule, Move, Place, Reading, added, distance, micrometres,
 };
 use crate::program::iso::shape::directions;

@@ -3,9 +3,8 @@
 use crate::geometry::Vector;
 use crate::program::iso::block::{Block, Motion, Note, Stop, read_line};
 use crate::program::iso::document::Document;
-use crate::program::iso::machine::{
-    Bend, Course, Machine, Move, Place, Reading, added, apart, distance,
-};
+use crate::program::iso::machine::Machine;
+use crate::program::iso::moves::{Bend, Course, Move, Place, Reading, added, apart, distance};
 use crate::program::iso::shape::directions;
 use crate::program::path::{tolerance, turn};
 

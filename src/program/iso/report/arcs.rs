@@ -2,7 +2,7 @@
 
 use super::super::block::{Motion, Offset};
 use super::super::cut::Cut;
-use super::super::machine::Course;
+use super::super::moves::Course;
 use super::super::part::Tight;
 use super::super::tilt::{TiltedArc, Unknown};
 use super::{Report, at};

@@ -3,7 +3,7 @@
 use super::super::block::Stop;
 use super::super::document::Table;
 use super::super::evidence::FEW_BARE;
-use super::super::machine::micrometres;
+use super::super::moves::micrometres;
 use super::super::numbers::number_word;
 use super::super::order::MOST_CALLS;
 use super::super::plain::{word_at, words_at};

@@ -5,7 +5,7 @@ use crate::geometry::Segment;
 use crate::program::encode::ASIDE_TOLERANCE;
 use crate::program::grid::{largest_distance, point_of};
 use crate::program::iso::encode::Encoded;
-use crate::program::iso::machine::{Course, Move, micrometres};
+use crate::program::iso::moves::{Course, Move, micrometres};
 use crate::program::write::{ProofError, scaled};
 
 impl Lines<'_> {

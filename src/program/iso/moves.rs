@@ -1,0 +1,269 @@
+//! A move of the control: where it leads, how it bends, and how its numbers are read.
+//!
+//! Places are whole nanometres, so that a micrometre, four decimals of an inch and six of a millimetre are all exact, and sums do not
+//! depend on the order in which they are made.
+
+use super::block::{Corner, Motion, Offset};
+use super::word::Number;
+use crate::finding::Side;
+use crate::geometry::{Arc, Point, Segment};
+use crate::program::path::Writing;
+pub(crate) use crate::settings::CenterRule;
+
+/// Nanometres in a micrometre.
+pub(crate) const MICROMETRE: i64 = 1_000;
+
+/// A place in nm.
+pub(crate) type Place = [i64; 2];
+
+/// How the numbers of a program are to be read: found from the program as a whole.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Reading {
+    /// A number without decimal point is in µm (tenths of a thousandth of an inch); else it is in mm (inches) like the others.
+    pub(crate) whole_numbers_are_fine: bool,
+    /// Of arcs under G90.
+    pub(crate) absolute: CenterRule,
+    /// Of arcs under G91; never [`CenterRule::Absolute`].
+    pub(crate) incremental: CenterRule,
+    /// By how much the ends of an arc may lie unlike far from its centre, nm.
+    pub(crate) tolerance: i64,
+}
+
+impl Reading {
+    pub(crate) fn rule(&self, incremental: bool) -> CenterRule {
+        if incremental {
+            self.incremental
+        } else {
+            self.absolute
+        }
+    }
+
+    /// How the program says where its moves lead.
+    pub(crate) fn writing(&self) -> Writing {
+        Writing {
+            names_places: true,
+            slack: self.tolerance as f64 / 1e3,
+        }
+    }
+
+    /// A length as it is written, in nm.
+    pub(crate) fn length(&self, number: Number, inch: bool) -> i64 {
+        if !number.point && self.whole_numbers_are_fine {
+            return number.mantissa * if inch { 2_540 } else { MICROMETRE };
+        }
+        let unit: i128 = if inch { 25_400_000 } else { 1_000_000 };
+        let divisor = 10_i128.pow(u32::from(number.decimals));
+        let scaled = i128::from(number.mantissa) * unit;
+        if scaled % divisor == 0 {
+            return (scaled / divisor) as i64;
+        }
+        let half = if scaled < 0 {
+            -divisor / 2
+        } else {
+            divisor / 2
+        };
+        ((scaled + half) / divisor) as i64
+    }
+}
+
+/// Where an arc says that its centre is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Bend {
+    /// I and J in nm, as written, and where they would lie as absolute coordinates.
+    Center { i: i64, j: i64, absolute: Place },
+    /// R in nm; negative for more than a half turn.
+    Radius(i64),
+    /// Neither.
+    Nothing,
+}
+
+/// One move of the wire.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Move {
+    pub(crate) motion: Motion,
+    pub(crate) from: Place,
+    pub(crate) to: Place,
+    pub(crate) bend: Bend,
+    /// It was written under G91.
+    pub(crate) incremental: bool,
+    /// The side of travel on which the control lets the wire run beside this move.
+    pub(crate) side: Option<Side>,
+    pub(crate) offset: Option<Offset>,
+    /// G41 or G42 (true) or G40 (false) takes effect with this move.
+    pub(crate) switches: Option<bool>,
+    /// The corner that the control makes at its end.
+    pub(crate) corner: Option<Corner>,
+}
+
+/// Where an arc runs, or why it does not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Course {
+    Line,
+    /// µm.
+    Arc(Arc),
+    /// The ends are unlike far from the centre, µm.
+    OffRadius {
+        start: f64,
+        end: f64,
+        center: Point,
+    },
+    NoRadius,
+}
+
+impl Move {
+    pub(crate) fn is_arc(&self) -> bool {
+        self.motion.is_arc()
+    }
+
+    pub(crate) fn is_cut(&self) -> bool {
+        self.motion != Motion::Rapid
+    }
+
+    /// The centre under a rule, nm; `None` where I and J do not stand.
+    pub(crate) fn center(&self, rule: CenterRule) -> Option<Place> {
+        let Bend::Center { i, j, absolute } = self.bend else {
+            return None;
+        };
+        Some(match rule {
+            CenterRule::StartToCenter => added(self.from, [i, j]),
+            CenterRule::CenterToStart => apart(self.from, [i, j]),
+            CenterRule::Absolute => absolute,
+        })
+    }
+
+    /// By how much further the start is from the centre than the end under a rule, nm. 0 where there is no centre.
+    pub(crate) fn difference(&self, rule: CenterRule) -> f64 {
+        self.center(rule).map_or(0.0, |center| {
+            distance(self.from, center) - distance(self.to, center)
+        })
+    }
+
+    /// Where the move runs.
+    pub(crate) fn course(&self, reading: &Reading) -> Course {
+        if !self.is_arc() {
+            return Course::Line;
+        }
+        let counter_clockwise = self.motion == Motion::CounterClockwise;
+        match self.bend {
+            Bend::Nothing => Course::NoRadius,
+            Bend::Radius(radius) => self.about_radius(radius, counter_clockwise, reading),
+            Bend::Center { .. } => {
+                let Some(center) = self.center(reading.rule(self.incremental)) else {
+                    return Course::NoRadius;
+                };
+                let (start, end) = (distance(self.from, center), distance(self.to, center));
+                if start == 0.0 || end == 0.0 {
+                    return Course::NoRadius;
+                }
+                if (start - end).abs() > reading.tolerance as f64 {
+                    return Course::OffRadius {
+                        start: start / 1e3,
+                        end: end / 1e3,
+                        center: micrometres(center),
+                    };
+                }
+                Course::Arc(Arc::about(
+                    micrometres(center),
+                    micrometres(self.from),
+                    micrometres(self.to),
+                    counter_clockwise,
+                ))
+            }
+        }
+    }
+
+    /// The arc with a given radius: at most a half turn, or more where R is negative.
+    fn about_radius(&self, radius: i64, counter_clockwise: bool, reading: &Reading) -> Course {
+        let (from, to) = (micrometres(self.from), micrometres(self.to));
+        let chord = to - from;
+        let (half, given) = (chord.norm() / 2.0, radius.unsigned_abs() as f64 / 1e3);
+        if half == 0.0 || given == 0.0 {
+            return Course::NoRadius;
+        }
+        let middle = from + chord / 2.0;
+        if half - given > reading.tolerance as f64 / 1e3 {
+            return Course::OffRadius {
+                start: given,
+                end: half,
+                center: middle,
+            };
+        }
+        let height = (given * given - half * half).max(0.0).sqrt();
+        let to_left = counter_clockwise != (radius < 0);
+        let normal = crate::geometry::left_normal(chord) / (2.0 * half);
+        Course::Arc(Arc::about(
+            middle + normal * if to_left { height } else { -height },
+            from,
+            to,
+            counter_clockwise,
+        ))
+    }
+
+    /// The line or arc in µm; the chord where an arc does not run.
+    pub(crate) fn segment(&self, reading: &Reading) -> Segment {
+        match self.course(reading) {
+            Course::Arc(arc) => Segment::Arc(arc),
+            _ => Segment::line(micrometres(self.from), micrometres(self.to)),
+        }
+    }
+
+    /// The same move, started at the zero of the plane.
+    pub(crate) fn at_origin(self) -> Move {
+        self.seen_from(self.from)
+    }
+
+    /// The same move with `place` as the zero of the plane.
+    pub(crate) fn seen_from(self, place: Place) -> Move {
+        let back = place.map(i64::wrapping_neg);
+        let mut moved = self.shifted(back);
+        if let Bend::Center { absolute, .. } = &mut moved.bend {
+            *absolute = added(*absolute, back);
+        }
+        moved
+    }
+
+    /// The same move, started elsewhere. A centre in absolute coordinates stays.
+    pub(crate) fn shifted(mut self, by: Place) -> Move {
+        self.from = added(self.from, by);
+        self.to = added(self.to, by);
+        self
+    }
+}
+
+/// I and J for a centre, as the program's arcs have them.
+pub(crate) fn bend_about(center: Place, from: Place, incremental: bool, reading: &Reading) -> Bend {
+    // An absolute centre counts from where the arc begins.
+    let [i, j] = to_center(reading.rule(incremental), center, from, from);
+    Bend::Center {
+        i,
+        j,
+        absolute: center,
+    }
+}
+
+/// I and J for a centre, nm, where absolute ones count from `zero`.
+pub(crate) fn to_center(rule: CenterRule, center: Place, from: Place, zero: Place) -> Place {
+    match rule {
+        CenterRule::StartToCenter => apart(center, from),
+        CenterRule::CenterToStart => apart(from, center),
+        CenterRule::Absolute => apart(center, zero),
+    }
+}
+
+pub(crate) fn micrometres(place: Place) -> Point {
+    Point::new(place[0] as f64 / 1e3, place[1] as f64 / 1e3)
+}
+
+pub(crate) fn added(place: Place, by: Place) -> Place {
+    [place[0].wrapping_add(by[0]), place[1].wrapping_add(by[1])]
+}
+
+/// From `b` to `a`.
+pub(crate) fn apart(a: Place, b: Place) -> Place {
+    [a[0].wrapping_sub(b[0]), a[1].wrapping_sub(b[1])]
+}
+
+pub(crate) fn distance(a: Place, b: Place) -> f64 {
+    let [x, y] = apart(a, b);
+    (x as f64).hypot(y as f64)
+}
