@@ -1,6 +1,7 @@
 //! Open contours with a side: the path beside them, its proof by distances alone, and the programs that come of it.
 
 use proptest::prelude::*;
+use std::path::Path;
 use std::process::Command;
 use std::sync::Arc;
 use wedm::document::{self, Source as Of};
@@ -497,6 +498,49 @@ proptest! {
     }
 }
 
+/// A line of the contour that is 30 µm or 0.3 mm longer in a program is named, wherever it stands, and nothing else is.
+fn each_line_that_is_longer_is_named(
+    program: &Path,
+    run: &dyn Fn(&[&str]) -> (Option<i32>, String),
+) {
+    let name = program
+        .file_name()
+        .and_then(|name| name.to_str())
+        .expect("a name");
+    let sound = std::fs::read_to_string(program).expect("the program");
+    let lines: Vec<&str> = sound.lines().collect();
+    let is_line = |text: &str| text.starts_with('B') && text.contains('L');
+    for (at, line) in lines
+        .iter()
+        .enumerate()
+        .skip(1)
+        .filter(|(_, line)| is_line(line))
+    {
+        for by in [30_i64, 300] {
+            let (numbers, way) = line.split_once('G').expect("a block");
+            let mut numbers: Vec<i64> = numbers
+                .split('B')
+                .filter_map(|number| number.parse().ok())
+                .collect();
+            numbers[usize::from(way.starts_with('Y'))] += by;
+            numbers[2] += by;
+            let longer = format!("B{}B{}B{}G{way}", numbers[0], numbers[1], numbers[2]);
+            let text: Vec<&str> = (0..lines.len())
+                .map(|index| if index == at { &*longer } else { lines[index] })
+                .collect();
+            std::fs::write(program, text.join("\n")).expect("written");
+            let (_, said) = run(&["check", name, "--output", "concise"]);
+            let place = format!("{name}:{}:1: error[not-the-drawing]", at + 1);
+            let told = said.matches("not-the-drawing").count();
+            assert!(
+                said.contains(&place) && told == 1,
+                "{longer} in line {}: {said}",
+                at + 1
+            );
+        }
+    }
+}
+
 /// Nothing that is said of an open contour stands in the way of the binary either: drawing, program, and the program beside its drawing.
 #[test]
 fn the_binary_cuts_open_contours_and_reads_them_again() {
@@ -535,6 +579,9 @@ fn the_binary_cuts_open_contours_and_reads_them_again() {
         let (code, said) = run(&["check", "strip.dxf", &name]);
         assert_eq!(code, Some(0), "{said}");
         assert!(said.contains("nothing found"), "{said}");
+        if ending == "3b" {
+            each_line_that_is_longer_is_named(&file(&name), &run);
+        }
         std::fs::remove_file(file(&name)).expect("removed");
     }
 }

@@ -37,6 +37,8 @@ pub(super) struct Piece {
 pub(super) struct Round {
     pub contour: usize,
     pub closed: bool,
+    /// An open one that the wire runs beside: it is cut from its one end to the other.
+    pub from_end: bool,
     pub pieces: Vec<Piece>,
     pub length: f64,
     /// Centre and radius, where it is a circle.
@@ -97,7 +99,7 @@ impl Rounds {
                     .extend(new.iter().map(|course| (index, side, *course)));
                 let is_four_b = contour.closed && new.contains(&Course::FourB);
                 for (nth, pieces) in along(contour, side, &new, drawn).into_iter().enumerate() {
-                    self.push(index, contour.closed, pieces, drawn.unit_mm * 1e3);
+                    self.push((index, contour), pieces, drawn.unit_mm * 1e3);
                     if nth == 0 && is_four_b {
                         self.turn_back(contour, side, drawn);
                     }
@@ -152,10 +154,11 @@ impl Rounds {
         })
     }
 
-    fn push(&mut self, contour: usize, closed: bool, path: Vec<PathSegment>, scale: f64) {
+    fn push(&mut self, (index, contour): (usize, &Contour), path: Vec<PathSegment>, scale: f64) {
         let mut round = Round {
-            contour,
-            closed,
+            contour: index,
+            closed: contour.closed,
+            from_end: !contour.closed && contour.side.is_some(),
             pieces: Vec::with_capacity(path.len()),
             length: 0.0,
             circle: None,

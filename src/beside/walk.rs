@@ -90,6 +90,8 @@ pub(super) struct Walk<'a> {
     /// The same of all laps and passes.
     cuts: Vec<Vec<Range<f64>>>,
     loose: Vec<Loose>,
+    /// Runs that came to the end of an open contour.
+    ended: Vec<Run>,
     /// Runs that begin beside where the drawing has them.
     moved: Vec<Run>,
     walked: Walked,
@@ -104,6 +106,7 @@ impl<'a> Walk<'a> {
             covered: vec![Vec::new(); rounds.rounds.len()],
             cuts: vec![Vec::new(); rounds.rounds.len()],
             loose: Vec::new(),
+            ended: Vec::new(),
             moved: Vec::new(),
             walked: Walked {
                 runs: vec![false; traced.blocks.len()],
@@ -239,6 +242,9 @@ impl<'a> Walk<'a> {
             .contours
             .push(self.rounds.rounds[run.spot.round].contour);
         if run.complete {
+            if self.rounds.rounds[run.spot.round].from_end {
+                self.ended.push(run.clone());
+            }
             self.moved.extend(run.moved.is_some().then_some(run));
             return;
         }

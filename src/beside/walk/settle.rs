@@ -68,6 +68,9 @@ impl Walk<'_> {
             self.walked.runs[named] = true;
             self.name(&run, named, off, kind);
         }
+        for run in std::mem::take(&mut self.ended) {
+            self.begins_late(&run);
+        }
         // A change that moves everything behind it has been named where it is.
         let mut changes: Vec<f64> = self.walked.unlike.iter().map(|unlike| unlike.off).collect();
         for run in std::mem::take(&mut self.moved) {
@@ -90,6 +93,50 @@ impl Walk<'_> {
                 ),
             }
         }
+    }
+
+    /// An open contour is cut from its one end to the other: where a run begins behind that end, and nothing else has cut what lies
+    /// between, one of the blocks before it should have.
+    fn begins_late(&mut self, run: &Run) {
+        let entry = run.entry;
+        let last = self.rounds.rounds[entry.round].pieces.len() - 1;
+        let (first, passed) = if entry.back {
+            (last, last - entry.piece)
+        } else {
+            (0, entry.piece)
+        };
+        let mut spot = self.rounds.at_begin(entry.round, first, entry.back);
+        let gap = self.uncut_from(&spot);
+        if gap <= COVERED {
+            return;
+        }
+        let begin = self.rounds.at_begin(entry.round, entry.piece, entry.back);
+        let passed = passed + usize::from((begin.at - entry.at).norm() > REACH);
+        let before = self.before(run).nth(passed.saturating_sub(1));
+        let Some(before) = before.filter(|_| passed > 0) else {
+            self.name(run, run.first, gap, Kind::Unfinished);
+            return;
+        };
+        let (named, off) = self.first_unlike(
+            &Run {
+                spot,
+                ..run.clone()
+            },
+            before,
+        );
+        for _ in before..named {
+            spot = self.rounds.next(&spot).unwrap_or(spot);
+        }
+        self.walked.runs[named] = true;
+        self.name(
+            &Run {
+                spot,
+                ..run.clone()
+            },
+            named,
+            off,
+            Kind::Block,
+        );
     }
 
     /// Of the blocks before a run, from that on which begins where the run came back to, the one that does not follow, and how far it is off.
