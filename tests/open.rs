@@ -498,7 +498,7 @@ proptest! {
     }
 }
 
-/// A line of the contour that is 30 µm or 0.3 mm longer in a program is named, wherever it stands, and nothing else is.
+/// A line of the contour that is 30 µm or 0.3 mm longer in a program, or shorter, is named, wherever it stands, and nothing else is.
 fn each_line_that_is_longer_is_named(
     program: &Path,
     run: &dyn Fn(&[&str]) -> (Option<i32>, String),
@@ -516,7 +516,7 @@ fn each_line_that_is_longer_is_named(
         .skip(1)
         .filter(|(_, line)| is_line(line))
     {
-        for by in [30_i64, 300] {
+        for by in [30_i64, 300, -300] {
             let (numbers, way) = line.split_once('G').expect("a block");
             let mut numbers: Vec<i64> = numbers
                 .split('B')

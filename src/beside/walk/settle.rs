@@ -35,7 +35,11 @@ impl Walk<'_> {
             }
             // Up to where the run began? Then a block before it may be the one.
             let entry = run.entry;
-            let ahead = self.rounds.ahead(&run.spot, &entry);
+            let ahead = if self.rounds.rounds[entry.round].closed {
+                self.rounds.ahead(&run.spot, &entry)
+            } else {
+                f64::INFINITY
+            };
             let own = self.off(&pose, &run, block);
             let of_block = is_behind.then_some(own);
             let before = self
@@ -110,10 +114,14 @@ impl Walk<'_> {
         if gap <= COVERED {
             return;
         }
+        if passed == 0 {
+            // Its first block is that much too short.
+            self.name(run, run.first, gap, Kind::Block);
+            return;
+        }
         let begin = self.rounds.at_begin(entry.round, entry.piece, entry.back);
         let passed = passed + usize::from((begin.at - entry.at).norm() > REACH);
-        let before = self.before(run).nth(passed.saturating_sub(1));
-        let Some(before) = before.filter(|_| passed > 0) else {
+        let Some(before) = self.before(run).nth(passed - 1) else {
             self.name(run, run.first, gap, Kind::Unfinished);
             return;
         };
