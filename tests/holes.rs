@@ -1,13 +1,17 @@
 //! Start holes, leads and what the cuts come to on the machine.
 
+#[path = "support/generate.rs"]
+mod support;
+
 use proptest::prelude::*;
 use std::sync::Arc;
+use support::generate;
 use wedm::analysis::Analysis;
 use wedm::document::{Document, Source as Of};
 use wedm::drawing::{Drawing, Entity, Geometry, Kind, Outline, Role, Unit, Vertex};
 use wedm::finding::{Rule, Severity, sentence};
 use wedm::geometry::{Point, Segment};
-use wedm::job::{self, Generated, Wanted};
+use wedm::job::{self, Generated};
 use wedm::program::{self, Format, Language};
 use wedm::settings::{Effective, from_toml};
 use wedm::toolpath::{Source, WirePath};
@@ -85,15 +89,7 @@ fn refusal(drawing: &Drawing, settings: &Effective) -> String {
 }
 
 fn generated(drawing: &Drawing, settings: &Effective, format: Format) -> Generated {
-    let document = document(drawing, settings);
-    let findings = document.all_findings().to_vec();
-    let wanted = Wanted {
-        format,
-        handles: None,
-        layers: None,
-        force: false,
-    };
-    match job::generate(&document.snapshot().unwrap(), findings, &wanted, &()) {
+    match generate(&document(drawing, settings), format, false) {
         Ok(generated) => generated,
         Err(refusal) => panic!("{format:?}: {}", refusal.sentence(1.0)),
     }

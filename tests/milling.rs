@@ -1,10 +1,14 @@
 //! Milling by an electrode that wears: the program as a control runs it, held against path, feeds and a simulation of our own.
 
+#[path = "support/generate.rs"]
+mod support;
+
 use std::sync::Arc;
+use support::generate;
 use wedm::document::{Document, Source};
 use wedm::drawing::{Drawing, Entity, Geometry, Kind, Role, Unit, Vertex};
 use wedm::finding::{Finding, Rule, Severity};
-use wedm::job::{self, Generated, Refusal, Wanted};
+use wedm::job::{Generated, Refusal};
 use wedm::program::{Format, Language};
 use wedm::settings::{Effective, from_toml};
 
@@ -48,15 +52,7 @@ fn ring(radius: f64) -> Vec<[f64; 3]> {
 fn generated(drawing: &Drawing, text: &str, format: Format) -> Result<Generated, Refusal> {
     let source = Source::Cad(Arc::new(drawing.clone()));
     let document = Document::new(source, Arc::new(settings(text)));
-    let findings = document.all_findings().to_vec();
-    let snapshot = document.snapshot().expect("a drawing");
-    let wanted = Wanted {
-        format,
-        handles: None,
-        layers: None,
-        force: false,
-    };
-    job::generate(&snapshot, findings, &wanted, &())
+    generate(&document, format, false)
 }
 
 fn milled(drawing: &Drawing, text: &str) -> Generated {
@@ -473,13 +469,7 @@ fn what_is_missing_or_contradicts_itself_is_said_where_it_stands() {
         let drawing = drawing(&[(false, SLOT)]);
         let source = Source::Cad(Arc::new(drawing));
         let document = Document::new(source, Arc::new(Effective::of(&set)));
-        let wanted = Wanted {
-            format: Format::Milling,
-            handles: None,
-            layers: None,
-            force: true,
-        };
-        let refusal = job::generate(&document.snapshot().unwrap(), Vec::new(), &wanted, &());
+        let refusal = generate(&document, Format::Milling, true);
         assert!(
             matches!(refusal, Err(Refusal::Sentence(said)) if said == sentence),
             "{text}"

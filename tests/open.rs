@@ -1,14 +1,18 @@
 //! Open contours with a side: the path beside them, its proof by distances alone, and the programs that come of it.
 
+#[path = "support/generate.rs"]
+mod support;
+
 use proptest::prelude::*;
 use std::path::Path;
 use std::process::Command;
 use std::sync::Arc;
+use support::generate;
 use wedm::document::{self, Source as Of};
 use wedm::drawing::{Drawing, Entity, Geometry, Kind, Unit, Vertex};
 use wedm::finding::{Finding, Rule, Severity};
 use wedm::geometry::Point;
-use wedm::job::{self, Refusal, Wanted};
+use wedm::job::{self, Refusal};
 use wedm::program::{Document, Format, Language};
 use wedm::settings::{Effective, from_toml};
 use wedm::toolpath::{Source, WirePath};
@@ -71,20 +75,7 @@ fn paths(drawing: &Drawing, settings: &Effective) -> Result<Vec<WirePath>, Refus
 }
 
 fn program(drawing: &Drawing, settings: &Effective, format: Format) -> Result<String, Refusal> {
-    let document = document(drawing, settings);
-    let findings = document.all_findings().to_vec();
-    let wanted = Wanted {
-        format,
-        handles: None,
-        layers: None,
-        force: true,
-    };
-    let made = job::generate(
-        &document.snapshot().expect("a drawing"),
-        findings,
-        &wanted,
-        &(),
-    )?;
+    let made = generate(&document(drawing, settings), format, true)?;
     Ok(made.program.text)
 }
 

@@ -1,11 +1,15 @@
 //! Several passes: the path of each, its program, and what all of them leave.
 
+#[path = "support/generate.rs"]
+mod support;
+
 use std::sync::Arc;
+use support::generate;
 use wedm::analysis::Analysis;
 use wedm::drawing::{Drawing, Entity, Geometry, Kind, Outline, Role, Unit, Vertex};
 use wedm::finding::{Rule, Severity};
 use wedm::geometry::Point;
-use wedm::job::{self, Wanted};
+use wedm::job;
 use wedm::program::{Document, Format, Language};
 use wedm::settings::{Effective, from_toml};
 use wedm::toolpath::{Source, WirePath, plan};
@@ -61,16 +65,7 @@ fn document(drawing: &Drawing, settings: &Effective) -> wedm::document::Document
 }
 
 fn generated(drawing: &Drawing, settings: &Effective, format: Format) -> job::Generated {
-    let document = document(drawing, settings);
-    let findings = document.all_findings().to_vec();
-    let snapshot = document.snapshot().expect("a drawing");
-    let wanted = Wanted {
-        format,
-        handles: None,
-        layers: None,
-        force: false,
-    };
-    match job::generate(&snapshot, findings, &wanted, &()) {
+    match generate(&document(drawing, settings), format, false) {
         Ok(generated) => generated,
         Err(refusal) => panic!("{refusal:?}"),
     }

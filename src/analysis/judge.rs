@@ -74,12 +74,10 @@ impl Analysis {
             });
         // Where nothing states a role and none depends on nesting.
         let everywhere = self.settings.side.role().filter(|_| self.stated == 0);
-        let role_of = |analysis: &Analysis, key: ContourKey| match &nested {
-            Some(roles) => roles.get(&key).copied().unwrap_or(Role::Both),
-            None if matches!(everywhere, Some(Role::Both | Role::Opening | Role::Punch)) => {
-                everywhere.unwrap_or(Role::Both)
-            }
-            None => analysis
+        let role_of = |analysis: &Analysis, key: ContourKey| match (&nested, everywhere) {
+            (Some(roles), _) => roles.get(&key).copied().unwrap_or(Role::Both),
+            (None, Some(role @ (Role::Both | Role::Opening | Role::Punch))) => role,
+            (None, _) => analysis
                 .roles(drawing, &[key])
                 .first()
                 .copied()
@@ -93,24 +91,21 @@ impl Analysis {
             .into_iter()
             .map(|key| (key, side_of(self, key)))
             .collect();
-        // Along the middle of an open contour an electrode goes as it is drawn.
         let is_middle = |analysis: &Analysis, key: ContourKey| {
             let contour = analysis.chains.get(key);
-            analysis.settings.mills && contour.is_some_and(|contour| !contour.closed)
+            contour.is_some_and(|it| analysis.settings.goes_along_middle(it.closed))
         };
-        let beside: Vec<(ContourKey, Option<Side>)> = notable
-            .iter()
-            .copied()
-            .filter(|(key, _)| !is_middle(self, *key))
-            .collect();
-        for &(key, wire_side) in &beside {
-            self.report_small_radii(drawing, key, wire_side, &mut report);
+        for &(key, wire_side) in &notable {
+            if !is_middle(self, key) {
+                self.report_small_radii(drawing, key, wire_side, &mut report);
+            }
         }
-        for &(key, wire_side) in &beside {
-            if self
-                .notable
-                .get(&key)
-                .is_some_and(|notable| notable.has_observations)
+        for &(key, wire_side) in &notable {
+            if !is_middle(self, key)
+                && self
+                    .notable
+                    .get(&key)
+                    .is_some_and(|notable| notable.has_observations)
                 && let (Some(known), Some(outlook)) =
                     (self.known.get(&key), self.outlook(drawing, key))
             {

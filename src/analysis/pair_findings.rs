@@ -208,8 +208,9 @@ impl Pairs {
             side.is_none() || side_of(key).is_none() || side == side_of(key)
         };
         // Slots that are milled along their middle have no walls to be near to each other.
-        let is_middle =
-            |key: ContourKey| report.mills() && outlook(key).is_some_and(|it| !it.contour.closed);
+        let is_middle = |key: ContourKey| {
+            outlook(key).is_some_and(|it| report.settings.goes_along_middle(it.contour.closed))
+        };
         let mut seen: Vec<(usize, Ends, &Observed)> = Vec::new();
         for each in self.seen.values().flatten() {
             let ends = |(key, index): SegmentId| {

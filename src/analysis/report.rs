@@ -8,7 +8,7 @@ use std::sync::Arc;
 /// Gathers findings. What comes first within its severity is kept.
 #[derive(Debug)]
 pub(crate) struct Report {
-    settings: Arc<Effective>,
+    pub(super) settings: Arc<Effective>,
     limit: usize,
     kept: BTreeMap<Severity, Vec<Finding>>,
     count: usize,
@@ -98,11 +98,6 @@ impl Report {
     /// False where findings are only counted.
     pub(crate) fn shows_findings(&self) -> bool {
         self.limit > 0
-    }
-
-    /// An electrode cuts.
-    pub(crate) fn mills(&self) -> bool {
-        self.settings.mills
     }
 
     /// True where the settings take a contour as the path of the wire.

@@ -178,8 +178,8 @@ impl Common {
 
     fn take_foreign(&mut self, lexer: &Lexer, tag: Tag) {
         match tag.code {
-            // An embedded object uses the same codes with other meanings.
             100 => self.is_marked = true,
+            // An embedded object uses the same codes with other meanings.
             101 | 1000.. => self.foreign = true,
             102 => self.group = lexer.lines.trimmed(tag.value_line()).starts_with(b"{"),
             _ => {}

@@ -100,6 +100,11 @@ pub struct Effective {
 }
 
 impl Effective {
+    /// Whether a contour is gone along as it is drawn, at no distance from it: an electrode mills the middle of what is open.
+    pub(crate) fn goes_along_middle(&self, closed: bool) -> bool {
+        self.mills && !closed
+    }
+
     /// Where the page of a rule is, if anywhere.
     pub(crate) fn page_of(&self, rule: Rule) -> Option<String> {
         Some(self.docs_url.as_ref()?.replace("{rule}", rule.name()))

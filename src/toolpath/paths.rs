@@ -111,7 +111,10 @@ impl Job<'_> {
         let mut offsets = Vec::with_capacity(chosen.len());
         for (&index, wanted) in chosen.iter().zip(wanted) {
             self.go_on()?;
-            if self.settings.mills && !self.outlines[index].contour.closed {
+            if self
+                .settings
+                .goes_along_middle(self.outlines[index].contour.closed)
+            {
                 let thread = wanted.thread.or(wanted.beside);
                 let mut path = self.as_drawn(index, &Wanted { thread, ..*wanted })?;
                 path.segments.retain(|piece| piece.source.place().is_some());

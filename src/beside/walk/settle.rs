@@ -109,8 +109,11 @@ impl Walk<'_> {
         } else {
             (0, entry.piece)
         };
-        let mut spot = self.rounds.at_begin(entry.round, first, entry.back);
-        let gap = self.uncut_from(&spot);
+        let mut missed = Run {
+            spot: self.rounds.at_begin(entry.round, first, entry.back),
+            ..run.clone()
+        };
+        let gap = self.uncut_from(&missed.spot);
         if gap <= COVERED {
             return;
         }
@@ -125,26 +128,12 @@ impl Walk<'_> {
             self.name(run, run.first, gap, Kind::Unfinished);
             return;
         };
-        let (named, off) = self.first_unlike(
-            &Run {
-                spot,
-                ..run.clone()
-            },
-            before,
-        );
+        let (named, off) = self.first_unlike(&missed, before);
         for _ in before..named {
-            spot = self.rounds.next(&spot).unwrap_or(spot);
+            missed.spot = self.rounds.next(&missed.spot).unwrap_or(missed.spot);
         }
         self.walked.runs[named] = true;
-        self.name(
-            &Run {
-                spot,
-                ..run.clone()
-            },
-            named,
-            off,
-            Kind::Block,
-        );
+        self.name(&missed, named, off, Kind::Block);
     }
 
     /// Of the blocks before a run, from that on which begins where the run came back to, the one that does not follow, and how far it is off.

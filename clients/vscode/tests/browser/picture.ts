@@ -150,6 +150,8 @@ export async function picture(checks: Checks): Promise<void> {
       await window.path(target);
       const rows = /^drawing,x_mm,y_mm,diameter_mm,contour,hole\nplate-with-hole.dxf,[\d.-]+,[\d.-]+,2?,2[AB],found\nplate-with-hole.dxf,/;
       await expectSoon("two holes", async () => rows.test(await readFile(target, "utf8")), () => readFile(target, "utf8"));
+      // It is written first and comes to the front afterwards: over whatever is turned to before.
+      await host.page.locator('.tabs-container .tab.active[data-resource-name="holes.csv"]').waitFor();
       await window.turnTo("plate-with-hole.dxf");
     });
     await checks.check("whether punch and plate fit is shown, and what is missing for that is said", async () => {

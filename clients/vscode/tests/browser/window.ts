@@ -43,8 +43,9 @@ export class Window {
   /** Types into the box that a key opens. A part that takes the focus just then closes it: it is opened again. */
   async #ask(key: string, text: string, offered?: string): Promise<void> {
     const box = this.page.locator(".quick-input-widget");
-    const timeout = PATIENCE / 10;
     for (let attempt = 1; ; attempt += 1) {
+      // What the machine is too slow for the first time is waited for longer the next.
+      const timeout = (attempt * PATIENCE) / 10;
       try {
         await this.page.keyboard.press(key);
         await box.locator("input").fill(text, { timeout });
