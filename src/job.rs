@@ -3,6 +3,7 @@
 //! One pipeline for both faces, which bring a document under its settings and show what comes of it; why nothing is made is decided and worded
 //! here. Nothing here reads or writes a file, or knows who asked.
 
+pub(crate) mod drill;
 mod milling;
 mod pair;
 

@@ -247,8 +247,88 @@ fn the_page_of_settings_shows_every_key_with_its_default() {
     assert!(settings.layers.is_some() && program.thread.is_some() && program.units.is_some());
 }
 
+/// The sentences of VS Code's settings page, in English and in Chinese, by the names that the manifest has for them.
+#[derive(Default)]
+struct Sentences(Vec<(String, [String; 2])>);
+
+impl Sentences {
+    /// The name of a sentence in the manifest.
+    fn named(&mut self, name: &str, english: &str, chinese: &str) -> Value {
+        let name = format!("settings.{name}");
+        let reference = format!("%{name}%");
+        let english = english.replace('\n', " ");
+        self.0.push((name, [english, chinese.to_owned()]));
+        json!(reference)
+    }
+
+    /// The lines of a bundle.
+    fn of(&self, language: usize) -> String {
+        let line = |(name, both): &(String, [String; 2])| {
+            format!("  {}: {}", json!(name), json!(both[language]))
+        };
+        self.0.iter().map(line).collect::<Vec<_>>().join(",\n")
+    }
+}
+
+/// What a key means, or one of its words, in Chinese.
+fn in_chinese(row: &Row, word: Option<&str>) -> &'static str {
+    let name = || word.map_or(row.key.clone(), |word| format!("{} = {word}", row.key));
+    row.in_chinese(word)
+        .unwrap_or_else(|| panic!("src/message/meanings.rs does not have {}", name()))
+}
+
+/// What stands between two marks, each time.
+fn between<'a>(text: &'a str, from: &str, to: &str) -> Vec<&'a str> {
+    let parts = text.split(from).skip(1);
+    let mut found: Vec<&str> = parts
+        .filter_map(|part| part.split_once(to).map(|(part, _)| part))
+        .collect();
+    found.sort_unstable();
+    found
+}
+
+#[test]
+fn every_meaning_has_its_twin_with_the_same_links_and_code() {
+    let code = |text: &str| {
+        let mut code: Vec<String> = text
+            .split('`')
+            .skip(1)
+            .step_by(2)
+            .map(str::to_owned)
+            .collect();
+        code.sort();
+        code
+    };
+    let same = |name: &str, english: &str, chinese: &str| {
+        let links = |text| {
+            between(text, "](", ")")
+                .into_iter()
+                .map(str::to_owned)
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(links(chinese), links(english), "links of {name}");
+        assert_eq!(code(chinese), code(english), "code of {name}");
+        let is_chinese = chinese.contains(|letter| ('\u{4e00}'..='\u{9fff}').contains(&letter));
+        assert!(is_chinese && chinese.ends_with('。'), "{name}: {chinese}");
+    };
+    for row in rows() {
+        same(&row.key, &row.meaning, in_chinese(&row, None));
+        if !row.key.starts_with("drawings.NAME") {
+            for (word, meaning) in words(&schema_of(&row)) {
+                if !meaning.is_empty() {
+                    same(
+                        &format!("{} = {word}", row.key),
+                        meaning,
+                        in_chinese(&row, Some(word)),
+                    );
+                }
+            }
+        }
+    }
+}
+
 /// The schema of a key as VS Code's settings page takes it.
-fn editor_schema(row: &Row, schema: &Value, is_root: bool) -> Value {
+fn editor_schema(row: &Row, schema: &Value, is_root: bool, sentences: &mut Sentences) -> Value {
     let mut of = Map::new();
     let null = |name: &str| {
         if is_root {
@@ -273,17 +353,30 @@ fn editor_schema(row: &Row, schema: &Value, is_root: bool) -> Value {
             .as_deref()
             .map(|default| default.trim_matches('"'));
         let names = own.iter().map(|(name, _)| json!(name));
-        let meanings = own.iter().map(|(_, meaning)| json!(meaning));
-        let unset = format!("Not set: {}.", default.unwrap_or("as described"));
         of.insert(
             "enum".into(),
             names.chain(is_root.then_some(Value::Null)).collect(),
         );
         if own.iter().any(|(_, meaning)| !meaning.is_empty()) {
-            of.insert(
-                "enumDescriptions".into(),
-                meanings.chain(is_root.then(|| json!(unset))).collect(),
-            );
+            let mut meanings: Vec<Value> = own
+                .iter()
+                .map(|(name, meaning)| match meaning.is_empty() {
+                    true => json!(""),
+                    false => sentences.named(
+                        &format!("{}.{name}", row.key),
+                        meaning,
+                        in_chinese(row, Some(name)),
+                    ),
+                })
+                .collect();
+            if is_root {
+                meanings.push(sentences.named(
+                    &format!("{}.null", row.key),
+                    &format!("Not set: {}.", default.unwrap_or("as described")),
+                    &format!("未设置：{}。", default.unwrap_or("见说明")),
+                ));
+            }
+            of.insert("enumDescriptions".into(), meanings.into());
         }
     }
     let whole = |number: f64| match number.fract() == 0.0 {
@@ -350,12 +443,14 @@ fn written(value: &Value, indent: usize) -> String {
 fn the_settings_page_of_vs_code_has_every_key() {
     let docs = "https://github.com/wedm/wedm/blob/main/docs/";
     let mut entries = Vec::new();
+    let mut sentences = Sentences::default();
     let of_profiles: Map<String, Value> = rows()
         .iter()
         .filter_map(|row| {
             let key = row.key.strip_prefix("profiles.NAME.")?;
-            let mut schema = editor_schema(row, &schema_of(row), false);
-            schema["description"] = json!(row.plain_meaning());
+            let mut schema = editor_schema(row, &schema_of(row), false, &mut sentences);
+            let chinese = in_chinese(row, None);
+            schema["description"] = sentences.named(&row.key, &row.plain_meaning(), chinese);
             Some((camel_case(key), schema))
         })
         .collect();
@@ -367,19 +462,34 @@ fn the_settings_page_of_vs_code_has_every_key() {
                 "additionalProperties": { "type": "object", "additionalProperties": false, "properties": of_profiles },
             }),
             "drawings" => json!({ "type": ["object", "null"], "default": null }),
-            _ => editor_schema(row, &schema_of(row), true),
+            _ => editor_schema(row, &schema_of(row), true, &mut sentences),
         };
         schema["order"] = json!(10 + index);
         if row.key == "contours" {
             schema["scope"] = json!("resource");
         }
-        let meaning = row.meaning.replace("](", &format!("]({docs}"));
+        // The pages of the rules are there in Chinese, too.
+        let [english, chinese] = [
+            (&*row.meaning, docs.to_owned()),
+            (in_chinese(row, None), format!("{docs}zh/")),
+        ]
+        .map(|(meaning, rules)| {
+            meaning
+                .replace("](rules/", &format!("]({rules}rules/"))
+                .replace("](programs", &format!("]({docs}programs"))
+        });
         let unset = row
             .default
             .as_deref()
             .filter(|_| words(&schema_of(row)).is_empty());
-        let unset = unset.map_or(String::new(), |default| format!(" Not set: {default}."));
-        schema["markdownDescription"] = json!(format!("{meaning}{unset}"));
+        let [english, chinese] = match unset {
+            None => [english, chinese],
+            Some(default) => [
+                format!("{english} Not set: {default}."),
+                format!("{chinese}未设置：{default}。"),
+            ],
+        };
+        schema["markdownDescription"] = sentences.named(&row.key, &english, &chinese);
         let key: Vec<String> = row.key.split('.').map(camel_case).collect();
         entries.push(format!(
             "        \"wedm.{}\": {}",
@@ -389,10 +499,25 @@ fn the_settings_page_of_vs_code_has_every_key() {
     }
     hold(
         "clients/vscode/package.json",
-        "verbose\"],\n          \"default\": \"off\",\n          \"order\": 2,\n          \"description\": \"Which messages between VS Code and the server are written to the log.\"\n        },\n",
+        "\"description\": \"%own.trace.server%\"\n        },\n",
         "\n      }\n    }",
         &entries.join(",\n"),
     );
+    for (language, file) in ["package.nls.json", "package.nls.zh-cn.json"]
+        .iter()
+        .enumerate()
+    {
+        let last = match language {
+            0 => "\"editor.drawing\": \"Picture (Wire EDM)\",\n",
+            _ => "\"editor.drawing\": \"图片（线切割）\",\n",
+        };
+        hold(
+            &format!("clients/vscode/{file}"),
+            last,
+            "\n}\n",
+            &sentences.of(language),
+        );
+    }
 }
 
 fn python_type(row: &Row, schema: &Value) -> String {

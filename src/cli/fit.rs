@@ -59,7 +59,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             return report::refuse(path, &opened.document, &refusal, advice);
         }
     };
-    let svg = picture::fit_svg(&fit, unit_mm);
+    let svg = picture::fit_svg(&snapshot.drawing, &fit, unit_mm);
     if let Some(target) = &arguments.output {
         let form = form_of(target).unwrap_or(Image::Svg);
         output::write(Some(target), &form.of_svg(&svg).map_err(Failure)?)?;

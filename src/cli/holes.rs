@@ -3,12 +3,9 @@
 use super::options::{Common, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, files, report};
-use crate::document::Snapshot;
-use crate::drawing::{Drawing, Entity, Geometry, START_HOLES};
-use crate::toolpath::StartHole;
+use crate::job::drill;
 use crate::{dxf, job};
 use clap::Args;
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 /// List the start holes for the drill, as CSV or on a layer of a DXF
@@ -43,7 +40,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         let count = arguments.paths.len();
         return Err(Failure(say!(holes_of_several_drawings_are_csv, count)));
     }
-    let mut csv = "drawing,x_mm,y_mm,diameter_mm,contour,hole\n".to_owned();
+    let mut csv = drill::HEAD.to_owned();
     let (mut drawn, mut count, mut any_errors) = (None, 0, false);
     for path in &arguments.paths {
         if let Some(target) = &arguments.output {
@@ -69,8 +66,8 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             }
         };
         count += planned.holes.len();
-        rows(&mut csv, path, &snapshot, &planned.holes);
-        drawn = Some(with_holes(&snapshot, &planned.holes));
+        csv += &drill::rows(&path.to_string_lossy(), &snapshot, &planned.holes);
+        drawn = Some(drill::drawn(&snapshot, &planned.holes));
     }
     let bytes = match drawn.filter(|_| is_dxf) {
         Some(drawing) => dxf::write(&drawing).map_err(Failure)?,
@@ -86,58 +83,6 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         ));
     }
     Ok(Verdict::of_errors(any_errors))
-}
-
-fn rows(csv: &mut String, path: &Path, snapshot: &Snapshot, holes: &[StartHole]) {
-    let unit_mm = snapshot.settings.unit_of(&snapshot.drawing).mm;
-    let diameter = snapshot.settings.start_hole;
-    let diameter = diameter.map_or_else(String::new, |diameter| diameter.to_string());
-    for hole in holes {
-        // A coordinate that rounds to zero has no sign.
-        let mm = |along: f64| (along * unit_mm * 1e4).round() / 1e4 + 0.0;
-        let contour = snapshot.outlines[hole.outline].name(&snapshot.drawing);
-        let _ = writeln!(
-            csv,
-            "{},{:.4},{:.4},{diameter},{},{}",
-            cell(&path.to_string_lossy()),
-            mm(hole.at.x),
-            mm(hole.at.y),
-            cell(contour),
-            if hole.is_given { "given" } else { "found" }
-        );
-    }
-}
-
-/// A cell of CSV: in quotes where it has to be.
-fn cell(text: &str) -> String {
-    match text.contains([',', '"', '\n', '\r']) {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
-        false => text.to_owned(),
-    }
-}
-
-/// A new drawing of what is drawn, and of the holes: a circle where a diameter is set, and the mark that keeps the hole where it is when the
-/// drawing is read again.
-fn with_holes(snapshot: &Snapshot, holes: &[StartHole]) -> Drawing {
-    let unit = snapshot.settings.unit_of(&snapshot.drawing);
-    let mut drawing = Drawing::new(Some(unit));
-    for (_, entity) in snapshot.drawing.entities() {
-        drawing.push(entity.clone());
-    }
-    for &StartHole { at, .. } in holes {
-        let circle = snapshot
-            .settings
-            .start_hole
-            .map(|diameter| Geometry::Circle {
-                center: at,
-                radius: diameter / 2.0 / unit.mm,
-            });
-        let text = "O".into();
-        for geometry in circle.into_iter().chain([Geometry::Text { at, text }]) {
-            drawing.push(Entity::new(START_HOLES, START_HOLES, geometry));
-        }
-    }
-    drawing
 }
 
 fn is_dxf(target: &Path) -> Result<bool, Failure> {

@@ -1,8 +1,7 @@
 //! `wedm init`: a commented `wedm.toml`, from flags or from questions.
 
 use super::{Failure, Verdict, output};
-use crate::message::help;
-use crate::settings::{self, FILE_NAME, Row, shipped_profiles};
+use crate::settings::{self, FILE_NAME, shipped_profiles};
 use clap::Args;
 use std::fmt::Write;
 use std::io::{BufRead, IsTerminal};
@@ -155,22 +154,16 @@ fn file(set: &[(&str, String)]) -> String {
         }
         let value = set.iter().find(|(name, _)| *name == row.key);
         let _ = match (value, &row.default) {
-            (Some((_, value)), _) => write!(text, "\n# {}\n{key} = {value}\n", meaning(row)),
-            (None, Some(default)) => write!(text, "\n# {}\n# {key} = {default}\n", meaning(row)),
-            (None, None) => write!(text, "\n# {key}: {}\n", meaning(row)),
+            (Some((_, value)), _) => {
+                write!(text, "\n# {}\n{key} = {value}\n", row.first_sentence())
+            }
+            (None, Some(default)) => {
+                write!(text, "\n# {}\n# {key} = {default}\n", row.first_sentence())
+            }
+            (None, None) => write!(text, "\n# {key}: {}\n", row.first_sentence()),
         };
     }
     text
-}
-
-/// The first sentence of what a key means.
-fn meaning(row: &Row) -> String {
-    if let Some(said) = help(&format!("= {}", row.key)) {
-        return said.to_owned();
-    }
-    let meaning = row.plain_meaning();
-    let end = meaning.find(". ").map_or(meaning.len(), |end| end + 1);
-    meaning[..end].to_owned()
 }
 
 #[cfg(test)]

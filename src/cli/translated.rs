@@ -53,8 +53,7 @@ fn translate_argument(command: &str, argument: Arg) -> Arg {
         _ => None,
     };
     let text = match of_settings {
-        Some(row) => help(&format!("= {}", row.key))
-            .map(|meaning| format!("{meaning}{}", shown_default(row))),
+        Some(row) => Some(row.first_sentence() + &shown_default(row)),
         None if id == "config" => help("config-file").map(str::to_owned),
         None => help(&format!("{command} {id}"))
             .or_else(|| help(&id))
@@ -164,14 +163,14 @@ mod tests {
         speak(Language::Chinese, Asker::CommandLine);
         let mut found = Vec::new();
         untranslated(&translated(CommandLine::command()), &mut found);
-        let keys = rows().into_iter().map(|row| format!("= {}", row.key));
-        let keys = keys.filter(|key| !key.contains("NAME"));
-        found.extend(keys.filter(|key| help(key).is_none()));
+        let mut rows = rows();
+        rows.retain(|row| !is_chinese(&row.first_sentence()));
+        found.extend(rows.into_iter().map(|row| row.key));
         found.sort();
         found.dedup();
         assert!(
             found.is_empty(),
-            "no Chinese help in src/message/help.rs of {found:?}"
+            "no Chinese help in src/message/help.rs or meanings.rs of {found:?}"
         );
         translated(CommandLine::command()).debug_assert();
     }

@@ -17,13 +17,14 @@
 //! - A process speaks one language: an editor starts a server of its own, and a command is one person's. `speak` chooses it before
 //!   anything is read, since readers put their sentences into what they find.
 //! - Lines of the log, what a bug says before it stops (`expect`), and the English help of the command line, which `clap` takes from the
-//!   comments of its options, stand where they are; in Chinese it is a table of its own (`help.rs`). `tests/messages.rs` finds other sentences that stand elsewhere.
+//!   comments of its options, stand where they are; in Chinese it is a table of its own (`help.rs`), and so are the meanings of the settings (`meanings.rs`). `tests/messages.rs` finds other sentences that stand elsewhere.
 
 #[macro_use]
 mod table;
 mod en;
 mod help;
 mod language;
+mod meanings;
 mod readable;
 mod zh;
 
@@ -40,6 +41,19 @@ pub(crate) fn help(name: &str) -> Option<&'static str> {
         Language::English => None,
         Language::Chinese => help::help(name),
     }
+}
+
+/// What a key of the settings means in the language that is spoken; `None` where it is English.
+pub(crate) fn meaning(key: &str) -> Option<&'static str> {
+    match spoken() {
+        Language::English => None,
+        Language::Chinese => meanings::meaning(key),
+    }
+}
+
+/// What a key of the settings, or with ` = ` one of its words, means in Chinese.
+pub(crate) fn meaning_in_chinese(name: &str) -> Option<&'static str> {
+    meanings::meaning(name)
 }
 
 /// A help as it is shown, with what stands in it beside our own texts in the language that is spoken.

@@ -1,7 +1,10 @@
 //! A punch in its plate, as the wire leaves them: the places where clearance is missing, marked and enlarged.
 
-use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped, number, path_data};
+use super::marks;
+use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped, named, number, path_data};
 use super::style;
+use crate::drawing::Drawing;
+use crate::finding::Severity;
 use crate::fit::{Fit, Spot};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::text::head;
@@ -16,8 +19,8 @@ const CAPTION: f64 = 56.0;
 /// More places than this are dots without a number.
 const NUMBERED: usize = 24;
 
-/// One outline in the other as one SVG, in mm.
-pub(crate) fn fit_svg(fit: &Fit, unit_mm: f64) -> String {
+/// One outline in the other as one SVG, in mm; places are named by the segment of the drawing that stands too far out there.
+pub(crate) fn fit_svg(drawing: &Drawing, fit: &Fit, unit_mm: f64) -> String {
     let mut bounds = Bounds::EMPTY;
     for pair in &fit.pairs {
         let all = pair.punch.iter().chain(&pair.plate);
@@ -51,8 +54,27 @@ pub(crate) fn fit_svg(fit: &Fit, unit_mm: f64) -> String {
     ));
     outlines(&mut sheet, fit, &frame);
     sheet.line(format_args!("</g>"));
-    for (index, spot) in worst.iter().enumerate().rev() {
-        mark(&mut sheet, frame.on_sheet(spot.at), index);
+    let middle = bounds.min + (bounds.max - bounds.min) * 0.5;
+    let mut taken = Vec::new();
+    for (index, spot) in worst.iter().enumerate() {
+        let (entity, segment) = spot.segment;
+        let handle = drawing
+            .get(entity)
+            .map_or("", |entity| entity.handle.as_ref());
+        let class = format!("mark {}", style::class_of(Severity::Error));
+        let named = named(&class, handle, segment);
+        let at = frame.on_sheet(spot.at);
+        if index < NUMBERED {
+            let outward = spot.at - middle;
+            taken.push(marks::mark(
+                &mut sheet, &named, at, outward, index, None, &taken, 0.0,
+            ));
+        } else {
+            let [x, y] = [at.0, at.1].map(number);
+            sheet.line(format_args!(r#"<g {named} data-at="{x} {y}">"#));
+            sheet.circle(r#"class="badge""#, at, 3.0, "");
+            sheet.line(format_args!("</g>"));
+        }
     }
     sheet.line(format_args!("</g>"));
     for (index, spot) in enlarged.iter().enumerate() {
@@ -100,11 +122,8 @@ fn outlines(sheet: &mut Sheet, fit: &Fit, frame: &Frame) {
     }
 }
 
-fn mark(sheet: &mut Sheet, at: (f64, f64), index: usize) {
-    if index >= NUMBERED {
-        sheet.circle(r#"class="badge""#, at, 3.0, "");
-        return;
-    }
+/// The number of a place that is enlarged.
+fn number_of(sheet: &mut Sheet, at: (f64, f64), index: usize) {
     sheet.circle(r#"class="badge""#, at, 9.0, "");
     let [x, y] = [at.0, at.1 + 4.0].map(number);
     let count = index + 1;
@@ -166,7 +185,7 @@ fn lens(
     );
     let [figures, place] =
         [figures, say!(the_corner_of_a_part, spot.of, spot.partner)].map(|text| escaped(&text));
-    mark(sheet, (left + 10.0, top + WINDOW + 20.0), index);
+    number_of(sheet, (left + 10.0, top + WINDOW + 20.0), index);
     let [x, first, second] = [left + 26.0, top + WINDOW + 18.0, top + WINDOW + 34.0].map(number);
     sheet.line(format_args!(
         r#"<text class="figures" x="{x}" y="{first}">{figures}</text><text class="place" x="{x}" y="{second}">{place}</text></g>"#

@@ -21,48 +21,61 @@ pub(super) fn faults(sheet: &mut Sheet, frame: &Frame, faults: &[Fault], unit_mm
     let with_radius = faults.len() <= WITH_RADIUS;
     for (index, fault) in faults.iter().take(MOST).enumerate() {
         let arc = fault.arc();
-        let at = frame.on_sheet(arc.point_at(0.5));
         let outward = (arc.point_at(0.5) - arc.center)
             .try_normalize(0.0)
             .unwrap_or_else(Vector::x);
-        // On the sheet y points down.
-        let angle = (-outward.y).atan2(outward.x);
-        let label = free_place(at, angle, with_radius, &taken, top);
         let class = format!("mark {}", class_of(fault.severity));
         let named = named(&class, &fault.handle, fault.segment);
-        let [from_x, from_y, x, y, text_y] = [
-            at.0,
-            at.1,
-            label.badge.0,
-            label.badge.1,
-            label.badge.1 + 4.0,
-        ]
-        .map(number);
-        let count = index + 1;
-        sheet.line(format_args!(
-            r#"<g {named} data-at="{from_x} {from_y}">
-<path class="leader" d="M{from_x} {from_y}L{x} {y}"/><circle class="badge" cx="{x}" cy="{y}" r="9"/><text class="count" x="{x}" y="{text_y}">{count}</text>"#
-        ));
-        if with_radius {
-            let (anchor, beside) = match label.text_to_the_left {
-                true => ("end", -13.0),
-                false => ("start", 13.0),
-            };
-            let (x, radius) = (
-                number(label.badge.0 + beside),
-                fault.detail.radius * unit_mm,
-            );
-            sheet.line(format_args!(
-                r#"<text class="radius" text-anchor="{anchor}" x="{x}" y="{text_y}">R {radius:.3}</text>"#
-            ));
-        }
-        sheet.line(format_args!("</g>"));
-        taken.push(label);
+        let beside = with_radius.then(|| format!("R {:.3}", fault.detail.radius * unit_mm));
+        let at = frame.on_sheet(arc.point_at(0.5));
+        taken.push(mark(sheet, &named, at, outward, index, beside, &taken, top));
     }
 }
 
+/// A number beside a place of the sheet, joined to it by a thin line, the `outward` side tried first; with a text beside the number.
+#[expect(clippy::too_many_arguments, reason = "all of it is one mark")]
+pub(super) fn mark(
+    sheet: &mut Sheet,
+    named: &str,
+    at: (f64, f64),
+    outward: Vector,
+    index: usize,
+    beside: Option<String>,
+    taken: &[Label],
+    top: f64,
+) -> Label {
+    // On the sheet y points down.
+    let angle = (-outward.y).atan2(outward.x);
+    let label = free_place(at, angle, beside.is_some(), taken, top);
+    let [from_x, from_y, x, y, text_y] = [
+        at.0,
+        at.1,
+        label.badge.0,
+        label.badge.1,
+        label.badge.1 + 4.0,
+    ]
+    .map(number);
+    let count = index + 1;
+    sheet.line(format_args!(
+        r#"<g {named} data-at="{from_x} {from_y}">
+<path class="leader" d="M{from_x} {from_y}L{x} {y}"/><circle class="badge" cx="{x}" cy="{y}" r="9"/><text class="count" x="{x}" y="{text_y}">{count}</text>"#
+    ));
+    if let Some(text) = beside {
+        let (anchor, beside) = match label.text_to_the_left {
+            true => ("end", -13.0),
+            false => ("start", 13.0),
+        };
+        let x = number(label.badge.0 + beside);
+        sheet.line(format_args!(
+            r#"<text class="radius" text-anchor="{anchor}" x="{x}" y="{text_y}">{text}</text>"#
+        ));
+    }
+    sheet.line(format_args!("</g>"));
+    label
+}
+
 /// Where a number stands: its disc, the box of disc and text, and to which side the text runs.
-struct Label {
+pub(super) struct Label {
     badge: (f64, f64),
     from: (f64, f64),
     to: (f64, f64),

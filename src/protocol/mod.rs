@@ -39,8 +39,8 @@ pub(crate) use locate::{Locate, Located};
 pub(crate) use milling::Milling;
 pub(crate) use requests::{
     Applied, ApplyDrawingEdit, ChangeDrawing, CloseDrawing, DrawingEdit, DrawingName, Export,
-    Exported, Inspect, OpenDrawing, OptionsOf, Picture, PictureForm, Repair, Repairs, RepairsOf,
-    ResendDrawing, Resent, RulePage, RulePageText, ScaleProgram,
+    Exported, HoleForm, Holes, Inspect, OpenDrawing, OptionsOf, Picture, PictureForm, Repair,
+    Repairs, RepairsOf, ResendDrawing, Resent, RulePage, RulePageText, ScaleProgram,
 };
 pub use schema::schema;
 pub(crate) use schema::settings_schema;
@@ -65,6 +65,7 @@ pub(crate) mod method {
     pub(crate) const TOOLPATH: &str = "wedm/toolpath";
     pub(crate) const PICTURE: &str = "wedm/picture";
     pub(crate) const EXPORT: &str = "wedm/export";
+    pub(crate) const HOLES: &str = "wedm/holes";
     pub(crate) const REPAIRS: &str = "wedm/repairs";
     pub(crate) const FIT: &str = "wedm/fit";
     pub(crate) const PAIR: &str = "wedm/pair";

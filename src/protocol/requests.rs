@@ -4,6 +4,8 @@ use super::change::DrawingChange;
 use super::drawing::Drawing;
 use super::segment::SegmentShape;
 use crate::settings::Settings;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -124,11 +126,36 @@ pub(crate) struct Export {
     pub(crate) options: Option<Settings>,
 }
 
-/// Result of `wedm/export`.
+/// What a drill list can be written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum HoleForm {
+    Csv,
+    Dxf,
+}
+
+/// Params of `wedm/holes`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub(crate) struct Holes {
+    pub(crate) uri: String,
+    pub(crate) format: HoleForm,
+    /// Laid over every other level of settings for this request.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) options: Option<Settings>,
+}
+
+/// Result of `wedm/export` and `wedm/holes`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct Exported {
     /// The file, in base64.
     pub(crate) data: String,
+}
+
+impl Exported {
+    pub(crate) fn new(file: &[u8]) -> Exported {
+        let data = STANDARD.encode(file);
+        Exported { data }
+    }
 }
 
 /// Params of `wedm/repairs`: the rule of a finding in a drawing, and its place as in `data`.

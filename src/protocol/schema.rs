@@ -20,6 +20,7 @@ pub fn schema() -> Value {
         method::TOOLPATH: { "params": of::<OptionsOf>(&mut types), "result": of::<Toolpath>(&mut types) },
         method::PICTURE: { "params": of::<OptionsOf>(&mut types), "result": of::<Picture>(&mut types) },
         method::EXPORT: { "params": of::<Export>(&mut types), "result": of::<Exported>(&mut types) },
+        method::HOLES: { "params": of::<Holes>(&mut types), "result": of::<Exported>(&mut types) },
         method::REPAIRS: { "params": of::<RepairsOf>(&mut types), "result": of::<Repairs>(&mut types) },
         method::FIT: { "params": of::<OptionsOf>(&mut types), "result": of::<Fit>(&mut types), "errorData": of::<Refused>(&mut types) },
         method::PAIR: {

@@ -76,6 +76,7 @@ own_requests! {
     toolpath: method::TOOLPATH, protocol::DrawingName, Document, laying_the_wires_path => toolpath::toolpath;
     picture: method::PICTURE, protocol::DrawingName, Document, drawing_the_picture => picture::picture;
     export: method::EXPORT, protocol::Export, Document, drawing_the_picture => picture::export;
+    holes: method::HOLES, protocol::Holes, Document, laying_the_wires_path => toolpath::holes;
     repairs: method::REPAIRS, protocol::RepairsOf, Document, looking_for_fixes => picture::repairs;
     generate: method::GENERATE, generate::Params, Long, generating_the_program => generate::generate;
     fit: method::FIT, protocol::DrawingName, Document, holding_the_parts_in_each_other => pair::fit;

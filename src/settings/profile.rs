@@ -13,8 +13,10 @@ use std::sync::LazyLock;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum CenterRule {
+    /// From the start to the centre.
     #[default]
     StartToCenter,
+    /// From the centre to the start.
     CenterToStart,
     /// The centre itself in the coordinates of the program.
     Absolute,

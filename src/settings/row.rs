@@ -58,10 +58,16 @@ pub struct Row {
 }
 
 impl Row {
-    /// The meaning without the targets of its links.
+    /// The meaning of the key, or of one of its words, in Chinese.
+    pub fn in_chinese(&self, word: Option<&str>) -> Option<&'static str> {
+        let of_word = word.map(|word| format!("{} = {word}", self.key));
+        crate::message::meaning_in_chinese(of_word.as_deref().unwrap_or(&self.key))
+    }
+
+    /// The meaning in the language that is spoken, without the targets of its links.
     pub fn plain_meaning(&self) -> String {
         let mut plain = String::new();
-        let mut rest = self.meaning.as_str();
+        let mut rest = crate::message::meaning(&self.key).unwrap_or(&self.meaning);
         while let Some((before, link)) = rest.split_once("](") {
             plain.extend(before.rsplitn(2, '[').collect::<Vec<_>>().into_iter().rev());
             rest = link.split_once(')').map_or("", |(_, behind)| behind);
@@ -72,7 +78,9 @@ impl Row {
     /// What the key means in short, without a final dot.
     pub fn first_sentence(&self) -> String {
         let meaning = self.plain_meaning().replace('`', "");
-        let first = meaning.split_inclusive(". ").next().unwrap_or_default();
+        let stops = [". ", "。"];
+        let end = stops.iter().filter_map(|stop| meaning.find(stop)).min();
+        let first = &meaning[..end.unwrap_or(meaning.len())];
         first.trim_end_matches(['.', ' ']).to_owned()
     }
 }

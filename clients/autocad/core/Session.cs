@@ -187,7 +187,13 @@ namespace Wedm.Core
             Request("textDocument/codeAction", question, actions => Make(drawing, actions, done, refused), error => refused(error.Message));
         }
 
-        /// <summary>Asks for a program ("3b", "4b", "iso"). Errors in the drawing are told in full where the server names them.</summary>
+        /// <summary>What a format ("3b", "4b", "iso", "milling") is called where people read it.</summary>
+        public static string NameOf(string format) => format == "milling" ? format : format.ToUpperInvariant();
+
+        /// <summary>The ending of its files: what an electrode mills by is ISO with heights.</summary>
+        public static string EndingOf(string format) => format == "milling" ? ".iso" : "." + format;
+
+        /// <summary>Asks for a program ("3b", "4b", "iso", "milling"). Errors in the drawing are told in full where the server names them.</summary>
         public void Generate(LiveDrawing drawing, string format, Action<string> program, Action<string> refused)
         {
             drawing.Flush();

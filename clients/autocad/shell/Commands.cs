@@ -41,6 +41,10 @@ namespace Wedm.AutoCad
         [CommandMethod("WEDMISO")]
         public static void GenerateIso() => Generate("iso");
 
+        /// <summary>Writes the program of an electrode that mills, whose [milling] stands in wedm.toml.</summary>
+        [CommandMethod("WEDMMILL")]
+        public static void GenerateMilling() => Generate("milling");
+
         /// <summary>Draws the wire's path on its layer.</summary>
         [CommandMethod("WEDMPATH")]
         public static void DrawPath()
@@ -98,7 +102,7 @@ namespace Wedm.AutoCad
         private static void Generate(string format)
         {
             var watch = Plugin.Instance.Watch();
-            WithFile(format.ToUpperInvariant() + " program", "." + format, path => Plugin.Instance.Session.Generate(
+            WithFile(Session.NameOf(format) + " program", Session.EndingOf(format), path => Plugin.Instance.Session.Generate(
                 watch.Drawing, format, program => Save(path, program), Plugin.Say));
         }
 

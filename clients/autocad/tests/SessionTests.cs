@@ -153,15 +153,26 @@ namespace Wedm.Tests
             StringAssert.EndsWith("DD\n", program);
         }
 
-        [TestCase("iso", "G92")]
-        [TestCase("4b", "B")]
-        public void Programs_are_made_in_other_formats(string format, string holds)
+        [TestCase("iso", "G92", "ISO", ".iso")]
+        [TestCase("4b", "B", "4B", ".4b")]
+        [TestCase("milling", "G01 Z-0.0", "milling", ".iso")]
+        public void Programs_are_made_in_other_formats(string format, string holds, string name, string ending)
         {
-            _session.Settings = JObject.Parse(@"{ ""side"": ""opening"" }");
+            Assert.AreEqual(name, Session.NameOf(format));
+            Assert.AreEqual(ending, Session.EndingOf(format));
+            _session.Settings = JObject.Parse(@"{ ""side"": ""opening"", ""correction"": 0.1,
+                ""milling"": { ""toolDiameter"": 1, ""gap"": 0.05, ""layer"": 0.05, ""depth"": 0.2, ""wear"": 0.0001 } }");
             var drawing = Open(new MemoryDrawing(Plates.WithFillet(2)));
             var program = Outcome((done, refused) => _session.Generate(drawing, format, done, refused));
             StringAssert.StartsWith("done: ", program);
             StringAssert.Contains(holds, program);
+        }
+
+        [Test]
+        public void What_is_missing_of_an_electrode_is_said()
+        {
+            var drawing = Open(new MemoryDrawing(Plates.WithFillet(2)));
+            StringAssert.Contains("expected milling.tool-diameter", Outcome((done, refused) => _session.Generate(drawing, "milling", done, refused)));
         }
 
         [Test]

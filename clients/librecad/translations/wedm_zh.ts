@@ -275,7 +275,7 @@
         <translation>补偿量</translation>
     </message>
     <message>
-        <source>Wire side</source>
+        <source>Side</source>
         <translation>补偿方向</translation>
     </message>
     <message>
@@ -562,6 +562,10 @@
         <translation>生成 ISO…</translation>
     </message>
     <message>
+        <source>Generate milling…</source>
+        <translation>生成电火花铣削…</translation>
+    </message>
+    <message>
         <source>Pick thread hole</source>
         <translation>点选穿丝孔</translation>
     </message>
@@ -601,6 +605,10 @@
         <translation>在此修复</translation>
     </message>
     <message>
+        <source>milling</source>
+        <translation>电火花铣削</translation>
+    </message>
+    <message>
         <source>Write the %1 program</source>
         <translation>写出 %1 程序</translation>
     </message>
@@ -618,6 +626,10 @@
     <message>
         <source>A control that counts J drifts by %1, %2 µm.</source>
         <translation>按 J 计数的控制器漂移 %1, %2 µm。</translation>
+    </message>
+    <message>
+        <source>%1 layers; simulated: the floor %2 to %3 mm deep, the electrode %4 mm shorter.</source>
+        <translation>%1 层；模拟：底面深 %2 至 %3 mm，电极缩短 %4 mm。</translation>
     </message>
     <message>
         <source>Findings that stand in the drawing: %1</source>

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, get_args
 
 import pytest
 
@@ -18,12 +18,14 @@ from wedm_client import (
     NotOpen,
     Outdated,
     Polyline,
+    ProgramFormat,
     Put,
     Refused,
     RequestFailed,
     Server,
     Splice,
     Text,
+    WireFormat,
 )
 
 from .plates import QUARTER, ROUND, TIGHT
@@ -257,3 +259,24 @@ def test_an_electrode_mills_a_slot(server: Server) -> None:
     assert contour.feed == pytest.approx(0.0128011, abs=1e-7)
     assert contour.floor.least == pytest.approx(0.1997, abs=6e-5)
     assert "G01 Z-0.013" in made.text
+    with pytest.raises(Refused, match="milling.tool-diameter"):
+        server.generate(slot, "milling")
+
+
+def test_formats_are_those_of_the_server(server: Server) -> None:
+    drawing = server.open([Polyline(ROUND, handle="2A", role="opening")])
+    with pytest.raises(RequestFailed) as refused:
+        server.generate(drawing, "gcode")  # type: ignore[arg-type]
+    named = str(refused.value)
+    assert all(f"{format}" in named for format in get_args(ProgramFormat)), named
+    assert set(get_args(WireFormat)) == set(get_args(ProgramFormat)) - {"milling"}
+
+
+def test_start_holes_for_the_drill(server: Server) -> None:
+    drawing = server.open([Polyline(ROUND, handle="2A", role="opening")], uri="cad:plate")
+    rows = server.holes(drawing, options={"program": {"start_hole": 2.0}}).decode().splitlines()
+    assert rows[0] == "drawing,x_mm,y_mm,diameter_mm,contour,hole"
+    assert rows[1].startswith("cad:plate,") and rows[1].endswith(",2,2A,found") and len(rows) == 2
+    drawn = server.open_text(server.holes(drawing, "dxf", {"program": {"start_hole": 2.0}}).decode())
+    assert "START-HOLES" in drawn.text
+    assert len(server.contours(drawn).contours) == 1, "holes are drilled, not cut"

@@ -143,6 +143,7 @@ CALLS: dict[str, Callable[[Server, dict[str, Any]], Any]] = {
     "wedm/settings": lambda server, open: server.settings(open["drawing"]),
     "wedm/generate": lambda server, open: server.generate(open["drawing"]),
     "wedm/export": lambda server, open: server.export(open["drawing"], "png"),
+    "wedm/holes": lambda server, open: server.holes(open["drawing"]),
     "wedm/repairs": lambda server, open: server.repairs(open["drawing"], "small-radius", "2A", 0),
     "wedm/rulePage": lambda server, open: server.rule_page("small-radius"),
     "wedm/didOpenDrawing": lambda server, open: server.open([Polyline(ROUND, handle="2A")]),

@@ -40,6 +40,7 @@ export function activate(context: vscode.ExtensionContext): void {
     "wedm.generate3b": (uri) => generate(server, front, pictures, "3b", uri),
     "wedm.generate4b": (uri) => generate(server, front, pictures, "4b", uri),
     "wedm.generateIso": (uri) => generate(server, front, pictures, "iso", uri),
+    "wedm.generateMilling": (uri) => generate(server, front, pictures, "milling", uri),
     "wedm.openPicture": (uri) => pictures.open(uri, false),
     "wedm.openText": (uri) => editor.openAs(uri, "default"),
     "wedm.openDrawing": (uri) => editor.openAs(uri, EDITOR),

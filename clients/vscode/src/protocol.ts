@@ -104,7 +104,7 @@ export type NumberUnit = "mm" | "um";
 /**
  * How I and J lead to an arc's centre.
  */
-export type CenterRule = ("start-to-center" | "center-to-start") | "absolute";
+export type CenterRule = "start-to-center" | "center-to-start" | "absolute";
 export type LineEnd = "lf" | "crlf";
 /**
  * What a piece of the path follows.
@@ -114,6 +114,10 @@ export type PathSource = ("segment" | "lead-in" | "lead-out") | "corner" | "tab"
  * What a picture can be written as.
  */
 export type PictureForm = "svg" | "png" | "pdf";
+/**
+ * What a drill list can be written as.
+ */
+export type HoleForm = "csv" | "dxf";
 /**
  * Side of the entity's own direction on which the wire runs.
  */
@@ -149,6 +153,10 @@ export interface Methods {
   };
   "wedm/export": {
     params: Export;
+    result: Exported;
+  };
+  "wedm/holes": {
+    params: Holes;
     result: Exported;
   };
   "wedm/repairs": {
@@ -972,13 +980,24 @@ export interface Export {
   options?: Settings;
 }
 /**
- * Result of `wedm/export`.
+ * Result of `wedm/export` and `wedm/holes`.
  */
 export interface Exported {
   /**
    * The file, in base64.
    */
   data: string;
+}
+/**
+ * Params of `wedm/holes`.
+ */
+export interface Holes {
+  uri: string;
+  format: HoleForm;
+  /**
+   * Laid over every other level of settings for this request.
+   */
+  options?: Settings;
 }
 /**
  * Params of `wedm/repairs`: the rule of a finding in a drawing, and its place as in `data`.

@@ -70,7 +70,7 @@ export class Status implements vscode.Disposable {
     const tooltip = new vscode.MarkdownString(
       `${t("**Correction {0} mm**, {1}", settings.correction.toFixed(3), from)}\n\n` +
         (passes === "" ? "" : `${t("Passes: {0} mm", list)}\n\n`) +
-        `${t("Wire side: {0}", settings.side)}\n\n${t("Inner arcs with a smaller radius cannot be cut. Click to change.")}`,
+        `${t("Side: {0}", settings.side)}\n\n${t("Inner arcs with a smaller radius cannot be cut. Click to change.")}`,
     );
     this.#item.tooltip = tooltip;
     this.#item.accessibilityInformation = { label: t("Wire EDM: correction {0} millimetres", settings.correction.toFixed(3)) };

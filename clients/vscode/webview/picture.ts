@@ -102,7 +102,12 @@ function lookAt(index: number, close: boolean): void {
   if (fault.handle === undefined) {
     pick({ line: fault.line ?? 0 }, close);
   } else if (sheet !== null) {
-    pickSegment(sheet, fault.handle, fault.segment ?? 0, close);
+    pickSegment(sheet, fault.handle, fault.segment ?? 0, close && fault.at === undefined);
+    if (fault.at !== undefined) {
+      const place = sheet.about(fault.at, fault.reach ?? 0);
+      sheet.select(sheet.markAt(place));
+      stage.approach(place);
+    }
   }
   if (shown?.isEditor === true) {
     host.postMessage({ type: "fault", fault: index });

@@ -168,6 +168,27 @@ export class Sheet {
     return best === null ? null : [(originX ?? 0) + best.x / scale, (originY ?? 0) + best.y / scale];
   }
 
+  /** The box about a point of the drawing that reaches so many mm to each side. */
+  about([x, y]: readonly [number, number], mm: number): Box {
+    const scale = Number(this.drawing?.dataset["scale"] ?? 1);
+    const [originX, originY] = (this.drawing?.dataset["origin"] ?? "0 0").split(" ").map(Number);
+    const at = new DOMPoint((x - (originX ?? 0)) * scale, (y - (originY ?? 0)) * scale);
+    const [matrix, own] = [this.drawing?.getCTM(), this.svg.getCTM()];
+    const middle = matrix && own ? at.matrixTransform(own.inverse().multiply(matrix)) : at;
+    const reach = mm * this.unitsPerMm;
+    return { x: middle.x - reach, y: middle.y - reach, width: 2 * reach, height: 2 * reach };
+  }
+
+  /** The mark whose place lies nearest to the middle of a box. */
+  markAt({ x, y, width, height }: Box): SVGElement[] {
+    const far = (mark: SVGElement): number => {
+      const [atX, atY] = (mark.dataset["at"] ?? "").split(" ").map(Number);
+      return Math.hypot((atX ?? 0) - x - width / 2, (atY ?? 0) - y - height / 2);
+    };
+    const marks = [...this.svg.querySelectorAll<SVGElement>(".mark[data-at]")];
+    return marks.sort((a, b) => far(a) - far(b)).slice(0, 1);
+  }
+
   /** The box of all that is drawn, in units of the sheet; with the marks as large as they are where a pixel is `pixel` units. */
   extent(pixel: number): Box {
     if (this.canvas !== null) {

@@ -96,7 +96,7 @@ pub(super) fn fit(snapshot: &Snapshot, unit_mm: f64) -> Option<Result<Fit, Strin
     snapshot.settings.pair.clearance?;
     let found = job::fit(snapshot, &()).map_err(|refusal| refusal.sentence(unit_mm));
     Some(found.map(|fit| {
-        let svg = picture::fit_svg(&fit, unit_mm);
+        let svg = picture::fit_svg(&snapshot.drawing, &fit, unit_mm);
         Fit::new(&snapshot.drawing, &fit, svg, unit_mm)
     }))
 }

@@ -13,7 +13,7 @@ pub(in crate::server) fn fit(context: &RequestContext, _: DrawingName) -> Result
     let fit =
         job::fit(&task.snapshot, context).map_err(|refusal| task.refused(context, &refusal))?;
     let drawing = &task.snapshot.drawing;
-    let svg = picture::fit_svg(&fit, task.unit_mm());
+    let svg = picture::fit_svg(&task.snapshot.drawing, &fit, task.unit_mm());
     Ok(Fit::new(drawing, &fit, svg, task.unit_mm()))
 }
 

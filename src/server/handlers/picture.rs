@@ -11,8 +11,6 @@ use crate::protocol::{
 };
 use crate::server::context::RequestContext;
 use crate::server::errors::{internal, refused};
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use tower_lsp::jsonrpc::Result;
 
 pub(in crate::server) fn picture(context: &RequestContext, _: DrawingName) -> Result<Picture> {
@@ -26,9 +24,7 @@ pub(in crate::server) fn export(context: &RequestContext, params: Export) -> Res
         PictureForm::Pdf => Image::Pdf,
     };
     let bytes = form.of_svg(&svg(context)?).map_err(internal)?;
-    Ok(Exported {
-        data: STANDARD.encode(bytes),
-    })
+    Ok(Exported::new(&bytes))
 }
 
 fn svg(context: &RequestContext) -> Result<String> {

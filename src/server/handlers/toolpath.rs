@@ -1,8 +1,12 @@
-//! `wedm/toolpath`: the path of the wire's centre.
+//! `wedm/toolpath`: the path of the wire's centre; `wedm/holes`: where it is threaded, as a file for the drill.
 
 use super::Task;
-use crate::protocol::{DrawingName, Toolpath};
+use crate::dxf;
+use crate::job::drill;
+use crate::protocol::{DrawingName, Exported, HoleForm, Holes, Toolpath};
+use crate::server::config::name_of;
 use crate::server::context::RequestContext;
+use crate::server::errors::internal;
 use tower_lsp::jsonrpc::Result;
 
 pub(in crate::server) fn toolpath(context: &RequestContext, _: DrawingName) -> Result<Toolpath> {
@@ -15,4 +19,20 @@ pub(in crate::server) fn toolpath(context: &RequestContext, _: DrawingName) -> R
         &snapshot.settings,
         &planned,
     ))
+}
+
+pub(in crate::server) fn holes(context: &RequestContext, asked: Holes) -> Result<Exported> {
+    let task = Task::of(context)?;
+    let planned = task.planned(context)?;
+    let (snapshot, holes) = (&task.snapshot, &planned.holes);
+    let bytes = match asked.format {
+        HoleForm::Dxf => dxf::write(&drill::drawn(snapshot, holes)).map_err(internal)?,
+        HoleForm::Csv => {
+            let name = name_of(&asked.uri).unwrap_or(asked.uri);
+            [drill::HEAD, &drill::rows(&name, snapshot, holes)]
+                .concat()
+                .into_bytes()
+        }
+    };
+    Ok(Exported::new(&bytes))
 }

@@ -7,6 +7,8 @@
 #include <QSaveFile>
 #include <QTimer>
 
+#include <algorithm>
+
 namespace wedm {
 
 namespace {
@@ -443,6 +445,16 @@ void Session::takeProgram(const QString &uri, const QString &format, const QStri
     program.deviation = result.value("deviation").toDouble();
     program.closureX = result.value("closure").toObject().value("x").toDouble();
     program.closureY = result.value("closure").toObject().value("y").toDouble();
+    const QJsonObject milling = result.value("milling").toObject();
+    program.layers = milling.value("layers").toInt();
+    const QJsonArray milled = milling.value("contours").toArray();
+    for (const QJsonValue &each : milled) {
+        const QJsonObject floor = each.toObject().value("floor").toObject();
+        const double least = floor.value("least").toDouble();
+        program.floorLeast = program.floorLeast > 0 ? std::min(program.floorLeast, least) : least;
+        program.floorMost = std::max(program.floorMost, floor.value("most").toDouble());
+        program.worn = each.toObject().value("worn").toDouble();
+    }
     const QJsonArray warnings = result.value("warnings").toArray();
     for (const QJsonValue &each : warnings)
         program.warnings += each.toObject().value("message").toString();

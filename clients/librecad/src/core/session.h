@@ -24,7 +24,7 @@ struct Repair {
 /// What a program came to: `cut` and `jumps` in mm, what is cut and the ways between contours.
 struct Program {
     QString path;
-    /// "3b", "4b" or "iso".
+    /// "3b", "4b", "iso" or "milling".
     QString format;
     int blocks = 0;
     double cut = 0;
@@ -32,6 +32,11 @@ struct Program {
     double deviation = 0;
     double closureX = 0;
     double closureY = 0;
+    /// Of an electrode, in mm: the floor where it is highest and deepest, and by how much it is shorter in the end.
+    int layers = 0;
+    double floorLeast = 0;
+    double floorMost = 0;
+    double worn = 0;
     QStringList warnings;
 };
 
@@ -69,7 +74,7 @@ public slots:
     void watchRadii(const QString &uri, bool on);
     /// Asks for the repair of one finding, or, with an empty handle, of all that can be repaired safely.
     void requestRepair(const QString &uri, const QString &handle, int segment);
-    /// Writes the program of that format ("3b", "4b", "iso") beside `path` and renames it.
+    /// Writes the program of that format ("3b", "4b", "iso", "milling") beside `path` and renames it.
     void generate(const QString &uri, const QString &format, const QString &path, bool force);
     /// Asks for the path of the wire.
     void requestToolpath(const QString &uri);

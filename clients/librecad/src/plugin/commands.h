@@ -14,6 +14,7 @@ constexpr char FIX[] = QT_TRANSLATE_NOOP("wedm::command", "Fix");
 constexpr char GENERATE[] = QT_TRANSLATE_NOOP("wedm::command", "Generate 3B…");
 constexpr char GENERATE_4B[] = QT_TRANSLATE_NOOP("wedm::command", "Generate 4B…");
 constexpr char GENERATE_ISO[] = QT_TRANSLATE_NOOP("wedm::command", "Generate ISO…");
+constexpr char GENERATE_MILLING[] = QT_TRANSLATE_NOOP("wedm::command", "Generate milling…");
 constexpr char HOLE[] = QT_TRANSLATE_NOOP("wedm::command", "Pick thread hole");
 constexpr char PATH[] = QT_TRANSLATE_NOOP("wedm::command", "Draw wire path");
 constexpr char CLEAR_PATH[] = QT_TRANSLATE_NOOP("wedm::command", "Clear wire path");
@@ -23,7 +24,7 @@ constexpr char LOOK[] = "wedm look";
 constexpr char APPLY[] = "wedm apply";
 
 /// Those of the menu, in its order.
-constexpr const char *SHOWN[] = {CHECK, LIVE, FIX, HOLE, PATH, CLEAR_PATH, GENERATE, GENERATE_4B, GENERATE_ISO, MARK, CLEAR};
+constexpr const char *SHOWN[] = {CHECK, LIVE, FIX, HOLE, PATH, CLEAR_PATH, GENERATE, GENERATE_4B, GENERATE_ISO, GENERATE_MILLING, MARK, CLEAR};
 
 } // namespace command
 } // namespace wedm

@@ -206,6 +206,8 @@ void Controller::run(const QString &command, Document_Interface &drawing)
             program("4b");
         else if (command == QString::fromUtf8(command::GENERATE_ISO))
             program("iso");
+        else if (command == QString::fromUtf8(command::GENERATE_MILLING))
+            program("milling");
         else if (command == QLatin1String(command::MARK))
             mark(drawing);
         else if (command == QLatin1String(command::PATH))

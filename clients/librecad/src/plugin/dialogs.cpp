@@ -38,15 +38,17 @@ QMessageBox *box(QMessageBox::Icon icon, const char *name, const QString &text)
 
 void programFile(const QString &format, const QString &folder, const QString &base, std::function<void(const QString &)> chosen)
 {
-    const QString name = base + QLatin1Char('.') + format;
-    const QString title = format.toUpper();
-    const QString endings = format == QLatin1String("iso") ? QStringLiteral("*.iso *.nc") : QStringLiteral("*.") + format;
+    const bool mills = format == QLatin1String("milling");
+    const QString ending = mills ? QStringLiteral("iso") : format;
+    const QString name = base + QLatin1Char('.') + ending;
+    const QString title = mills ? tr("milling") : format.toUpper();
+    const QString endings = ending == QLatin1String("iso") ? QStringLiteral("*.iso *.nc") : QStringLiteral("*.") + ending;
     QFileDialog *dialog = new QFileDialog(host::mainWindow(), tr("Write the %1 program").arg(title), QDir(folder).filePath(name),
                                           tr("%1 programs (%2);;All files (*)").arg(title, endings));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setObjectName(QStringLiteral("wedm_file"));
     dialog->setAcceptMode(QFileDialog::AcceptSave);
-    dialog->setDefaultSuffix(format);
+    dialog->setDefaultSuffix(ending);
     dialog->selectFile(name);
     QObject::connect(dialog, &QFileDialog::fileSelected, chosen);
     dialog->open();

@@ -9,7 +9,7 @@
 namespace wedm {
 namespace dialogs {
 
-/// Where the program of a format ("3b", "4b", "iso") is to be written; `base` is the name that is proposed, without its ending.
+/// Where the program of a format ("3b", "4b", "iso"; "milling", which is ISO for an electrode) is to be written; `base` is the name that is proposed, without its ending.
 void programFile(const QString &format, const QString &folder, const QString &base, std::function<void(const QString &)> chosen);
 
 /// Which program is the server; `now` is the one that is set.

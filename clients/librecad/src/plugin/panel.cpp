@@ -156,7 +156,7 @@ Panel::Panel(QWidget *parent)
     QPushButton *fix = button(tr("Fix all"), command::FIX, tr("Make every repair that is safe, in one undo step"));
     QPushButton *program = button(tr("Program"), nullptr, tr("Write the program to a file"));
     QMenu *formats = new QMenu(program);
-    for (const char *each : {command::GENERATE, command::GENERATE_4B, command::GENERATE_ISO})
+    for (const char *each : {command::GENERATE, command::GENERATE_4B, command::GENERATE_ISO, command::GENERATE_MILLING})
         connect(formats->addAction(QCoreApplication::translate("wedm::command", each)), &QAction::triggered, this, [this, each] { emit commandWanted(each); });
     program->setMenu(formats);
     QPushButton *hole = button(tr("Thread hole…"), command::HOLE, tr("Click where the wire is threaded for the contour nearest to that point; it is kept in wedm.toml"));
@@ -175,7 +175,7 @@ Panel::Panel(QWidget *parent)
     layout->addWidget(m_server);
     QFormLayout *form = new QFormLayout;
     form->addRow(tr("Correction"), m_correction);
-    form->addRow(tr("Wire side"), m_side);
+    form->addRow(tr("Side"), m_side);
     layout->addLayout(form);
     layout->addWidget(m_inForce);
     QHBoxLayout *buttons = new QHBoxLayout;

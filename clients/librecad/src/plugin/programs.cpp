@@ -35,8 +35,14 @@ QString written(const Program &program)
                        .arg(program.cut, 0, 'f', 3)
                        .arg(program.jumps, 0, 'f', 3)
                        .arg(program.deviation, 0, 'f', 2);
-    // ISO programs write where a block ends: nothing is counted.
-    if (program.format != QLatin1String("iso"))
+    // ISO programs, those of an electrode among them, write where a block ends: nothing is counted.
+    if (program.format == QLatin1String("milling"))
+        text += QLatin1Char(' ') + tr("%1 layers; simulated: the floor %2 to %3 mm deep, the electrode %4 mm shorter.")
+                                       .arg(program.layers)
+                                       .arg(program.floorLeast, 0, 'f', 4)
+                                       .arg(program.floorMost, 0, 'f', 4)
+                                       .arg(program.worn, 0, 'f', 4);
+    else if (program.format != QLatin1String("iso"))
         text += QLatin1Char(' ') + tr("A control that counts J drifts by %1, %2 µm.").arg(micrometres(program.closureX), micrometres(program.closureY));
     if (!program.warnings.isEmpty())
         text += QLatin1Char('\n') + tr("Findings that stand in the drawing: %1").arg(program.warnings.mid(0, NAMED).join(QStringLiteral("; ")));

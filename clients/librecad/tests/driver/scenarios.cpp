@@ -170,9 +170,13 @@ void Driver::generate()
     expect("nothing else lies beside it", QDir(QFileInfo(path).path()).entryList({"plate.3b*", "*.XXXXXX"}, QDir::Files).size() == 1);
 }
 
-/// ISO and 4B, from the same drawing.
+/// ISO, 4B and milling, from the same drawing.
 void Driver::formats()
 {
+    QFile said(QFileInfo(m_file).absoluteDir().filePath("wedm.toml"));
+    const QByteArray both = "correction = 0.1\n[milling]\ntool-diameter = 0.2\ngap = 0.05\nlayer = 0.05\ndepth = 0.2\nwear = 0.0001\n";
+    expect("wire and electrode are said beside the drawing", said.open(QIODevice::WriteOnly) && said.write(both) == both.size());
+    said.close();
     choose("Check radii");
     set("wedm_side", "opening");
     choose("Fix");
@@ -191,6 +195,14 @@ void Driver::formats()
     expectSoon("a 4B program is written", [this] { return text("wedm_message").startsWith("Written") && text("wedm_message").contains("plate.4b"); },
                [this] { return text("wedm_message"); });
     expect("a drift that rounds to zero has no sign", text("wedm_message").contains("drifts by 0.00, 0.00"), text("wedm_message"));
+    const QString milled = QFileInfo(m_file).absoluteDir().filePath("milled.iso");
+    choose("Generate milling…");
+    acceptFile(milled);
+    expectSoon("a program for an electrode is written", [this] { return text("wedm_message").startsWith("Written") && text("wedm_message").contains("milled.iso"); },
+               [this] { return text("wedm_message"); });
+    expect("with its layers", text("wedm_message").contains("4 layers; simulated: the floor 0.") && !text("wedm_message").contains("counts J"), text("wedm_message"));
+    QFile heights(milled);
+    expect("it has heights", heights.open(QIODevice::ReadOnly) && heights.readAll().contains("G01 Z-0.0"));
 }
 
 /// The wire's path is drawn on a layer of its own, which is no part of the drawing, here and in the saved file.

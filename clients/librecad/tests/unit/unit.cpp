@@ -493,6 +493,7 @@ private slots:
         QTest::newRow("3B") << "3b" << QByteArray("GXL1");
         QTest::newRow("4B") << "4b" << QByteArray("B");
         QTest::newRow("ISO") << "iso" << QByteArray("G92");
+        QTest::newRow("milling") << "milling" << QByteArray("G01 Z-0.0");
     }
 
     void programsOfEachFormat()
@@ -503,7 +504,8 @@ private slots:
         const QString path = folder.filePath("plate." + format);
         Talk talk;
         talk.start();
-        talk.session.setSettings(QJsonObject{{"side", "opening"}});
+        const QJsonObject electrode{{"toolDiameter", 0.2}, {"gap", 0.05}, {"layer", 0.05}, {"depth", 0.2}, {"wear", 0.0001}};
+        talk.session.setSettings(QJsonObject{{"side", "opening"}, {"correction", 0.1}, {"milling", electrode}});
         talk.session.look("librecad:1", {polyline(1, opening(0.3))}, Units::Millimetre);
         talk.session.generate("librecad:1", format, path, false);
         QTRY_COMPARE_WITH_TIMEOUT(talk.programs.size() + talk.noPrograms.size(), 1, LONG);
@@ -511,6 +513,8 @@ private slots:
         const Program written = talk.programs.last().at(1).value<Program>();
         QCOMPARE(written.format, format);
         QVERIFY(written.cut > 50 && written.jumps == 0);
+        QCOMPARE(written.layers, format == "milling" ? 4 : 0);
+        QVERIFY(written.floorMost >= written.floorLeast && (written.floorLeast > 0.1) == (format == "milling"));
         QFile file(path);
         QVERIFY(file.open(QIODevice::ReadOnly));
         const QByteArray text = file.readAll();

@@ -15,7 +15,7 @@ import warnings
 
 from .archive import Checked, check_many, report
 from .cad import UnsupportedEntity, UnsupportedUnits
-from .documents import Document, Drawing, TextDocument, write_back
+from .documents import Document, Drawing, ProgramFormat, TextDocument, WireFormat, write_back
 from .entities import Arc, Change, Circle, Delete, Entity, Line, Point, Polyline, Put, Splice, Text, Vertex
 from .errors import (
     DoesNotApply,
@@ -134,6 +134,7 @@ __all__ = [
     "Program",
     "Repair",
     "Repairs",
+    "ProgramFormat",
     "ProgramSettings",
     "Put",
     "Refused",
@@ -159,6 +160,7 @@ __all__ = [
     "Vertex",
     "WedmError",
     "WirePath",
+    "WireFormat",
     "Work",
     "WorkCut",
     "WrongProtocol",

@@ -14,8 +14,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
+from .documents import WireFormat
 from .errors import NoAnswer, WedmError
 from .find import find
 from .results import Diagnostic, Findings
@@ -106,7 +107,7 @@ def report(
     paths: Iterable[str | os.PathLike[str]] | str | os.PathLike[str],
     folder: str | os.PathLike[str] = "report",
     *,
-    format: Literal["3b", "4b", "iso"] = "3b",
+    format: WireFormat = "3b",
     correction: float | None = None,
     side: Side | None = None,
     config: str | os.PathLike[str] | None = None,

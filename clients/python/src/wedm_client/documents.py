@@ -6,7 +6,7 @@ import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol
 
 from .cad import write_back_to
 from .entities import Change, Delete, Entity, Polyline, Put, Splice, Vertex
@@ -14,6 +14,11 @@ from .errors import DoesNotApply, WedmError
 from .results import Contours, Diagnostic, Findings, Fit, Fixed, Inspection, PairProgram, Picture, Program, SettingsInForce, Toolpath, write_beside
 from .settings import Settings, Units
 from .shown import Rows, counted
+
+#: What programs for a wire are written in.
+WireFormat = Literal["3b", "4b", "iso"]
+#: What programs are written in; ``"milling"`` is ISO for an electrode.
+ProgramFormat = Literal["3b", "4b", "iso", "milling"]
 
 #: Kind of text by the end of a file's name.
 LANGUAGES = {".dxf": "dxf", ".3b": "3b", ".4b": "3b", ".iso": "wire-iso", ".nc": "wire-iso"}
@@ -38,7 +43,7 @@ class Asked(Protocol):
     def generate(
         self,
         document: Document,
-        format: str = "3b",
+        format: ProgramFormat = "3b",
         *,
         handles: Sequence[str] | None = None,
         layers: Sequence[str] | None = None,
@@ -49,7 +54,7 @@ class Asked(Protocol):
     def pair(
         self,
         document: Document,
-        format: str = "3b",
+        format: WireFormat = "3b",
         *,
         handles: Sequence[str] | None = None,
         layers: Sequence[str] | None = None,
@@ -98,7 +103,7 @@ class Document:
 
     def generate(
         self,
-        format: str = "3b",
+        format: ProgramFormat = "3b",
         *,
         handles: Sequence[str] | None = None,
         layers: Sequence[str] | None = None,
@@ -114,7 +119,7 @@ class Document:
 
     def pair(
         self,
-        format: str = "3b",
+        format: WireFormat = "3b",
         *,
         handles: Sequence[str] | None = None,
         layers: Sequence[str] | None = None,

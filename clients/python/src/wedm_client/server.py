@@ -26,7 +26,7 @@ from lsprotocol import types
 from . import cad
 from .connection import CONTENT_MODIFIED, LOG, Connection, Died, Loop
 from .convert import converted
-from .documents import LANGUAGES, Document, Drawing, TextDocument, read_text
+from .documents import LANGUAGES, Document, Drawing, ProgramFormat, TextDocument, WireFormat, read_text
 from .entities import Change, Delete, Put, Splice, change_from_json
 from .errors import NoAnswer, NotOpen, NotSaved, Outdated, ServerDied, WedmError
 from .find import find
@@ -294,9 +294,17 @@ class Server:
         """Contours, faults and wire path as SVG."""
         return from_json(self._ask(document, "wedm/picture", self._with(document, options)), Picture)
 
-    def export(self, document: Document, format: str, options: Settings | None = None) -> bytes:
+    def export(self, document: Document, format: Literal["svg", "png", "pdf"], options: Settings | None = None) -> bytes:
         """The same picture as a file: ``svg``, ``png`` or ``pdf``; its texts are outlines in the last two."""
         answer = self._ask(document, "wedm/export", {**self._with(document, options), "format": format})
+        return base64.b64decode(answer["data"])
+
+    def holes(self, document: Document, format: Literal["csv", "dxf"] = "csv", options: Settings | None = None) -> bytes:
+        """The start holes for the drill as a file: a row a hole, or the drawing with the holes on a layer of their own.
+
+        :raises Refused: there is no path of the wire; the message says why.
+        """
+        answer = self._ask(document, "wedm/holes", {**self._with(document, options), "format": format})
         return base64.b64decode(answer["data"])
 
     def repairs(self, document: Document, rule: str, handle: str, segment: int | None = None) -> list[Repair]:
@@ -307,7 +315,7 @@ class Server:
     def generate(
         self,
         document: Document,
-        format: str = "3b",
+        format: ProgramFormat = "3b",
         *,
         handles: Sequence[str] | None = None,
         layers: Sequence[str] | None = None,
@@ -316,6 +324,7 @@ class Server:
     ) -> Program:
         """The program for the machine.
 
+        :param format: its language; ``"milling"`` for an electrode, which takes the settings ``milling``.
         :param handles: only the contours that hold one of these entities.
         :param layers: only the contours that have an entity on one of these layers; beside ``handles`` those of both.
         :param options: settings for this request only.
@@ -328,7 +337,7 @@ class Server:
     def _wanted(
         self,
         document: Document,
-        format: str,
+        format: ProgramFormat,
         handles: Sequence[str] | None,
         layers: Sequence[str] | None,
         options: Settings | None,
@@ -354,7 +363,7 @@ class Server:
     def pair(
         self,
         document: Document,
-        format: str = "3b",
+        format: WireFormat = "3b",
         *,
         handles: Sequence[str] | None = None,
         layers: Sequence[str] | None = None,
@@ -417,7 +426,7 @@ class Server:
     def convert(
         self,
         program: TextDocument,
-        to: Literal["dxf", "3b", "iso"],
+        to: Literal["dxf", "3b", "4b", "iso"],
         *,
         options: Settings | None = None,
         force: bool = False,

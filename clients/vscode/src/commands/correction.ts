@@ -6,7 +6,7 @@ import type { SettingsInForce } from "../protocol";
 import type { Server } from "../server/server";
 import { t } from "../words";
 
-const KEYS = /^\s*(corrections?|wire[-_]?diameter|gap)\s*=/i;
+const KEYS = /^\s*(corrections?|wire[-_]?diameter|tool[-_]?diameter|gap)\s*=/i;
 
 export async function changeCorrection(server: Server, front: Front): Promise<void> {
   const uri = front.document?.uri ?? vscode.workspace.workspaceFolders?.[0]?.uri;

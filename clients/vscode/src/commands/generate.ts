@@ -4,7 +4,7 @@ import * as vscode from "vscode";
 import { LSPErrorCodes, ResponseError } from "vscode-languageclient/node";
 import type { Front } from "../front";
 import { isDrawing } from "../languages";
-import type { Program } from "../protocol";
+import type { Milling, Program } from "../protocol";
 import type { Server } from "../server/server";
 import { write } from "./output";
 import type { Pictures } from "../picture/pictures";
@@ -14,9 +14,12 @@ import { askSides, offerToKeep } from "./sides";
 import { subject } from "./subject";
 import { t } from "../words";
 
-type Format = "3b" | "4b" | "iso";
+export type Format = "3b" | "4b" | "iso" | "milling";
 
-const TITLES: Record<Format, string> = { "3b": "3B", "4b": "4B", iso: "ISO" };
+/** What milling is called is said when it is asked: the language is not chosen yet when this is read. */
+const TITLES: Record<Format, () => string> = { "3b": () => "3B", "4b": () => "4B", iso: () => "ISO", milling: () => t("Milling") };
+/** The endings of its files; the first is proposed. */
+const ENDINGS: Record<Format, readonly [string, ...string[]]> = { "3b": ["3b"], "4b": ["4b"], iso: ["iso", "nc"], milling: ["iso", "nc"] };
 
 /** So many slugs are named. */
 const SLUGS = 4;
@@ -44,9 +47,9 @@ export async function generate(server: Server, front: Front, pictures: Pictures,
   const { generated } = made;
   const stem = document.uri.path.replace(/\.[^./]*$/, "");
   const target = await vscode.window.showSaveDialog({
-    title: t("Save the {0} Program", TITLES[format]),
-    defaultUri: document.uri.with({ scheme: document.uri.scheme === "untitled" ? "file" : document.uri.scheme, path: `${stem}.${format}` }),
-    filters: { [t("{0} program", TITLES[format])]: format === "iso" ? ["iso", "nc"] : [format] },
+    title: t("Save the {0} Program", TITLES[format]()),
+    defaultUri: document.uri.with({ scheme: document.uri.scheme === "untitled" ? "file" : document.uri.scheme, path: `${stem}.${ENDINGS[format][0]}` }),
+    filters: { [t("{0} program", TITLES[format]())]: [...ENDINGS[format]] },
   });
   if (target === undefined) {
     return;
@@ -55,9 +58,9 @@ export async function generate(server: Server, front: Front, pictures: Pictures,
   // Where the drawing stands, so that its picture beside it becomes that of the program.
   const shown = vscode.window.visibleTextEditors.find((editor) => editor.document === document);
   await vscode.window.showTextDocument(target, { viewColumn: shown?.viewColumn ?? vscode.ViewColumn.Active, preview: false });
-  void vscode.window.showInformationMessage(`${TITLES[format]}: ${told(generated, format)}`);
+  void vscode.window.showInformationMessage(`${TITLES[format]()}: ${told(generated, format)}`);
   if (made.how.sides !== undefined) {
-    await offerToKeep(server, document.uri, made.how.sides);
+    await offerToKeep(server, document.uri, made.how.sides, format === "milling");
   }
 }
 
@@ -90,12 +93,12 @@ async function attempt(
   const options = { ...how.options, ...how.sides };
   try {
     const generated = await vscode.window.withProgress(
-      { location: vscode.ProgressLocation.Window, title: t("Wire EDM: generating {0}", TITLES[format]) },
+      { location: vscode.ProgressLocation.Window, title: t("Wire EDM: generating {0}", TITLES[format]()) },
       (_progress, token) => server.request("wedm/generate", { uri, format, options, ...(how.force === true ? { force: true } : {}) }, token),
     );
     return { generated, how };
   } catch (error) {
-    const next = await answer(error, how, () => askSides(server, pictures, document.uri));
+    const next = await answer(error, how, () => askSides(server, pictures, document.uri, format === "milling"));
     return next === undefined ? undefined : attempt(server, pictures, document, format, next);
   }
 }
@@ -137,12 +140,22 @@ function told(generated: Program, format: Format): string {
   const path = t("cut {0} mm, jumps {1} mm, decoded again at most {2} µm beside it", generated.length.toFixed(1), (generated.jumps ?? 0).toFixed(1), generated.deviation.toFixed(2));
   // A drift that rounds to zero has no sign.
   const [x, y] = [generated.closure.x, generated.closure.y].map((drift) => (Math.round(drift * 100) / 100 + 0).toFixed(2));
-  const drift = format === "iso" ? "" : t("; a controller that counts J drifts by {0}, {1} µm", x ?? "", y ?? "");
+  const drift = ENDINGS[format][0] === "iso" ? "" : t("; a controller that counts J drifts by {0}, {1} µm", x ?? "", y ?? "");
   const minutes = generated.minutes === undefined ? "" : t("; {0} minutes on the machine", generated.minutes.toFixed(1));
+  const milled = generated.milling === undefined ? "" : toldOfMilling(generated.milling);
   const slugs = (generated.work?.slugs ?? []).map(({ contour, mass }) => t("{0}: {1} g", contour, mass.toFixed(1)));
   const drops = slugs.length === 0 ? "" : t("; what drops out: {0}", slugs.slice(0, SLUGS).join(", ") + (slugs.length > SLUGS ? ", …" : ""));
   const { length } = generated.warnings;
   const stand = length === 1 ? t(" 1 finding stands in the drawing.") : t(" {0} findings stand in the drawing.", length);
   const warnings = length === 0 ? "" : stand;
-  return t("{0}, {1}{2}.", blocks, path, drift + minutes + drops) + warnings;
+  return t("{0}, {1}{2}.", blocks, path, drift + minutes + milled + drops) + warnings;
+}
+
+/** Of several contours the floor is that of all of them, and the electrode is as short as after the last one. */
+function toldOfMilling({ layers, layer, contours }: Milling): string {
+  const floors = contours.map(({ floor }) => floor);
+  const [least, most] = [Math.min(...floors.map(({ least }) => least)), Math.max(...floors.map(({ most }) => most))];
+  const worn = contours.at(-1)?.worn ?? 0;
+  const figures = [least, most, worn].map((mm) => mm.toFixed(4));
+  return t("; {0} layers of {1} mm; simulated: the floor {2} to {3} mm deep, the electrode {4} mm shorter", layers, layer, ...figures);
 }

@@ -18,12 +18,18 @@ interface Answer extends vscode.QuickPickItem {
 }
 
 // Made when they are asked: the language is not chosen yet when this is read.
-const opening = (): Answer => ({ label: t("Opening: Wire Inside"), detail: t("What falls out is scrap, as of a die's plate"), role: "opening" });
-const punch = (): Answer => ({ label: t("Punch: Wire Outside"), detail: t("What falls out is the part"), role: "punch" });
+const opening = (mills: boolean): Answer =>
+  mills
+    ? { label: t("Opening: Electrode Inside"), detail: t("It mills along the wall of a pocket"), role: "opening" }
+    : { label: t("Opening: Wire Inside"), detail: t("What falls out is scrap, as of a die's plate"), role: "opening" };
+const punch = (mills: boolean): Answer =>
+  mills
+    ? { label: t("Punch: Electrode Outside"), detail: t("It mills round what stays"), role: "punch" }
+    : { label: t("Punch: Wire Outside"), detail: t("What falls out is the part"), role: "punch" };
 const notCut = (): Answer => ({ label: t("Not Cut"), detail: t("A frame, a construction line"), role: "ignore" });
 
-/** What the contours of unknown side are, or undefined where the user gives up. */
-export async function askSides(server: Server, pictures: Pictures, uri: vscode.Uri): Promise<Sides | undefined> {
+/** What the contours of unknown side are, for a wire or an electrode that `mills`; undefined where the user gives up. */
+export async function askSides(server: Server, pictures: Pictures, uri: vscode.Uri, mills: boolean): Promise<Sides | undefined> {
   const { contours, unitsToMm } = await server.request("wedm/contours", { uri: uri.toString() });
   const unknown = contours.filter(({ closed, role }) => closed && role === "both");
   await pictures.open(uri, false);
@@ -34,36 +40,41 @@ export async function askSides(server: Server, pictures: Pictures, uri: vscode.U
     choice: "nesting",
   };
   const each: Way = { label: t("Say for Each Contour…"), detail: t("They are marked in the picture one after another"), choice: "each" };
-  const one = [opening(), punch()].map((answer): Way => ({ ...answer, choice: answer.role }));
+  const one = [opening(mills), punch(mills)].map((answer): Way => ({ ...answer, choice: answer.role }));
   const ways = several ? [byNesting, each] : [byNesting, ...one];
   try {
     if (!several) {
       pictures.mark(handlesOf(unknown));
     }
-    const placeHolder = several ? t("Where the wire runs along each contour is not known") : t("The contour that is marked in the picture");
-    const way = await vscode.window.showQuickPick(ways, { title: t("Which Side Does the Wire Run On?"), placeHolder, ignoreFocusOut: true });
+    const placeHolder = several ? t("On which side of each contour to cut is not known") : t("The contour that is marked in the picture");
+    const title = mills ? t("Which Side Does the Electrode Run On?") : t("Which Side Does the Wire Run On?");
+    const way = await vscode.window.showQuickPick(ways, { title, placeHolder, ignoreFocusOut: true });
     if (way === undefined || way.choice === "nesting") {
       return way && { side: "auto" };
     }
-    return way.choice === "each" ? await askEach(pictures, unknown, unitsToMm) : { contours: rolesOf(unknown, [way.choice]) };
+    const roles = way.choice === "each" ? await askEach(pictures, unknown, unitsToMm, mills) : [way.choice];
+    return roles && { contours: rolesOf(unknown, roles) };
   } finally {
     pictures.mark(null);
   }
 }
 
-async function askEach(pictures: Pictures, unknown: readonly ContoursContour[], unitsToMm: number): Promise<Sides | undefined> {
+type Asked = readonly ContoursContour[];
+
+async function askEach(pictures: Pictures, unknown: Asked, unitsToMm: number, mills: boolean): Promise<Role[] | undefined> {
   const roles: Role[] = [];
   for (const [index, contour] of unknown.entries()) {
     pictures.mark(handlesOf([contour]));
     const title = t("Contour {0} of {1}", index + 1, unknown.length);
     const placeHolder = t("The one that is marked in the picture, {0} mm round", (contour.length * unitsToMm).toFixed(3));
-    const answer = await vscode.window.showQuickPick([opening(), punch(), notCut()], { title, placeHolder, ignoreFocusOut: true });
+    const answers = [opening(mills), punch(mills), notCut()];
+    const answer = await vscode.window.showQuickPick(answers, { title, placeHolder, ignoreFocusOut: true });
     if (answer === undefined) {
       return undefined;
     }
     roles.push(answer.role);
   }
-  return { contours: rolesOf(unknown, roles) };
+  return roles;
 }
 
 /** A contour takes the role of its first entity that has one. */
@@ -83,14 +94,15 @@ function handlesOf(contours: readonly ContoursContour[]): string[] {
 }
 
 /** Offers to write the answer down, in the wedm.toml that holds or in one beside the drawing. */
-export async function offerToKeep(server: Server, uri: vscode.Uri, sides: Sides): Promise<void> {
+export async function offerToKeep(server: Server, uri: vscode.Uri, sides: Sides, mills: boolean): Promise<void> {
   const target = await settingsFile(server, uri);
   const general = await forAll(server, uri, target, sides);
   if (general === undefined || uri.scheme !== "file") {
     return;
   }
   const yes = t("Keep in wedm.toml");
-  if ((await vscode.window.showInformationMessage(t("Keep what you said of the wire's side for the next time?"), yes)) !== yes) {
+  const asked = mills ? t("Keep what you said of the electrode's side for the next time?") : t("Keep what you said of the wire's side for the next time?");
+  if ((await vscode.window.showInformationMessage(asked, yes)) !== yes) {
     return;
   }
   await rewrite(target, (text) => keep(text, general));

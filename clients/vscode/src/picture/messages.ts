@@ -16,6 +16,9 @@ export interface Fault {
   radius?: number;
   /** Of a place of a fit, in words: what is left there. */
   left?: string;
+  /** Where that is, drawing units, and how much about it is worth seeing, mm. */
+  at?: [number, number];
+  reach?: number;
   /** In a program; counts from 0. */
   line?: number;
 }

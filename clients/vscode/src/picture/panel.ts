@@ -193,12 +193,12 @@ export class Picture implements vscode.Disposable {
 
   /** One outline in the other, and the places where less is left than there should be, the tightest first. */
   async #drawFit(uri: vscode.Uri, name: string): Promise<void> {
-    const { svg, places } = await this.server.request("wedm/fit", { uri: uri.toString() });
+    const { svg, places, clearance: wanted } = await this.server.request("wedm/fit", { uri: uri.toString() });
     this.#found = [];
     const sorted = [...places].sort((a, b) => a.clearance - b.clearance);
-    const faults = sorted.map(({ clearance, handle, segment, of }): Fault => {
+    const faults = sorted.map(({ at, clearance, handle, segment, of }): Fault => {
       const left = t("{0} mm left", clearance.toFixed(4));
-      return { severity: clearance < 0 ? "error" : "warning", rule: "does-not-fit", message: `${left} (${of})`, left, handle, segment };
+      return { severity: clearance < 0 ? "error" : "warning", rule: "does-not-fit", message: `${left} (${of})`, left, at, reach: Math.max(wanted, wanted - clearance), handle, segment };
     });
     const nothing = { contours: [], blocks: [], lines: [], isEditor: false, keeps: false };
     await this.#tell({ type: "picture", uri: uri.toString(), name, kind: "fit", svg, faults, ...nothing });

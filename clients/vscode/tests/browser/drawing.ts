@@ -6,7 +6,6 @@ import { type Checks, expectEqual, expectSoon } from "./checks";
 import { PLATE } from "./drawings";
 import { Host } from "./host";
 import { PROJECT, WEDM } from "./paths";
-import type { Frame } from "playwright-core";
 import { Window } from "./window";
 
 const SMALL = await readFile(join(PROJECT, "docs/pictures/small-radius.dxf"), "utf8");
@@ -20,16 +19,6 @@ export async function drawing(checks: Checks): Promise<void> {
   const open = async (name: string): Promise<void> => {
     await host.page.locator(".explorer-folders-view .monaco-list-row", { hasText: name }).first().dblclick();
     await host.page.locator(`.tabs-container .tab.active[data-resource-name="${name}"]`).waitFor();
-  };
-  /** Clicks a contour; where a finding lies there, its card leads to that of the contour. */
-  const openContour = async (picture: Frame, handle: string): Promise<void> => {
-    await window.clickPath(picture, `svg .contour[data-handle="${handle}"]`);
-    await picture.locator("#card h2").waitFor();
-    const lead = picture.locator("#card .link", { hasText: "Contour" });
-    await host.page.waitForTimeout(400);
-    if ((await lead.count()) > 0) {
-      await lead.click();
-    }
   };
   try {
     await checks.check("a file of the Explorer is opened", async () => {
@@ -71,7 +60,7 @@ export async function drawing(checks: Checks): Promise<void> {
     await checks.check("the wire side of a contour is set in the picture and kept in wedm.toml", async () => {
       await expectSoon("why there is no path", async () => (await plate.locator("#alert").innerText()).includes("no wire path: "));
       for (const [handle, role] of [["2A", "Punch"], ["2B", "Opening"]] as const) {
-        await openContour(plate, handle);
+        await window.openContour(plate, handle);
         await plate.locator("#card button", { hasText: role }).click();
         await expectSoon(`${handle} kept`, async () => (await readFile(kept, "utf8").catch(() => "")).includes(`[drawings."plate.dxf".contours.${handle}]\nside = "${role.toLowerCase()}"`));
       }
@@ -80,7 +69,7 @@ export async function drawing(checks: Checks): Promise<void> {
       await checks.shot("drawing-sides");
     });
     await checks.check("thread hole and order are set there, too", async () => {
-      await openContour(plate, "2B");
+      await window.openContour(plate, "2B");
       await plate.locator("#card .row", { hasText: "Thread hole" }).getByText("Pick…").click();
       const stage = await host.page.locator("iframe.webview.ready:visible").boundingBox();
       const at = await plate.locator('svg .contour[data-handle="2B"]').first().evaluate((path: SVGGraphicsElement) => {
@@ -89,7 +78,7 @@ export async function drawing(checks: Checks): Promise<void> {
       });
       await host.page.mouse.click((stage?.x ?? 0) + at.x, (stage?.y ?? 0) + at.y);
       await expectSoon("a thread hole", async () => /contours\.2B\]\nside = "opening"\nthread = \[[\d.]+, [\d.]+\]/.test(await readFile(kept, "utf8")), () => readFile(kept, "utf8"));
-      await openContour(plate, "2B");
+      await window.openContour(plate, "2B");
       await plate.locator("#card input").fill("1");
       await plate.locator("#card input").press("Enter");
       await expectSoon("its place", async () => (await readFile(kept, "utf8")).includes("order = 1"), () => readFile(kept, "utf8"));

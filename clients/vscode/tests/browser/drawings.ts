@@ -9,15 +9,18 @@ export const FILLET = await readFile(join(PROJECT, "tests/data/tight_fillet.dxf"
 /** A round hole as a program. */
 export const HOLE = await readFile(join(PROJECT, "tests/data/hole.3b"), "utf8");
 
+/** A drawing in mm of the entities that these lines are. */
+export function drawn(...entities: string[]): string {
+  const head = ["0", "SECTION", "2", "HEADER", "9", "$INSUNITS", "70", "4", "0", "ENDSEC", "0", "SECTION", "2", "ENTITIES"];
+  return [...head, ...entities, "0", "ENDSEC", "0", "EOF", ""].join("\n");
+}
+
 /** A plate of 20 × 10 mm with a hole of R 3 in its middle, on layers of their own. */
-export const PLATE = [
-  ["0", "SECTION", "2", "HEADER", "9", "$INSUNITS", "70", "4", "0", "ENDSEC", "0", "SECTION", "2", "ENTITIES"],
-  ["0", "LWPOLYLINE", "5", "2A", "8", "DIE", "90", "4", "70", "1"],
-  [[0, 0], [20, 0], [20, 10], [0, 10]].flatMap(([x, y]) => ["10", String(x), "20", String(y)]),
-  ["0", "CIRCLE", "5", "2B", "8", "HOLES", "10", "10", "20", "5", "40", "3", "0", "ENDSEC", "0", "EOF", ""],
-]
-  .flat()
-  .join("\n");
+export const PLATE = drawn(
+  ...["0", "LWPOLYLINE", "5", "2A", "8", "DIE", "90", "4", "70", "1"],
+  ...[[0, 0], [20, 0], [20, 10], [0, 10]].flatMap(([x, y]) => ["10", String(x), "20", String(y)]),
+  ...["0", "CIRCLE", "5", "2B", "8", "HOLES", "10", "10", "20", "5", "40", "3"],
+);
 
 /** Line, from 1, of the n-th line that is exactly this. */
 export function lineOf(text: string, wanted: string, nth = 1): number {

@@ -142,36 +142,6 @@ export async function picture(checks: Checks): Promise<void> {
       await window.command("Notifications: Clear All Notifications");
       await rm(kept);
     });
-    await checks.check("where the wire is threaded is saved as the drill list", async () => {
-      await window.turnTo("plate-with-hole.dxf");
-      await writeFile(join(host.folder, "wedm.toml"), 'side = "auto"\n[program]\nstart-hole = 2\n');
-      await window.command("Wire EDM: Save Drill List");
-      const target = join(host.folder, "holes.csv");
-      await window.path(target);
-      const rows = /^drawing,x_mm,y_mm,diameter_mm,contour,hole\nplate-with-hole.dxf,[\d.-]+,[\d.-]+,2?,2[AB],found\nplate-with-hole.dxf,/;
-      await expectSoon("two holes", async () => rows.test(await readFile(target, "utf8")), () => readFile(target, "utf8"));
-      // It is written first and comes to the front afterwards: over whatever is turned to before.
-      await host.page.locator('.tabs-container .tab.active[data-resource-name="holes.csv"]').waitFor();
-      await window.turnTo("plate-with-hole.dxf");
-    });
-    await checks.check("whether punch and plate fit is shown, and what is missing for that is said", async () => {
-      await window.command("Wire EDM: Show Whether Punch and Plate Fit");
-      const trouble = async (): Promise<string> => (await window.picture(false)).locator("#trouble").innerText();
-      await expectSoon("what is missing", async () => (await trouble()).includes("pair.drawn-as"), trouble);
-      await writeFile(
-        join(host.folder, "wedm.toml"),
-        'wire-diameter = 0.18\ngap = 0.01\n[pair]\ndrawn-as = "punch"\nclearance = 0.005\n',
-      );
-      const fit = async (): Promise<string> => (await window.picture()).locator("#title, #note").allInnerTexts().then((texts) => texts.join(" "));
-      await expectSoon("one outline in the other", async () => (await fit()).includes("µm"), fit);
-      const shown = await window.picture();
-      const chip = async (): Promise<string> => (await shown.locator("#chips .chip").first().innerText()).replace(/\s+/g, " ");
-      await expectSoon("what is left, the tightest first", async () => /^2A · \d -[\d.]+ mm left$/.test(await chip()), chip);
-      expectEqual("a player", await shown.locator("#player").isVisible(), false);
-      await checks.shot("fit");
-      await window.close("Fit of");
-      await rm(join(host.folder, "wedm.toml"));
-    });
     await checks.check("wedm.toml wins over the settings, and the status bar says so", async () => {
       await window.turnTo("small-radius.dxf");
       await writeFile(join(host.folder, "wedm.toml"), "correction = 0.11\n");

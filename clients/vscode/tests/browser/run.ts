@@ -3,6 +3,7 @@
 import { Checks } from "./checks";
 import { badDays } from "./badDays";
 import { drawing } from "./drawing";
+import { job } from "./job";
 import { large } from "./large";
 import { picture } from "./picture";
 import { program } from "./program";
@@ -16,7 +17,7 @@ import { withServer } from "./withServer";
 const ONLY_BY_NAME = "readme";
 type Scenario = (checks: Checks) => Promise<void>;
 const pages = { states, large, themes };
-const scenarios: Record<string, Scenario> = { text, picture, drawing, ...pages, program, badDays, withServer, [ONLY_BY_NAME]: readme };
+const scenarios: Record<string, Scenario> = { text, picture, drawing, job, ...pages, program, badDays, withServer, [ONLY_BY_NAME]: readme };
 const checks = new Checks();
 const named = process.argv.slice(2);
 

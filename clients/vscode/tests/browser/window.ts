@@ -1,5 +1,7 @@
 // What a person does in the window: open, type, look, click.
 
+import { writeFile } from "node:fs/promises";
+import { join } from "node:path";
 import { expectSoon } from "./checks";
 import { PATIENCE } from "./host";
 import type { Frame, Locator, Page } from "playwright-core";
@@ -142,6 +144,29 @@ export class Window {
     });
     const frame = await this.page.locator("iframe.webview.ready:visible").boundingBox();
     await this.page.mouse.click((frame?.x ?? 0) + point.x, (frame?.y ?? 0) + point.y);
+  }
+
+  /** Clicks a contour in the editor of a drawing; where a finding lies there, its card leads to that of the contour. */
+  async openContour(picture: Frame, handle: string): Promise<void> {
+    const card = picture.locator("#card");
+    if (await card.isVisible()) {
+      await card.locator(".close").click();
+    }
+    await card.waitFor({ state: "hidden" });
+    await this.clickPath(picture, `svg .contour[data-handle="${handle}"]`);
+    await card.locator("h2, .link", { hasText: /^Contour \d/ }).first().waitFor();
+    const lead = card.locator(".link", { hasText: /^Contour \d/ });
+    if ((await lead.count()) > 0) {
+      await lead.click();
+    }
+    await card.locator("h2", { hasText: /^Contour \d/ }).waitFor();
+  }
+
+  /** Writes the wedm.toml of a folder, and waits until the correction that it says stands in the status bar: then it holds. */
+  async hold(folder: string, settings: string, correction: string): Promise<void> {
+    await writeFile(join(folder, "wedm.toml"), settings);
+    const shown = (): Promise<string> => this.status.innerText();
+    await expectSoon(`the correction ${correction} mm in force`, async () => (await shown()).includes(`${correction} mm`), shown);
   }
 
   async expectLine(line: number): Promise<void> {

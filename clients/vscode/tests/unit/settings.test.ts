@@ -51,6 +51,12 @@ async function read(path: string): Promise<unknown> {
 const protocol = (await read("../../../../docs/protocol.schema.json")) as { $defs: Record<string, Schema> };
 const manifest = (await read("../../package.json")) as { contributes: { configuration: { properties: Record<string, Setting> } } };
 const contributed = manifest.contributes.configuration.properties;
+const english = (await read("../../package.nls.json")) as Record<string, string>;
+
+/** The sentence that a reference of the manifest stands for. */
+function said(reference: string | undefined): string {
+  return english[/^%(.*)%$/.exec(reference ?? "")?.[1] ?? ""] ?? "";
+}
 
 function resolved(schema: Schema): Schema {
   const real = [...(schema.anyOf ?? [])].find((one) => one.type !== "null") ?? schema;
@@ -94,11 +100,12 @@ test("each of them is not set by default, is described, and offers the words tha
     assert.ok(setting, key);
     assert.equal(setting.default, null, key);
     assert.ok([setting.type].flat().includes("null"), key);
-    assert.ok((setting.markdownDescription ?? setting.description ?? "").length > 20, key);
+    assert.ok(said(setting.markdownDescription).length > 20, key);
     const known = words(schema);
     if (known.length > 0) {
       assert.deepEqual(new Set(setting.enum), new Set([...known, null]), key);
       assert.equal(setting.enumDescriptions?.length, setting.enum?.length, key);
+      assert.deepEqual(setting.enumDescriptions?.filter((one) => said(one) === ""), [], key);
     }
   }
 });

@@ -30,7 +30,7 @@ test("every sentence has its twin, with the same placeholders", async () => {
 });
 
 test("what the manifest names stands in both languages", async () => {
-  const named = new Set([...(await read("package.json")).matchAll(/"%([\w.]+)%"/g)].map(([, name]) => name));
+  const named = new Set([...(await read("package.json")).matchAll(/"%([\w.-]+)%"/g)].map(([, name]) => name));
   const [english, chinese] = [await table("package.nls.json"), await table("package.nls.zh-cn.json")];
   assert.deepEqual(new Set(Object.keys(english)), named);
   assert.deepEqual(Object.keys(chinese).sort(), Object.keys(english).sort());

@@ -1,0 +1,60 @@
+//! Where the wire is threaded, as the drill wants it: rows of a list, and a drawing with the holes.
+
+use crate::document::Snapshot;
+use crate::drawing::{Drawing, Entity, Geometry, START_HOLES};
+use crate::toolpath::StartHole;
+
+/// The names of the columns.
+pub(crate) const HEAD: &str = "drawing,x_mm,y_mm,diameter_mm,contour,hole\n";
+
+/// One row of CSV a hole, in mm; without a diameter where the settings do not say it.
+pub(crate) fn rows(name: &str, snapshot: &Snapshot, holes: &[StartHole]) -> String {
+    let unit_mm = snapshot.settings.unit_of(&snapshot.drawing).mm;
+    let diameter = snapshot.settings.start_hole;
+    let diameter = diameter.map_or_else(String::new, |diameter| diameter.to_string());
+    // A coordinate that rounds to zero has no sign.
+    let mm = |along: f64| (along * unit_mm * 1e4).round() / 1e4 + 0.0;
+    let row = |hole: &StartHole| {
+        format!(
+            "{},{:.4},{:.4},{diameter},{},{}\n",
+            cell(name),
+            mm(hole.at.x),
+            mm(hole.at.y),
+            cell(snapshot.outlines[hole.outline].name(&snapshot.drawing)),
+            if hole.is_given { "given" } else { "found" }
+        )
+    };
+    holes.iter().map(row).collect()
+}
+
+/// A cell of CSV: in quotes where it has to be.
+fn cell(text: &str) -> String {
+    match text.contains([',', '"', '\n', '\r']) {
+        true => format!("\"{}\"", text.replace('"', "\"\"")),
+        false => text.to_owned(),
+    }
+}
+
+/// A new drawing of what is drawn, and of the holes: a circle where a diameter is set, and the mark that keeps the hole where it is when the
+/// drawing is read again.
+pub(crate) fn drawn(snapshot: &Snapshot, holes: &[StartHole]) -> Drawing {
+    let unit = snapshot.settings.unit_of(&snapshot.drawing);
+    let mut drawing = Drawing::new(Some(unit));
+    for (_, entity) in snapshot.drawing.entities() {
+        drawing.push(entity.clone());
+    }
+    for &StartHole { at, .. } in holes {
+        let circle = snapshot
+            .settings
+            .start_hole
+            .map(|diameter| Geometry::Circle {
+                center: at,
+                radius: diameter / 2.0 / unit.mm,
+            });
+        let text = "O".into();
+        for geometry in circle.into_iter().chain([Geometry::Text { at, text }]) {
+            drawing.push(Entity::new(START_HOLES, START_HOLES, geometry));
+        }
+    }
+    drawing
+}
