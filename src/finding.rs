@@ -130,7 +130,10 @@ pub enum Detail {
     Gap {
         distance: f64,
     },
-    DuplicateEntity,
+    /// So many entities of a contour lie there more than once.
+    DuplicateEntity {
+        count: usize,
+    },
     /// Two segments run on one another over `length`.
     Overlap {
         length: f64,

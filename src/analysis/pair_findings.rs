@@ -3,7 +3,7 @@
 use super::compare::{Observed, Outlooks, SegmentId};
 use super::pairs::Pairs;
 use super::report::Report;
-use super::told::{Told, ToldPair, merged};
+use super::told::{Doubles, Told, ToldPair, merged};
 use crate::drawing::{ContourKey, Drawing, EntityId};
 use crate::finding::{Detail, NotJudged, Place, Rule, Severity, Side};
 use crate::geometry::Point;
@@ -172,9 +172,15 @@ impl Pairs {
                 )
                 && let (Some(place), Some(related)) =
                     (own.place(each.one.1), theirs.place(each.other.1))
-                && let Some(detail) = (rule.detail)(&one, &other, each.one.0 == each.other.0)
+                && let Some(detail) = match &each.others {
+                    Some(doubles) => Some(doubles.detail()),
+                    None => (rule.detail)(&one, &other, each.one.0 == each.other.0),
+                }
             {
-                let related = each.others.clone().unwrap_or_else(|| vec![related]);
+                let related = match &each.others {
+                    Some(doubles) => doubles.places.clone(),
+                    None => vec![related],
+                };
                 report.add(rule.rule, mildest, place, detail, related);
             }
         }
@@ -238,19 +244,25 @@ impl Pairs {
             .filter(is_double)
             .map(|(_, ends, _)| (ends.0.0, ends.1.0))
             .collect();
-        // What lies in one place several times is one finding, at the first.
+        // What lies in one place several times, and all that a contour has of it, is one finding, at the first; what can be deleted apart
+        // from what cannot.
         let later: FxHashSet<EntityId> = doubles.iter().map(|(_, other)| *other).collect();
-        let mut others: FxHashMap<EntityId, Vec<Place>> = FxHashMap::default();
+        let outline = |ends: &Ends, each: &Observed| (each.one.0, drawing.is_editable(ends.1.0));
+        let mut others: FxHashMap<(ContourKey, bool), Doubles> = FxHashMap::default();
         for (_, ends, each) in seen.iter().filter(is_double) {
-            if let Some(place) = outlook(each.other.0).and_then(|it| it.place(each.other.1)) {
-                others.entry(ends.0.0).or_default().push(place);
+            if !later.contains(&ends.0.0)
+                && let Some(place) = outlook(each.other.0).and_then(|it| it.place(each.other.1))
+            {
+                let doubles = others.entry(outline(ends, each)).or_default();
+                doubles.add(ends.0.0, ends.1.0, place);
             }
         }
         let merged = merged(
             &seen.iter().map(|(_, _, each)| *each).collect::<Vec<_>>(),
             &|key| outlook(key).map(|it| it.contour.len()),
         );
-        // Two open contours that cross or touch are each an error of its own: closed, they are asked again.
+        // What is open is not cut, and an error of its own: how near it comes to others, what it touches, and which others of its kind it
+        // crosses is asked again when it is closed.
         let doubled: FxHashSet<EntityId> = doubles
             .iter()
             .flat_map(|(one, other)| [*one, *other])
@@ -276,9 +288,13 @@ impl Pairs {
             }
             let others = match rule.rule {
                 Rule::DuplicateEntity if later.contains(&ends.0.0) => continue,
-                Rule::DuplicateEntity => match others.remove(&ends.0.0) {
+                Rule::DuplicateEntity => match others.remove(&outline(ends, each)) {
                     Some(others) => Some(others),
-                    None => continue,
+                    None => {
+                        let kind = (*number, each.mildest);
+                        *told.absorbed.entry(kind).or_default() += 1;
+                        continue;
+                    }
                 },
                 _ => None,
             };
@@ -290,12 +306,17 @@ impl Pairs {
             } else {
                 each.mildest
             };
-            let is_absorbed = rule.rule == Rule::SelfIntersection
-                && !is_for_a_path
+            let one_of_them = || is_told_open(each.one.0) || is_told_open(each.other.0);
+            let is_absorbed = !is_for_a_path
                 && open_is_an_error
                 && each.one.0 != each.other.0
-                && is_told_open(each.one.0)
-                && is_told_open(each.other.0);
+                && match rule.rule {
+                    Rule::SelfIntersection if mildest.is_none() => {
+                        is_told_open(each.one.0) && is_told_open(each.other.0)
+                    }
+                    Rule::SelfIntersection | Rule::NarrowSlot => one_of_them(),
+                    _ => false,
+                };
             if is_absorbed {
                 *told.absorbed.entry((*number, mildest)).or_default() += 1;
                 continue;

@@ -1,8 +1,8 @@
 //! What is told of what has been seen between segments.
 
 use super::compare::{Observed, SegmentId};
-use crate::drawing::ContourKey;
-use crate::finding::{Place, Severity, Side};
+use crate::drawing::{ContourKey, EntityId};
+use crate::finding::{Detail, Place, Severity, Side};
 use crate::rules::PAIR_RULES;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
@@ -31,8 +31,33 @@ pub(super) struct ToldPair {
     pub(super) kind: usize,
     pub(super) one: SegmentId,
     pub(super) other: SegmentId,
-    /// Where else the same entity lies.
-    pub(super) others: Option<Vec<Place>>,
+    /// What lies there twice of the contour.
+    pub(super) others: Option<Doubles>,
+}
+
+/// Entities of one contour that lie there more than once.
+#[derive(Debug, Default)]
+pub(super) struct Doubles {
+    /// The later ones, which are too many.
+    pub(super) places: Vec<Place>,
+    /// How many entities of the contour they lie on, and the last of those.
+    count: usize,
+    last: Option<EntityId>,
+    known: FxHashSet<EntityId>,
+}
+
+impl Doubles {
+    /// One more, which lies on `first`; all that lie on one follow each other.
+    pub(super) fn add(&mut self, first: EntityId, later: EntityId, place: Place) {
+        self.count += usize::from(self.last.replace(first) != Some(first));
+        if self.known.insert(later) {
+            self.places.push(place);
+        }
+    }
+
+    pub(super) fn detail(&self) -> Detail {
+        Detail::DuplicateEntity { count: self.count }
+    }
 }
 
 impl Told {

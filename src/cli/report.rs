@@ -16,6 +16,9 @@ use serde::Serialize;
 use std::ops::Range;
 use std::path::Path;
 
+/// Other places that a text tells of one finding: an outline that lies there twice has many.
+const MOST_OTHERS: usize = 5;
+
 /// One finding of one file. Lines and columns count from 1, columns in characters.
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
@@ -245,9 +248,9 @@ impl Row {
                             .span(excerpt.span.clone())
                             .label(self.whereabouts()),
                     );
-                let others = self.related.iter().map(|related| {
-                    Level::NOTE.message(say!(in_line, related.message, related.line))
-                });
+                let others = self
+                    .others(|related| say!(in_line, related.message, related.line))
+                    .map(|other| Level::NOTE.message(other));
                 let keeps = self.keeps.iter().map(|(title, lines)| {
                     let lines = lines.trim_end().replace('\n', "  ");
                     Level::HELP.message(format!("{}: {}", readable(title), readable(&lines)))
@@ -266,6 +269,16 @@ impl Row {
                 renderer.render(&[title.element(place)])
             }
         }
+    }
+
+    /// What else it concerns, the first few in the words of `told`, and how many there are besides.
+    pub(crate) fn others(
+        &self,
+        told: impl Fn(&RelatedRow) -> String,
+    ) -> impl Iterator<Item = String> {
+        let more = self.related.len().saturating_sub(MOST_OTHERS);
+        let more = (more > 0).then(|| say!(and_more_of_them, more));
+        self.related.iter().take(MOST_OTHERS).map(told).chain(more)
     }
 
     /// Which entity, which segment of it, and where that begins, in drawing units.

@@ -98,7 +98,12 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
             say!(contour_is_open_its_ends_are_mm, mm(distance * unit_mm))
         }
         Detail::Gap { distance } => say!(ends_do_not_meet, mm(distance * unit_mm)),
-        Detail::DuplicateEntity => say!(entity_lies_in_the_same_place_as_another).into(),
+        Detail::DuplicateEntity { count: 1 } => {
+            say!(entity_lies_in_the_same_place_as_another).into()
+        }
+        Detail::DuplicateEntity { count } => {
+            say!(entities_of_the_outline_lie_there_twice, count)
+        }
         Detail::Overlap { length } => {
             say!(segment_runs_on_another_one_over_mm, mm(length * unit_mm))
         }
@@ -288,7 +293,7 @@ pub(crate) fn related(finding: &Finding, handle: &str, segment: Option<usize>) -
         Detail::DoesNotFit(ref misfit) => say!(its_partner, misfit.partner, place),
         Detail::NarrowSlot { .. } => say!(the_facing_wall, place),
         Detail::DeadEnd { .. } => say!(the_wire_comes_no_further_than_here, place),
-        Detail::DuplicateEntity => say!(the_same_place, place),
+        Detail::DuplicateEntity { .. } => say!(the_same_place, place),
         Detail::Overlap { .. } => say!(runs_on_this_one, place),
         Detail::LeadIn(_) => say!(what_is_in_the_way, place),
         Detail::SelfIntersection { touches: true, .. } => say!(touches_this_one, place),

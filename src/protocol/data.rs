@@ -154,7 +154,7 @@ impl FindingData {
             Detail::NoPartner { of } => data.kind = Some(of.to_string()),
             Detail::Unwritable(_) => {}
             Detail::NotJudged(what) => data.count = left_out(what),
-            Detail::DuplicateEntity => {}
+            Detail::DuplicateEntity { count } => data.count = (*count > 1).then_some(*count),
             Detail::Overlap { length } | Detail::ShortSegment { length } => {
                 data.length = Some(*length)
             }

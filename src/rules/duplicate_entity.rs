@@ -19,7 +19,7 @@ pub(crate) const RULE: PairRule = PairRule {
             Vec::new()
         }
     },
-    detail: |_, _, _| Some(Detail::DuplicateEntity),
+    detail: |_, _, _| Some(Detail::DuplicateEntity { count: 1 }),
     fixes,
     ..PairRule::PLAIN
 };

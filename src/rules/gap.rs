@@ -32,10 +32,10 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
     }
 }
 
-/// Ends that are no further apart are where they belong.
+/// Ends that are no further apart are where they belong: what rounds to the resolution is no more than that.
 fn least(outlook: &Outlook) -> f64 {
     let tolerances = &outlook.limits.tolerances;
-    tolerances.report.max(tolerances.resolution)
+    tolerances.report.max(1.5 * tolerances.resolution)
 }
 
 fn distance(outlook: &Outlook, index: usize) -> Option<f64> {

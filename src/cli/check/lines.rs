@@ -42,7 +42,7 @@ fn told(row: &Row) -> String {
 
 /// The sentence, where that is, what else it concerns, and why it is let stand.
 fn said(row: &Row) -> String {
-    let others = row.related.iter().map(|related| related.message.clone());
+    let others = row.others(|related| related.message.clone());
     let reason = row
         .suppressed
         .iter()

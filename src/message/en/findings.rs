@@ -28,6 +28,7 @@ declare! {
     contour_is_open_its_ends_are_mm(distance) => "contour is open: its ends are {distance} mm apart";
     ends_do_not_meet(distance) => "ends do not meet: they are {distance} mm apart, within the join tolerance";
     entity_lies_in_the_same_place_as_another => "entity lies in the same place as another: the wire would cut it twice";
+    entities_of_the_outline_lie_there_twice(count) => "{count} entities of the outline lie in the same place as others: the wire would cut them twice";
     segment_runs_on_another_one_over_mm(length) => "segment runs on another one over {length} mm";
     segment_has_no_length => "segment has no length: it is a point, and is not cut";
     the_segment_is_too_short(length) => "segment is only {length} mm long: controllers stumble over it";

@@ -28,6 +28,7 @@ translate! {
     contour_is_open_its_ends_are_mm(distance) => "轮廓不封闭：两端相距 {distance} mm";
     ends_do_not_meet(distance) => "两端没有接上：相距 {distance} mm，在连接公差之内";
     entity_lies_in_the_same_place_as_another => "图元与另一图元重合：电极丝会切两遍";
+    entities_of_the_outline_lie_there_twice(count) => "轮廓中有 {count} 个图元与其他图元重合：电极丝会切两遍";
     segment_runs_on_another_one_over_mm(length) => "此段与另一段重叠 {length} mm";
     segment_has_no_length => "此段没有长度：是一个点，不切割";
     the_segment_is_too_short(length) => "此段只有 {length} mm 长：控制器容易出错";
