@@ -224,9 +224,6 @@ impl Document {
     /// What is suppressed in a drawing, each with the reason.
     pub(crate) fn suppressed(&self) -> Vec<(Finding, String)> {
         let of_drawing = |drawing: &Arc<Drawing>| self.analysis.clone().suppressed(drawing);
-        if self.settings().suppressed.is_empty() {
-            return Vec::new();
-        }
         self.drawing().map_or_else(Vec::new, of_drawing)
     }
 

@@ -452,6 +452,31 @@ fn the_commands_of_tutorials_and_how_to_do_what_they_show() {
     }
 }
 
+/// The suppression that the how-to shows suppresses what it speaks of.
+#[test]
+fn the_suppression_of_the_how_to_suppresses() {
+    let page = read(&root().join("docs/how-to.md"));
+    let (_, part) = page.split_once("## Let a finding stand").unwrap();
+    let lines = part.split("```").nth(1).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::copy(
+        root().join("docs/pictures/gap.dxf"),
+        folder.path().join("gap.dxf"),
+    )
+    .unwrap();
+    std::fs::write(
+        folder.path().join("wedm.toml"),
+        lines.strip_prefix("toml").unwrap(),
+    )
+    .unwrap();
+    let output = wedm(folder.path(), &["check", "gap.dxf", "--deny", "warning"]);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        output.status.success() && said.contains("1 suppressed"),
+        "{said}"
+    );
+}
+
 /// The tutorials in Chinese show the same commands and the same Python.
 #[test]
 fn the_tutorials_have_their_twins_in_chinese() {

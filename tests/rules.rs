@@ -1258,3 +1258,121 @@ fn what_the_reader_finds_keeps_its_severity_unless_somebody_sets_it() {
         assert_eq!(severity, expected, "{toml}");
     }
 }
+
+/// An outline that lies there twice is one finding, whichever of its entities come first, and one fix; so is each of two outlines.
+#[test]
+fn an_outline_that_lies_there_twice_is_one_finding() {
+    for (copies, count_of_more) in [(2, 4), (3, 8)] {
+        for drawing in drawings(&closed(&SQUARE), None) {
+            let entities: Vec<Entity> = drawing.entities().map(|(_, each)| each.clone()).collect();
+            let mut doubled = Drawing::new(None);
+            // One after the other, or each beside its double.
+            let (by_outline, by_line) = (
+                std::iter::repeat_n(&entities, copies)
+                    .flatten()
+                    .collect::<Vec<_>>(),
+                entities
+                    .iter()
+                    .flat_map(|each| std::iter::repeat_n(each, copies))
+                    .collect::<Vec<_>>(),
+            );
+            for order in [by_outline, by_line] {
+                let mut drawing = Drawing::new(None);
+                for each in order {
+                    drawing.push(each.clone());
+                }
+                let (analysis, findings) = analysed(&drawing);
+                let told: Vec<&Finding> = findings
+                    .iter()
+                    .filter(|finding| finding.rule == Rule::DuplicateEntity)
+                    .collect();
+                let [finding] = told[..] else {
+                    panic!("{findings:#?}")
+                };
+                let lines = entities.len();
+                assert_eq!(finding.related.len(), count_of_more * lines / 4);
+                assert!(
+                    matches!(finding.detail, Detail::DuplicateEntity { count } if count == lines),
+                    "{finding:?}"
+                );
+                assert_eq!(count(&findings, Rule::OpenContour), 0, "{findings:#?}");
+                let fix = &analysis.fixes(&drawing, finding)[0];
+                drawing.apply(&fix.edit).unwrap();
+                assert_eq!(drawing.order().len(), lines);
+                assert_eq!(
+                    count(&analysed(&drawing).1, Rule::DuplicateEntity),
+                    0,
+                    "{fix:?}"
+                );
+                doubled = drawing;
+            }
+            assert_eq!(doubled.order().len(), entities.len());
+        }
+    }
+}
+
+/// What is open is one error: how near it comes to others, and what it touches, is asked again when it is closed.
+#[test]
+fn what_is_open_is_not_asked_how_near_it_comes() {
+    let neighbour = closed(&[
+        (10.1, 0.0, 0.0),
+        (20.0, 0.0, 0.0),
+        (20.0, 10.0, 0.0),
+        (10.1, 10.0, 0.0),
+    ]);
+    let on_it = closed(&[(10.0, 4.0, 0.0), (20.0, 0.0, 0.0), (20.0, 10.0, 0.0)]);
+    for (beside, rule) in [
+        (&neighbour, Rule::NarrowSlot),
+        (&on_it, Rule::SelfIntersection),
+    ] {
+        for is_closed in [true, false] {
+            let outline = Shape {
+                closed: is_closed,
+                vertices: SQUARE.to_vec(),
+            };
+            let mut drawing = outline.as_polyline(None);
+            drawing.push(entity(beside.geometry(), None));
+            let findings = analysed(&drawing).1;
+            let told = [rule, Rule::OpenContour].map(|rule| count(&findings, rule));
+            assert_eq!(
+                told,
+                [usize::from(is_closed), usize::from(!is_closed)],
+                "{findings:#?}"
+            );
+        }
+    }
+}
+
+/// A gap that is shown as no more than the resolution is none.
+#[test]
+fn a_gap_that_rounds_to_the_resolution_is_none() {
+    for (gap, expected) in [(0.001_02, 0), (0.001_4, 0), (0.001_6, 1), (0.002, 1)] {
+        let mut drawing = closed(&SQUARE).as_chain(None);
+        let first = *drawing.order().first().unwrap();
+        let moved = Geometry::Line {
+            start: Point::new(0.0, 0.0),
+            end: Point::new(10.0 - gap, 0.0),
+        };
+        drawing.remove(first);
+        drawing.push(entity(moved, None));
+        let mut analysis = Analysis::new(&drawing, saying_from(0.001));
+        let findings = analysis.findings(&drawing, usize::MAX).0;
+        assert_eq!(count(&findings, Rule::Gap), expected, "{gap}");
+    }
+}
+
+/// What has no length does no harm: a hint. What is only too short to cut is a warning.
+#[test]
+fn points_are_hints() {
+    for (at, severity) in [(10.0, Severity::Hint), (9.997, Severity::Warning)] {
+        let mut vertices = SQUARE.to_vec();
+        vertices.insert(1, (at, 0.0, 0.0));
+        let findings = analysed(&closed(&vertices).as_polyline(None)).1;
+        let told: Vec<Severity> = findings
+            .iter()
+            .filter(|finding| finding.rule == Rule::ShortSegment)
+            .map(|finding| finding.severity)
+            .collect();
+        assert_eq!(told, [severity]);
+    }
+}

@@ -177,9 +177,9 @@ impl Known {
                 }
                 continue;
             }
-            report.count(rule.rule, None, count);
+            report.count(rule.rule, rule.mildest, count);
             for &observation in observations {
-                if report.is_full(rule.rule, None) {
+                if report.is_full(rule.rule, rule.mildest) {
                     break;
                 }
                 if let (Some(place), Some(detail)) = (
@@ -188,7 +188,7 @@ impl Known {
                 ) {
                     report.add(
                         rule.rule,
-                        None,
+                        rule.mildest,
                         place,
                         detail,
                         (rule.related)(outlook, observation),

@@ -323,7 +323,10 @@ impl Analysis {
 
     /// At most `limit` findings, errors first, then in machining order; and how many there are in all. What is suppressed is none of them.
     pub fn findings(&mut self, drawing: &Drawing, limit: usize) -> (Vec<Finding>, usize) {
-        if self.settings.suppressed.is_empty() && self.settings.own.is_empty() {
+        if self.settings.suppressed.is_empty()
+            && self.settings.own.is_empty()
+            && !drawing.has_marks()
+        {
             let (mut findings, count) = self.report(drawing, limit).finish();
             self.give_reasons(drawing, &mut findings);
             return (findings, count);

@@ -1,11 +1,11 @@
-//! What the settings say of single entities of a drawing: what somebody has looked at and lets stand, with the reason, which is told
+//! What the settings and the drawing itself say of single entities: what somebody has looked at and lets stand, with the reason, which is told
 //! apart from all other findings; and what is said of contours that are not there.
 
 use super::Analysis;
-use crate::drawing::{Drawing, EntityId, Role};
+use crate::drawing::{Drawing, EntityId, Role, SUPPRESS, mark_of_layer};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::{Bounds, Point};
-use crate::settings::{Effective, NEAR, point_of};
+use crate::settings::{Effective, NEAR, nearest, point_of};
 use std::collections::BTreeSet;
 
 /// All findings of a drawing in which something is suppressed.
@@ -19,32 +19,41 @@ pub(super) struct Judged {
 impl Analysis {
     /// What is suppressed, each with the reason.
     pub(crate) fn suppressed(&mut self, drawing: &Drawing) -> Vec<(Finding, String)> {
-        if self.settings.suppressed.is_empty() {
+        if self.settings.suppressed.is_empty() && !drawing.has_marks() {
             return Vec::new();
         }
         self.judged(drawing).suppressed
     }
 
     /// Why a finding of a rule at an entity is let stand.
-    pub(super) fn reason(&self, drawing: &Drawing, rule: Rule, id: EntityId) -> Option<&String> {
+    pub(super) fn reason(&self, drawing: &Drawing, rule: Rule, id: EntityId) -> Option<String> {
         let handle = &drawing.get(id)?.handle;
-        self.settings.suppressed.get(&**handle)?.get(&rule)
+        let of_handle = self.settings.suppressed.get(&**handle);
+        let said = of_handle.and_then(|reasons| reasons.get(&rule));
+        let drawn = || {
+            let reasons = drawing.marks(id).filter_map(|mark| waiver(mark)?.ok());
+            let mut of_rule = reasons.filter(|(of, _)| *of == rule);
+            of_rule.next().map(|(_, reason)| reason.to_owned())
+        };
+        said.cloned().or_else(drawn)
     }
 
     pub(super) fn judged(&mut self, drawing: &Drawing) -> Judged {
         let (mut all, _) = self.report(drawing, usize::MAX).finish();
         self.give_reasons(drawing, &mut all);
         let mut used: BTreeSet<(String, Rule)> = BTreeSet::new();
+        let mut used_marks: BTreeSet<(EntityId, Rule)> = BTreeSet::new();
         let (mut findings, mut suppressed) = (Vec::new(), Vec::new());
         for finding in all {
             let (Place::Segment { entity, .. } | Place::Entity { entity }) = finding.place else {
                 findings.push(finding);
                 continue;
             };
-            match self.reason(drawing, finding.rule, entity).cloned() {
+            match self.reason(drawing, finding.rule, entity) {
                 Some(reason) => {
                     let handle = drawing.get(entity).map(|entity| entity.handle.to_string());
                     used.extend(handle.map(|handle| (handle, finding.rule)));
+                    used_marks.insert((entity, finding.rule));
                     suppressed.push((finding, reason));
                 }
                 None => findings.push(finding),
@@ -55,15 +64,60 @@ impl Analysis {
             .flat_map(|(handle, rules)| rules.keys().map(move |rule| (handle.clone(), *rule)))
             .filter(|asked| !used.contains(asked))
             .filter_map(|(handle, rule)| {
-                self.settings_finding(say!(suppresses_nothing, handle, rule.name()))
+                let sentence = say!(suppresses_nothing, handle, rule.name());
+                self.settings_finding(Place::Document, sentence)
             })
             .chain(self.strays(drawing))
+            .chain(self.useless_marks(drawing, &used_marks))
             .collect();
         Judged {
             findings,
             suppressed,
             useless,
         }
+    }
+
+    /// What is said of marks in the drawing that suppress nothing, each once for an entity, or for a layer.
+    fn useless_marks(&self, drawing: &Drawing, used: &BTreeSet<(EntityId, Rule)>) -> Vec<Finding> {
+        let mut marked: Vec<EntityId> = drawing.marked().collect();
+        marked.sort_unstable_by_key(|id| drawing.rank(*id));
+        let mut useful: BTreeSet<(&str, &str)> = BTreeSet::new();
+        let mut useless: Vec<((&str, &str), EntityId)> = Vec::new();
+        for id in marked {
+            let Some(entity) = drawing.get(id) else {
+                continue;
+            };
+            for mark in drawing.marks(id) {
+                let is_of_layer = mark_of_layer(&entity.layer) == Some(mark);
+                let bearer = if is_of_layer {
+                    &*entity.layer
+                } else {
+                    &*entity.handle
+                };
+                match waiver(mark) {
+                    Some(Ok((rule, _))) if used.contains(&(id, rule)) => {
+                        useful.insert((bearer, mark));
+                    }
+                    Some(_) => useless.push(((bearer, mark), id)),
+                    None => {}
+                }
+            }
+        }
+        useless.retain(|(key, _)| useful.insert(*key));
+        let told = useless.into_iter().filter_map(|((bearer, mark), entity)| {
+            let sentence = match waiver(mark)? {
+                Ok((rule, _)) => say!(suppresses_nothing, bearer, rule.name()),
+                Err(name) => {
+                    let names = Rule::ALL.map(Rule::name).join(", ");
+                    match nearest(name, &names) {
+                        Some(near) => say!(mark_did_you_mean, bearer, mark, near),
+                        None => say!(mark_is_not_understood, bearer, mark),
+                    }
+                }
+            };
+            self.settings_finding(Place::Entity { entity }, sentence)
+        });
+        told.collect()
     }
 
     /// What is said of contours that are not in the drawing.
@@ -77,21 +131,40 @@ impl Analysis {
         let missing = self.settings.own.keys().filter(misses);
         missing.filter_map(|key| {
             let name = self.settings.document.as_deref().unwrap_or_default();
-            self.settings_finding(say!(no_contour_of_that_name, name, key))
+            self.settings_finding(Place::Document, say!(no_contour_of_that_name, name, key))
         })
     }
 
-    fn settings_finding(&self, sentence: String) -> Option<Finding> {
+    fn settings_finding(&self, place: Place, sentence: String) -> Option<Finding> {
         Some(Finding {
             rule: Rule::Settings,
             severity: self
                 .settings
                 .severity_over(Rule::Settings, Severity::Warning)?,
-            place: Place::Document,
+            place,
             detail: Detail::Settings(sentence),
             related: Vec::new(),
         })
     }
+}
+
+/// The rule that a mark suppresses, and why: `suppress RULE: reason`, with blanks, `_` or colons between them. `None` for other words, an
+/// error with what stands for the rule where it is none or the reason is missing.
+fn waiver(mark: &str) -> Option<Result<(Rule, &str), &str>> {
+    let is_between =
+        |letter: char| letter.is_whitespace() || matches!(letter, '_' | ':' | '\u{ff1a}');
+    let (word, rest) = (mark.get(..SUPPRESS.len())?, mark.get(SUPPRESS.len()..)?);
+    if !word.eq_ignore_ascii_case(SUPPRESS) {
+        return None;
+    }
+    let rest = rest.trim_start_matches(is_between);
+    let (name, reason) = rest.split_at(rest.find(is_between).unwrap_or(rest.len()));
+    let reason = reason.trim_matches(is_between);
+    let rule = Rule::ALL
+        .into_iter()
+        .find(|rule| rule.name().eq_ignore_ascii_case(name));
+    let rule = rule.filter(|_| !reason.is_empty());
+    Some(rule.map(|rule| (rule, reason)).ok_or(name))
 }
 
 /// The role that the settings give to an entity by its handle, or by a point that it runs through.

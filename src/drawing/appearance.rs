@@ -31,12 +31,30 @@ pub(crate) struct Linetype {
     pub(crate) of_layer: bool,
 }
 
-/// All that a drawing knows of how one entity looks.
+/// Words that the drawing itself has for one entity.
+pub(crate) type Marks = Arc<[Arc<str>]>;
+
+/// What the name of a layer says as a mark of all that is on it: `WEDM_SUPPRESS_gap_as the customer drew it`.
+pub(crate) fn mark_of_layer(layer: &str) -> Option<&str> {
+    let (ours, mark) = (layer.get(..5)?, layer.get(5..)?);
+    let is_mark = |mark: &&str| {
+        let word = mark.get(..SUPPRESS.len());
+        word.is_some_and(|word| word.eq_ignore_ascii_case(SUPPRESS))
+    };
+    let is_ours = ours.eq_ignore_ascii_case("WEDM_");
+    is_ours.then_some(mark).filter(is_mark)
+}
+
+/// The word that a mark begins with which lets a finding stand.
+pub(crate) const SUPPRESS: &str = "suppress";
+
+/// All that a drawing knows of how one entity looks, and what it has for it in words.
 #[derive(Clone, Debug)]
 pub(crate) struct Appearance {
     pub(super) unseen: Option<(Visibility, Arc<str>)>,
     pub(super) linetype: Option<Linetype>,
     pub(super) color: Option<Color>,
+    pub(super) marks: Option<Marks>,
 }
 
 /// The colour of an entity or a layer.

@@ -22,7 +22,9 @@ mod nesting;
 mod outline;
 mod slots;
 
-pub(crate) use appearance::{Appearance, Color, Linetype, Visibility};
+pub(crate) use appearance::{
+    Appearance, Color, Linetype, Marks, SUPPRESS, Visibility, mark_of_layer,
+};
 pub use chain::Chains;
 pub(crate) use chain::Key as ContourKey;
 pub(crate) use chain::stated_role;
@@ -86,6 +88,10 @@ pub struct Drawing {
     unseen: FxHashMap<EntityId, (Visibility, Arc<str>)>,
     /// Linetypes that are not continuous.
     linetypes: FxHashMap<EntityId, Linetype>,
+    /// What the source has for an entity in words, as extended data of DXF.
+    marks: FxHashMap<EntityId, Marks>,
+    /// Entities on layers whose names are such words.
+    on_marked_layers: FxHashSet<EntityId>,
     /// By id: the colour that an entity has of its own. Shorter than the drawing where the last ones have none.
     colors: Vec<Option<Color>>,
     /// By the name of the layer in lower case.
@@ -179,6 +185,7 @@ impl Drawing {
             self.enter(&entity.handle, id);
         }
         self.slots.push(entity);
+        self.look_at_layer(id);
         let position = position.min(self.order.len());
         self.rank_at(position);
         self.order.insert(position, id);
@@ -250,6 +257,7 @@ impl Drawing {
         let id = EntityId(self.slots.len() as u32);
         self.enter(&entity.handle, id);
         self.slots.push(entity);
+        self.look_at_layer(id);
         self.rank_at(self.order.len());
         self.order.push(id);
         self.fixed.insert(id);
@@ -344,11 +352,50 @@ impl Drawing {
         self.linetypes.get(&id)
     }
 
+    /// Says what the source has for an entity in words. True when that is something new.
+    pub(crate) fn set_marks(&mut self, id: EntityId, marks: Option<Marks>) -> bool {
+        let before = match marks.clone() {
+            Some(marks) => self.marks.insert(id, marks),
+            None => self.marks.remove(&id),
+        };
+        before != marks
+    }
+
+    /// Whether there are words for any entity.
+    pub(crate) fn has_marks(&self) -> bool {
+        !self.marks.is_empty() || !self.on_marked_layers.is_empty()
+    }
+
+    /// The entities that there are words for: of their own, or of their layer; in no order.
+    pub(crate) fn marked(&self) -> impl Iterator<Item = EntityId> + '_ {
+        let by_layer = self.on_marked_layers.iter();
+        let by_layer = by_layer.filter(|id| !self.marks.contains_key(id));
+        self.marks.keys().chain(by_layer).copied()
+    }
+
+    /// The words for an entity: its own, then those of its layer.
+    pub(crate) fn marks(&self, id: EntityId) -> impl Iterator<Item = &str> + '_ {
+        let layer = self.get(id).and_then(|entity| mark_of_layer(&entity.layer));
+        let own = self.marks.get(&id).into_iter();
+        own.flat_map(|marks| marks.iter().map(|mark| &**mark))
+            .chain(layer)
+    }
+
+    fn look_at_layer(&mut self, id: EntityId) {
+        let layer = self.get(id).and_then(|entity| mark_of_layer(&entity.layer));
+        if layer.is_some() {
+            self.on_marked_layers.insert(id);
+        } else if !self.on_marked_layers.is_empty() {
+            self.on_marked_layers.remove(&id);
+        }
+    }
+
     /// How an entity looks, for one that is removed and may come back.
     pub(crate) fn appearance(&self, id: EntityId) -> Appearance {
         Appearance {
             unseen: self.unseen.get(&id).cloned(),
             linetype: self.linetypes.get(&id).cloned(),
+            marks: self.marks.get(&id).cloned(),
             color: self.colors.get(id.0 as usize).copied().flatten(),
         }
     }
@@ -358,6 +405,7 @@ impl Drawing {
             self.unseen.insert(id, unseen);
         }
         self.set_linetype(id, appearance.linetype);
+        self.set_marks(id, appearance.marks);
         self.set_color(id, appearance.color);
     }
 
@@ -391,6 +439,7 @@ impl Drawing {
         if let Some(old) = self.slots.get(id) {
             let handle = old.handle.clone();
             self.slots.set(id, Entity { handle, ..entity });
+            self.look_at_layer(id);
         }
     }
 
@@ -411,6 +460,7 @@ impl Drawing {
             return false;
         }
         self.slots.put_back(id, entity);
+        self.look_at_layer(id);
         let rank = self.rank(id);
         let position = self.order.partition_point(|&other| self.rank(other) < rank);
         self.order.insert(position, id);
@@ -441,6 +491,8 @@ impl Drawing {
         self.straight.remove(&id);
         self.unseen.remove(&id);
         self.linetypes.remove(&id);
+        self.marks.remove(&id);
+        self.on_marked_layers.remove(&id);
         self.set_color(id, None);
         Some(entity)
     }

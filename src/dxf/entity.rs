@@ -9,7 +9,7 @@ use super::lexer::{Lexer, Tag};
 use super::number::{self, Code, Number};
 use super::shape::Shape;
 use super::space::{FLAT, Lies, Space, Vector3};
-use crate::drawing::{Color, Handle, Kind};
+use crate::drawing::{Color, Handle, Kind, Marks};
 use std::sync::Arc;
 
 /// What was read of one entity of the modelspace.
@@ -33,6 +33,8 @@ pub(super) struct Appearance {
     pub(super) paint: Paint,
     pub(super) stroke: Stroke,
     pub(super) invisible: bool,
+    /// Its extended data under the name of this program.
+    pub(super) marks: Option<Marks>,
 }
 
 /// Whence an entity has its colour.
@@ -137,6 +139,9 @@ pub(super) struct Common {
     pub(super) bad: bool,
     /// Tags of other programs follow, up to the end of the record.
     pub(super) foreign: bool,
+    /// Texts of the extended data of the application `WEDM`, and whether its data are read.
+    marks: Vec<Tag>,
+    is_own: bool,
     /// Within a group `{` … `}` of another program.
     pub(super) group: bool,
     /// A mark says which part of the record is of which class.
@@ -148,6 +153,9 @@ impl Common {
     #[inline]
     pub(super) fn take(&mut self, lexer: &mut Lexer, tag: Tag) -> bool {
         if self.foreign {
+            if tag.code >= 1000 {
+                self.take_extended(lexer, tag);
+            }
             return true;
         }
         if self.group || tag.code >= 1000 || matches!(tag.code, 100..=102) {
@@ -180,8 +188,24 @@ impl Common {
         match tag.code {
             100 => self.is_marked = true,
             // An embedded object uses the same codes with other meanings.
-            101 | 1000.. => self.foreign = true,
+            101 => self.foreign = true,
+            1000.. => {
+                self.foreign = true;
+                self.take_extended(lexer, tag);
+            }
             102 => self.group = lexer.lines.trimmed(tag.value_line()).starts_with(b"{"),
+            _ => {}
+        }
+    }
+
+    /// Extended data: a name of an application, then what it keeps at the entity.
+    fn take_extended(&mut self, lexer: &Lexer, tag: Tag) {
+        match tag.code {
+            1001 => {
+                let name = lexer.lines.trimmed(tag.value_line());
+                self.is_own = name.eq_ignore_ascii_case(b"WEDM");
+            }
+            1000 if self.is_own => self.marks.push(tag),
             _ => {}
         }
     }
@@ -327,10 +351,15 @@ impl Common {
         let stroke = self.linetype.map_or(Stroke::ByLayer, |tag| {
             Stroke::of(lexer.lines.trimmed(tag.value_line()), layers)
         });
+        let marks = self.marks.iter();
+        let marks: Vec<Arc<str>> = marks
+            .map(|tag| layers.name(lexer.lines.trimmed(tag.value_line())))
+            .collect();
         Appearance {
             paint,
             stroke,
             invisible: self.invisible,
+            marks: (!marks.is_empty()).then(|| marks.into()),
         }
     }
 

@@ -89,6 +89,7 @@ pub(super) fn read(lines: Lines, line: usize, layers: &mut Layers) -> Option<(Re
             paint,
             stroke: Stroke::of(linetype, layers),
             invisible: false,
+            marks: None,
         },
         kind,
         shape: Shape::Plain(geometry),

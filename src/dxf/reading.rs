@@ -290,6 +290,7 @@ impl Pass<'_> {
             drawing.set_visibility(id, visibility.0, &visibility.1);
             drawing.set_color(id, color);
             drawing.set_linetype(id, linetype);
+            drawing.set_marks(id, insert.appearance.marks.clone());
             ids.end = EntityId(id.0 + 1);
         }
         item.became = Became::Parts {
@@ -327,8 +328,9 @@ pub(super) fn set_appearance(
     };
     let linetype = stroke(&appearance.stroke, None, layer, states);
     let is_stroked_otherwise = drawing.set_linetype(id, linetype);
+    let is_marked_otherwise = drawing.set_marks(id, appearance.marks);
     let seen_otherwise = drawing.set_visibility(id, visibility, layer);
-    drawing.set_color(id, color) | seen_otherwise | is_stroked_otherwise
+    drawing.set_color(id, color) | seen_otherwise | is_stroked_otherwise | is_marked_otherwise
 }
 
 /// Kinds that become arcs within a tolerance.

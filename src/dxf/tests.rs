@@ -6,6 +6,7 @@ mod curves;
 mod editing;
 mod faults;
 mod layers;
+mod marks;
 mod planes;
 pub(super) mod reading;
 mod writing;

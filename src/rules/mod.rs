@@ -206,6 +206,8 @@ pub(crate) struct LocalRule {
     pub(crate) fixes: fn(&Outlook, Observation) -> Vec<Fix>,
     /// Where the wire side is not known: one hint for each contour in place of a finding for each observation.
     pub(crate) one_hint_when_side_unknown: bool,
+    /// Where the case is milder than the rule.
+    pub(crate) mildest: Option<Severity>,
 }
 
 impl LocalRule {
@@ -219,6 +221,7 @@ impl LocalRule {
         detail: |_, _, _| None,
         fixes: |_, _| Vec::new(),
         one_hint_when_side_unknown: false,
+        mildest: None,
     };
 }
 
@@ -237,6 +240,7 @@ pub(crate) const LOCAL_RULES: &[LocalRule] = &[
     sharp_corner::RULE,
     gap::RULE,
     short_segment::RULE,
+    short_segment::POINTS,
     near_tangent::RULE,
     arc_as_chords::RULE,
 ];

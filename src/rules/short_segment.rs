@@ -6,30 +6,44 @@
 use super::ends::joined;
 use super::{LocalRule, Observation, Outlook};
 use crate::drawing::{Change, ContourSegment, Geometry, Vertex};
-use crate::finding::{Detail, Fix, FixKind, Rule};
+use crate::finding::{Detail, Fix, FixKind, Rule, Severity};
 use std::ops::Range;
 
 pub(crate) const RULE: LocalRule = LocalRule {
     rule: Rule::ShortSegment,
-    check,
+    check: |outlook, range, observations| {
+        let tolerances = &outlook.limits.tolerances;
+        let least = tolerances.resolution.max(tolerances.zero_length);
+        see(outlook, range, observations, |length| {
+            length > tolerances.zero_length && (least..tolerances.short).contains(&length)
+        })
+    },
     detail,
     fixes,
     ..LocalRule::PLAIN
 };
 
-fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observation>) {
-    for index in range {
-        let tolerances = &outlook.limits.tolerances;
-        let is_short = |length: f64| {
-            // What has no length at all is drawn for nothing.
-            length <= tolerances.zero_length
-                || (tolerances.resolution..tolerances.short).contains(&length)
-        };
-        let segment = outlook.segment(index as isize);
-        if segment.is_some_and(|segment| is_short(segment.geometry.length())) {
-            observations.push(Observation::at(index));
-        }
-    }
+/// What has no length at all is drawn for nothing, and does no harm.
+pub(crate) const POINTS: LocalRule = LocalRule {
+    check: |outlook, range, observations| {
+        let zero_length = outlook.limits.tolerances.zero_length;
+        see(outlook, range, observations, |length| length <= zero_length)
+    },
+    mildest: Some(Severity::Hint),
+    ..RULE
+};
+
+fn see(
+    outlook: &Outlook,
+    range: Range<usize>,
+    observations: &mut Vec<Observation>,
+    is_short: impl Fn(f64) -> bool,
+) {
+    let is_short = |index: &usize| {
+        let segment = outlook.segment(*index as isize);
+        segment.is_some_and(|segment| is_short(segment.geometry.length()))
+    };
+    observations.extend(range.filter(is_short).map(Observation::at));
 }
 
 fn detail(outlook: &Outlook, observation: Observation, _count: Option<usize>) -> Option<Detail> {

@@ -38,6 +38,7 @@ pub(crate) use passes::{PassFault, pass_faults, passes_table};
 pub use profile::shipped_profiles;
 pub(crate) use profile::{CenterRule, Coordinates, LineEnd, NumberUnit, Zero};
 pub use row::Row;
+pub(crate) use spelling::nearest;
 pub use table::camel_case;
 
 use crate::drawing::Role;

@@ -4,7 +4,7 @@ use serde::de::value::{Error, StrDeserializer};
 use serde::de::{DeserializeOwned, IntoDeserializer};
 
 /// The one of some words in a list that somebody has most likely meant: a few letters differ, no more than a third of them.
-pub(super) fn nearest<'a>(word: &str, words: &'a str) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(word: &str, words: &'a str) -> Option<&'a str> {
     let plain = |word: &str| snake_case(word).to_lowercase();
     let (word, most) = (plain(word), word.chars().count() / 3);
     let letter = |letter: char| !(letter.is_alphanumeric() || letter == '-');

@@ -177,7 +177,8 @@ fn outlines_cross_and_touch() {
     check_contacts(
         "a line tangent to a circle",
         &[circle([0., 0.], 2.), line([-5., 2.], [5., 2.])],
-        &[([0., 2.], touch, Warning)],
+        // The line is open: that is said.
+        &[],
     );
     check_contacts(
         "lines that lead into a circle",
@@ -411,7 +412,8 @@ fn walls_leave_too_little_room() {
         "ends of two contours",
         &[open(&[[0., 0.], [4., 0.]]), open(&[[4.05, 0.], [9., 0.]])],
         Opening,
-        &[(0.05, warning)],
+        // Both are open: that is said.
+        &[],
     );
     check_slots(
         "slot",

@@ -14,9 +14,11 @@ fn all_of(document: &Document) -> String {
     let mut all = format!("{:?}\n", drawing.unit);
     for (order, (id, entity)) in drawing.entities().enumerate() {
         all += &format!(
-            "{order} {entity:?} {:?} {:?} at {:?}\n",
+            "{order} {entity:?} {:?} {:?} {:?} {:?} at {:?}\n",
             drawing.visibility(id),
             drawing.color(id),
+            drawing.linetype(id),
+            drawing.marks(id).collect::<Vec<_>>(),
             document.range_of(&Place::Entity { entity: id })
         );
         for segment in 0..entity.geometry.segment_count() {
@@ -100,14 +102,15 @@ const DRAWINGS: [&str; 5] = [
 
 const BLOCKS: &str = "0 BLOCK 2 B 10 1 20 1 0 LINE 8 0 10 1 20 2 11 3 21 4 0 HATCH 8 0 0 ARC 8 C 10 1 20 2 40 3 50 30 51 90 0 ENDBLK \
      0 BLOCK 2 C 10 0 20 0 0 INSERT 2 B 10 1 20 1 41 -1 70 2 44 5 0 SPLINE 8 S 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 0 10 1 20 1 10 2 20 0 0 ENDBLK";
-const REFERENCES: &str = "0 LINE 5 A1 10 1 20 2 11 3 21 4 0 INSERT 5 A2 8 P 2 B 10 1 20 2 50 30 \
+const REFERENCES: &str = "0 LINE 5 A1 10 1 20 2 11 3 21 4 0 INSERT 5 A2 8 P 2 B 10 1 20 2 50 30 1001 WEDM 1000 suppress_gap_so \
      0 LINE 5 A3 8 X 62 1 370 5 6 CONTINUOUS 48 1.5 39 0 60 0 10 1 20 2 30 0 11 3 21 4 31 0 0 LINE 5 A4 10 1 20 2 11 3 21 4 \
      0 LINE 5 A5 8 X 62 1 370 5 6 CONTINUOUS 48 1.5 39 0 60 0 10 1 20 2 30 0 11 3 21 4 31 0 0 LINE 5 A6 10 1 20 2 11 3 21 4 \
      0 ELLIPSE 5 A7 8 X 10 1 20 2 11 3 21 0 40 0.5 41 0 42 3 0 CIRCLE 5 A8 10 1 20 2 40 5 0 INSERT 5 A9 2 C 10 0 20 0 \
      0 INSERT 2 NONE 10 0 20 0 0 SPLINE 5 AA 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 0 10 1 20 1 10 2 20 0 0 POINT 5 AB 10 1 20 2";
 
 const LAYERED: &str = "0 LINE 5 A1 8 COLD 10 1 20 2 11 3 21 4 0 LINE 5 A2 8 DARK 62 1 10 1 20 2 11 3 21 4 0 LINE 5 A3 8 AIDS 10 1 20 2 11 3 21 4 \
-     0 LINE 5 A4 8 Q 10 1 20 2 11 3 21 4 0 LINE 5 A5 60 1 62 256 10 1 20 2 11 3 21 4 0 CIRCLE 5 A6 8 cold 420 255 10 1 20 2 40 3";
+     0 LINE 5 A4 8 Q 10 1 20 2 11 3 21 4 0 LINE 5 A5 60 1 62 256 10 1 20 2 11 3 21 4 0 CIRCLE 5 A6 8 cold 420 255 10 1 20 2 40 3 \
+     0 LINE 5 A7 8 WEDM_SUPPRESS_gap_so 10 1 20 2 11 3 21 4 1001 ACAD 1000 suppress 1001 WEDM 1070 1 1000 suppress_gap_so 1000 more";
 
 /// An edit as shares of the text, so that it fits every text.
 fn any_edit() -> impl Strategy<Value = (f64, usize, String)> {
@@ -117,7 +120,7 @@ fn any_edit() -> impl Strategy<Value = (f64, usize, String)> {
         2 => prop::sample::select(vec![
             "\n0\nLINE\n5\nF1\n10\n7\n20\n7\n11\n8\n21\n8\n", "\n0\nENDSEC\n", "\n0\nSECTION\n2\nENTITIES\n", "\n0\nEOF\n", "\n10\n5\n20\n5\n",
             "\n42\n0.1\n", "\n999\nx\n", "\nx\ny\n", "\n99999\nz\n", "\n0\nPOLYLINE\n", "\n0\nVERTEX\n10\n1\n20\n1\n", "\n5\nA2\n", "\n102\n{X\n",
-            "\n1001\nX\n", "\r", "\r\n", "\n", "\u{feff}", "\n70\n5\n", "0\nHATCH\n", "nan", "1D2",
+            "\n1001\nX\n", "\n1001\nWEDM\n1000\nsuppress_gap_x\n", "\r", "\r\n", "\n", "\u{feff}", "\n70\n5\n", "0\nHATCH\n", "nan", "1D2",
         ]).prop_map(str::to_owned),
     ];
     (

@@ -23,6 +23,8 @@ declare! {
     the_reason_in_words => "the reason in words";
     did_you_mean_of(expected, near) => "{expected}: did you mean {near}?";
     is_not_known_did_you_mean(key, near) => "{key} is not known, did you mean {near}?";
+    mark_did_you_mean(bearer, mark, near) => "the mark {mark:?} of {bearer} suppresses nothing, expected \"suppress RULE: the reason\": did you mean {near}?";
+    mark_is_not_understood(bearer, mark) => "the mark {mark:?} of {bearer} suppresses nothing, expected \"suppress RULE: the reason\"";
     suppresses_nothing(handle, rule) => "the suppression of {rule} at {handle} suppresses nothing here: take it out";
     no_contour_of_that_name(drawing, key) => "nothing in this drawing is {key}: what [drawings.\"{drawing}\".contours] says of it holds for nothing";
     one_or_other(ones, other) => "{ones} or {other}";

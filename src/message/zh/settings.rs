@@ -23,6 +23,8 @@ translate! {
     the_reason_in_words => "用文字写明理由";
     did_you_mean_of(expected, near) => "{expected}：是否想写 {near}？";
     is_not_known_did_you_mean(key, near) => "未知的 {key}，是否想写 {near}？";
+    mark_did_you_mean(bearer, mark, near) => "{bearer} 的标记 {mark:?} 不起作用，应为 \"suppress 规则名：理由\"：是否想写 {near}？";
+    mark_is_not_understood(bearer, mark) => "{bearer} 的标记 {mark:?} 不起作用，应为 \"suppress 规则名：理由\"";
     suppresses_nothing(handle, rule) => "对 {handle} 处 {rule} 的忽略不起作用：请删去";
     no_contour_of_that_name(drawing, key) => "本图中没有 {key}：[drawings.\"{drawing}\".contours] 中对它的规定不起作用";
     one_or_other(ones, other) => "{ones} 或 {other}";
