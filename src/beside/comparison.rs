@@ -45,7 +45,7 @@ pub struct Comparison {
 /// Differences of more blocks than this share speak for another drawing.
 const OTHER: f64 = 0.34;
 /// As many differences as this are one change each, whatever their share.
-const FEW: usize = 6;
+pub(super) const FEW: usize = 6;
 /// What a block of 4B may be off by where another rounding of its transitions explains it, µm.
 const ROUNDED: f64 = 2.5;
 /// So many blocks have to be as we write them for each that is not: it is a change then, and not another writer's rounding.
@@ -53,10 +53,8 @@ const OWN: usize = 8;
 /// Corrections that are found for further passes, at most.
 const FURTHER: usize = 4;
 
-/// Holds a program against a drawing; `None` where it follows nothing of it.
-///
-/// A program that is ours is known block by block, and so is a change of 3 µm in it; one of another writer has room for its roundings.
-pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
+/// Holds a program against a drawing by how its blocks lie, whoever wrote them; `None` where it follows nothing of it.
+pub(super) fn looked_at(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     if traced.is_empty() || drawn.contours.is_empty() {
         return None;
     }
@@ -285,7 +283,7 @@ fn segments(blocks: &[Block]) -> impl Iterator<Item = Segment> {
     blocks.iter().filter_map(|block| block.segment().copied())
 }
 
-fn longest_cut(traced: &Traced) -> Vec<Segment> {
+pub(super) fn longest_cut(traced: &Traced) -> Vec<Segment> {
     let longest = traced
         .cuts
         .iter()

@@ -14,7 +14,23 @@ pub struct Drawn {
     /// mm of the drawing's unit.
     pub(super) unit_mm: f64,
     pub(super) handles: FxHashMap<EntityId, Handle>,
+    /// What a program is written of, where that does not take long.
+    pub(super) whole: Option<Whole>,
 }
+
+/// A drawing and its outlines.
+#[derive(Clone, Debug)]
+pub(super) struct Whole(Arc<(Drawing, Vec<Outline>)>);
+
+impl PartialEq for Whole {
+    fn eq(&self, other: &Whole) -> bool {
+        let (Whole(own), Whole(other)) = (self, other);
+        Arc::ptr_eq(own, other) || own.1 == other.1 && own.0.entities().eq(other.0.entities())
+    }
+}
+
+/// Of more entities, or of contours of more segments, no program is written to hold another one against it.
+const MOST: usize = 20_000;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Contour {
@@ -28,10 +44,10 @@ pub(super) struct Contour {
 impl Drawn {
     /// The contours that are cut; what lies twice is taken once.
     pub fn of(drawing: &Drawing, outlines: &[Outline], settings: &Arc<Effective>) -> Drawn {
-        let outlines = outlines
+        let cut = outlines
             .iter()
             .filter(|outline| outline.contour.double_of.is_none());
-        let contours: Vec<Contour> = outlines
+        let contours: Vec<Contour> = cut
             .map(|outline| Contour {
                 segments: outline.contour.segments(drawing).collect(),
                 closed: outline.contour.closed,
@@ -43,12 +59,20 @@ impl Drawn {
             let entity = drawing.get(segment.entity)?;
             Some((segment.entity, entity.handle.clone()))
         });
+        let segments: usize = contours.iter().map(|contour| contour.segments.len()).sum();
+        let is_small = segments.max(drawing.len()) <= MOST;
         Drawn {
+            whole: is_small.then(|| Whole(Arc::new((drawing.clone(), outlines.to_vec())))),
             handles: handles.collect(),
             contours,
             settings: settings.clone(),
             unit_mm: settings.unit_of(drawing).mm,
         }
+    }
+
+    /// What a program is written of.
+    pub(super) fn whole(&self) -> Option<&(Drawing, Vec<Outline>)> {
+        self.whole.as_ref().map(|Whole(whole)| &**whole)
     }
 
     /// What an entity is called.

@@ -1,6 +1,7 @@
 //! What is said of a comparison, at the program and at the drawing.
 
-use super::{Comparison, Difference, DifferenceKind, Drawn, Traced, compare};
+use super::own::compare;
+use super::{Comparison, Difference, DifferenceKind, Drawn, Traced};
 use crate::finding::{Detail, Finding, Place, Rule, Severity, Unlike};
 use crate::settings::Effective;
 use std::sync::Arc;
@@ -89,6 +90,14 @@ pub fn of_program(
                 segment: number,
             },
             DifferenceKind::Foreign => Unlike::Foreign { other: other() },
+            DifferenceKind::Lead => Unlike::Lead {
+                other: other(),
+                off,
+            },
+            DifferenceKind::Stated => Unlike::Stated {
+                other: other(),
+                off,
+            },
         };
         finding(unlike, Place::Text { range }, settings)
     }));
@@ -137,7 +146,9 @@ pub fn of_drawing(
                     other: other(),
                     line,
                 },
-                DifferenceKind::Foreign => return None,
+                DifferenceKind::Foreign | DifferenceKind::Lead | DifferenceKind::Stated => {
+                    return None;
+                }
             };
             finding(unlike, Place::Segment { entity, segment }, settings)
         });

@@ -4,7 +4,11 @@ use super::BETWEEN;
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::path::{self, Kind};
 use crate::program::{Document, Language};
+use crate::text::SourceText;
 use std::ops::Range;
+
+/// Longer texts are not held against another one, bytes.
+const LONGEST: usize = 2_000_000;
 
 /// The blocks of a program.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,6 +21,10 @@ pub struct Traced {
     /// The ends of arcs are where the machine stops counting: a little beside the place that is meant.
     pub(super) counts: bool,
     pub(super) four_b: bool,
+    /// The text, where it is not too long to be held against another one.
+    pub(super) text: SourceText,
+    /// Coordinates stand behind blocks.
+    pub(super) states_ends: bool,
 }
 
 /// One block.
@@ -86,7 +94,13 @@ impl Traced {
             Document::ThreeB(program) => program.first_four_b_line().is_some(),
             Document::Iso(_) => false,
         };
+        let text = match program.text().len() <= LONGEST {
+            true => program.text().clone(),
+            false => SourceText::default(),
+        };
         Traced {
+            states_ends: program.states_ends(),
+            text,
             blocks: blocks.collect(),
             cuts,
             is_placed: is_placed || program.language() == Language::Iso,

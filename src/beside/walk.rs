@@ -36,6 +36,10 @@ pub enum Kind {
     Unfinished,
     /// No contour of the drawing is like this.
     Foreign,
+    /// A way in or out, or between contours, of a program that is ours but for that.
+    Lead,
+    /// The coordinates behind a block of such a one are not where it ends.
+    Stated,
 }
 
 /// What came of a walk.

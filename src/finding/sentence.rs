@@ -184,6 +184,18 @@ fn unlike(what: &Unlike, unit_mm: f64) -> String {
             other
         ),
         Unlike::Foreign { other } => say!(no_contour_of_the_drawing_is_like_this, other),
+        Unlike::Lead { other, off } => {
+            say!(
+                the_way_does_not_lead_where_its_drawing_has_it,
+                other,
+                mm(*off)
+            )
+        }
+        Unlike::Stated { other, off } => say!(
+            the_coordinates_are_not_where_its_drawing_has_the_end,
+            other,
+            mm(*off)
+        ),
         Unlike::Segment { other, line, off } => {
             say!(
                 the_program_does_not_follow_this_segment,

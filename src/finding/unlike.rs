@@ -26,6 +26,10 @@ pub enum Unlike {
     },
     /// A contour, or a pass, of the program follows nothing of the drawing.
     Foreign { other: Arc<str> },
+    /// A way in or out, or between contours, does not lead where the drawing and its settings have it; `off` is in mm.
+    Lead { other: Arc<str>, off: f64 },
+    /// The coordinates behind a block are not where the drawing has its end; `off` is in mm.
+    Stated { other: Arc<str>, off: f64 },
     /// A block of the program, on a line from 1, does not follow this segment of the drawing; `off` is in the drawing's unit.
     Segment {
         other: Arc<str>,
@@ -54,6 +58,8 @@ impl Unlike {
         match self {
             Unlike::Block { off, .. }
             | Unlike::Moved { off, .. }
+            | Unlike::Lead { off, .. }
+            | Unlike::Stated { off, .. }
             | Unlike::Segment { off, .. }
             | Unlike::Begin { off, .. } => Some(*off),
             _ => None,

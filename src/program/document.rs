@@ -145,6 +145,14 @@ impl Document {
         (!edits.is_empty()).then_some(edits)
     }
 
+    /// Coordinates stand behind blocks.
+    pub(crate) fn states_ends(&self) -> bool {
+        match self {
+            Document::ThreeB(document) => document.stated_ends().next().is_some(),
+            Document::Iso(_) => false,
+        }
+    }
+
     /// An electrode mills it: no wire cuts it out.
     pub(crate) fn mills(&self) -> bool {
         match self {

@@ -3,6 +3,8 @@
 declare! {
     the_block_does_not_follow_its_drawing(segment, handle, drawing, off) => "block does not follow segment {segment} of {handle} in {drawing}: it ends {off} mm from where the drawing has it";
     the_contour_does_not_begin_where_its_drawing_has_it(handle, drawing, off) => "contour begins {off} mm from where {drawing} has it ({handle})";
+    the_way_does_not_lead_where_its_drawing_has_it(drawing, off) => "way of the wire in, out or between contours leads {off} mm from where {drawing} and its settings have it";
+    the_coordinates_are_not_where_its_drawing_has_the_end(drawing, off) => "coordinates behind the block are {off} mm from where {drawing} has its end";
     the_contour_is_left_before_it_is_cut_all_round(segment, handle, drawing) => "contour is left here although {drawing} goes on with segment {segment} of {handle}";
     no_contour_of_the_drawing_is_like_this(drawing) => "no contour of {drawing} is like this one at any correction of the program";
     the_program_does_not_follow_this_segment(program, line, off) => "{program} does not follow this segment: its line {line} ends {off} mm from where the drawing has it; write the program anew if the drawing has changed";

@@ -1,0 +1,423 @@
+//! A program as we write it for its drawing, block by block.
+//!
+//! The drawing's program is written anew under the same settings. Where that has the same blocks but for a few, somebody has changed those:
+//! each is named, in whatever number it was changed, and nothing else is. Of everything else nothing is known here.
+
+use super::comparison::{Comparison, Difference, FEW, longest_cut, looked_at};
+use super::drawn::Drawn;
+use super::infer;
+use super::traced::{Block, Motion, Traced};
+use super::walk::Kind;
+use crate::drawing::EntityId;
+use crate::geometry::{Point, Segment, Vector};
+use crate::program::write::scaled;
+use crate::program::{Document, Format, Language};
+use crate::settings::{Compensation, Corner, Direction, Effective, Layout};
+use crate::toolpath::{Source, WirePath, plan};
+use std::ops::Range;
+
+/// How far a block may lie from the one that is written anew, or one of its numbers from that, µm.
+const ALIKE: f64 = 2.0;
+/// What lies nearer is the same place of the grid, µm.
+const SAME: f64 = 1e-2;
+/// What a way in or out, or between contours, is off by more is meant: its hole is elsewhere, µm.
+const SLIP: f64 = 50.0;
+/// Blocks that are written anew under other settings, at most.
+const MOST_TRIED: usize = 30_000;
+
+/// Holds a program against a drawing; `None` where it follows nothing of it.
+///
+/// A program that is ours is known block by block, and so is a change of 3 µm in it; one of another writer has room for its roundings.
+pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
+    let known = own(drawn, traced, &drawn.settings, false);
+    // One may be as another writer has it in a place or two.
+    let is_certain = |known: &Comparison| known.differences.len() < 2;
+    if known.as_ref().is_some_and(is_certain) {
+        return known;
+    }
+    let Some(known) = known else {
+        return otherwise(drawn, traced).or_else(|| looked_at(drawn, traced));
+    };
+    let seen = looked_at(drawn, traced);
+    let is_clean = |seen: &Comparison| seen.differences.is_empty();
+    seen.filter(is_clean).or(Some(known))
+}
+
+/// What somebody has changed in a program that is ours by other settings: its correction, direction, corners and way in are found out.
+fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
+    let settings = &*drawn.settings;
+    if settings.corrections.len() > 1 {
+        return None;
+    }
+    let is_offset = traced.blocks.iter().any(|block| block.is_offset);
+    let base = Effective {
+        compensation: match (settings.compensation, is_offset) {
+            (Compensation::Path, true) => Compensation::Controller,
+            (Compensation::Controller, false) => Compensation::Path,
+            (set, _) => set,
+        },
+        ..settings.clone()
+    };
+    let ways = [Direction::Ccw, Direction::Cw, Direction::AsDrawn];
+    let corners = [Corner::Arc, Corner::Intersection];
+    let mut all = Vec::new();
+    for lead_in in [None, Some(lead_in(traced)?)] {
+        for correction in corrections(drawn, traced) {
+            all.extend(ways.map(|way| corners.map(|corner| (lead_in, correction, way, corner))));
+        }
+    }
+    let drawn_segments = drawn.contours.iter().map(|contour| contour.segments.len());
+    let tries = MOST_TRIED / traced.blocks.len().max(drawn_segments.sum()).max(1);
+    let all = all.into_iter().flatten().take(tries);
+    let mut told = all.filter_map(|(lead_in, correction, direction, corner)| {
+        let settings = Effective {
+            correction,
+            corrections: vec![correction],
+            direction,
+            corner,
+            lead_in: lead_in.unwrap_or(base.lead_in),
+            stated_lead_in: lead_in.or(base.stated_lead_in),
+            ..base.clone()
+        };
+        own(drawn, traced, &settings, true)
+    });
+    told.find(|told| told.differences.len() < 2)
+}
+
+/// Corrections that a program may have been written with, mm: of three places.
+fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<f64> {
+    let scale = drawn.unit_mm * 1e3;
+    let speaks_for = infer::corrections(drawn.contours.iter(), scale, &longest_cut(traced));
+    let arcs = traced
+        .blocks
+        .iter()
+        .filter_map(|block| block.segment()?.as_arc());
+    // Round a corner it is the radius; a transition of 4B is larger by a step.
+    let least = arcs
+        .map(|arc| arc.radius / 1e3)
+        .fold(f64::INFINITY, f64::min);
+    let least = least.is_finite().then_some([least, least - 1e-3]);
+    let rounded = speaks_for
+        .into_iter()
+        .take(2)
+        .chain(least.into_iter().flatten());
+    let near = |mm: f64| [0.0, -1e-3, 1e-3].map(|by| ((mm + by) * 1e3).round() / 1e3);
+    let mut all = vec![drawn.settings.correction];
+    for mm in rounded.flat_map(near).filter(|mm| *mm > 0.0) {
+        if !all.contains(&mm) {
+            all.push(mm);
+        }
+    }
+    // A shorter number first.
+    let places = |mm: &f64| (*mm * 1e3).round() as i64;
+    all[1..].sort_by_key(|mm| (places(mm) % 5 != 0, places(mm) % 10 != 0));
+    all
+}
+
+/// The length of the first way in, mm.
+fn lead_in(traced: &Traced) -> Option<f64> {
+    let [all, contour] = traced.cuts.first()?;
+    let blocks = traced.blocks.get(all.start..contour.start)?;
+    let length: f64 = blocks
+        .iter()
+        .filter_map(|block| Some(block.segment()?.length()))
+        .sum();
+    Some((length / 10.0).round() / 100.0)
+}
+
+/// A program that was written anew, and the ways it was written of, µm.
+struct Written {
+    traced: Traced,
+    pieces: Vec<(Segment, Source)>,
+    /// From its places to those of the drawing.
+    shift: Vector,
+}
+
+/// What somebody has changed in a program that is ours under these settings; `None` where it is not.
+///
+/// `exactly`: all blocks but those that were changed, and what they move, are the very ones.
+fn own(drawn: &Drawn, traced: &Traced, settings: &Effective, exactly: bool) -> Option<Comparison> {
+    let written = Written::of(drawn, traced, settings)?;
+    let anew = &written.traced;
+    if anew.blocks.len() != traced.blocks.len() {
+        return None;
+    }
+    // Placed where the drawing is, or anywhere.
+    let anywhere = begin(traced)? - begin(anew)?;
+    let as_drawn = (traced.is_placed && anew.is_placed)
+        .then(|| told(&written, traced, Vector::zeros(), exactly));
+    let fewer = |told: &Comparison| told.differences.len();
+    let all = as_drawn
+        .flatten()
+        .into_iter()
+        .chain(told(&written, traced, anywhere, exactly));
+    all.min_by_key(fewer)
+}
+
+/// The same for a program that lies so far from the one that is written anew.
+fn told(written: &Written, traced: &Traced, from: Vector, exactly: bool) -> Option<Comparison> {
+    let anew = &written.traced;
+    let pairs = || traced.blocks.iter().zip(&anew.blocks);
+    let words = |block: &Block, of: &Traced| Words::of(of.text.slice(block.range.clone()));
+    let rewritten = pairs()
+        .filter(|(own, meant)| words(own, traced) != words(meant, anew))
+        .count();
+    let is_in_our_words = 2 * rewritten <= traced.blocks.len();
+    let (mut found, mut stated) = (Vec::new(), Vec::new());
+    let (mut before, mut beside) = (false, 0);
+    for (own, meant) in pairs() {
+        let is_first = !std::mem::take(&mut before);
+        if own.is_offset != meant.is_offset {
+            return None;
+        }
+        let (said, expected) = (words(own, traced), words(meant, anew));
+        let away = away(&own.motion, &meant.motion, from, !is_first)?;
+        beside += usize::from(away > SAME);
+        let off = match said.apart(&expected) {
+            Some(apart) if is_in_our_words => away.max(apart),
+            _ => away,
+        };
+        let behind = Words::behind(traced, own).apart(&Words::behind(anew, meant));
+        if off <= ALIKE {
+            let off = behind.unwrap_or(0.0);
+            stated.extend((off > ALIKE).then(|| named(own, None, off, Kind::Stated)));
+            continue;
+        }
+        if said == expected {
+            // The same words mean something else behind a block that ends elsewhere, or under another mode.
+            if is_first {
+                return None;
+            }
+            continue;
+        }
+        let (segment, kind) = match written.source_of(&meant.motion) {
+            Some(segment) => (Some(segment), Kind::Block),
+            None if off <= SLIP => (None, Kind::Lead),
+            None => return None,
+        };
+        found.push(named(own, segment, off, kind));
+        before = true;
+    }
+    let is_other = exactly && beside > 3 * found.len();
+    if is_other || found.len() > FEW.min(traced.blocks.len() / 3) {
+        return None;
+    }
+    if stated.len() <= FEW {
+        found.append(&mut stated);
+    }
+    found.extend(begun_elsewhere(traced, anew));
+    found.sort_by_key(|difference| difference.range.start);
+    let contours = anew.cuts.iter().flat_map(|[_, contour]| contour.clone());
+    let cut = contours.filter_map(|index| traced.blocks.get(index));
+    let follows = cut.filter(|block| matches!(block.motion, Motion::Cut(_)));
+    Some(Comparison {
+        follows: follows.map(|block| block.range.clone()).collect(),
+        differences: found,
+    })
+}
+
+fn named(block: &Block, segment: Option<(EntityId, usize)>, off: f64, kind: Kind) -> Difference {
+    Difference {
+        range: block.range.clone(),
+        line: block.line,
+        segment,
+        off: off / 1e3,
+        kind,
+    }
+}
+
+/// The line with which an ISO program says where it begins, where that is a little beside its place.
+fn begun_elsewhere(traced: &Traced, anew: &Traced) -> Option<Difference> {
+    let said = |of: &Traced| -> Option<(usize, Range<usize>, Words)> {
+        let first = anew.blocks.first()?.line.max(of.blocks.first()?.line);
+        let lines = (0..first).map(|line| (line, of.text.line_range(line)));
+        let mut words = lines.map(|(line, range)| {
+            let words = Words::of(of.text.slice(range.clone()));
+            (line, range, words)
+        });
+        words.find(|(_, _, words)| {
+            words.letters.starts_with(b"G0X") && words.numbers.first() == Some(&92.0)
+        })
+    };
+    if traced.counts {
+        return None;
+    }
+    let ((line, range, own), (.., meant)) = (said(traced)?, said(anew)?);
+    let off = own
+        .apart(&meant)
+        .filter(|off| (ALIKE..=SLIP).contains(off))?;
+    Some(Difference {
+        range,
+        line,
+        segment: None,
+        off: off / 1e3,
+        kind: Kind::Lead,
+    })
+}
+
+fn begin(traced: &Traced) -> Option<Point> {
+    traced.blocks.iter().find_map(|block| match &block.motion {
+        Motion::Cut(segment) => Some(segment.start()),
+        Motion::Way(start, _) => Some(*start),
+        Motion::Stop => None,
+    })
+}
+
+/// How far one motion is from another, counted from where it begins or from where the program does; `None` where they are of two kinds.
+///
+/// `behind` a block that ends elsewhere the radius of an arc is enough: with it, its centre is elsewhere too.
+fn away(own: &Motion, meant: &Motion, from: Vector, behind: bool) -> Option<f64> {
+    let ends = |[start, end]: [Point; 2], [meant_start, meant_end]: [Point; 2]| {
+        let counted = (end - start) - (meant_end - meant_start);
+        let placed = end - from - meant_end;
+        counted.norm().min(placed.norm())
+    };
+    match (own, meant) {
+        (Motion::Stop, Motion::Stop) => Some(0.0),
+        (Motion::Stop, _) | (_, Motion::Stop) => None,
+        (Motion::Cut(own), Motion::Cut(meant)) => {
+            let off = ends([own.start(), own.end()], [meant.start(), meant.end()]);
+            Some(match (own.as_arc(), meant.as_arc()) {
+                (Some(own), Some(meant)) if own.sweep * meant.sweep > 0.0 => {
+                    let counted = (own.center - own.start) - (meant.center - meant.start);
+                    let placed = own.center - from - meant.center;
+                    let radius = if behind {
+                        (own.radius - meant.radius).abs()
+                    } else {
+                        f64::INFINITY
+                    };
+                    off.max(counted.norm().min(placed.norm()).min(radius))
+                }
+                (None, None) => off,
+                _ => off.max((own.point_at(0.5) - from - meant.point_at(0.5)).norm()),
+            })
+        }
+        _ => Some(ends(ends_of(own)?, ends_of(meant)?)),
+    }
+}
+
+fn ends_of(motion: &Motion) -> Option<[Point; 2]> {
+    match motion {
+        Motion::Cut(segment) => Some([segment.start(), segment.end()]),
+        Motion::Way(start, by) => Some([*start, start + by]),
+        Motion::Stop => None,
+    }
+}
+
+impl Written {
+    fn of(drawn: &Drawn, traced: &Traced, settings: &Effective) -> Option<Written> {
+        let (drawing, outlines) = drawn.whole()?;
+        if settings.mills || settings.pass_error().is_some() {
+            return None;
+        }
+        let (format, language) = match (traced.counts, traced.four_b) {
+            (false, _) => (Format::Iso, Language::Iso),
+            (true, false) => (Format::ThreeB, Language::ThreeB),
+            (true, true) => (Format::FourB, Language::ThreeB),
+        };
+        let paths = plan(drawing, outlines, &format.settings(settings), None).ok()?;
+        let scale = drawn.unit_mm * 1e3;
+        let of_path = |path: &WirePath| path.segments.len();
+        let count: usize = paths.iter().map(of_path).sum();
+        // Blocks beside them are the ways between, and stops; a piece may be several.
+        if count > 2 * traced.blocks.len() {
+            return None;
+        }
+        let mut settings = settings.clone();
+        if traced.states_ends {
+            settings.layout = Layout::Checking;
+        }
+        let text = format.write(&paths, drawn.unit_mm, &settings, &mut |_, _| true);
+        let document = Document::read(language, text.ok()?.text.into_bytes(), &settings);
+        let written = Traced::of(&document);
+        let first = paths.first()?.begin() * scale;
+        let shift = match written.is_placed {
+            true => Vector::zeros(),
+            false => first - begin(&written)?,
+        };
+        let pieces = paths.iter().flat_map(|path| &path.segments);
+        Some(Written {
+            traced: written,
+            pieces: pieces
+                .map(|piece| (scaled(&piece.geometry, scale), piece.source))
+                .collect(),
+            shift,
+        })
+    }
+
+    /// The segment of the drawing that a block follows; `None` for the ways in and out and between.
+    fn source_of(&self, motion: &Motion) -> Option<(EntityId, usize)> {
+        let Motion::Cut(segment) = motion else {
+            return None;
+        };
+        let shares = [0.0, 0.5, 1.0].map(|share| segment.point_at(share) + self.shift);
+        let farthest = |piece: &Segment| {
+            let all = shares.iter().map(|place| piece.distance_to(*place));
+            all.fold(0.0, f64::max)
+        };
+        let nearest = self
+            .pieces
+            .iter()
+            .min_by(|(one, _), (other, _)| farthest(one).total_cmp(&farthest(other)));
+        match nearest?.1 {
+            Source::Segment { entity, segment }
+            | Source::Corner { entity, segment }
+            | Source::Overlap { entity, segment } => Some((entity, segment)),
+            Source::Tab | Source::LeadIn | Source::LeadOut => None,
+        }
+    }
+}
+
+/// Letters and numbers of a block, however they are spaced.
+#[derive(Debug, Default, PartialEq)]
+struct Words {
+    letters: Vec<u8>,
+    /// µm, where they are lengths.
+    numbers: Vec<f64>,
+}
+
+impl Words {
+    fn of(text: Option<&[u8]>) -> Words {
+        let mut words = Words::default();
+        let mut rest = text.unwrap_or_default();
+        while let [first, behind @ ..] = rest {
+            let is_number = |byte: &&u8| byte.is_ascii_digit() || b"+-.".contains(byte);
+            let length = rest.iter().take_while(is_number).count();
+            if length == 0 {
+                let is_space = first.is_ascii_whitespace();
+                words
+                    .letters
+                    .extend((!is_space).then(|| first.to_ascii_uppercase()));
+                rest = behind;
+                continue;
+            }
+            let (number, behind) = rest.split_at(length);
+            let number = std::str::from_utf8(number).unwrap_or_default();
+            let value: f64 = number.parse().unwrap_or(f64::NAN);
+            let of_point = if number.contains('.') { 1e3 } else { 1.0 };
+            words.letters.push(b'0');
+            words.numbers.push(value * of_point);
+            rest = behind;
+        }
+        words
+    }
+
+    /// What stands behind a block in its line: its number goes on in letters that say nothing here.
+    fn behind(traced: &Traced, block: &Block) -> Words {
+        if !traced.states_ends {
+            return Words::default();
+        }
+        let line = traced.text.line_range(block.line);
+        let rest = traced.text.slice(block.range.end..line.end);
+        let mut words = Words::of(rest);
+        words.letters.retain(|letter| *letter == b'0');
+        words
+    }
+
+    /// By how much a number is another one, where all else is the same.
+    fn apart(&self, other: &Words) -> Option<f64> {
+        let pairs = self.numbers.iter().zip(&other.numbers);
+        let apart = pairs.map(|(own, other)| (own - other).abs());
+        (self.letters == other.letters).then(|| apart.fold(0.0, f64::max))
+    }
+}
