@@ -554,17 +554,15 @@ fn every_number_is_held_against_the_drawing() {
         ),
     ];
     for (format, written, now) in rows {
+        let is_own = written == now;
         let [written, now] = [written, now].map(settings_of);
         let text = program_of(&document(&shapes, &written), format).unwrap();
         let own = document(&shapes, &now);
         let snapshot = own.snapshot().unwrap();
         let drawn = Drawn::of(&snapshot.drawing, &snapshot.outlines, &snapshot.settings);
         let mut texts = vec![text.clone()];
-        if format == Format::Iso
-            && !text.contains("G91")
-            && !text.contains("G54")
-            && text.contains("I-")
-        {
+        // Our own words of other controls count otherwise.
+        if format == Format::Iso && text.contains("G21") {
             texts.extend(
                 [(true, false), (false, true), (true, true)]
                     .map(|(counts, by_radius)| in_other_words(&text, counts, by_radius)),
@@ -574,15 +572,16 @@ fn every_number_is_held_against_the_drawing() {
             let told = |text: &str| -> Vec<usize> {
                 let found = compare(&drawn, &traced(text, format, &now));
                 found
-                    .unwrap()
+                    .unwrap_or_else(|| panic!("nothing is alike\n{text}"))
                     .differences
                     .iter()
                     .map(|found| found.line)
                     .collect()
             };
             assert_eq!(told(text), [0; 0], "{text}");
-            let mut at = 0;
-            let mut count = 0;
+            let (mut at, mut count) = (0, 0);
+            // Other settings are found out by trying, which takes its time.
+            let step = if is_own && nth == 0 { 1 } else { 9 };
             for (line, own) in text.split_inclusive('\n').enumerate() {
                 let range = at..at + own.trim_end().len();
                 at += own.len();
@@ -603,11 +602,13 @@ fn every_number_is_held_against_the_drawing() {
                             continue;
                         };
                         count += 1;
+                        if count % step != 0 {
+                            continue;
+                        }
                         assert_eq!(told(&wrong), [line], "line {} of\n{wrong}", line + 1);
                     }
                 }
             }
-            println!("{format:?} {nth}: {count}");
             assert!(count > 50);
         }
     }
