@@ -1,6 +1,7 @@
 //! The JSON Schema of every `wedm/` message.
 
 use super::*;
+use crate::finding::Rule;
 use crate::settings::{self, Row, Settings, camel_case};
 use schemars::generate::{SchemaGenerator, SchemaSettings};
 use serde_json::{Map, Value, json};
@@ -78,6 +79,16 @@ pub(crate) fn settings_schema() -> Value {
     let (settings, types) = (part("settings"), part("$defs"));
     let mut definitions = Map::new();
     gather(&settings, &types, &mut definitions);
+    let of_rules = [
+        ("Settings", "/properties/rules"),
+        ("DrawingSettings", "/properties/suppress/additionalProperties"),
+    ];
+    for (name, at) in of_rules {
+        let table = definitions.get_mut(name).and_then(|it| it.pointer_mut(at));
+        if let Some(table) = table {
+            name_rules(table);
+        }
+    }
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": settings::FILE_NAME,
@@ -85,6 +96,17 @@ pub(crate) fn settings_schema() -> Value {
         "allOf": [settings],
         "$defs": definitions,
     })
+}
+
+/// Turns what each rule has in a table into keys of their own, which editors complete and check.
+fn name_rules(table: &mut Value) {
+    let of_each = table["additionalProperties"].take();
+    let key = |rule: Rule| {
+        let said = json!({ "description": rule.summary(), "allOf": [of_each] });
+        (rule.name().to_owned(), said)
+    };
+    table["properties"] = Value::Object(Rule::ALL.into_iter().map(key).collect());
+    table["additionalProperties"] = json!(false);
 }
 
 /// Copies the types that a part of the schema leads to, the keys of tables as TOML has them.
@@ -188,6 +210,13 @@ mod tests {
             assert!(schema["$defs"].get(name).is_some(), "{name}");
         }
         assert!(schema["$defs"].get("Inspection").is_none());
+        // Names of rules are completed, and a misspelt one is marked.
+        let rules = &schema["$defs"]["Settings"]["properties"]["rules"];
+        let reasons = &schema["$defs"]["DrawingSettings"]["properties"]["suppress"]["additionalProperties"];
+        for table in [rules, reasons] {
+            assert!(table["properties"].get("gap").is_some(), "{table}");
+            assert_eq!(table["additionalProperties"], false);
+        }
     }
 
     #[test]
