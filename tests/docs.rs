@@ -442,6 +442,31 @@ fn the_chinese_readme_shows_the_same_commands_which_answer_in_chinese() {
     the_commands_do_what_is_shown("README.zh-CN.md", "zh_CN.UTF-8");
 }
 
+/// The Chinese readme leads everywhere that the English one does, to the page in Chinese where there is one, and has the same tables.
+#[test]
+fn the_chinese_readme_has_what_the_english_one_has() {
+    let [english, chinese] = ["README.md", "README.zh-CN.md"].map(|name| read(&root().join(name)));
+    let own = links(&chinese);
+    let twin = |link: &String| {
+        let page = match link.strip_prefix("docs/") {
+            Some("glossary.md") => "docs/zh/words.md".to_owned(),
+            Some(page) => format!("docs/zh/{page}"),
+            None => link.clone(),
+        };
+        own.contains(link) || own.contains(&page)
+    };
+    let other = |link: &&String| link.as_str() != "README.zh-CN.md";
+    let missing: Vec<String> = links(&english)
+        .iter()
+        .filter(other)
+        .filter(|link| !twin(link))
+        .cloned()
+        .collect();
+    assert!(missing.is_empty(), "{missing:?}");
+    let rows = |page: &str| page.lines().filter(|line| line.starts_with('|')).count();
+    assert!(rows(&chinese) >= rows(&english), "a table lacks rows");
+}
+
 /// The drawings that the pages speak of stand beside the reader, and those of the tests where a checkout has them. Commands of other
 /// programs are shown, not run.
 #[test]

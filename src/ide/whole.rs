@@ -101,11 +101,12 @@ fn places_in_program(
         role: Role::Partner,
     };
     let mut named = program::named(program, offset, PLACES, stop)?;
-    if !named.is_empty() {
-        named.retain(|place| question.wants(place.role));
+    let is_told = named.len() > 1 || named.iter().any(|place| place.role == Role::Uses);
+    named.retain(|place| question.wants(place.role));
+    if is_told {
         return Ok(named);
     }
-    Ok(match question {
+    let together: Vec<Occurrence> = match question {
         Question::Definition => match_of(program, offset).map(partner).into_iter().collect(),
         Question::Highlights => highlights(program, offset)
             .into_iter()
@@ -119,5 +120,7 @@ fn places_in_program(
             let all = all.into_iter().filter(|_| is_one).take(PLACES);
             all.map(partner).collect()
         }
-    })
+    };
+    // What nothing else speaks of, such as a line that nobody calls, is found where it stands.
+    Ok(if together.is_empty() { named } else { together })
 }

@@ -81,7 +81,10 @@ pub(crate) fn settings_schema() -> Value {
     gather(&settings, &types, &mut definitions);
     let of_rules = [
         ("Settings", "/properties/rules"),
-        ("DrawingSettings", "/properties/suppress/additionalProperties"),
+        (
+            "DrawingSettings",
+            "/properties/suppress/additionalProperties",
+        ),
     ];
     for (name, at) in of_rules {
         let table = definitions.get_mut(name).and_then(|it| it.pointer_mut(at));
@@ -212,7 +215,8 @@ mod tests {
         assert!(schema["$defs"].get("Inspection").is_none());
         // Names of rules are completed, and a misspelt one is marked.
         let rules = &schema["$defs"]["Settings"]["properties"]["rules"];
-        let reasons = &schema["$defs"]["DrawingSettings"]["properties"]["suppress"]["additionalProperties"];
+        let reasons =
+            &schema["$defs"]["DrawingSettings"]["properties"]["suppress"]["additionalProperties"];
         for table in [rules, reasons] {
             assert!(table["properties"].get("gap").is_some(), "{table}");
             assert_eq!(table["additionalProperties"], false);

@@ -295,3 +295,40 @@ fn five_megabytes_are_answered_and_a_text_that_moved_on_is_not() {
     assert_eq!(client.answer(id).unwrap_err()["code"], -32801);
     client.shut_down();
 }
+
+#[test]
+fn names_of_a_program_are_found_and_those_that_nothing_else_speaks_of_where_they_stand() {
+    let mut client = start();
+    let text = "N10 H1=0.1 H2=0.2\nN20 G41 H1 G01 X1.\nC001 = ON 8\nC1 E5\nM98 P30\nM02\nN30 G01 X0.\nM99\n";
+    client.open_text(URI, "wire-iso", text);
+    // The cursor; where that is given, every place of it.
+    for (cursor, given, all) in [
+        ((0, 4), vec![(0, 4)], vec![(0, 4), (1, 8)]),
+        ((1, 8), vec![(0, 4)], vec![(0, 4), (1, 8)]),
+        ((0, 12), vec![(0, 11)], vec![(0, 11)]),
+        ((3, 0), vec![(2, 0)], vec![(2, 0), (3, 0)]),
+        ((3, 4), vec![], vec![(3, 3)]),
+        ((4, 5), vec![(6, 0)], vec![(4, 4), (6, 0)]),
+        ((6, 1), vec![(6, 0)], vec![(4, 4), (6, 0)]),
+    ] {
+        let places = |answer: Value| -> Vec<(u64, u64)> {
+            let place = |found: &Value| {
+                let start = &found["range"]["start"];
+                (
+                    start["line"].as_u64().unwrap(),
+                    start["character"].as_u64().unwrap(),
+                )
+            };
+            answer.as_array().into_iter().flatten().map(place).collect()
+        };
+        let mut asked = at(cursor.0, cursor.1);
+        let found = client
+            .request("textDocument/definition", asked.clone())
+            .unwrap();
+        assert_eq!(places(found), given, "{cursor:?}");
+        asked["context"] = json!({ "includeDeclaration": true });
+        let found = client.request("textDocument/references", asked).unwrap();
+        assert_eq!(places(found), all, "{cursor:?}");
+    }
+    client.shut_down();
+}

@@ -27,7 +27,7 @@ pub(crate) use selection::selections;
 pub(crate) use symbols::symbols;
 pub(crate) use tokens::{tokens, tokens_in};
 
-use super::occurrence::{Occurrence, Role, Stop, Stopped};
+use super::occurrence::{Occurrence, Stop, Stopped};
 use super::{Completion, Signature};
 use crate::program::Document;
 use crate::text::TextEdit;
@@ -85,20 +85,14 @@ pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion>
     of(document).completions(offset)
 }
 
-/// Every place of what is named at a byte; none where nothing else is said of it, such as of a line that nobody calls.
+/// Every place of what is named at a byte.
 pub(crate) fn named(
     document: &Document,
     offset: usize,
     limit: usize,
     stop: Stop<'_>,
 ) -> Result<Vec<Occurrence>, Stopped> {
-    let places = of(document).named(offset, limit, stop)?;
-    let is_told = places.iter().any(|place| place.role == Role::Uses);
-    Ok(if is_told || places.len() > 1 {
-        places
-    } else {
-        Vec::new()
-    })
+    of(document).named(offset, limit, stop)
 }
 
 /// The form of the block that is written at a byte; `None` where none is.

@@ -14,7 +14,7 @@ translate! {
     its_name_ends_otherwise(ending) => "文件扩展名是 .{ending}，内容也看不出是什么；应为 .dxf、.3b、.iso 或 .nc，或用 --language 指明";
     note => "注意：";
     the_fit_is_drawn_as_svg => "配合图只写成 .svg、.png 或 .pdf";
-    the_fit_is_not_known(path, errors) => "{path}：不知道是否配合，图纸有{errors}";
+    the_fit_is_not_known(path, errors) => "{path}：不知道是否配合，图形有{errors}";
     heading_of_the_fit => "  剩余 µm  零件       句柄         线段  位置";
     a_contour_has_no_partner(handle, name) => "工件 {name} 的轮廓 {handle} 没有配对的轮廓";
     fits => "能够配合";

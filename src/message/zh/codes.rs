@@ -14,7 +14,7 @@ translate! {
     scale_of_the_linetype => "线型比例";
     visibility_0_visible_1_invisible => "可见性：0 可见，1 不可见";
     colour_number_of_an_entity => "颜色号：0 随块，256 随层，257 随图元";
-    space_0_model_space_1_paper_space => "空间：0 模型空间，1 图纸空间";
+    space_0_model_space_1_paper_space => "空间：0 模型空间，1 图形空间";
     number_of_bytes_of_the_preview_picture => "预览图的字节数";
     handle_of_the_material => "材质的句柄";
     line_weight_of_an_entity => "线宽，0.01 mm；-1 随层，-2 随块，-3 默认";

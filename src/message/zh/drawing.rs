@@ -2,7 +2,7 @@
 
 translate! {
     this_kind_is_not_cut => "这类图元不切割";
-    it_lies_in_paper_space => "它在图纸空间";
+    it_lies_in_paper_space => "它在图形空间";
     its_plane_is_tilted => "它所在平面相对图形平面倾斜";
     its_points_differ_in_z => "各点的 Z 不同";
     it_is_the_frame_of_a_text => "它是文字的边框";
@@ -40,7 +40,7 @@ translate! {
     has_less_than_two_different_points => "不同的点少于两个";
     has_the_degree(degree) => "次数为 {degree}";
     spline_has_no_knots => "SPLINE 没有节点（组码 40）：按均匀节点处理";
-    spline_has_no_subclass_mark => "SPLINE 没有类标记（组码 100，AcDbSpline）：这里照常读取，其他程序可能拒绝打开该图纸";
+    spline_has_no_subclass_mark => "SPLINE 没有类标记（组码 100，AcDbSpline）：这里照常读取，其他程序可能拒绝打开该图形";
     spline_it_is_not_drawn(why) => "SPLINE {why}：不画";
     the_file_ends_inside_an_item => "文件在一项中间结束";
     a_number_is_not_finite(value) => "数值是 {value}，应为有限数";

@@ -1,14 +1,14 @@
 //! What is found, and how it is repaired.
 
 translate! {
-    the_block_does_not_follow_its_drawing(segment, handle, drawing, off) => "该程序段不沿 {drawing} 中 {handle} 的第 {segment} 段：终点偏离图纸位置 {off} mm";
+    the_block_does_not_follow_its_drawing(segment, handle, drawing, off) => "该程序段不沿 {drawing} 中 {handle} 的第 {segment} 段：终点偏离图形位置 {off} mm";
     the_contour_does_not_begin_where_its_drawing_has_it(handle, drawing, off) => "轮廓的起点偏离 {drawing} 中的位置 {off} mm（{handle}）";
     the_way_does_not_lead_where_its_drawing_has_it(drawing, off) => "引线或轮廓之间的空走线偏离 {drawing} 及其设置给出的位置 {off} mm";
     the_coordinates_are_not_where_its_drawing_has_the_end(drawing, off) => "程序段后的坐标偏离 {drawing} 给出的终点 {off} mm";
     the_contour_is_left_before_it_is_cut_all_round(segment, handle, drawing) => "在此离开了轮廓，而 {drawing} 接着是 {handle} 的第 {segment} 段";
     no_contour_of_the_drawing_is_like_this(drawing) => "按程序的任何补偿量，{drawing} 中都没有与此相符的轮廓";
-    the_program_does_not_follow_this_segment(program, line, off) => "{program} 不沿这一段：其第 {line} 行的终点偏离图纸位置 {off} mm；若图纸已改，请重新生成程序";
-    the_program_begins_this_contour_elsewhere(program, line, off) => "{program} 在第 {line} 行开始此轮廓，偏离 {off} mm；若图纸已改，请重新生成程序";
+    the_program_does_not_follow_this_segment(program, line, off) => "{program} 不沿这一段：其第 {line} 行的终点偏离图形位置 {off} mm；若图形已改，请重新生成程序";
+    the_program_begins_this_contour_elsewhere(program, line, off) => "{program} 在第 {line} 行开始此轮廓，偏离 {off} mm；若图形已改，请重新生成程序";
     the_program_leaves_this_contour_before_this_segment(program, line) => "{program} 在第 {line} 行离开此轮廓，未切到这一段";
     nothing_is_like_the_other(other) => "与同名的 {other} 没有任何相符之处：未作比较";
     it_is_not_held_against_its_other(other, reason) => "未与 {other} 比较：{reason}";

@@ -1,16 +1,16 @@
 //! The pages of `wedm report`.
 
 translate! {
-    no_drawing_for_a_report => "没有图纸，应为 .dxf";
+    no_drawing_for_a_report => "没有图形，应为 .dxf";
     pages_are_written(written, pages, index) => "{written} {pages}：{index}";
     pages(count: usize) => { format!("{count} 页") };
-    report_of_drawings(count: usize) => { format!("{count} 张图纸的报告") };
+    report_of_drawings(count: usize) => { format!("{count} 张图形的报告") };
     head_contours => "轮廓";
     head_findings => "问题";
     head_radius_list => "半径表";
     head_passes => "加工次数";
     head_program => "程序";
-    column_drawing => "图纸";
+    column_drawing => "图形";
     column_number => "序号";
     column_kind => "类型";
     column_role => "用途";

@@ -59,5 +59,5 @@ translate! {
     a_setting_does_not_fit => "设置不合适";
     a_part_that_was_left_out_since_it_would_have_taken_too_much => "计算量过大而略去的部分";
     stands_for_further_findings => "代表其余未列出的问题";
-    a_program_and_its_drawing_are_not_alike => "程序与图纸不符";
+    a_program_and_its_drawing_are_not_alike => "程序与图形不符";
 }
