@@ -230,7 +230,7 @@ pub(crate) fn picture_of_program(document: &Document, program: &program::Documen
     let findings = document.all_findings();
     let faults: Vec<_> = findings.iter().filter_map(of).collect();
     let name = document.settings().document.as_deref();
-    picture::program_svg(&program.trace(), &faults, name)
+    picture::program_svg(&program.trace(), &faults, name, program.mills())
 }
 
 /// Whether the parts of a drawing fit.

@@ -2030,3 +2030,44 @@ fn one_long_line_is_formatted_as_fast_as_many_short_ones() {
         );
     }
 }
+
+/// A picture of what an electrode mills speaks of no wire and of no hole to thread it through.
+#[test]
+fn pictures_of_milling_speak_of_the_electrode() {
+    let desk = Desk::new();
+    desk.write(
+        "wedm.toml",
+        "[milling]\ntool-diameter = 1.0\ngap = 0.05\nlayer = 0.05\ndepth = 0.2\nwear = 0.001\n",
+    );
+    desk.write(
+        "slot.dxf",
+        "0\nSECTION\n2\nENTITIES\n0\nLINE\n5\n2A\n8\n0\n10\n0\n20\n0\n11\n10\n21\n0\n0\nENDSEC\n0\nEOF\n",
+    );
+    check(
+        &desk,
+        "generate slot.dxf --format milling -o milled.iso",
+        0,
+        &[],
+    );
+    for (file, title, language) in [
+        (
+            "slot.dxf",
+            "slot.dxf · contours and path of the electrode",
+            "en",
+        ),
+        ("milled.iso", "milled.iso · path of the electrode", "en"),
+        ("slot.dxf", "slot.dxf · 轮廓和电极路线", "zh"),
+        ("milled.iso", "milled.iso · 电极路线", "zh"),
+    ] {
+        let drawn = desk.run(&format!("--lang {language} draw {file}"));
+        assert_eq!(drawn.code, Some(0), "{drawn:?}");
+        assert!(
+            drawn.stdout.contains(title),
+            "no {title} in {}",
+            drawn.stdout
+        );
+        for wire in ["wire<", "wire's", "thread hole", "电极丝", "穿丝"] {
+            assert!(!drawn.stdout.contains(wire), "{wire} in {}", drawn.stdout);
+        }
+    }
+}

@@ -27,6 +27,8 @@ TOOLS = HERE / ".tools"
 RECORD = os.environ.get("WEDM_RECORD_SESSIONS")
 
 FAULT = "arc R 0.050 mm is below the correction 0.100 mm"
+#: Keeps in `said` what Neovim tells its user.
+HEAR = "local notify, said = vim.notify, ''\nvim.notify = function(text, ...) said = said .. text notify(text, ...) end\n"
 OFFERED = "Replace the arc by one of R 0.101 mm"
 
 
@@ -137,7 +139,7 @@ def neovim_by_path(program: str) -> None:
     script.write_text(
         f"vim.opt.runtimepath:append('{HERE}/neovim') require('wedm').setup {{ cmd = {{ '{place.folder}/my-wedm' }} }}\n"
         "vim.cmd('edit ' .. vim.env.WEDM_DRAWING)\n"
-        "vim.wait(20000, function() return #vim.diagnostic.get(0) > 0 end, 20)\n"
+        "vim.wait(90000, function() return #vim.diagnostic.get(0) > 0 end, 20)\n"
         "for _, found in ipairs(vim.diagnostic.get(0)) do io.stdout:write(found.message .. '\\n') end\nvim.cmd('qall!')\n"
     )
     said = place.run([program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(script)], PATH=place.path_without_server())
@@ -172,12 +174,12 @@ def neovim_that_dies(program: str, native: bool, editor: str) -> None:
         start = f"vim.opt.runtimepath:append('{HERE}/neovim') require('wedm').setup()"
     script = place.folder / "start.lua"
     script.write_text(
-        f"{start}\nlocal notify, said = vim.notify, ''\nvim.notify = function(text, ...) said = said .. text notify(text, ...) end\n"
+        f"{start}\n{HEAR}"
         "vim.api.nvim_create_autocmd('VimEnter', { nested = true, callback = function()\n"
         "vim.cmd('edit ' .. vim.env.WEDM_DRAWING)\n"
-        "vim.wait(30000, function() return said:find('not started again') ~= nil end, 20)\nvim.wait(1000)\n"
+        "vim.wait(90000, function() return said:find('not started again') ~= nil end, 20)\nvim.wait(1000)\n"
         "io.stdout:write('starts: ' .. #vim.fn.readfile(vim.env.WEDM_DRAWING .. '.starts') .. '\\n')\nvim.cmd('edit')\n"
-        "vim.wait(20000, function() return #vim.fn.readfile(vim.env.WEDM_DRAWING .. '.starts') > 6 end, 20)\nvim.cmd('qall!')\nend })\n"
+        "vim.wait(90000, function() return #vim.fn.readfile(vim.env.WEDM_DRAWING .. '.starts') > 6 end, 20)\nvim.cmd('qall!')\nend })\n"
     )
     said = place.run([program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(script)])
     saw(said, "wedm has ended with code 3 and is started again in 0.5 s", "wedm has ended 6 times in a row, the last time with code 3", "starts: 6")
@@ -214,7 +216,7 @@ def neovim_package(program: str, native: bool, editor: str) -> None:
     (place.folder / "home/.config/nvim/init.lua").write_text("vim.lsp.enable('wedm')\n" if native else "require('wedm').setup()\n")
     script = place.folder / "seen.lua"
     script.write_text(
-        "vim.wait(20000, function() return #vim.diagnostic.get(0) > 0 end, 20)\n"
+        "vim.wait(90000, function() return #vim.diagnostic.get(0) > 0 end, 20)\n"
         "io.stdout:write('type: ' .. vim.bo.filetype .. '\\n')\n"
         "for _, found in ipairs(vim.diagnostic.get(0)) do io.stdout:write(found.message .. '\\n') end\nvim.cmd('qall!')\n"
     )
@@ -230,7 +232,10 @@ def neovim_without_server(program: str, native: bool, editor: str) -> None:
     else:
         start = f"vim.opt.runtimepath:append('{HERE}/neovim') require('wedm').setup()"
     script = place.folder / "start.lua"
-    script.write_text(start + "\nvim.cmd('edit ' .. vim.env.WEDM_DRAWING)\nvim.wait(300)\nvim.cmd('qall!')\n")
+    script.write_text(
+        f"{start}\n{HEAR}"
+        "vim.cmd('edit ' .. vim.env.WEDM_DRAWING)\nvim.wait(90000, function() return said:find('cargo install', 1, true) ~= nil end, 20)\nvim.cmd('qall!')\n"
+    )
     said = place.run([program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(script)], PATH=place.path_without_server())
     saw(said, "cargo install --path .")
 
@@ -424,11 +429,11 @@ def kate(program: str, editor: str) -> None:
     allowed.chmod(0o755)
 
     def wait(what: str, holds: Callable[[str], bool]) -> None:
-        end = time.monotonic() + 30
+        end = time.monotonic() + 90
         while not (said.exists() and holds(said.read_text())):
             if time.monotonic() > end:
                 screen.shot("kate-failed.png")
-                raise Failed(f"no {what} within 30 s; see {ARTIFACTS}/kate-failed.png")
+                raise Failed(f"no {what} within 90 s; see {ARTIFACTS}/kate-failed.png")
             time.sleep(0.2)
         time.sleep(1.0)
 

@@ -236,7 +236,10 @@ fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
             jump(sheet, frame, subject, end, path.begin());
         }
         let distance = subject.mm(path.correction);
-        let mut label = say!(path_of_the_wire_centre, distance);
+        let mut label = match subject.mills {
+            false => say!(path_of_the_wire_centre, distance),
+            true => say!(path_of_the_electrode_axis, distance),
+        };
         if path.pass > 1 || subject.paths.iter().any(|path| path.pass > 1) {
             label += &say!(of_pass, path.pass);
         }

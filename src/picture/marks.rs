@@ -142,7 +142,10 @@ pub(super) fn thread_holes(sheet: &mut Sheet, frame: &Frame, subject: &Subject) 
         let hole = path.thread_hole;
         let (across, up) = frame.local(hole);
         let [x, y, left, below] = [across, up, across - 8.0, up - 8.0].map(number);
-        let title = say!(thread_hole_at_mm, subject.mm(hole.x), subject.mm(hole.y));
+        let title = match subject.mills {
+            false => say!(thread_hole_at_mm, subject.mm(hole.x), subject.mm(hole.y)),
+            true => say!(start_of_a_contour).to_owned(),
+        };
         sheet.line(format_args!(
             r#"<g class="thread"><title>{title}</title><circle cx="{x}" cy="{y}" r="5"/><path d="M{left} {y}h16M{x} {below}v16"/></g>"#
         ));

@@ -65,9 +65,11 @@ pub fn svg(view: &View) -> String {
     let frame = Frame::fitting(&subject.bounds);
     let details_top = frame.bottom + 48.0;
     let legend_top = details_top + lens::height_of(faults.len());
-    let what = match paths.is_empty() {
-        true => say!(contours_without_a_wire_path),
-        false => say!(contour_and_wire_path),
+    let what = match (paths.is_empty(), settings.mills) {
+        (true, false) => say!(contours_without_a_wire_path),
+        (false, false) => say!(contour_and_wire_path),
+        (true, true) => say!(contours_without_an_electrode_path),
+        (false, true) => say!(contours_and_electrode_path),
     };
     let title = titled(view.name, what);
     let others = findings.iter().filter(|finding| is_other(finding));
@@ -81,6 +83,7 @@ pub fn svg(view: &View) -> String {
             .chain(faults.iter().map(|fault| fault.severity))
             .collect(),
         paths: !paths.is_empty(),
+        mills: settings.mills,
         jumps,
         kerf: subject.half_kerfs.iter().any(Option::is_some),
         lost: findings.iter().any(leaves_some),
@@ -127,7 +130,10 @@ fn alert(view: &View, faults: &[subject::Fault]) -> (Severity, String) {
         1 => parts.push(say!(n1_arc_is_too_tight).to_owned()),
         count => parts.push(say!(arcs_are_too_tight, count)),
     }
-    parts.extend(view.why.map(|why| say!(no_wire_path_because, why)));
+    parts.extend(view.why.map(|why| match view.settings.mills {
+        false => say!(no_wire_path_because, why),
+        true => say!(no_electrode_path_because, why),
+    }));
     let worst = faults.iter().map(|fault| fault.severity).min();
     (worst.unwrap_or(Severity::Information), parts.join(" · "))
 }

@@ -21,6 +21,7 @@ pub(crate) fn program_svg(
     trace: &Trace,
     faults: &[(usize, Severity, String)],
     name: Option<&str>,
+    mills: bool,
 ) -> String {
     let Some(bounds) = trace.bounds().map(|bounds| Bounds {
         min: mm(bounds.min),
@@ -33,8 +34,12 @@ pub(crate) fn program_svg(
     let by_line: FxHashMap<usize, &(usize, Severity, String)> =
         faults.iter().rev().map(|fault| (fault.0, fault)).collect();
     let moving: Vec<&Step> = trace.steps.iter().filter(|step| step.moves()).collect();
-    let title = titled(name, say!(path_of_the_wire));
-    let mut entries = vec![(WIRE, say!(the_wire)), (THREAD, say!(start_of_a_contour))];
+    let (what, along) = match mills {
+        false => (say!(path_of_the_wire), say!(the_wire)),
+        true => (say!(path_of_the_electrode), say!(the_electrode)),
+    };
+    let title = titled(name, what);
+    let mut entries = vec![(WIRE, along), (THREAD, say!(start_of_a_contour))];
     if trace.upper.iter().any(|pieces| !pieces.is_empty()) {
         entries.push((UPPER, say!(the_upper_end)));
     }

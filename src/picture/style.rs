@@ -138,6 +138,8 @@ pub(super) struct Shown {
     pub(crate) faults: bool,
     pub(crate) severities: BTreeSet<Severity>,
     pub(crate) paths: bool,
+    /// The paths are those of an electrode, which is threaded nowhere.
+    pub(crate) mills: bool,
     pub(crate) kerf: bool,
     pub(crate) lost: bool,
     pub(crate) jumps: bool,
@@ -160,7 +162,12 @@ pub(super) fn entries(shown: &Shown) -> Vec<Entry> {
         let part = r#"<rect class="part" x="2" y="-7" width="20" height="14" rx="2"/>"#;
         entries.push((part, say!(the_material)));
     }
-    if shown.paths {
+    if shown.paths && shown.mills {
+        entries.extend([
+            (WIRE, say!(the_electrode)),
+            (THREAD, say!(start_of_a_contour)),
+        ]);
+    } else if shown.paths {
         entries.extend([
             (WIRE, say!(the_wire)),
             (LEAD, say!(the_lead)),

@@ -22,6 +22,8 @@ pub(super) struct Subject<'a> {
     pub(crate) half_kerfs: Vec<Option<f64>>,
     /// Radius of the start holes, drawing units, where one is set.
     pub(crate) hole: Option<f64>,
+    /// The paths are those of an electrode.
+    pub(crate) mills: bool,
     pub(crate) unit_mm: f64,
 }
 
@@ -56,6 +58,7 @@ impl<'a> Subject<'a> {
             drawing,
             bounds: extents(drawing, paths)?,
             outlines,
+            mills: settings.mills,
             cut: pieces.map(|piece| piece.entity).collect(),
             findings,
             faults: tight_arcs(drawing, findings),

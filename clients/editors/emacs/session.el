@@ -12,11 +12,11 @@
 
 (defun session-wait (what condition)
   "Wait until CONDITION holds; WHAT is named when it does not."
-  (let ((end (+ (float-time) 20)))
+  (let ((end (+ (float-time) 90)))
     (while (and (not (funcall condition)) (< (float-time) end))
       (sit-for 0.05))
     (unless (funcall condition)
-      (session-say "FAIL no %s within 20 s" what)
+      (session-say "FAIL no %s within 90 s" what)
       (kill-emacs 1))))
 
 (defun session-faults ()

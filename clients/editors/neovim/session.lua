@@ -10,8 +10,8 @@ local function say(line)
 end
 
 local function wait_for(what, condition)
-    if not vim.wait(20000, condition, 20) then
-        say('FAIL no ' .. what .. ' within 20 s')
+    if not vim.wait(90000, condition, 20) then
+        say('FAIL no ' .. what .. ' within 90 s')
         vim.cmd('cquit 1')
     end
 end

@@ -150,6 +150,12 @@ export class Cards {
     });
     this.#card.replaceChildren(close, ...parts);
     this.#card.hidden = false;
+    this.#card.classList.remove("aside");
+    const own = this.#card.getBoundingClientRect();
+    const covers = ({ left, right, top, bottom }: DOMRect): boolean =>
+      left < own.right && right > own.left && top < own.bottom && bottom > own.top;
+    const about = [...document.querySelectorAll("svg :is(.mark, .fault).selected")];
+    this.#card.classList.toggle("aside", about.some((part) => covers(part.getBoundingClientRect())));
   }
 }
 

@@ -71,6 +71,7 @@ declare! {
     the_stream_ends_within_a_body(length) => "the stream ends within a body of {length} bytes";
     a_segment_tighter_than_the_correction(handle, segment, radius, required) => "{handle} · segment {segment} · R {radius:.3} mm, the correction is {required:.3} mm";
     on_layer_not_cut(kind, handle, layer) => "{kind} {handle} on layer {layer}, not cut";
+    path_of_the_electrode_axis(distance) => "path of the electrode's axis, {distance:.3} mm from the contour";
     path_of_the_wire_centre(distance) => "path of the wire's centre, {distance:.3} mm from the contour";
     segment_overcut(handle, segment, overcut) => "{handle} segment {segment}, overcut {overcut:.3}";
     the_drawing_has_no_lines => "the drawing has no lines, arcs or circles";
@@ -78,7 +79,10 @@ declare! {
     n1_arc_is_too_tight => "1 arc is tighter than the correction";
     arcs_are_too_tight(count) => "{count} arcs are tighter than the correction";
     the_cut_begins_here => "the cut begins here";
+    contours_and_electrode_path => "contours and path of the electrode";
+    contours_without_an_electrode_path => "contours, no path of the electrode";
     contours_without_a_wire_path => "contours, no wire path";
+    no_electrode_path_because(why) => "no path of the electrode: {why}";
     no_wire_path_because(why) => "no wire path: {why}";
     contour_length(mm) => "contour {mm:.1} mm";
     extents_mm(width, height) => "{width:.3} × {height:.3} mm";
@@ -91,6 +95,7 @@ declare! {
     thread_hole => "thread hole";
     the_program_moves_nothing => "the program moves nothing";
     start_of_a_contour => "start of a contour";
+    path_of_the_electrode => "path of the electrode";
     path_of_the_wire => "path of the wire";
     way_without_a_cut_mm(length) => "jump, {length:.3} mm without a cut";
     leads_nowhere => "leads nowhere";
@@ -125,6 +130,7 @@ declare! {
     invalid_json(reason) => "invalid JSON: {reason}";
     lead_in_and_lead_out => "lead-in and lead-out";
     correction_mm(correction) => "correction {correction:.3} mm";
+    the_electrode => "electrode";
     the_wire => "wire";
     step_in_line(number, line, what, x, y) => "{number}line {line} · {what} · to {x:.3}, {y:.3}";
     the_lead => "lead";

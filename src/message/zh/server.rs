@@ -71,6 +71,7 @@ translate! {
     the_stream_ends_within_a_body(length) => "数据流在 {length} 字节的正文中间结束";
     a_segment_tighter_than_the_correction(handle, segment, radius, required) => "{handle} · 段 {segment} · R {radius:.3} mm，补偿量为 {required:.3} mm";
     on_layer_not_cut(kind, handle, layer) => "图层 {layer} 上的 {kind} {handle}，不切割";
+    path_of_the_electrode_axis(distance) => "电极轴线轨迹，离轮廓 {distance:.3} mm";
     path_of_the_wire_centre(distance) => "丝中心轨迹，离轮廓 {distance:.3} mm";
     segment_overcut(handle, segment, overcut) => "{handle} 段 {segment}，过切 {overcut:.3}";
     the_drawing_has_no_lines => "图形中没有直线、圆弧或圆";
@@ -78,7 +79,10 @@ translate! {
     n1_arc_is_too_tight => "1 处圆弧半径小于补偿量";
     arcs_are_too_tight(count) => "{count} 处圆弧半径小于补偿量";
     the_cut_begins_here => "由此开始切割";
+    contours_and_electrode_path => "轮廓和电极路线";
+    contours_without_an_electrode_path => "轮廓，无电极路线";
     contours_without_a_wire_path => "轮廓，无切割路线";
+    no_electrode_path_because(why) => "无电极路线：{why}";
     no_wire_path_because(why) => "无切割路线：{why}";
     contour_length(mm) => "轮廓 {mm:.1} mm";
     extents_mm(width, height) => "{width:.3} × {height:.3} mm";
@@ -91,6 +95,7 @@ translate! {
     thread_hole => "穿丝孔";
     the_program_moves_nothing => "程序没有任何移动";
     start_of_a_contour => "轮廓的起点";
+    path_of_the_electrode => "电极路线";
     path_of_the_wire => "切割路线";
     way_without_a_cut_mm(length) => "空走，{length:.3} mm";
     leads_nowhere => "没有去向";
@@ -125,6 +130,7 @@ translate! {
     invalid_json(reason) => "JSON 无效：{reason}";
     lead_in_and_lead_out => "引入线和引出线";
     correction_mm(correction) => "补偿量 {correction:.3} mm";
+    the_electrode => "电极";
     the_wire => "电极丝";
     step_in_line(number, line, what, x, y) => "{number}第 {line} 行 · {what} · 到 {x:.3}, {y:.3}";
     the_lead => "引线";

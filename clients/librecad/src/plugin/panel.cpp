@@ -145,7 +145,7 @@ Panel::Panel(QWidget *parent)
     m_view->verticalHeader()->setDefaultSectionSize(m_view->fontMetrics().height() + 5);
     m_view->horizontalHeader()->setStretchLastSection(true);
     const int digit = m_view->fontMetrics().horizontalAdvance(QLatin1Char('0'));
-    const QVector<int> widths{7, 9, 14, 9, 6, 10, 10, 14, 8};
+    const QVector<int> widths{7, 11, 14, 9, 6, 10, 10, 14, 8};
     for (int i = 0; i < widths.size(); ++i)
         m_view->setColumnWidth(i, widths.at(i) * digit);
     m_list->setObjectName(QStringLiteral("wedm_findings"));

@@ -129,6 +129,25 @@ void Driver::type(const QString &line)
     expect("there is a command line", false);
 }
 
+void Driver::whenAsked(const QString &words, std::function<void()> act)
+{
+    QTimer *looking = new QTimer(this);
+    connect(looking, &QTimer::timeout, this, [=] {
+        if (!text("wedm_message").contains(words))
+            return;
+        looking->stop();
+        looking->deleteLater();
+        act();
+    });
+    looking->start(50);
+}
+
+void Driver::forgetMessage()
+{
+    if (QLabel *message = m_main->findChild<QLabel *>("wedm_message"))
+        message->clear();
+}
+
 void Driver::drawLine()
 {
     press("DrawLine");
@@ -235,7 +254,7 @@ QString Driver::saved(const QString &key)
 {
     QProcess server;
     server.start(qEnvironmentVariable("WEDM"), {"inspect", "--output", "json", m_file});
-    server.waitForFinished(20000);
+    server.waitForFinished(PATIENCE);
     const QJsonObject inspection = QJsonDocument::fromJson(server.readAllStandardOutput()).object();
     QStringList result;
     for (const QJsonValue &each : inspection.value("entities").toArray()) {
@@ -257,7 +276,7 @@ QString Driver::checked()
 {
     QProcess server;
     server.start(qEnvironmentVariable("WEDM"), {"check", "--side", "opening", "--output", "concise", m_file});
-    server.waitForFinished(20000);
+    server.waitForFinished(PATIENCE);
     // That something on the layer of the path is not cut is said, and no finding on the drawing.
     QStringList lines = QString::fromUtf8(server.readAllStandardOutput()).split('\n');
     lines.erase(std::remove_if(lines.begin(), lines.end(), [](const QString &line) { return line.contains("WEDM_PATH") || line.contains("checked:"); }), lines.end());

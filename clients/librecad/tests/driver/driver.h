@@ -12,6 +12,9 @@
 
 class QAction;
 
+/// Longer than anything takes here, also on a busy machine with a server that is not optimised, in ms: what is waited for goes on when it is there.
+constexpr int PATIENCE = 90000;
+
 class Driver : public QObject {
     Q_OBJECT
     Q_PLUGIN_METADATA(IID "wedm.test.Driver" FILE "driver.json")
@@ -51,6 +54,10 @@ private:
     void choose(const QString &menuEntry);
     void press(const QString &hostAction);
     void type(const QString &line);
+    /// Acts once the message in the dock holds these words; for commands that ask in a loop of their own.
+    void whenAsked(const QString &words, std::function<void()> act);
+    /// Takes the message away that stands in the dock, so that the next one is seen to come.
+    void forgetMessage();
     void confirm();
     void drawLine();
     void touch();
@@ -76,9 +83,9 @@ private:
     /// Whether the saved file has a line that is exactly this.
     bool isSaved(const QByteArray &line);
 
-    bool wait(const std::function<bool()> &condition, int milliseconds = 15000);
+    bool wait(const std::function<bool()> &condition, int milliseconds = PATIENCE);
     void expect(const QString &what, bool good, const QString &seen = QString());
-    void expectSoon(const QString &what, const std::function<bool()> &condition, const std::function<QString()> &seen = {}, int milliseconds = 15000);
+    void expectSoon(const QString &what, const std::function<bool()> &condition, const std::function<QString()> &seen = {}, int milliseconds = PATIENCE);
     void report(const QString &what);
 
     QMainWindow *m_main = nullptr;

@@ -34,12 +34,6 @@ export function html({ language, policy, nonce, file, words }: Around): string {
     <button id="fit" title="${text("Show all")} (0)">${text("Fit")}</button>
   </div>
 </header>
-<main id="stage" tabindex="0" aria-label="${text("Picture of the drawing")}">
-  <p id="trouble" hidden></p>
-  <aside id="card" hidden aria-live="polite"></aside>
-  <div id="scale" aria-hidden="true"><span id="scale-bar"></span><span id="scale-text"></span></div>
-  <div id="place" aria-hidden="true"></div>
-</main>
 <section id="player" hidden aria-label="${text("Playback of the wire")}">
   <button id="play" title="${text("Play (space)")}" aria-label="${text("Play")}"></button>
   <input id="slider" type="range" min="0" max="1000" value="0" step="1" aria-label="${text("Place of the wire")}">
@@ -50,6 +44,12 @@ export function html({ language, policy, nonce, file, words }: Around): string {
   <code id="block"></code>
   <output id="where"></output>
 </section>
+<main id="stage" tabindex="0" aria-label="${text("Picture of the drawing")}">
+  <p id="trouble" hidden></p>
+  <aside id="card" hidden aria-live="polite"></aside>
+  <div id="scale" aria-hidden="true"><span id="scale-bar"></span><span id="scale-text"></span></div>
+  <div id="place" aria-hidden="true"></div>
+</main>
 <footer id="faults" hidden aria-label="${text("Findings")}"><div id="rules" role="toolbar" aria-label="${text("Findings by rule")}"></div><div id="chips"></div></footer>
 <script type="application/json" id="words">${JSON.stringify(words).replaceAll("<", "\\u003c")}</script>
 <script nonce="${nonce}" src="${file("picture.js")}"></script>

@@ -4,9 +4,9 @@ import { execFile } from "node:child_process";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { promisify } from "node:util";
-import { type Checks, expectEqual, expectSoon } from "./checks";
+import { type Checks, expectEqual, expectSoon, PATIENCE } from "./checks";
 import { FILLET, large, lineOf } from "./drawings";
-import { Host, PATIENCE } from "./host";
+import { Host } from "./host";
 import { FAKE_SERVER, WEDM } from "./paths";
 import { Window } from "./window";
 
@@ -86,12 +86,12 @@ async function killed(checks: Checks): Promise<void> {
     await window.open("plate.dxf");
     await window.squiggles.first().waitFor();
     await checks.check("a text that is changed by undo while a repair is on its way stays as it is", async () => {
-      const [server] = await servers(host.folder);
+      const server = await onlyServer(host.folder);
       await window.goToLine(line - 4, 1);
       await host.page.keyboard.press("End");
       await host.page.keyboard.type("1");
       await host.page.locator(".view-lines", { hasText: "19.951" }).waitFor();
-      process.kill(server ?? 0, "SIGSTOP");
+      process.kill(server, "SIGSTOP");
       try {
         await window.command("Wire EDM: Fix All Arcs That Are Too Tight");
         // Asked, and not answered.
@@ -100,7 +100,7 @@ async function killed(checks: Checks): Promise<void> {
         await host.page.keyboard.press("Control+z");
         await host.page.locator(".view-lines", { hasText: "19.951" }).waitFor({ state: "detached" });
       } finally {
-        process.kill(server ?? 0, "SIGCONT");
+        process.kill(server, "SIGCONT");
       }
       await window.notification("the text has changed meanwhile, nothing was done").waitFor();
       await host.page.keyboard.press("Control+s");
@@ -109,18 +109,17 @@ async function killed(checks: Checks): Promise<void> {
     });
     await checks.check("a server that is killed in the middle of an edit comes back, and knows the text as it is", async () => {
       await window.goToLine(line - 4, 1);
-      const before = await servers(host.folder);
-      expectEqual("servers", before.length, 1);
+      const before = await onlyServer(host.folder);
       await host.page.keyboard.press("Shift+End");
       for (const [edit, character] of ["1", "9", ".", "9", "4"].entries()) {
         if (edit === 2) {
-          process.kill(before[0] ?? 0, "SIGKILL");
+          process.kill(before, "SIGKILL");
         }
         await host.page.keyboard.type(character);
       }
       const another = async (): Promise<boolean> => {
         const now = await servers(host.folder);
-        return now.length === 1 && now[0] !== before[0];
+        return now.length === 1 && now[0] !== before;
       };
       await expectSoon("another server", another, async () => JSON.stringify(await servers(host.folder)));
       await says(window, "arc R 0.055 mm is below");
@@ -150,7 +149,7 @@ async function killed(checks: Checks): Promise<void> {
       await notice.waitFor();
       await checks.shot("too-large");
       await notice.getByRole("button", { name: "Check It by Path" }).click();
-      await window.notification("large.dxf: 1 error").waitFor({ timeout: 60_000 });
+      await window.notification("large.dxf: 1 error").waitFor({ timeout: 4 * PATIENCE });
       await expectSoon("the finding under Problems", async () => (await window.problems()).some((row) => row.includes("wedm check")), async () => (await window.problems()).join("\n"));
       await checks.shot("checked-by-path");
     });
@@ -161,6 +160,15 @@ async function killed(checks: Checks): Promise<void> {
 
 async function says(window: Window, text: string): Promise<void> {
   await expectSoon(text, async () => (await window.problems()).some((row) => row.includes(text)), async () => (await window.problems()).join("\n"));
+}
+
+/** The one that serves this window; none other is ever to be stopped. */
+async function onlyServer(folder: string): Promise<number> {
+  const [server, ...others] = await servers(folder);
+  if (server === undefined || others.length > 0) {
+    throw new Error(`expected one server, seen ${server === undefined ? 0 : 1 + others.length}`);
+  }
+  return server;
 }
 
 /** The processes of our server that serve this window. */

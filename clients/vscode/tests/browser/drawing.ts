@@ -18,7 +18,7 @@ export async function drawing(checks: Checks): Promise<void> {
   const kept = join(host.folder, "wedm.toml");
   const open = async (name: string): Promise<void> => {
     await host.page.locator(".explorer-folders-view .monaco-list-row", { hasText: name }).first().dblclick();
-    await host.page.locator(`.tabs-container .tab.active[data-resource-name="${name}"]`).waitFor();
+    await window.tab(name);
   };
   try {
     await checks.check("a file of the Explorer is opened", async () => {
@@ -27,7 +27,7 @@ export async function drawing(checks: Checks): Promise<void> {
       await open("small-radius.dxf");
       await window.picture();
     });
-    const page = await window.picture();
+    const page = await window.pictureOf("small-radius.dxf");
     await checks.check("a drawing opens as its picture, and its correction stands in the status bar", async () => {
       await expectSoon("four faults", async () => (await page.locator("svg .drawing .fault").count()) === 4);
       await expectSoon("0.100 mm", async () => (await window.status.innerText()).includes("0.100 mm"), () => window.status.innerText());
@@ -43,6 +43,18 @@ export async function drawing(checks: Checks): Promise<void> {
       expectEqual("why", ((await card.locator("p").innerText()).length) > 40, true);
       await checks.shot("drawing-card");
     });
+    await checks.check("the card makes way for what it is about", async () => {
+      for (let index = 0; index < 4; index += 1) {
+        const badge = page.locator("svg .mark").nth(index).locator(".badge");
+        await page.locator("#card .close").click();
+        await window.clickDrawn(badge);
+        await page.locator("#card .primary").waitFor();
+        expectEqual(`mark ${index + 1} is covered`, await window.overlap(page.locator("#card"), badge), false);
+      }
+      await page.locator("#card .close").click();
+      await window.clickDrawn(page.locator("svg .mark").first().locator(".badge"));
+      await page.locator("#card .primary").waitFor();
+    });
     await checks.check("Fix repairs it, as one edit of the document", async () => {
       await page.locator("#card .primary").click();
       await expectSoon("three faults", async () => (await page.locator("svg .drawing .fault").count()) === 3);
@@ -56,7 +68,7 @@ export async function drawing(checks: Checks): Promise<void> {
       await host.page.keyboard.press("Control+w");
     });
     await open("plate.dxf");
-    const plate = await window.picture();
+    const plate = await window.pictureOf("plate.dxf");
     await checks.check("the wire side of a contour is set in the picture and kept in wedm.toml", async () => {
       await expectSoon("why there is no path", async () => (await plate.locator("#alert").innerText()).includes("no wire path: "));
       for (const [handle, role] of [["2A", "Punch"], ["2B", "Opening"]] as const) {

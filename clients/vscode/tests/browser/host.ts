@@ -7,11 +7,9 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { promisify } from "node:util";
 import { type Browser, type BrowserContextOptions, type Page } from "playwright-core";
+import { PATIENCE } from "./checks";
 import { ARTIFACTS, CODE_SERVER, EXTENSION, WEDM } from "./paths";
 import { startBrowser } from "./start";
-
-/** Longer than anything here takes on a busy machine. */
-export const PATIENCE = Number(process.env["PATIENCE"] ?? 30_000);
 
 const QUIET = {
   "workbench.startupEditor": "none",

@@ -20,7 +20,6 @@ export async function job(checks: Checks): Promise<void> {
   checks.page = host.page;
   const text = (name: string) => (): Promise<string> => readFile(join(host.folder, name), "utf8");
   const kept = text("wedm.toml");
-  const tab = (name: string): Promise<void> => host.page.locator(`.tabs-container .tab.active[data-resource-name="${name}"]`).first().waitFor();
   try {
     await window.openOurs("plate.dxf");
     await checks.check("where the wire is threaded is saved as the drill list, and as a drawing with the holes", async () => {
@@ -30,11 +29,11 @@ export async function job(checks: Checks): Promise<void> {
       const list = text("holes.csv");
       const rows = /^drawing,x_mm,y_mm,diameter_mm,contour,hole\n(plate.dxf,[\d.-]+,[\d.-]+,2,2[AB],found\n){2}$/;
       await expectSoon("two holes", async () => rows.test(await list()), list);
-      await tab("holes.csv");
+      await window.tab("holes.csv");
       await window.turnTo("plate.dxf");
       await window.command("Wire EDM: Save Drill List");
       await window.path(join(host.folder, "drilled.dxf"));
-      await tab("drilled.dxf");
+      await window.tab("drilled.dxf");
       const drawing = await text("drilled.dxf")();
       expectEqual("holes on their layer", drawing.match(/\nCIRCLE\r?\n(?:(?! *0\r?\n).*\r?\n.*\r?\n)*? *8\r?\nSTART-HOLES\r?\n/g)?.length, 2);
       await window.turnTo("plate.dxf");
@@ -72,7 +71,7 @@ export async function job(checks: Checks): Promise<void> {
       await window.openOurs("way.dxf");
       await window.hold(host.folder, "correction = 0.13\n", "0.130");
       await window.command("Wire EDM: Open as Picture");
-      const page = await window.picture();
+      const page = await window.pictureOf("way.dxf");
       await window.openContour(page, "2A");
       const card = page.locator("#card");
       expectEqual("what it may be", await card.locator(".row", { hasText: "Side" }).getByRole("button").allInnerTexts(), ["Left", "Right", "Not cut"]);
@@ -91,13 +90,17 @@ export async function job(checks: Checks): Promise<void> {
       await window.hold(host.folder, ELECTRODE, "0.550");
       await window.command("Wire EDM: Generate Milling Program…");
       await window.path(join(host.folder, "milled.iso"));
-      await tab("milled.iso");
+      await window.tab("milled.iso");
       const program = await text("milled.iso")();
       expectEqual("layers", program.match(/^G01 Z-0\.\d+$/gm)?.length, 4);
       const said = window.notification("Milling: ");
       await expectSoon("what it comes to", async () => /; 4 layers of 0\.05 mm; simulated: the floor 0\.\d{4} to 0\.\d{4} mm deep, the electrode 0\.\d{4} mm shorter/.test(await said.innerText()), () => said.innerText());
       expectEqual("nothing is counted", (await said.innerText()).includes("counts J"), false);
+      await window.command("Wire EDM: Open Picture Beside");
+      const page = await window.pictureOf("milled.iso");
+      await expectSoon("no wire", async () => (await page.locator("#title").innerText()) === "milled.iso · path of the electrode");
       await checks.shot("milled");
+      await window.close("Picture of");
       await window.command("Notifications: Clear All Notifications");
     });
     await checks.check("of a pocket the side of the electrode is asked for", async () => {
@@ -109,7 +112,7 @@ export async function job(checks: Checks): Promise<void> {
       await asked.locator("input").fill("Opening");
       await host.page.keyboard.press("Enter");
       await window.path(join(host.folder, "pocket.iso"));
-      await tab("pocket.iso");
+      await window.tab("pocket.iso");
       await window.notification("Keep what you said of the electrode's side").waitFor();
     });
   } finally {

@@ -82,8 +82,7 @@ export async function large(checks: Checks): Promise<void> {
     });
     await checks.check("what is clicked on the canvas is picked", async () => {
       await page.locator("#chips .chip").first().click();
-      await page.waitForTimeout(400);
-      expectEqual("selected", await page.locator("svg .fault.selected").count(), 1);
+      await expectSoon("selected", async () => (await page.locator("svg .fault.selected").count()) === 1);
       await checks.shot("large-close");
     });
   } finally {

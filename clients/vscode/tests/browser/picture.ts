@@ -75,7 +75,7 @@ export async function picture(checks: Checks): Promise<void> {
       const row = host.page.locator(".pane-body .monaco-list-row", { hasText: "R 0.040" });
       await row.waitFor();
       expectEqual("row", (await row.innerText()).replaceAll(/\s+/g, ""), "4R0.040small-radius·3.200,0.983");
-      expectEqual("rows", await host.page.locator(".pane-body .monaco-list-row").count(), 15);
+      await expectSoon("fifteen rows", async () => (await host.page.locator(".pane-body .monaco-list-row").count()) === 15);
       await row.click();
       await window.expectLine(bulges[2] ?? 0);
       await checks.shot("radii");
@@ -109,8 +109,11 @@ export async function picture(checks: Checks): Promise<void> {
       const target = join(host.folder, "made.3b");
       await window.path(target);
       await expectSoon("a program", async () => /^(B\d+B\d+B\d+G[XY](L|SR|NR)[1-4]\n){17}DD\n$/.test(await readFile(target, "utf8")), () => readFile(target, "utf8"));
-      await host.page.locator(".tabs-container .tab", { hasText: "made.3b" }).waitFor();
-      await window.notification("µm beside it; a controller that counts J drifts by").waitFor();
+      await window.tab("made.3b");
+      const notice = window.notification("µm beside it; a controller that counts J drifts by");
+      await notice.waitFor();
+      const player = (await window.pictureOf("made.3b")).locator("#player");
+      expectEqual("the player is covered", await window.overlap(notice, player), false);
       await checks.shot("generated");
       await window.command("Notifications: Clear All Notifications");
     });
@@ -133,6 +136,7 @@ export async function picture(checks: Checks): Promise<void> {
       }
       const target = join(host.folder, "plate.3b");
       await window.path(target);
+      await window.tab("plate.3b");
       // Punch 20 × 10 and hole of R 3 with a correction of 0.1 mm: the hole first, from within; the outline from without.
       await expectSoon("a program", async () => (await readFile(target, "utf8")).includes("B20000B0B20000GXL"), () => readFile(target, "utf8"));
       expectEqual("the hole is cut from within", /B2900B0B11600G[XY]NR/.test(await readFile(target, "utf8")), true);
@@ -144,8 +148,7 @@ export async function picture(checks: Checks): Promise<void> {
     });
     await checks.check("wedm.toml wins over the settings, and the status bar says so", async () => {
       await window.turnTo("small-radius.dxf");
-      await writeFile(join(host.folder, "wedm.toml"), "correction = 0.11\n");
-      await expectSoon("0.110 mm", async () => (await window.status.innerText()).includes("0.110 mm"), () => window.status.innerText());
+      await window.hold(host.folder, "correction = 0.11\n", "0.110");
       await window.squiggles.first().waitFor();
       await writeFile(join(host.folder, "wedm.toml"), 'side = "opening"\n');
       await window.squiggles.first().waitFor({ state: "hidden" });
@@ -155,7 +158,7 @@ export async function picture(checks: Checks): Promise<void> {
       const target = join(host.folder, "made.4b");
       await window.path(target);
       await expectSoon("a program", async () => /^B\d+B\d+B\d+B\d+G[XY]D?D?/m.test(await readFile(target, "utf8")), () => readFile(target, "utf8"));
-      await host.page.locator(".tabs-container .tab", { hasText: "made.4b" }).waitFor();
+      await window.tab("made.4b");
     });
     await checks.check("an ISO program is generated in the profile that is chosen", async () => {
       await window.turnTo("small-radius.dxf");
@@ -168,7 +171,7 @@ export async function picture(checks: Checks): Promise<void> {
       const target = join(host.folder, "made.iso");
       await window.path(target);
       await expectSoon("whole µm from one point to the next", async () => /^G91\nG01 X-?\d+ Y-?\d+$/m.test(await readFile(target, "utf8")), () => readFile(target, "utf8"));
-      await host.page.locator(".tabs-container .tab", { hasText: "made.iso" }).waitFor();
+      await window.tab("made.iso");
       await expectSoon("no word of J, which ISO has not", async () => (await window.notification("ISO: 17 blocks").innerText()).includes("µm beside it."), () => window.notification("ISO: 17 blocks").innerText());
       await checks.shot("generated-iso");
     });
@@ -177,9 +180,9 @@ export async function picture(checks: Checks): Promise<void> {
       await host.page.keyboard.press("Control+s");
       await host.page.reload();
       await window.status.waitFor();
-      const again = await window.picture();
       // VS Code may have kept another file in front: it writes that down from time to time.
       await window.turnTo("small-radius.dxf");
+      const again = await window.pictureOf("small-radius.dxf");
       await expectSoon("the contour", async () => (await again.locator("svg .contour").count()) > 0);
       await window.goToLine(bulges[1] ?? 0);
       await expectSoon("segment 2 selected", async () => (await again.locator("svg .contour.selected").getAttribute("data-segment")) === "2");

@@ -86,6 +86,7 @@ export async function themes(checks: Checks): Promise<void> {
         await checks.shot(`theme-${name}-picture`);
         const tooFaint = await faint(page);
         await window.close("Picture of");
+        await host.page.locator("iframe.webview.ready:visible").waitFor({ state: "detached" });
         await expectNone(tooFaint);
       });
       await checks.check(`${name}: the card of a finding can be read`, async () => {
@@ -101,7 +102,7 @@ export async function themes(checks: Checks): Promise<void> {
       await checks.check(`${name}: the way of a program can be read while it is played`, async () => {
         await window.openOurs("way.3b");
         await window.command("Wire EDM: Open Picture Beside");
-        const page = await window.picture();
+        const page = await window.pictureOf("way.3b");
         await page.locator("#player").waitFor();
         await page.locator("#slider").fill("400");
         await checks.shot(`theme-${name}-player`);

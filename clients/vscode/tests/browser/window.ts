@@ -2,8 +2,7 @@
 
 import { writeFile } from "node:fs/promises";
 import { join } from "node:path";
-import { expectSoon } from "./checks";
-import { PATIENCE } from "./host";
+import { expectSoon, PATIENCE } from "./checks";
 import type { Frame, Locator, Page } from "playwright-core";
 
 export class Window {
@@ -11,7 +10,7 @@ export class Window {
 
   async open(name: string): Promise<void> {
     await this.page.locator(".explorer-folders-view .monaco-list-row", { hasText: name }).first().dblclick();
-    await this.page.locator(`.tabs-container .tab.active[data-resource-name="${name}"]`).waitFor();
+    await this.tab(name);
     await this.page.locator(".editor-group-container.active .view-lines .view-line").first().waitFor();
   }
 
@@ -26,8 +25,13 @@ export class Window {
     await this.page.keyboard.press("Control+1");
     await this.#ask("Control+p", name, name);
     await this.page.keyboard.press("Enter");
-    await this.page.locator(`.tabs-container .tab.active[data-resource-name="${name}"]`).first().waitFor();
+    await this.tab(name);
     await this.status.waitFor();
+  }
+
+  /** Waits for the tab of a file in front: what a command has written it opens afterwards, over whatever is turned to before. */
+  async tab(name: string): Promise<void> {
+    await this.page.locator(`.tabs-container .tab.active[data-resource-name="${name}"]`).first().waitFor();
   }
 
   async command(title: string): Promise<void> {
@@ -127,6 +131,22 @@ export class Window {
     return inner;
   }
 
+  /** The page in which the picture of a file is drawn: that of another one may be seen for a moment when files are turned to. */
+  async pictureOf(name: string): Promise<Frame> {
+    let found: Frame | undefined;
+    let title = "none";
+    const isThere = async (): Promise<boolean> => {
+      found = await this.picture(false);
+      title = await found.locator("#title").innerText();
+      return title.startsWith(`${name} · `) && (await found.locator("#stage > svg").count()) > 0;
+    };
+    await expectSoon(`the picture of ${name}`, isThere, () => Promise.resolve(title));
+    if (found === undefined) {
+      throw new Error(`there is no picture of ${name}`);
+    }
+    return found;
+  }
+
   /** Clicks the middle of what is drawn, whatever of the same mark lies over it. */
   async clickDrawn(drawn: Locator): Promise<void> {
     const box = await drawn.boundingBox();
@@ -146,15 +166,28 @@ export class Window {
     await this.page.mouse.click((frame?.x ?? 0) + point.x, (frame?.y ?? 0) + point.y);
   }
 
+  /** Whether two things lie over each other on the screen. */
+  async overlap(one: Locator, other: Locator): Promise<boolean> {
+    const [a, b] = [await one.boundingBox(), await other.boundingBox()];
+    if (a === null || b === null) {
+      throw new Error("what is to be compared is not seen");
+    }
+    return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+  }
+
   /** Clicks a contour in the editor of a drawing; where a finding lies there, its card leads to that of the contour. */
   async openContour(picture: Frame, handle: string): Promise<void> {
     const card = picture.locator("#card");
-    if (await card.isVisible()) {
-      await card.locator(".close").click();
-    }
-    await card.waitFor({ state: "hidden" });
-    await this.clickPath(picture, `svg .contour[data-handle="${handle}"]`);
-    await card.locator("h2, .link", { hasText: /^Contour \d/ }).first().waitFor();
+    const named = card.locator("h2, .link", { hasText: /^Contour \d/ }).first();
+    // Where the picture is laid out anew just then the click goes beside the contour: then it is clicked again.
+    await expectSoon(`the card of contour ${handle}`, async () => {
+      if (await card.isVisible()) {
+        await card.locator(".close").click();
+      }
+      await this.clickPath(picture, `svg .contour[data-handle="${handle}"]`);
+      await named.waitFor({ timeout: PATIENCE / 20 });
+      return true;
+    });
     const lead = card.locator(".link", { hasText: /^Contour \d/ });
     if ((await lead.count()) > 0) {
       await lead.click();
