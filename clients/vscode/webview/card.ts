@@ -14,7 +14,6 @@ export interface Asking {
 export class Cards {
   readonly #card = element("card", HTMLElement);
   #asking: Asking | null = null;
-  /** The contour whose card is open. */
   #open: Contour | null = null;
 
   constructor(
@@ -31,6 +30,11 @@ export class Cards {
     this.#card.addEventListener("wheel", (event) => {
       event.stopPropagation();
     });
+  }
+
+  /** The contour whose card is open. */
+  get open(): Contour | null {
+    return this.#open;
   }
 
   get asking(): Asking | null {

@@ -143,6 +143,9 @@ function show(message: Shown): void {
     trouble("");
   }
   cards.refresh(same ? message.contours : [], message.keeps);
+  if (cards.open !== null) {
+    sheet.select(cards.open.handles.flatMap((each) => sheet.ofSegment(each, null)));
+  }
 }
 
 function trouble(message: string, stale = true): void {

@@ -94,6 +94,7 @@ export async function drawing(checks: Checks): Promise<void> {
       await plate.locator("#card input").fill("1");
       await plate.locator("#card input").press("Enter");
       await expectSoon("its place", async () => (await readFile(kept, "utf8")).includes("order = 1"), () => readFile(kept, "utf8"));
+      await expectSoon("the contour of the card marked", async () => (await plate.locator('svg .contour.selected[data-handle="2B"]').count()) > 0);
       await checks.shot("drawing-contour");
     });
     await checks.check("the picture is saved as PDF", async () => {

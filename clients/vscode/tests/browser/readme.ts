@@ -23,7 +23,7 @@ export async function readme(checks: Checks): Promise<void> {
     "breadcrumbs.enabled": false,
     "editor.occurrencesHighlight": "off",
   };
-  const view = { viewport: { width: 1280, height: 740 }, deviceScaleFactor: 1.5 };
+  const view = { viewport: { width: 1280, height: 780 }, deviceScaleFactor: 1.5 };
   const host = await Host.start(settings, { "plate.dxf": plate }, { view });
   const window = new Window(host.page);
   checks.page = host.page;
@@ -41,7 +41,7 @@ export async function readme(checks: Checks): Promise<void> {
       await page.locator("#fit").evaluate((button: HTMLElement) => {
         button.click();
       });
-      await host.page.mouse.move(640, 738);
+      await host.page.mouse.move(640, 778);
       await host.page.waitForTimeout(1_000);
       await host.page.screenshot({ path: PICTURE });
     });
