@@ -14,11 +14,11 @@ mod title;
 mod unlike;
 mod unwritable;
 
+pub(crate) use aside::MOST_HANDLES;
 pub use aside::{Aside, SetAside};
-pub(crate) use aside::{MOST_HANDLES, ignored};
 pub use fault::Axis;
 pub(crate) use fault::Fault;
-pub(crate) use fix::{CenterFix, TextFix};
+pub(crate) use fix::{CenterFix, TextFix, ignored};
 pub use fix::{Edit, Fix, FixKind, Keep};
 pub(crate) use not_judged::NotJudged;
 pub(crate) use sentence::related;

@@ -1,7 +1,7 @@
 //! A repair as data: what it does, and its edit.
 
-use super::{Aside, Axis, Rule};
-use crate::drawing::{Change, DrawingEdit};
+use super::{Aside, Axis, Rule, SetAside};
+use crate::drawing::{Change, DrawingEdit, Role};
 use crate::text::TextEdit;
 use std::sync::Arc;
 
@@ -111,6 +111,42 @@ impl<E> Fix<E> {
             edit: form(self.edit),
         }
     }
+}
+
+impl SetAside {
+    /// What the settings can keep of it: that it is cut all the same, that its layer is ignored.
+    /// `role` is what it is cut as.
+    pub(crate) fn keeps(&self, role: Role) -> Vec<Fix<Vec<Keep>>> {
+        let role = role.name();
+        let what = FixKind::CutAllTheSame {
+            why: self.why.clone(),
+        };
+        let keeps = match &self.why {
+            Aside::Linetype(name) => vec![(what, vec![Keep::new("linetypes", name, role)])],
+            Aside::Layer(name) => {
+                vec![ignored(name), (what, vec![Keep::new("layers", name, role)])]
+            }
+            Aside::Lone => {
+                let ignore = self.spare_layers.iter().map(ignored);
+                let cut = (self.handles.len() == self.count).then(|| {
+                    let keep = |handle: &Arc<str>| Keep::new("contours", handle, role);
+                    (what, self.handles.iter().map(keep).collect())
+                });
+                ignore.chain(cut).collect()
+            }
+        };
+        keeps
+            .into_iter()
+            .map(|(kind, keeps)| Fix::keeping(kind, keeps))
+            .collect()
+    }
+}
+
+/// What leaves a layer out.
+pub(crate) fn ignored(layer: &Arc<str>) -> (FixKind, Vec<Keep>) {
+    let layer = layer.clone();
+    let keep = Keep::new("layers", &layer, "ignore");
+    (FixKind::IgnoreLayer { layer }, vec![keep])
 }
 
 /// What a fix does, as data for its title. Lengths in drawing units.

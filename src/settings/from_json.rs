@@ -1,6 +1,6 @@
 //! Settings out of JSON: `initializationOptions`, `workspace/configuration`, the `options` of a request.
 
-use super::reader;
+use super::level;
 use super::value::{Entry, Node, Value};
 use super::{Settings, SettingsError};
 
@@ -11,7 +11,7 @@ pub(crate) fn from_json(json: &serde_json::Value) -> (Settings, Vec<SettingsErro
     let section = json
         .get("wedm")
         .filter(|section| section.is_object() || section.is_null());
-    reader::read(&node(section.unwrap_or(json)))
+    level::read(&node(section.unwrap_or(json)))
 }
 
 fn node(json: &serde_json::Value) -> Node {

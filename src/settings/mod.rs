@@ -11,14 +11,18 @@ mod from_toml;
 mod table;
 mod keep;
 mod keys;
+mod level;
 mod milling;
 mod pair;
 mod passes;
 mod profile;
 mod reader;
 mod row;
+mod shipped;
 mod spelling;
+mod toml_tree;
 mod value;
+mod workpieces;
 
 pub use budget::Budget;
 pub use effective::Effective;
@@ -33,13 +37,13 @@ pub(crate) use keys::{
 };
 pub use keys::{Settings, rows};
 pub use milling::Electrode;
-pub(crate) use pair::{Partners, Use, Workpieces};
+pub(crate) use pair::{Partners, Use};
 pub(crate) use passes::{PassFault, pass_faults, passes_table};
-pub use profile::shipped_profiles;
-pub(crate) use profile::{CenterRule, Coordinates, LineEnd, NumberUnit, Zero};
 pub use row::Row;
+pub use shipped::shipped_profiles;
 pub(crate) use spelling::nearest;
 pub use table::camel_case;
+pub(crate) use workpieces::Workpieces;
 
 use crate::drawing::Role;
 use crate::finding::{Rule, Severity};
@@ -340,6 +344,58 @@ impl Settings {
         };
         faults.into_iter().map(error).collect()
     }
+}
+
+/// How I and J lead to an arc's centre.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum CenterRule {
+    /// From the start to the centre.
+    #[default]
+    StartToCenter,
+    /// From the centre to the start.
+    CenterToStart,
+    /// The centre itself in the coordinates of the program.
+    Absolute,
+}
+
+/// G90 or G91.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Coordinates {
+    /// G90.
+    #[default]
+    Absolute,
+    /// G91.
+    Incremental,
+}
+
+/// Where absolute coordinates count from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Zero {
+    /// The zero of the drawing.
+    #[default]
+    Drawing,
+    /// Where the wire is threaded first.
+    Start,
+}
+
+/// Millimetres with a decimal point, or whole micrometres without one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum NumberUnit {
+    #[default]
+    Mm,
+    Um,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum LineEnd {
+    #[default]
+    Lf,
+    Crlf,
 }
 
 /// A setting that does not fit: which one, and what was expected. Lower-case, no final dot.

@@ -48,47 +48,6 @@ impl From<DrawnAs> for Use {
     }
 }
 
-/// Parts by the layers they are drawn on.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Workpieces {
-    /// In the order of their names.
-    names: Vec<String>,
-    by_layer: BTreeMap<String, u16>,
-}
-
-impl Workpieces {
-    pub(super) fn of(settings: &Settings) -> Workpieces {
-        let mut workpieces = Workpieces::default();
-        for (name, layers) in settings.workpieces.iter().flatten() {
-            workpieces.names.push(name.clone());
-            let number = u16::try_from(workpieces.names.len()).unwrap_or(u16::MAX);
-            for layer in layers {
-                workpieces.by_layer.entry(layer.clone()).or_insert(number);
-            }
-        }
-        workpieces
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.names.is_empty()
-    }
-
-    pub fn names(&self) -> &[String] {
-        &self.names
-    }
-
-    /// The number of the part that a layer is of, from 1; 0 for what is of none.
-    pub(crate) fn of_layer(&self, layer: &str) -> u16 {
-        self.by_layer.get(layer).copied().unwrap_or(0)
-    }
-
-    /// The name of a part by its number.
-    pub fn name(&self, number: u16) -> Option<&str> {
-        let index = usize::from(number).checked_sub(1)?;
-        self.names.get(index).map(String::as_str)
-    }
-}
-
 /// What is held against what.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Partners {
@@ -117,7 +76,7 @@ impl Effective {
     pub fn partners(&self) -> Option<Partners> {
         match self.pair.drawn_as {
             Some(drawn_as) => Some(Partners::CutTwice(drawn_as)),
-            None if self.workpieces.names.len() > 1 => Some(Partners::Drawn),
+            None if self.workpieces.names().len() > 1 => Some(Partners::Drawn),
             None => None,
         }
     }

@@ -2,76 +2,19 @@
 //!
 //! Those that ship stand in `profiles.toml`, those of a user in the table `[profiles.NAME]` of `wedm.toml`; both are read alike.
 
+use super::reader::Reader;
+use super::shipped::shipped;
 use super::table::Overlay;
-use super::{Profile, ProfileSettings, ProgramSettings};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use super::{NumberUnit, Profile, ProfileSettings, ProgramSettings, Settings, shipped_profiles};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// How I and J lead to an arc's centre.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum CenterRule {
-    /// From the start to the centre.
-    #[default]
-    StartToCenter,
-    /// From the centre to the start.
-    CenterToStart,
-    /// The centre itself in the coordinates of the program.
-    Absolute,
-}
-
-/// G90 or G91.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Coordinates {
-    /// G90.
-    #[default]
-    Absolute,
-    /// G91.
-    Incremental,
-}
-
-/// Where absolute coordinates count from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Zero {
-    /// The zero of the drawing.
-    #[default]
-    Drawing,
-    /// Where the wire is threaded first.
-    Start,
-}
-
-/// Millimetres with a decimal point, or whole micrometres without one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum NumberUnit {
-    #[default]
-    Mm,
-    Um,
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum LineEnd {
-    #[default]
-    Lf,
-    Crlf,
-}
-
 static SHIPPED: LazyLock<BTreeMap<String, ProfileSettings>> = LazyLock::new(|| {
-    super::from_toml(include_str!("profiles.toml"))
-        .0
-        .profiles
+    let settings: Option<Settings> = Reader::default().table("", shipped());
+    settings
+        .and_then(|settings| settings.profiles)
         .unwrap_or_default()
 });
-
-/// Names of the profiles that ship.
-pub fn shipped_profiles() -> impl Iterator<Item = &'static str> {
-    SHIPPED.keys().map(String::as_str)
-}
 
 impl Profile {
     /// True where its pause stops the machine by an M word, so that the wire can be taken out.
@@ -129,7 +72,7 @@ impl Default for Profile {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Effective, from_toml};
+    use super::super::{CenterRule, Effective, from_toml};
     use super::*;
 
     #[test]

@@ -1,11 +1,9 @@
-//! One level of settings out of a tree of values: each key is held against what it may be, a misfit is left out and named.
+//! Tables of settings out of a tree of values: each key is held against what it may be, a misfit is left out and named.
 
 use super::row::{Range, Row};
 use super::spelling::{listed, named, nearest, snake_case};
 use super::value::{Entry, Node, Value};
-use super::{
-    LengthSetting, PassFault, PointSetting, RuleSeverity, Settings, SettingsError, shipped_profiles,
-};
+use super::{LengthSetting, PointSetting, RuleSeverity, SettingsError, shipped_profiles};
 use crate::drawing::{Color, Role};
 use crate::finding::Rule;
 use serde::de::DeserializeOwned;
@@ -20,16 +18,6 @@ pub(super) trait Table: Default {
     fn read(&mut self, reader: &mut Reader, key: &str, dotted: &str, node: &Node) -> bool;
 }
 
-/// Reads the root table. Null is an empty level.
-pub(super) fn read(root: &Node) -> (Settings, Vec<SettingsError>) {
-    let mut reader = Reader::default();
-    let mut settings: Settings = reader.table("", root).unwrap_or_default();
-    let errors = settings.contradictions(&|fault| place_of(root, fault));
-    reader.errors.extend(errors);
-    reader.refuse_unknown_profile(&mut settings, root);
-    (settings, reader.errors)
-}
-
 /// What was wrong so far. A method reads one kind of value: its dotted key, the value, and the range where numbers have one.
 #[derive(Default)]
 pub(super) struct Reader {
@@ -37,32 +25,6 @@ pub(super) struct Reader {
 }
 
 impl Reader {
-    /// A profile that is named ships, or is declared at this level.
-    fn refuse_unknown_profile(&mut self, settings: &mut Settings, root: &Node) {
-        // The profiles that ship name none, and are themselves read here.
-        let Some(profile) = settings
-            .program
-            .as_ref()
-            .and_then(|program| program.profile.as_ref())
-        else {
-            return;
-        };
-        let own = settings.profiles.iter().flat_map(BTreeMap::keys).cloned();
-        let mut names: Vec<String> = shipped_profiles().map(str::to_owned).chain(own).collect();
-        names.sort_unstable();
-        names.dedup();
-        if !names.contains(profile)
-            && let Some(entry) =
-                entry_of(root, "program").and_then(|entry| entry_of(&entry.node, "profile"))
-        {
-            self.misfit::<()>("program.profile", &entry.node, &names.join(", "));
-            settings
-                .program
-                .iter_mut()
-                .for_each(|program| program.profile = None);
-        }
-    }
-
     /// A table with declared keys.
     pub(crate) fn table<T: Table>(&mut self, key: &str, node: &Node) -> Option<T> {
         let mut table = T::default();
@@ -430,7 +392,7 @@ impl Reader {
         self.misfit(key, node, say!(a_point))
     }
 
-    fn misfit<T>(&mut self, key: &str, node: &Node, expected: &str) -> Option<T> {
+    pub(super) fn misfit<T>(&mut self, key: &str, node: &Node, expected: &str) -> Option<T> {
         self.complain(
             key,
             node,
@@ -451,38 +413,6 @@ impl Reader {
         };
         self.errors
             .push(SettingsError::new(key, message, entry.key_range.clone()));
-    }
-}
-
-/// The value that a fault of the passes speaks of, else what else the tree says about the passes.
-pub(super) fn place_of(root: &Node, fault: &PassFault) -> Option<std::ops::Range<usize>> {
-    let (table, named) = fault.key.split_once('.').unwrap_or(("passes", fault.key));
-    let named = snake_case(named);
-    let list = entry_of(root, table).and_then(|entry| match fault.pass {
-        // A key of its own, of which there is one value.
-        usize::MAX if table == "pair" => entry_of(&entry.node, &named),
-        _ if table == "workpieces" => Some(entry),
-        // What it lacks is said of the table.
-        _ if table == "milling" => Some(entry_of(&entry.node, &named).unwrap_or(entry)),
-        _ => entry_of(&entry.node, &named),
-    });
-    if ["pair", "workpieces", "milling"].contains(&table) {
-        return list.and_then(|entry| entry.key_range.clone());
-    }
-    let of_list = list.and_then(|entry| match &entry.node.value {
-        Value::List(items) => items.get(fault.pass).unwrap_or(&entry.node).range.clone(),
-        _ => None,
-    });
-    let of_key = |key: &str| entry_of(root, key).and_then(|entry| entry.node.range.clone());
-    of_list
-        .or_else(|| of_key("correction"))
-        .or_else(|| of_key("wire_diameter"))
-}
-
-fn entry_of<'a>(root: &'a Node, key: &str) -> Option<&'a Entry> {
-    match &root.value {
-        Value::Table(entries) => entries.iter().find(|entry| snake_case(&entry.key) == key),
-        _ => None,
     }
 }
 

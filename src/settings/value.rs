@@ -1,5 +1,6 @@
 //! A tree of values with their places: what TOML and JSON have in common for the reader of settings.
 
+use super::spelling::snake_case;
 use std::ops::Range;
 
 pub(super) enum Value {
@@ -22,6 +23,16 @@ pub(super) struct Entry {
     pub(crate) key: String,
     pub(crate) key_range: Option<Range<usize>>,
     pub(crate) node: Node,
+}
+
+impl Node {
+    /// The entry of a table under a key in snake_case.
+    pub(crate) fn entry(&self, key: &str) -> Option<&Entry> {
+        match &self.value {
+            Value::Table(entries) => entries.iter().find(|entry| snake_case(&entry.key) == key),
+            _ => None,
+        }
+    }
 }
 
 impl Entry {

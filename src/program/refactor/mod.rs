@@ -5,20 +5,17 @@
 //! that is not offered.
 
 mod merge;
+mod mirror;
 mod notation;
 mod number;
 mod proof;
 mod reverse;
-mod rewrite;
 mod scale;
-mod sheet;
 mod start_here;
 mod transform;
 
-pub(in crate::program) use notation::{Change, Notation};
-pub(in crate::program) use rewrite::Rewrite;
+pub(in crate::program) use notation::{Change, Content, Contour, Notation, Rewrite, Row, Sheet};
 pub(in crate::program) use scale::scaled;
-pub(in crate::program) use sheet::{Content, Contour, Row, Sheet};
 pub(in crate::program) use transform::Transform;
 
 use crate::settings::Effective;
@@ -49,7 +46,7 @@ fn all<N: Notation>() -> impl Iterator<Item = Refactoring<N>> {
     let of_contours = [reverse::reverse(), start_here::start_here()];
     of_contours
         .into_iter()
-        .chain(transform::all())
+        .chain(mirror::all())
         .chain(scale::all())
         .chain([merge::merge()])
         .chain(N::own())

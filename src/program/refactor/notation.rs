@@ -1,12 +1,15 @@
-//! What a language tells of its moves and how it writes others.
+//! A program as refactorings see it, what becomes of it, and what a language tells of its moves and writes in their place.
 
-use super::{Content, Contour, Refactoring, Rewrite, Row, Sheet, Transform};
+use super::Refactoring;
+use super::transform::Transform;
 use crate::finding::Finding;
-use crate::program::grid::Node;
-use crate::program::path::Trace;
-use crate::program::steps::Program;
+use crate::geometry::{Point, Segment};
+use crate::program::grid::{Node, point_of};
+use crate::program::path::{Kind, Trace, cuts};
+use crate::program::steps::{Program, trace};
 use crate::settings::Effective;
 use crate::text::TextEdit;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// What is about to be done with moves.
@@ -137,4 +140,238 @@ pub(in crate::program) trait Notation: Sized {
     fn without_numbers(document: &Self::Document) -> Result<Vec<TextEdit>, String>;
     /// Refactorings that it alone has.
     fn own() -> Vec<Refactoring<Self>>;
+}
+
+/// A move in its line.
+pub(in crate::program) struct Row<N: Notation> {
+    pub(crate) line: usize,
+    /// Where the machine stands before and after it, in the language's steps. Contours close exactly.
+    pub(crate) from: Node,
+    pub(crate) to: Node,
+    /// What it means, from `from`, µm.
+    pub(crate) piece: Segment,
+    pub(crate) own: N::Own,
+}
+
+/// A contour in rows.
+#[derive(Clone, Debug)]
+pub(in crate::program) struct Contour {
+    /// As a person counts them; ways between contours count as none.
+    pub(crate) ordinal: usize,
+    pub(crate) rows: Range<usize>,
+    pub(crate) lead_in: usize,
+    pub(crate) lead_out: usize,
+    pub(crate) closed: bool,
+    pub(crate) is_way: bool,
+}
+
+impl Contour {
+    /// The rows without the ways in and out.
+    pub(crate) fn own_rows(&self) -> Range<usize> {
+        self.rows.start + self.lead_in..self.rows.end - self.lead_out
+    }
+}
+
+/// A program for refactoring.
+pub(in crate::program) struct Sheet<'a, N: Notation> {
+    pub(crate) document: &'a N::Document,
+    pub(crate) settings: &'a Effective,
+    /// Bytes of the text.
+    selection: Range<usize>,
+    /// As the blocks mean it.
+    pub(crate) trace: Trace,
+    /// Its moves, or why they cannot be told.
+    content: Result<Content<N>, String>,
+}
+
+pub(in crate::program) struct Content<N: Notation> {
+    pub(crate) rows: Vec<Row<N>>,
+    pub(crate) contours: Vec<Contour>,
+    /// The rows before which the program pauses.
+    pauses: Vec<usize>,
+    /// Moves say where they lead, not by how much: nothing drifts.
+    names_places: bool,
+}
+
+impl<'a, N: Notation> Sheet<'a, N> {
+    pub(crate) fn new(
+        document: &'a N::Document,
+        settings: &'a Effective,
+        selection: Range<usize>,
+    ) -> Sheet<'a, N> {
+        let trace = trace(document).into_meant();
+        let (contours, pauses) = contours(&trace);
+        let moves = trace.steps.iter().filter(|step| step.moves()).count();
+        let content = N::rows(document, &trace, &contours).and_then(|rows| {
+            if rows.len() != moves {
+                return Err(say!(the_program_is_not_followed_as_a_whole).into());
+            }
+            Ok(Content {
+                rows,
+                contours,
+                pauses,
+                names_places: trace.writing.names_places,
+            })
+        });
+        Sheet {
+            document,
+            settings,
+            selection,
+            trace,
+            content,
+        }
+    }
+
+    /// The moves; the error says which line cannot be read.
+    pub(crate) fn content(&self) -> Result<&Content<N>, String> {
+        self.content.as_ref().map_err(Clone::clone)
+    }
+
+    /// Lines that the selection touches.
+    pub(crate) fn selected_lines(&self) -> Range<usize> {
+        let text = self.document.text();
+        let first = text.line_of(self.selection.start);
+        let last = text.line_of(self.selection.end.max(self.selection.start + 1) - 1);
+        first..last.max(first) + 1
+    }
+
+    /// The rows that are selected; all, where not more than one line is.
+    pub(crate) fn selected_rows(&self, content: &Content<N>) -> Range<usize> {
+        let lines = self.selected_lines();
+        if lines.len() < 2 {
+            return 0..content.rows.len();
+        }
+        let start = content.rows.partition_point(|row| row.line < lines.start);
+        start..content.rows.partition_point(|row| row.line < lines.end)
+    }
+
+    /// The contours that the selection touches; all, where it touches none.
+    pub(crate) fn selected_contours<'c>(&self, content: &'c Content<N>) -> Vec<&'c Contour> {
+        let lines = self.selected_lines();
+        let cut = || content.contours.iter().filter(|contour| !contour.is_way);
+        let touched = |contour: &&Contour| {
+            content.rows[contour.rows.clone()]
+                .iter()
+                .any(|row| lines.contains(&row.line))
+        };
+        let chosen: Vec<&Contour> = cut().filter(touched).collect();
+        if chosen.is_empty() {
+            cut().collect()
+        } else {
+            chosen
+        }
+    }
+}
+
+impl<N: Notation> Content<N> {
+    /// Where a node lies, µm.
+    pub(crate) fn point(node: Node) -> Point {
+        point_of(node) * N::STEP
+    }
+
+    pub(crate) fn arcs(&self) -> usize {
+        let is_arc = |row: &&Row<N>| row.piece.as_arc().is_some();
+        self.rows.iter().filter(is_arc).count()
+    }
+
+    pub(crate) fn is_behind_pause(&self, row: usize) -> bool {
+        self.pauses.binary_search(&row).is_ok()
+    }
+
+    /// An error where the contour pauses before its tab: the pause stands where it stands.
+    pub(crate) fn refuse_pause(&self, contour: &Contour) -> Result<(), String> {
+        let within = |row: &usize| contour.rows.start < *row && *row < contour.rows.end;
+        match self.pauses.iter().copied().find(within) {
+            Some(row) => Err(say!(
+                the_contour_pauses_to_hold_the_part,
+                self.rows[row].line + 1
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// The rows of a closed contour whose ends are one place; the error says why there are none.
+    pub(crate) fn closed(&self, contour: &Contour) -> Result<Range<usize>, String> {
+        self.refuse_pause(contour)?;
+        let (own, ordinal) = (contour.own_rows(), contour.ordinal);
+        if !contour.closed || own.is_empty() {
+            return Err(say!(
+                only_a_closed_contour_begins_elsewhere_or_goes_round,
+                ordinal
+            ));
+        }
+        if !self.names_places {
+            return Ok(own);
+        }
+        // Leads that only nearly lie on each other are part of it.
+        let mut wider =
+            (0..=contour.lead_in.min(contour.lead_out)).map(|by| own.start - by..own.end + by);
+        wider
+            .find(|own| self.rows[own.start].from == self.rows[own.end - 1].to)
+            .ok_or_else(|| say!(the_contour_misses_its_own_begin, ordinal))
+    }
+}
+
+/// What a refactoring does to a program.
+pub(in crate::program) struct Rewrite<N: Notation> {
+    /// By row, what stands in its place; rows that are not named stay.
+    pub(crate) rows: BTreeMap<usize, Vec<N::New>>,
+    /// Where the program begins afterwards, where that changes.
+    pub(crate) start: Option<Node>,
+    /// Where it ends afterwards, µm, where that changes.
+    pub(crate) end: Option<Point>,
+    pub(crate) extra: N::Extra,
+}
+
+impl<N: Notation> Rewrite<N> {
+    pub(crate) fn new() -> Rewrite<N> {
+        Rewrite {
+            rows: BTreeMap::new(),
+            start: None,
+            end: None,
+            extra: N::Extra::default(),
+        }
+    }
+
+    /// The moves of the program as it is meant to be.
+    pub(crate) fn meant(&self, sheet: &Sheet<'_, N>, content: &Content<N>) -> Vec<N::New> {
+        let of_row = |row: usize| match self.rows.get(&row) {
+            Some(news) => news.clone(),
+            None => vec![N::kept(sheet, content, row, row)],
+        };
+        (0..content.rows.len()).flat_map(of_row).collect()
+    }
+}
+
+/// The contours of a program, and the rows before which it pauses.
+fn contours(trace: &Trace) -> (Vec<Contour>, Vec<usize>) {
+    // Cuts count all steps, rows only those that move.
+    let mut row_of = Vec::with_capacity(trace.steps.len() + 1);
+    let (mut row, mut pauses) = (0, Vec::new());
+    for step in &trace.steps {
+        row_of.push(row);
+        row += usize::from(step.moves());
+        if step.kind == Kind::Pause {
+            pauses.push(row);
+        }
+    }
+    row_of.push(row);
+    let rows = |steps: Range<usize>| {
+        let at = |step: usize| row_of.get(step).copied().unwrap_or(row);
+        at(steps.start)..at(steps.end)
+    };
+    let mut ordinal = 0;
+    let contours = cuts(trace).into_iter().map(|cut| {
+        let (own, all) = (rows(cut.contour_steps()), rows(cut.steps.clone()));
+        ordinal += usize::from(!cut.is_way);
+        Contour {
+            ordinal,
+            lead_in: own.start - all.start,
+            lead_out: all.end - own.end,
+            rows: all,
+            closed: cut.closed,
+            is_way: cut.is_way,
+        }
+    });
+    (contours.collect(), pauses)
 }

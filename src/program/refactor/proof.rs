@@ -6,12 +6,39 @@ use crate::finding::{Rule, Severity};
 use crate::program::grid::point_of;
 use crate::program::path::{Kind, Trace};
 use crate::program::steps::{Program, trace};
-use crate::text::{TextEdit, edited};
+use crate::text::{TextEdit, difference, edited};
 
 /// How far the end of a program that counts may lie from where it is meant to, µm, beside 1 µm for each arc.
 const END_TOLERANCE: f64 = 2.0;
 
-pub(super) fn prove<N: Notation>(
+impl<N: Notation> Rewrite<N> {
+    /// The edits of the text, proved; none where nothing changes.
+    pub(crate) fn edits(
+        self,
+        sheet: &Sheet<'_, N>,
+        content: &Content<N>,
+    ) -> Result<Vec<TextEdit>, String> {
+        let edits = N::write(sheet, content, &self)?;
+        if edits.is_empty() {
+            return Ok(edits);
+        }
+        let old = sheet.document.text().bytes();
+        let bytes = edited(old, &edits).ok_or(say!(the_edits_lie_on_each_other))?;
+        let after = N::read(bytes, sheet.settings);
+        prove(sheet, content, &self, &after)?;
+        let more = N::finishing(&sheet.trace, &after);
+        if more.is_empty() {
+            return Ok(edits);
+        }
+        let again = Sheet::<N>::new(&after, sheet.settings, 0..0);
+        let finished = same_way(&again, more).ok();
+        let both = finished.and_then(|more| edited(after.text().bytes(), &more));
+        let both = both.and_then(|bytes| difference(old, &bytes));
+        Ok(both.map_or(edits, |both| vec![both]))
+    }
+}
+
+fn prove<N: Notation>(
     sheet: &Sheet<'_, N>,
     content: &Content<N>,
     rewrite: &Rewrite<N>,

@@ -1,3 +1,4 @@
+use super::super::Settings;
 use super::super::{Corner, Layout, SideSetting, UnitSetting, from_json, from_toml};
 use super::*;
 use serde_json::json;

@@ -1,11 +1,18 @@
 //! What is left of a block that cannot be read: its numbers, its axis and its motion, as far as they are there.
 
 use super::super::block::{Block, CountingAxis, Motion, Quadrant};
-use super::slips::Number;
 use std::ops::Range;
 
 /// More digits than a number of a block has.
 const DIGITS: usize = 12;
+
+/// A number of a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in super::super) enum Number {
+    X,
+    Y,
+    J,
+}
 
 /// A broken block.
 #[derive(Clone, Debug, PartialEq)]

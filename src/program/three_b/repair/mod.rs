@@ -7,8 +7,8 @@ mod evidence;
 mod loose;
 mod slips;
 
-pub(super) use loose::{Loose, loose};
-pub(super) use slips::{Number, Slip, is_sound};
+pub(super) use loose::{Loose, Number, loose};
+pub(super) use slips::{Slip, is_sound};
 
 use super::around::StatedPoint;
 use super::block::{Block, Motion};

@@ -5,7 +5,8 @@ use super::super::decode::meant;
 use super::super::encode::{counted, line_block};
 use super::super::entry::{Move, travel_of};
 use super::super::rules::{self, Counts, Limits};
-use super::{Loose, Piece, Suspect};
+use super::loose::{Loose, Number};
+use super::{Piece, Suspect};
 use crate::finding::Rule;
 use crate::geometry::{Arc, Point, Segment};
 use crate::program::grid::Node;
@@ -16,14 +17,6 @@ const MISS: f64 = 0.2;
 
 /// What the other one of two quadrants asks for between which a start or a direction lies.
 const UNUSUAL: f64 = 0.3;
-
-/// A number of a block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in super::super) enum Number {
-    X,
-    Y,
-    J,
-}
 
 /// What a repair of a block changes in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,0 +1,68 @@
+//! One level of settings out of a tree of values, held against itself.
+
+use super::reader::Reader;
+use super::spelling::snake_case;
+use super::value::{Node, Value};
+use super::{PassFault, Settings, SettingsError, shipped_profiles};
+use std::collections::BTreeMap;
+
+/// Reads the root table. Null is an empty level.
+pub(super) fn read(root: &Node) -> (Settings, Vec<SettingsError>) {
+    let mut reader = Reader::default();
+    let mut settings: Settings = reader.table("", root).unwrap_or_default();
+    let errors = settings.contradictions(&|fault| place_of(root, fault));
+    reader.errors.extend(errors);
+    refuse_unknown_profile(&mut reader, &mut settings, root);
+    (settings, reader.errors)
+}
+
+/// A profile that is named ships, or is declared at this level.
+fn refuse_unknown_profile(reader: &mut Reader, settings: &mut Settings, root: &Node) {
+    let Some(profile) = settings
+        .program
+        .as_ref()
+        .and_then(|program| program.profile.as_ref())
+    else {
+        return;
+    };
+    let own = settings.profiles.iter().flat_map(BTreeMap::keys).cloned();
+    let mut names: Vec<String> = shipped_profiles().map(str::to_owned).chain(own).collect();
+    names.sort_unstable();
+    names.dedup();
+    if !names.contains(profile)
+        && let Some(entry) = root
+            .entry("program")
+            .and_then(|entry| entry.node.entry("profile"))
+    {
+        reader.misfit::<()>("program.profile", &entry.node, &names.join(", "));
+        settings
+            .program
+            .iter_mut()
+            .for_each(|program| program.profile = None);
+    }
+}
+
+/// The value that a fault of the passes speaks of, else what else the tree says about the passes.
+pub(super) fn place_of(root: &Node, fault: &PassFault) -> Option<std::ops::Range<usize>> {
+    let (table, named) = fault.key.split_once('.').unwrap_or(("passes", fault.key));
+    let named = snake_case(named);
+    let list = root.entry(table).and_then(|entry| match fault.pass {
+        // A key of its own, of which there is one value.
+        usize::MAX if table == "pair" => entry.node.entry(&named),
+        _ if table == "workpieces" => Some(entry),
+        // What it lacks is said of the table.
+        _ if table == "milling" => Some(entry.node.entry(&named).unwrap_or(entry)),
+        _ => entry.node.entry(&named),
+    });
+    if ["pair", "workpieces", "milling"].contains(&table) {
+        return list.and_then(|entry| entry.key_range.clone());
+    }
+    let of_list = list.and_then(|entry| match &entry.node.value {
+        Value::List(items) => items.get(fault.pass).unwrap_or(&entry.node).range.clone(),
+        _ => None,
+    });
+    let of_key = |key: &str| root.entry(key).and_then(|entry| entry.node.range.clone());
+    of_list
+        .or_else(|| of_key("correction"))
+        .or_else(|| of_key("wire_diameter"))
+}

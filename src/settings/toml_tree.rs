@@ -1,0 +1,47 @@
+//! A tree of values out of the text of a TOML file.
+
+use super::value::{Entry, Node, Value};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, Error};
+
+/// All of a text, and what is no TOML in it.
+pub(super) fn tree(text: &str) -> (Node, Vec<Error>) {
+    let (table, faults) = DeTable::parse_recoverable(text);
+    let root = Node {
+        range: Some(table.span()),
+        value: Value::Table(entries(table.get_ref())),
+    };
+    (root, faults)
+}
+
+fn entries(table: &DeTable<'_>) -> Vec<Entry> {
+    let entries = table.iter().map(|(key, value)| Entry {
+        key: key.get_ref().to_string(),
+        key_range: Some(key.span()),
+        node: node(value),
+    });
+    entries.collect()
+}
+
+fn node(value: &Spanned<DeValue<'_>>) -> Node {
+    let range = Some(value.span());
+    let value = match value.get_ref() {
+        // The parser puts an empty stand-in where it found no value; the fault has been said.
+        DeValue::Integer(_) | DeValue::Float(_) | DeValue::String(_) | DeValue::Boolean(_)
+            if value.span().is_empty() =>
+        {
+            Value::Null
+        }
+        DeValue::Boolean(truth) => Value::Truth(*truth),
+        DeValue::Integer(integer) => {
+            let number = i64::from_str_radix(integer.as_str(), integer.radix());
+            Value::Number(number.map_or(f64::NAN, |number| number as f64))
+        }
+        DeValue::Float(float) => Value::Number(float.as_str().parse().unwrap_or(f64::NAN)),
+        DeValue::String(text) => Value::Text(text.to_string()),
+        DeValue::Datetime(date) => Value::Text(date.to_string()),
+        DeValue::Array(items) => Value::List(items.iter().map(node).collect()),
+        DeValue::Table(table) => Value::Table(entries(table)),
+    };
+    Node { value, range }
+}
