@@ -6,6 +6,7 @@
 use super::grid::{Node, point_of, snap};
 use crate::finding::{Finding, sentence};
 use crate::geometry::{Arc, Point, Segment};
+use crate::settings::{Effective, Jumps};
 use crate::toolpath::{Milled, Source, WirePath};
 use std::fmt;
 
@@ -94,6 +95,36 @@ pub(crate) trait Writer {
     /// A path along an open contour ended at `last`. `for_good`: the contour is not cut any more, and the wire stays away from where it
     /// was threaded. So many `stops` more, two with what stands before the next path, say that this is meant.
     fn end_open(&mut self, last: Node, for_good: bool, stops: usize) -> Result<(), ProofError>;
+
+    /// The machine stops, by a `word` of the settings where one is meant.
+    fn stop(&mut self, at: Node, word: Option<&str>) -> Result<(), ProofError>;
+    /// The table moves without the wire.
+    fn move_over(&mut self, from: Node, to: Node) -> Result<(), ProofError>;
+    /// The table has been moved by hand.
+    fn moved_by_hand(&mut self, to: Node) -> Result<(), ProofError>;
+
+    /// From one path to the next: the wire is taken out, the table moves, the wire is threaded; from pass to pass there is a pause.
+    fn go_over(
+        &mut self,
+        from: Node,
+        to: Node,
+        path: &WirePath,
+        settings: &Effective,
+    ) -> Result<(), ProofError> {
+        if path.goes_back_along_tab() && from == to {
+            return Ok(());
+        }
+        let word = settings.tab_stop.as_deref();
+        self.stop(from, word.filter(|_| path.cut_off && path.pass == 1))?;
+        match settings.jumps {
+            _ if from == to => Ok(()),
+            Jumps::Blocks => {
+                self.move_over(from, to)?;
+                self.stop(to, None)
+            }
+            Jumps::None => self.moved_by_hand(to),
+        }
+    }
 }
 
 /// Walks along the paths. `step_mm` is the drawing's unit in steps of the grid. `go_on` hears every few thousand segments how many are

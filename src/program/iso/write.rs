@@ -13,7 +13,7 @@ use crate::program::grid::Node;
 use crate::program::write::{
     ProofError, ProvedProgram, Writer, cuts, nothing_to_write, push_number, push_places, walk, way,
 };
-use crate::settings::{Coordinates, Effective, Jumps, LineEnd, NumberUnit, Profile, Zero};
+use crate::settings::{Coordinates, Effective, LineEnd, NumberUnit, Profile, Zero};
 use crate::toolpath::{Source, WirePath};
 
 /// Writes the paths as one program and proves it. `unit_mm` is the drawing's unit in mm. The error of a profile that is not there, or
@@ -95,7 +95,7 @@ impl Writer for Lines<'_> {
                     return Err(self.refused(say!(its_begin_does_not_say_where_the_wire_stands)));
                 }
             }
-            Some(from) => self.jump(from, first, path)?,
+            Some(from) => self.go_over(from, first, path, self.settings)?,
         }
         if std::mem::take(&mut self.goes_on) {
             return Ok(());
@@ -166,7 +166,34 @@ impl Writer for Lines<'_> {
 
     fn end_open(&mut self, last: Node, for_good: bool, stops: usize) -> Result<(), ProofError> {
         let stops = if for_good { stops } else { 0 };
-        (0..stops).try_for_each(|_| self.fixed(&self.profile.pause, last))
+        (0..stops).try_for_each(|_| self.stop(last, None))
+    }
+
+    fn stop(&mut self, at: Node, word: Option<&str>) -> Result<(), ProofError> {
+        match word {
+            Some(word) => self.fixed(&[word.to_owned()], at),
+            None => self.fixed(&self.profile.pause, at),
+        }
+    }
+
+    fn move_over(&mut self, from: Node, to: Node) -> Result<(), ProofError> {
+        let piece = way(from, to);
+        self.jumps += piece.length();
+        self.step_out(&Encoded {
+            motion: Motion::Rapid,
+            from,
+            to,
+            center: from,
+            piece,
+        })
+    }
+
+    fn moved_by_hand(&mut self, to: Node) -> Result<(), ProofError> {
+        self.fixed(&["G92 X{x} Y{y}".to_owned()], to)?;
+        match self.machine.at == self.place(to) {
+            true => Ok(()),
+            false => Err(self.refused(say!(its_pause_has_to_stop_the_machine))),
+        }
     }
 }
 
@@ -229,41 +256,6 @@ impl<'a> Lines<'a> {
 
     pub(super) fn refused(&self, why: &str) -> ProofError {
         ProofError::Refused(say!(of_profile, self.profile.name, why))
-    }
-
-    /// From one contour to the next: the wire is taken out, the table moves, the wire is threaded.
-    fn jump(&mut self, from: Node, to: Node, path: &WirePath) -> Result<(), ProofError> {
-        if path.goes_back_along_tab() && from == to {
-            return Ok(());
-        }
-        let stop = self.settings.tab_stop.as_ref();
-        match stop.filter(|_| path.cut_off && path.pass == 1) {
-            Some(word) => self.fixed(std::slice::from_ref(word), from)?,
-            None => self.fixed(&self.profile.pause, from)?,
-        }
-        if from == to {
-            return Ok(());
-        }
-        match self.settings.jumps {
-            Jumps::Blocks => {
-                self.step_out(&Encoded {
-                    motion: Motion::Rapid,
-                    from,
-                    to,
-                    center: from,
-                    piece: way(from, to),
-                })?;
-                self.jumps += way(from, to).length();
-                self.fixed(&self.profile.pause, to)
-            }
-            Jumps::None => {
-                self.fixed(&["G92 X{x} Y{y}".to_owned()], to)?;
-                if self.machine.at != self.place(to) {
-                    return Err(self.refused(say!(its_pause_has_to_stop_the_machine)));
-                }
-                Ok(())
-            }
-        }
     }
 
     /// What stands before the way out of a contour that the control offsets.

@@ -3,6 +3,8 @@
 use super::block::{Block, Node, PartArc};
 use crate::program::write::{push_number, push_places};
 use crate::settings::Layout;
+use crate::text::{TextEdit, WIDEST_COLUMN};
+use std::ops::Range;
 
 /// Appends one block with its line end; with `part` it is one of 4B. `number` (from 1) and the absolute end point stand in the checking layout only.
 pub(crate) fn push_block(
@@ -100,4 +102,52 @@ fn push_millimetres(out: &mut Vec<u8>, micrometres: i64, width: usize) {
     push_places(&mut text, magnitude % 1000, 3);
     out.extend(std::iter::repeat_n(b' ', width.saturating_sub(text.len())));
     out.extend_from_slice(&text);
+}
+
+/// The edit that writes another number of a block where its digits stand. One with zeros in front stays as wide; one that stands in a column
+/// keeps it, as far as spaces give room.
+pub(super) fn number_edit(text: &[u8], digits: Range<usize>, number: u32) -> TextEdit {
+    let width = digits.len().min(WIDEST_COLUMN);
+    if text.get(digits.start) == Some(&b'0') {
+        return TextEdit::new(digits, format!("{number:0width$}"));
+    }
+    let before = text.get(..digits.start).unwrap_or_default().iter().rev();
+    let room = before.take_while(|byte| **byte == b' ').count();
+    let longer = number.to_string().len().saturating_sub(digits.len());
+    let taken = longer.min(room.saturating_sub(1));
+    let width = if room > 1 { width + taken } else { 0 };
+    TextEdit::new(
+        digits.start - taken..digits.end,
+        format!("{number:>width$}"),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::text::edited;
+
+    #[test]
+    fn a_number_keeps_its_column_and_its_zeros() {
+        for (text, number, expected) in [
+            ("N9 B1", 10, "N10 B1"),
+            ("N10 B1", 9, "N9 B1"),
+            ("N   9: B1", 10, "N  10: B1"),
+            ("N  10: B1", 9, "N   9: B1"),
+            ("N 9: B1", 1000, "N 1000: B1"),
+            ("N  9: B1", 1000, "N 1000: B1"),
+            ("N009 B1", 10, "N010 B1"),
+            ("N0 B1", 10, "N10 B1"),
+        ] {
+            let first = text.find(|c: char| c.is_ascii_digit()).unwrap();
+            let digits = text[first..].bytes().take_while(u8::is_ascii_digit).count();
+            let edit = number_edit(text.as_bytes(), first..first + digits, number);
+            let found = edited(text.as_bytes(), &[edit]).unwrap();
+            assert_eq!(
+                String::from_utf8(found).unwrap(),
+                expected,
+                "{text} {number}"
+            );
+        }
+    }
 }

@@ -8,14 +8,14 @@ use super::layout::{push_block, push_start_point};
 use super::parse::{Item, read_line};
 use super::part::{is_concave, rounded, rounded_with_tab};
 use super::proof::Proof;
-use super::words::{Word, Words};
+use super::words::Words;
 use crate::finding::Side;
 use crate::geometry::{Segment, Vector, turn};
 use crate::program::grid::point_of;
 use crate::program::write::{
     ProofError, ProvedProgram, Writer, cuts, nothing_to_write, scaled, walk, way,
 };
-use crate::settings::{Effective, Jumps};
+use crate::settings::Effective;
 use crate::toolpath::{PathSegment, Source, WirePath};
 
 /// Writes the paths as one program and proves it. `unit_mm` is the drawing's unit in mm.
@@ -146,7 +146,6 @@ struct Blocks<'a> {
 }
 
 impl Writer for Blocks<'_> {
-    /// From one contour to the next the wire is taken out, the table moves, the wire is threaded; from pass to pass there is a pause.
     fn begin(
         &mut self,
         from: Option<Node>,
@@ -160,26 +159,10 @@ impl Writer for Blocks<'_> {
                 say!(a_3b_program_cannot_leave_the_correction_to_the_controller).into(),
             ));
         }
-        let Some(from) = from else {
-            if self.settings.header {
-                push_start_point(&mut self.out, first);
-            }
-            return Ok(());
-        };
-        if path.goes_back_along_tab() && from == first {
-            return Ok(());
-        }
-        let stop = self.settings.tab_stop.as_deref();
-        match stop.filter(|_| path.cut_off && path.pass == 1) {
-            Some(word) => self.push_word(word)?,
-            None => self.word(Word::Pause)?,
-        }
-        if self.settings.jumps == Jumps::Blocks && from != first {
-            let cut = self.length;
-            self.piece(&way(from, first), from, first, Source::LeadIn)?;
-            self.jumps += self.length - cut;
-            self.length = cut;
-            self.word(Word::Pause)?;
+        match from {
+            Some(from) => self.go_over(from, first, path, self.settings)?,
+            None if self.settings.header => push_start_point(&mut self.out, first),
+            None => {}
         }
         Ok(())
     }
@@ -242,8 +225,25 @@ impl Writer for Blocks<'_> {
     }
 
     /// Some straight blocks between two pauses would be the way to the next contour.
-    fn end_open(&mut self, _: Node, _: bool, stops: usize) -> Result<(), ProofError> {
-        (0..stops).try_for_each(|_| self.word(Word::Pause))
+    fn end_open(&mut self, last: Node, _: bool, stops: usize) -> Result<(), ProofError> {
+        (0..stops).try_for_each(|_| self.stop(last, None))
+    }
+
+    fn stop(&mut self, _: Node, word: Option<&str>) -> Result<(), ProofError> {
+        self.push_word(word.unwrap_or(self.words.pause))
+    }
+
+    fn move_over(&mut self, from: Node, to: Node) -> Result<(), ProofError> {
+        let cut = self.length;
+        self.piece(&way(from, to), from, to, Source::LeadIn)?;
+        self.jumps += self.length - cut;
+        self.length = cut;
+        Ok(())
+    }
+
+    /// Where the blocks count from is where the table stands.
+    fn moved_by_hand(&mut self, _: Node) -> Result<(), ProofError> {
+        Ok(())
     }
 }
 
@@ -316,14 +316,7 @@ impl<'a> Blocks<'a> {
         }))
     }
 
-    /// Writes a pause or end word, and reads it again: it comes from the settings.
-    fn word(&mut self, meaning: Word) -> Result<(), ProofError> {
-        self.push_word(match meaning {
-            Word::Pause => self.words.pause,
-            Word::End => self.words.end,
-        })
-    }
-
+    /// Writes a word between blocks, and reads it again: it comes from the settings.
     fn push_word(&mut self, word: &str) -> Result<(), ProofError> {
         let mut read = Vec::new();
         read_line(word.as_bytes(), 1, &self.words, |item| read.push(item));
@@ -349,7 +342,7 @@ impl<'a> Blocks<'a> {
         if self.blocks == 0 && cuts {
             return Err(nothing_to_write());
         }
-        self.word(Word::End)?;
+        self.push_word(self.words.end)?;
         let text = String::from_utf8(self.out)
             .map_err(|_| ProofError::Mismatch(say!(the_program_is_not_text).into()))?;
         Ok(ProvedProgram {

@@ -5,7 +5,7 @@ use super::super::block::{Block, Node};
 use super::super::encode::line_block;
 use super::super::entry::{BlockEntry, Move, What, travel_of};
 use super::super::fields::fields_of;
-use super::super::layout::{layout_in, push_fields};
+use super::super::layout::{layout_in, number_edit, push_fields};
 use super::super::pieces::{Field, Piece, pieces};
 use super::super::rules::position_mismatch::Mismatched;
 use super::super::rules::{
@@ -17,7 +17,7 @@ use crate::finding::{Detail, Fault, Finding, FixKind, Place};
 use crate::program::alike::{Alike, alike};
 use crate::program::path::{HasCuts, not_closed};
 use crate::program::repair::merged;
-use crate::text::{TextEdit, WIDEST_COLUMN};
+use crate::text::TextEdit;
 use std::ops::Range;
 
 impl Document {
@@ -239,34 +239,23 @@ impl Document {
 
     /// Writes the number of a block or word, in the place of the one that it has.
     fn number_edit(&self, at: At, number: u32) -> TextEdit {
-        let range = self.range_of(at);
-        let has_number = self.entry(at).is_some_and(|entry| entry.number().is_some());
-        let line = self.text.line_range(self.text.line_of(range.start));
-        let before = self
-            .text
-            .bytes()
-            .get(line.start..range.start)
-            .unwrap_or_default();
-        let digits_end = before
-            .iter()
-            .rposition(u8::is_ascii_digit)
-            .map_or(0, |last| last + 1);
-        let digits_start = before[..digits_end]
-            .iter()
-            .rposition(|byte| !byte.is_ascii_digit())
-            .map_or(0, |last| last + 1);
-        if has_number && digits_end > 0 {
-            // Padding is kept as wide as it was.
-            let width = (digits_end - digits_start).min(WIDEST_COLUMN);
-            let padded = before.get(digits_start) == Some(&b'0');
-            let text = if padded {
-                format!("{number:0width$}")
-            } else {
-                number.to_string()
-            };
-            return TextEdit::new(line.start + digits_start..line.start + digits_end, text);
+        let start = self.range_of(at).start;
+        match self.digits_before(at) {
+            Some(digits) => number_edit(self.text.bytes(), digits, number),
+            None => TextEdit::new(start..start, format!("N{number} ")),
         }
-        TextEdit::new(range.start..range.start, format!("N{number} "))
+    }
+
+    /// The digits of the number that a block or word has.
+    pub(super) fn digits_before(&self, at: At) -> Option<Range<usize>> {
+        self.entry(at)?.number()?;
+        let own = self.range_of(at).start;
+        let line = self.text.line_start(self.text.line_of(own));
+        let before = self.text.bytes().get(line..own)?;
+        let end = before.iter().rposition(u8::is_ascii_digit)? + 1;
+        let digits = before.iter().take(end).rev();
+        let count = digits.take_while(|byte| byte.is_ascii_digit()).count();
+        Some(line + end - count..line + end)
     }
 
     fn letter_fixes(&self, range: &Range<usize>) -> Vec<TextFix> {

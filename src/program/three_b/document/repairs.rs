@@ -3,7 +3,9 @@
 use super::super::around::{StatedPoint, before_comment, two_numbers};
 use super::super::entry::{What, travel_of};
 use super::super::fields::fields_of;
-use super::super::layout::{layout_in, push_end_point, push_fields, push_to_comment_column};
+use super::super::layout::{
+    layout_in, number_edit, push_end_point, push_fields, push_to_comment_column,
+};
 use super::super::repair::{
     BLOCKS, Change, Item, Loose, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs,
 };
@@ -329,8 +331,13 @@ impl Document {
                 }),
                 _ => own.saturating_add(step),
             });
-        if let Some(number) = number {
-            made.extend_from_slice(&renumbered(text.get(line.start..own.start)?, number));
+        if let Some(number) = number
+            && let Some(digits) = self.digits_before(*places.get(model)?)
+        {
+            let edit = number_edit(text, digits, number);
+            made.extend_from_slice(text.get(line.start..edit.range.start)?);
+            made.extend_from_slice(edit.text.as_bytes());
+            made.extend_from_slice(text.get(edit.range.end..own.start)?);
         }
         let layout = layout_in(text.get(own.clone())?);
         push_fields(&mut made, layout, block, None);
@@ -366,29 +373,6 @@ impl Document {
         let (length, is_arc) = (x.hypot(y) / 1000.0, !block.motion.is_line());
         Some((FixKind::InsertBlock { length, is_arc }, vec![edit]))
     }
-}
-
-/// What stands before a block, with another number in it.
-fn renumbered(prefix: &[u8], number: u32) -> Vec<u8> {
-    let Some(last) = prefix.iter().rposition(u8::is_ascii_digit) else {
-        return Vec::new();
-    };
-    let first = prefix[..last]
-        .iter()
-        .rposition(|byte| !byte.is_ascii_digit())
-        .map_or(0, |before| before + 1);
-    let digits = number.to_string();
-    let mut made = prefix[..first].to_vec();
-    // Columns stay where spaces give room for one more digit.
-    let longer = digits.len().saturating_sub(last + 1 - first);
-    for _ in 0..longer {
-        if made.ends_with(b"  ") || (made.ends_with(b" ") && made.len() > 1) {
-            made.pop();
-        }
-    }
-    made.extend_from_slice(digits.as_bytes());
-    made.extend_from_slice(&prefix[last + 1..]);
-    made
 }
 
 fn kind_of(old: &Block, new: &Block, slip: &Slip) -> FixKind {

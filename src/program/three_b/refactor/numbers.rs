@@ -2,8 +2,9 @@
 
 use crate::program::path::Step;
 use crate::program::three_b::Document;
+use crate::program::three_b::layout::number_edit;
 use crate::program::three_b::pieces::{Field, pieces};
-use crate::text::{TextEdit, WIDEST_COLUMN};
+use crate::text::TextEdit;
 use std::ops::Range;
 
 /// The edits that number the blocks from 1, words left out.
@@ -11,34 +12,7 @@ pub(super) fn numbered(document: &Document) -> Vec<TextEdit> {
     let mut edits = Vec::new();
     for ((block, word), number) in blocks_of(document).into_iter().zip(1_u32..) {
         match word.and_then(|word| document.text().digits_in(&word)) {
-            Some(digits) => {
-                let text = number.to_string();
-                // Numbers that stand in columns keep them.
-                let before = document
-                    .text()
-                    .bytes()
-                    .get(..digits.start)
-                    .unwrap_or_default();
-                let room = before
-                    .iter()
-                    .rev()
-                    .take_while(|byte| **byte == b' ')
-                    .count();
-                let start = digits.start
-                    - text
-                        .len()
-                        .saturating_sub(digits.len())
-                        .min(room.saturating_sub(1));
-                let text = format!(
-                    "{text:>width$}",
-                    width = if room > 1 {
-                        (digits.end - start).min(WIDEST_COLUMN)
-                    } else {
-                        0
-                    }
-                );
-                edits.push(TextEdit::new(start..digits.end, text));
-            }
+            Some(digits) => edits.push(number_edit(document.text().bytes(), digits, number)),
             None => {
                 let place = block.range.start..block.range.start;
                 edits.push(TextEdit::new(place, format!("N{number} ")));
