@@ -14,13 +14,17 @@ pub(crate) fn rows(name: &str, snapshot: &Snapshot, holes: &[StartHole]) -> Stri
     let diameter = diameter.map_or_else(String::new, |diameter| diameter.to_string());
     // A coordinate that rounds to zero has no sign.
     let mm = |along: f64| (along * unit_mm * 1e4).round() / 1e4 + 0.0;
+    let contour_of = |hole: &StartHole| {
+        let outline = snapshot.outlines.get(hole.outline);
+        outline.map_or("?", |outline| outline.name(&snapshot.drawing))
+    };
     let row = |hole: &StartHole| {
         format!(
             "{},{:.4},{:.4},{diameter},{},{}\n",
             cell(name),
             mm(hole.at.x),
             mm(hole.at.y),
-            cell(snapshot.outlines[hole.outline].name(&snapshot.drawing)),
+            cell(contour_of(hole)),
             if hole.is_given { "given" } else { "found" }
         )
     };
