@@ -303,6 +303,38 @@ fn no_name_of_a_sentence_is_cut_off() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// One meaning has one word, that of docs/zh/glossary.md: what stands for it elsewhere in the trade is not used beside it.
+#[test]
+fn chinese_has_one_word_for_one_meaning() {
+    const OTHERS: [(&str, &str); 6] = [
+        ("图纸", "图形"),
+        ("留料", "暂留段"),
+        ("偏置", "偏移"),
+        ("钼丝直径", "电极丝直径"),
+        ("起割孔", "穿丝孔"),
+        ("过割", "过切"),
+    ];
+    let mut texts: Vec<(String, String)> = Vec::new();
+    for (file, rows) in rows("zh") {
+        let wordings = rows.into_iter().flat_map(|row| row.wordings);
+        texts.extend(wordings.map(|wording| (file.clone(), wording)));
+    }
+    let pages = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/zh/rules");
+    for page in std::fs::read_dir(pages).unwrap() {
+        let page = page.unwrap().path();
+        let text = std::fs::read_to_string(&page).unwrap();
+        texts.push((page.display().to_string(), text));
+    }
+    for (place, text) in texts {
+        for (other, ours) in OTHERS {
+            assert!(
+                !text.contains(other),
+                "{place}: {other}, expected {ours}: {text}"
+            );
+        }
+    }
+}
+
 #[test]
 fn chinese_rows_are_chinese() {
     let is_han = |letter: char| matches!(letter, '\u{4e00}'..='\u{9fff}');

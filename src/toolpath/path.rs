@@ -104,7 +104,7 @@ pub(crate) fn lengths(paths: &[WirePath]) -> (f64, f64) {
     let cut = segments.map(|segment| segment.geometry.length()).sum();
     let pairs = paths.iter().zip(paths.iter().skip(1));
     let jumps = pairs.map(|(path, next)| (next.begin() - path.end()).norm());
-    (cut, jumps.sum())
+    (cut, jumps.fold(0.0, |sum, way| sum + way))
 }
 
 /// Why no path can be made; a plain sentence for the user, lower-case, no final dot.

@@ -111,7 +111,8 @@ pub fn work(
     ];
     Work {
         length: cuts.iter().map(|cut| cut.length).sum(),
-        jumps: paths.windows(2).map(jump).sum(),
+        // The sum of none is -0.
+        jumps: paths.windows(2).map(jump).fold(0.0, |sum, way| sum + way),
         minutes,
         cost: minutes
             .zip(settings.job.machine_rate)

@@ -332,3 +332,38 @@ fn names_of_a_program_are_found_and_those_that_nothing_else_speaks_of_where_they
     }
     client.shut_down();
 }
+
+/// A sum of nothing is nothing: no length of an answer is -0.
+#[test]
+fn no_number_of_an_answer_is_minus_nothing() {
+    fn check(at: &str, value: &Value) {
+        match value {
+            Value::Number(number) => {
+                let number = number.as_f64().unwrap();
+                assert!(number != 0.0 || number.is_sign_positive(), "{at}");
+            }
+            Value::Array(all) => all.iter().for_each(|value| check(at, value)),
+            Value::Object(all) => {
+                for (key, value) in all {
+                    check(&format!("{at}.{key}"), value);
+                }
+            }
+            _ => {}
+        }
+    }
+    let mut client = Client::start_with(capabilities(), json!({ "side": "opening" }));
+    let square: [[f64; 3]; 4] = [[0., 0., 0.], [20., 0., 0.], [20., 10., 0.], [0., 10., 0.]];
+    let sound = dxf_of(&[("2A", &square)]);
+    client.open_text(URI, "dxf", &sound);
+    for (method, params) in [
+        ("wedm/toolpath", json!({ "uri": URI })),
+        ("wedm/generate", json!({ "uri": URI, "format": "3b" })),
+        ("wedm/generate", json!({ "uri": URI, "format": "iso" })),
+    ] {
+        let answer = client.request(method, params).unwrap();
+        assert!(answer["work"]["jumps"].is_number(), "{answer}");
+        check(method, &answer["work"]);
+        check(method, &answer["jumps"]);
+    }
+    client.shut_down();
+}

@@ -128,7 +128,7 @@ declare! {
     lines_that_differ(differing, old) => "{differing} of {old} lines differ, every other byte is as it was.";
     now_the_3b_program => "Now the 3B program";
     the_server_sent_no_program => "the server sent no program";
-    blocks_and_how_far_they_close(blocks, mm, elapsed, x, y) => "{blocks} blocks, {mm:.3} mm, after {elapsed}; closes within {x:.2}, {y:.2} µm";
+    blocks_and_how_far_they_close(blocks, mm, elapsed, x, y) => "{blocks} blocks, cut {mm:.3} mm, after {elapsed}; closes within {x:.2}, {y:.2} µm";
     more_lines(count) => "... {count} more lines";
     program_and_drawing_are_read_again_and_held_against_each => "Program and drawing are read again and held against each other";
     decoded_one_from_the_end_of_the_other(blocks, from_path_um, open_um) => "{blocks} decoded one from the end of the other: at most {from_path_um:.2} µm from the path, and back in the last thread hole within {open_um:.2} µm.";

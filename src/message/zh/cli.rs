@@ -128,7 +128,7 @@ translate! {
     lines_that_differ(differing, old) => "{old} 行中 {differing} 行不同，其余字节一个未动。";
     now_the_3b_program => "现在生成 3B 程序";
     the_server_sent_no_program => "服务器没有给出程序";
-    blocks_and_how_far_they_close(blocks, mm, elapsed, x, y) => "{blocks}，{mm:.3} mm，用时 {elapsed}；首尾相差 {x:.2}, {y:.2} µm";
+    blocks_and_how_far_they_close(blocks, mm, elapsed, x, y) => "{blocks}，切割 {mm:.3} mm，用时 {elapsed}；首尾相差 {x:.2}, {y:.2} µm";
     more_lines(count) => "……还有 {count} 行";
     program_and_drawing_are_read_again_and_held_against_each => "重新读入程序和图形，相互核对";
     decoded_one_from_the_end_of_the_other(blocks, from_path_um, open_um) => "{blocks} 首尾相接逐段解码：离切割路线最多 {from_path_um:.2} µm，回到最后的穿丝孔误差不超过 {open_um:.2} µm。";
