@@ -5,7 +5,7 @@
 use crate::analysis::Analysis;
 use crate::beside::{self, Beside, Drawn, Traced};
 use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline, Role};
-use crate::finding::{self, Detail, Edit, Finding, Fix, FixKind, Keep, Place};
+use crate::finding::{self, Detail, Edit, Finding, Fix, FixKind, Keep, Place, Rule};
 use crate::program;
 use crate::settings::{self, Effective};
 use crate::text::{SourceText, TextEdit};
@@ -73,7 +73,7 @@ impl Document {
     }
 
     /// Lays another document beside it, with which it is compared; true where that is another one than before.
-    pub fn set_beside(&mut self, beside: Beside) -> bool {
+    pub(crate) fn set_beside(&mut self, beside: Beside) -> bool {
         let is_new = self.beside != beside;
         if is_new {
             (self.beside, self.asked) = (beside, Asked::default());
@@ -417,7 +417,7 @@ fn findings(
         // Where the settings say the unit, nobody asks the drawing.
         let is_answered = match &finding.detail {
             Detail::Unseen { layer, .. } => settings.layers.contains_key(&**layer),
-            Detail::Units(_) => settings.states_unit,
+            Detail::Said(_) if finding.rule == Rule::Units => settings.states_unit,
             _ => false,
         };
         if let Some(severity) = settings.severity_of(finding).filter(|_| !is_answered) {

@@ -165,7 +165,6 @@ pub enum Detail {
     NoPartner {
         of: Arc<str>,
     },
-    LeadIn(String),
     /// A program and its drawing are not alike.
     NotTheDrawing(Box<Unlike>),
     /// `kind` of entity, and how many of it; the place is the first.
@@ -182,14 +181,12 @@ pub enum Detail {
     },
     /// What is drawn to be read and not to be cut.
     SetAside(Vec<SetAside>),
-    Units(String),
     /// The larger side of the largest contour, which speaks for another unit.
     Size {
         size: f64,
     },
-    /// What was found and what was expected, lower-case, no final dot.
-    Syntax(String),
-    Settings(String),
+    /// What the sentence says and nothing else: what was found and what was expected, lower-case, no final dot.
+    Said(String),
     More {
         count: usize,
     },

@@ -101,7 +101,7 @@ fn refused(
                     rule: Rule::LeadIn,
                     place,
                     related,
-                    detail: Detail::LeadIn(sentence),
+                    detail: Detail::Said(sentence),
                     ..
                 },
             ] = &found[..]

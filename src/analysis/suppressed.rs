@@ -142,7 +142,7 @@ impl Analysis {
                 .settings
                 .severity_over(Rule::Settings, Severity::Warning)?,
             place,
-            detail: Detail::Settings(sentence),
+            detail: Detail::Said(sentence),
             related: Vec::new(),
         })
     }

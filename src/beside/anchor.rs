@@ -9,11 +9,11 @@ use super::walk::Walk;
 use crate::geometry::Vector;
 use std::ops::Range;
 
-/// Blocks from which it is tried.
+/// Cuts from which a place is tried, at most.
 const TRIED: usize = 60;
-/// What lies farther away than this is no slip, µm.
+/// A place farther away than this is not that of a program in which a block is wrong, µm.
 const FAR: f64 = 1e4;
-/// Blocks by which places are told apart.
+/// A place that so many blocks in a row follow is the right one.
 const SURE: usize = 40;
 
 /// Where the program lies, from the blocks of its cuts; `None` where nothing of it is like the drawing.
@@ -51,20 +51,18 @@ pub(super) fn others(traced: &Traced, rounds: &Rounds, pose: &Pose) -> Vec<Pose>
         let tried = cuts(traced, all.clone());
         found_by(traced, rounds, &walk, &tried)
     });
-    let all = stated.into_iter().chain(first);
-    let is_near = |other: &Pose| {
+    let is_another = |other: &Pose| {
         let away = (other.shift - pose.shift).norm();
         away > 0.5 && away < FAR
     };
-    let all = all.filter(is_near);
-    all.filter_map(|other| match pose.is_exact() {
-        true => other.exactly(),
-        false => Some(other),
-    })
-    .collect()
+    let others = stated.into_iter().chain(first).filter(is_another);
+    match pose.is_exact() {
+        true => others.filter_map(|other| other.exactly()).collect(),
+        false => others.collect(),
+    }
 }
 
-/// Blocks from which a place is tried.
+/// Cuts among these blocks from which a place is tried.
 fn cuts(traced: &Traced, among: Range<usize>) -> Vec<usize> {
     let is_cut = |index: &usize| matches!(traced.blocks[*index].motion, Motion::Cut(_));
     among.filter(is_cut).take(TRIED).collect()
@@ -107,16 +105,12 @@ fn refined(traced: &Traced, rounds: &Rounds, found: Found, index: usize) -> Pose
         let Some(reached) = pose.follow(rounds, traced, next, &spot, &found.spot) else {
             break;
         };
-        let exact = !traced.counts || block.as_arc().is_none();
-        let (Some(further), true) = (reached.spot, reached.whole) else {
+        // Behind an arc the places of a program that counts have drifted.
+        let drifts = traced.counts && block.as_arc().is_some();
+        let (Some(further), true, false) = (reached.spot, reached.whole, drifts) else {
             break;
         };
-        if exact {
-            note(found.pose.place(block.end()) - further.at);
-        } else {
-            // Behind an arc the program's own places have drifted.
-            break;
-        }
+        note(found.pose.place(block.end()) - further.at);
         spot = further;
     }
     let shift = found.pose.shift + (low + high) / 2.0;

@@ -25,7 +25,7 @@ pub struct Partner<T> {
 }
 
 /// What is said of a program.
-pub fn of_program(
+pub(crate) fn of_program(
     traced: &Traced,
     drawing: &Partner<Drawn>,
     others: &[Arc<str>],

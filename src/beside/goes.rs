@@ -43,7 +43,7 @@ impl Goes {
     }
 
     /// Whether each goes all round, or together with others: a tab is cut by itself.
-    pub fn are_whole(mut self, rounds: &Rounds) -> bool {
+    pub(crate) fn are_whole(mut self, rounds: &Rounds) -> bool {
         self.end();
         let mut partial: Vec<Go> = Vec::new();
         for go in self.done {

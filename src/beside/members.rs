@@ -153,7 +153,7 @@ impl Members {
     }
 
     /// Blocks about those where blocks begin to follow, or no longer do.
-    pub fn breaks(traced: &Traced, rounds: &Rounds, pose: Pose) -> Vec<usize> {
+    pub(crate) fn breaks(traced: &Traced, rounds: &Rounds, pose: Pose) -> Vec<usize> {
         let mut members = Members::new(traced, pose);
         let mut breaks = Vec::new();
         for index in 0..traced.blocks.len() {

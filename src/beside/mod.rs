@@ -25,16 +25,18 @@ mod walk;
 
 pub use comparison::{Comparison, Difference, DifferenceKind};
 pub use drawn::Drawn;
-pub use findings::{Beside, Partner, of_drawing, of_program};
-pub use names::{Named, drawing_named, head_of, name_of, plain, programs_beside};
+pub(crate) use findings::of_program;
+pub use findings::{Beside, Partner, of_drawing};
+pub use names::{Named, plain};
+pub(crate) use names::{drawing_named, head_of, name_of, programs_beside};
 pub use own::compare;
 pub use traced::Traced;
 
 /// How far a block may lie from where the drawing has it, µm.
-pub const TOLERANCE: f64 = 2.0;
-/// How near a place of the program lies to that of the drawing which it is, µm.
+pub(crate) const TOLERANCE: f64 = 2.0;
+/// How near a place of the program lies to the place of the drawing that it stands for, µm.
 const REACH: f64 = 2.5;
 /// Blocks that lead from one pass to the next, at most.
 const BETWEEN: usize = 6;
-/// What is less is covered, µm.
+/// A stretch of the drawing that is shorter than this counts as cut, µm.
 const COVERED: f64 = 5.0;

@@ -23,7 +23,7 @@ const ENDINGS: [&str; 4] = ["dxf", "DXF", "dxb", "DXB"];
 const MOST: usize = 200;
 
 /// The drawing of a program whose text begins so; `setting` is what `program.drawing` says, from the program's folder on.
-pub fn drawing_named(
+pub(crate) fn drawing_named(
     program: &Path,
     head: &[u8],
     setting: Option<&str>,
@@ -63,7 +63,7 @@ pub fn drawing_named(
 }
 
 /// The programs among the files of a folder that belong to a drawing, in the order of their names. `named` says of one whether it does.
-pub fn programs_beside(
+pub(crate) fn programs_beside(
     files: impl IntoIterator<Item = PathBuf>,
     named: &dyn Fn(&Path) -> bool,
 ) -> Vec<PathBuf> {
@@ -75,7 +75,7 @@ pub fn programs_beside(
 }
 
 /// The first bytes of a file; none where it cannot be read.
-pub fn head_of(path: &Path) -> Vec<u8> {
+pub(crate) fn head_of(path: &Path) -> Vec<u8> {
     let mut head = Vec::new();
     if let Ok(file) = std::fs::File::open(path) {
         let _ = file.take(HEAD as u64).read_to_end(&mut head);
@@ -84,7 +84,7 @@ pub fn head_of(path: &Path) -> Vec<u8> {
 }
 
 /// The name of a file.
-pub fn name_of(path: &Path) -> Arc<str> {
+pub(crate) fn name_of(path: &Path) -> Arc<str> {
     path.file_name()
         .unwrap_or_default()
         .to_string_lossy()
@@ -92,7 +92,7 @@ pub fn name_of(path: &Path) -> Arc<str> {
 }
 
 /// True for a file that is a program by its ending.
-pub fn is_program(path: &Path) -> bool {
+pub(crate) fn is_program(path: &Path) -> bool {
     let ending = path
         .extension()
         .map(|ending| ending.to_string_lossy().to_ascii_lowercase());

@@ -74,7 +74,7 @@ impl Pose {
     }
 
     /// The same by the nodes of a grid.
-    pub fn gridded(self) -> Pose {
+    pub(crate) fn gridded(self) -> Pose {
         Pose {
             on_grid: true,
             ..self
@@ -89,7 +89,7 @@ impl Pose {
         })
     }
 
-    pub fn is_exact(&self) -> bool {
+    pub(crate) fn is_exact(&self) -> bool {
         self.exact
     }
 
@@ -104,7 +104,7 @@ impl Pose {
     }
 
     /// The same where the node may be another one: where it lies was found by few blocks, or arcs have led beside the drawing.
-    pub fn unsurely(self) -> Pose {
+    pub(crate) fn unsurely(self) -> Pose {
         Pose {
             unsure: self.unsure.max(UNSURE),
             ..self
@@ -112,7 +112,7 @@ impl Pose {
     }
 
     /// The same with another shift.
-    pub fn shifted(&self, shift: Vector) -> Pose {
+    pub(crate) fn shifted(&self, shift: Vector) -> Pose {
         self.moved(shift - self.shift)
     }
 

@@ -63,22 +63,22 @@ const CRUMB: f64 = 1.0;
 /// A round and a piece of it.
 type Place = (u32, u32);
 
-/// All rounds that are looked at.
+/// All rounds that a program is held against.
 #[derive(Debug, Default)]
 pub(super) struct Rounds {
     pub rounds: Vec<Round>,
-    index: Grid<(u32, u32)>,
+    index: Grid<Place>,
     /// Rounds of each course that have been laid.
     laid: Vec<(usize, Side, Course)>,
-    /// Pieces by where they lead, in cells of [`CELL`].
+    /// Pieces by the vector from their start to their end, in cells of [`CELL`].
     leads: OnceCell<FxHashMap<(i64, i64), Vec<Place>>>,
 }
 
-/// µm.
+/// Width of a cell in which pieces are found by where they lead, µm.
 const CELL: f64 = 8.0;
 /// How far a transition of 4B may lie from the one that is cut the other way round, µm.
 const SAME: f64 = 6.0;
-/// How much two that lead the same way may differ by their roundings, µm.
+/// By how much the vectors of a block and of its piece may differ when both are rounded, µm.
 const ALIKE: f64 = 2.9;
 
 impl Rounds {
@@ -234,7 +234,7 @@ impl Rounds {
     }
 
     /// The spot at the beginning of a piece, seen in its way.
-    pub fn at_begin(&self, round: usize, piece: usize, back: bool) -> Spot {
+    pub(crate) fn at_begin(&self, round: usize, piece: usize, back: bool) -> Spot {
         let piece_of = &self.rounds[round].pieces[piece];
         let at = if back {
             piece_of.back.start()
@@ -250,7 +250,7 @@ impl Rounds {
     }
 
     /// A spot at the beginning of a piece, not within it.
-    pub fn is_begin(&self, spot: &Spot) -> bool {
+    pub(crate) fn is_begin(&self, spot: &Spot) -> bool {
         *spot == self.at_begin(spot.round, spot.piece, spot.back)
     }
 
@@ -266,14 +266,14 @@ impl Rounds {
     }
 
     /// How far one spot of a round lies ahead of another in its way, µm.
-    pub fn ahead(&self, from: &Spot, to: &Spot) -> f64 {
+    pub(crate) fn ahead(&self, from: &Spot, to: &Spot) -> f64 {
         let way = self.along(to) - self.along(from);
         let way = if from.back { -way } else { way };
         way.rem_euclid(self.rounds[from.round].length)
     }
 
     /// The stretches of a round that are cut by going so far from a spot.
-    pub fn cover(&self, from: &Spot, length: f64, mut cut: impl FnMut(Range<f64>)) {
+    pub(crate) fn cover(&self, from: &Spot, length: f64, mut cut: impl FnMut(Range<f64>)) {
         let whole = self.rounds[from.round].length;
         let along = self.along(from);
         let (begin, end) = if from.back {
@@ -293,7 +293,7 @@ impl Rounds {
     }
 
     /// The beginnings of pieces that lead as far as this in either way, with the whole of them.
-    pub fn leading(&self, by: Vector) -> Vec<(Spot, Segment)> {
+    pub(crate) fn leading(&self, by: Vector) -> Vec<(Spot, Segment)> {
         let cell = |by: Vector| ((by.x / CELL).floor() as i64, (by.y / CELL).floor() as i64);
         let leads = self.leads.get_or_init(|| {
             let mut leads: FxHashMap<_, Vec<_>> = FxHashMap::default();
@@ -332,7 +332,7 @@ impl Rounds {
     }
 
     /// Spots from which 4B begins at a point, in either way, and by how much it moves the contour there.
-    pub fn near_beside(&self, point: Point, reach: f64) -> Vec<(Spot, Vector)> {
+    pub(crate) fn near_beside(&self, point: Point, reach: f64) -> Vec<(Spot, Vector)> {
         let all = self.rounds.iter().filter_map(|round| round.beside);
         let farthest = all.map(f64::abs).fold(0.0, f64::max) + reach;
         let mut found = Vec::new();

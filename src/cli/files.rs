@@ -249,7 +249,7 @@ fn settings_row(file: &Path, source: &SourceText, error: SettingsError) -> Row {
         rule,
         severity,
         place,
-        detail: Detail::Settings(error.message),
+        detail: Detail::Said(error.message),
         related: Vec::new(),
     };
     let message = finding::sentence(&finding, Unit::MILLIMETRE.mm);

@@ -4,7 +4,7 @@ use super::options::{Common, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, files, report};
 use crate::document::Snapshot;
-use crate::finding::{Detail, Finding};
+use crate::finding::{Detail, Finding, Rule};
 use crate::job::{self, Wanted};
 use crate::message::{lengths, readable};
 use crate::program::{Format, ProvedProgram};
@@ -73,11 +73,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     output::write(arguments.output.as_deref(), made.program.text.as_bytes())?;
     // What is wrong with the drawing says `wedm check`; these are of the program.
     let of_program = |finding: &&Finding| {
-        let detail = &finding.detail;
-        matches!(
-            detail,
-            Detail::OffsetCollapse { point: true, .. } | Detail::Settings(_)
-        )
+        finding.rule == Rule::Settings
+            || matches!(finding.detail, Detail::OffsetCollapse { point: true, .. })
     };
     let said: Vec<Finding> = made.warnings.iter().filter(of_program).cloned().collect();
     report::say(path, document, &said);

@@ -35,7 +35,7 @@ pub(super) fn push(
         rule: Rule::Syntax,
         severity,
         place: Place::Text { range },
-        detail: Detail::Syntax(sentence),
+        detail: Detail::Said(sentence),
         related: Vec::new(),
     });
 }

@@ -229,7 +229,7 @@ impl Document {
                 rule: Rule::Units,
                 severity: Severity::Information,
                 place: Place::Document,
-                detail: Detail::Units(sentence),
+                detail: Detail::Said(sentence),
                 related: Vec::new(),
             };
             self.findings.insert(0, finding);

@@ -28,7 +28,7 @@ pub(super) struct Reading {
     pub(super) known: Option<Blocks>,
     /// Handles of what is the frame of a text.
     pub(super) frames: FxHashSet<u64>,
-    /// Something in the modelspace refers to a block.
+    /// Something in model space refers to a block.
     refers: bool,
     /// A block was asked for before all blocks were read: what it draws is not known yet.
     pub(super) early: bool,
@@ -309,7 +309,7 @@ impl Pass<'_> {
     }
 }
 
-/// Takes note of how an entity looks. True when that is something new.
+/// Takes note of how an entity looks. True where that differs from what was known.
 pub(super) fn set_appearance(
     drawing: &mut Drawing,
     id: EntityId,

@@ -2,7 +2,9 @@
 
 use super::lengths::{absurd, mm, told_apart};
 use super::program_sentence::program;
-use super::{Aside, Detail, Finding, NoFix, NotJudged, SetAside, SmallRadius, Unlike, Unwritable};
+use super::{
+    Aside, Detail, Finding, NoFix, NotJudged, Rule, SetAside, SmallRadius, Unlike, Unwritable,
+};
 use crate::drawing::Visibility;
 use crate::message::readable;
 
@@ -144,10 +146,7 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
         Detail::Program(fault) => program(fault),
         Detail::More { count } => say!(more_findings_are_not_shown, count),
         Detail::NotTheDrawing(what) => unlike(what, unit_mm),
-        Detail::LeadIn(sentence)
-        | Detail::Units(sentence)
-        | Detail::Syntax(sentence)
-        | Detail::Settings(sentence) => sentence.clone(),
+        Detail::Said(sentence) => sentence.clone(),
     }
 }
 
@@ -307,7 +306,9 @@ pub(crate) fn related(finding: &Finding, handle: &str, segment: Option<usize>) -
         Detail::DeadEnd { .. } => say!(the_wire_comes_no_further_than_here, place),
         Detail::DuplicateEntity { .. } => say!(the_same_place, place),
         Detail::Overlap { .. } => say!(runs_on_this_one, place),
-        Detail::LeadIn(_) => say!(what_is_in_the_way, place),
+        Detail::Said(_) if matches!(finding.rule, Rule::LeadIn | Rule::StartHole) => {
+            say!(what_is_in_the_way, place)
+        }
         Detail::SelfIntersection { touches: true, .. } => say!(touches_this_one, place),
         Detail::SelfIntersection { .. } => say!(crosses_this_one, place),
         Detail::SharpCorner { .. } | Detail::NearTangent { .. } => {

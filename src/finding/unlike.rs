@@ -67,7 +67,7 @@ impl Unlike {
     }
 
     /// Said for the whole of both, which is no error of either.
-    pub fn is_of_whole(&self) -> bool {
+    pub(crate) fn is_of_whole(&self) -> bool {
         matches!(
             self,
             Unlike::Nothing { .. } | Unlike::Unreadable { .. } | Unlike::Several { .. }

@@ -101,7 +101,7 @@ fn finding(snapshot: &Snapshot, outline: usize, severity: Severity, sentence: St
         place: first.map_or(Place::Document, |piece| Place::Entity {
             entity: piece.entity,
         }),
-        detail: Detail::Settings(sentence),
+        detail: Detail::Said(sentence),
         related: Vec::new(),
     }
 }

@@ -152,7 +152,7 @@ impl FindingData {
                 data.kind = Some(misfit.of.to_string());
             }
             Detail::NoPartner { of } => data.kind = Some(of.to_string()),
-            Detail::Unwritable(_) => {}
+            Detail::Unwritable(_) | Detail::Said(_) => {}
             Detail::NotJudged(what) => data.count = left_out(what),
             Detail::DuplicateEntity { count } => data.count = (*count > 1).then_some(*count),
             Detail::Overlap { length } | Detail::ShortSegment { length } => {
@@ -174,7 +174,6 @@ impl FindingData {
             }
             Detail::Program(fault) => data.program(fault),
             Detail::NotTheDrawing(unlike) => data.distance = unlike.off(),
-            Detail::LeadIn(_) | Detail::Units(_) | Detail::Syntax(_) | Detail::Settings(_) => {}
         }
         data
     }

@@ -13,6 +13,7 @@ mod generate;
 mod in_force;
 mod inspection;
 mod locate;
+pub(crate) mod method;
 mod milling;
 mod number;
 mod requests;
@@ -51,30 +52,3 @@ pub(crate) use work::{StartHole, Work};
 
 /// Version of the `wedm/` name space that the handshake states.
 pub(crate) const PROTOCOL: u32 = 1;
-
-/// Names of the methods, notifications and commands.
-pub(crate) mod method {
-    pub(crate) const DID_OPEN_DRAWING: &str = "wedm/didOpenDrawing";
-    pub(crate) const DID_CHANGE_DRAWING: &str = "wedm/didChangeDrawing";
-    pub(crate) const DID_CLOSE_DRAWING: &str = "wedm/didCloseDrawing";
-    pub(crate) const RESEND_DRAWING: &str = "wedm/resendDrawing";
-    pub(crate) const APPLY_DRAWING_EDIT: &str = "wedm/applyDrawingEdit";
-    pub(crate) const GENERATE: &str = "wedm/generate";
-    pub(crate) const INSPECT: &str = "wedm/inspect";
-    pub(crate) const CONTOURS: &str = "wedm/contours";
-    pub(crate) const TOOLPATH: &str = "wedm/toolpath";
-    pub(crate) const PICTURE: &str = "wedm/picture";
-    pub(crate) const EXPORT: &str = "wedm/export";
-    pub(crate) const HOLES: &str = "wedm/holes";
-    pub(crate) const REPAIRS: &str = "wedm/repairs";
-    pub(crate) const FIT: &str = "wedm/fit";
-    pub(crate) const PAIR: &str = "wedm/pair";
-    pub(crate) const SIMULATE: &str = "wedm/simulate";
-    pub(crate) const LOCATE: &str = "wedm/locate";
-    pub(crate) const SETTINGS: &str = "wedm/settings";
-    pub(crate) const RULE_PAGE: &str = "wedm/rulePage";
-    /// The command that a drawing's code actions hold.
-    pub(crate) const APPLY_DRAWING_EDIT_COMMAND: &str = "wedm.applyDrawingEdit";
-    /// The server's command that scales a program; its argument is `{ uri, factor }`.
-    pub(crate) const SCALE_COMMAND: &str = "wedm.scale";
-}

@@ -12,43 +12,7 @@ pub fn schema() -> Value {
     fn of<T: schemars::JsonSchema>(types: &mut SchemaGenerator) -> Value {
         types.subschema_for::<T>().to_value()
     }
-    let methods = json!({
-        method::DID_OPEN_DRAWING: { "params": of::<OpenDrawing>(&mut types) },
-        method::DID_CHANGE_DRAWING: { "params": of::<ChangeDrawing>(&mut types) },
-        method::DID_CLOSE_DRAWING: { "params": of::<CloseDrawing>(&mut types) },
-        method::INSPECT: { "params": of::<Inspect>(&mut types), "result": of::<Inspection>(&mut types) },
-        method::CONTOURS: { "params": of::<DrawingName>(&mut types), "result": of::<Contours>(&mut types) },
-        method::TOOLPATH: { "params": of::<OptionsOf>(&mut types), "result": of::<Toolpath>(&mut types) },
-        method::PICTURE: { "params": of::<OptionsOf>(&mut types), "result": of::<Picture>(&mut types) },
-        method::EXPORT: { "params": of::<Export>(&mut types), "result": of::<Exported>(&mut types) },
-        method::HOLES: { "params": of::<Holes>(&mut types), "result": of::<Exported>(&mut types) },
-        method::REPAIRS: { "params": of::<RepairsOf>(&mut types), "result": of::<Repairs>(&mut types) },
-        method::FIT: { "params": of::<OptionsOf>(&mut types), "result": of::<Fit>(&mut types), "errorData": of::<Refused>(&mut types) },
-        method::PAIR: {
-            "params": of::<Generate>(&mut types),
-            "result": of::<PairPrograms>(&mut types),
-            "errorData": of::<Refused>(&mut types),
-        },
-        method::SIMULATE: { "params": of::<Simulate>(&mut types), "result": of::<Simulation>(&mut types) },
-        method::LOCATE: { "params": of::<Locate>(&mut types), "result": of::<Option<Located>>(&mut types) },
-        method::SETTINGS: { "params": of::<DrawingName>(&mut types), "result": of::<SettingsInForce>(&mut types) },
-        method::RULE_PAGE: { "params": of::<RulePage>(&mut types), "result": of::<RulePageText>(&mut types) },
-        method::GENERATE: {
-            "params": of::<Generate>(&mut types),
-            "result": of::<Program>(&mut types),
-            "errorData": of::<Refused>(&mut types),
-        },
-        method::APPLY_DRAWING_EDIT: {
-            "sentBy": "server",
-            "params": of::<ApplyDrawingEdit>(&mut types),
-            "result": of::<Applied>(&mut types),
-        },
-        method::RESEND_DRAWING: {
-            "sentBy": "server",
-            "params": of::<ResendDrawing>(&mut types),
-            "result": of::<Resent>(&mut types),
-        },
-    });
+    let methods = method::methods(&mut types);
     let commands = json!({
         method::APPLY_DRAWING_EDIT_COMMAND: { "arguments": [of::<DrawingEdit>(&mut types)] },
         method::SCALE_COMMAND: { "arguments": [of::<ScaleProgram>(&mut types)] },

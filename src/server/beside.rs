@@ -18,7 +18,7 @@ fn file_of(uri: &str) -> Option<PathBuf> {
 
 impl State {
     /// A document is open now: it may be the drawing of programs that are.
-    pub fn note_path(&mut self, uri: &Arc<str>) {
+    pub(crate) fn note_path(&mut self, uri: &Arc<str>) {
         let Some(path) = file_of(uri) else { return };
         self.links.paths.insert(path, uri.clone());
         let is_program = |uri: &&Arc<str>| {
@@ -40,7 +40,7 @@ impl State {
     }
 
     /// What lies beside a document that is to be judged.
-    pub fn wanted_beside(&mut self, uri: &Arc<str>) -> Option<Wanted> {
+    pub(crate) fn wanted_beside(&mut self, uri: &Arc<str>) -> Option<Wanted> {
         let open = self.documents.get(uri)?;
         let link = open.link.clone();
         let mut wanted = Wanted {
@@ -94,7 +94,7 @@ impl State {
     }
 
     /// Takes what was read for a document, and has its partners look at what it is now.
-    pub fn judged_beside(
+    pub(crate) fn judged_beside(
         &mut self,
         uri: &Arc<str>,
         read: Vec<(PathBuf, Kept)>,
@@ -224,7 +224,7 @@ impl State {
     }
 
     /// A document is no longer open: its partners take the file.
-    pub fn closed_beside(&mut self, uri: &Arc<str>, link: &Link) {
+    pub(crate) fn closed_beside(&mut self, uri: &Arc<str>, link: &Link) {
         let Some(path) = file_of(uri) else { return };
         self.links.paths.remove(&path);
         if let Link::Drawing(named) = link {
@@ -244,7 +244,7 @@ impl State {
     }
 
     /// Files have changed on disk: what belongs to what is found out anew.
-    pub fn files_changed(&mut self) {
+    pub(crate) fn files_changed(&mut self) {
         let mut uris: Vec<Arc<str>> = self.links.paths.values().cloned().collect();
         uris.sort_unstable();
         for uri in uris {
@@ -265,7 +265,7 @@ impl State {
     }
 
     /// Settings have changed, and with them what files come to.
-    pub fn forget_files(&mut self) {
+    pub(crate) fn forget_files(&mut self) {
         self.links.files.clear();
     }
 }

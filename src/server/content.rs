@@ -138,7 +138,7 @@ impl Content {
     }
 
     /// Lays another document beside it; true where that is another one than before.
-    pub fn set_beside(&mut self, beside: Beside) -> bool {
+    pub(crate) fn set_beside(&mut self, beside: Beside) -> bool {
         let Content::Read(document) = self else {
             return false;
         };

@@ -81,7 +81,7 @@ pub(super) struct Links {
 
 impl Wanted {
     /// True where nothing has to be read for it.
-    pub fn is_at_hand(&self) -> bool {
+    pub(crate) fn is_at_hand(&self) -> bool {
         let known = |(_, from): &(_, From)| matches!(from, From::Known(_));
         self.partners.iter().all(known)
     }

@@ -79,10 +79,7 @@ mod tests {
     fn shipped_profiles_are_read_without_a_fault() {
         let (_, errors) = from_toml(include_str!("profiles.toml"));
         assert_eq!(errors, []);
-        assert_eq!(
-            shipped_profiles().collect::<Vec<_>>(),
-            ["fast-wire", "generic", "robofil"]
-        );
+        assert!(shipped_profiles().any(|name| name == "generic"));
         assert_eq!(Profile::default().name, "generic");
     }
 

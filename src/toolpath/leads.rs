@@ -258,7 +258,7 @@ pub(super) fn finding(
         rule,
         severity,
         place,
-        detail: Detail::LeadIn(sentence),
+        detail: Detail::Said(sentence),
         related,
     }
 }

@@ -447,7 +447,7 @@ fn a_lead_that_would_cut_the_part_is_a_finding() {
                     )
                 );
                 assert!(
-                    matches!(&found[0].detail, Detail::LeadIn(text) if text.contains(sentence)),
+                    matches!(&found[0].detail, Detail::Said(text) if text.contains(sentence)),
                     "{found:?}"
                 );
             }

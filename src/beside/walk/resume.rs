@@ -5,7 +5,6 @@ use super::super::rounds::Spot;
 use super::super::traced::Motion;
 use super::super::{BETWEEN, REACH};
 use super::{Kind, NEAR, Run, SURE, Walk};
-use crate::geometry::Vector;
 
 /// Blocks and pieces that are passed over to find on, at most.
 const PASSED: usize = 8;
@@ -35,15 +34,7 @@ impl Walk<'_> {
         let cuts = (index..index + PASSED)
             .take_while(|nth| cut(nth).is_some())
             .count();
-        let mut choices: Vec<(usize, usize)> = (0..=cuts)
-            .flat_map(|blocks| (0..ways.len()).map(move |pieces| (blocks, pieces)))
-            .filter(|&(blocks, pieces)| blocks > 0 || pieces > 0 && run.passed != Some(index))
-            .collect();
-        choices.sort_by_key(|&(blocks, pieces)| {
-            let size = blocks.max(pieces);
-            (size, blocks != pieces, blocks.abs_diff(pieces), blocks)
-        });
-        for (blocks, pieces) in choices {
+        for (blocks, pieces) in choices(cuts, ways.len(), run.passed != Some(index)) {
             let last = index + blocks;
             let end = match blocks.checked_sub(1) {
                 Some(before) => cut(&(index + before))?.end(),
@@ -59,15 +50,11 @@ impl Walk<'_> {
                 spot = within.copied().unwrap_or(spot);
             }
             let miss = self.pose.place(end) - spot.at;
-            for by in [Vector::zeros(), miss] {
-                let is_back = by == Vector::zeros();
-                if is_back && miss.norm() > REACH {
-                    continue;
-                }
-                let pose = if is_back {
-                    self.pose
-                } else {
-                    self.pose.moved(by)
+            for is_back in [true, false] {
+                let pose = match is_back {
+                    true if miss.norm() > REACH => continue,
+                    true => self.pose,
+                    false => self.pose.moved(miss),
                 };
                 let (count, ends) = self.verify(pose, spot, run.entry, last, SURE);
                 let is_back_at_stop = is_back && ends && spot.at != ways[pieces].at;
@@ -86,25 +73,29 @@ impl Walk<'_> {
                 };
                 self.name(run, index, off, Kind::Block);
                 (index..last).for_each(|block| self.walked.runs[block] = true);
-                let mut gone = run.spot;
-                for next in &ways[1..=pieces] {
-                    let length = self.rounds.rest(&gone).length();
-                    self.cover(&gone, length);
-                    run.travelled += length;
-                    gone = *next;
-                }
-                let within = self.rounds.rest(&gone).length() - self.rounds.rest(&spot).length();
-                if within > 0.0 {
-                    self.cover(&gone, within);
-                    run.travelled += within;
-                }
+                self.pass(run, &ways[1..=pieces], spot);
                 self.pose = pose;
-                run.spot = spot;
                 run.passed = (blocks == 0).then_some(index);
                 return Some(last);
             }
         }
         None
+    }
+
+    /// Takes the way of a run over the beginnings of these pieces to a spot on the last of them.
+    fn pass(&mut self, run: &mut Run, begins: &[Spot], to: Spot) {
+        for next in begins {
+            let length = self.rounds.rest(&run.spot).length();
+            self.cover(&run.spot, length);
+            run.travelled += length;
+            run.spot = *next;
+        }
+        let within = self.rounds.rest(&run.spot).length() - self.rounds.rest(&to).length();
+        if within > 0.0 {
+            self.cover(&run.spot, within);
+            run.travelled += within;
+        }
+        run.spot = to;
     }
 
     /// How far the end of a block lies from that of the piece which it should follow.
@@ -200,4 +191,18 @@ impl Walk<'_> {
             .take_while(|&before| self.traced.blocks[before].segment().is_some())
             .take_while(|&before| !self.walked.runs[before])
     }
+}
+
+/// How many blocks and how many pieces are passed over, the likeliest first: few of both, and as many of the one as of the other. Pieces alone
+/// only where they `may_be_missing`.
+fn choices(blocks: usize, pieces: usize, may_be_missing: bool) -> Vec<(usize, usize)> {
+    let mut choices: Vec<(usize, usize)> = (0..=blocks)
+        .flat_map(|blocks| (0..pieces).map(move |pieces| (blocks, pieces)))
+        .filter(|&(blocks, pieces)| blocks > 0 || pieces > 0 && may_be_missing)
+        .collect();
+    choices.sort_by_key(|&(blocks, pieces)| {
+        let size = blocks.max(pieces);
+        (size, blocks != pieces, blocks.abs_diff(pieces), blocks)
+    });
+    choices
 }

@@ -2,7 +2,7 @@
 
 use super::reading::dxf;
 use crate::dxf::Document;
-use crate::finding::{Detail, Severity};
+use crate::finding::{Detail, Finding, Rule, Severity};
 use proptest::prelude::*;
 
 #[test]
@@ -58,7 +58,7 @@ fn what_is_no_dxf_gets_one_finding() {
             .collect();
         assert_eq!(
             found,
-            [(Severity::Error, &Detail::Syntax(expected.into()))],
+            [(Severity::Error, &Detail::Said(expected.into()))],
             "{:?}",
             String::from_utf8_lossy(bytes)
         );
@@ -83,15 +83,11 @@ fn a_text_that_becomes_dxf_is_read() {
 
 /// Sentences of the findings about the text.
 fn syntax(document: &Document) -> Vec<String> {
-    let sentence = |detail: &Detail| match detail {
-        Detail::Syntax(sentence) => Some(sentence.clone()),
+    let sentence = |finding: &Finding| match &finding.detail {
+        Detail::Said(sentence) if finding.rule == Rule::Syntax => Some(sentence.clone()),
         _ => None,
     };
-    document
-        .findings()
-        .iter()
-        .filter_map(|finding| sentence(&finding.detail))
-        .collect()
+    document.findings().iter().filter_map(sentence).collect()
 }
 
 #[test]
@@ -156,7 +152,7 @@ fn a_line_too_few_or_too_many_is_one_finding_and_costs_its_own_entity() {
         let syntax = document
             .findings()
             .iter()
-            .filter(|finding| matches!(finding.detail, Detail::Syntax(_)))
+            .filter(|finding| finding.rule == Rule::Syntax)
             .count();
         let kept = ["A1", "A2", "A3", "A4", "A5"]
             .iter()

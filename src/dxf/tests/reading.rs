@@ -75,7 +75,7 @@ pub(super) fn findings(document: &Document) -> Vec<String> {
                 _ => "document".into(),
             };
             let sentence = match &finding.detail {
-                Detail::Syntax(sentence) | Detail::Units(sentence) => sentence.clone(),
+                Detail::Said(sentence) => sentence.clone(),
                 Detail::UnsupportedEntity { kind, count, why } => format!("{count} {kind}: {why}"),
                 Detail::Unseen { .. } | Detail::NotJudged(_) => {
                     crate::finding::sentence(finding, 1.0)

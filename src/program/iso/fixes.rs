@@ -61,7 +61,7 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<TextFix> {
     };
     let fault = match &finding.detail {
         Detail::Program(fault) => &**fault,
-        Detail::Syntax(_) => return character_fixes(document, range),
+        Detail::Said(_) => return character_fixes(document, range),
         _ => return Vec::new(),
     };
     match fault {

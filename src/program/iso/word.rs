@@ -164,7 +164,7 @@ impl WordFault {
             WordFault::TooManyDigits { .. } => Rule::TooManyDigits,
             _ => Rule::Syntax,
         };
-        Finding::in_text(rule, range, Detail::Syntax(sentence)).with(severity)
+        Finding::in_text(rule, range, Detail::Said(sentence)).with(severity)
     }
 }
 

@@ -432,7 +432,7 @@ impl Stretch {
                     self.positions.anchor = Some(None);
                     self.push(local(fault.range.clone()), line, fault.number, What::Unread);
                 }
-                let sentence = || Detail::Syntax(fault.sentence());
+                let sentence = || Detail::Said(fault.sentence());
                 let program = |fault| Detail::Program(Box::new(fault));
                 let (rule, detail) = match fault.flaw {
                     Flaw::Unreadable(_)

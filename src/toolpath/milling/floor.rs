@@ -6,7 +6,7 @@
 use crate::settings::Electrode;
 use std::f64::consts::PI;
 
-/// So finely a way is looked at; coarser where there are so many layers that more cells would be visited in all.
+/// Cells into which a way is divided. They are fewer where there are so many layers that more cells than [`MOST_VISITS`] would be visited in all.
 const CELLS: usize = 2_000;
 const FEWEST_CELLS: usize = 100;
 const MOST_VISITS: usize = 40_000_000;
@@ -16,7 +16,7 @@ pub(crate) struct Floor {
     /// Depth of each cell.
     cells: Vec<f64>,
     cell_length: f64,
-    /// By how much the electrode is worn in a cell, as a share of what is eroded there at once.
+    /// By how much the electrode is worn for each mm that a cell gets deeper, mm.
     of_cell: f64,
     /// Depth of the round ends, where they count.
     ends: Option<[f64; 2]>,

@@ -29,7 +29,7 @@ impl Electrode {
     }
 
     /// By how much it gets shorter on a way of 1 mm in a layer of 1 mm: ν W/A.
-    pub fn wear_along(&self) -> f64 {
+    pub(crate) fn wear_along(&self) -> f64 {
         self.wear * self.width() / self.section()
     }
 
@@ -50,7 +50,7 @@ impl Electrode {
     }
 
     /// Height of the last layer.
-    pub fn last_layer(&self) -> f64 {
+    pub(crate) fn last_layer(&self) -> f64 {
         self.depth - self.layer * (self.layers() - 1) as f64
     }
 }

@@ -25,7 +25,7 @@ pub(super) fn rows(document: &Document) -> Result<Vec<Row<Iso>>, String> {
     }
     let text = document.text();
     for finding in document.plain_findings() {
-        if let (Detail::Syntax(sentence), Severity::Error, Where::Text { range }) =
+        if let (Detail::Said(sentence), Severity::Error, Where::Text { range }) =
             (&finding.detail, finding.severity, &finding.place)
         {
             return Err(say!(

@@ -32,7 +32,7 @@ impl Document {
         };
         let fault = match &finding.detail {
             Detail::Program(fault) => fault,
-            Detail::Syntax(_) => return self.letter_fixes(range),
+            Detail::Said(_) => return self.letter_fixes(range),
             _ => return Vec::new(),
         };
         match &**fault {

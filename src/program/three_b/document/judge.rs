@@ -344,5 +344,5 @@ impl Document {
 }
 
 fn syntax(range: Range<usize>, sentence: String) -> Finding {
-    Finding::in_text(Rule::Syntax, range, Detail::Syntax(sentence))
+    Finding::in_text(Rule::Syntax, range, Detail::Said(sentence))
 }
