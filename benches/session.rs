@@ -1,8 +1,9 @@
 //! Sessions with the real server over its pipes, as an editor or a CAD program sees them: `cargo bench --bench session`.
 //!
 //! Every figure is printed beside its goal; nothing fails on a slow machine. The clock runs from before the message is
-//! written to after the answer has been read and parsed. `-- --quick` makes fewer rounds; `-- NAME …` runs only the sessions
-//! whose names hold one of these: "start", "5 MB", "50 MB", "program", "3B", "ISO", "beside", "drawing", "generate".
+//! written to after the answer has been read and parsed; for what an editor asks, until the answer has been read whole.
+//! `-- --quick` makes fewer rounds; `-- NAME …` runs only the sessions whose names hold one of these: "start", "5 MB", "50 MB",
+//! "program", "3B", "ISO", "beside", "drawing", "generate".
 
 mod generated;
 #[allow(dead_code)]
@@ -10,6 +11,7 @@ mod generated;
 mod support;
 
 use serde_json::{Value, json};
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 use support::{Client, capabilities};
 
@@ -238,6 +240,8 @@ fn language_rows(
     let places =
         json!({ "textDocument": document, "positions": [{ "line": line, "character": 0 }] });
     let whole = json!({ "textDocument": document });
+    // To make values of a million tokens takes the client longer than the server takes to find and write them.
+    client.skips_results.store(true, Ordering::Release);
     for (what, method, params, rounds, goal) in [
         ("hover", "hover", at.clone(), rounds, "p99 20 ms"),
         ("completion", "completion", at.clone(), rounds, "p99 20 ms"),
@@ -281,7 +285,7 @@ fn language_rows(
             "semanticTokens/full",
             whole,
             rounds / 20,
-            "",
+            "80 ms",
         ),
         ("definition", "definition", at, rounds / 20, "200 ms"),
     ] {
@@ -290,6 +294,7 @@ fn language_rows(
             .collect();
         row(&format!("{name}: {what}"), times, goal);
     }
+    client.skips_results.store(false, Ordering::Release);
 }
 
 /// A program of 200,000 blocks.

@@ -53,11 +53,16 @@ impl<'a> Whole<'a> {
         }
     }
 
-    /// The pieces of the text, at most `limit`.
-    pub(crate) fn tokens(&self, limit: usize, stop: Stop<'_>) -> Result<Vec<Token>, Stopped> {
+    /// Takes the pieces of the text, at most `limit`.
+    pub(crate) fn tokens(
+        &self,
+        limit: usize,
+        stop: Stop<'_>,
+        take: impl FnMut(Token),
+    ) -> Result<(), Stopped> {
         match self {
-            Whole::Program(program) => Ok(program::tokens(program, limit)),
-            Whole::Dxf { text, .. } => dxf::tokens(text, limit, stop).ok_or(Stopped),
+            Whole::Program(program) => program::tokens(program, limit, stop, take),
+            Whole::Dxf { text, .. } => dxf::tokens(text, limit, stop, take).ok_or(Stopped),
         }
     }
 

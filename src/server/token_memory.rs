@@ -1,36 +1,106 @@
-//! The semantic tokens that the client was sent last for a document, so that after an edit only the difference is sent.
+//! Semantic tokens as the client is sent them: packed, as JSON text, and what it holds of a document, so that after an edit only the
+//! difference is sent.
 //!
-//! Owns their packing and the difference. Knows nothing of texts or of how tokens are found.
+//! Knows nothing of texts or of how tokens are found.
 
-use ls_types::{SemanticToken, SemanticTokensEdit};
-use std::sync::{Mutex, PoisonError};
+use std::ops::Range;
+use std::sync::{Arc, Mutex, PoisonError};
 
-/// Bits of a packed token: lines forward, characters forward, length, kind.
+/// A token as the protocol counts it from the one before: lines forward, characters forward, length, type. It has no modifiers.
+pub(in crate::server) type Fields = [u32; 4];
+
+/// Bits of each field in a packed token.
 const BITS: [u32; 4] = [16, 20, 20, 8];
+
+/// Stands for a token that does not fit; no type has this number.
+const WIDE: u64 = u64::MAX;
 
 /// Numbers of a token in the protocol.
 const FIELDS: usize = 5;
 
-/// Eight bytes a token; a document whose tokens do not fit into that is sent whole each time.
-fn packed(token: &SemanticToken) -> Option<u64> {
-    let fields = [
-        token.delta_line,
-        token.delta_start,
-        token.length,
-        token.token_type,
-    ];
-    if token.token_modifiers_bitset != 0 {
-        return None;
-    }
-    fields.iter().zip(BITS).try_fold(0, |word, (&field, bits)| {
-        (field >> bits == 0).then(|| word << bits | u64::from(field))
-    })
+/// The tokens of a document, eight bytes each.
+#[derive(Debug, Default)]
+pub(in crate::server) struct Packed {
+    words: Vec<u64>,
+    /// Those that do not fit, in their order: a text of a single line of megabytes has them.
+    wide: Vec<Fields>,
 }
 
-#[derive(Default)]
+impl Packed {
+    pub(crate) fn with_capacity(count: usize) -> Packed {
+        Packed {
+            words: Vec::with_capacity(count),
+            wide: Vec::new(),
+        }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.words.len()
+    }
+
+    pub(crate) fn push(&mut self, fields: Fields) {
+        let mut word = 0;
+        let mut fits = true;
+        for (field, bits) in fields.into_iter().zip(BITS) {
+            fits &= field >> bits == 0;
+            word = word << bits | u64::from(field);
+        }
+        if !fits {
+            self.wide.push(fields);
+        }
+        self.words.push(if fits { word } else { WIDE });
+    }
+
+    /// The numbers of some tokens as a JSON array; of all, where some are wide.
+    pub(crate) fn write(&self, range: Range<usize>, json: &mut Vec<u8>) {
+        let words = self.words.get(range).unwrap_or_default();
+        json.reserve(words.len() * 10 + 2);
+        json.push(b'[');
+        let mut wide = self.wide.iter();
+        for &word in words {
+            let mut rest = word;
+            let mut fields = [0; 4];
+            for (field, bits) in fields.iter_mut().zip(BITS).rev() {
+                *field = (rest & ((1 << bits) - 1)) as u32;
+                rest >>= bits;
+            }
+            if word == WIDE {
+                fields = wide.next().copied().unwrap_or(fields);
+            }
+            for field in fields {
+                push_number(json, field);
+                json.push(b',');
+            }
+            json.extend_from_slice(b"0,");
+        }
+        if !words.is_empty() {
+            json.pop();
+        }
+        json.push(b']');
+    }
+}
+
+/// Nearly all have one digit or two.
+fn push_number(json: &mut Vec<u8>, number: u32) {
+    let digit = |number: u32| b'0' + (number % 10) as u8;
+    match number {
+        0..10 => json.push(digit(number)),
+        10..100 => json.extend_from_slice(&[digit(number / 10), digit(number)]),
+        _ => json.extend_from_slice(number.to_string().as_bytes()),
+    }
+}
+
+/// What makes the tokens of one answer out of those of another: numbers to leave out, and the tokens that come in their place.
+#[derive(Debug, PartialEq, Eq)]
+pub(in crate::server) struct Difference {
+    pub(crate) start: usize,
+    pub(crate) delete_count: usize,
+    pub(crate) tokens: Range<usize>,
+}
+
 struct Sent {
     stamp: u64,
-    tokens: Vec<u64>,
+    tokens: Arc<Packed>,
 }
 
 /// What the client holds of one document. Shared with the workers that answer.
@@ -48,31 +118,34 @@ impl TokenMemory {
     }
 
     /// Takes note of the tokens that are sent for `stamp`. Where the client holds those that are named `previous`, the edit that
-    /// makes these of them; `None` where that is not known any more. The result id of the answer comes with it, if one can be given.
+    /// makes these of them; `None` where that is not known any more. The result id of the answer comes with it, if one can be given:
+    /// tokens that are wide are sent whole each time.
     pub(crate) fn replace(
         &self,
         previous: Option<&str>,
         stamp: u64,
-        tokens: &[SemanticToken],
-    ) -> (Option<String>, Option<SemanticTokensEdit>) {
-        let now: Option<Vec<u64>> = tokens.iter().map(packed).collect();
+        tokens: &Arc<Packed>,
+    ) -> (Option<String>, Option<Difference>) {
         let mut sent = self.sent.lock().unwrap_or_else(PoisonError::into_inner);
-        let Some(now) = now else {
+        if !tokens.wide.is_empty() {
             *sent = None;
             return (None, None);
-        };
+        }
         let before = sent
             .as_ref()
             .filter(|sent| previous.is_some_and(|previous| previous == sent.stamp.to_string()));
-        let edit = before.map(|before| difference(&before.tokens, &now, tokens));
-        *sent = Some(Sent { stamp, tokens: now });
+        let edit = before.map(|before| difference(&before.tokens.words, &tokens.words));
+        *sent = Some(Sent {
+            stamp,
+            tokens: tokens.clone(),
+        });
         (Some(stamp.to_string()), edit)
     }
 }
 
 /// The one edit that makes `now` of `before`: what is alike at both ends stays. Positions are relative to the token before, so an edit
 /// of a text changes tokens in one place, wherever its lines move to.
-fn difference(before: &[u64], now: &[u64], tokens: &[SemanticToken]) -> SemanticTokensEdit {
+fn difference(before: &[u64], now: &[u64]) -> Difference {
     let alike = |pair: &(&u64, &u64)| pair.0 == pair.1;
     let front = before.iter().zip(now).take_while(alike).count();
     let (old, new) = (
@@ -85,15 +158,10 @@ fn difference(before: &[u64], now: &[u64], tokens: &[SemanticToken]) -> Semantic
         .zip(new.iter().rev())
         .take_while(alike)
         .count();
-    let data = tokens
-        .get(front..tokens.len() - back)
-        .unwrap_or_default()
-        .to_vec();
-    let number = |count: usize| u32::try_from(FIELDS * count).unwrap_or(u32::MAX);
-    SemanticTokensEdit {
-        start: number(front),
-        delete_count: number(old.len() - back),
-        data: Some(data),
+    Difference {
+        start: FIELDS * front,
+        delete_count: FIELDS * (old.len() - back),
+        tokens: front..now.len() - back,
     }
 }
 
@@ -102,72 +170,79 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn token(length: u32) -> SemanticToken {
-        SemanticToken {
-            delta_line: 1,
-            delta_start: 0,
-            length,
-            token_type: 2,
-            token_modifiers_bitset: 0,
-        }
+    fn token(length: u32) -> Fields {
+        [1, 0, length, 2]
     }
 
-    fn applied(before: &[SemanticToken], edit: &SemanticTokensEdit) -> Vec<SemanticToken> {
-        let (start, count) = (
-            edit.start as usize / FIELDS,
-            edit.delete_count as usize / FIELDS,
-        );
-        let mut tokens = before.to_vec();
-        tokens.splice(start..start + count, edit.data.clone().unwrap_or_default());
-        tokens
+    fn packed(tokens: &[Fields]) -> Arc<Packed> {
+        let mut packed = Packed::with_capacity(tokens.len());
+        tokens.iter().for_each(|&fields| packed.push(fields));
+        Arc::new(packed)
+    }
+
+    fn written(tokens: &Packed, range: Range<usize>) -> Vec<u32> {
+        let mut json = Vec::new();
+        tokens.write(range, &mut json);
+        serde_json::from_slice(&json).unwrap()
     }
 
     proptest! {
         #[test]
         fn the_edit_makes_the_new_tokens_of_the_old_ones(before in prop::collection::vec(0u32..3, 0..12), now in prop::collection::vec(0u32..3, 0..12)) {
-            let (before, now): (Vec<_>, Vec<_>) = (before.into_iter().map(token).collect(), now.into_iter().map(token).collect());
+            let pack = |lengths: Vec<u32>| packed(&lengths.into_iter().map(token).collect::<Vec<_>>());
+            let (before, now) = (pack(before), pack(now));
             let memory = TokenMemory::default();
             prop_assert_eq!(memory.replace(None, 1, &before), (Some("1".into()), None));
             let (id, edit) = memory.replace(Some("1"), 2, &now);
             prop_assert_eq!(id.as_deref(), Some("2"));
-            prop_assert_eq!(applied(&before, &edit.unwrap()), now);
+            let Difference { start, delete_count, tokens } = edit.unwrap();
+            let mut numbers = written(&before, 0..before.len());
+            numbers.splice(start..start + delete_count, written(&now, tokens));
+            prop_assert_eq!(numbers, written(&now, 0..now.len()));
+        }
+
+        #[test]
+        fn tokens_are_written_as_they_were_packed(tokens in prop::collection::vec([0u32..1 << 18, 0u32..1 << 22, 0u32..1 << 22, 0u32..9], 0..12)) {
+            let expected: Vec<u32> = tokens.iter().flat_map(|&[a, b, c, d]| [a, b, c, d, 0]).collect();
+            prop_assert_eq!(written(&packed(&tokens), 0..tokens.len()), expected);
         }
     }
 
     #[test]
     fn one_token_in_the_middle_costs_one_token() {
         let memory = TokenMemory::default();
-        memory.replace(None, 1, &[token(1), token(2), token(3)]);
-        let (_, edit) = memory.replace(Some("1"), 2, &[token(1), token(7), token(3)]);
-        assert_eq!(
-            edit,
-            Some(SemanticTokensEdit {
-                start: 5,
-                delete_count: 5,
-                data: Some(vec![token(7)])
-            })
-        );
+        memory.replace(None, 1, &packed(&[token(1), token(2), token(3)]));
+        let now = packed(&[token(1), token(7), token(3)]);
+        let (_, edit) = memory.replace(Some("1"), 2, &now);
+        let expected = Difference {
+            start: 5,
+            delete_count: 5,
+            tokens: 1..2,
+        };
+        assert_eq!(edit, Some(expected));
+        assert_eq!(written(&now, 1..2), [1, 0, 7, 2, 0]);
     }
 
     #[test]
     fn what_is_not_known_or_does_not_fit_is_sent_whole() {
         let memory = TokenMemory::default();
-        memory.replace(None, 1, &[token(1)]);
+        let one = packed(&[token(1)]);
+        memory.replace(None, 1, &one);
         assert!(
             memory.is_current("1", 1) && !memory.is_current("1", 2) && !memory.is_current("x", 1)
         );
         assert_eq!(
-            memory.replace(Some("0"), 2, &[token(1)]),
+            memory.replace(Some("0"), 2, &one),
             (Some("2".into()), None),
             "another answer"
         );
         assert_eq!(
-            memory.replace(Some("2"), 3, &[token(1 << 20)]),
+            memory.replace(Some("2"), 3, &packed(&[token(1 << 20)])),
             (None, None),
             "a line of a megabyte"
         );
         assert_eq!(
-            memory.replace(Some("2"), 4, &[token(1)]),
+            memory.replace(Some("2"), 4, &one),
             (Some("4".into()), None),
             "after it"
         );

@@ -3,6 +3,8 @@
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
@@ -18,6 +20,8 @@ pub struct Client {
     /// Arrived and not asked for yet.
     pub seen: Vec<Value>,
     next_id: i64,
+    /// Of a result only its length is handed on: for whoever measures how long the server takes for a large one.
+    pub skips_results: Arc<AtomicBool>,
 }
 
 /// A request of the server's, to be answered.
@@ -51,6 +55,7 @@ impl Client {
             inbox: None,
             seen: Vec::new(),
             next_id: 0,
+            skips_results: Arc::default(),
         }
     }
 
@@ -85,9 +90,10 @@ impl Client {
     pub fn read_on(&mut self) {
         let stdout = self.stdout.take().expect("nobody reads yet");
         let (sender, receiver) = channel();
+        let skips_results = self.skips_results.clone();
         std::thread::spawn(move || {
             let mut stdout = BufReader::new(stdout);
-            while let Some(message) = read_frame(&mut stdout) {
+            while let Some(message) = read_frame(&mut stdout, &skips_results) {
                 if sender.send(message).is_err() {
                     return;
                 }
@@ -299,7 +305,7 @@ pub fn frame(body: &str) -> Vec<u8> {
     format!("Content-Length: {}\r\n\r\n{body}", body.len()).into_bytes()
 }
 
-fn read_frame(stdout: &mut impl BufRead) -> Option<Value> {
+fn read_frame(stdout: &mut impl BufRead, skips_results: &AtomicBool) -> Option<Value> {
     let mut length = 0;
     loop {
         let mut line = String::new();
@@ -314,7 +320,19 @@ fn read_frame(stdout: &mut impl BufRead) -> Option<Value> {
     }
     let mut body = vec![0; length];
     stdout.read_exact(&mut body).ok()?;
+    if skips_results.load(Ordering::Acquire)
+        && let Some(id) = id_of_result(&body)
+    {
+        return Some(json!({ "id": id, "result": length }));
+    }
     serde_json::from_slice(&body).ok()
+}
+
+/// The id of an answer that holds a result, as the server writes one.
+fn id_of_result(body: &[u8]) -> Option<i64> {
+    let head = String::from_utf8_lossy(&body[..body.len().min(80)]);
+    let rest = head.strip_prefix(r#"{"jsonrpc":"2.0","id":"#)?;
+    rest.split_once(r#","result":"#)?.0.parse().ok()
 }
 
 /// A plate of 10 mm, a half circle below and round at the top, whose top right corner has R 0.05: one fault, segment 2.

@@ -236,7 +236,7 @@ fn the_outline_of_damaged_text_is_what_is_there() {
 fn a_stopped_outline_is_none() {
     let text = SourceText::new(lines(&in_entities(&"0|POINT|".repeat(5000))).into_bytes());
     assert_eq!(outline(&text, &|| true), None);
-    assert_eq!(tokens(&text, usize::MAX, &|| true), None);
+    assert_eq!(tokens(&text, usize::MAX, &|| true, |_| ()), None);
 }
 
 #[test]
@@ -325,10 +325,16 @@ fn folds_begin_behind_the_name_and_the_outer_ones_stay_when_there_are_too_many()
     .assert_eq(&list(4));
 }
 
+fn all_tokens(text: &SourceText, limit: usize) -> Vec<Token> {
+    let mut found = Vec::new();
+    tokens(text, limit, &|| false, |token| found.push(token)).unwrap();
+    found
+}
+
 #[test]
 fn tokens_tell_lines_apart() {
     let text = SourceText::new(lines(ALL).into_bytes());
-    let found = tokens(&text, usize::MAX, &|| false).unwrap_or_default();
+    let found = all_tokens(&text, usize::MAX);
     let mut kinds: Vec<String> = found
         .iter()
         .filter(|token| token.kind != TokenKind::Code)
@@ -392,16 +398,13 @@ fn tokens_tell_lines_apart() {
         Text O
         Variable $INSUNITS"#]]
     .assert_eq(&kinds.join("\n"));
-    assert_eq!(
-        tokens(&text, 5, &|| false).map(|tokens| tokens.len()),
-        Some(5)
-    );
+    assert_eq!(all_tokens(&text, 5).len(), 5);
 }
 
 #[test]
 fn tokens_of_some_lines_are_those_of_the_whole() {
     let document = Document::read(lines(ALL).into_bytes());
-    let whole = tokens(document.text(), usize::MAX, &|| false).unwrap_or_default();
+    let whole = all_tokens(document.text(), usize::MAX);
     let count = document.text().line_count();
     for (start, end) in
         (0..count).flat_map(|start| [(start, start + 1), (start, start + 7), (start, count)])
@@ -688,8 +691,7 @@ fn ask_everything(text: Vec<u8>) {
             .all(|fold| fold.first < fold.last && fold.last < lines)
     );
     assert!(
-        tokens(document.text(), usize::MAX, &|| false)
-            .unwrap_or_default()
+        all_tokens(document.text(), usize::MAX)
             .windows(2)
             .all(|pair| pair[0].line < pair[1].line)
     );

@@ -10,26 +10,26 @@ use crate::ide::{Stop, Token, TokenKind};
 use crate::text::SourceText;
 use std::ops::Range;
 
-/// The tokens of the whole text, at most `limit`; `None` when it was stopped.
-pub fn tokens(text: &SourceText, limit: usize, stop: Stop<'_>) -> Option<Vec<Token>> {
-    let mut found = Vec::with_capacity(text.line_count().min(limit));
-    let mut until_asked = 0;
+/// Takes the tokens of the whole text, at most `limit`; `None` when it was stopped.
+pub fn tokens(
+    text: &SourceText,
+    limit: usize,
+    stop: Stop<'_>,
+    mut take: impl FnMut(Token),
+) -> Option<()> {
+    let mut count = 0;
     let whole = collect(text, 0, b"", |token| {
-        found.push(token);
-        until_asked += 1;
-        if until_asked == 8192 {
-            until_asked = 0;
-            if stop() {
-                return Next::Stopped;
-            }
-        }
-        if found.len() >= limit {
+        take(token);
+        count += 1;
+        if count >= limit {
             Next::Enough
+        } else if count % 8192 == 0 && stop() {
+            Next::Stopped
         } else {
             Next::On
         }
     });
-    whole.then_some(found)
+    whole.then_some(())
 }
 
 /// The tokens of some lines.

@@ -1,6 +1,7 @@
 //! The words of a program, for colouring.
 
 use super::words::{Part, WordKind, words_of};
+use crate::ide::occurrence::{Stop, Stopped};
 use crate::ide::{Token, TokenKind};
 use crate::program::Document;
 use rayon::prelude::*;
@@ -43,10 +44,15 @@ pub(crate) fn tokens_in(document: &Document, lines: Range<usize>) -> Vec<Token> 
     found
 }
 
-/// The tokens of the whole text, at most `limit`; what a line says hangs on no other line.
-pub(crate) fn tokens(document: &Document, limit: usize) -> Vec<Token> {
+/// Takes the tokens of the whole text, at most `limit`; what a line says hangs on no other line.
+pub(crate) fn tokens(
+    document: &Document,
+    limit: usize,
+    stop: Stop<'_>,
+    take: impl FnMut(Token),
+) -> Result<(), Stopped> {
     let firsts: Vec<usize> = (0..document.text().line_count()).step_by(CHUNK).collect();
-    let mut found = Vec::new();
+    let (mut left, mut take) = (limit, take);
     // As many at once as there may be need for.
     for some in firsts.chunks(16) {
         let tokens = |&first: &usize| tokens_in(document, first..first + CHUNK);
@@ -54,11 +60,16 @@ pub(crate) fn tokens(document: &Document, limit: usize) -> Vec<Token> {
             [one] => vec![tokens(one)],
             some => some.par_iter().map(tokens).collect(),
         };
-        found.extend(chunks.into_iter().flatten());
-        if found.len() >= limit {
+        for token in chunks.into_iter().flatten().take(left) {
+            take(token);
+            left -= 1;
+        }
+        if left == 0 {
             break;
         }
+        if stop() {
+            return Err(Stopped);
+        }
     }
-    found.truncate(limit);
-    found
+    Ok(())
 }

@@ -1,14 +1,16 @@
-//! `textDocument/semanticTokens`: of the whole text, of what has changed in it, and of the lines in sight.
+//! `textDocument/semanticTokens`: of the whole text, of what has changed in it, and of the lines in sight. The answers leave as JSON
+//! text: of a large text nothing holds its tokens but eight bytes each.
 
 use crate::ide::{Token, TokenKind, tokens_in};
 use crate::server::context::RequestContext;
+use crate::server::token_memory::{Difference, Fields, Packed};
+use crate::server::transport::Written;
 use crate::text::{Encoding, SourceText};
 use ls_types::{
-    Range, SemanticToken, SemanticTokenType, SemanticTokens, SemanticTokensDelta,
-    SemanticTokensDeltaParams, SemanticTokensEdit, SemanticTokensFullDeltaResult,
-    SemanticTokensParams, SemanticTokensRangeParams, SemanticTokensRangeResult,
-    SemanticTokensResult,
+    Range, SemanticTokenType, SemanticTokensDeltaParams, SemanticTokensParams,
+    SemanticTokensRangeParams,
 };
+use std::sync::Arc;
 use tower_lsp::jsonrpc::Result;
 
 /// Tokens of one answer about a whole text.
@@ -39,121 +41,168 @@ fn type_of(kind: TokenKind) -> SemanticTokenType {
 pub(in crate::server) fn full(
     context: &RequestContext,
     _: SemanticTokensParams,
-) -> Result<Option<SemanticTokensResult>> {
-    let Some(data) = all(context)? else {
-        return Ok(None);
+) -> Result<Written> {
+    let Some(tokens) = all(context)? else {
+        return Ok(Written::null());
     };
-    let (result_id, _) = kept(context, None, &data);
-    Ok(Some(SemanticTokensResult::Tokens(SemanticTokens {
-        result_id,
-        data,
-    })))
+    let (result_id, _) = kept(context, None, &tokens);
+    Ok(whole(result_id, &tokens))
 }
 
 /// Answers with what has changed since the answer that the client names, where that is known, else with all tokens.
 pub(in crate::server) fn delta(
     context: &RequestContext,
     params: SemanticTokensDeltaParams,
-) -> Result<Option<SemanticTokensFullDeltaResult>> {
+) -> Result<Written> {
     let previous = params.previous_result_id;
-    let delta = |result_id, edits| {
-        let delta = SemanticTokensDelta { result_id, edits };
-        Ok(Some(SemanticTokensFullDeltaResult::TokensDelta(delta)))
-    };
     if context.abilities.token_deltas && context.tokens.is_current(&previous, context.stamp) {
-        return delta(Some(previous), Vec::new());
+        return Ok(edits(Some(previous), None));
     }
-    let Some(data) = all(context)? else {
-        return Ok(None);
+    let Some(tokens) = all(context)? else {
+        return Ok(Written::null());
     };
-    match kept(context, Some(&previous), &data) {
-        (result_id, Some(edit)) => delta(result_id, vec![edit]),
-        (result_id, None) => {
-            let tokens = SemanticTokens { result_id, data };
-            Ok(Some(SemanticTokensFullDeltaResult::Tokens(tokens)))
-        }
-    }
+    Ok(match kept(context, Some(&previous), &tokens) {
+        (result_id, Some(edit)) => edits(result_id, Some((edit, &tokens))),
+        (result_id, None) => whole(result_id, &tokens),
+    })
 }
 
 /// Takes note of what the client is sent, where it asks for differences: the name of the answer, and the difference to `previous`.
 fn kept(
     context: &RequestContext,
     previous: Option<&str>,
-    data: &[SemanticToken],
-) -> (Option<String>, Option<SemanticTokensEdit>) {
+    tokens: &Arc<Packed>,
+) -> (Option<String>, Option<Difference>) {
     if context.abilities.token_deltas {
-        context.tokens.replace(previous, context.stamp, data)
+        context.tokens.replace(previous, context.stamp, tokens)
     } else {
         (None, None)
     }
 }
 
+/// `SemanticTokens`. The name of an answer is a number.
+fn whole(result_id: Option<String>, tokens: &Packed) -> Written {
+    let mut json = named(result_id);
+    json.extend_from_slice(b"\"data\":");
+    tokens.write(0..tokens.len(), &mut json);
+    json.push(b'}');
+    json.into()
+}
+
+/// `SemanticTokensDelta` of at most one edit.
+fn edits(result_id: Option<String>, edit: Option<(Difference, &Packed)>) -> Written {
+    let mut json = named(result_id);
+    json.extend_from_slice(b"\"edits\":[");
+    if let Some((edit, tokens)) = edit {
+        let (start, count) = (edit.start, edit.delete_count);
+        let head = format!("{{\"start\":{start},\"deleteCount\":{count},\"data\":");
+        json.extend_from_slice(head.as_bytes());
+        tokens.write(edit.tokens, &mut json);
+        json.push(b'}');
+    }
+    json.extend_from_slice(b"]}");
+    json.into()
+}
+
+fn named(result_id: Option<String>) -> Vec<u8> {
+    let id = result_id.map(|id| format!("\"resultId\":\"{id}\","));
+    format!("{{{}", id.unwrap_or_default()).into_bytes()
+}
+
 /// All tokens, up to [`LIMIT`]; `None` where the document has none.
-fn all(context: &RequestContext) -> Result<Option<Vec<SemanticToken>>> {
+fn all(context: &RequestContext) -> Result<Option<Arc<Packed>>> {
     let Some(whole) = context.whole() else {
         return Ok(None);
     };
     let text = whole.text();
-    let tokens = whole.tokens(LIMIT, &|| context.is_cancelled())?;
-    if tokens.len() >= LIMIT {
+    let mut encoder = Encoder::new(text, context.encoding, text.line_count().min(LIMIT));
+    whole.tokens(LIMIT, &|| context.is_cancelled(), |token| {
+        encoder.push(token)
+    })?;
+    if encoder.tokens.len() >= LIMIT {
         tracing::warn!(
             "only the first {LIMIT} tokens of a text of {} lines are coloured",
             text.line_count()
         );
     }
-    let data = encoded(text, &tokens, context.encoding);
     context.check()?;
-    Ok(Some(data))
+    Ok(Some(Arc::new(encoder.tokens)))
 }
 
 pub(in crate::server) fn range(
     context: &RequestContext,
     params: SemanticTokensRangeParams,
-) -> Result<Option<SemanticTokensRangeResult>> {
+) -> Result<Written> {
     let Range { start, end } = params.range;
     let first = start.line as usize;
     // A range that ends at the beginning of a line does not touch it.
     let end = end.line as usize + usize::from(end.character > 0);
     let lines = first..end.min(first.saturating_add(LINES));
     let Some((document, text)) = context.document_and_text() else {
-        return Ok(None);
+        return Ok(Written::null());
     };
-    let tokens = tokens_in(document, lines);
-    Ok(Some(SemanticTokensRangeResult::Tokens(SemanticTokens {
-        result_id: None,
-        data: encoded(text, &tokens, context.encoding),
-    })))
+    let mut encoder = Encoder::new(text, context.encoding, 0);
+    for token in tokens_in(document, lines) {
+        encoder.push(token);
+    }
+    Ok(whole(None, &encoder.tokens))
 }
 
-fn encoded(text: &SourceText, tokens: &[Token], encoding: Encoding) -> Vec<SemanticToken> {
-    let number = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
-    let (mut line, mut character) = (0, 0);
-    // A byte of the line and its character: what has been counted is not counted again, a program may stand in one line.
-    let (mut known, mut counted) = (0, 0);
-    let mut data = Vec::with_capacity(tokens.len());
-    for token in tokens {
-        let begin = text.line_start(token.line);
-        let (start, end) = (begin + token.start, begin + token.start + token.length);
-        if token.line != line || start < known || data.is_empty() {
-            (known, counted) = (begin, 0);
+/// Counts tokens as the client does, each from the one before.
+struct Encoder<'a> {
+    text: &'a SourceText,
+    encoding: Encoding,
+    /// Line of the last token and where it begins.
+    line: usize,
+    begin: usize,
+    /// Character of the last token.
+    character: usize,
+    /// A byte of the line and its character: what has been counted is not counted again, a program may stand in one line.
+    known: usize,
+    counted: usize,
+    tokens: Packed,
+}
+
+impl<'a> Encoder<'a> {
+    fn new(text: &'a SourceText, encoding: Encoding, capacity: usize) -> Encoder<'a> {
+        Encoder {
+            text,
+            encoding,
+            line: 0,
+            begin: 0,
+            character: 0,
+            known: 0,
+            counted: 0,
+            tokens: Packed::with_capacity(capacity),
         }
-        let (at, before) = text.counted(known, start, encoding);
-        let from = counted + before;
-        let length = text.counted(at, end, encoding).1;
-        (known, counted) = (at, from);
-        let delta_line = token.line - line;
-        data.push(SemanticToken {
-            delta_line: number(delta_line),
-            delta_start: number(if delta_line == 0 {
-                from.saturating_sub(character)
-            } else {
-                from
-            }),
-            length: number(length),
-            token_type: token.kind as u32,
-            token_modifiers_bitset: 0,
-        });
-        (line, character) = (token.line, from);
     }
-    data
+
+    #[inline]
+    fn push(&mut self, token: Token) {
+        let delta_line = token.line - self.line;
+        if delta_line > 0 {
+            self.line = token.line;
+            self.begin = self.text.line_start(token.line);
+            (self.known, self.counted, self.character) = (self.begin, 0, 0);
+        }
+        let (start, end) = (
+            self.begin + token.start,
+            self.begin + token.start + token.length,
+        );
+        if start < self.known {
+            (self.known, self.counted) = (self.begin, 0);
+        }
+        let (at, before) = self.text.counted(self.known, start, self.encoding);
+        let from = self.counted + before;
+        let length = self.text.counted(at, end, self.encoding).1;
+        let number = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
+        let fields: Fields = [
+            number(delta_line),
+            number(from.saturating_sub(self.character)),
+            number(length),
+            token.kind as u32,
+        ];
+        self.tokens.push(fields);
+        (self.known, self.counted, self.character) = (at, from, from);
+    }
 }

@@ -13,7 +13,7 @@ mod writer;
 mod written;
 
 pub(crate) use writer::{Publish, Writer};
-pub(crate) use written::Written;
+pub(crate) use written::{AsWritten, Written};
 
 pub(super) use frame::{Frame, Frames};
 use memory::Memory;

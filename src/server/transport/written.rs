@@ -30,7 +30,29 @@ impl From<Vec<u8>> for Written {
     }
 }
 
+/// What a handler's result is as JSON text.
+pub(crate) trait AsWritten {
+    fn written(self) -> serde_json::Result<Written>;
+}
+
+impl<T: Serialize> AsWritten for T {
+    fn written(self) -> serde_json::Result<Written> {
+        Written::of(&self)
+    }
+}
+
+/// Text that the handler has made itself.
+impl AsWritten for Written {
+    fn written(self) -> serde_json::Result<Written> {
+        Ok(self)
+    }
+}
+
 impl Written {
+    pub(crate) fn null() -> Written {
+        Written(b"null".to_vec())
+    }
+
     pub(crate) fn of(result: &impl Serialize) -> serde_json::Result<Written> {
         serde_json::to_vec(result).map(Written)
     }
