@@ -30,6 +30,7 @@ impl Pathless {
     /// How each part lies on itself: what takes time, and hangs on nothing but the moves.
     pub(crate) fn with_paths(self) -> Stretch {
         let Pathless { mut stretch, ways } = self;
+        stretch.parts.shrink_to_fit();
         stretch.lays = ways
             .into_iter()
             .map(|ways| ways.lay(&stretch.reading))

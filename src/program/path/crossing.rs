@@ -126,7 +126,7 @@ pub(in crate::program) fn come_near(
             .any(|&end| piece.distance_to(end) <= NEARLY_ON)
     };
     box_of_a.grown(NEARLY_ON).touches(box_of_b)
-        && (!meetings(a, b).is_empty() || on(a, b) || on(b, a))
+        && (on(a, b) || on(b, a) || !meetings(a, b).is_empty())
 }
 
 impl Tangle<'_> {
@@ -184,7 +184,7 @@ impl Tangle<'_> {
         (found, is_all)
     }
 
-    /// The places that two pieces have in common.
+    /// The places that two pieces have in common, each once.
     fn common(&self, first: usize, second: usize) -> Vec<Point> {
         let (Some(a), Some(b)) = (self.at(first), self.at(second)) else {
             return Vec::new();
@@ -200,7 +200,13 @@ impl Tangle<'_> {
                 .into_iter()
                 .filter(|&end| b.distance_to(end) <= ON),
         );
-        places
+        let mut distinct: Vec<Point> = Vec::with_capacity(places.len());
+        for place in places {
+            if !distinct.contains(&place) {
+                distinct.push(place);
+            }
+        }
+        distinct
     }
 
     /// Whether the way that runs through `at` in one piece crosses what it does there in another.
@@ -210,14 +216,16 @@ impl Tangle<'_> {
         {
             return false;
         }
+        let (Some(one), Some(other)) = (self.stand(first, at), self.stand(second, at)) else {
+            return false;
+        };
         let mut reach = 4.0 * self.margin;
         for _ in 0..DOUBLINGS {
             // Further than a third of the loop between the two is elsewhere on it.
-            if self.is_shorter((first, second), at, 3.0 * reach) {
+            if self.is_shorter(&one, &other, 3.0 * reach) {
                 return false;
             }
-            let (Some(one), Some(other)) =
-                (self.ends(first, at, reach), self.ends(second, at, reach))
+            let (Some(one), Some(other)) = (self.ends(&one, reach), self.ends(&other, reach))
             else {
                 return false;
             };
@@ -227,6 +235,17 @@ impl Tangle<'_> {
             reach *= 2.0;
         }
         false
+    }
+
+    /// A place on a piece.
+    fn stand(&self, index: usize, at: Point) -> Option<Stand> {
+        let piece = self.at(index)?;
+        Some(Stand {
+            index,
+            share: piece.share_of(at).clamp(0.0, 1.0),
+            length: piece.length(),
+            piece,
+        })
     }
 
     /// Lead-in and lead-out end on the contour, and may come to it from different sides.
@@ -305,40 +324,39 @@ impl Tangle<'_> {
         })
     }
 
-    /// Whether the way from `at` in one piece to `at` in another is shorter than `length`.
-    fn is_shorter(&self, (first, second): (usize, usize), at: Point, length: f64) -> bool {
-        let length_of = |index: usize| self.at(index).map_or(0.0, |piece| piece.length());
-        let share = |index: usize| {
-            self.at(index)
-                .map_or(0.0, |piece| piece.share_of(at).clamp(0.0, 1.0))
-        };
-        let mut sum = length_of(first) * (1.0 - share(first)) + length_of(second) * share(second);
-        for index in first + 1..second {
+    /// Whether the way from a place on one piece to a place on a later one is shorter than `length`.
+    fn is_shorter(&self, one: &Stand, other: &Stand, length: f64) -> bool {
+        let mut sum = one.length * (1.0 - one.share) + other.length * other.share;
+        for index in one.index + 1..other.index {
             if sum >= length {
                 return false;
             }
             if self.is_exhausted() {
                 return true;
             }
-            sum += length_of(index);
+            sum += self.at(index).map_or(0.0, |piece| piece.length());
         }
         sum < length
     }
 
     /// The way `reach` before and behind a place on one of its pieces, or where it begins or ends; `None` where that is at the place.
-    fn ends(&self, index: usize, at: Point, reach: f64) -> Option<[Point; 2]> {
+    fn ends(&self, stand: &Stand, reach: f64) -> Option<[Point; 2]> {
         Some([
-            self.along(index, at, reach, false)?,
-            self.along(index, at, reach, true)?,
+            self.along(stand, reach, false)?,
+            self.along(stand, reach, true)?,
         ])
     }
 
-    fn along(&self, mut index: usize, at: Point, reach: f64, is_forward: bool) -> Option<Point> {
-        let mut piece = self.at(index)?;
-        let mut share = piece.share_of(at).clamp(0.0, 1.0);
+    fn along(&self, stand: &Stand, reach: f64, is_forward: bool) -> Option<Point> {
+        let mut stand = *stand;
         let mut left = reach;
         loop {
-            let length = piece.length();
+            let Stand {
+                index,
+                piece,
+                share,
+                length,
+            } = stand;
             let rest = length * if is_forward { 1.0 - share } else { share };
             if rest >= left && length > 0.0 {
                 let by = left / length;
@@ -354,9 +372,13 @@ impl Tangle<'_> {
                 index.checked_sub(1)
             };
             match next.and_then(|next| Some((next, self.at(next)?))) {
-                Some((next, found)) => {
-                    (index, piece) = (next, found);
-                    share = if is_forward { 0.0 } else { 1.0 };
+                Some((index, piece)) => {
+                    stand = Stand {
+                        index,
+                        share: if is_forward { 0.0 } else { 1.0 },
+                        length: piece.length(),
+                        piece,
+                    };
                 }
                 None => {
                     let end = if is_forward {
@@ -369,6 +391,16 @@ impl Tangle<'_> {
             }
         }
     }
+}
+
+/// A place on a piece of a way.
+#[derive(Clone, Copy)]
+struct Stand {
+    index: usize,
+    piece: Segment,
+    /// Of its length, 0 … 1.
+    share: f64,
+    length: f64,
 }
 
 /// Whether the ends of one branch and those of another alternate round a place; `None` where two lie too near each other to tell.

@@ -135,8 +135,8 @@ fn most_looks(blocks: usize) -> usize {
     500_000 + 32 * blocks
 }
 
-/// Pairs of parts that are held against each other at once.
-const AT_ONCE: usize = 1024;
+/// Pairs of parts that are held against each other at once: few at first, since a way that lies on itself has told all that counts then.
+const AT_ONCE: [usize; 2] = [32, 1024];
 
 /// Finds where a cut crosses itself.
 fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
@@ -172,10 +172,10 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
     let mut left = most_looks(count);
     let mut is_crowded = !is_all;
     // Pairs and parts that have been gone through.
-    let (mut gone, mut behind) = (0, 0);
+    let (mut gone, mut behind, mut at_once) = (0, 0, AT_ONCE[0]);
     while behind < parts.len() && near.len() <= MOST_PAIRS {
         let next = pairs
-            .get(gone + AT_ONCE)
+            .get(gone + at_once)
             .map_or(parts.len(), |pair| pair.1)
             .max(behind + 1);
         let end = gone + pairs[gone..].partition_point(|pair| pair.1 < next);
@@ -213,7 +213,7 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
             );
             left = left.saturating_sub(*cost);
         }
-        (gone, behind) = (end, next);
+        (gone, behind, at_once) = (end, next, (2 * at_once).min(AT_ONCE[1]));
     }
     if near.is_empty() {
         return Found {

@@ -302,6 +302,8 @@ impl Stretch {
         }
         let end = stretch.entries.len();
         stretch.close(open, end, None);
+        stretch.entries.shrink_to_fit();
+        stretch.parts.shrink_to_fit();
         stretch.sum_up();
         stretch
     }
