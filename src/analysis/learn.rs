@@ -145,9 +145,11 @@ impl Analysis {
         }
         // What holds of a whole entity is kept with its first and last segment.
         let mut own = segments_of(vertices, piece.count(), geometry.is_closed());
+        let changed = own.len();
         if piece.count() > 0 {
             own.extend([0..1, piece.count() - 1..piece.count()]);
         }
+        let is_all = contour.pieces.len() == 1;
         let ranges = own.into_iter().map(|range| {
             let (start, end) = match piece.reversed {
                 true => (
@@ -164,7 +166,13 @@ impl Analysis {
         // What a pair rule sees at a segment depends on its neighbours, too. Runs behind a segment that came or went
         // have other segments.
         let mut runs = BTreeSet::new();
-        for range in &ranges {
+        for (nth, range) in ranges.iter().enumerate() {
+            // Of an entity that is a contour by itself nothing holds as a whole where no other comes near its ends.
+            let is_end = nth >= changed && is_all && !recounted;
+            let bounds_of = |index: usize| known.index.bounds_of_run(index / RUN);
+            if is_end && !self.pairs.comes_near_others(key, &bounds_of(range.start)) {
+                continue;
+            }
             let count = if recounted {
                 known.index.len().max(contour.len())
             } else {

@@ -159,6 +159,15 @@ impl Pairs {
             .collect()
     }
 
+    /// Whether runs of other contours come near these bounds of one.
+    pub(crate) fn comes_near_others(&self, key: ContourKey, bounds: &Bounds) -> bool {
+        let mut others = false;
+        self.grid.near(&bounds.grown(self.reach), |(other, _)| {
+            others |= other != key
+        });
+        others
+    }
+
     /// Something has come or gone within these bounds.
     fn disturb(&mut self, bounds: &Bounds) {
         if self.partners.is_empty() {

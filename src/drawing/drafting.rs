@@ -3,6 +3,9 @@
 //! A name counts only where every word of it is one of these: CENTER_HOLES is a layer of holes. Names are the same in upper and in
 //! lower case.
 
+use std::cell::RefCell;
+use std::sync::Arc;
+
 /// What the names of broken lines begin with: ISO 128 as AutoCAD, LibreCAD, QCAD, JIS, ANSI and the DIN templates name them, and as
 /// their German, French, Italian, Spanish, Portuguese and Russian versions do.
 const LINETYPES: &[&str] = &[
@@ -177,8 +180,28 @@ pub(crate) fn is_drafting_linetype(name: &str) -> bool {
         || LINETYPES_IN_HAN.iter().any(|part| own.contains(part))
 }
 
+thread_local! {
+    /// The layers that were asked about last: thousands of entities lie on one.
+    static ASKED: RefCell<[Option<(Arc<str>, bool)>; 8]> = const { RefCell::new([const { None }; 8]) };
+}
+
 /// True for the name of a layer of what is drawn about the part: as ISO 13567 writes it, or in words.
-pub(crate) fn is_drafting_layer(name: &str) -> bool {
+pub(crate) fn is_drafting_layer(name: &Arc<str>) -> bool {
+    ASKED.with_borrow_mut(|asked| {
+        let of_name = |it: &Option<(Arc<str>, bool)>| {
+            let (known, answer) = it.as_ref()?;
+            Arc::ptr_eq(known, name).then_some(*answer)
+        };
+        asked.iter().find_map(of_name).unwrap_or_else(|| {
+            let answer = is_drafting_name(name);
+            asked.rotate_right(1);
+            asked[0] = Some((name.clone(), answer));
+            answer
+        })
+    })
+}
+
+fn is_drafting_name(name: &str) -> bool {
     let own = name.rsplit(['$', '|']).next().unwrap_or(name);
     if own.is_ascii() {
         return own.eq_ignore_ascii_case(START_HOLES)
@@ -340,7 +363,7 @@ mod tests {
             "WEDM_PATH",
             "PLATE$0$DIM",
         ] {
-            assert!(is_drafting_layer(name), "{name}");
+            assert!(is_drafting_name(name), "{name}");
         }
         for name in [
             "0",
@@ -365,7 +388,7 @@ mod tests {
             "凸模",
             "Defpoints",
         ] {
-            assert!(!is_drafting_layer(name), "{name}");
+            assert!(!is_drafting_name(name), "{name}");
         }
     }
 }
