@@ -109,6 +109,13 @@ impl SourceText {
         }
     }
 
+    /// A copy of some bytes with room for what will be typed: the first edit need not move all of them elsewhere.
+    pub(crate) fn with_room(bytes: &[u8]) -> Vec<u8> {
+        let mut copy = Vec::with_capacity(bytes.len() + gap::ROOM_FOR_THE_FIRST);
+        copy.extend_from_slice(bytes);
+        copy
+    }
+
     /// The whole text. Behind an edit that left a gap the first to ask has it copied: whoever wants a line asks for that.
     pub fn bytes(&self) -> &[u8] {
         self.bytes.whole()

@@ -180,11 +180,11 @@ impl Content {
                     text,
                 } => Source::Program(program::Document::read(
                     *language,
-                    text.bytes().to_vec(),
+                    SourceText::with_room(text.bytes()),
                     settings,
                 )),
                 Remains::Text { text, .. } => {
-                    Source::Dxf(dxf::Document::read(text.bytes().to_vec()))
+                    Source::Dxf(dxf::Document::read(SourceText::with_room(text.bytes())))
                 }
                 Remains::Drawing(drawing) => Source::Cad(drawing.clone()),
             };

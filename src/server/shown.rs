@@ -9,7 +9,7 @@ use crate::job;
 use crate::protocol::{FindingData, Range};
 use crate::settings::Effective;
 use crate::text::Encoding;
-use memchr::memmem::find_iter;
+use memchr::memmem::Finder;
 use rustc_hash::FxHasher;
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
@@ -73,6 +73,9 @@ impl Shown {
         let marks: Vec<u64> = findings.iter().map(mark).collect();
         let (mut shown, mut kept, mut next) = (Vec::new(), Vec::with_capacity(marks.len()), 0);
         shown.push(b'[');
+        // No text within a string looks like this: its quotes are escaped.
+        let needle = format!("\"range\":{PLACE}");
+        let ranges_in = Finder::new(&needle);
         for (finding, &mark) in findings.into_iter().zip(&marks) {
             let data = FindingData::of(drawing, &finding);
             let known = self.find(mark, next, |old| {
@@ -90,9 +93,8 @@ impl Shown {
                         related.location.range = Range::default();
                     }
                     let json = written(&rendered).into_json();
-                    // No text within a string looks like this: its quotes are escaped.
-                    let needle = format!("\"range\":{PLACE}");
-                    let places = find_iter(&json, &needle).map(|at| at + "\"range\":".len());
+                    let found = ranges_in.find_iter(&json);
+                    let places = found.map(|at| at + "\"range\":".len());
                     Kept {
                         finding,
                         data,

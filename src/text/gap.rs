@@ -16,6 +16,9 @@ pub(super) struct Bytes {
 /// How much wider than needed the gap is made.
 const ROOM: usize = 64 * 1024;
 
+/// Room beyond the text within which the first gap can be made, unless much is inserted at once.
+pub(super) const ROOM_FOR_THE_FIRST: usize = 2 * ROOM;
+
 impl Bytes {
     pub(crate) fn new(buffer: Vec<u8>) -> Bytes {
         Bytes {
