@@ -180,15 +180,18 @@ pub(crate) fn is_drafting_linetype(name: &str) -> bool {
         || LINETYPES_IN_HAN.iter().any(|part| own.contains(part))
 }
 
+/// The name of a layer, and whether it is one of these.
+type Asked = Option<(Arc<str>, bool)>;
+
 thread_local! {
     /// The layers that were asked about last: thousands of entities lie on one.
-    static ASKED: RefCell<[Option<(Arc<str>, bool)>; 8]> = const { RefCell::new([const { None }; 8]) };
+    static ASKED: RefCell<[Asked; 8]> = const { RefCell::new([const { None }; 8]) };
 }
 
 /// True for the name of a layer of what is drawn about the part: as ISO 13567 writes it, or in words.
 pub(crate) fn is_drafting_layer(name: &Arc<str>) -> bool {
     ASKED.with_borrow_mut(|asked| {
-        let of_name = |it: &Option<(Arc<str>, bool)>| {
+        let of_name = |it: &Asked| {
             let (known, answer) = it.as_ref()?;
             Arc::ptr_eq(known, name).then_some(*answer)
         };
