@@ -489,11 +489,11 @@ proptest! {
     }
 }
 
+/// Runs the program with arguments: how it ended, and what it said.
+type Run = dyn Fn(&[&str]) -> (Option<i32>, String);
+
 /// A line of the contour that is 30 µm or 0.3 mm longer in a program, or shorter, is named, wherever it stands, and nothing else is.
-fn each_line_that_is_longer_is_named(
-    program: &Path,
-    run: &dyn Fn(&[&str]) -> (Option<i32>, String),
-) {
+fn each_line_that_is_longer_is_named(program: &Path, run: &Run) {
     let name = program
         .file_name()
         .and_then(|name| name.to_str())

@@ -17,6 +17,10 @@ use crate::text::head;
 
 /// What one item of the text says.
 #[derive(Debug)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "nearly all items are entities, which would each be a piece of the heap"
+)]
 pub(super) enum Said {
     /// Kept, without a meaning here.
     Nothing,

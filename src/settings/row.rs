@@ -78,9 +78,8 @@ impl Row {
     /// What the key means in short, without a final dot.
     pub fn first_sentence(&self) -> String {
         let meaning = self.plain_meaning().replace('`', "");
-        let stops = [". ", "。"];
-        let end = stops.iter().filter_map(|stop| meaning.find(stop)).min();
-        let first = &meaning[..end.unwrap_or(meaning.len())];
+        let first = meaning.split('。').next().unwrap_or_default();
+        let first = first.split(". ").next().unwrap_or_default();
         first.trim_end_matches(['.', ' ']).to_owned()
     }
 }
