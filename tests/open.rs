@@ -490,10 +490,10 @@ proptest! {
 }
 
 /// Runs the program with arguments: how it ended, and what it said.
-type Run = dyn Fn(&[&str]) -> (Option<i32>, String);
+type Run<'a> = dyn Fn(&[&str]) -> (Option<i32>, String) + 'a;
 
 /// A line of the contour that is 30 µm or 0.3 mm longer in a program, or shorter, is named, wherever it stands, and nothing else is.
-fn each_line_that_is_longer_is_named(program: &Path, run: &Run) {
+fn each_line_that_is_longer_is_named(program: &Path, run: &Run<'_>) {
     let name = program
         .file_name()
         .and_then(|name| name.to_str())
