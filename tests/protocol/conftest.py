@@ -266,7 +266,7 @@ def notifications_of(capabilities: dict[str, Any]) -> set[str]:
 
 def methods_of_the_source() -> set[str]:
     """Every method that the server's source names, in its own name space."""
-    return set(re.findall(r'"(wedm/[A-Za-z]+)"', (ROOT / "src/protocol/mod.rs").read_text()))
+    return set(re.findall(r'"(wedm/[A-Za-z]+)"', (ROOT / "src/protocol/method.rs").read_text()))
 
 
 def methods_of_the_page() -> set[str]:
