@@ -18,9 +18,9 @@ use std::ops::Range;
 
 /// How far a block may lie from the one that is written anew, or one of its numbers from that, µm.
 const ALIKE: f64 = 2.0;
-/// Where the blocks of a program lie as near as this in the mean, it was written with just these settings; where they do not, but as near as
-/// that, by another writer, µm.
+/// Where the blocks of a program lie as near as this in the mean, it was written with just these settings, µm.
 const SAME: f64 = 1e-2;
+/// Where they lie farther away than this in the mean, another writer wrote it, µm.
 const OURS: f64 = 0.5;
 /// What a way in or out, or between contours, is off by more is meant: its hole is elsewhere, µm.
 const SLIP: f64 = 50.0;
