@@ -4,15 +4,21 @@ mod generated;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
+use std::sync::Arc;
 use wedm::beside::{Drawn, Traced, compare};
 use wedm::drawing::{Contour, Drawing, Entity, Geometry, Outline, Role, Unit, Vertex};
 use wedm::program::three_b::{self, Words};
-use wedm::program::{self, Document, Language, iso};
-use wedm::settings::{Effective, Layout, from_toml};
+use wedm::program::{self, Document, Format, Language};
+use wedm::settings::{Compensation, Effective, Layout, from_toml};
 use wedm::toolpath::{WirePath, plan};
 
 /// A wheel of `segments` segments, every other one an arc, each a tooth's flank or its rounded head and foot.
 fn wheel(segments: usize) -> (Drawing, Outline) {
+    wheel_of(segments, 0.4)
+}
+
+/// The same with other heads and feet.
+fn wheel_of(segments: usize, rounded: f64) -> (Drawing, Outline) {
     let teeth = segments / 4;
     let radius = teeth as f64 * 0.4;
     let step = std::f64::consts::TAU / teeth as f64;
@@ -20,9 +26,9 @@ fn wheel(segments: usize) -> (Drawing, Outline) {
     for tooth in 0..teeth {
         for (share, height, bulge) in [
             (0.0, 0.0, 0.0),
-            (0.15, 1.0, -0.4),
+            (0.15, 1.0, -rounded),
             (0.5, 1.0, 0.0),
-            (0.65, 0.0, 0.4),
+            (0.65, 0.0, rounded),
         ] {
             let angle = -(tooth as f64 + share) * step;
             let at = radius + height;
@@ -95,36 +101,57 @@ fn program(c: &mut Criterion) {
     group.finish();
 }
 
-/// A program of about 10,000 blocks held against its drawing: the goal is 20 ms.
+/// A program of about 10,000 blocks beside its drawing, by arcs and lines or by lines alone: the first look, which writes the drawing's own
+/// program, and a digit that comes and goes in the program, to all that is found. The goal of both is 20 ms.
 fn beside(c: &mut Criterion) {
     let settings = std::sync::Arc::new(settings());
-    let (drawing, outline) = wheel(7_000);
-    let outlines = [outline];
-    let paths = plan(&drawing, &outlines, &settings, None).expect("the wire fits");
-    let mut group = c.benchmark_group("10,000 blocks beside their drawing");
+    let mut group = c.benchmark_group("a program of 10,000 blocks beside its drawing");
     group.sample_size(20);
-    for (name, language, text) in [
-        (
-            "3B",
-            Language::ThreeB,
-            three_b::write(&paths, 1.0, &settings)
-                .expect("a proved program")
-                .text,
-        ),
-        (
-            "ISO",
-            Language::Iso,
-            iso::write(&paths, 1.0, &settings)
-                .expect("a proved program")
-                .text,
-        ),
-    ] {
-        let program = Document::read(language, text.into(), &settings);
-        let drawn = Drawn::of(&drawing, &outlines, &settings);
-        println!("{name}: {} blocks", program.trace().steps.len());
-        group.bench_function(name, |b| {
-            b.iter(|| black_box(compare(&drawn, &Traced::of(&program))))
-        });
+    for (shape, bulge, segments) in [("arcs", 0.4, 7_000), ("lines", 0.0, 6_600)] {
+        let (drawing, outline) = wheel_of(segments, bulge);
+        let (drawing, outlines) = (Arc::new(drawing), Arc::new(vec![outline]));
+        for (name, language, format) in [
+            ("3B", Language::ThreeB, Format::ThreeB),
+            ("ISO", Language::Iso, Format::Iso),
+            ("4B", Language::ThreeB, Format::FourB),
+        ] {
+            let of_format = Effective {
+                compensation: match format {
+                    Format::FourB => Compensation::Controller,
+                    _ => Compensation::Path,
+                },
+                ..(*settings).clone()
+            };
+            let paths = plan(&drawing, &outlines, &of_format, None).expect("the wire fits");
+            let written = format.write(&paths, 1.0, &settings, &mut |_, _| true);
+            let text = written.expect("a proved program").text;
+            let mut program = Document::read(language, text.clone().into(), &settings);
+            println!("{name}, {shape}: {} blocks", program.trace().steps.len());
+            group.bench_function(format!("{name}, {shape}: first look"), |b| {
+                b.iter(|| {
+                    let drawn = Drawn::of(&drawing, &outlines, &settings);
+                    black_box(compare(&drawn, &Traced::of(&program)))
+                })
+            });
+            let drawn = Drawn::of(&drawing, &outlines, &settings);
+            // The last digit of a number in the middle.
+            let middle = text.len() / 2;
+            let at = middle + text[middle..].find('\n').unwrap_or(0) + 1;
+            let at = at + text[at..].find(|c: char| "BX".contains(c)).unwrap_or(0) + 1;
+            let digits = text[at..].find(|c: char| !"0123456789.-".contains(c));
+            let at = at + digits.unwrap_or(1) - 1;
+            let own = &text[at..at + 1];
+            let other = if own == "3" { "6" } else { "3" };
+            let mut is_own = true;
+            group.bench_function(format!("{name}, {shape}: edit to findings"), |b| {
+                b.iter(|| {
+                    is_own = !is_own;
+                    program.edit(at..at + 1, if is_own { own } else { other });
+                    let told = compare(&drawn, &Traced::of(&program));
+                    black_box((told, program.findings(&settings, 500)))
+                })
+            });
+        }
     }
     group.finish();
 }

@@ -36,10 +36,18 @@ pub struct Document {
 /// What has been asked of the document as it stands: an editor asks for its actions at every step of the cursor.
 #[derive(Clone, Debug, Default)]
 struct Asked {
+    taken: Taken,
     /// Of what lies beside it.
     beside: OnceLock<Arc<[Finding]>>,
     findings: OnceLock<Arc<[Finding]>>,
     fix_all: OnceLock<Option<Edit>>,
+}
+
+/// What is taken of the document to compare it with others, whatever lies beside it.
+#[derive(Clone, Debug, Default)]
+struct Taken {
+    drawn: OnceLock<Arc<Drawn>>,
+    traced: OnceLock<Arc<Traced>>,
 }
 
 /// What long work looks at while the document goes on changing.
@@ -76,24 +84,31 @@ impl Document {
     pub(crate) fn set_beside(&mut self, beside: Beside) -> bool {
         let is_new = self.beside != beside;
         if is_new {
-            (self.beside, self.asked) = (beside, Asked::default());
+            let taken = std::mem::take(&mut self.asked.taken);
+            self.beside = beside;
+            self.asked = Asked {
+                taken,
+                ..Asked::default()
+            };
         }
         is_new
     }
 
     /// What a program is compared with: the contours of a drawing.
-    pub fn drawn(&self) -> Option<Drawn> {
+    pub fn drawn(&self) -> Option<Arc<Drawn>> {
         let drawing = self.drawing()?;
-        Some(Drawn::of(
-            drawing,
-            self.analysis.outlines(drawing),
-            self.settings(),
-        ))
+        let drawn = || {
+            let outlines = self.analysis.outlines(drawing);
+            Arc::new(Drawn::of(drawing, outlines, self.settings()))
+        };
+        Some(self.asked.taken.drawn.get_or_init(drawn).clone())
     }
 
     /// What a drawing is compared with: the blocks of a program.
-    pub fn traced(&self) -> Option<Traced> {
-        self.program().map(Traced::of)
+    pub fn traced(&self) -> Option<Arc<Traced>> {
+        let program = self.program()?;
+        let traced = || Arc::new(Traced::of(program));
+        Some(self.asked.taken.traced.get_or_init(traced).clone())
     }
 
     /// What is unlike between it and what lies beside it.

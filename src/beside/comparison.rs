@@ -15,7 +15,6 @@ use crate::geometry::Segment;
 use crate::settings::{Compensation, Corner, Effective, LengthSetting};
 use std::ops::Range;
 use std::rc::Rc;
-use std::sync::Arc;
 
 pub use super::walk::Kind as DifferenceKind;
 
@@ -55,7 +54,7 @@ const FURTHER: usize = 4;
 
 /// Holds a program against a drawing by how its blocks lie, whoever wrote them; `None` where it follows nothing of it.
 pub(super) fn looked_at(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
-    if traced.is_empty() || drawn.contours.is_empty() {
+    if traced.is_empty() || drawn.contours().is_empty() {
         return None;
     }
     let courses = courses(&drawn.settings, traced);
@@ -93,7 +92,7 @@ fn nearest(drawn: &Drawn, traced: &Traced, courses: &[Course]) -> Tried {
         if !courses.contains(&Course::Drawn) {
             wanted.push(vec![Course::Drawn]);
         }
-        for mm in infer::corrections(drawn.contours.iter(), scale, &blocks) {
+        for mm in infer::corrections(drawn.contours().iter(), scale, &blocks) {
             wanted.push(vec![Course::Beside(mm)]);
         }
         for courses in wanted {
@@ -123,13 +122,10 @@ fn with_other_corner(drawn: &Drawn) -> Drawn {
         Corner::Arc => Corner::Intersection,
         Corner::Intersection => Corner::Arc,
     };
-    Drawn {
-        settings: Arc::new(Effective {
-            corner,
-            ..(*drawn.settings).clone()
-        }),
-        ..drawn.clone()
-    }
+    drawn.under(Effective {
+        corner,
+        ..(*drawn.settings).clone()
+    })
 }
 
 /// One way of laying the program on the drawing.
@@ -189,7 +185,7 @@ fn along(
         contours.sort_unstable();
         contours.dedup();
         let blocks: Vec<Segment> = segments(&traced.blocks[stray.clone()]).collect();
-        let own = contours.iter().map(|&index| &drawn.contours[index]);
+        let own = contours.iter().map(|&index| &drawn.contours()[index]);
         let before = rounds.rounds.len();
         for mm in infer::corrections(own, drawn.unit_mm * 1e3, &blocks)
             .into_iter()

@@ -1,37 +1,38 @@
-//! What is taken of a drawing: its contours, by segments.
+//! What is taken of a drawing: its contours, by segments, and the programs that we would write for it.
 
-use crate::drawing::{ContourSegment, Drawing, EntityId, Handle, Outline};
+use super::anew::{Anew, Kept};
+use super::traced::Traced;
+use crate::drawing::{ContourSegment, Drawing, EntityId, Outline};
 use crate::geometry::Side;
 use crate::settings::Effective;
-use rustc_hash::FxHashMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-/// The contours of a drawing, and what holds for it.
-#[derive(Clone, Debug, PartialEq)]
+/// A drawing with its outlines, and what holds for it.
+#[derive(Clone, Debug)]
 pub struct Drawn {
-    pub(super) contours: Vec<Contour>,
+    pub(super) drawing: Arc<Drawing>,
+    pub(super) outlines: Arc<Vec<Outline>>,
     pub(super) settings: Arc<Effective>,
     /// mm of the drawing's unit.
     pub(super) unit_mm: f64,
-    pub(super) handles: FxHashMap<EntityId, Handle>,
-    /// What a program is written of, where that does not take long.
-    pub(super) whole: Option<Whole>,
+    contours: Arc<OnceLock<Vec<Contour>>>,
+    /// Programs that were written for it.
+    kept: Arc<Kept>,
 }
 
-/// A drawing and its outlines.
-#[derive(Clone, Debug)]
-pub(super) struct Whole(Arc<(Drawing, Vec<Outline>)>);
-
-impl PartialEq for Whole {
-    fn eq(&self, other: &Whole) -> bool {
-        let (Whole(own), Whole(other)) = (self, other);
-        Arc::ptr_eq(own, other) || own.1 == other.1 && own.0.entities().eq(other.0.entities())
+impl PartialEq for Drawn {
+    fn eq(&self, other: &Drawn) -> bool {
+        let is_one = Arc::ptr_eq(&self.outlines, &other.outlines)
+            && Arc::ptr_eq(&self.drawing, &other.drawing);
+        self.settings == other.settings
+            && self.unit_mm == other.unit_mm
+            && (is_one
+                || self.outlines == other.outlines
+                    && self.drawing.entities().eq(other.drawing.entities()))
     }
 }
 
-/// Of more entities, or of contours of more segments, no program is written to hold another one against it.
-const MOST: usize = 20_000;
-
+/// A contour that is cut.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Contour {
     /// In the direction of travel, in the drawing's unit.
@@ -42,41 +43,53 @@ pub(super) struct Contour {
 }
 
 impl Drawn {
-    /// The contours that are cut; what lies twice is taken once.
-    pub fn of(drawing: &Drawing, outlines: &[Outline], settings: &Arc<Effective>) -> Drawn {
-        let cut = outlines
-            .iter()
-            .filter(|outline| outline.contour.double_of.is_none());
-        let contours: Vec<Contour> = cut
-            .map(|outline| Contour {
-                segments: outline.contour.segments(drawing).collect(),
-                closed: outline.contour.closed,
-                side: outline.wire_side(),
-            })
-            .collect();
-        let entities = contours.iter().flat_map(|contour| &contour.segments);
-        let handles = entities.filter_map(|segment| {
-            let entity = drawing.get(segment.entity)?;
-            Some((segment.entity, entity.handle.clone()))
-        });
-        let segments: usize = contours.iter().map(|contour| contour.segments.len()).sum();
-        let is_small = segments.max(drawing.len()) <= MOST;
+    pub fn of(
+        drawing: &Arc<Drawing>,
+        outlines: &Arc<Vec<Outline>>,
+        settings: &Arc<Effective>,
+    ) -> Drawn {
         Drawn {
-            whole: is_small.then(|| Whole(Arc::new((drawing.clone(), outlines.to_vec())))),
-            handles: handles.collect(),
-            contours,
+            drawing: drawing.clone(),
+            outlines: outlines.clone(),
             settings: settings.clone(),
             unit_mm: settings.unit_of(drawing).mm,
+            contours: Arc::default(),
+            kept: Arc::default(),
         }
     }
 
-    /// What a program is written of.
-    pub(super) fn whole(&self) -> Option<&(Drawing, Vec<Outline>)> {
-        self.whole.as_ref().map(|Whole(whole)| &**whole)
+    /// The contours that are cut; what lies twice is taken once.
+    pub(super) fn contours(&self) -> &[Contour] {
+        let cut = self.cut().map(|outline| Contour {
+            segments: outline.contour.segments(&self.drawing).collect(),
+            closed: outline.contour.closed,
+            side: outline.wire_side(),
+        });
+        self.contours.get_or_init(|| cut.collect())
+    }
+
+    /// Their outlines.
+    pub(super) fn cut(&self) -> impl Iterator<Item = &Outline> {
+        let all = self.outlines.iter();
+        all.filter(|outline| outline.contour.double_of.is_none())
+    }
+
+    /// The same under other settings.
+    pub(super) fn under(&self, settings: Effective) -> Drawn {
+        Drawn {
+            settings: Arc::new(settings),
+            ..self.clone()
+        }
+    }
+
+    /// The program that we would write for it in the form of another one, under these settings.
+    pub(super) fn anew(&self, traced: &Traced, settings: &Effective) -> Option<Arc<Anew>> {
+        self.kept.anew(self, traced, settings)
     }
 
     /// What an entity is called.
     pub fn handle(&self, entity: EntityId) -> &str {
-        self.handles.get(&entity).map_or("", |handle| handle)
+        let entity = self.drawing.get(entity);
+        entity.map_or("", |entity| &entity.handle)
     }
 }

@@ -8,6 +8,7 @@
 //! way round, cut in several passes and leave a tab. Everything is in µm.
 
 mod anchor;
+mod anew;
 mod comparison;
 mod drawn;
 mod findings;

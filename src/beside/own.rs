@@ -3,18 +3,15 @@
 //! The drawing's program is written anew under the same settings. Where that has the same blocks but for a few, somebody has changed those:
 //! each is named, in whatever number it was changed, and nothing else is. Of everything else nothing is known here.
 
+use super::anew::Anew;
 use super::comparison::{Comparison, Difference, FEW, longest_cut, looked_at};
 use super::drawn::Drawn;
 use super::infer;
 use super::traced::{Block, Motion, Traced};
 use super::walk::Kind;
 use crate::drawing::EntityId;
-use crate::geometry::{Point, Segment, Vector};
-use crate::program::write::scaled;
-use crate::program::{Document, Format, Language};
-use crate::settings::{Compensation, Corner, Direction, Effective, Layout};
-use crate::toolpath::{Source, WirePath, plan};
-use std::ops::Range;
+use crate::geometry::{Point, Vector};
+use crate::settings::{Compensation, Corner, Direction, Effective};
 
 /// How far a block may lie from the one that is written anew, or one of its numbers from that, µm.
 const ALIKE: f64 = 2.0;
@@ -68,7 +65,7 @@ fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
             all.extend(ways.map(|way| corners.map(|corner| (lead_in, correction, way, corner))));
         }
     }
-    let drawn_segments = drawn.contours.iter().map(|contour| contour.segments.len());
+    let drawn_segments = drawn.cut().map(|outline| outline.contour.len());
     let tries = MOST_TRIED / traced.blocks.len().max(drawn_segments.sum()).max(1);
     let all = all.into_iter().flatten().take(tries);
     let mut best: Option<(Comparison, f64)> = None;
@@ -100,7 +97,7 @@ fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
 /// Corrections that a program may have been written with, mm: of three places.
 fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<f64> {
     let scale = drawn.unit_mm * 1e3;
-    let speaks_for = infer::corrections(drawn.contours.iter(), scale, &longest_cut(traced));
+    let speaks_for = infer::corrections(drawn.contours().iter(), scale, &longest_cut(traced));
     let arcs = traced
         .blocks
         .iter()
@@ -138,71 +135,94 @@ fn lead_in(traced: &Traced) -> Option<f64> {
     Some((length / 10.0).round() / 100.0)
 }
 
-/// A program that was written anew, and the ways it was written of, µm.
-struct Written {
-    traced: Traced,
-    pieces: Vec<(Segment, Source)>,
-    /// From its places to those of the drawing.
-    shift: Vector,
-}
-
 /// What somebody has changed in a program that is ours under these settings, and how far the other blocks are off in the mean, µm; `None`
 /// where it is not.
 fn own(drawn: &Drawn, traced: &Traced, settings: &Effective) -> Option<(Comparison, f64)> {
-    let written = Written::of(drawn, traced, settings)?;
-    let anew = &written.traced;
-    if anew.blocks.len() != traced.blocks.len() {
+    let anew = &*drawn.anew(traced, settings)?;
+    if anew.traced.blocks.len() != traced.blocks.len() {
         return None;
     }
+    let words: Vec<Words> = pairs(traced, anew)
+        .map(|(own, meant)| Words::of(traced, own, anew, meant))
+        .collect();
     // Placed where the drawing is, or anywhere.
-    let anywhere = begin(traced)? - begin(anew)?;
-    let as_drawn =
-        (traced.is_placed && anew.is_placed).then(|| told(&written, traced, Vector::zeros()));
+    let anywhere = traced.begin()? - anew.traced.begin()?;
+    let as_drawn = (traced.is_placed && anew.traced.is_placed).then(Vector::zeros);
     let fewer = |(told, _): &(Comparison, f64)| told.differences.len();
-    let all = as_drawn
-        .flatten()
-        .into_iter()
-        .chain(told(&written, traced, anywhere));
-    all.min_by_key(fewer)
+    let all = as_drawn.into_iter().chain([anywhere]);
+    all.filter_map(|from| told(anew, traced, &words, from))
+        .min_by_key(fewer)
+}
+
+fn pairs<'a>(traced: &'a Traced, anew: &'a Anew) -> impl Iterator<Item = (&'a Block, &'a Block)> {
+    traced.blocks.iter().zip(&anew.traced.blocks)
+}
+
+/// The words of a block beside those of the one that is written anew.
+struct Words {
+    /// They are the same.
+    are_same: bool,
+    /// By how much one of the numbers is another one, where all else is the same, µm.
+    apart: Option<f64>,
+    /// The same of the coordinates behind the block.
+    stated: f64,
+}
+
+impl Words {
+    fn of(traced: &Traced, own: &Block, anew: &Anew, meant: &Block) -> Words {
+        let anew = &anew.traced;
+        if traced.line_from(own) == anew.line_from(meant) {
+            return Words {
+                are_same: true,
+                apart: Some(0.0),
+                stated: 0.0,
+            };
+        }
+        let (said, expected) = (traced.said(own), anew.said(meant));
+        let stated = match (said.stated, expected.stated) {
+            (Some([x, y]), Some([meant_x, meant_y])) => {
+                (x - meant_x).abs().max((y - meant_y).abs())
+            }
+            _ => 0.0,
+        };
+        Words {
+            are_same: said.is_like(&expected),
+            apart: said.apart(&expected),
+            stated,
+        }
+    }
 }
 
 /// The same for a program that lies so far from the one that is written anew.
-fn told(written: &Written, traced: &Traced, from: Vector) -> Option<(Comparison, f64)> {
-    let anew = &written.traced;
-    let pairs = || traced.blocks.iter().zip(&anew.blocks);
-    let words = |block: &Block, of: &Traced| Words::of(of.text.slice(block.range.clone()));
-    let rewritten = pairs()
-        .filter(|(own, meant)| words(own, traced) != words(meant, anew))
-        .count();
+fn told(anew: &Anew, traced: &Traced, words: &[Words], from: Vector) -> Option<(Comparison, f64)> {
+    let rewritten = words.iter().filter(|words| !words.are_same).count();
     let is_in_our_words = 2 * rewritten <= traced.blocks.len();
     let (mut found, mut stated) = (Vec::new(), Vec::new());
     let (mut before, mut beside) = (false, 0.0);
-    for (own, meant) in pairs() {
+    for ((own, meant), words) in pairs(traced, anew).zip(words) {
         let is_first = !std::mem::take(&mut before);
         if own.is_offset != meant.is_offset {
             return None;
         }
-        let (said, expected) = (words(own, traced), words(meant, anew));
         let away = away(&own.motion, &meant.motion, from, !is_first)?;
-        let off = match said.apart(&expected) {
+        let off = match words.apart {
             Some(apart) if is_in_our_words => away.max(apart),
             _ => away,
         };
-        let behind = Words::behind(traced, own).apart(&Words::behind(anew, meant));
         if off <= ALIKE {
             beside += away;
-            let off = behind.unwrap_or(0.0);
+            let off = words.stated;
             stated.extend((off > ALIKE).then(|| named(own, None, off, Kind::Stated)));
             continue;
         }
-        if said == expected {
+        if words.are_same {
             // The same words mean something else behind a block that ends elsewhere, or under another mode.
             if is_first {
                 return None;
             }
             continue;
         }
-        let (segment, kind) = match written.source_of(&meant.motion) {
+        let (segment, kind) = match anew.source_of(&meant.motion) {
             Some(segment) => (Some(segment), Kind::Block),
             None if off <= SLIP => (None, Kind::Lead),
             None => return None,
@@ -216,9 +236,13 @@ fn told(written: &Written, traced: &Traced, from: Vector) -> Option<(Comparison,
     if stated.len() <= FEW {
         found.append(&mut stated);
     }
-    found.extend(begun_elsewhere(traced, anew));
+    found.extend(begun_elsewhere(traced, &anew.traced));
     found.sort_by_key(|difference| difference.range.start);
-    let contours = anew.cuts.iter().flat_map(|[_, contour]| contour.clone());
+    let contours = anew
+        .traced
+        .cuts
+        .iter()
+        .flat_map(|[_, contour]| contour.clone());
     let cut = contours.filter_map(|index| traced.blocks.get(index));
     let follows = cut.filter(|block| matches!(block.motion, Motion::Cut(_)));
     let told = Comparison {
@@ -240,20 +264,15 @@ fn named(block: &Block, segment: Option<(EntityId, usize)>, off: f64, kind: Kind
 
 /// The line with which an ISO program says where it begins, where that is a little beside its place.
 fn begun_elsewhere(traced: &Traced, anew: &Traced) -> Option<Difference> {
-    let said = |of: &Traced| -> Option<(usize, Range<usize>, Words)> {
-        let first = anew.blocks.first()?.line.max(of.blocks.first()?.line);
-        let lines = (0..first).map(|line| (line, of.text.line_range(line)));
-        let mut words = lines.map(|(line, range)| {
-            let words = Words::of(of.text.slice(range.clone()));
-            (line, range, words)
-        });
-        words.find(|(_, _, words)| {
-            words.letters.starts_with(b"G0X") && words.numbers.first() == Some(&92.0)
-        })
-    };
     if traced.counts {
         return None;
     }
+    let said = |of: &Traced| {
+        let first = of.blocks.first()?.line;
+        let lines = (0..first).map(|line| (line, of.text.line_range(line)));
+        let mut words = lines.map(|(line, range)| (line, range.clone(), of.said_in(range)));
+        words.find(|(_, _, said)| said.sets_place())
+    };
     let ((line, range, own), (.., meant)) = (said(traced)?, said(anew)?);
     let off = own
         .apart(&meant)
@@ -264,14 +283,6 @@ fn begun_elsewhere(traced: &Traced, anew: &Traced) -> Option<Difference> {
         segment: None,
         off: off / 1e3,
         kind: Kind::Lead,
-    })
-}
-
-fn begin(traced: &Traced) -> Option<Point> {
-    traced.blocks.iter().find_map(|block| match &block.motion {
-        Motion::Cut(segment) => Some(segment.start()),
-        Motion::Way(start, _) => Some(*start),
-        Motion::Stop => None,
     })
 }
 
@@ -313,123 +324,5 @@ fn ends_of(motion: &Motion) -> Option<[Point; 2]> {
         Motion::Cut(segment) => Some([segment.start(), segment.end()]),
         Motion::Way(start, by) => Some([*start, start + by]),
         Motion::Stop => None,
-    }
-}
-
-impl Written {
-    fn of(drawn: &Drawn, traced: &Traced, settings: &Effective) -> Option<Written> {
-        let (drawing, outlines) = drawn.whole()?;
-        if settings.mills || settings.pass_error().is_some() {
-            return None;
-        }
-        let (format, language) = match (traced.counts, traced.four_b) {
-            (false, _) => (Format::Iso, Language::Iso),
-            (true, false) => (Format::ThreeB, Language::ThreeB),
-            (true, true) => (Format::FourB, Language::ThreeB),
-        };
-        let paths = plan(drawing, outlines, &format.settings(settings), None).ok()?;
-        let scale = drawn.unit_mm * 1e3;
-        let of_path = |path: &WirePath| path.segments.len();
-        let count: usize = paths.iter().map(of_path).sum();
-        // Blocks beside them are the ways between, and stops; a piece may be several.
-        if count > 2 * traced.blocks.len() {
-            return None;
-        }
-        let mut settings = settings.clone();
-        if traced.states_ends {
-            settings.layout = Layout::Checking;
-        }
-        let text = format.write(&paths, drawn.unit_mm, &settings, &mut |_, _| true);
-        let document = Document::read(language, text.ok()?.text.into_bytes(), &settings);
-        let written = Traced::of(&document);
-        let first = paths.first()?.begin() * scale;
-        let shift = match written.is_placed {
-            true => Vector::zeros(),
-            false => first - begin(&written)?,
-        };
-        let pieces = paths.iter().flat_map(|path| &path.segments);
-        Some(Written {
-            traced: written,
-            pieces: pieces
-                .map(|piece| (scaled(&piece.geometry, scale), piece.source))
-                .collect(),
-            shift,
-        })
-    }
-
-    /// The segment of the drawing that a block follows; `None` for the ways in and out and between.
-    fn source_of(&self, motion: &Motion) -> Option<(EntityId, usize)> {
-        let Motion::Cut(segment) = motion else {
-            return None;
-        };
-        let shares = [0.0, 0.5, 1.0].map(|share| segment.point_at(share) + self.shift);
-        let farthest = |piece: &Segment| {
-            let all = shares.iter().map(|place| piece.distance_to(*place));
-            all.fold(0.0, f64::max)
-        };
-        let nearest = self
-            .pieces
-            .iter()
-            .min_by(|(one, _), (other, _)| farthest(one).total_cmp(&farthest(other)));
-        match nearest?.1 {
-            Source::Segment { entity, segment }
-            | Source::Corner { entity, segment }
-            | Source::Overlap { entity, segment } => Some((entity, segment)),
-            Source::Tab | Source::LeadIn | Source::LeadOut => None,
-        }
-    }
-}
-
-/// Letters and numbers of a block, however they are spaced.
-#[derive(Debug, Default, PartialEq)]
-struct Words {
-    letters: Vec<u8>,
-    /// µm, where they are lengths.
-    numbers: Vec<f64>,
-}
-
-impl Words {
-    fn of(text: Option<&[u8]>) -> Words {
-        let mut words = Words::default();
-        let mut rest = text.unwrap_or_default();
-        while let [first, behind @ ..] = rest {
-            let is_number = |byte: &&u8| byte.is_ascii_digit() || b"+-.".contains(byte);
-            let length = rest.iter().take_while(is_number).count();
-            if length == 0 {
-                let is_space = first.is_ascii_whitespace();
-                words
-                    .letters
-                    .extend((!is_space).then(|| first.to_ascii_uppercase()));
-                rest = behind;
-                continue;
-            }
-            let (number, behind) = rest.split_at(length);
-            let number = std::str::from_utf8(number).unwrap_or_default();
-            let value: f64 = number.parse().unwrap_or(f64::NAN);
-            let of_point = if number.contains('.') { 1e3 } else { 1.0 };
-            words.letters.push(b'0');
-            words.numbers.push(value * of_point);
-            rest = behind;
-        }
-        words
-    }
-
-    /// What stands behind a block in its line: its number goes on in letters that say nothing here.
-    fn behind(traced: &Traced, block: &Block) -> Words {
-        if !traced.states_ends {
-            return Words::default();
-        }
-        let line = traced.text.line_range(block.line);
-        let rest = traced.text.slice(block.range.end..line.end);
-        let mut words = Words::of(rest);
-        words.letters.retain(|letter| *letter == b'0');
-        words
-    }
-
-    /// By how much a number is another one, where all else is the same.
-    fn apart(&self, other: &Words) -> Option<f64> {
-        let pairs = self.numbers.iter().zip(&other.numbers);
-        let apart = pairs.map(|(own, other)| (own - other).abs());
-        (self.letters == other.letters).then(|| apart.fold(0.0, f64::max))
     }
 }

@@ -84,7 +84,7 @@ const ALIKE: f64 = 2.9;
 impl Rounds {
     /// Lays a course beside all contours, or one of them, where it is not there yet.
     pub fn add(&mut self, drawn: &Drawn, courses: &[Course], only: Option<usize>) {
-        for (index, contour) in drawn.contours.iter().enumerate() {
+        for (index, contour) in drawn.contours().iter().enumerate() {
             if only.is_some_and(|only| only != index) {
                 continue;
             }

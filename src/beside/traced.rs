@@ -3,6 +3,7 @@
 use super::BETWEEN;
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::path::{self, Kind};
+use crate::program::said::Said;
 use crate::program::{Document, Language};
 use crate::text::SourceText;
 use std::ops::Range;
@@ -107,6 +108,41 @@ impl Traced {
             counts: program.language() == Language::ThreeB,
             four_b,
         }
+    }
+
+    /// Where the first block that moves begins.
+    pub(super) fn begin(&self) -> Option<Point> {
+        self.blocks.iter().find_map(|block| match &block.motion {
+            Motion::Cut(segment) => Some(segment.start()),
+            Motion::Way(start, _) => Some(*start),
+            Motion::Stop => None,
+        })
+    }
+
+    /// The bytes of a block, and of what stands behind it in its line where that are coordinates.
+    pub(super) fn line_from(&self, block: &Block) -> &[u8] {
+        self.text.slice(self.range_from(block)).unwrap_or_default()
+    }
+
+    fn range_from(&self, block: &Block) -> Range<usize> {
+        match self.states_ends {
+            true => block.range.start..self.text.line_range(block.line).end,
+            false => block.range.clone(),
+        }
+    }
+
+    /// What a block says.
+    pub(super) fn said(&self, block: &Block) -> Said {
+        self.said_in(self.range_from(block))
+    }
+
+    /// What stands in a range of the text.
+    pub(super) fn said_in(&self, range: Range<usize>) -> Said {
+        let language = match self.counts {
+            true => Language::ThreeB,
+            false => Language::Iso,
+        };
+        Said::of(language, self.text.slice(range).unwrap_or_default())
     }
 
     /// True where nothing is cut.

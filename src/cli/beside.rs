@@ -45,7 +45,7 @@ impl Folders {
                 return Beside::Nothing;
             };
             let made = opened(&named.path).and_then(|opened| {
-                let drawn = opened.document.drawn().map(Arc::new);
+                let drawn = opened.document.drawn();
                 drawn.ok_or_else(|| say!(a_program_is_no_drawing).into())
             });
             let partner = Partner {
@@ -63,7 +63,7 @@ impl Folders {
         let partners = own.map(|(program, _)| Partner {
             name: name_of(program),
             made: opened(program).and_then(|opened| {
-                let traced = opened.document.traced().map(Arc::new);
+                let traced = opened.document.traced();
                 traced.ok_or_else(|| say!(a_drawing_is_no_program).into())
             }),
         });

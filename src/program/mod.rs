@@ -20,6 +20,7 @@ mod refactor;
 mod refactorings;
 mod repair;
 mod report;
+pub(crate) mod said;
 pub(crate) mod steps;
 pub mod three_b;
 pub(crate) mod write;

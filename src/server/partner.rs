@@ -22,11 +22,8 @@ pub(super) enum Form {
 
 impl Form {
     pub fn of(document: &Document) -> Option<Form> {
-        let drawn = || document.drawn().map(|drawn| Form::Drawn(Arc::new(drawn)));
-        let traced = document.traced();
-        traced
-            .map(|traced| Form::Traced(Arc::new(traced)))
-            .or_else(drawn)
+        let traced = document.traced().map(Form::Traced);
+        traced.or_else(|| document.drawn().map(Form::Drawn))
     }
 }
 

@@ -1,0 +1,137 @@
+//! The program that we would write for a drawing, and what we have written so.
+//!
+//! It hangs on the drawing, the settings and the format alone, not on the program that is held against it: it is kept as long as the drawing
+//! is, so that an edit of the program writes nothing.
+
+use super::drawn::Drawn;
+use super::traced::{Motion, Traced};
+use crate::drawing::EntityId;
+use crate::geometry::{Segment, Vector};
+use crate::program::write::scaled;
+use crate::program::{Document, Format, Language};
+use crate::settings::{Effective, Layout};
+use crate::toolpath::{Source, WirePath, plan};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Of more entities, or of contours of more segments, no program is written to hold another one against it.
+const MOST: usize = 20_000;
+/// Blocks of programs that are kept, at most.
+const MOST_KEPT: usize = 60_000;
+
+/// A program that was written anew, and the ways it was written of, µm.
+#[derive(Debug)]
+pub(super) struct Anew {
+    pub traced: Traced,
+    pieces: Vec<(Segment, Source)>,
+    /// From its places to those of the drawing.
+    shift: Vector,
+}
+
+/// What has been written, with what it was written by; nothing where that cannot be.
+#[derive(Debug, Default)]
+pub(super) struct Kept(Mutex<Vec<(Asked, Option<Arc<Anew>>)>>);
+
+#[derive(Clone, Debug, PartialEq)]
+struct Asked {
+    format: Format,
+    settings: Effective,
+}
+
+impl Asked {
+    fn of(traced: &Traced, settings: &Effective) -> Asked {
+        let format = match (traced.counts, traced.four_b) {
+            (false, _) => Format::Iso,
+            (true, false) => Format::ThreeB,
+            (true, true) => Format::FourB,
+        };
+        let mut settings = settings.clone();
+        if traced.states_ends {
+            settings.layout = Layout::Checking;
+        }
+        Asked { format, settings }
+    }
+}
+
+impl Kept {
+    pub fn anew(&self, drawn: &Drawn, traced: &Traced, settings: &Effective) -> Option<Arc<Anew>> {
+        let asked = Asked::of(traced, settings);
+        let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, known)) = lock().iter().find(|(other, _)| *other == asked) {
+            return known.clone();
+        }
+        let made = Anew::of(drawn, &asked).map(Arc::new);
+        let mut kept = lock();
+        let blocks = |anew: &Option<Arc<Anew>>| {
+            100 + anew.as_ref().map_or(0, |anew| anew.traced.blocks.len())
+        };
+        let sum: usize = kept.iter().map(|(_, anew)| blocks(anew)).sum();
+        if sum + blocks(&made) > MOST_KEPT {
+            // The first is the one that the settings ask for.
+            kept.truncate(1);
+        }
+        kept.push((asked, made.clone()));
+        made
+    }
+}
+
+impl Anew {
+    fn of(drawn: &Drawn, Asked { format, settings }: &Asked) -> Option<Anew> {
+        let segments: usize = drawn.cut().map(|outline| outline.contour.len()).sum();
+        if settings.mills
+            || settings.pass_error().is_some()
+            || segments.max(drawn.drawing.len()) > MOST
+        {
+            return None;
+        }
+        let paths = plan(
+            &drawn.drawing,
+            &drawn.outlines,
+            &format.settings(settings),
+            None,
+        )
+        .ok()?;
+        let text = format.write(&paths, drawn.unit_mm, settings, &mut |_, _| true);
+        let language = match format {
+            Format::Iso | Format::Milling => Language::Iso,
+            Format::ThreeB | Format::FourB => Language::ThreeB,
+        };
+        let document = Document::read(language, text.ok()?.text.into_bytes(), settings);
+        let traced = Traced::of(&document);
+        let scale = drawn.unit_mm * 1e3;
+        let shift = match traced.is_placed {
+            true => Vector::zeros(),
+            false => paths.first()?.begin() * scale - traced.begin()?,
+        };
+        let pieces = |path: WirePath| path.segments.into_iter();
+        let pieces = paths.into_iter().flat_map(pieces);
+        Some(Anew {
+            traced,
+            pieces: pieces
+                .map(|piece| (scaled(&piece.geometry, scale), piece.source))
+                .collect(),
+            shift,
+        })
+    }
+
+    /// The segment of the drawing that a block follows; `None` for the ways in and out and between.
+    pub fn source_of(&self, motion: &Motion) -> Option<(EntityId, usize)> {
+        let Motion::Cut(segment) = motion else {
+            return None;
+        };
+        let shares = [0.0, 0.5, 1.0].map(|share| segment.point_at(share) + self.shift);
+        let farthest = |piece: &Segment| {
+            let all = shares.iter().map(|place| piece.distance_to(*place));
+            all.fold(0.0, f64::max)
+        };
+        let nearest = self
+            .pieces
+            .iter()
+            .min_by(|(one, _), (other, _)| farthest(one).total_cmp(&farthest(other)));
+        match nearest?.1 {
+            Source::Segment { entity, segment }
+            | Source::Corner { entity, segment }
+            | Source::Overlap { entity, segment } => Some((entity, segment)),
+            Source::Tab | Source::LeadIn | Source::LeadOut => None,
+        }
+    }
+}
