@@ -8,7 +8,7 @@ use std::sync::Arc;
 use wedm::beside::{Drawn, Traced, compare};
 use wedm::drawing::{Contour, Drawing, Entity, Geometry, Outline, Role, Unit, Vertex};
 use wedm::program::three_b::{self, Words};
-use wedm::program::{self, Document, Format, Language};
+use wedm::program::{self, Document, Format, Language, iso};
 use wedm::settings::{Compensation, Effective, Layout, from_toml};
 use wedm::toolpath::{WirePath, plan};
 
