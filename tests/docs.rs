@@ -477,29 +477,51 @@ fn the_commands_of_tutorials_and_how_to_do_what_they_show() {
     }
 }
 
-/// The suppression that the how-to shows suppresses what it speaks of.
+/// The suppression that the how-to shows, in both languages, suppresses what it speaks of.
 #[test]
 fn the_suppression_of_the_how_to_suppresses() {
-    let page = read(&root().join("docs/how-to.md"));
-    let (_, part) = page.split_once("## Let a finding stand").unwrap();
-    let lines = part.split("```").nth(1).unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::copy(
-        root().join("docs/pictures/gap.dxf"),
-        folder.path().join("gap.dxf"),
-    )
-    .unwrap();
-    std::fs::write(
-        folder.path().join("wedm.toml"),
-        lines.strip_prefix("toml").unwrap(),
-    )
-    .unwrap();
-    let output = wedm(folder.path(), &["check", "gap.dxf", "--deny", "warning"]);
-    let said = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(
-        output.status.success() && said.contains("1 suppressed"),
-        "{said}"
-    );
+    for name in ["docs/how-to.md", "docs/zh/how-to.md"] {
+        let page = read(&root().join(name));
+        let mut blocks = page.split("```toml").skip(1);
+        let lines = blocks.find(|block| block.contains(".suppress.")).unwrap();
+        let lines = lines.split("```").next().unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::copy(
+            root().join("docs/pictures/gap.dxf"),
+            folder.path().join("gap.dxf"),
+        )
+        .unwrap();
+        std::fs::write(folder.path().join("wedm.toml"), lines).unwrap();
+        let output = wedm(folder.path(), &["check", "gap.dxf", "--deny", "warning"]);
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(
+            output.status.success() && said.contains("1 suppressed"),
+            "{name}: {said}"
+        );
+    }
+}
+
+/// The how-to in Chinese has the same parts, commands and settings, and its commands answer in Chinese.
+#[test]
+fn the_how_to_has_its_twin_in_chinese() {
+    let [english, chinese] =
+        ["docs/how-to.md", "docs/zh/how-to.md"].map(|name| read(&root().join(name)));
+    let of = |page: &str| -> Vec<(String, i32)> {
+        let shown = commands(page).into_iter();
+        shown.map(|shown| (shown.command, shown.code)).collect()
+    };
+    assert_eq!(of(&english), of(&chinese));
+    let parts = |page: &str| page.lines().filter(|line| line.starts_with('#')).count();
+    assert_eq!(parts(&english), parts(&chinese));
+    let settings = |page: &str| -> Vec<String> {
+        let blocks = page.split("```toml").skip(1);
+        let lines = blocks.flat_map(|block| block.split("```").next().unwrap().lines());
+        // The reason of a suppression is a sentence.
+        let keys = lines.map(|line| line.split(" = \"").next().unwrap().to_owned());
+        keys.collect()
+    };
+    assert_eq!(settings(&english), settings(&chinese));
+    the_commands_do_what_is_shown("docs/zh/how-to.md", "zh_CN.UTF-8");
 }
 
 /// The tutorials in Chinese show the same commands and the same Python.
