@@ -9,6 +9,7 @@ import { exportPicture } from "./commands/exportPicture";
 import { fixAll } from "./commands/fixAll";
 import { generate } from "./commands/generate";
 import { scaleProgram } from "./commands/scale";
+import { completeSettings } from "./completion";
 import { detectPrograms } from "./detect";
 import { Front } from "./front";
 import { watchLargeFiles } from "./large";
@@ -75,6 +76,7 @@ export function activate(context: vscode.ExtensionContext): void {
     watchLargeFiles(),
     detectPrograms(),
     rulePages(server),
+    completeSettings(context.extension.packageJSON as Parameters<typeof completeSettings>[0]),
     vscode.workspace.onDidChangeConfiguration((event) => {
       if (STARTS_ANEW.some((key) => event.affectsConfiguration(key))) {
         void server.restart();

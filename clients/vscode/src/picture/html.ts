@@ -34,9 +34,9 @@ export function html({ language, policy, nonce, file, words }: Around): string {
     <button id="fit" title="${text("Show all")} (0)">${text("Fit")}</button>
   </div>
 </header>
-<section id="player" hidden aria-label="${text("Playback of the wire")}">
+<section id="player" hidden aria-label="${text("Playback of the path")}">
   <button id="play" title="${text("Play (space)")}" aria-label="${text("Play")}"></button>
-  <input id="slider" type="range" min="0" max="1000" value="0" step="1" aria-label="${text("Place of the wire")}">
+  <input id="slider" type="range" min="0" max="1000" value="0" step="1" aria-label="${text("Place on the path")}">
   <select id="speed" title="${text("Speed")}" aria-label="${text("Speed")}">
     <option value="0.25">¼×</option><option value="0.5">½×</option><option value="1" selected>1×</option><option value="2">2×</option><option value="5">5×</option>
   </select>

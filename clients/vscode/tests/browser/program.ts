@@ -87,7 +87,7 @@ export async function program(checks: Checks): Promise<void> {
     });
     await checks.check("the wire is played along the program, and the text follows", async () => {
       await window.openOurs("hole.3b");
-      await window.command("Wire EDM: Play the Wire Along the Program");
+      await window.command("Wire EDM: Play Along the Program");
       const page = await window.pictureOf("hole.3b");
       const slider = page.locator("#slider");
       await expectSoon("a wire that moves", async () => Number(await slider.inputValue()) > 0, () => slider.inputValue());
