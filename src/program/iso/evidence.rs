@@ -3,7 +3,7 @@
 //! Nothing of it is assumed: the readings are held against the arcs, and the one that fits the most of them is taken.
 
 use super::block::{Block, Motion};
-use super::moves::{CenterRule, MICROMETRE, Move, Place, Reading, apart};
+use super::moves::{CenterRule, MICROMETRE, Move, Place, Reading, apart, distance};
 
 /// Ends of an arc lie no more unlike far from its centre than this many steps of the finest number: each of the three points may be
 /// off by half a step on both axes.
@@ -55,6 +55,9 @@ pub(crate) struct Arcs {
     pub(crate) unclear: [u32; 3],
     /// How many turn by more than a half under each rule: between rules that the ends fit alike, the arcs that are meant turn less.
     pub(crate) wide: [u32; 3],
+    /// How many of a few micrometres lie under each rule about a centre so far away that they would be lines: both ends of such an arc
+    /// fit nearly any centre.
+    pub(crate) far: [u32; 3],
 }
 
 const RULES: [CenterRule; 3] = [
@@ -72,19 +75,20 @@ impl Arcs {
             .off
             .iter_mut()
             .chain(&mut self.unclear)
-            .chain(&mut self.wide);
-        for (count, more) in
-            counts.zip(other.off.into_iter().chain(other.unclear).chain(other.wide))
-        {
+            .chain(&mut self.wide)
+            .chain(&mut self.far);
+        let others = other.off.into_iter().chain(other.unclear);
+        for (count, more) in counts.zip(others.chain(other.wide).chain(other.far)) {
             *count += more;
         }
     }
 
     /// True where two rules fit equally many arcs, more than any other, and lead to unlike circles.
     fn is_open(&self, rules: usize) -> bool {
-        let least = self.off[..rules].iter().copied().min().unwrap_or(0);
+        let against = |rule: usize| (self.off[rule], self.far[rule]);
+        let least = (0..rules).map(against).min().unwrap_or_default();
         let open = |(&(a, b), &unclear): (&(usize, usize), &u32)| {
-            unclear > 0 && b < rules && self.off[a] == least && self.off[b] == least
+            unclear > 0 && b < rules && against(a) == least && against(b) == least
         };
         PAIRS.iter().zip(&self.unclear).any(open)
     }
@@ -94,10 +98,13 @@ impl Arcs {
         self.all > 0 && !self.is_open(rules)
     }
 
-    /// The rule that the fewest arcs are off under, and then the fewest turn widely; `preferred` where others are no better, then the
-    /// first.
+    /// The rule that the fewest arcs are off under, then the fewest lie far from their centre, then the fewest turn widely; `preferred`
+    /// where others are no better, then the first.
     fn rule(&self, preferred: CenterRule, rules: &[CenterRule]) -> CenterRule {
-        let against = |rule: CenterRule| (self.off[rule as usize], self.wide[rule as usize]);
+        let against = |rule: CenterRule| {
+            let rule = rule as usize;
+            (self.off[rule], self.far[rule], self.wide[rule])
+        };
         let least = rules.iter().copied().map(against).min().unwrap_or_default();
         if rules.contains(&preferred) && against(preferred) == least {
             return preferred;
@@ -166,6 +173,10 @@ impl Evidence {
         let wide = centers.map(|center| center.is_some_and(|center| turns_widely(arc, center)));
         for (count, &is_wide) in arcs.wide.iter_mut().zip(&wide[..compared]) {
             *count += u32::from(is_wide);
+        }
+        let far = centers.map(|center| center.is_some_and(|center| lies_far(arc, center)));
+        for (count, &is_far) in arcs.far.iter_mut().zip(&far[..compared]) {
+            *count += u32::from(is_far);
         }
         for (count, &is_off) in arcs.off.iter_mut().zip(&off[..compared]) {
             *count += u32::from(is_off);
@@ -237,6 +248,13 @@ impl Evidence {
         let told = self.absolute.tells(3) || self.incremental.tells(2);
         !told && (self.absolute.is_open(3) || self.incremental.is_open(2))
     }
+}
+
+/// True of an arc of at most 10 µm about a centre a hundred times as far away.
+fn lies_far(arc: &Move, center: Place) -> bool {
+    let chord = distance(arc.from, arc.to);
+    let is_short = chord > 0.0 && chord <= (10 * MICROMETRE) as f64;
+    is_short && distance(arc.from, center) > 100.0 * chord
 }
 
 /// True where an arc about a centre turns by more than a half, and by less than a whole.

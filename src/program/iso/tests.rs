@@ -108,6 +108,12 @@ fn each_fault_is_named_at_its_line() {
         &with("G01 X1000\nG03 X0 Y0 I-1000 J0\nG01 X-1000"),
         &[(4, "ambiguous-center")],
     );
+    // Corners of 1 µm about centres in the coordinates of the program: about any other they would be lines.
+    check(
+        "G92 X0 Y0\nG60\nG38\nG90\nG01 X2.900 Y0.000\nG01 X2.900 Y8.525\nG03 X2.899 Y8.526 I2.899 J8.525\nG01 X-1.317 Y8.526\nG03 X-1.318 Y8.525 I-1.317 J8.525\nG01 X-1.318 Y-8.526\n\
+         G03 X-1.317 Y-8.527 I-1.317 J-8.526\nG01 X2.899 Y-8.527\nG03 X2.900 Y-8.526 I2.899 J-8.526\nG01 X2.900 Y0.000\nG01 X0.000 Y0.000\nM02\n",
+        &[],
+    );
 }
 
 #[test]
