@@ -250,6 +250,7 @@ fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
         {
             let (class, label) = match run.first() {
                 Some(first) if is_lead(&first.source) => ("lead", say!(lead_in_and_lead_out)),
+                _ if path.cut_off => ("wire tab", say!(the_tab)),
                 _ => ("wire", label.as_str()),
             };
             let data = path_data(frame, run.iter().map(|segment| segment.geometry), false);

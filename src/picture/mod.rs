@@ -85,6 +85,7 @@ pub fn svg(view: &View) -> String {
         paths: !paths.is_empty(),
         mills: settings.mills,
         jumps,
+        tabs: paths.iter().any(|path| path.cut_off),
         kerf: subject.half_kerfs.iter().any(Option::is_some),
         lost: findings.iter().any(leaves_some),
     };

@@ -23,6 +23,7 @@ text{font-family:system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif;f
 .contour{stroke:#24292f;stroke-width:1.4}
 .aside{stroke:#afb8c1;stroke-width:1}
 .wire{stroke:#0969da;stroke-width:1.4}
+.wire.tab{stroke:#bf3989;stroke-width:2.4}
 .upper{fill:none;stroke:#8250df;stroke-width:1.2}
 .kerf{fill:none;stroke:#cfe4fb;stroke-linecap:round;stroke-linejoin:round}
 .lost{fill:#f2a33a}
@@ -55,6 +56,7 @@ text{fill:#e6edf3}
 .contour{stroke:#e6edf3}
 .aside{stroke:#484f58}
 .wire,.lead{stroke:#58a6ff}
+.wire.tab{stroke:#f778ba}
 .upper{stroke:#bc8cff}
 .kerf{stroke:#14365c}
 .lost{fill:#9e6a03}
@@ -143,6 +145,7 @@ pub(super) struct Shown {
     pub(crate) kerf: bool,
     pub(crate) lost: bool,
     pub(crate) jumps: bool,
+    pub(crate) tabs: bool,
 }
 
 /// A sample of what is drawn, and what it means.
@@ -173,6 +176,10 @@ pub(super) fn entries(shown: &Shown) -> Vec<Entry> {
             (LEAD, say!(the_lead)),
             (THREAD, say!(thread_hole)),
         ]);
+    }
+    if shown.tabs {
+        let tab = r#"<path class="wire tab" d="M0 0h24"/>"#;
+        entries.push((tab, say!(the_tab)));
     }
     if shown.jumps {
         entries.push((JUMP, say!(the_jump)));

@@ -340,7 +340,7 @@ fn each_question_about_iso_has_its_answer() {
                 "Simulate",
                 "Open picture",
                 "Convert to DXF",
-                "contour 1: closed, 2 blocks, 31.416 mm, counter-clockwise"
+                "contour 1: closed, 2 blocks, cut 31.416 mm, counter-clockwise"
             ]),
         ),
     ]);
@@ -423,7 +423,7 @@ fn lenses_are_for_clients_that_have_the_commands() {
     assert_eq!(lenses[0]["command"]["arguments"], json!([THREE_B[0]]));
     assert_eq!(
         lenses[3]["command"]["title"],
-        "contour 1: closed, 1 block, 62.204 mm, counter-clockwise"
+        "contour 1: closed, 1 block, cut 82.004 mm (19.800 mm of it leads), counter-clockwise"
     );
     editor.close();
     let mut client = Client::start();

@@ -1,7 +1,7 @@
 //! The program as a tree: contours between pauses, each with its way in, its blocks and its way out.
 
 use super::step;
-use crate::geometry::{Bounds, Segment};
+use crate::geometry::Bounds;
 use crate::ide::amounts::{closing, mm, point, turn};
 use crate::ide::{Symbol, SymbolKind};
 use crate::program::Document;
@@ -109,7 +109,7 @@ impl Tree<'_> {
             let to = steps.last().map_or(self.trace.start, |step| step.end);
             (SymbolKind::Way, say!(way_to, point(to)), String::new())
         } else {
-            (SymbolKind::Cut, name, detail(cut, contour))
+            (SymbolKind::Cut, name, detail(cut, steps, contour))
         };
         let lead_in = &steps[..cut.lead_in.min(steps.len())];
         let lead_out = &steps[steps.len() - cut.lead_out.min(steps.len())..];
@@ -155,16 +155,24 @@ impl Tree<'_> {
     }
 }
 
-/// Closed or open, how many blocks, how long, and which way round a closed contour is cut.
-fn detail(cut: &Cut, contour: &[Step]) -> String {
+/// Closed or open, how many blocks, how much is cut, its leads included, and which way round a closed contour is cut.
+fn detail(cut: &Cut, steps: &[Step], contour: &[Step]) -> String {
     let ideals = || contour.iter().filter_map(|step| step.ideal.as_ref());
-    let length: f64 = ideals().map(Segment::length).sum();
-    let blocks = say!(blocks, contour.len());
+    let length = |steps: &[Step]| -> f64 {
+        let cuts = steps.iter().filter(|step| step.kind != Kind::Rapid);
+        cuts.filter_map(|step| Some(step.ideal.as_ref()?.length()))
+            .sum()
+    };
+    let leads = length(steps) - length(contour);
     let detail = say!(
-        closing_blocks_and_length,
+        closing_blocks_and_cut,
         closing(cut.closed),
-        blocks,
-        mm(length)
+        say!(blocks, contour.len()),
+        mm(length(steps)),
+        match leads > 0.0 {
+            true => say!(of_it_leads, mm(leads)),
+            false => String::new(),
+        }
     );
     let area: f64 = match contour.first() {
         Some(first) if cut.closed => ideals().map(|ideal| ideal.twice_area(first.start)).sum(),

@@ -151,7 +151,7 @@ fn symbols_are_contours_with_their_blocks() {
     }
     let mut lines = Vec::new();
     list(&symbols(&read(PLATE)), 0, &mut lines);
-    let expected = "contour 1 | closed, 1 block, 62.204 mm, counter-clockwise\n  lead-in | line to (9.900, 0.000)\n  N2 | circle R 9.900\n  \
+    let expected = "contour 1 | closed, 1 block, cut 82.004 mm (19.800 mm of it leads), counter-clockwise\n  lead-in | line to (9.900, 0.000)\n  N2 | circle R 9.900\n  \
                     lead-out | line to (0.000, 0.000)\npause | ";
     assert_eq!(lines[..5].join("\n"), expected);
     assert_eq!(lines.last().unwrap(), "end | ");

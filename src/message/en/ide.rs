@@ -60,7 +60,8 @@ declare! {
     line_to(place) => "line to {place}";
     circle_r(radius) => "circle R {radius}";
     arc_r_to(radius, place) => "arc R {radius} to {place}";
-    closing_blocks_and_length(closing, blocks, mm) => "{closing}, {blocks}, {mm} mm";
+    closing_blocks_and_cut(closing, blocks, mm, leads) => "{closing}, {blocks}, cut {mm} mm{leads}";
+    of_it_leads(mm) => " ({mm} mm of it leads)";
     lead_in => "lead-in";
     lead_out => "lead-out";
     blocks_from_one_to_another(first, last) => "blocks {first} to {last}";

@@ -120,7 +120,8 @@ declare! {
     open_picture => "Open picture";
     convert_to_dxf => "Convert to DXF";
     and_more_marked_in_the_drawing(count) => "and {count} more, marked in the drawing";
-    cut_of(contours, length, minutes) => "cut of {contours}: {length:.3} mm{minutes}";
+    cut_of(contours, length, jumps, minutes) => "cut of {contours}: {length:.3} mm{jumps}{minutes}";
+    and_jumps(length) => ", jumps {length:.3} mm";
     and_minutes(minutes) => ", {minutes:.2} min";
     largest_wire(diameter, radius) => "largest wire Ø {diameter:.3} mm, by R {radius:.3} mm";
     thread_hole_at_mm(x, y) => "thread hole at {x:.3}, {y:.3} mm";
@@ -134,6 +135,7 @@ declare! {
     the_wire => "wire";
     step_in_line(number, line, what, x, y) => "{number}line {line} · {what} · to {x:.3}, {y:.3}";
     the_lead => "lead";
+    the_tab => "tab, cut off last";
     the_upper_end => "upper end of the wire";
     what_the_wire_cuts => "cut to scale";
     what_stays_uncut => "stays uncut";

@@ -60,7 +60,8 @@ translate! {
     line_to(place) => "直线到 {place}";
     circle_r(radius) => "整圆 R {radius}";
     arc_r_to(radius, place) => "圆弧 R {radius} 到 {place}";
-    closing_blocks_and_length(closing, blocks, mm) => "{closing}，{blocks}，{mm} mm";
+    closing_blocks_and_cut(closing, blocks, mm, leads) => "{closing}，{blocks}，切割 {mm} mm{leads}";
+    of_it_leads(mm) => "（其中引线 {mm} mm）";
     lead_in => "引入线";
     lead_out => "引出线";
     blocks_from_one_to_another(first, last) => "程序段 {first} 到 {last}";

@@ -120,7 +120,8 @@ translate! {
     open_picture => "打开图片";
     convert_to_dxf => "转换为 DXF";
     and_more_marked_in_the_drawing(count) => "另有 {count} 个，已在图中标出";
-    cut_of(contours, length, minutes) => "切割 {contours}：{length:.3} mm{minutes}";
+    cut_of(contours, length, jumps, minutes) => "切割 {contours}：{length:.3} mm{jumps}{minutes}";
+    and_jumps(length) => "，空走 {length:.3} mm";
     and_minutes(minutes) => "，{minutes:.2} 分钟";
     largest_wire(diameter, radius) => "最粗可用电极丝 Ø {diameter:.3} mm，由 R {radius:.3} mm 决定";
     thread_hole_at_mm(x, y) => "穿丝孔位于 {x:.3}, {y:.3} mm";
@@ -134,6 +135,7 @@ translate! {
     the_wire => "电极丝";
     step_in_line(number, line, what, x, y) => "{number}第 {line} 行 · {what} · 到 {x:.3}, {y:.3}";
     the_lead => "引线";
+    the_tab => "暂留段，最后切断";
     the_upper_end => "丝的上端";
     what_the_wire_cuts => "切缝（按比例）";
     what_stays_uncut => "未切除";

@@ -73,6 +73,10 @@ fn of_drawing(context: &RequestContext) -> Option<Vec<CodeLens>> {
             cut_of,
             say!(contours, planned.holes.len()),
             work.length,
+            match work.jumps > 0.0 {
+                true => say!(and_jumps, work.jumps),
+                false => String::new(),
+            },
             minutes.unwrap_or_default()
         )
     });

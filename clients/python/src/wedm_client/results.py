@@ -578,7 +578,8 @@ class Simulation(Tabled):
 
     def __repr__(self) -> str:
         takes = f"{self.minutes:.1f} minutes" if self.minutes is not None else ""
-        return f"<Simulation: {listed([counted(len(self.blocks), 'block'), f'{self.length:.3f} mm', takes])}>"
+        jumps = f"jumps {self.jumps:.3f} mm" if self.jumps else ""
+        return f"<Simulation: {listed([counted(len(self.blocks), 'block'), f'cut {self.cut:.3f} mm', jumps, takes])}>"
 
 
 @dataclass(frozen=True)
