@@ -170,11 +170,7 @@ impl Analysis {
 
     /// The repair of a corner in which two parts bind: the least radius with which they do not, and the clearance more where the other is
     /// drawn, too.
-    pub(super) fn fit_fixes(&self, drawing: &Drawing, finding: &Finding) -> Vec<Fix> {
-        self.fit_fix(drawing, finding).into_iter().collect()
-    }
-
-    fn fit_fix(&self, drawing: &Drawing, finding: &Finding) -> Option<Fix> {
+    pub(super) fn fit_fix(&self, drawing: &Drawing, finding: &Finding) -> Option<Fix> {
         let Place::Segment { entity, segment } = finding.place else {
             return None;
         };
@@ -235,7 +231,8 @@ impl Analysis {
         (left >= -rounding).then_some(Fix {
             kind,
             preferred: true,
-            in_fix_all: false,
+            // As far as it moves a corner between straight walls.
+            in_fix_all: steep * radius <= self.limits.correction,
             edit,
         })
     }

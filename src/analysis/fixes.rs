@@ -13,7 +13,7 @@ impl Analysis {
             return Vec::new();
         };
         if finding.rule == Rule::DoesNotFit {
-            return self.fit_fixes(drawing, finding);
+            return self.fit_fix(drawing, finding).into_iter().collect();
         }
         if finding.rule != Rule::SmallRadius {
             return self.checked(
@@ -69,6 +69,9 @@ impl Analysis {
         finding: &Finding,
         at: (EntityId, usize),
     ) -> Option<Vec<Fix>> {
+        if finding.rule == Rule::DoesNotFit {
+            return Some(self.fit_fix(drawing, finding).into_iter().collect());
+        }
         let (key, index) = self.chains.index_of(at.0, at.1)?;
         let outlook = self.outlook(drawing, key)?;
         if let Some(rule) = LOCAL_RULES.iter().find(|local| local.rule == finding.rule) {

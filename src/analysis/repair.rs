@@ -10,7 +10,12 @@ use rustc_hash::FxHashSet;
 pub(super) const FIRST: [Rule; 2] = [Rule::DuplicateEntity, Rule::Overlap];
 
 /// And behind that, the first of them that has any.
-pub(super) const THEN: [Rule; 3] = [Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords];
+pub(super) const THEN: [Rule; 4] = [
+    Rule::ShortSegment,
+    Rule::Gap,
+    Rule::ArcAsChords,
+    Rule::DoesNotFit,
+];
 
 /// Edits that are tried before a rule is given up: each costs a look at the drawing. In a large one so many that about as many
 /// segments are looked at, and at least two; few where not even the drawing as it is has been compared to its end.
@@ -61,6 +66,8 @@ impl Analysis {
             || after.unseen < before.unseen;
         let is_no_worse = match rule {
             Rule::OpenContour => after.is_no_worse_once_closed(before),
+            // Of a radius below the correction this rule says whether it matters.
+            Rule::DoesNotFit => after.spoils_nothing(before, Some(Rule::SmallRadius)),
             _ => after.is_no_worse_than(before, rule),
         };
         (is_less && is_no_worse).then_some(after)
