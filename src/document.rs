@@ -5,7 +5,7 @@
 use crate::analysis::Analysis;
 use crate::beside::{self, Beside, Drawn, Traced};
 use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline, Role};
-use crate::finding::{self, Detail, Edit, Finding, Fix, FixKind, Keep, Place, Rule};
+use crate::finding::{self, Detail, Edit, Finding, Fix, FixKind, Keep, Place, Rule, Telling};
 use crate::program;
 use crate::settings::{self, Effective};
 use crate::text::{SourceText, TextEdit};
@@ -177,6 +177,14 @@ impl Document {
     pub(crate) fn unit_mm(&self) -> f64 {
         self.drawing()
             .map_or(1.0, |drawing| self.settings().unit_of(drawing).mm)
+    }
+
+    /// Of what its findings speak.
+    pub(crate) fn telling(&self) -> Telling {
+        Telling {
+            unit_mm: self.unit_mm(),
+            mills: self.drawing().is_some() && self.settings().mills,
+        }
     }
 
     /// The program, where the document is one.

@@ -22,7 +22,7 @@ pub(crate) use fix::{CenterFix, TextFix, ignored};
 pub use fix::{Edit, Fix, FixKind, Keep};
 pub(crate) use not_judged::NotJudged;
 pub(crate) use sentence::related;
-pub use sentence::sentence;
+pub use sentence::{Telling, sentence};
 pub use small_radius::NoFix;
 pub(crate) use small_radius::SmallRadius;
 pub(crate) use title::title;

@@ -12,7 +12,7 @@ pub use pair::pair;
 use crate::document::{Document, Snapshot, Source};
 use crate::drawing::{Drawing, DrawingEdit, Entity};
 use crate::dxf;
-use crate::finding::{self, Detail, Edit, Finding, Place, Severity};
+use crate::finding::{self, Detail, Edit, Finding, Place, Severity, Telling};
 use crate::fit::{self, Fit};
 use crate::picture::{self, View};
 use crate::program::convert::{self, Cuts};
@@ -56,8 +56,8 @@ pub enum Refusal {
 }
 
 impl Refusal {
-    /// The refusal for a person; `unit_mm` is that of the lengths in findings.
-    pub fn sentence(&self, unit_mm: f64) -> String {
+    /// The refusal for a person.
+    pub fn sentence(&self, telling: impl Into<Telling>) -> String {
         match self {
             Refusal::Sentence(sentence)
             | Refusal::Unproved(sentence, _)
@@ -68,7 +68,7 @@ impl Refusal {
             Refusal::Errors(errors) => say!(errors_stand_in_the_drawing, errors.len()),
             Refusal::Findings(findings) => findings.first().map_or_else(
                 || say!(no_path_can_be_made).into(),
-                |finding| crate::finding::sentence(finding, unit_mm),
+                |finding| crate::finding::sentence(finding, telling),
             ),
             Refusal::Cancelled => say!(the_path_was_given_up).into(),
         }
@@ -202,8 +202,11 @@ pub(crate) fn picture(
     let (planned, why) = match planned(snapshot, settings, None, false, watch) {
         Ok(planned) => (planned, None),
         Err(refusal) => {
-            let unit_mm = settings.unit_of(&snapshot.drawing).mm;
-            (Planned::default(), Some(refusal.sentence(unit_mm)))
+            let telling = Telling {
+                unit_mm: settings.unit_of(&snapshot.drawing).mm,
+                mills: settings.mills,
+            };
+            (Planned::default(), Some(refusal.sentence(telling)))
         }
     };
     let view = View {
@@ -347,8 +350,8 @@ fn written(
 ) -> Result<Generated, Refusal> {
     let settings = &snapshot.settings;
     let is_error = |finding: &Finding| finding.severity == Severity::Error;
-    // A program that was written before is no fault of the drawing.
-    findings.retain(|finding| finding.rule != Rule::NotTheDrawing);
+    // A program that was written before is no fault of the drawing, and what stands against the leads the path says itself.
+    findings.retain(|found| ![Rule::NotTheDrawing, Rule::LeadIn].contains(&found.rule));
     let any_errors = findings.iter().any(is_error);
     let chosen = wanted.chosen(snapshot)?;
     let entities = entities_of(&snapshot.drawing, &snapshot.outlines, chosen.as_deref());

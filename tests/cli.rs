@@ -1,5 +1,9 @@
 //! The command line as a user meets it: the real binary, small files, what it prints and how it ends.
 
+#[path = "cli/contradictions.rs"]
+mod contradictions;
+#[path = "cli/electrode.rs"]
+mod electrode;
 #[path = "cli/holes.rs"]
 mod holes;
 #[path = "cli/pages.rs"]
@@ -1270,6 +1274,13 @@ fn what_is_suppressed_with_a_reason_is_told_where_it_is_asked_for() {
         result["suppressions"][0]["justification"],
         "the wire is thin"
     );
+    assert_eq!(result["suppressions"][0]["kind"], "external");
+    let marked = String::from_utf8(desk.read("tight.dxf")).unwrap();
+    let layer = format!("\nWEDM_SUPPRESS_{rule}_the wire is thin\n");
+    desk.write("marked.dxf", marked.replace("\nDIE\n", &layer));
+    let sarif = desk.run("check marked.dxf --output sarif").json();
+    let suppressed = &sarif["runs"][0]["results"][0]["suppressions"][0];
+    assert_eq!(suppressed["kind"], "inSource", "{sarif}");
     check(&desk, "fix tight.dxf --diff", 0, &["!nothing to repair"]);
     check(
         &desk,

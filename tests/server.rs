@@ -9,6 +9,8 @@ mod actions;
 mod beside;
 #[path = "server/bombs.rs"]
 mod bombs;
+#[path = "server/contradictions.rs"]
+mod contradictions;
 #[path = "server/drawings.rs"]
 mod drawings;
 #[path = "server/end.rs"]

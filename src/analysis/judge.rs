@@ -142,14 +142,21 @@ impl Analysis {
             let ordered = self.in_machining_order(drawing).to_vec();
             let sides: Vec<Option<Side>> = ordered.iter().map(|&key| side_of(self, key)).collect();
             self.report_lost_pockets(drawing, &ordered, &sides, &mut report);
+            self.report_punches_within(drawing, &ordered, &sides, &mut report);
         }
+        let mut of_job = Vec::new();
         if self.settings.start_hole.is_some() {
             let outlines = self.outlines(drawing).clone();
-            for found in toolpath::hole_faults(drawing, &outlines, &self.settings) {
-                let own = Some(found.severity);
-                if report.counts(found.rule, own) {
-                    report.add(found.rule, own, found.place, found.detail, found.related);
-                }
+            of_job = toolpath::hole_faults(drawing, &outlines, &self.settings);
+        }
+        if toolpath::is_stated(&self.settings) && report.shows_findings() {
+            let outlines = self.outlines(drawing).clone();
+            of_job.extend(toolpath::stated_faults(drawing, &outlines, &self.settings));
+        }
+        for found in of_job {
+            let own = Some(found.severity);
+            if report.counts(found.rule, own) {
+                report.add(found.rule, own, found.place, found.detail, found.related);
             }
         }
         report

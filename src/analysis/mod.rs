@@ -17,6 +17,7 @@ mod repair;
 mod report;
 mod suppressed;
 mod told;
+mod within;
 
 #[cfg(test)]
 pub(crate) use contours::is_cut;

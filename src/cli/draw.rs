@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let findings = opened.document.all_findings();
     if let Err(refusal) = job::paths(&snapshot, &snapshot.settings, None, &()) {
         let note = styled(output::NOTE, say!(note));
-        let reason = refusal.sentence(opened.document.unit_mm());
+        let reason = refusal.sentence(opened.document.telling());
         output::say(&say!(drawn_without_the_path, note, readable(&reason)));
     }
     let (planned, svg) = job::picture(&snapshot, &findings, &());

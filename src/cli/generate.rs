@@ -74,7 +74,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     // What is wrong with the drawing says `wedm check`; these are of the program.
     let of_program = |finding: &&Finding| {
         finding.rule == Rule::Settings
-            || matches!(finding.detail, Detail::OffsetCollapse { point: true, .. })
+            || matches!(
+                finding.detail,
+                Detail::OffsetCollapse { point: true, .. } | Detail::NoPartner { .. }
+            )
     };
     let said: Vec<Finding> = made.warnings.iter().filter(of_program).cloned().collect();
     report::say(path, document, &said);

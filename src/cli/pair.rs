@@ -3,6 +3,7 @@
 use super::options::{Common, Pairing, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, files, report};
+use crate::finding::{Detail, Finding};
 use crate::job::{self, Wanted};
 use crate::message::lengths;
 use crate::program::Format;
@@ -59,10 +60,14 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         layers: None,
         force: arguments.force,
     };
-    let made = match job::pair(&snapshot, &document.all_findings(), &wanted, &()) {
+    let findings = document.all_findings();
+    let made = match job::pair(&snapshot, &findings, &wanted, &()) {
         Ok(made) => made,
         Err(refusal) => return report::refuse_programs(path, document, &refusal),
     };
+    let is_alone = |finding: &&Finding| matches!(finding.detail, Detail::NoPartner { .. });
+    let alone: Vec<Finding> = findings.iter().filter(is_alone).cloned().collect();
+    report::say(path, document, &alone);
     let folder = match (&arguments.output, path.parent()) {
         (Some(folder), _) => folder.clone(),
         (None, Some(folder)) => folder.to_path_buf(),

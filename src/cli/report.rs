@@ -39,6 +39,9 @@ pub(crate) struct Row {
     /// Why it is let stand.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) suppressed: Option<String>,
+    /// The drawing itself says so, not a `wedm.toml`.
+    #[serde(skip)]
+    pub(crate) is_marked: bool,
     /// Lines of a `wedm.toml`, each with what it does.
     #[serde(skip)]
     keeps: Vec<(String, String)>,
@@ -88,9 +91,16 @@ pub(crate) fn rows(path: &Path, document: &mut Document) -> Vec<Row> {
 
 /// What is suppressed in a document, with the reasons.
 pub(crate) fn suppressed(path: &Path, document: &Document) -> Vec<Row> {
-    let told = |(finding, reason): (Finding, String)| Row {
-        suppressed: Some(reason),
-        ..row(path, document, &finding)
+    let of_settings = &document.settings().suppressed;
+    let told = |(finding, reason): (Finding, String)| {
+        let row = row(path, document, &finding);
+        let handle = row.data.handle.as_deref();
+        let stated = handle.and_then(|handle| of_settings.get(handle));
+        Row {
+            suppressed: Some(reason),
+            is_marked: !stated.is_some_and(|rules| rules.contains_key(&row.rule)),
+            ..row
+        }
     };
     document.suppressed().into_iter().map(told).collect()
 }
@@ -147,7 +157,7 @@ pub(crate) fn row(path: &Path, document: &Document, finding: &Finding) -> Row {
     let drawing = document.drawing();
     let data = FindingData::of(drawing.map(|drawing| &**drawing), finding);
     let range = document.range_of(&finding.place).unwrap_or(0..0);
-    let message = finding::sentence(finding, document.unit_mm());
+    let message = finding::sentence(finding, document.telling());
     let mut row = Row::new(
         path,
         document.text(),
@@ -178,7 +188,8 @@ fn related(document: &Document, finding: &Finding, other: &Place) -> Option<Rela
         Place::Entity { entity } => (entity, None),
         Place::Text { .. } | Place::Document => return None,
     };
-    let message = finding::related(finding, &document.drawing()?.get(entity)?.handle, segment);
+    let handle = &document.drawing()?.get(entity)?.handle;
+    let message = finding::related(finding, handle, segment, document.telling());
     let ((line, column), (end_line, end_column)) =
         (place(text, range.start), place(text, range.end));
     Some(RelatedRow {
@@ -219,6 +230,7 @@ impl Row {
             data,
             related: Vec::new(),
             suppressed: None,
+            is_marked: false,
             keeps: Vec::new(),
             excerpt: text.and_then(|text| excerpt(text, &range)),
         }

@@ -8,16 +8,45 @@ use super::{
 use crate::drawing::Visibility;
 use crate::message::readable;
 
-/// What a finding says, for a person: lower-case, no final dot. `unit_mm` is the drawing's unit in mm.
-///
-/// Names out of the drawing that stand in it are `readable`.
-pub fn sentence(finding: &Finding, unit_mm: f64) -> String {
-    readable(&said(finding, unit_mm)).into_owned()
+/// Of what a finding speaks: a number alone is the unit of what a wire cuts.
+#[derive(Clone, Copy, Debug)]
+pub struct Telling {
+    /// mm of the drawing's unit.
+    pub unit_mm: f64,
+    /// An electrode cuts, not a wire.
+    pub mills: bool,
 }
 
-fn said(finding: &Finding, unit_mm: f64) -> String {
+impl From<f64> for Telling {
+    fn from(unit_mm: f64) -> Telling {
+        Telling {
+            unit_mm,
+            mills: false,
+        }
+    }
+}
+
+impl Telling {
+    /// What cuts, within a sentence.
+    fn tool(self) -> &'static str {
+        match self.mills {
+            true => say!(the_electrode_that_mills),
+            false => say!(the_wire_that_cuts),
+        }
+    }
+}
+
+/// What a finding says, for a person: lower-case, no final dot.
+///
+/// Names out of the drawing that stand in it are `readable`.
+pub fn sentence(finding: &Finding, telling: impl Into<Telling>) -> String {
+    readable(&said(finding, telling.into())).into_owned()
+}
+
+fn said(finding: &Finding, telling: Telling) -> String {
+    let (unit_mm, tool) = (telling.unit_mm, telling.tool());
     match &finding.detail {
-        Detail::SmallRadius(numbers) => small_radius(numbers, unit_mm),
+        Detail::SmallRadius(numbers) => small_radius(numbers, telling),
         Detail::UnsupportedEntity {
             kind,
             count: 1,
@@ -51,7 +80,8 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
         } => say!(
             a_sharp_corner_that_the_wire_runs_inside,
             turn.abs().to_degrees(),
-            mm(radius * unit_mm)
+            mm(radius * unit_mm),
+            tool
         ),
         Detail::SharpCorner {
             radius,
@@ -61,18 +91,20 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
             say!(
                 sharp_corners_that_the_wire_runs_inside,
                 count,
-                mm(radius * unit_mm)
+                mm(radius * unit_mm),
+                tool
             )
         }
         Detail::NarrowSlot { width, required } => {
             let (width, required) = told_apart(width * unit_mm, required * unit_mm);
-            say!(the_slot_is_too_narrow, width, required)
+            say!(the_slot_is_too_narrow, width, required, tool)
         }
-        Detail::LostPocket { .. } => say!(the_offset_loses_this_part_of_the_outline).into(),
+        Detail::LostPocket { .. } => say!(the_offset_loses_this_part_of_the_outline, tool),
         Detail::DeadEnd { uncut, .. } => {
             say!(
                 the_wire_does_not_reach_this_part_of_the_outline,
-                mm(uncut * unit_mm)
+                mm(uncut * unit_mm),
+                tool
             )
         }
         Detail::DoesNotFit(misfit) => say!(
@@ -87,13 +119,13 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
         Detail::OffsetCollapse {
             required,
             point: true,
-        } => say!(a_point_is_left_of_the_outline, mm(required * unit_mm)),
-        Detail::UnprovedPath { .. } => say!(no_path_of_the_wire_along_this_contour_holds).into(),
+        } => say!(a_point_is_left_of_the_outline, mm(required * unit_mm), tool),
+        Detail::UnprovedPath { .. } => say!(no_path_of_the_wire_along_this_contour_holds, tool),
         Detail::OffsetCollapse {
             required,
             point: false,
         } => {
-            say!(nothing_is_left_of_the_outline, mm(required * unit_mm))
+            say!(nothing_is_left_of_the_outline, mm(required * unit_mm), tool)
         }
         Detail::Unwritable(what) => unwritable(what),
         Detail::OpenContour { distance } => {
@@ -101,10 +133,10 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
         }
         Detail::Gap { distance } => say!(ends_do_not_meet, mm(distance * unit_mm)),
         Detail::DuplicateEntity { count: 1 } => {
-            say!(entity_lies_in_the_same_place_as_another).into()
+            say!(entity_lies_in_the_same_place_as_another, tool)
         }
         Detail::DuplicateEntity { count } => {
-            say!(entities_of_the_outline_lie_there_twice, count)
+            say!(entities_of_the_outline_lie_there_twice, count, tool)
         }
         Detail::Overlap { length } => {
             say!(segment_runs_on_another_one_over_mm, mm(length * unit_mm))
@@ -113,7 +145,7 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
         Detail::ShortSegment { length: 0.0 } => say!(segment_has_no_length).into(),
         Detail::ShortSegment { length } => say!(the_segment_is_too_short, mm(length * unit_mm)),
         Detail::NearTangent { turn } => {
-            say!(contour_kinks_by_degrees, turn.abs().to_degrees())
+            say!(contour_kinks_by_degrees, turn.abs().to_degrees(), tool)
         }
         Detail::SelfIntersection { touches, .. } => {
             say!(
@@ -122,7 +154,8 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
                     say!(touches_itself_or_another)
                 } else {
                     say!(crosses_itself_or_another)
-                }
+                },
+                tool
             )
         }
         Detail::ArcAsChords {
@@ -137,7 +170,13 @@ fn said(finding: &Finding, unit_mm: f64) -> String {
             } else {
                 say!(within_mm, mm(deviation * unit_mm))
             };
-            say!(chords_lie_on_one_arc, chords, mm(radius * unit_mm), within)
+            say!(
+                chords_lie_on_one_arc,
+                chords,
+                mm(radius * unit_mm),
+                within,
+                tool
+            )
         }
         Detail::Size { size } => {
             let what = absurd(size * unit_mm);
@@ -294,7 +333,12 @@ fn unseen(layer: &str, visibility: Visibility, count: usize) -> String {
 }
 
 /// What the other place of a finding is, for a person.
-pub(crate) fn related(finding: &Finding, handle: &str, segment: Option<usize>) -> String {
+pub(crate) fn related(
+    finding: &Finding,
+    handle: &str,
+    segment: Option<usize>,
+    telling: Telling,
+) -> String {
     let handle = readable(handle);
     let place = segment.map_or_else(
         || handle.to_string(),
@@ -303,7 +347,7 @@ pub(crate) fn related(finding: &Finding, handle: &str, segment: Option<usize>) -
     match finding.detail {
         Detail::DoesNotFit(ref misfit) => say!(its_partner, misfit.partner, place),
         Detail::NarrowSlot { .. } => say!(the_facing_wall, place),
-        Detail::DeadEnd { .. } => say!(the_wire_comes_no_further_than_here, place),
+        Detail::DeadEnd { .. } => say!(the_wire_comes_no_further_than_here, place, telling.tool()),
         Detail::DuplicateEntity { .. } => say!(the_same_place, place),
         Detail::Overlap { .. } => say!(runs_on_this_one, place),
         Detail::Said(_) if matches!(finding.rule, Rule::LeadIn | Rule::StartHole) => {
@@ -337,7 +381,8 @@ fn not_judged(what: &NotJudged) -> String {
     }
 }
 
-fn small_radius(numbers: &SmallRadius, unit_mm: f64) -> String {
+fn small_radius(numbers: &SmallRadius, telling: Telling) -> String {
+    let (unit_mm, tool) = (telling.unit_mm, telling.tool());
     let (radius, required) = told_apart(numbers.radius * unit_mm, numbers.required * unit_mm);
     let pass = numbers
         .pass
@@ -354,7 +399,8 @@ fn small_radius(numbers: &SmallRadius, unit_mm: f64) -> String {
     } else if numbers.overcut * unit_mm >= 0.5e-6 {
         text += &say!(
             the_wire_overcuts_the_contour_by_mm,
-            mm(numbers.overcut * unit_mm)
+            mm(numbers.overcut * unit_mm),
+            tool
         );
         if numbers.stock_left.is_finite() {
             text += &say!(or_leaves_stock, mm(numbers.stock_left * unit_mm));
@@ -367,7 +413,8 @@ fn small_radius(numbers: &SmallRadius, unit_mm: f64) -> String {
         Some(NoFix::NarrowSlot) => {
             text += &say!(
                 no_arc_of_the_required_radius_fits_here,
-                mm(2.0 * numbers.required * unit_mm)
+                mm(2.0 * numbers.required * unit_mm),
+                tool
             );
         }
         Some(NoFix::SealsContour) => text += say!(the_arc_that_fits_would_seal_the_slot),

@@ -5,7 +5,7 @@ use crate::analysis::Analysis;
 use crate::document::Snapshot;
 use crate::finding::{Detail, Finding, Place, Severity};
 use crate::rule::Rule;
-use crate::toolpath::{Milled, WirePath, Work, lengths};
+use crate::toolpath::{Milled, WirePath, Work, short_layers};
 use std::sync::Arc;
 
 /// A contour whose ends lie nearer to each other, mm, was most likely meant to be closed, and milled beside its line, not along it.
@@ -44,15 +44,12 @@ pub(super) fn judged(
 
 /// The contours of which a layer is shorter than the step of linear compensation.
 pub(super) fn too_short(snapshot: &Snapshot, paths: &[WirePath]) -> Result<(), Refusal> {
-    let settings = &snapshot.settings;
-    let step = settings.electrode().map_err(Refusal::Sentence)?.step;
-    let unit_mm = settings.unit_of(&snapshot.drawing).mm;
-    let short = paths.iter().filter_map(|path| {
-        let length = lengths(std::slice::from_ref(path)).0 * unit_mm;
-        let sentence = || say!(the_step_is_longer, step, length);
-        (step > length).then(|| finding(snapshot, path.outline, Severity::Error, sentence()))
-    });
-    let short: Vec<Finding> = short.collect();
+    let Snapshot {
+        drawing,
+        outlines,
+        settings,
+    } = snapshot;
+    let short = short_layers(drawing, outlines, settings, paths);
     match short.is_empty() {
         true => Ok(()),
         false => Err(Refusal::Findings(short)),

@@ -98,7 +98,7 @@ fn related_information(
                 uri: uri.into(),
                 range: range_at(document, place, encoding),
             },
-            message: finding::related(finding, &entity.handle, segment),
+            message: finding::related(finding, &entity.handle, segment, document.telling()),
         })
     };
     finding.related.iter().filter_map(related).collect()
@@ -119,7 +119,7 @@ fn diagnostic_at(document: &Document, finding: &Finding, encoding: Encoding) -> 
             .page_of(finding.rule)
             .map(|href| CodeDescription { href }),
         source: "wedm".into(),
-        message: finding::sentence(finding, document.unit_mm()),
+        message: finding::sentence(finding, document.telling()),
         related_information: None,
         data: (!data.is_empty()).then_some(data),
     }

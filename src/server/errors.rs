@@ -54,7 +54,7 @@ pub(super) fn refusal(document: &Document, refusal: &Refusal, encoding: Encoding
         Refusal::Fault(sentence) => internal(sentence),
         Refusal::Sentence(sentence) => refused(sentence),
         Refusal::Errors(_) | Refusal::Findings(_) | Refusal::Unproved(..) => refused_with(
-            refusal.sentence(document.unit_mm()),
+            refusal.sentence(document.telling()),
             convert::diagnostics(document, refusal.findings(), encoding),
         ),
     }

@@ -48,13 +48,13 @@ pub(super) fn place_of(root: &Node, fault: &PassFault) -> Option<std::ops::Range
     let named = snake_case(named);
     let list = root.entry(table).and_then(|entry| match fault.pass {
         // A key of its own, of which there is one value.
-        usize::MAX if table == "pair" => entry.node.entry(&named),
+        usize::MAX if ["pair", "program", "job"].contains(&table) => entry.node.entry(&named),
         _ if table == "workpieces" => Some(entry),
         // What it lacks is said of the table.
         _ if table == "milling" => Some(entry.node.entry(&named).unwrap_or(entry)),
         _ => entry.node.entry(&named),
     });
-    if ["pair", "workpieces", "milling"].contains(&table) {
+    if ["pair", "program", "job", "workpieces", "milling"].contains(&table) {
         return list.and_then(|entry| entry.key_range.clone());
     }
     let of_list = list.and_then(|entry| match &entry.node.value {

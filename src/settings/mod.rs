@@ -9,6 +9,7 @@ mod from_option;
 mod from_toml;
 #[macro_use]
 mod table;
+mod job;
 mod keep;
 mod keys;
 mod level;
@@ -301,13 +302,14 @@ impl Settings {
         laid
     }
 
-    /// What contradicts itself once all levels are laid over each other: the corrections of the passes, what is said of a pair and of an
-    /// electrode. `place` says where a text speaks of it.
+    /// What contradicts itself once all levels are laid over each other: the corrections of the passes, what is said of a pair, of an
+    /// electrode and of the program. `place` says where a text speaks of it.
     pub(crate) fn contradictions(
         &self,
         place: &dyn Fn(&PassFault) -> Option<std::ops::Range<usize>>,
     ) -> Vec<SettingsError> {
         let others = pair::faults(self).into_iter().chain(milling::faults(self));
+        let others = others.chain(job::faults(self));
         let others = others.map(|fault| SettingsError {
             of_levels: true,
             ..SettingsError::new(fault.key, fault.message.clone(), place(&fault))

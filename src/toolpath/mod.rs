@@ -23,6 +23,7 @@ mod path;
 mod paths;
 mod proof;
 mod rounds;
+mod stated;
 mod tab;
 #[cfg(test)]
 mod tests;
@@ -40,6 +41,7 @@ pub(crate) use part::{Cutting, Part, part};
 pub(crate) use path::lengths;
 pub use path::{PathSegment, Refusal, Source, WirePath};
 pub(crate) use rounds::rounds;
+pub(crate) use stated::{is_stated, short_layers, stated_faults};
 pub(crate) use work::Work;
 pub use work::{LargestWire, largest_wire, work};
 

@@ -80,7 +80,12 @@ fn result(row: &Row) -> Value {
         result["relatedLocations"] = row.related.iter().map(location).collect();
     }
     if let Some(reason) = &row.suppressed {
-        result["suppressions"] = json!([{ "kind": "external", "justification": reason }]);
+        let kind = if row.is_marked {
+            "inSource"
+        } else {
+            "external"
+        };
+        result["suppressions"] = json!([{ "kind": kind, "justification": reason }]);
     }
     result
 }

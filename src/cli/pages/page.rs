@@ -79,7 +79,7 @@ impl Page {
             force: false,
         };
         let program = job::generate(&snapshot, findings.to_vec(), &wanted, &())
-            .map_err(|refusal| refusal.sentence(unit_mm));
+            .map_err(|refusal| refusal.sentence(opened.document.telling()));
         let count = |severity| rows.iter().filter(|row| row.severity == severity).count();
         let Snapshot {
             drawing,

@@ -46,6 +46,10 @@ declare! {
     an_extra_needs_a_drawn_part(key) => "{key} needs a contour that is cut for several parts: expected pair.drawn-as beside it";
     a_layer_in_two_workpieces(layer, one, other) => "the layer {layer} is of the workpieces {one} and {other}: expected one of them";
     milling_needs(missing) => "milling takes an electrode and its layers: expected {missing} to be set";
+    one_word_for_pause_and_end(key, word, other) => "{key} is {word}, and so is {other}: a program cannot pause by the word that ends it";
+    a_mass_needs_a_height(key) => "{key} is the mass of a slug: expected job.thickness beside it";
+    a_punch_within_a_punch(inner, outer, others) => "contour {inner} is a punch within the punch {outer}{others}: the wire would cut into that part; make it an opening, or draw it in a workpiece of its own";
+    and_more_punches(more) => ", and so are {more} more";
     a_layer_above_the_depth(key, layer, depth) => "{key} is {layer}, expected at most milling.depth {depth}";
     too_many_layers(key, layer, layers, most) => "{key} is {layer}, which makes {layers:.0} layers of milling.depth, expected at most {most}";
     the_file_has_too_many_bytes(bytes, most) => "the file has {bytes} bytes, expected at most {most}: none of it holds";

@@ -46,6 +46,10 @@ translate! {
     an_extra_needs_a_drawn_part(key) => "{key} 需要为多个零件切割的轮廓：同时应设 pair.drawn-as";
     a_layer_in_two_workpieces(layer, one, other) => "图层 {layer} 同时属于工件 {one} 和 {other}：只能属于一个";
     milling_needs(missing) => "铣削需要电极和分层的数据：应设置 {missing}";
+    one_word_for_pause_and_end(key, word, other) => "{key} 是 {word}，{other} 也是：程序不能用结束码来暂停";
+    a_mass_needs_a_height(key) => "{key} 是废料的质量：应同时设置 job.thickness";
+    a_punch_within_a_punch(inner, outer, others) => "轮廓 {inner} 是凸模，却在凸模 {outer} 之内{others}：丝会切入那个工件；应作为型孔，或画在另一个工件中";
+    and_more_punches(more) => "，这样的还有 {more} 个";
     a_layer_above_the_depth(key, layer, depth) => "{key} 是 {layer}，最多应为 milling.depth {depth}";
     too_many_layers(key, layer, layers, most) => "{key} 是 {layer}，milling.depth 要分 {layers:.0} 层，最多允许 {most} 层";
     the_file_has_too_many_bytes(bytes, most) => "文件有 {bytes} 字节，最多允许 {most}：整个文件无效";

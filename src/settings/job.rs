@@ -1,0 +1,32 @@
+//! What contradicts itself of a program and its workpiece, or says nothing.
+
+use super::{PassFault, Settings};
+
+pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
+    let program = settings.program();
+    let mut faults = Vec::new();
+    let mut complain = |key: &'static str, message: String| {
+        faults.push(PassFault {
+            key,
+            pass: usize::MAX,
+            message,
+        });
+    };
+    let (end, pause) = (program.end(), program.pause());
+    if end.eq_ignore_ascii_case(&pause) {
+        let keys = ["program.end", "program.pause"];
+        let [key, other] = match program.end.is_some() {
+            true => keys,
+            false => [keys[1], keys[0]],
+        };
+        complain(key, say!(one_word_for_pause_and_end, key, end, other));
+    }
+    if let Some(job) = &settings.job
+        && job.slug_limit.is_some()
+        && job.thickness.is_none()
+    {
+        let key = "job.slug-limit";
+        complain(key, say!(a_mass_needs_a_height, key));
+    }
+    faults
+}

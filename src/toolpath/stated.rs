@@ -1,0 +1,97 @@
+//! What the settings say of tabs, overlaps, thread holes, entries and steps, held against the contours while they are drawn.
+
+use super::leads::finding;
+use super::{Refusal, WirePath, lengths, plan};
+use crate::drawing::{Drawing, Outline};
+use crate::finding::{Finding, Place, Rule, Severity};
+use crate::settings::{Compensation, Effective, LengthSetting};
+
+/// In drawings of more segments the path says it when one is asked for.
+const MOST_SEGMENTS: usize = 2_000;
+
+/// What stands against a path as the settings say it, of the contours whose side is known.
+pub(crate) fn stated_faults(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &Effective,
+) -> Vec<Finding> {
+    let segments: usize = outlines.iter().map(|outline| outline.contour.len()).sum();
+    if segments > MOST_SEGMENTS {
+        return Vec::new();
+    }
+    let milled = match settings.mills {
+        true => settings.milled().ok(),
+        false => None,
+    };
+    let settings = milled.as_ref().unwrap_or(settings);
+    let is_known = |outline: &&Outline| {
+        outline.contour.double_of.is_none()
+            && (outline.wire_side().is_some() || settings.goes_along_middle(outline.contour.closed))
+    };
+    let firsts = outlines.iter().filter(is_known).filter_map(|outline| {
+        let first = outline.contour.pieces.first()?;
+        Some(drawing.get(first.entity)?.handle.to_string())
+    });
+    let handles: Vec<String> = firsts.collect();
+    if handles.is_empty() {
+        return Vec::new();
+    }
+    match plan(drawing, outlines, settings, Some(&handles)) {
+        Ok(paths) => short_layers(drawing, outlines, settings, &paths),
+        Err(Refusal::Findings(mut found)) => {
+            found.retain(|found| found.rule == Rule::LeadIn);
+            found
+        }
+        Err(Refusal::Sentence(sentence)) => {
+            let severity = settings.severity_over(Rule::Settings, Severity::Warning);
+            let said = severity.map(|own| finding(Rule::Settings, own, None, sentence, None));
+            said.into_iter().collect()
+        }
+        Err(Refusal::Cancelled) => Vec::new(),
+    }
+}
+
+/// Whether the settings say more of a path than its side.
+pub(crate) fn is_stated(settings: &Effective) -> bool {
+    if settings.compensation == Compensation::None {
+        return false;
+    }
+    if settings.mills {
+        return settings.milling.step.is_some();
+    }
+    let keeps_tabs = match &settings.tab {
+        LengthSetting::One(length) => *length > 0.0,
+        LengthSetting::ByHandle(lengths) => !lengths.is_empty(),
+    };
+    let mut own = settings.own.values();
+    keeps_tabs
+        || settings.closing_overlap > 0.0
+        || settings.thread.is_some()
+        || settings.entry.is_some()
+        || own.any(|own| own.thread.is_some() || own.entry.is_some())
+}
+
+/// The contours of which a layer is shorter than the step of linear compensation.
+pub(crate) fn short_layers(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &Effective,
+    paths: &[WirePath],
+) -> Vec<Finding> {
+    let Some(electrode) = settings.electrode().ok().filter(|_| settings.mills) else {
+        return Vec::new();
+    };
+    let unit_mm = settings.unit_of(drawing).mm;
+    let short = paths.iter().filter_map(|path| {
+        let length = lengths(std::slice::from_ref(path)).0 * unit_mm;
+        let first = outlines.get(path.outline)?.contour.pieces.first()?;
+        let place = Place::Entity {
+            entity: first.entity,
+        };
+        let sentence = || say!(the_step_is_longer, electrode.step, length);
+        let severity = Severity::Error;
+        (electrode.step > length)
+            .then(|| finding(Rule::Settings, severity, Some(place), sentence(), None))
+    });
+    short.collect()
+}
