@@ -140,74 +140,6 @@ fn editing(c: &mut Criterion) {
     group.finish();
 }
 
-/// Punch and plate along a contour of 10,000 segments, and along two.
-fn fitting(c: &mut Criterion) {
-    let mut group = c.benchmark_group("fit of punch and plate");
-    group.sample_size(20);
-    for (name, settings, layers) in [
-        (
-            "one contour of 10,000 segments, cut twice",
-            "drawn-as = \"punch\"\n",
-            &["0"][..],
-        ),
-        (
-            "two contours of 10,000 segments",
-            "[workpieces]\nA = [\"A\"]\nB = [\"B\"]\n",
-            &["A", "B"][..],
-        ),
-    ] {
-        let text =
-            format!("wire-diameter = 0.18\ngap = 0.01\n[pair]\nclearance = 0.01\n{settings}");
-        let settings = Arc::new(Effective::of(&wedm::settings::from_toml(&text).0));
-        let mut drawing = Drawing::new(None);
-        let mut ids = Vec::new();
-        for (place, layer) in layers.iter().enumerate() {
-            let by = 0.01 * place as f64;
-            // A wheel of teeth whose corners are sharp, so that each is looked at.
-            let count = 10_000;
-            let corner = |at: i32| {
-                let angle = std::f64::consts::TAU * f64::from(at) / f64::from(count);
-                let radius = if at % 2 == 0 { 1600.0 } else { 1600.8 } + by;
-                Vertex::new(radius * angle.cos(), radius * angle.sin(), 0.0)
-            };
-            let geometry = Geometry::Polyline {
-                closed: true,
-                vertices: (0..count).map(corner).collect(),
-            };
-            ids.push(drawing.push(Entity {
-                handle: format!("{place}").as_str().into(),
-                layer: (*layer).into(),
-                role: None,
-                kind: wedm::drawing::Kind::LightPolyline,
-                geometry,
-            }));
-        }
-        let mut analysis = Analysis::new(&drawing, settings.clone());
-        let outlines = analysis.outlines(&drawing).clone();
-        group.bench_function(name, |b| {
-            b.iter(|| black_box(wedm::fit::fit(&drawing, &outlines, &settings, &|| true)));
-        });
-        let mut moved = false;
-        group.bench_function(format!("{name}: an edit"), |b| {
-            b.iter(|| {
-                moved = !moved;
-                let vertex = Vertex::new(1600.0 + if moved { 0.001 } else { 0.0 }, 0.0, 0.0);
-                let touched = drawing
-                    .splice(ids[0], 0, 1, &[vertex])
-                    .expect("the vertex is there");
-                analysis.update(
-                    &drawing,
-                    &Delta {
-                        touched: vec![touched],
-                    },
-                );
-                black_box(analysis.findings(&drawing, 500))
-            });
-        });
-    }
-    group.finish();
-}
-
 fn writing(c: &mut Criterion) {
     let mut group = c.benchmark_group("path to proved 3B program");
     group.sample_size(10);
@@ -244,5 +176,5 @@ fn writing(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, reading, analysing, editing, fitting, writing);
+criterion_group!(benches, reading, analysing, editing, writing);
 criterion_main!(benches);

@@ -2,6 +2,7 @@
 
 #![allow(dead_code)]
 
+pub mod contours;
 pub mod shapes;
 
 use std::fmt::Write;
