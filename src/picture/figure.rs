@@ -94,8 +94,8 @@ fn areas(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
         }
     }
     for (_, is_opening, data, outline) in areas {
-        let paths = outline.and_then(|outline| of.get(&outline));
-        let paths = paths.map(Vec::as_slice).unwrap_or_default();
+        let paths = outline.and_then(|outline| of.remove(&outline));
+        let paths = &paths.unwrap_or_default()[..];
         let swept = round_of(frame, paths);
         let fill = |sheet: &mut Sheet, class: &str, data: &str| {
             sheet.path(&format!(r#"class="{class}""#), data, "");
@@ -113,6 +113,10 @@ fn areas(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
         if !is_opening && swept.is_some() {
             fill(sheet, "part", &data);
         }
+    }
+    // Open contours have no inside.
+    for index in 0..subject.outlines.len() {
+        kerfs(sheet, frame, &of.remove(&index).unwrap_or_default());
     }
 }
 

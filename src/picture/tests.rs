@@ -325,6 +325,12 @@ fn what_the_wire_cuts_and_leaves_is_shown_to_scale() {
         ..paths[0].clone()
     }];
     assert!(!shown(&controlled, &findings, &settings()).contains(r#"class="kerf""#));
+    // Beside an open contour, which has no inside, it cuts all the same.
+    let mut open = outlines.clone();
+    open[0].contour.closed = false;
+    (open[0].role, open[0].twice_area) = (Role::Left, 0.0);
+    let beside = drawn(&drawing, &open, &findings, &paths, &settings());
+    assert!(beside.contains(&wide(0.2)), "{beside}");
     // Several contours are numbered in their order.
     assert!(!plain.contains(r#"class="order""#));
     let twice = [paths[0].clone(), paths[0].clone()];
