@@ -3,7 +3,7 @@
 use super::corners::{Element, between};
 use super::path::{Refusal, WirePath};
 use crate::drawing::{Contour, Drawing, EntityId, Outline, winding};
-use crate::geometry::{Arc, Bounds, Point, Segment};
+use crate::geometry::{Arc, Bounds, Grid, Point, Segment};
 use crate::settings::{Direction, Order};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::cmp::Ordering;
@@ -173,30 +173,27 @@ impl Nesting {
             .iter()
             .map(|&index| outlines[index].contour.bounds(drawing))
             .collect();
-        let mut by_left: Vec<usize> = (0..chosen.len())
-            .filter(|&place| outlines[chosen[place]].contour.closed)
-            .collect();
-        by_left.sort_by(|&a, &b| boxes[a].min.x.total_cmp(&boxes[b].min.x));
+        let is_closed = |place: &usize| outlines[chosen[*place]].contour.closed;
+        let mut grid = Grid::default();
+        for place in (0..chosen.len()).filter(is_closed) {
+            grid.insert(place, boxes[place]);
+        }
         let mut around = vec![Vec::new(); chosen.len()];
-        for &inner in &by_left {
+        for inner in (0..chosen.len()).filter(is_closed) {
             let Some(first) = outlines[chosen[inner]].contour.segment(drawing, 0) else {
                 continue;
             };
             let point = first.geometry.point_at(0.5);
-            let reach = by_left.partition_point(|&other| boxes[other].min.x <= boxes[inner].min.x);
-            for &outer in &by_left[..reach] {
-                let about = boxes[outer];
-                let holds = outer != inner
-                    && about != boxes[inner]
-                    && about.max.x >= boxes[inner].max.x
-                    && about.min.y <= boxes[inner].min.y
-                    && about.max.y >= boxes[inner].max.y
-                    && winding(drawing, &outlines[chosen[outer]].contour, point) != 0;
-                if holds {
-                    // From left to right, so that the first holder is the outermost.
-                    around[inner].push(outer);
-                }
-            }
+            let holders: &mut Vec<usize> = &mut around[inner];
+            grid.near(&Bounds::of_points(&[point]), |outer| holders.push(outer));
+            holders.retain(|&outer| {
+                boxes[outer] != boxes[inner]
+                    && boxes[outer].merged(&boxes[inner]) == boxes[outer]
+                    && winding(drawing, &outlines[chosen[outer]].contour, point) != 0
+            });
+            // From left to right, so that the first holder is the outermost.
+            let left = |place: usize| boxes[place].min.x;
+            holders.sort_by(|&a, &b| left(a).total_cmp(&left(b)).then(a.cmp(&b)));
         }
         Nesting { around }
     }
