@@ -1,13 +1,17 @@
 //! How two segments lie to each other: where they meet, where they face each other, how far they run on one another.
 
-use super::{Arc, Line, Point, Segment, Vector, circle_circle, cross, line_circle, line_line};
+use super::intersection::Meetings;
+use super::{Arc, Few, Line, Point, Segment, Vector, circle_circle, cross, line_circle, line_line};
+
+/// Places where two segments face each other.
+type Facing = Few<(Point, Point), 6>;
 
 /// Two directions closer than this (sine of their angle) count as parallel, two centres closer than this share of the radius as one.
 const PARALLEL: f64 = 1e-6;
 
 /// The points that two segments have in common, without those of a stretch that they share.
-pub(crate) fn meetings(a: &Segment, b: &Segment) -> Vec<Point> {
-    let mut points = match (a, b) {
+pub(crate) fn meetings(a: &Segment, b: &Segment) -> Meetings {
+    let met = match (a, b) {
         (Segment::Line(a), Segment::Line(b)) => {
             line_line(a.start, a.end - a.start, b.start, b.end - b.start)
                 .into_iter()
@@ -18,13 +22,14 @@ pub(crate) fn meetings(a: &Segment, b: &Segment) -> Vec<Point> {
         }
         (Segment::Arc(a), Segment::Arc(b)) => circle_circle(a.center, a.radius, b.center, b.radius),
     };
-    points.retain(|&point| within(a, point) && within(b, point));
-    points
+    met.into_iter()
+        .filter(|&point| a.spans(point) && b.spans(point))
+        .collect()
 }
 
 /// Pairs of points, one inside each segment, whose connection is perpendicular to both: every place where the distance of
 /// the two is at a minimum, a maximum or a saddle. Where it is the same all along, the middle of that stretch.
-pub(crate) fn facing(a: &Segment, b: &Segment) -> Vec<(Point, Point)> {
+pub(crate) fn facing(a: &Segment, b: &Segment) -> Facing {
     match (a, b) {
         (Segment::Line(one), Segment::Line(other)) => {
             facing_lines(one, other).into_iter().collect()
@@ -81,10 +86,6 @@ pub(crate) fn foot_inside(segment: &Segment, point: Point) -> Option<Point> {
     }
 }
 
-fn within(segment: &Segment, point: Point) -> bool {
-    (0.0..=1.0).contains(&segment.share_of(point))
-}
-
 fn facing_lines(a: &Line, b: &Line) -> Option<(Point, Point)> {
     if cross(a.direction(), b.direction()).abs() > PARALLEL {
         return None;
@@ -101,14 +102,14 @@ fn facing_lines(a: &Line, b: &Line) -> Option<(Point, Point)> {
 
 /// The point of an arc in a direction from its centre; `None` where the arc does not reach there.
 pub(crate) fn reached(arc: &Arc, way: Vector) -> Option<Point> {
-    let share = arc.share_of(arc.center + way * arc.radius);
-    (0.0..=1.0).contains(&share).then(|| arc.point_at(share))
+    let point = arc.center + way * arc.radius;
+    arc.spans(point).then_some(point)
 }
 
-fn facing_line_and_arc(line: &Line, arc: &Arc) -> Vec<(Point, Point)> {
+fn facing_line_and_arc(line: &Line, arc: &Arc) -> Facing {
     let share = line.share_of(arc.center);
     if !(0.0..=1.0).contains(&share) {
-        return Vec::new();
+        return Facing::default();
     }
     let foot = line.start + (line.end - line.start) * share;
     let away = (foot - arc.center)
@@ -121,9 +122,9 @@ fn facing_line_and_arc(line: &Line, arc: &Arc) -> Vec<(Point, Point)> {
         .collect()
 }
 
-fn facing_arcs(a: &Arc, b: &Arc) -> Vec<(Point, Point)> {
+fn facing_arcs(a: &Arc, b: &Arc) -> Facing {
     let between = b.center - a.center;
-    let mut found = Vec::new();
+    let mut found = Facing::default();
     if between.norm() <= PARALLEL * a.radius.max(b.radius) {
         // Concentric: the same distance wherever both are.
         let shares = [b.start, b.end].map(|end| a.share_of(end).clamp(0.0, 1.0));

@@ -110,7 +110,8 @@ impl Arc {
         2.0 * self.radius * (self.sweep / 4.0).sin().powi(2)
     }
 
-    fn is_shallow(&self) -> bool {
+    /// Nearly straight: its centre lies too far away to be known well.
+    pub(crate) fn is_shallow(&self) -> bool {
         self.sweep.abs() < SHALLOW
     }
 
@@ -170,12 +171,29 @@ impl Arc {
 
     /// Smallest distance from `point` to the arc.
     pub(crate) fn distance_to(&self, point: Point) -> f64 {
-        let share = self.share_of(point);
-        let to_center = (point - self.center).norm();
-        if (0.0..=1.0).contains(&share) || to_center == 0.0 {
+        if self.spans(point) || point == self.center {
             return self.rise_of(point).abs();
         }
-        (point - self.start).norm().min((point - self.end).norm())
+        let (from_start, from_end) = (point - self.start, point - self.end);
+        from_start
+            .norm_squared()
+            .min(from_end.norm_squared())
+            .sqrt()
+    }
+
+    /// True where the arc goes through the direction in which `point` lies from the centre.
+    pub(crate) fn spans(&self, point: Point) -> bool {
+        if self.is_shallow() {
+            return (0.0..=1.0).contains(&self.share_of(point));
+        }
+        let sense = self.sweep.signum();
+        let way = point - self.center;
+        let behind_start = cross(self.start - self.center, way) * sense >= 0.0;
+        let before_end = cross(way, self.end - self.center) * sense >= 0.0;
+        match self.is_minor() {
+            true => behind_start && before_end,
+            false => behind_start || before_end || self.is_full_turn(),
+        }
     }
 
     /// How far `point` lies outside the arc's circle; negative inside.

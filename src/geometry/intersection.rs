@@ -1,6 +1,9 @@
 //! Where infinite lines and full circles meet. Tangent contact within rounding counts as one point.
 
-use super::{Point, Vector, cross};
+use super::{Few, Point, Vector, cross};
+
+/// Where two lines or circles meet.
+pub(crate) type Meetings = Few<Point, 2>;
 
 /// The point where the line through `p` along `u` meets the line through `q` along `v`.
 /// `None` for parallel lines (the sine of their angle below 1e-12) and for a direction of length zero.
@@ -15,47 +18,47 @@ pub(crate) fn line_line(p: Point, u: Vector, q: Point, v: Vector) -> Option<Poin
 /// The points where the line through `p` along `u` meets a circle, in the order of `u`.
 ///
 /// A line that misses the circle by less than 1e-9 of its radius counts as touching and gives one point.
-pub(crate) fn line_circle(p: Point, u: Vector, center: Point, radius: f64) -> Vec<Point> {
+pub(crate) fn line_circle(p: Point, u: Vector, center: Point, radius: f64) -> Meetings {
     let Some(along) = u.try_normalize(0.0) else {
-        return Vec::new();
+        return Meetings::default();
     };
     let to_center = center - p;
     let foot = p + along * to_center.dot(&along);
     let distance = cross(along, to_center).abs();
-    half_chord(distance, radius).map_or_else(Vec::new, |half| match half {
-        0.0 => vec![foot],
-        half => vec![foot - along * half, foot + along * half],
-    })
+    let mut met = Meetings::default();
+    match half_chord(distance, radius) {
+        None => {}
+        Some(0.0) => met.push(foot),
+        Some(half) => met.extend([foot - along * half, foot + along * half]),
+    }
+    met
 }
 
 /// The points where two circles meet: none, one (touching within 1e-9 of the larger radius) or two,
 /// first the one to the left of the way from `a` to `b`. Concentric circles give none.
-pub(crate) fn circle_circle(a: Point, radius_a: f64, b: Point, radius_b: f64) -> Vec<Point> {
+pub(crate) fn circle_circle(a: Point, radius_a: f64, b: Point, radius_b: f64) -> Meetings {
     let between = b - a;
     let distance = between.norm();
+    let mut met = Meetings::default();
     let Some(along) = between.try_normalize(1e-300) else {
-        return Vec::new();
+        return met;
     };
     let offset =
         (distance * distance + (radius_a - radius_b) * (radius_a + radius_b)) / (2.0 * distance);
     let scale = radius_a.max(radius_b);
     let squared = (radius_a - offset) * (radius_a + offset);
     let foot = a + along * offset;
-    if squared < 0.0 {
-        // Touching within rounding: the gap between the circles decides, not its square.
-        let gap = (distance - radius_a - radius_b).max((radius_a - radius_b).abs() - distance);
-        return if gap <= 1e-9 * scale {
-            vec![foot]
-        } else {
-            Vec::new()
-        };
+    if squared > 0.0 {
+        let half = super::left_normal(along) * squared.sqrt();
+        met.extend([foot + half, foot - half]);
+        return met;
     }
-    let half = super::left_normal(along) * squared.sqrt();
-    if squared == 0.0 {
-        vec![foot]
-    } else {
-        vec![foot + half, foot - half]
+    // Touching within rounding: the gap between the circles decides, not its square.
+    let gap = (distance - radius_a - radius_b).max((radius_a - radius_b).abs() - distance);
+    if squared == 0.0 || gap <= 1e-9 * scale {
+        met.push(foot);
     }
+    met
 }
 
 /// Half the chord that a circle cuts out of a line at `distance` from its centre.

@@ -1,5 +1,6 @@
 //! Where the centre of a disc may lie that touches something: a line or a circle.
 
+use super::intersection::Meetings;
 use super::{Point, Segment, Vector, circle_circle, left_normal, line_circle, line_line};
 
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +46,7 @@ impl Locus {
     }
 
     /// The centres that lie on both.
-    pub(crate) fn meet(&self, other: &Locus) -> Vec<Point> {
+    pub(crate) fn meet(&self, other: &Locus) -> Meetings {
         match (self, other) {
             (
                 Locus::Line {

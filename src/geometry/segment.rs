@@ -157,6 +157,14 @@ impl Segment {
         }
     }
 
+    /// True where the place on the segment's line or circle that is nearest to `point` lies on the segment.
+    pub(crate) fn spans(&self, point: Point) -> bool {
+        match self {
+            Segment::Line(line) => (0.0..=1.0).contains(&line.share_of(point)),
+            Segment::Arc(arc) => arc.spans(point),
+        }
+    }
+
     /// Smallest distance from `point` to the segment.
     pub fn distance_to(&self, point: Point) -> f64 {
         match self {
