@@ -6,7 +6,7 @@
 
 mod generated;
 
-use cavalier_contours::polyline::{PlineSource, PlineSourceMut, Polyline};
+use cavalier_contours::polyline::{PlineCreation, PlineSource, PlineSourceMut, Polyline};
 use generated::contours::{ALL, rounded};
 use std::f64::consts::TAU;
 use std::hint::black_box;

@@ -1,17 +1,35 @@
 //! How near a path comes to the walls, for contours of any size.
 
 use crate::geometry::{
-    Arc, Bounds, Line, Point, Segment, circle_circle, line_circle, line_line, reached,
+    Arc, Bounds, Line, Point, Segment, Vector, circle_circle, left_normal, line_circle, line_line,
+    reached,
 };
+use std::ops::Range;
+use std::sync::OnceLock;
 
 /// Walls in boxes of boxes over their order along the contour, in which neighbours lie together.
+#[derive(Debug)]
 pub(crate) struct Walls {
     segments: Vec<Segment>,
     /// Boxes of `FAN` segments, then boxes of `FAN` of those, up to one.
     levels: Vec<Vec<Bounds>>,
+    /// What lies about each, once it has been asked for; `None` where that is too much.
+    about: OnceLock<Option<About>>,
 }
 
 const FAN: usize = 8;
+
+/// So many walls about each are kept.
+const MOST_ABOUT: usize = 32;
+
+/// Of each wall those whose boxes come within `reach` of its own.
+#[derive(Debug)]
+struct About {
+    reach: f64,
+    /// Where those of each wall begin, and where the last ones end.
+    begins: Vec<u32>,
+    walls: Vec<u32>,
+}
 
 impl Walls {
     pub(crate) fn new(segments: Vec<Segment>) -> Walls {
@@ -27,7 +45,11 @@ impl Walls {
             levels.push(std::mem::replace(&mut level, above));
         }
         levels.push(level);
-        Walls { segments, levels }
+        Walls {
+            segments,
+            levels,
+            about: OnceLock::new(),
+        }
     }
 
     pub(crate) fn segment(&self, index: usize) -> &Segment {
@@ -39,6 +61,70 @@ impl Walls {
         self.find_near(path, distance, |_, _| true)
     }
 
+    /// The same for a path that runs beside the wall `own` no further from it than `distance` and a little: then few walls are asked.
+    pub(crate) fn too_near_beside(
+        &self,
+        own: usize,
+        path: &Segment,
+        distance: f64,
+    ) -> Option<usize> {
+        let bounds = path.bounds();
+        let (area, boxes) = (bounds.grown(distance), &self.levels[0]);
+        let about = self.about.get_or_init(|| self.about(2.1 * distance));
+        // All that comes near to what lies in the box is among those about the wall.
+        let is_known = |about: &&About| {
+            let within = boxes[own].grown(about.reach - distance);
+            within.merged(&bounds) == within
+        };
+        let Some(about) = about.as_ref().filter(is_known) else {
+            return self.too_near(path, distance);
+        };
+        let range = about.begins[own] as usize..about.begins[own + 1] as usize;
+        let mut walls = about.walls[range].iter().map(|&wall| wall as usize);
+        walls.find(|&wall| {
+            boxes[wall].touches(&area) && self.distance_below(path, wall, distance).is_some()
+        })
+    }
+
+    fn about(&self, reach: f64) -> Option<About> {
+        let count = self.segments.len();
+        let mut about = About {
+            reach,
+            begins: Vec::with_capacity(count + 1),
+            walls: Vec::with_capacity(4 * count),
+        };
+        let (mut near, mut looks): (Vec<u32>, usize) = (Vec::new(), 0);
+        for boxes in self.levels[0].chunks(FAN) {
+            let mut all = Bounds::EMPTY;
+            boxes.iter().for_each(|own| all.merge(own));
+            near.clear();
+            self.find(&all.grown(reach), |wall| {
+                near.push(wall as u32);
+                false
+            });
+            looks += near.len();
+            if looks > MOST_ABOUT * count || about.walls.len() > MOST_ABOUT * count {
+                return None;
+            }
+            for own in boxes.iter().map(|own| own.grown(reach)) {
+                about.begins.push(about.walls.len() as u32);
+                let is_near = |wall: &&u32| self.levels[0][**wall as usize].touches(&own);
+                about.walls.extend(near.iter().filter(is_near));
+            }
+        }
+        about.begins.push(about.walls.len() as u32);
+        Some(about)
+    }
+
+    /// How far a path is from a wall, where that is less than `distance`.
+    pub(crate) fn distance_below(&self, path: &Segment, wall: usize, distance: f64) -> Option<f64> {
+        let wall = &self.segments[wall];
+        if are_apart(path, wall, distance) {
+            return None;
+        }
+        Some(distance_between(path, wall)).filter(|away| *away < distance)
+    }
+
     /// The same among those for which, with their distance, `counts` holds.
     pub(crate) fn find_near(
         &self,
@@ -46,9 +132,9 @@ impl Walls {
         distance: f64,
         counts: impl Fn(usize, f64) -> bool,
     ) -> Option<usize> {
-        self.find(&path.bounds().grown(distance), |index| {
-            let away = distance_between(path, &self.segments[index]);
-            away < distance && counts(index, away)
+        self.find(&path.bounds().grown(distance), |wall| {
+            let away = self.distance_below(path, wall, distance);
+            away.is_some_and(|away| counts(wall, away))
         })
     }
 
@@ -75,30 +161,49 @@ impl Walls {
         })
     }
 
+    /// One that is nearer to a point than `distance`: of those beside `last`, which was found for a point before it, else of all.
+    pub(crate) fn nearer_from(
+        &self,
+        last: Option<usize>,
+        point: Point,
+        distance: f64,
+    ) -> Option<usize> {
+        let count = self.segments.len();
+        let beside = last.map(|last| [last, (last + 1) % count, (last + count - 1) % count]);
+        let is_nearer = |wall: &usize| self.segments[*wall].distance_to(point) < distance;
+        let beside = beside.into_iter().flatten().find(is_nearer);
+        beside.or_else(|| self.nearer(point, distance))
+    }
+
     /// The first segment with a box that touches `reach` of which `is_it` says so.
     pub(crate) fn find(
         &self,
         reach: &Bounds,
         mut is_it: impl FnMut(usize) -> bool,
     ) -> Option<usize> {
-        let mut waiting = vec![(
-            self.levels.len() - 1,
-            0..self.levels.last().map_or(0, Vec::len),
-        )];
-        while let Some((level, range)) = waiting.pop() {
-            for index in range {
-                if !self.levels[level][index].touches(reach) {
-                    continue;
-                }
-                if level > 0 {
-                    let below = self.levels[level - 1].len();
-                    waiting.push((level - 1, index * FAN..((index + 1) * FAN).min(below)));
-                } else if is_it(index) {
-                    return Some(index);
-                }
-            }
+        let top = self.levels.len() - 1;
+        self.find_in(top, 0..self.levels[top].len(), reach, &mut is_it)
+    }
+
+    fn find_in(
+        &self,
+        level: usize,
+        mut range: Range<usize>,
+        reach: &Bounds,
+        is_it: &mut impl FnMut(usize) -> bool,
+    ) -> Option<usize> {
+        let boxes = &self.levels[level];
+        if level == 0 {
+            return range.find(|&index| boxes[index].touches(reach) && is_it(index));
         }
-        None
+        let below = self.levels[level - 1].len();
+        range
+            .rev()
+            .filter(|&index| boxes[index].touches(reach))
+            .find_map(|index| {
+                let within = index * FAN..((index + 1) * FAN).min(below);
+                self.find_in(level - 1, within, reach, is_it)
+            })
     }
 }
 
@@ -118,11 +223,8 @@ pub(crate) fn distance_between(a: &Segment, b: &Segment) -> f64 {
     })
 }
 
-fn within(share: f64) -> bool {
-    (0.0..=1.0).contains(&share)
-}
-
 fn between_lines(a: &Line, b: &Line) -> f64 {
+    let within = |share: f64| (0.0..=1.0).contains(&share);
     let crossing = line_line(a.start, a.end - a.start, b.start, b.end - b.start);
     match crossing {
         Some(point) if within(a.share_of(point)) && within(b.share_of(point)) => 0.0,
@@ -132,7 +234,8 @@ fn between_lines(a: &Line, b: &Line) -> f64 {
 
 fn between_line_and_arc(line: &Line, arc: &Arc) -> f64 {
     let along = line.end - line.start;
-    let crosses = |&point: &Point| within(line.share_of(point)) && within(arc.share_of(point));
+    let within = |share: f64| (0.0..=1.0).contains(&share);
+    let crosses = |&point: &Point| within(line.share_of(point)) && arc.spans(point);
     if line_circle(line.start, along, arc.center, arc.radius)
         .iter()
         .any(crosses)
@@ -141,7 +244,7 @@ fn between_line_and_arc(line: &Line, arc: &Arc) -> f64 {
     }
     let share = line.share_of(arc.center);
     let foot = line.start + along * share;
-    if within(share) && within(arc.share_of(foot)) {
+    if within(share) && arc.spans(foot) {
         arc.rise_of(foot).abs()
     } else {
         f64::INFINITY
@@ -149,7 +252,7 @@ fn between_line_and_arc(line: &Line, arc: &Arc) -> f64 {
 }
 
 fn between_arcs(a: &Arc, b: &Arc) -> f64 {
-    let crosses = |&point: &Point| within(a.share_of(point)) && within(b.share_of(point));
+    let crosses = |&point: &Point| a.spans(point) && b.spans(point);
     if circle_circle(a.center, a.radius, b.center, b.radius)
         .iter()
         .any(crosses)
@@ -167,4 +270,117 @@ fn between_arcs(a: &Arc, b: &Arc) -> f64 {
         }
     }
     nearest
+}
+
+/// True where two segments are seen to be at least `distance` apart by what carries one of them, at less cost than their distance. False
+/// says nothing.
+fn are_apart(a: &Segment, b: &Segment, distance: f64) -> bool {
+    keeps_off(a, b, distance) || keeps_off(b, a, distance)
+}
+
+/// True where all of `segment` keeps a distance from the line or circle that carries `other`, on one side of it.
+fn keeps_off(segment: &Segment, other: &Segment, distance: f64) -> bool {
+    let is_shallow = |it: &Segment| it.as_arc().is_some_and(Arc::is_shallow);
+    if is_shallow(segment) || is_shallow(other) {
+        // The centre of what is nearly straight is not known well enough.
+        return false;
+    }
+    let normal = match other {
+        Segment::Line(line) => left_normal(line.direction()),
+        Segment::Arc(_) => Vector::zeros(),
+    };
+    let rise = |point: Point| match other {
+        Segment::Line(line) => normal.dot(&(point - line.start)),
+        Segment::Arc(circle) => (point - circle.center).norm() - circle.radius,
+    };
+    let (start, end) = (rise(segment.start()), rise(segment.end()));
+    let is_beyond = start > 0.0;
+    let is_off = |rise: f64| {
+        if is_beyond {
+            rise >= distance
+        } else {
+            rise <= -distance
+        }
+    };
+    if !is_off(start) || !is_off(end) {
+        return false;
+    }
+    match (segment, other) {
+        (Segment::Line(line), Segment::Arc(circle)) => {
+            !is_beyond || line.distance_to(circle.center) - circle.radius >= distance
+        }
+        (Segment::Line(_), Segment::Line(_)) => true,
+        (Segment::Arc(arc), _) => {
+            // Between its ends it comes nearest, or farthest, where it is square to the other.
+            let axis = match other {
+                Segment::Line(_) => Some(normal),
+                Segment::Arc(circle) => (arc.center - circle.center).try_normalize(0.0),
+            };
+            let tops = axis.into_iter().flat_map(|axis| [axis, -axis]);
+            tops.map(|way| arc.center + way * arc.radius)
+                .all(|top| !arc.spans(top) || is_off(rise(top)))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lines and arcs of all sizes at scattered places, from a fixed sequence.
+    fn scattered(count: usize) -> Vec<Segment> {
+        let mut state = 7_u64;
+        let mut number = || {
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (state >> 33) as f64 / (1_u64 << 31) as f64
+        };
+        let mut segment = || {
+            let start = Point::new(number() * 4.0, number() * 4.0);
+            let size = 10f64.powf(number() * 3.0 - 2.0);
+            let way = Vector::new(number() - 0.5, number() - 0.5) * size;
+            let bulge =
+                [0.0, number() - 0.5, 6.0 * number() - 3.0, 1e-7][(number() * 4.0) as usize];
+            Segment::from_bulge(start, start + way, bulge)
+        };
+        (0..count).map(|_| segment()).collect()
+    }
+
+    #[test]
+    fn what_is_seen_to_be_apart_is() {
+        let all = scattered(400);
+        let mut apart = 0;
+        for (a, b) in all.iter().flat_map(|a| all.iter().map(move |b| (a, b))) {
+            for distance in [0.01, 0.1, 1.0] {
+                if are_apart(a, b, distance) {
+                    apart += 1;
+                    let between = distance_between(a, b);
+                    assert!(
+                        between >= distance - 1e-9,
+                        "{a:?} {b:?} {between} {distance}"
+                    );
+                }
+            }
+        }
+        assert!(apart > 100_000, "{apart}");
+    }
+
+    #[test]
+    fn beside_its_wall_a_path_is_near_to_what_it_is_near_to_among_all() {
+        let all = scattered(300);
+        let walls = Walls::new(all.clone());
+        let mut near = 0;
+        for (own, wall) in all.iter().enumerate() {
+            for shift in [0.0, 0.05, 0.2, 3.0] {
+                let path = wall.moved(Vector::new(shift, shift));
+                let found = walls.too_near_beside(own, &path, 0.1);
+                assert_eq!(found, walls.too_near(&path, 0.1), "{own} {shift}");
+                let is_near = |wall: &Segment| distance_between(&path, wall) < 0.1;
+                assert_eq!(found.is_some(), all.iter().any(is_near), "{own} {shift}");
+                near += usize::from(found.is_some());
+            }
+        }
+        assert!((300..1200).contains(&near), "{near}");
+    }
 }

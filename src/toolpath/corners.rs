@@ -5,12 +5,11 @@
 //! right on most contours: `proof` says whether it is, and `loops` finds the path where it is not. Tips in place of rolls come last.
 
 use super::clearance::Walls;
-use super::offset::{Offset, Wall, normal, offset};
+use super::offset::{Offset, Wall, offset};
 use super::path::Source;
 use crate::geometry::{
-    Arc, Point, Segment, Vector, circle_circle, cross, left_normal, line_circle, line_line, turn,
+    Arc, Few, Point, Segment, Vector, circle_circle, cross, left_normal, line_circle, line_line,
 };
-use std::f64::consts::PI;
 
 /// A piece of the closed path and the wall it belongs to.
 #[derive(Clone, Copy, Debug)]
@@ -144,14 +143,15 @@ fn corner(wall: &Segment, next: &Segment, joining: &Joining) -> Way {
         correction, side, ..
     } = *joining;
     let vertex = wall.end();
-    let from = vertex + normal(wall, 1.0, side) * correction;
-    let to = vertex + normal(next, 0.0, side) * correction;
+    let (before, behind) = (wall.end_tangent(), next.start_tangent());
+    let from = vertex + left_normal(before) * (side * correction);
+    let to = vertex + left_normal(behind) * (side * correction);
     if (from - to).norm() <= joining.touch {
         return Way::Through(Joint::At(from + (to - from) * 0.5));
     }
-    let turned = turn(wall.end_tangent(), next.start_tangent());
+    let turned = cross(before, behind);
     // A contour that turns right back is taken as a spike of the part.
-    if turned * side > 0.0 && turned.abs() < PI - 1e-9 {
+    if turned * side > 0.0 && (turned.abs() > 1e-9 || before.dot(&behind) > 0.0) {
         return Way::Through(Joint::CrossNear(from + (to - from) * 0.5));
     }
     Way::Roll(Arc {
@@ -241,8 +241,8 @@ fn tip(wall: &Segment, next: &Segment, joining: &Joining) -> Option<Point> {
 }
 
 /// Where the lines or circles that carry two segments meet.
-pub(super) fn meetings(a: &Segment, b: &Segment) -> Vec<Point> {
-    let found = match (a, b) {
+pub(super) fn meetings(a: &Segment, b: &Segment) -> Few<Point, 2> {
+    let met: Few<Point, 2> = match (a, b) {
         (Segment::Line(a), Segment::Line(b)) => {
             return line_line(a.start, a.end - a.start, b.start, b.end - b.start)
                 .into_iter()
@@ -253,8 +253,7 @@ pub(super) fn meetings(a: &Segment, b: &Segment) -> Vec<Point> {
         }
         (Segment::Arc(a), Segment::Arc(b)) => circle_circle(a.center, a.radius, b.center, b.radius),
     };
-    found
-        .into_iter()
+    met.into_iter()
         .map(|point| nearer_to_both(a, b, point))
         .collect()
 }
@@ -379,7 +378,9 @@ impl Ring<'_> {
     fn runs_backwards(&self, index: usize, start: Point, end: Point) -> bool {
         let geometry = &self.elements[index].geometry;
         let length = geometry.length();
-        length > 0.0 && (geometry.share_of(end) - geometry.share_of(start)) * length < -1e-9
+        length > 0.0
+            && !is_all_of(geometry, start, end)
+            && (geometry.share_of(end) - geometry.share_of(start)) * length < -1e-9
     }
 
     fn trimmed(mut self) -> Option<Vec<(usize, Element)>> {
@@ -427,10 +428,22 @@ pub(super) fn close_up(element: &mut Element, end: Point) {
     }
 }
 
+/// True for points that are the ends of a segment but for what is no more than rounding of coordinates.
+fn is_all_of(segment: &Segment, start: Point, end: Point) -> bool {
+    const SAME: f64 = 1e-11;
+    start != end
+        && segment.length() > 1e3 * SAME
+        && (segment.start() - start).norm() <= SAME
+        && (segment.end() - end).norm() <= SAME
+}
+
 /// The part of a segment, or of what carries it, from `start` to `end`.
 pub(super) fn between(segment: &Segment, start: Point, end: Point) -> Segment {
     match segment {
         Segment::Line(_) => Segment::line(start, end),
+        Segment::Arc(arc) if is_all_of(segment, start, end) => {
+            Segment::Arc(Arc { start, end, ..*arc })
+        }
         Segment::Arc(arc) => {
             let (from, to) = (arc.share_of(start), arc.share_of(end));
             Segment::Arc(Arc {

@@ -233,13 +233,16 @@ impl Job<'_> {
         if self.a_loop_will_do {
             return Ok(Ok(()));
         }
-        let mut by_raw = path.to_vec();
         let share = |(raw, piece): &(usize, Element)| {
             proof.raw.elements[*raw]
                 .geometry
                 .share_of(piece.geometry.start())
         };
-        by_raw.sort_by(|a, b| a.0.cmp(&b.0).then_with(|| share(a).total_cmp(&share(b))));
+        let mut by_raw = Cow::Borrowed(path);
+        if !path.is_sorted_by(|a, b| a.0 < b.0) {
+            let by_share = |a: &_, b: &_| share(a).total_cmp(&share(b));
+            (by_raw.to_mut()).sort_by(|a, b| a.0.cmp(&b.0).then_with(|| by_share(a, b)));
+        }
         let count = proof.followed();
         for first in (0..count).step_by(STEP) {
             self.go_on()?;
@@ -323,9 +326,12 @@ fn keeps_its_side(path: &[(usize, Element)], walls: &[Wall], side: f64) -> bool 
         .iter()
         .map(|(_, element)| element.geometry.twice_area(origin))
         .sum();
-    let elements: Vec<Element> = path.iter().map(|(_, element)| *element).collect();
     let grows = (area - contour) * contour.signum();
     let inside = grows * side * contour.signum() <= 0.0;
     // To the left of a counter-clockwise contour lies its inside.
-    inside && (area * contour > 0.0 || goes_out_and_back(&elements))
+    let is_out_and_back = || {
+        let elements: Vec<Element> = path.iter().map(|(_, element)| *element).collect();
+        goes_out_and_back(&elements)
+    };
+    inside && (area * contour > 0.0 || is_out_and_back())
 }

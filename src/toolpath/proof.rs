@@ -8,7 +8,7 @@ use super::clearance::Walls;
 use super::corners::{Element, Raw, meetings};
 use super::offset::Wall;
 use crate::drawing::winding_of;
-use crate::geometry::{Point, Segment};
+use crate::geometry::{Line, Point, Segment};
 use std::sync::OnceLock;
 
 /// What the offset of one contour is held against. Lengths in drawing units.
@@ -71,7 +71,12 @@ impl Proof<'_> {
     pub(crate) fn pieces_hold(&self, pieces: &[(usize, Element)]) -> Result<(), Unproved> {
         for (_, element) in pieces {
             let geometry = &element.geometry;
-            if let Some(wall) = self.own.too_near(geometry, self.correction - self.rounding) {
+            let least = self.correction - self.rounding;
+            let too_near = match self.closed {
+                true => self.own.too_near_beside(element.wall, geometry, least),
+                false => self.own.too_near(geometry, least),
+            };
+            if let Some(wall) = too_near {
                 return Err(Unproved { wall });
             }
             let own = &self.walls[element.wall].geometry;
@@ -108,6 +113,11 @@ impl Proof<'_> {
                 next % by_raw.len().max(1),
             ];
             let beside = beside.map(|place| by_raw.get(place).map(|(_, element)| element));
+            if let [(_, piece)] = &by_raw[first..next]
+                && self.is_whole(&piece.geometry, &element.geometry)
+            {
+                continue;
+            }
             let mut done = 0.0;
             let shares = |piece: &(usize, Element)| {
                 let share = |point| element.geometry.share_of(point).clamp(0.0, 1.0);
@@ -129,6 +139,13 @@ impl Proof<'_> {
         Ok(())
     }
 
+    /// True for a piece of a raw element that leaves nothing out at its ends.
+    fn is_whole(&self, piece: &Segment, raw: &Segment) -> bool {
+        (piece.start() - raw.start()).norm() <= self.rounding
+            && (piece.end() - raw.end()).norm() <= self.rounding
+            && (piece.length() - raw.length()).abs() <= self.rounding
+    }
+
     /// True when a stretch of a raw element has places of the path in it that lie beside what is there of the path.
     fn is_missing(
         &self,
@@ -141,8 +158,11 @@ impl Proof<'_> {
         let stretch = self.raw.elements[index].geometry.part(from, to);
         // Most is cut off at a corner, by the wall that comes next.
         let takes_all = |element: &&Element| {
-            let wall = &self.walls[element.wall].geometry;
-            matches!(wall, Segment::Line(_)) && is_all_within(&stretch, wall, self.correction)
+            is_all_within(
+                &stretch,
+                &self.walls[element.wall].geometry,
+                self.correction,
+            )
         };
         if beside.iter().flatten().any(takes_all) {
             return false;
@@ -173,9 +193,8 @@ impl Proof<'_> {
         let mut cuts = vec![0.0, 1.0];
         let slack = self.rounding * 1e-2;
         let is_on = |segment: &Segment, point: Point| {
-            let share = segment.share_of(point);
-            let beyond = (-share).max(share - 1.0) * segment.length();
-            beyond <= slack
+            let is_at = |end: Point| (point - end).norm() <= slack;
+            segment.spans(point) || is_at(segment.start()) || is_at(segment.end())
         };
         let mut cut_by = |other: usize| {
             let segment = &self.raw.elements[other].geometry;
@@ -209,21 +228,38 @@ impl Proof<'_> {
     }
 }
 
-/// True when a stretch lies within `distance` of a straight wall, all but its ends nearer than that.
+/// True when a stretch is seen to lie within `distance` of a wall, all but its ends nearer than that. False says nothing.
 ///
-/// The distance from a line is convex: it is nowhere larger than at the corners of what the stretch lies within.
+/// The distance from a line is convex: it is nowhere larger than at the corners of what the stretch lies within. Beside an arc of no more than
+/// a half turn these corners lie in its sector, which is convex, too: there only how far they are from the centre counts.
 fn is_all_within(stretch: &Segment, wall: &Segment, distance: f64) -> bool {
-    let within = |point: Point| wall.distance_to(point) <= distance * (1.0 + 1e-9);
+    let (start, end) = (stretch.start(), stretch.end());
     let apex = match stretch {
-        Segment::Line(_) => None,
+        Segment::Line(_) => start,
         Segment::Arc(arc) if arc.sweep.abs() > 2.0 => return false,
         Segment::Arc(arc) => {
             let middle = arc.point_at(0.5) - arc.center;
-            Some(arc.center + middle / (arc.sweep / 2.0).cos())
+            arc.center + middle / (arc.sweep / 2.0).cos()
         }
     };
-    wall.distance_to(stretch.point_at(0.5)) < distance * (1.0 - 1e-7)
-        && within(stretch.start())
-        && within(stretch.end())
-        && apex.is_none_or(within)
+    let corners = [start, end, apex];
+    let most = distance * (1.0 + 1e-9);
+    let is_within = |point: &Point| wall.distance_to(*point) <= most;
+    if wall.distance_to(stretch.point_at(0.5)) >= distance * (1.0 - 1e-7)
+        || !corners.iter().all(is_within)
+    {
+        return false;
+    }
+    let Segment::Arc(arc) = wall else {
+        return true;
+    };
+    let least = arc.radius - most;
+    let sides = [(start, end), (end, apex), (apex, start)];
+    let keeps_out = |&(start, end): &(Point, Point)| {
+        least <= 0.0 || Line { start, end }.distance_to(arc.center) >= least
+    };
+    !arc.is_shallow()
+        && arc.is_minor()
+        && corners.iter().all(|corner| arc.spans(*corner))
+        && sides.iter().all(keeps_out)
 }
