@@ -2,11 +2,12 @@
 
 use super::Analysis;
 use super::report::Report;
-use crate::drawing::{ContourKey, Drawing, DrawingEdit, Outline};
+use crate::drawing::{ContourKey, Drawing, DrawingEdit, Outline, Role};
 use crate::finding::{Detail, Finding, Fix, FixKind, Misfit, Place, Rule, Severity, Side};
 use crate::fit::{self, Pair, SegmentOf, Spot};
 use crate::rules::small_radius::{self, Travel};
 use crate::settings::{Compensation, Partners};
+use crate::toolpath::Part;
 use std::sync::Arc;
 
 /// A contour of more segments is not held against its partner at every edit.
@@ -20,8 +21,9 @@ pub(crate) struct Answer {
 }
 
 impl Analysis {
-    /// Forgets what was found between a contour and its partner.
+    /// Forgets what was found between a contour and its partner, and what is left of it.
     pub(super) fn forget_fits(&mut self, key: ContourKey) {
+        self.parts.retain(|(of, _), _| *of != key);
         self.fits
             .retain(|(one, other), _| *one != key && *other != key);
     }
@@ -83,20 +85,55 @@ impl Analysis {
             return answer.pair.clone();
         }
         let is_small = punch.contour.len().max(plate.contour.len()) <= MOST_SEGMENTS;
-        let pair = is_small.then(|| self.pair(drawing, punch, plate)).flatten();
+        let (pair, parts) = match is_small {
+            true => self.pair(drawing, both),
+            false => (None, None),
+        };
+        for ((key, _), (role, part)) in both.into_iter().zip(parts.into_iter().flatten()) {
+            self.parts.insert((key, role), part);
+        }
         let pair = pair.map(Arc::new);
         self.fits
             .insert((one, other), Answer { pair: pair.clone() });
         pair
     }
 
-    /// Two outlines, or one that is cut twice, laid in each other.
-    pub(super) fn pair(&self, drawing: &Drawing, punch: &Outline, plate: &Outline) -> Option<Pair> {
-        let goes_on = || true;
+    /// Two outlines, or one that is cut twice, laid in each other; and the parts that are left of two, for what comes next.
+    fn pair(
+        &self,
+        drawing: &Drawing,
+        both: [(ContourKey, &Outline); 2],
+    ) -> (Option<Pair>, Option<[(Role, Arc<Part>); 2]>) {
         let settings = &self.settings;
-        match self.settings.partners()? {
-            Partners::CutTwice(_) => fit::cut_twice(drawing, punch, settings, &goes_on).ok(),
-            Partners::Drawn => fit::drawn_pair(drawing, punch, plate, settings, &goes_on).ok(),
+        let [(one, punch), (other, plate)] = both;
+        let part_of = |key: ContourKey, outline: &Outline, role: Role| {
+            let kept = self.parts.get(&(key, role)).cloned();
+            let made = || {
+                Some(Arc::new(
+                    fit::drawn_part(drawing, outline, role, settings).ok()?,
+                ))
+            };
+            kept.or_else(made)
+        };
+        match settings.partners() {
+            Some(Partners::CutTwice(_)) => {
+                let pair = fit::cut_twice(drawing, punch, settings, &|| true);
+                (pair.ok(), None)
+            }
+            Some(Partners::Drawn) => {
+                let parts = rayon::join(
+                    || part_of(one, punch, Role::Punch),
+                    || part_of(other, plate, Role::Opening),
+                );
+                let Some((punch_part, plate_part)) = parts.0.zip(parts.1) else {
+                    return (None, None);
+                };
+                let parts = [&*punch_part, &*plate_part];
+                let pair = fit::drawn_pair(drawing, [punch, plate], parts, settings);
+                let kept = [(Role::Punch, punch_part), (Role::Opening, plate_part)];
+                (Some(pair), Some(kept))
+            }
+            None => (None, None),
         }
     }
 
@@ -253,8 +290,8 @@ impl Analysis {
         if let Some(answer) = self.fits.get(&(keys[both[0]], keys[both[1]])) {
             return answer.pair.clone();
         }
-        let [punch, plate] = both.map(|index| &outlines[index]);
-        self.pair(drawing, punch, plate).map(Arc::new)
+        let both = both.map(|index| (keys[index], &outlines[index]));
+        self.pair(drawing, both).0.map(Arc::new)
     }
 
     /// The edit that gives a corner a radius, and what is left of the clearance there behind it: at most what there should be. `None` where

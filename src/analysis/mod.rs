@@ -23,12 +23,13 @@ mod within;
 pub(crate) use contours::is_cut;
 
 use crate::drawing::{
-    Chains, Contour, ContourKey, Delta, Drawing, EntityId, Outline, RUN, Touched,
+    Chains, Contour, ContourKey, Delta, Drawing, EntityId, Outline, RUN, Role, Touched,
 };
 use crate::finding::{Finding, NoFix, Side};
 use crate::geometry::Bounds;
 use crate::rules::{Limits, Outlook};
 use crate::settings::Effective;
+use crate::toolpath::Part;
 use aside::{AsideEntities, LoneLines};
 use contours::set_aside;
 use known::{Answer, Known};
@@ -85,6 +86,8 @@ pub struct Analysis {
     lost: FxHashMap<ContourKey, Answer>,
     /// What was found between partners, or of a contour that is cut twice.
     fits: FxHashMap<(ContourKey, ContourKey), fits::Answer>,
+    /// What is left of contours whose partners are drawn, too.
+    parts: FxHashMap<(ContourKey, Role), Arc<Part>>,
     order: OnceLock<Vec<ContourKey>>,
     outlines: OnceLock<Arc<Vec<Outline>>>,
     /// What there is to be said in all, once it has been asked for.
@@ -113,6 +116,7 @@ impl Analysis {
             answers: FxHashMap::default(),
             lost: FxHashMap::default(),
             fits: FxHashMap::default(),
+            parts: FxHashMap::default(),
             order: OnceLock::new(),
             outlines: OnceLock::new(),
             tally: OnceLock::new(),

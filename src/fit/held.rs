@@ -5,8 +5,8 @@
 //! radius: there the farthest place of the other part that is nearest to that point says how much.
 
 use super::{Pair, Spot, segments};
-use crate::geometry::{Bounds, Point, Segment, Vector, cross};
-use crate::toolpath::{Part, distance_between};
+use crate::geometry::{Bounds, Few, Point, Segment, Vector, cross};
+use crate::toolpath::Part;
 use std::sync::Arc;
 
 /// What the clearance is held against. Drawing units.
@@ -24,11 +24,11 @@ const FARTHEST: f64 = 16.0;
 const MOST: usize = 2_000;
 
 /// Lays the punch in the plate. `names` are what the two are called.
-pub(super) fn held(punch: Part, plate: Part, names: [Arc<str>; 2], limits: &Limits) -> Pair {
-    let mut spots = corners([&punch, &plate], &names, false, limits);
+pub(super) fn held(punch: &Part, plate: &Part, names: [Arc<str>; 2], limits: &Limits) -> Pair {
+    let mut spots = corners([punch, plate], &names, false, limits);
     let [of_punch, of_plate] = names;
     let turned = [of_plate.clone(), of_punch.clone()];
-    spots.extend(corners([&plate, &punch], &turned, true, limits));
+    spots.extend(corners([plate, punch], &turned, true, limits));
     let mut least = limits.clearance;
     match limits.along_walls {
         Some(apart) if apart < limits.clearance - limits.rounding => {
@@ -36,7 +36,7 @@ pub(super) fn held(punch: Part, plate: Part, names: [Arc<str>; 2], limits: &Limi
             let first = punch.edges.first().map(|edge| edge.geometry.point_at(0.5));
             if let Some(at) = first
                 && let (Some(segment), Some(other)) =
-                    (punch.segment_at(0, at), segment_near(&plate, at))
+                    (punch.segment_at(0, at), segment_near(plate, at))
             {
                 spots.insert(
                     0,
@@ -54,7 +54,7 @@ pub(super) fn held(punch: Part, plate: Part, names: [Arc<str>; 2], limits: &Limi
             }
         }
         Some(_) => {}
-        None => spots.extend(walls(&punch, &plate, [of_punch, of_plate], limits)),
+        None => spots.extend(walls(punch, plate, [of_punch, of_plate], limits)),
     }
     least = spots
         .iter()
@@ -63,8 +63,8 @@ pub(super) fn held(punch: Part, plate: Part, names: [Arc<str>; 2], limits: &Limi
     Pair {
         least,
         spots,
-        punch: segments(&punch),
-        plate: segments(&plate),
+        punch: segments(punch),
+        plate: segments(plate),
     }
 }
 
@@ -119,7 +119,7 @@ fn farthest(
     let mut places: Vec<(f64, Point, usize)> = Vec::new();
     other.near.find(&Bounds::of_disc(turned, reach), |edge| {
         let geometry = &other.edges[edge].geometry;
-        let mut shares = vec![0.0, 1.0];
+        let mut shares: Few<f64, 8> = [0.0, 1.0].into_iter().collect();
         if !is_whole {
             shares.extend(
                 [from, to]
@@ -153,8 +153,8 @@ fn farthest(
 }
 
 /// Where a segment meets a ray, as shares of the segment; some may lie beyond its ends.
-fn crossed(segment: &Segment, from: Point, ray: Vector) -> Vec<f64> {
-    let found = match segment {
+fn crossed(segment: &Segment, from: Point, ray: Vector) -> Few<f64, 2> {
+    let found: Few<Point, 2> = match segment {
         Segment::Line(line) => {
             crate::geometry::line_line(line.start, line.end - line.start, from, ray)
                 .into_iter()
@@ -169,6 +169,7 @@ fn crossed(segment: &Segment, from: Point, ray: Vector) -> Vec<f64> {
 fn walls(punch: &Part, plate: &Part, names: [Arc<str>; 2], limits: &Limits) -> Vec<Spot> {
     let mut spots = Vec::new();
     let plain = |part: &Part, index: usize| part.edges[index].turned_about.is_none();
+    let mut beside = None;
     for (index, edge) in punch
         .edges
         .iter()
@@ -180,21 +181,21 @@ fn walls(punch: &Part, plate: &Part, names: [Arc<str>; 2], limits: &Limits) -> V
         plate
             .near
             .find(&geometry.bounds().grown(limits.clearance), |other| {
-                if plain(plate, other) {
-                    let apart = distance_between(geometry, &plate.edges[other].geometry);
-                    if apart < nearest.0 {
-                        nearest = (apart, Some(other));
-                    }
+                let nearer = || plate.near.distance_below(geometry, other, nearest.0);
+                if plain(plate, other)
+                    && let Some(apart) = nearer()
+                {
+                    nearest = (apart, Some(other));
                 }
                 false
             });
         let depth = |at: Point| plate.path.distance_to(at, plate.half) - plate.half;
         // What lies beyond the other's edge, or crosses it, is as deep as it is away from what the wire has cut.
-        let is_deep = |at: Point| {
-            plate
+        let mut is_deep = |at: Point| {
+            beside = plate
                 .path
-                .nearer(at, plate.half + limits.rounding)
-                .is_none()
+                .nearer_from(beside, at, plate.half + limits.rounding);
+            beside.is_none()
         };
         let deepest =
             if nearest.1.is_some() && nearest.0 <= limits.rounding || is_deep(geometry.start()) {

@@ -107,8 +107,16 @@ pub fn fit(
             let drawn = partners(drawing, outlines, settings);
             for &[punch, plate] in &drawn.pairs {
                 let (punch, plate) = (&outlines[punch], &outlines[plate]);
-                fit.pairs
-                    .push(drawn_pair(drawing, punch, plate, settings, goes_on)?);
+                let parts = rayon::join(
+                    || drawn_part(drawing, punch, Role::Punch, settings),
+                    || drawn_part(drawing, plate, Role::Opening, settings),
+                );
+                if !goes_on() {
+                    return Err(Refusal::Cancelled);
+                }
+                let parts = [&parts.0?, &parts.1?];
+                let pair = drawn_pair(drawing, [punch, plate], parts, settings);
+                fit.pairs.push(pair);
             }
             let first = |index: &usize| {
                 let segment = outlines[*index].contour.segment(drawing, 0)?;
@@ -164,7 +172,7 @@ pub(crate) fn cut_twice(
         rounding: settings.tolerances.report / unit_mm,
         along_walls: Some(along_walls),
     };
-    Ok(held::held(parts.0?, parts.1?, names, &limits))
+    Ok(held::held(&parts.0?, &parts.1?, names, &limits))
 }
 
 /// How far apart the walls of the two parts lie that are cut along one contour, mm.
@@ -178,37 +186,36 @@ fn punch_and_plate_apart(settings: &Effective) -> Option<f64> {
     Some(2.0 * half - within(Use::Punch)? - within(Use::Plate)?)
 }
 
-/// Two drawn parts, one laid in the other.
+/// The part that all passes leave of a contour where both are drawn.
+pub(crate) fn drawn_part(
+    drawing: &Drawing,
+    outline: &Outline,
+    role: Role,
+    settings: &Effective,
+) -> Result<Part, Refusal> {
+    let cutting = Cutting {
+        side: side_of(outline, role)?,
+        is_other: false,
+        settings,
+    };
+    part(drawing, &outline.contour, cutting, &|| true)
+}
+
+/// Two drawn parts, the punch and the plate, one laid in the other.
 pub(crate) fn drawn_pair(
     drawing: &Drawing,
-    punch: &Outline,
-    plate: &Outline,
+    outlines: [&Outline; 2],
+    [punch, plate]: [&Part; 2],
     settings: &Effective,
-    goes_on: &dyn Fn() -> bool,
-) -> Result<Pair, Refusal> {
-    let part_of = |outline: &Outline, role: Role| {
-        let cutting = Cutting {
-            side: side_of(outline, role)?,
-            is_other: false,
-            settings,
-        };
-        part(drawing, &outline.contour, cutting, &|| true)
-    };
-    let names = [&punch.contour, &plate.contour].map(|it| name_of(drawing, it, settings));
+) -> Pair {
+    let names = outlines.map(|it| name_of(drawing, &it.contour, settings));
     let unit_mm = settings.unit_of(drawing).mm;
     let limits = held::Limits {
         clearance: settings.pair.clearance.unwrap_or(0.0) / unit_mm,
         rounding: settings.tolerances.report / unit_mm,
         along_walls: None,
     };
-    let parts = rayon::join(
-        || part_of(punch, Role::Punch),
-        || part_of(plate, Role::Opening),
-    );
-    if !goes_on() {
-        return Err(Refusal::Cancelled);
-    }
-    Ok(held::held(parts.0?, parts.1?, names, &limits))
+    held::held(punch, plate, names, &limits)
 }
 
 fn side_of(outline: &Outline, role: Role) -> Result<Side, Refusal> {

@@ -129,7 +129,11 @@ fn run_together(drawing: &Drawing, both: [&Outline; 2], reach: f64) -> bool {
         )
     });
     let keeps = |outline: &Outline, other: &Walls| {
-        let is_near = |at: Point| other.nearer(at, reach).is_some();
+        let mut beside = None;
+        let mut is_near = |at: Point| {
+            beside = other.nearer_from(beside, at, reach);
+            beside.is_some()
+        };
         outline.contour.segments(drawing).all(|segment| {
             [0.0, 0.25, 0.5, 0.75]
                 .into_iter()

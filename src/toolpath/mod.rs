@@ -32,7 +32,7 @@ mod wanted;
 mod way;
 mod work;
 
-pub(crate) use clearance::{Walls, distance_between};
+pub(crate) use clearance::Walls;
 pub(crate) use finished::Finished;
 pub use hole::StartHole;
 pub(crate) use hole::hole_faults;

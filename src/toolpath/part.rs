@@ -26,6 +26,7 @@ pub(crate) struct Edge {
 }
 
 /// A part as the wire leaves it. Lengths in drawing units.
+#[derive(Debug)]
 pub(crate) struct Part {
     /// Along the contour.
     pub edges: Vec<Edge>,
