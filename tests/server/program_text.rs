@@ -340,7 +340,7 @@ fn each_question_about_iso_has_its_answer() {
                 "Simulate",
                 "Open picture",
                 "Convert to DXF",
-                "contour 1: closed, 2 blocks, cut 31.416 mm, counter-clockwise"
+                "contour 1: closed, 2 blocks, cut 41.416 mm (10.000 mm of it leads), counter-clockwise"
             ]),
         ),
     ]);
