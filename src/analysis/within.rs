@@ -21,11 +21,7 @@ impl Analysis {
     ) {
         let severity = Some(Severity::Warning);
         let by_nesting = self.settings.side == SideSetting::Auto && self.stated == 0;
-        if by_nesting
-            || !(2..=MOST_CONTOURS).contains(&ordered.len())
-            || !report.shows_findings()
-            || !report.counts(Rule::Settings, severity)
-        {
+        if by_nesting || !(2..=MOST_CONTOURS).contains(&ordered.len()) || !report.shows_findings() {
             return;
         }
         let closed = ordered.iter().zip(sides).filter_map(|(key, side)| {
@@ -55,6 +51,9 @@ impl Analysis {
         let Some(&(inner, outer)) = within.first() else {
             return;
         };
+        if !report.counts(Rule::Settings, severity) {
+            return;
+        }
         let name = |of| drawing.get(of).map_or("", |entity| &entity.handle);
         let others = match within.len() - 1 {
             0 => String::new(),

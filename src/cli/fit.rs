@@ -104,7 +104,7 @@ fn table(fit: &Fit) -> String {
     let places = say!(places, fit.places.len());
     let verdict = match fit.fits {
         true => styled(output::GOOD, say!(fits)),
-        false => styled(output::ERROR, say!(does_not_fit)),
+        false => styled(output::ERROR, say!(do_not_fit)),
     };
     let verdict = say!(verdict_of_the_fit, verdict, least, wanted, places);
     let _ = writeln!(text, "{verdict}");

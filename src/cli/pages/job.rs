@@ -110,7 +110,7 @@ pub(super) fn fit_part(fit: &Result<Fit, String>) -> String {
     let places = say!(places, fit.places.len());
     let (class, verdict) = match fit.fits {
         true => ("good", say!(fits)),
-        false => ("error", say!(does_not_fit)),
+        false => ("error", say!(do_not_fit)),
     };
     let sentence = say!(verdict_of_the_fit, verdict, least, wanted, places);
     let alone: String = fit

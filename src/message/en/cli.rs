@@ -18,6 +18,7 @@ declare! {
     heading_of_the_fit => "   µm left  part       handle     segment  at";
     a_contour_has_no_partner(handle, name) => "contour {handle} of workpiece {name} has no partner";
     fits => "fits";
+    do_not_fit => "does not fit";
     verdict_of_the_fit(fits, least, wanted, places) => "{fits}: {least:.1} µm of {wanted:.1} are left where it is tightest, clearance is missing at {places}";
     the_program_is_there_already => "it is there already, expected a folder without it, or --overwrite";
     the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}: {part}, correction {corrections} mm, {blocks}, {length}";

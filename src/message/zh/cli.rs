@@ -18,6 +18,7 @@ translate! {
     heading_of_the_fit => "  剩余 µm  零件       句柄         线段  位置";
     a_contour_has_no_partner(handle, name) => "工件 {name} 的轮廓 {handle} 没有配对的轮廓";
     fits => "能够配合";
+    do_not_fit => "不能配合";
     verdict_of_the_fit(fits, least, wanted, places) => "{fits}：最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm，间隙不足 {places}";
     the_program_is_there_already => "文件已存在，应换没有它的文件夹，或加 --overwrite";
     the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}：{part}，补偿量 {corrections} mm，{blocks}，{length}";
