@@ -350,8 +350,12 @@ fn written(
 ) -> Result<Generated, Refusal> {
     let settings = &snapshot.settings;
     let is_error = |finding: &Finding| finding.severity == Severity::Error;
-    // A program that was written before is no fault of the drawing, and what stands against the leads the path says itself.
-    findings.retain(|found| ![Rule::NotTheDrawing, Rule::LeadIn].contains(&found.rule));
+    // A program that was written before is no fault of the drawing, and what stands against leads and steps the path says itself.
+    findings.retain(|found| match found.rule {
+        Rule::NotTheDrawing | Rule::LeadIn => false,
+        Rule::Settings => !is_error(found),
+        _ => true,
+    });
     let any_errors = findings.iter().any(is_error);
     let chosen = wanted.chosen(snapshot)?;
     let entities = entities_of(&snapshot.drawing, &snapshot.outlines, chosen.as_deref());

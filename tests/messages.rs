@@ -21,11 +21,12 @@ const NOT_FOR_PEOPLE: [&str; 13] = [
 
 /// What looks like a sentence and is a word of a format: what serde and diff say, classes of SVG, shapes of JSON, descriptions in the
 /// schema, what the standard library puts behind a reason. The examples under the help of the command line stand with the rest of it, which `clap` takes from comments.
-const WORDS_OF_FORMATS: [&str; 15] = [
+const WORDS_OF_FORMATS: [&str; 16] = [
     "one of ",
     "\\\\ No newline at end of file\\n",
     "wire fault",
     "wire other",
+    "wire tab",
     "{ uri, version, changes }",
     "{ uri, factor }",
     " (os error",

@@ -69,9 +69,6 @@ impl Analysis {
         finding: &Finding,
         at: (EntityId, usize),
     ) -> Option<Vec<Fix>> {
-        if finding.rule == Rule::DoesNotFit {
-            return Some(self.fit_fix(drawing, finding).into_iter().collect());
-        }
         let (key, index) = self.chains.index_of(at.0, at.1)?;
         let outlook = self.outlook(drawing, key)?;
         if let Some(rule) = LOCAL_RULES.iter().find(|local| local.rule == finding.rule) {
@@ -148,5 +145,6 @@ impl Analysis {
         doubles
             .or_else(|| self.fix_all_arcs(drawing, wanted))
             .or_else(|| self.fix_all_else(drawing, &repair::THEN, wanted))
+            .or_else(|| self.fix_all_fits(drawing, wanted))
     }
 }

@@ -10,12 +10,7 @@ use rustc_hash::FxHashSet;
 pub(super) const FIRST: [Rule; 2] = [Rule::DuplicateEntity, Rule::Overlap];
 
 /// And behind that, the first of them that has any.
-pub(super) const THEN: [Rule; 4] = [
-    Rule::ShortSegment,
-    Rule::Gap,
-    Rule::ArcAsChords,
-    Rule::DoesNotFit,
-];
+pub(super) const THEN: [Rule; 3] = [Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords];
 
 /// Edits that are tried before a rule is given up: each costs a look at the drawing. In a large one so many that about as many
 /// segments are looked at, and at least two; few where not even the drawing as it is has been compared to its end.
@@ -66,8 +61,6 @@ impl Analysis {
             || after.unseen < before.unseen;
         let is_no_worse = match rule {
             Rule::OpenContour => after.is_no_worse_once_closed(before),
-            // Of a radius below the correction this rule says whether it matters.
-            Rule::DoesNotFit => after.spoils_nothing(before, Some(Rule::SmallRadius)),
             _ => after.is_no_worse_than(before, rule),
         };
         (is_less && is_no_worse).then_some(after)
@@ -154,6 +147,39 @@ impl Analysis {
             }
         }
         None
+    }
+
+    /// One edit that rounds the corners in which parts bind. Each is proved by the fit; a radius below the correction may come of it, of
+    /// which the fit says whether it matters.
+    pub(super) fn fix_all_fits(&self, drawing: &Drawing, wanted: Wanted) -> Option<DrawingEdit> {
+        self.settings.fit().ok()?;
+        let (findings, _) = self.clone().findings(drawing, usize::MAX);
+        let of_rule = findings
+            .iter()
+            .filter(|finding| finding.rule == Rule::DoesNotFit);
+        let fixes = of_rule.filter_map(|finding| {
+            let fix = self
+                .fit_fix(drawing, finding)
+                .filter(|fix| fix.in_fix_all)?;
+            wanted
+                .can
+                .is_none_or(|can| can(&fix.edit))
+                .then_some(fix.edit)
+        });
+        let edits = apart(fixes);
+        let before = self.tallied(drawing);
+        most_together(&edits, self.tries(), wanted, |together, _| {
+            let changes = together.iter().flat_map(|edit| &edit.changes);
+            let tried = DrawingEdit {
+                changes: changes.cloned().collect(),
+            };
+            let mut edited = drawing.clone();
+            let delta = edited.apply(&tried).ok()?;
+            let after = self.updated(&edited, &delta).tally(&edited);
+            after
+                .spoils_nothing(before, Some(Rule::SmallRadius))
+                .then_some(tried)
+        })
     }
 
     /// As many of the edits as one as go together without making anything worse.
