@@ -246,7 +246,7 @@ impl Document {
 
     /// What is suppressed in a drawing, each with the reason.
     pub(crate) fn suppressed(&self) -> Vec<(Finding, String)> {
-        let of_drawing = |drawing: &Arc<Drawing>| self.analysis.clone().suppressed(drawing);
+        let of_drawing = |drawing: &Arc<Drawing>| self.analysis.suppressed(drawing);
         self.drawing().map_or_else(Vec::new, of_drawing)
     }
 
@@ -361,14 +361,15 @@ impl Document {
         self.asked.fix_all.get_or_init(edit).clone()
     }
 
-    /// Whether there is anything for [`Document::fix_all`] to make; not worked out whole for it.
-    pub(crate) fn can_be_fixed(&self) -> bool {
+    /// Whether there is anything for [`Document::fix_all`] to make; not worked out whole for it. `found` is all that there is to be said,
+    /// where that is at hand.
+    pub(crate) fn can_be_fixed(&mut self, found: Option<&[Finding]>) -> bool {
         match &self.source {
             Source::Dxf(text) => {
                 let can = |edit: &DrawingEdit| text.text_edits(edit).is_ok();
-                self.analysis.has_fix_that(text.drawing(), &can)
+                self.analysis.has_fix_that(text.drawing(), found, &can)
             }
-            Source::Cad(drawing) => self.analysis.has_fix_that(drawing, &|_| true),
+            Source::Cad(drawing) => self.analysis.has_fix_that(drawing, found, &|_| true),
             Source::Program(_) => self.fix_all().is_some(),
         }
     }

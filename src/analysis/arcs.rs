@@ -39,8 +39,7 @@ impl Analysis {
 
     pub(super) fn fix_all_arcs(&self, drawing: &Drawing, wanted: Wanted) -> Option<DrawingEdit> {
         self.settings.severity(Rule::SmallRadius)?;
-        let mut replacements = Vec::new();
-        for (key, wire_side) in self.with_tight_arcs(drawing) {
+        let of_contour = |(key, wire_side): (ContourKey, Option<Side>)| {
             let mut accepted: Vec<(Stretch, Travel, Replacement)> = Vec::new();
             for index in self.tight_in_entity_order(key) {
                 let fault = self.fault(drawing, key, index, wire_side);
@@ -80,13 +79,14 @@ impl Analysis {
                     accepted.push((stretch, travel, replacement));
                 }
             }
-            replacements.extend(
-                accepted
-                    .into_iter()
-                    .map(|(_, travel, replacement)| (travel, replacement)),
-            );
-        }
-        repair::most_together(&replacements, self.tries(), wanted, |together, _| {
+            let replaced = accepted.into_iter();
+            replaced.map(|(_, travel, replacement)| (travel, replacement))
+        };
+        let replacements = self
+            .with_tight_arcs(drawing)
+            .into_iter()
+            .flat_map(of_contour);
+        repair::most_together(replacements, self.tries(), wanted, |together, _| {
             small_radius::drawing_edit(drawing, together)
                 .filter(|edit| self.enlarges(drawing, edit, None))
         })

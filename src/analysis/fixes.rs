@@ -127,15 +127,21 @@ impl Analysis {
         )
     }
 
-    /// Whether there is anything that [`Analysis::fix_all_that`] makes: the first of it is enough.
+    /// Whether there is anything that [`Analysis::fix_all_that`] makes: the first of it is enough. `found` are all findings, where they
+    /// are at hand.
     pub(crate) fn has_fix_that(
-        &self,
+        &mut self,
         drawing: &Drawing,
+        found: Option<&[Finding]>,
         can: &dyn Fn(&DrawingEdit) -> bool,
     ) -> bool {
+        if self.tally.get().is_none() {
+            self.tally = self.tally(drawing).into();
+        }
         let wanted = Wanted {
             can: Some(can),
             first_will_do: true,
+            found,
         };
         self.fix_all_of(drawing, wanted).is_some()
     }

@@ -121,8 +121,11 @@ impl Analysis {
             outlines: OnceLock::new(),
             tally: OnceLock::new(),
         };
+        // What is cut is not set aside.
         for (id, _) in drawing.entities() {
-            if set_aside(drawing, &analysis.settings, id).is_some() {
+            if analysis.chains.contour_of(id).is_none()
+                && set_aside(drawing, &analysis.settings, id).is_some()
+            {
                 analysis.note_aside(drawing, id);
             }
         }

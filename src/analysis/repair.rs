@@ -3,8 +3,9 @@
 use super::Analysis;
 use super::report::Tally;
 use crate::drawing::{Change, Drawing, DrawingEdit, EntityId};
-use crate::finding::{Fix, Rule};
+use crate::finding::{Finding, Fix, Rule};
 use rustc_hash::FxHashSet;
+use std::borrow::Cow;
 
 /// Rules whose safe repairs "fix all" makes before it makes arcs larger: a line that lies there twice would be moved once.
 pub(super) const FIRST: [Rule; 2] = [Rule::DuplicateEntity, Rule::Overlap];
@@ -27,6 +28,8 @@ pub(super) struct Wanted<'a> {
     pub(crate) can: Can<'a>,
     /// Whether there is one is all that is asked.
     pub(crate) first_will_do: bool,
+    /// All findings, where they are at hand.
+    pub(crate) found: Option<&'a [Finding]>,
 }
 
 impl Analysis {
@@ -123,7 +126,10 @@ impl Analysis {
         if rules.is_empty() {
             return None;
         }
-        let (findings, _) = self.clone().findings(drawing, usize::MAX);
+        let findings = match wanted.found {
+            Some(found) => Cow::Borrowed(found),
+            None => self.clone().findings(drawing, usize::MAX).0.into(),
+        };
         for rule in rules {
             let of_rule = findings.iter().filter(|finding| finding.rule == rule);
             let fixes = of_rule.filter_map(|finding| {
@@ -142,7 +148,7 @@ impl Analysis {
                     .all(|change| drawing.accepts(change).is_ok());
                 (accepted && wanted.can.is_none_or(|can| can(&fix.edit))).then_some(fix.edit)
             });
-            if let Some(edit) = self.most_of(drawing, rule, before, &apart(fixes), wanted) {
+            if let Some(edit) = self.most_of(drawing, rule, before, apart(fixes), wanted) {
                 return Some(edit);
             }
         }
@@ -188,7 +194,7 @@ impl Analysis {
         drawing: &Drawing,
         rule: Rule,
         before: &Tally,
-        edits: &[DrawingEdit],
+        edits: impl Iterator<Item = DrawingEdit>,
         wanted: Wanted,
     ) -> Option<DrawingEdit> {
         let most = most_together(
@@ -218,25 +224,24 @@ impl Analysis {
 
 /// What comes of as many of the parts as go together: where all of them do not, each half is tried beside what has been taken so far,
 /// then the halves of that half. `made` is given the parts and what has come of those taken so far.
+///
+/// Where none of the tries makes anything, the first part is tried by itself; where that will do, it is tried before all others.
 pub(super) fn most_together<T: Clone, M>(
-    parts: &[T],
+    mut parts: impl Iterator<Item = T>,
     tries: usize,
     wanted: Wanted,
     made: impl Fn(&[T], Option<&M>) -> Option<M>,
 ) -> Option<M> {
-    // The halves lead to the first of them in so many tries: what it makes of itself would be found.
+    let first = [parts.next()?];
+    let alone = || made(&first, None);
     if wanted.first_will_do
-        && let Some(halvings) = parts.len().checked_ilog2()
-        && (1..tries).contains(&(halvings as usize))
-        && let Some(first) = made(&parts[..1], None)
+        && let Some(first) = alone()
     {
         return Some(first);
     }
+    let parts: Vec<T> = first.iter().cloned().chain(parts).collect();
     let (mut taken, mut best) = (Vec::new(), None);
-    let mut waiting: Vec<&[T]> = [parts]
-        .into_iter()
-        .filter(|parts| !parts.is_empty())
-        .collect();
+    let mut waiting: Vec<&[T]> = vec![&parts];
     for _ in 0..tries {
         let Some(some) = waiting.pop() else { break };
         let together = [&taken, some].concat();
@@ -247,18 +252,18 @@ pub(super) fn most_together<T: Clone, M>(
             waiting.extend([second, first]);
         }
     }
-    best
+    let is_tried = wanted.first_will_do || waiting.is_empty();
+    best.or_else(|| if is_tried { None } else { alone() })
 }
 
 /// What a change claims for itself: an entity, or one vertex of it.
 type Claim = (EntityId, Option<usize>);
 
 /// Those of the edits, from the first on, that touch neither the same entity nor vertices next to each other.
-fn apart(edits: impl Iterator<Item = DrawingEdit>) -> Vec<DrawingEdit> {
+fn apart(edits: impl Iterator<Item = DrawingEdit>) -> impl Iterator<Item = DrawingEdit> {
     let mut claimed: FxHashSet<Claim> = FxHashSet::default();
     let mut claimed_in: FxHashSet<EntityId> = FxHashSet::default();
-    let mut accepted = Vec::new();
-    for edit in edits {
+    edits.filter(move |edit| {
         let claims: Vec<Claim> = edit.changes.iter().map(claim).collect();
         let is_free = claims.iter().all(|&(entity, vertex)| match vertex {
             None => !claimed_in.contains(&entity),
@@ -271,10 +276,9 @@ fn apart(edits: impl Iterator<Item = DrawingEdit>) -> Vec<DrawingEdit> {
         if is_free {
             claimed_in.extend(claims.iter().map(|claim| claim.0));
             claimed.extend(claims);
-            accepted.push(edit);
         }
-    }
-    accepted
+        is_free
+    })
 }
 
 fn claim(change: &Change) -> Claim {

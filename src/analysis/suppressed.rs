@@ -18,11 +18,11 @@ pub(super) struct Judged {
 
 impl Analysis {
     /// What is suppressed, each with the reason.
-    pub(crate) fn suppressed(&mut self, drawing: &Drawing) -> Vec<(Finding, String)> {
+    pub(crate) fn suppressed(&self, drawing: &Drawing) -> Vec<(Finding, String)> {
         if self.settings.suppressed.is_empty() && !drawing.has_marks() {
             return Vec::new();
         }
-        self.judged(drawing).suppressed
+        self.clone().judged(drawing).suppressed
     }
 
     /// Why a finding of a rule at an entity is let stand.

@@ -85,7 +85,12 @@ pub(crate) const SHARE: usize = 256;
 /// The findings of a document, errors first; behind [`MOST`] of them one that says how many more there are.
 pub(crate) fn rows(path: &Path, document: &mut Document) -> Vec<Row> {
     let (findings, _) = job::check(document, MOST);
-    let (document, rows) = (&*document, findings.par_iter().with_min_len(SHARE));
+    rows_of(path, document, &findings)
+}
+
+/// The same of findings that are at hand.
+pub(crate) fn rows_of(path: &Path, document: &Document, findings: &[Finding]) -> Vec<Row> {
+    let rows = findings.par_iter().with_min_len(SHARE);
     rows.map(|finding| row(path, document, finding)).collect()
 }
 

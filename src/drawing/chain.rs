@@ -10,17 +10,21 @@
 
 use super::ends::{Buckets, Cell, Cells, End, Ends, NO_ENDS, has_ends};
 use super::joints::Joints;
-use super::linked::Linked;
+use super::linked::{Linked, Way};
 use super::{Contour, Drawing, EntityId, Piece, Role};
 use crate::geometry::Point;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// Up to so many entities are put in order without a look at all others.
 const FEW: usize = 16;
 /// The ends of fewer than one in so many entities are moved one by one; of more, all are sorted into cells again.
 const BULK: usize = 8;
+
+/// Entities, contours or lists of ends that one thread takes at a time.
+const SHARE: usize = 4096;
 
 /// Names a contour (or a group of several) of one [`Chains`]; not used again once it is gone.
 pub(crate) type Key = u32;
@@ -66,7 +70,7 @@ pub struct Rechained {
 
 impl Chains {
     /// Chains every entity of `drawing` for which `is_cut` holds; `join` is the join tolerance in drawing units.
-    pub fn new(drawing: &Drawing, join: f64, is_cut: &dyn Fn(EntityId) -> bool) -> Chains {
+    pub fn new(drawing: &Drawing, join: f64, is_cut: &(dyn Fn(EntityId) -> bool + Sync)) -> Chains {
         Chains::of_parts(drawing, join, &|id| is_cut(id).then_some(0))
     }
 
@@ -74,7 +78,7 @@ impl Chains {
     pub(crate) fn of_parts(
         drawing: &Drawing,
         join: f64,
-        part_of: &dyn Fn(EntityId) -> Option<u16>,
+        part_of: &(dyn Fn(EntityId) -> Option<u16> + Sync),
     ) -> Chains {
         let mut chains = Chains {
             cells: Cells::new(join),
@@ -88,20 +92,17 @@ impl Chains {
             next_key: NO_KEY,
         };
         chains.grow(drawing);
-        let entities: Vec<EntityId> = drawing
-            .order()
-            .iter()
-            .copied()
-            .filter(|&id| part_of(id).is_some())
-            .collect();
-        let ends: Vec<Ends> = entities
-            .par_iter()
-            .map(|&id| free_ends(drawing, id).unwrap_or(NO_ENDS))
-            .collect();
-        for (id, ends) in entities.iter().zip(ends) {
+        let told = |&id: &EntityId| {
+            let ends = || free_ends(drawing, id).unwrap_or(NO_ENDS);
+            part_of(id).map(|part| (id, part, ends()))
+        };
+        let order = drawing.order().par_iter().with_min_len(SHARE);
+        let told: Vec<(EntityId, u16, Ends)> = order.filter_map(told).collect();
+        for &(id, _, ends) in &told {
             chains.ends_of[id.0 as usize] = ends;
         }
-        chains.chain(drawing, &entities, part_of);
+        let entities = told.into_iter().map(|(id, part, _)| (id, part));
+        chains.chain(drawing, entities.unzip());
         chains
     }
 
@@ -275,8 +276,9 @@ impl Chains {
                 }
             }
         }
-        let ordered = in_machining_order(drawing, entities);
-        rechained.new = self.chain(drawing, &ordered, part_of);
+        let ordered = in_machining_order(drawing, entities).into_iter();
+        let ordered = ordered.filter_map(|id| Some((id, part_of(id)?)));
+        rechained.new = self.chain(drawing, ordered.unzip());
         rechained
     }
 
@@ -319,48 +321,49 @@ impl Chains {
         })
     }
 
-    /// Groups and chains `entities`, which come in machining order and hold whole groups. Returns the new contours.
+    /// Groups and chains entities, which come in machining order and hold whole groups, each with its part. Returns the new contours.
     fn chain(
         &mut self,
         drawing: &Drawing,
-        entities: &[EntityId],
-        part_of: &dyn Fn(EntityId) -> Option<u16>,
+        (entities, parts): (Vec<EntityId>, Vec<u16>),
     ) -> Vec<Key> {
-        let mut parts: BTreeMap<Option<u16>, Vec<EntityId>> = BTreeMap::new();
-        let first = entities.first().and_then(|&id| part_of(id));
-        if entities.iter().any(|&id| part_of(id) != first) {
-            for &id in entities {
-                parts.entry(part_of(id)).or_default().push(id);
-            }
-        }
-        if parts.len() < 2 {
-            let joints = Joints::new(drawing, self.cells, entities, &self.ends_of);
-            let new = self.link(drawing, entities, &joints);
-            self.group(entities, &joints);
-            return new;
-        }
-        let mut new = Vec::new();
-        for of_part in parts.values() {
-            let joints = Joints::new(drawing, self.cells, of_part, &self.ends_of);
-            new.extend(self.link(drawing, of_part, &joints));
-        }
+        let is_of_one = parts.windows(2).all(|pair| pair[0] == pair[1]);
         // What hangs together is chained again together, whatever it is of.
-        let joints = Joints::new(drawing, self.cells, entities, &self.ends_of);
-        self.group(entities, &joints);
+        let joints = Joints::new(drawing, self.cells, &entities, &self.ends_of);
+        let new = if is_of_one {
+            self.link(drawing, &entities, &joints)
+        } else {
+            let mut by_part: BTreeMap<u16, Vec<EntityId>> = BTreeMap::new();
+            for (&id, &part) in entities.iter().zip(&parts) {
+                by_part.entry(part).or_default().push(id);
+            }
+            let of_part = |of_part: Vec<EntityId>| {
+                let joints = Joints::new(drawing, self.cells, &of_part, &self.ends_of);
+                self.link(drawing, &of_part, &joints)
+            };
+            by_part.into_values().flat_map(of_part).collect()
+        };
+        self.group(&entities, &joints);
         new
     }
 
     /// Makes contours of entities with these joints.
     fn link(&mut self, drawing: &Drawing, entities: &[EntityId], joints: &Joints) -> Vec<Key> {
         let linked = Linked::new(drawing, entities, &self.ends_of, joints);
-        let mut new = Vec::with_capacity(linked.ways.len());
-        for way in &linked.ways {
-            let key = self.fresh_key();
+        let contour = |way: &Way| {
             let pieces = linked.pieces[way.range.clone()]
                 .iter()
                 .map(|&(at, reversed)| (entities[at as usize], reversed));
             let mut contour = Contour::new(drawing, pieces, way.closed);
             contour.double_of = way.double_of.map(|kept| entities[kept as usize]);
+            contour
+        };
+        let ways = linked.ways.par_iter().with_min_len(SHARE);
+        let contours: Vec<Contour> = ways.map(contour).collect();
+        let mut new = Vec::with_capacity(contours.len());
+        self.contours.reserve(contours.len());
+        for (way, contour) in linked.ways.iter().zip(contours) {
+            let key = self.fresh_key();
             for (place, piece) in (0..).zip(&contour.pieces) {
                 self.contour_of[piece.entity.0 as usize] = key;
                 self.piece_of[piece.entity.0 as usize] = place;
@@ -387,6 +390,27 @@ impl Chains {
 
     /// Contours with an end in one cell, or in cells beside each other near the border.
     fn neighbours(&self, entities: &[EntityId], joints: &Joints) -> Vec<(Key, Key)> {
+        let count = joints.list_count();
+        let of_share = |nth: usize| {
+            let lists = nth * SHARE..((nth + 1) * SHARE).min(count);
+            self.neighbours_in(lists, entities, joints)
+        };
+        match count.div_ceil(SHARE) {
+            0 | 1 => of_share(0),
+            shares => {
+                let found: Vec<Vec<(Key, Key)>> =
+                    (0..shares).into_par_iter().map(of_share).collect();
+                found.concat()
+            }
+        }
+    }
+
+    fn neighbours_in(
+        &self,
+        lists: Range<usize>,
+        entities: &[EntityId],
+        joints: &Joints,
+    ) -> Vec<(Key, Key)> {
         let mut neighbours = Vec::new();
         let at = |end: End| {
             let id = entities[end.entity() as usize];
@@ -396,9 +420,9 @@ impl Chains {
             )
         };
         let mut cells: Vec<(Cell, Key)> = Vec::new();
-        for list in joints.lists() {
+        for list in lists {
             cells.clear();
-            for end in list {
+            for end in joints.of_list(list) {
                 let (place, key) = at(end);
                 let mut about = self.cells.about(place);
                 let Some(own) = about.next() else { continue };

@@ -136,9 +136,13 @@ impl<'a> Joints<'a> {
         self.dense.iter().flat_map(|dense| dense.crowded.values())
     }
 
-    /// All ends, those of doubles too, in lists: of a cell all in one, with those of others.
-    pub(crate) fn lists(&self) -> impl Iterator<Item = impl Iterator<Item = End> + '_> + '_ {
-        (0..self.all.len()).map(|list| self.all.of_list(list))
+    /// How many lists there are of all ends, those of doubles too: of a cell all in one, with those of others.
+    pub(crate) fn list_count(&self) -> usize {
+        self.all.len()
+    }
+
+    pub(crate) fn of_list(&self, list: usize) -> impl Iterator<Item = End> + '_ {
+        self.all.of_list(list)
     }
 
     /// The ends of a cell, and of others in the same list.

@@ -9,9 +9,10 @@ use super::beside::Folders;
 use super::explain::rule_name;
 use super::files;
 use super::options::Common;
-use super::report::Row;
+use super::report::{MOST, Row};
 use super::{Failure, Verdict, output};
 use crate::finding::{Rule, Severity};
+use crate::job;
 use crate::settings::Settings;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -187,8 +188,9 @@ fn survey(arguments: &Arguments) -> Survey {
     let settings = arguments.common.settings();
     let progress = progress(found.files.len());
     let folders = Folders::default();
+    let is_last = found.files.len() == 1 && !arguments.watch;
     let check_and_count = |path: &PathBuf| {
-        let checked = check(path, arguments, &settings, &folders);
+        let checked = check(path, arguments, &settings, &folders, is_last);
         progress.inc(1);
         checked
     };
@@ -228,7 +230,14 @@ fn survey(arguments: &Arguments) -> Survey {
     survey
 }
 
-fn check(path: &Path, arguments: &Arguments, settings: &Settings, folders: &Folders) -> Checked {
+/// What is said of a file; behind the last one the process ends.
+fn check(
+    path: &Path,
+    arguments: &Arguments,
+    settings: &Settings,
+    folders: &Folders,
+    is_last: bool,
+) -> Checked {
     let (common, stdin) = (&arguments.common, path == Path::new("-"));
     let name = if stdin { &arguments.stdin_name } else { path };
     let opened = if stdin {
@@ -246,15 +255,22 @@ fn check(path: &Path, arguments: &Arguments, settings: &Settings, folders: &Fold
         },
         Ok((mut document, mut rows)) => {
             document.set_beside(folders.beside(name, &document, common, settings));
-            rows.extend(super::report::rows(name, &mut document));
-            Checked {
+            let (findings, count) = job::check(&mut document, MOST);
+            rows.extend(super::report::rows_of(name, &document, &findings));
+            let all = (count <= MOST).then_some(&*findings);
+            let checked = Checked {
                 rows,
                 suppressed: super::report::suppressed(name, &document),
                 // What came on stdin is in no file that could be repaired, and what is not asked about is not spoken of.
-                fixable: !stdin && !arguments.is_choosy() && document.can_be_fixed(),
+                fixable: !stdin && !arguments.is_choosy() && document.can_be_fixed(all),
                 failure: None,
                 docs_url: document.settings().docs_url.clone(),
+            };
+            if is_last {
+                // To give back piece by piece what was known of it takes longer than to end.
+                std::mem::forget(document);
             }
+            checked
         }
     }
 }

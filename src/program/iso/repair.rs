@@ -52,6 +52,11 @@ impl Document {
         self.repairs
             .get_or_init(|| Arc::new(repairs(self, &self.plain_findings())))
     }
+
+    /// The same where what is wrong by itself is at hand.
+    pub(super) fn repairs_of(&self, plain: &[Finding]) -> &Repairs {
+        self.repairs.get_or_init(|| Arc::new(repairs(self, plain)))
+    }
 }
 
 /// Searches the cuts in which something is wrong.

@@ -111,7 +111,7 @@ fn suspects(document: &Document, findings: &[Finding]) -> Vec<Finding> {
             .any(|finding| is_trouble(finding) && line_of(document, finding) == Some(line))
     };
     let first = |(_, repairs): &(Range<usize>, Vec<Repair>)| repairs.first().cloned();
-    let repairs = document.repairs().iter().filter_map(first);
+    let repairs = document.repairs_of(findings).iter().filter_map(first);
     let suspect = |repair: Repair| {
         let range = document.words_of(repair.line);
         let fault = Fault::Suspect {

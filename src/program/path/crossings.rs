@@ -5,14 +5,15 @@
 //! then decided from the whole way, so that it does not hang on where parts begin.
 
 use super::crossing::{Crossing, MOST_PAIRS, Tangle, come_near, crossings, margin};
-use super::parted::{Part, PartedWay, micrometres};
+use super::lay::keep_first;
+use super::parted::{PartedWay, micrometres};
 use super::passes::{passes, pieces_of};
 use super::way::Way;
 use crate::finding::{Detail, Fault, Finding, NotJudged, Place, Rule, Severity};
 use crate::geometry::{Bounds, Segment, Vector};
 use crate::text::SourceText;
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::cell::Cell;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
@@ -135,6 +136,11 @@ fn most_looks(blocks: usize) -> usize {
     500_000 + 32 * blocks
 }
 
+/// Pairs of parts that touch, of so many parts: beyond them no more are held against each other.
+fn most_touching(parts: usize) -> usize {
+    1024 + 256 * parts
+}
+
 /// Pairs of parts that are held against each other at once: few at first, since a way that lies on itself has told all that counts then.
 const AT_ONCE: [usize; 2] = [32, 1024];
 
@@ -150,9 +156,12 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
     let prepared: Vec<OnceLock<Prepared>> = parts.iter().map(|_| OnceLock::new()).collect();
     let prepared =
         |index: usize| prepared[index].get_or_init(|| Prepared::of(blocks.pieces(index)));
-    let (mut pairs, is_all) = touching(parts, 1024 + 256 * parts.len());
-    // In the order of the later one: the pieces that count are the first ones along the way, so the search may end where these are found.
-    pairs.sort_unstable_by_key(|&(a, b)| (b, a));
+    let levels = levels_over(
+        parts
+            .iter()
+            .map(|part| part.placed().grown(SLACK))
+            .collect(),
+    );
     let apart = |a: usize, b: usize| {
         [0, 1].map(|axis| parts[b].start[axis].wrapping_sub(parts[a].start[axis]))
     };
@@ -170,21 +179,27 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
     };
     let mut near: Vec<(usize, usize)> = Vec::new();
     let mut left = most_looks(count);
-    let mut is_crowded = !is_all;
+    let mut is_crowded = false;
     // Pairs and parts that have been gone through.
     let (mut gone, mut behind, mut at_once) = (0, 0, AT_ONCE[0]);
     while behind < parts.len() && near.len() <= MOST_PAIRS {
-        let next = pairs
-            .get(gone + at_once)
-            .map_or(parts.len(), |pair| pair.1)
-            .max(behind + 1);
-        let end = gone + pairs[gone..].partition_point(|pair| pair.1 < next);
-        let some = if left > 0 { &pairs[gone..end] } else { &[] };
-        is_crowded |= some.len() < end - gone;
+        // In the order of the later one: the pieces that count are the first ones along the way, so the search may end where these are
+        // found.
+        let (mut some, mut next) = (Vec::new(), behind);
+        while next < parts.len() && some.len() < at_once && left > 0 {
+            touching(&levels, next, &mut some);
+            next += 1;
+        }
+        if left == 0 {
+            (next, is_crowded) = (parts.len(), true);
+        }
+        let mut asked = FxHashSet::default();
         let unknown: Vec<(usize, usize)> = some
             .iter()
             .copied()
-            .filter(|&(a, b)| !known.pairs.contains_key(&key(a, b)))
+            .map(|(a, b)| ((a, b), key(a, b)))
+            .filter(|(_, key)| !known.pairs.contains_key(key) && asked.insert(*key))
+            .map(|(pair, _)| pair)
             .collect();
         let found: Vec<(Pair, Near)> = if unknown.len() > 64 {
             unknown.par_iter().map(look).collect()
@@ -200,7 +215,7 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
                     .map(|&(a, b)| (first + a as usize, first + b as usize)),
             );
         }
-        for &(a, b) in some {
+        for &(a, b) in &some {
             // What was known before counts as well: how much of a cut is looked at must not hang on that.
             let Some((found, cost)) = known.pairs.get(&key(a, b)).filter(|_| left > 0) else {
                 is_crowded = true;
@@ -213,13 +228,17 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
             );
             left = left.saturating_sub(*cost);
         }
-        (gone, behind, at_once) = (end, next, (2 * at_once).min(AT_ONCE[1]));
+        (gone, behind) = (gone + some.len(), next);
+        at_once = (2 * at_once).min(AT_ONCE[1]);
+        if gone > most_touching(parts.len()) {
+            left = 0;
+        }
     }
     if near.is_empty() {
         return Found {
             crossings: Vec::new(),
             is_crowded,
-            pairs: pairs.len(),
+            pairs: gone,
         };
     }
     let piece = |index: usize| {
@@ -239,7 +258,7 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
     Found {
         crossings: found,
         is_crowded: is_crowded || !is_all,
-        pairs: pairs.len(),
+        pairs: gone,
     }
 }
 
@@ -311,6 +330,7 @@ impl Prepared {
                 _ => waiting.extend([2 * b, 2 * b + 1].map(|b| ((level_a, a), (level_b - 1, b)))),
             }
         }
+        keep_first(&mut found);
         (found.into(), cost)
     }
 }
@@ -334,36 +354,20 @@ fn levels_over(boxes: Vec<Bounds>) -> Vec<Vec<Bounds>> {
     levels
 }
 
-/// Pairs of parts whose boxes touch, the earlier first; at most so many, and whether those are all.
-fn touching(parts: &[Part<'_>], most: usize) -> (Vec<(usize, usize)>, bool) {
-    let levels = levels_over(
-        parts
-            .iter()
-            .map(|part| part.placed().grown(SLACK))
-            .collect(),
-    );
-    let mut found = Vec::new();
-    let mut waiting = vec![(levels.len() - 1, 0, 0)];
-    while let Some((level, a, b)) = waiting.pop() {
-        let boxes = &levels[level];
-        if a != b && !matches!((boxes.get(a), boxes.get(b)), (Some(a), Some(b)) if a.touches(b)) {
+/// The parts before one whose boxes touch its own, each with it.
+fn touching(levels: &[Vec<Bounds>], part: usize, found: &mut Vec<(usize, usize)>) {
+    let Some(own) = levels.first().and_then(|boxes| boxes.get(part)) else {
+        return;
+    };
+    let mut waiting = vec![(levels.len() - 1, 0)];
+    while let Some((level, at)) = waiting.pop() {
+        let touches = |bounds: &Bounds| bounds.touches(own);
+        if at << level >= part || !levels[level].get(at).is_some_and(touches) {
             continue;
         }
-        if level == 0 {
-            if a != b && found.len() == most {
-                return (found, false);
-            }
-            found.extend((a != b).then_some((a, b)));
-            continue;
-        }
-        let below = levels[level - 1].len();
-        for i in (2 * a..(2 * a + 2).min(below)).rev() {
-            for j in (2 * b..(2 * b + 2).min(below)).rev() {
-                if a != b || i <= j {
-                    waiting.push((level - 1, i, j));
-                }
-            }
+        match level.checked_sub(1) {
+            None => found.push((at, part)),
+            Some(below) => waiting.extend([(below, 2 * at + 1), (below, 2 * at)]),
         }
     }
-    (found, true)
 }

@@ -1,7 +1,7 @@
 //! How blocks that stand together lie on themselves: an edit elsewhere leaves that as it was.
 
 use super::contour::{closing, goes_round};
-use super::crossing::near_each_other;
+use super::crossing::{MOST_PAIRS, near_each_other};
 use super::way::HeldWay;
 use crate::geometry::{Bounds, Segment};
 
@@ -12,7 +12,7 @@ pub(crate) struct Lay {
     pub(crate) mark: u64,
     /// µm, seen from its beginning.
     pub(crate) bounds: Bounds,
-    /// Blocks of it that come near each other, by their number in the part, neighbours left out.
+    /// Blocks of it that come near each other, by their number in the part, neighbours left out: as many as [`keep_first`] keeps.
     pub(crate) near: Box<[(u32, u32)]>,
     /// It holds a closed contour, and one that goes round something.
     pub(crate) closes: bool,
@@ -27,6 +27,7 @@ impl Lay {
         near_each_other(way.pieces(), &boxes, &mut |first, second| {
             near.push((first as u32, second as u32))
         });
+        keep_first(&mut near);
         let whole = |whole: Bounds, part: &Bounds| whole.merged(part);
         let closes = closing(way).is_some_and(|closing| closing.closed);
         Lay {
@@ -36,6 +37,15 @@ impl Lay {
             closes,
             goes_round: closes && goes_round(way) == Some(true),
         }
+    }
+}
+
+/// Of pairs of blocks keeps those whose later block comes first along the way: one more than are looked at, so that it shows that there
+/// are more.
+pub(super) fn keep_first(near: &mut Vec<(u32, u32)>) {
+    if near.len() > MOST_PAIRS + 1 {
+        near.sort_unstable_by_key(|&(first, second)| (second, first));
+        near.truncate(MOST_PAIRS + 1);
     }
 }
 

@@ -13,7 +13,7 @@ const BESIDE: f64 = 1_000.0;
 /// The passes of a way, the ways in and out with the first and the last of them; none where it goes round once.
 pub(crate) fn passes(way: &dyn Way) -> Vec<Range<usize>> {
     may_have_passes(way)
-        .and_then(|()| found(way))
+        .map(|()| found(way))
         .filter(|passes| passes.len() > 1)
         .unwrap_or_default()
 }
@@ -34,28 +34,46 @@ fn may_have_passes(way: &dyn Way) -> Option<()> {
     })
 }
 
-fn found(way: &dyn Way) -> Option<Vec<Range<usize>>> {
-    let pieces = pieces_of(way)?;
+fn found(way: &dyn Way) -> Vec<Range<usize>> {
+    let mut pieces = Ahead {
+        way,
+        held: Vec::new(),
+    };
     let tolerance = way.tolerance();
     let mut passes: Vec<Range<usize>> = Vec::new();
     let mut first_box: Option<Bounds> = None;
     let mut from = 0;
-    // The way in and out may come back to their own begin, behind all passes.
-    let round = |from: usize, first_box: Option<&Bounds>| {
+    loop {
+        // The way in and out may come back to their own begin, behind all passes.
         let rounds = (from..=from + BETWEEN)
-            .filter_map(|start| round_from(&pieces, start, tolerance, first_box));
-        rounds.min_by_key(|(round, _)| round.end)
-    };
-    while let Some((round, bounds)) = round(from, first_box.as_ref()) {
+            .filter_map(|start| round_from(&mut pieces, start, tolerance, first_box.as_ref()));
+        let Some((round, bounds)) = rounds.min_by_key(|(round, _)| round.end) else {
+            break;
+        };
         first_box.get_or_insert(bounds);
         from = round.end;
         // What lies between two passes leads to the next.
         passes.push(passes.last().map_or(0, |before| before.end)..round.end);
     }
     if let Some(last) = passes.last_mut() {
-        last.end = pieces.len();
+        last.end = way.count();
     }
-    Some(passes)
+    passes
+}
+
+/// The pieces of a way, asked for as far as somebody looks.
+struct Ahead<'a> {
+    way: &'a dyn Way,
+    held: Vec<Segment>,
+}
+
+impl Ahead<'_> {
+    fn piece(&mut self, index: usize) -> Option<Segment> {
+        while self.held.len() <= index {
+            self.held.push(self.way.piece(self.held.len())?);
+        }
+        self.held.get(index).copied()
+    }
 }
 
 /// All pieces of a way; `None` where they are not held.
@@ -76,21 +94,21 @@ pub(crate) fn lie_beside(one: &Bounds, other: &Bounds) -> bool {
 
 /// From a piece on the first way round that comes back to where it begins, and its box, which is that of the first pass.
 fn round_from(
-    pieces: &[Segment],
+    pieces: &mut Ahead<'_>,
     start: usize,
     tolerance: f64,
     first_box: Option<&Bounds>,
 ) -> Option<(Range<usize>, Bounds)> {
-    let begin = pieces.get(start)?.start();
+    let first = pieces.piece(start)?;
+    let begin = first.start();
     let mut bounds = Bounds::EMPTY;
-    for (index, piece) in pieces.iter().enumerate().skip(start) {
+    for index in start.. {
+        let piece = pieces.piece(index)?;
         bounds.merge(&piece.bounds());
         let is_back = (piece.end() - begin).norm() <= tolerance;
         let goes_round = match index - start {
             0 => piece.as_arc().is_some_and(|arc| arc.is_full_turn()),
-            1 => pieces[start..=index]
-                .iter()
-                .any(|piece| piece.as_arc().is_some()),
+            1 => [first, piece].iter().any(|piece| piece.as_arc().is_some()),
             _ => true,
         };
         let is_large = bounds.width().min(bounds.height()) > 4.0 * tolerance;
