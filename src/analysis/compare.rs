@@ -3,6 +3,7 @@
 use crate::drawing::{ContourKey, ContourSegment};
 use crate::finding::{Severity, Side};
 use crate::geometry::{Bounds, Point, Segment, left_normal};
+use crate::rules::dead_end::Left;
 use crate::rules::{Outlook, PAIR_RULES, PairObservation, Wall};
 use rustc_hash::FxHashMap;
 use std::collections::VecDeque;
@@ -30,6 +31,9 @@ pub(crate) struct Observed {
     pub(crate) disc: Option<(Point, f64)>,
     pub(crate) own_disc: bool,
     pub(crate) blocked: bool,
+    /// Of a dead end, the walls from which and to which it goes and what is left beyond it, or that it is none: once that has been asked,
+    /// and where it hangs on nothing but the two runs.
+    pub(crate) ended: Option<Option<([usize; 2], Left)>>,
 }
 
 /// What the rules take for two segments that come near each other, in looks.
@@ -251,6 +255,7 @@ impl Comparison<'_> {
                         disc,
                         own_disc,
                         blocked: false,
+                        ended: None,
                     });
                 }
             }

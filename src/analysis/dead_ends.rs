@@ -2,11 +2,13 @@
 
 use super::Analysis;
 use super::pair_findings::FacingWalls;
+use super::pairs::Pairs;
 use super::report::Report;
-use crate::drawing::{ContourKey, Drawing};
+use crate::drawing::{ContourKey, Drawing, RUN};
 use crate::finding::{Detail, Rule, Severity, Side};
-use crate::rules::dead_end::{DeadEnd, Left};
-use crate::rules::{Outlook, Wall};
+use crate::rules::arc_as_chords::REACH;
+use crate::rules::dead_end::{DeadEnd, Left, holds};
+use crate::rules::{NEIGHBOURS, Outlook, Wall};
 use std::collections::BTreeMap;
 
 /// The contour, the two walls that the wire comes to, and what it leaves.
@@ -25,45 +27,46 @@ impl Analysis {
     pub(super) fn dead_ends(
         &self,
         drawing: &Drawing,
+        pairs: &mut Pairs,
         side_of: &dyn Fn(ContourKey) -> Option<Side>,
     ) -> DeadEnds {
         let mut ends = DeadEnds::default();
-        if self.settings.severity(Rule::LostPocket).is_none() {
+        if self.settings.severity(Rule::LostPocket).is_none() || pairs.dead_ends().next().is_none()
+        {
             return ends;
         }
-        let mut seen = self.pairs.dead_ends().peekable();
-        if seen.peek().is_none() {
-            return ends;
-        }
-        let crossed = self.pairs.contours_with(Rule::SelfIntersection);
-        let slots = self.pairs.slots();
-        for (key, [one, other], side, center) in seen {
-            let Some(outlook) = self
-                .outlook(drawing, key)
-                .filter(|_| !crossed.contains(&key))
+        let crossed = pairs.contours_with(Rule::SelfIntersection);
+        let slots = pairs.slots();
+        for each in pairs.dead_ends() {
+            let (key, one, other) = (each.one.0, each.one.1, each.other.1);
+            let (Some(side), Some((center, _)), Some(outlook)) =
+                (each.sides.0, each.disc, self.outlook(drawing, key))
             else {
                 continue;
             };
-            let is_concerned = side_of(key).is_none_or(|known| known == side);
-            let end = || {
-                DeadEnd::between(
-                    &Wall::new(&outlook, one)?,
-                    &Wall::new(&outlook, other)?,
-                    side,
-                    center,
-                )
-            };
-            let Some(end) = is_concerned.then(end).flatten() else {
+            if crossed.contains(&key) || side_of(key).is_some_and(|known| known != side) {
+                continue;
+            }
+            let count = outlook.contour.len();
+            let ended = each.ended.unwrap_or_else(|| {
+                let walls = Wall::new(&outlook, one).zip(Wall::new(&outlook, other));
+                let end =
+                    walls.and_then(|(one, other)| DeadEnd::between(&one, &other, side, center));
+                let ended = end.and_then(|end| Some((end.walls(), end.left(&outlook)?)));
+                let is_forward = end.is_none_or(|end| end.walls().is_sorted());
+                each.ended = (is_forward && hangs_on_runs(one, other, count)).then_some(ended);
+                ended
+            });
+            let Some((walls, left)) = ended else {
                 continue;
             };
             let is_told = |of: &[FacingWalls]| {
-                of.iter().any(|(walls, of_side)| {
-                    of_side.is_none_or(|of_side| of_side == side)
-                        && end.holds(outlook.contour.len(), *walls)
+                of.iter().any(|(facing, of_side)| {
+                    of_side.is_none_or(|of_side| of_side == side) && holds(walls, count, *facing)
                 })
             };
             if slots.get(&key).is_none_or(|of| !is_told(of)) {
-                ends.enter(&outlook, key, &end);
+                ends.enter(&outlook, (key, walls, left), side);
             }
         }
         ends
@@ -98,21 +101,29 @@ impl Analysis {
     }
 }
 
+/// True where what a rule sees between two segments of a contour, and about them, lies in their runs: these are looked at anew, and what
+/// has been seen between them with them, where something in them changes, or [`NEIGHBOURS`] segments about them.
+fn hangs_on_runs(one: usize, other: usize, count: usize) -> bool {
+    const ABOUT: usize = REACH - NEIGHBOURS;
+    let (first, last) = (one.min(other), one.max(other));
+    let is_inside = first >= REACH && last + REACH < count;
+    is_inside
+        && last / RUN - first / RUN <= 1
+        && (first - ABOUT) / RUN == first / RUN
+        && (last + ABOUT) / RUN == last / RUN
+}
+
 impl DeadEnds {
-    fn enter(&mut self, outlook: &Outlook, key: ContourKey, end: &DeadEnd) {
-        let is_left = end.side() == Side::Left;
-        let Some(left) = end.left(outlook) else {
-            return;
-        };
+    fn enter(&mut self, outlook: &Outlook, new: Told, side: Side) {
+        let (_, _, left) = new;
         let Some(segment) = outlook.segment(left.index as isize) else {
             return;
         };
         let place = (
             outlook.drawing.rank(segment.entity),
             segment.segment,
-            is_left,
+            side == Side::Left,
         );
-        let new = (key, end.walls(), left);
         // One place is told once: of discs that touch the same walls within rounding the first.
         let known = self.left.entry(place).or_insert(new);
         let order = |(_, walls, left): &Told| (left.depth, *walls);

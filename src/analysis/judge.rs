@@ -85,7 +85,9 @@ impl Analysis {
         };
         let side_of =
             |analysis: &Analysis, key: ContourKey| analysis.wire_side(key, role_of(analysis, key));
-        let ends = self.dead_ends(drawing, &|key| side_of(self, key));
+        let mut pairs = std::mem::take(&mut self.pairs);
+        let ends = self.dead_ends(drawing, &mut pairs, &|key| side_of(self, key));
+        self.pairs = pairs;
         let notable: Vec<(ContourKey, Option<Side>)> = self
             .notable_in_order(drawing)
             .into_iter()

@@ -6,7 +6,6 @@ use super::report::Report;
 use super::told::{Doubles, Told, ToldPair, merged};
 use crate::drawing::{ContourKey, Drawing, EntityId};
 use crate::finding::{Detail, NotJudged, Place, Rule, Severity, Side};
-use crate::geometry::Point;
 use crate::rules::{PAIR_RULES, Wall};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;
@@ -64,26 +63,11 @@ impl Pairs {
         slots
     }
 
-    /// What `lost-pocket` has seen between two segments of one contour: the contour, the two, the side of the wire, and the centre of the
-    /// disc that touches them. In no order.
-    pub(crate) fn dead_ends(
-        &self,
-    ) -> impl Iterator<Item = (ContourKey, [usize; 2], Side, Point)> + '_ {
+    /// What `lost-pocket` has seen between two segments of one contour, in no order.
+    pub(crate) fn dead_ends(&mut self) -> impl Iterator<Item = &mut Observed> {
         let of_rule =
-            |each: &&Observed| PAIR_RULES[each.rule].rule == Rule::LostPocket && !each.blocked;
-        let told = |each: &Observed| {
-            Some((
-                each.one.0,
-                [each.one.1, each.other.1],
-                each.sides.0?,
-                each.disc?.0,
-            ))
-        };
-        self.seen
-            .values()
-            .flatten()
-            .filter(of_rule)
-            .filter_map(told)
+            |each: &&mut Observed| PAIR_RULES[each.rule].rule == Rule::LostPocket && !each.blocked;
+        self.seen.values_mut().flatten().filter(of_rule)
     }
 
     /// Entities that lie in the same place as another.

@@ -133,6 +133,13 @@ fn run_on(one: &Wall, other: &Wall, radius: f64) -> bool {
     turned <= RUNS_ON && 2.0 * turned * radius + rounding < gap
 }
 
+/// True when two segments of a contour of so many, by their indices, both lie in what is beyond a disc, or touch it, which in the direction
+/// of travel goes from the first to the second of its walls.
+pub(crate) fn holds([from, to]: [usize; 2], count: usize, segments: [usize; 2]) -> bool {
+    let along = |index: usize| (index + count - from) % count.max(1);
+    segments.into_iter().all(|index| along(index) <= along(to))
+}
+
 impl DeadEnd {
     /// The end that a disc about `center` makes between two walls of a contour. `None` where it does not touch both, where it may
     /// go on, and for a single corner that is as deep as any of its kind.
@@ -212,12 +219,6 @@ impl DeadEnd {
         self.from.at_vertex && self.to.at_vertex
     }
 
-    /// True when two segments of the contour, by their indices, both lie in what is beyond the disc, or touch it.
-    pub(crate) fn holds(&self, count: usize, segments: [usize; 2]) -> bool {
-        let along = |index: usize| (index + count - self.from.index) % count.max(1);
-        segments.into_iter().all(|index| along(index) <= self.steps)
-    }
-
     /// The turn (radians) towards the wire in the joint where a segment starts.
     fn turn_at(&self, outlook: &Outlook, joint: isize) -> f64 {
         let (Some(before), Some(behind)) = (outlook.segment(joint - 1), outlook.segment(joint))
@@ -248,10 +249,6 @@ impl DeadEnd {
     /// How far a point is from what the wire cuts with its centre here.
     fn depth(&self, point: Point) -> f64 {
         (point - self.center).norm() - self.radius
-    }
-
-    pub(crate) fn side(&self) -> Side {
-        self.side
     }
 
     /// The two segments that the disc touches.

@@ -3,7 +3,7 @@
 //! A rule speaks geometry: it sees contours and gives back findings on segments and fixes as drawing edits.
 //! It knows nothing of text, of protocols, or of how a sentence about it reads.
 
-mod arc_as_chords;
+pub(crate) mod arc_as_chords;
 pub(crate) mod dead_end;
 mod disc;
 mod duplicate_entity;
