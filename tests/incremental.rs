@@ -410,6 +410,47 @@ proptest! {
     }
 }
 
+/// A vertex of a zigzag between whose teeth the wire does not come, and beside it.
+fn of_zigzag(at: usize, (x, y, bulge): (f64, f64, f64)) -> Vertex {
+    let tooth = (at % 2) as f64 * 1.5;
+    Vertex::new(at as f64 * 0.08 + x, tooth + y, bulge)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: cases(16), failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Of several runs of segments: what is left beyond dead ends is not asked again where theirs stay.
+    #[test]
+    fn dead_ends_of_a_zigzag_are_told_as_if_afresh(
+        closed in any::<bool>(),
+        edits in proptest::collection::vec(
+            (
+                0..260usize,
+                prop_oneof![1 => Just(1), 4 => Just(0)],
+                proptest::collection::vec((-0.1..0.1f64, -0.8..0.8f64, prop_oneof![3 => Just(0.0), 1 => -0.5..0.5f64]), 1..7),
+            ),
+            1..8,
+        ),
+    ) {
+        let settings = Arc::new(Effective::default());
+        let vertices = (0..260).map(|at| of_zigzag(at, (0.0, 0.0, 0.0))).collect();
+        let mut drawing = Drawing::new(None);
+        let polyline = drawing.push(entity(Geometry::Polyline { closed, vertices }, None));
+        let mut analysis = Analysis::new(&drawing, settings.clone());
+        analysis.findings(&drawing, usize::MAX);
+        for (from, fewer, moved) in edits {
+            let count = moved.len() - fewer;
+            let insert: Vec<Vertex> = (from..).zip(moved).map(|(at, by)| of_zigzag(at, by)).collect();
+            let Ok(touched) = drawing.splice(polyline, from, count, &insert) else {
+                continue;
+            };
+            analysis.update(&drawing, &Delta { touched: vec![touched] });
+            let mut fresh = Analysis::new(&drawing, settings.clone());
+            prop_assert_eq!(analysis.findings(&drawing, usize::MAX), fresh.findings(&drawing, usize::MAX));
+        }
+    }
+}
+
 #[test]
 fn a_contour_that_goes_back_on_itself_has_no_side_wherever_its_area_is_summed_from() {
     let settings = Arc::new(Effective::of(&Settings {

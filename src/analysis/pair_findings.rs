@@ -6,6 +6,7 @@ use super::report::Report;
 use super::told::{Doubles, Told, ToldPair, merged};
 use crate::drawing::{ContourKey, Drawing, EntityId};
 use crate::finding::{Detail, NotJudged, Place, Rule, Severity, Side};
+use crate::geometry::Point;
 use crate::rules::{PAIR_RULES, Wall};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;
