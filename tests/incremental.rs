@@ -417,7 +417,7 @@ fn of_zigzag(at: usize, (x, y, bulge): (f64, f64, f64)) -> Vertex {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(16), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(8), failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Of several runs of segments: what is left beyond dead ends is not asked again where theirs stay.
     #[test]
@@ -425,7 +425,7 @@ proptest! {
         closed in any::<bool>(),
         edits in proptest::collection::vec(
             (
-                0..260usize,
+                0..200usize,
                 prop_oneof![1 => Just(1), 4 => Just(0)],
                 proptest::collection::vec((-0.1..0.1f64, -0.8..0.8f64, prop_oneof![3 => Just(0.0), 1 => -0.5..0.5f64]), 1..7),
             ),
@@ -433,7 +433,7 @@ proptest! {
         ),
     ) {
         let settings = Arc::new(Effective::default());
-        let vertices = (0..260).map(|at| of_zigzag(at, (0.0, 0.0, 0.0))).collect();
+        let vertices = (0..200).map(|at| of_zigzag(at, (0.0, 0.0, 0.0))).collect();
         let mut drawing = Drawing::new(None);
         let polyline = drawing.push(entity(Geometry::Polyline { closed, vertices }, None));
         let mut analysis = Analysis::new(&drawing, settings.clone());
