@@ -20,6 +20,9 @@ pub(crate) struct Answer {
     pub pair: Option<Arc<Pair>>,
 }
 
+/// What is left of a punch and of its plate, where both are drawn.
+type Parts = [(Role, Arc<Part>); 2];
+
 impl Analysis {
     /// Forgets what was found between a contour and its partner, and what is left of it.
     pub(super) fn forget_fits(&mut self, key: ContourKey) {
@@ -103,7 +106,7 @@ impl Analysis {
         &self,
         drawing: &Drawing,
         both: [(ContourKey, &Outline); 2],
-    ) -> (Option<Pair>, Option<[(Role, Arc<Part>); 2]>) {
+    ) -> (Option<Pair>, Option<Parts>) {
         let settings = &self.settings;
         let [(one, punch), (other, plate)] = both;
         let part_of = |key: ContourKey, outline: &Outline, role: Role| {
