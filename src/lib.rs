@@ -1,8 +1,8 @@
 //! wedm: a language server for wire EDM.
 //!
-//! The floors, each of which imports only floors below it: [`cli`] and [`server`] (two faces of the same library),
-//! [`analysis`], `rules`, [`toolpath`], [`program`], [`dxf`], [`drawing`], [`geometry`].
-//! `docs/architecture.md` is the map.
+//! The floors, from the top, each of which imports only floors below it: [`cli`]; [`server`]; [`ide`], [`job`], [`protocol`]; [`document`],
+//! [`picture`]; [`beside`]; [`analysis`], [`program`]; [`fit`]; `rules`, [`toolpath`]; [`dxf`], [`settings`]; [`finding`]; [`drawing`];
+//! [`rule`]; [`geometry`], [`text`], [`message`], `disk`. `docs/architecture.md` is the map and says what each is for.
 //!
 //! Nothing here may panic. Rooms that read what others have written index nothing; where the others do, the index was counted from the
 //! same list a few lines before, and properties and fuzz targets run it.

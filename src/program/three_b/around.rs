@@ -2,7 +2,7 @@
 
 #![warn(clippy::indexing_slicing)]
 
-use super::fields;
+use super::scan::Scan;
 use super::words::{Words, word_of};
 use crate::text::head;
 
@@ -104,9 +104,11 @@ pub(super) fn label(text: &[u8], words: &Words<'_>) -> Option<usize> {
         return None;
     }
     let code = before_comment(text);
-    let at = memchr::memchr2_iter(b'B', b'b', code)
-        .take(4)
-        .find(|&at| code.get(at..).and_then(fields::strict).is_some())?;
+    let at = memchr::memchr2_iter(b'B', b'b', code).take(4).find(|&at| {
+        code.get(at..)
+            .and_then(|text| Scan::of(text).sound())
+            .is_some()
+    })?;
     let name = code.get(..at)?.trim_ascii();
     let is_word = name
         .split(|byte| !byte.is_ascii_alphanumeric())
@@ -146,7 +148,7 @@ pub(super) fn is_remark(line: &[u8], at: usize, words: &Words<'_>) -> bool {
     is_bare
         && words.meaning(head(rest, letters)).is_none()
         && !wants_to_be_a_block(rest)
-        && fields::strict(rest).is_none()
+        && Scan::of(rest).sound().is_none()
 }
 
 /// Whether text has enough of a block to be taken for a broken one.

@@ -37,6 +37,15 @@ impl SyntaxFault {
         }
     }
 
+    /// The same in a text that has so many bytes more before it.
+    pub(super) fn shifted(mut self, by: usize) -> SyntaxFault {
+        self.range = self.range.start + by..self.range.end + by;
+        if let Flaw::MissingB { at } = &mut self.flaw {
+            *at += by;
+        }
+        self
+    }
+
     /// What was found and what was expected.
     pub(crate) fn sentence(&self) -> String {
         match &self.flaw {

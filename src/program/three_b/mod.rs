@@ -20,9 +20,11 @@ mod proof;
 pub(in crate::program) mod refactor;
 mod repair;
 mod rules;
+mod scan;
 mod stretch;
 #[cfg(test)]
 mod tests;
+mod tokens;
 pub(crate) mod words;
 mod write;
 

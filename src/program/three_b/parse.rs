@@ -6,15 +6,12 @@
 
 #![warn(clippy::indexing_slicing)]
 
-use super::around::{
-    StatedPoint, before_comment, has_decimal_commas, is_remark, label, looks_like_a_block, n_word,
-    point_in, row_number, row_of_word, start_point, stated_point, wants_to_be_a_block,
-};
+use super::around::{StatedPoint, before_comment};
 use super::block::{Block, PartArc};
 use super::fault::{Flaw, SyntaxFault};
-use super::fields;
-use super::words::{Word, Words, word_of};
-use crate::program::alike::{Likeness, alike, in_plain_letters, with_plain_marks};
+use super::tokens::{Token, Tokens, readable};
+use super::words::{Word, Words};
+use crate::program::alike::{Likeness, alike, in_plain_letters};
 use crate::text::{self, SourceText, head};
 use std::ops::Range;
 
@@ -105,16 +102,11 @@ pub fn read_line(line: &[u8], offset: usize, words: &Words<'_>, mut each: impl F
         0
     };
     let line = line.get(from..).unwrap_or_default();
-    let with_plain_marks = with_plain_marks(line);
-    let readable = match &with_plain_marks {
-        Some(plain) => plain,
-        None => line,
-    };
-    if let Some(fault) = not_plain(line, readable, words) {
-        let range = fault.range.start + offset + from..fault.range.end + offset + from;
-        return each(Item::Fault(SyntaxFault { range, ..fault }));
+    let plain = readable(line);
+    match not_plain(line, &plain, words) {
+        Some(fault) => each(Item::Fault(fault.shifted(offset + from))),
+        None => read_plain_line(&plain, offset + from, words, &mut each),
     }
-    read_plain_line(readable, offset + from, words, &mut each);
 }
 
 /// The fault of a line that only in plain letters and digits is a block or a word.
@@ -161,325 +153,82 @@ fn not_plain(line: &[u8], readable: &[u8], words: &Words<'_>) -> Option<SyntaxFa
 }
 
 fn read_plain_line(line: &[u8], offset: usize, words: &Words<'_>, each: &mut dyn FnMut(Item)) {
-    let mut cursor = Cursor {
-        line,
-        at: 0,
-        offset,
-        behind_block: false,
-    };
+    let mut tokens = Tokens::of(line);
     // A block waits for the next token, because its coordinates stand behind it.
     let mut waiting: Option<Item> = None;
     let mut number = None;
-    loop {
-        match cursor.token(words) {
-            Ok(Some(Token::Number(read))) => number = Some(read),
-            Ok(Some(Token::Coordinates(end))) => {
+    while let Some((token, range)) = tokens.next(words) {
+        let column = range.start + 1;
+        let range = range.start + offset..range.end + offset;
+        let item = match token {
+            Token::Comment { holds_block: false } => continue,
+            Token::Number(read) => {
+                number = Some(read);
+                continue;
+            }
+            Token::Coordinates(end) => {
                 if let Some(Item::Block { stated_end, .. }) = &mut waiting {
                     *stated_end = Some(end);
                 }
+                continue;
             }
-            Ok(Some(Token::Item(mut item, faults))) => {
+            Token::Block {
+                block,
+                part,
+                row,
+                faults,
+            } => {
                 waiting.take().into_iter().for_each(&mut *each);
-                faults.into_iter().map(Item::Fault).for_each(&mut *each);
-                if let Item::Block { number: own, .. } | Item::Word { number: own, .. } = &mut item
-                {
-                    *own = number.take().or(*own);
-                }
-                if matches!(item, Item::Block { .. }) {
-                    waiting = Some(item);
-                    cursor.behind_block = true;
-                } else {
-                    each(item);
-                }
+                let placed = faults.into_iter().map(|fault| fault.shifted(offset));
+                placed.map(Item::Fault).for_each(&mut *each);
+                waiting = Some(Item::Block {
+                    block,
+                    range,
+                    number: number.take().or(row),
+                    stated_end: None,
+                    part,
+                });
+                continue;
             }
-            Ok(None) => break,
-            Err(fault) => {
-                waiting.take().into_iter().for_each(&mut *each);
-                each(Item::Fault(SyntaxFault {
+            Token::Word { word, is_own } => Item::Word {
+                word,
+                is_own,
+                range,
+                number: number.take(),
+            },
+            Token::StartPoint(at) => Item::StartPoint { at, range },
+            Token::Text => Item::Text { range, column },
+            Token::Comment { .. } => Item::CommentedBlock { range, column },
+            Token::DecimalCommas => Item::Fault(SyntaxFault::new(range, Flaw::DecimalCommas)),
+            Token::Broken(expected) => {
+                let found = line.get(range.start - offset..).unwrap_or_default();
+                Item::Fault(SyntaxFault {
                     number: number.take(),
-                    ..fault
-                }));
-                if !cursor.skip_broken_block() {
-                    break;
-                }
+                    ..broken(found, column, range.start, expected)
+                })
             }
-        }
+        };
+        waiting.take().into_iter().for_each(&mut *each);
+        each(item);
     }
     waiting.into_iter().for_each(each);
 }
 
-enum Token {
-    /// `N12` before a block.
-    Number(u32),
-    Coordinates(StatedPoint),
-    /// With what is wrong in a block that is read all the same. The number of a block is that of the row, which stands before its first
-    /// `B`.
-    Item(Item, Vec<SyntaxFault>),
-}
-
-impl From<Item> for Token {
-    fn from(item: Item) -> Token {
-        Token::Item(item, Vec::new())
-    }
-}
-
-struct Cursor<'a> {
-    line: &'a [u8],
-    at: usize,
-    offset: usize,
-    /// A block has been read in this line.
-    behind_block: bool,
-}
-
-impl<'a> Cursor<'a> {
-    fn from(&self, at: usize) -> &'a [u8] {
-        self.line.get(at..).unwrap_or_default()
-    }
-
-    fn peek(&self) -> Option<u8> {
-        self.line.get(self.at).copied()
-    }
-
-    fn skip_space(&mut self) {
-        // 0x1A ends a text of DOS; bars and commas part the columns of a table.
-        while matches!(
-            self.peek(),
-            Some(b' ' | b'\t' | 0x0b | 0x0c | 0x1a | b'|' | b',')
-        ) {
-            self.at += 1;
-        }
-    }
-
-    fn token(&mut self, words: &Words<'_>) -> Result<Option<Token>, SyntaxFault> {
-        self.skip_space();
-        let start = self.at;
-        let Some(byte) = self.peek() else {
-            return Ok(None);
-        };
-        let rest = self.from(start);
-        match byte {
-            b'B' | b'b' => {}
-            // A column of names before the blocks: `AB`, `1-2`, a word in another script.
-            _ if !self.behind_block
-                && !matches!(byte, b'N' | b'n')
-                && label(rest, words).is_some() =>
-            {
-                self.at += label(rest, words).unwrap_or(0)
-            }
-            b';' => {
-                self.at = self.line.len();
-                let comment = rest.get(1..).unwrap_or_default();
-                if let Some(at) = start_point(comment) {
-                    let range = self.range(start);
-                    return Ok(Some(Item::StartPoint { at, range }.into()));
-                }
-                // Nothing else of the line is looked at behind this: the numbers may be as long as they are.
-                let end = memchr::memchr(b';', comment).unwrap_or(comment.len());
-                let coordinates = head(comment, end);
-                if has_decimal_commas(coordinates) {
-                    return Ok(Some(self.decimal_commas(start + 1).into()));
-                }
-                return match point_in(coordinates) {
-                    Some(end) => Ok(Some(Token::Coordinates(end))),
-                    None => Ok(self.comment_at(start)),
-                };
-            }
-            // Some writers open with a heading between rows of stars; brackets and slashes open comments elsewhere.
-            b'*' | b'#' | b'%' | b'\'' | b'"' | b'/' => return Ok(self.comment_at(start)),
-            0x80.. if looks_like_a_block(before_comment(rest)) => {
-                return Err(self.fault(say!(a_block_in_plain_letters_and_digits)));
-            }
-            0x80.. => return Ok(self.comment()),
-            b'(' => match row_number(rest) {
-                Some((number, length)) if !self.behind_block => {
-                    self.at += length;
-                    return Ok(Some(Token::Number(number)));
-                }
-                _ => return Ok(self.comment_at(start)),
-            },
-            b'0'..=b'9' | b'-' | b'+' | b'.' => {
-                if self.behind_block
-                    && let Some(end) = stated_point(before_comment(rest))
-                {
-                    self.at = self.line.len();
-                    return Ok(Some(Token::Coordinates(end)));
-                }
-                if self.behind_block && has_decimal_commas(before_comment(rest)) {
-                    return Ok(Some(self.decimal_commas(start).into()));
-                }
-                if !self.behind_block
-                    && let Some((number, length)) =
-                        row_number(rest).or_else(|| row_of_word(rest, words))
-                {
-                    self.at += length;
-                    return Ok(Some(Token::Number(number)));
-                }
-            }
-            _ => {}
-        }
-        self.word_or_block(words)
-    }
-
-    fn comment(&mut self) -> Option<Token> {
-        self.at = self.line.len();
-        None
-    }
-
-    /// A comment from its mark on; one that holds a block is said to.
-    fn comment_at(&mut self, start: usize) -> Option<Token> {
-        self.at = self.line.len();
-        let rest = self.from(start);
-        let end = start + rest.trim_ascii_end().len();
-        let holds_block = memchr::memchr2_iter(b'B', b'b', rest)
-            .take(MOST_LOOKS)
-            .any(|at| rest.get(at..).and_then(fields::strict).is_some());
-        let comment = Item::CommentedBlock {
-            range: self.offset + start..self.offset + end,
-            column: start + 1,
-        };
-        holds_block.then_some(comment.into())
-    }
-
-    /// Coordinates with commas for points, from a byte of the line on.
-    fn decimal_commas(&mut self, from: usize) -> Item {
-        self.at = self.line.len();
-        let code = before_comment(self.from(from));
-        let (start, end) = (
-            from + code.len() - code.trim_ascii_start().len(),
-            from + code.trim_ascii_end().len(),
-        );
-        let range = self.offset + start..self.offset + end;
-        Item::Fault(SyntaxFault::new(range, Flaw::DecimalCommas))
-    }
-
-    fn word_or_block(&mut self, words: &Words<'_>) -> Result<Option<Token>, SyntaxFault> {
-        let start = self.at;
-        let rest = self.from(start);
-        if let Some((block, part, length)) = fields::strict(rest) {
-            self.at += length;
-            let block = Item::Block {
-                block,
-                part,
-                range: self.range(start),
-                number: None,
-                stated_end: None,
-            };
-            return Ok(Some(block.into()));
-        }
-        let letters = word_of(rest);
-        if !letters.is_empty()
-            && let Some(word) = words.meaning(letters)
-        {
-            let is_own = words.is_own(letters);
-            self.at += letters.len();
-            let word = Item::Word {
-                word,
-                is_own,
-                range: self.range(start),
-                number: None,
-            };
-            return Ok(Some(word.into()));
-        }
-        if let Some(at) = start_point(rest) {
-            self.at = self.line.len();
-            let range = self.range(start);
-            return Ok(Some(Item::StartPoint { at, range }.into()));
-        }
-        if matches!(rest.first(), Some(b'N' | b'n'))
-            && let Some((number, length)) = n_word(rest)
-        {
-            self.at += length;
-            return Ok(Some(Token::Number(number)));
-        }
-        if !wants_to_be_a_block(rest) {
-            self.at = self.line.len();
-            if self.behind_block && is_remark(self.line, start, words) {
-                return Ok(None);
-            }
-            if !rest.iter().any(u8::is_ascii_alphanumeric) {
-                return Ok(None);
-            }
-            let end = start + rest.trim_ascii_end().len();
-            let text = Item::Text {
-                range: self.offset + start..self.offset + end,
-                column: start + 1,
-            };
-            return Ok(Some(text.into()));
-        }
-        match fields::lenient(rest) {
-            Ok(found) => {
-                self.at += found.fields.end;
-                let faults = found
-                    .faults
-                    .into_iter()
-                    .map(|fault| self.placed(fault, start))
-                    .collect();
-                let first = self.offset + start + found.fields.first;
-                let block = Item::Block {
-                    block: found.block,
-                    part: found.part,
-                    range: first..self.offset + self.at,
-                    number: found.row,
-                    stated_end: None,
-                };
-                Ok(Some(Token::Item(block, faults)))
-            }
-            Err((at, expected)) => {
-                self.at = start + at;
-                Err(self.fault(expected))
-            }
-        }
-    }
-
-    fn placed(&self, fault: SyntaxFault, start: usize) -> SyntaxFault {
-        let shift = self.offset + start;
-        let flaw = match fault.flaw {
-            Flaw::MissingB { at } => Flaw::MissingB { at: at + shift },
-            flaw => flaw,
-        };
-        SyntaxFault {
-            range: fault.range.start + shift..fault.range.end + shift,
-            flaw,
-            number: fault.number,
-        }
-    }
-
-    fn range(&self, start: usize) -> Range<usize> {
-        self.offset + start..self.offset + self.at
-    }
-
-    /// The fault at the cursor; its range is what stands there up to the next space. There is nothing to underline behind the end, so the
-    /// last byte stands for it.
-    fn fault(&self, expected: &str) -> SyntaxFault {
-        let (column, rest) = (self.at + 1, self.from(self.at));
-        let length = rest.iter().position(u8::is_ascii_whitespace);
-        let length = length
-            .unwrap_or(rest.len())
-            .clamp(rest.len().min(1), rest.len());
-        let (start, found) = if rest.is_empty() {
-            (self.at.saturating_sub(1), say!(the_line_ends).to_owned())
-        } else {
-            (self.at, say!(found_something, shown(head(rest, length))))
-        };
-        let range = self.offset + start..self.offset + self.at + length;
-        let sentence = say!(expected_in_a_column, column, found, expected);
-        SyntaxFault::new(range, Flaw::Unreadable(sentence))
-    }
-
-    /// Goes behind the quadrant that the broken block ends in, where more blocks may stand; false where there is none.
-    fn skip_broken_block(&mut self) -> bool {
-        let rest = self.from(self.at);
-        let comment = memchr::memchr(b';', rest).unwrap_or(rest.len());
-        let is_end = |window: &[u8]| matches!(window, [b'L' | b'R' | b'l' | b'r', b'1'..=b'4']);
-        match head(rest, comment).windows(2).position(is_end) {
-            Some(at) => {
-                self.at += at + 2;
-                self.behind_block = true;
-                true
-            }
-            None => false,
-        }
-    }
+/// The fault of a broken block; its range is what stands there up to the next space. There is nothing to underline behind the end, so
+/// the last byte stands for it.
+fn broken(rest: &[u8], column: usize, at: usize, expected: &str) -> SyntaxFault {
+    let length = rest.iter().position(u8::is_ascii_whitespace);
+    let length = length
+        .unwrap_or(rest.len())
+        .clamp(rest.len().min(1), rest.len());
+    let (start, found) = if rest.is_empty() {
+        let before = at - usize::from(column > 1);
+        (before, say!(the_line_ends).to_owned())
+    } else {
+        (at, say!(found_something, shown(head(rest, length))))
+    };
+    let sentence = say!(expected_in_a_column, column, found, expected);
+    SyntaxFault::new(start..at + length, Flaw::Unreadable(sentence))
 }
 
 /// The first characters of what was found.
@@ -487,9 +236,6 @@ fn shown(bytes: &[u8]) -> String {
     let mut words = bytes.split(u8::is_ascii_whitespace);
     text::shown(words.next().unwrap_or_default())
 }
-
-/// Places in a comment at which a block is looked for.
-const MOST_LOOKS: usize = 64;
 
 #[cfg(test)]
 mod tests;

@@ -1,10 +1,12 @@
-//! A line of 3B cut into its pieces: which byte belongs to which field, damaged lines too.
-//!
-//! The reader in [`super::parse`] says what a sound line means. Here nothing is judged: an editor asks where the cursor stands
-//! while a block is still being written.
+//! Which byte of a line belongs to which field, in damaged lines too: an editor asks where the cursor stands while a block is still being
+//! written.
 
-use crate::program::three_b::around::{before_comment, is_remark, start_point, two_numbers};
-use crate::program::three_b::words::{Word, Words};
+#![warn(clippy::indexing_slicing)]
+
+use super::fields::fields_of;
+use super::scan::Scan;
+use super::tokens::{Token, Tokens, readable};
+use super::words::{Word, Words};
 use std::ops::Range;
 
 /// What a piece of a line is.
@@ -46,280 +48,153 @@ pub(crate) struct Piece {
 
 /// Cuts a line, without its line end, into pieces. Space between them belongs to none.
 pub(crate) fn pieces(line: &[u8], words: &Words<'_>) -> Vec<Piece> {
-    let mut cutter = Cutter {
-        line,
-        at: if line.starts_with(b"\xef\xbb\xbf") {
-            3
-        } else {
-            0
-        },
-        block: Expected::Nothing,
-        is_behind_block: false,
+    let from = if line.starts_with(b"\xef\xbb\xbf") {
+        3
+    } else {
+        0
     };
-    let mut found = Vec::with_capacity(12);
-    while let Some(piece) = cutter.next(words) {
-        found.push(piece);
+    let plain = readable(line.get(from..).unwrap_or_default());
+    let mut cutter = Cutter {
+        line: &plain,
+        raw: line,
+        from,
+        begun: 0,
+        found: Vec::with_capacity(12),
+    };
+    let mut tokens = Tokens::of(&plain);
+    loop {
+        tokens.skip_space();
+        let start = tokens.at;
+        let Some((token, range)) = tokens.next(words) else {
+            return cutter.found;
+        };
+        if !matches!(token, Token::Text | Token::Broken(_)) {
+            cutter.begun = 0;
+        }
+        match token {
+            Token::Number(_) => cutter.push(Field::Number, range),
+            Token::Coordinates(_) | Token::DecimalCommas => {
+                let start = start.min(range.start);
+                tokens.at = range.end;
+                cutter.push(Field::Coordinates, start..range.end);
+            }
+            Token::Block { row, .. } => {
+                let before = [Field::Strange, Field::Number][usize::from(row.is_some())];
+                cutter.push(before, start..range.start);
+                cutter.push_block(range);
+            }
+            Token::Word { word, .. } => cutter.push(
+                match word {
+                    Word::Pause => Field::Pause,
+                    Word::End => Field::End,
+                },
+                range,
+            ),
+            Token::StartPoint(_) => cutter.push(Field::StartPoint, range),
+            Token::Comment { .. } => cutter.push(Field::Comment, range),
+            Token::Text | Token::Broken(_) => tokens.at = cutter.push_broken(start),
+        }
     }
-    found
-}
-
-/// How far a block has come.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Expected {
-    /// No block is under way.
-    Nothing,
-    /// So many numbers have begun.
-    Numbers(u8),
-    /// G has been read.
-    Motion,
 }
 
 struct Cutter<'a> {
     line: &'a [u8],
-    at: usize,
-    block: Expected,
-    /// A block has begun in this line.
-    is_behind_block: bool,
+    /// As it stands, with so many bytes before `line`.
+    raw: &'a [u8],
+    from: usize,
+    /// Numbers of a broken block so far.
+    begun: usize,
+    found: Vec<Piece>,
 }
 
 impl Cutter<'_> {
-    fn skip_space(&mut self) {
-        while matches!(
-            self.line.get(self.at),
-            Some(b' ' | b'\t' | 0x0b | 0x0c | 0x1a | b'|')
-        ) {
-            self.at += 1;
-        }
-    }
-
-    /// The next byte behind space that is one of `wanted`, in either case; the cursor moves only then.
-    fn take_behind_space(&mut self, wanted: &[u8]) -> bool {
-        let before = self.at;
-        self.skip_space();
-        match self.line.get(self.at) {
-            Some(byte) if wanted.contains(&byte.to_ascii_uppercase()) => {
-                self.at += 1;
-                true
-            }
-            _ => {
-                self.at = before;
-                false
-            }
-        }
-    }
-
-    fn digits(&mut self) -> bool {
-        let start = self.at;
-        while matches!(self.line.get(self.at), Some(b'0'..=b'9')) {
-            self.at += 1;
-        }
-        self.at > start
-    }
-
-    fn next(&mut self, words: &Words<'_>) -> Option<Piece> {
-        self.skip_space();
-        let start = self.at;
-        let byte = *self.line.get(start)?;
-        let rest = &self.line[start..];
-        if self.is_behind_block
-            && self.block == Expected::Nothing
-            && is_remark(self.line, start, words)
-        {
-            self.run_to_end();
-            return Some(Piece {
-                field: Field::Comment,
-                range: start..self.at,
-            });
-        }
-        let field = match byte.to_ascii_uppercase() {
-            b';' => self.behind_semicolon(rest),
-            b'0'..=b'9' | b'(' if !self.is_behind_block && self.row_number() => Field::Number,
-            b'*' | b'#' | b'%' | b'\'' | b'"' | b'/' | b'(' | 0x80.. => {
-                self.run_to_end();
-                Field::Comment
-            }
-            b'B' if !self.is_word(words) => {
-                self.at += 1;
-                self.is_behind_block = true;
-                self.block = match self.block {
-                    Expected::Numbers(count) if count < 4 => Expected::Numbers(count + 1),
-                    _ => Expected::Numbers(1),
-                };
-                Field::Separator
-            }
-            b'0'..=b'9'
-                if self.block_number_field().is_some() && self.number_is_missing_before() =>
-            {
-                self.digits();
-                self.block_number_field().unwrap_or(Field::Strange)
-            }
-            b'0'..=b'9' | b'-' | b'+' | b'.'
-                if start > 0 && two_numbers(before_comment(rest)).is_some() =>
-            {
-                self.at = start + before_comment(rest).trim_ascii_end().len();
-                Field::Coordinates
-            }
-            b'G' if matches!(self.block, Expected::Numbers(_)) => {
-                self.at += 1;
-                if self.take_behind_space(b"XY") {
-                    self.block = Expected::Motion;
-                    Field::Axis
-                } else {
-                    self.strange(start)
-                }
-            }
-            b'L' if self.block == Expected::Motion => self.motion(start, 1),
-            b'S' | b'N' if self.block == Expected::Motion && self.next_is(b'R') => {
-                self.motion(start, 2)
-            }
-            b'D' if self.block == Expected::Motion && self.is_convexity() => {
-                self.at += if self.next_is(b'D') { 2 } else { 1 };
-                Field::Convexity
-            }
-            b'N' if !self.is_word(words) => {
-                self.at += 1;
-                self.skip_space();
-                if self.digits() {
-                    self.take_behind_space(b":");
-                    self.block = Expected::Nothing;
-                    Field::Number
-                } else {
-                    self.at = start;
-                    self.strange(start)
-                }
-            }
-            _ => self.word(words, rest, start),
+    /// A piece without the space at its end; of what stands before a block, without the bars of its table.
+    fn push(&mut self, field: Field, range: Range<usize>) {
+        let is_before = matches!(field, Field::Number | Field::Strange);
+        let is_space = |byte: &u8| match byte {
+            b' ' | b'\t' | 0x0b | 0x0c | 0x1a => true,
+            b'|' | b',' => is_before,
+            _ => false,
         };
-        Some(Piece {
-            field,
-            range: start..self.at,
-        })
-    }
-
-    /// The number that the last separator opened.
-    fn block_number_field(&self) -> Option<Field> {
-        match self.block {
-            Expected::Numbers(1) => Some(Field::X),
-            Expected::Numbers(2) => Some(Field::Y),
-            Expected::Numbers(3) => Some(Field::J),
-            Expected::Numbers(4) => Some(Field::Radius),
-            _ => None,
+        let bytes = self.line.get(range.clone()).unwrap_or_default();
+        let Some(last) = bytes.iter().rposition(|byte| !is_space(byte)) else {
+            return;
+        };
+        let raw = |at: usize| self.raw.get(at + self.from).copied().unwrap_or(b' ');
+        let mut end = range.start + last + 1;
+        // A wide mark takes more bytes than the one that it is read as.
+        if raw(end - 1) >= 0x80 {
+            while self.line.get(end) == Some(&b' ') && raw(end) != b' ' {
+                end += 1;
+            }
         }
+        let range = range.start + self.from..end + self.from;
+        self.found.push(Piece { field, range });
     }
 
-    /// True when nothing but space stands between the last `B` and the cursor.
-    fn number_is_missing_before(&self) -> bool {
-        self.line[..self.at]
-            .trim_ascii_end()
-            .last()
-            .is_some_and(|byte| byte.eq_ignore_ascii_case(&b'B'))
-    }
-
-    fn next_is(&self, letter: u8) -> bool {
-        self.line
-            .get(self.at + 1)
-            .is_some_and(|byte| byte.eq_ignore_ascii_case(&letter))
-    }
-
-    /// `D` or `DD` with the motion of a 4B block behind it.
-    fn is_convexity(&self) -> bool {
-        let rest = &self.line[self.at..];
-        let letters = rest
-            .iter()
-            .take_while(|byte| byte.eq_ignore_ascii_case(&b'D'))
-            .count();
-        let behind = rest[letters..].trim_ascii_start().first();
-        letters <= 2
-            && behind.is_some_and(|byte| matches!(byte.to_ascii_uppercase(), b'L' | b'S' | b'N'))
-    }
-
-    /// True when the letters and digits at the cursor are a pause or end word.
-    fn is_word(&self, words: &Words<'_>) -> bool {
-        words
-            .meaning(words.letters_of(&self.line[self.at..]))
-            .is_some()
-    }
-
-    /// The number of a row: `12 `, `12.`, `12:`, `12)`, `(12)`, with a block behind it.
-    fn row_number(&mut self) -> bool {
-        let start = self.at;
-        self.at += usize::from(self.line.get(start) == Some(&b'('));
-        let has_digits = self.digits();
-        let mark = self.line.get(self.at).copied();
-        self.at += usize::from(matches!(mark, Some(b')' | b':' | b'.')));
-        // A bare number that hangs on the block is one of its own that lost its B.
-        let has_digits = has_digits && !mark.is_some_and(|byte| byte.eq_ignore_ascii_case(&b'B'));
-        let (end, mut behind) = (self.at, self.line[self.at..].iter());
-        let is_number = has_digits
-            && behind
-                .find(|byte| !matches!(byte, b' ' | b'\t'))
-                .is_some_and(|byte| byte.eq_ignore_ascii_case(&b'B'));
-        self.at = if is_number { end } else { start };
-        is_number
-    }
-
-    fn motion(&mut self, start: usize, letters: usize) -> Field {
-        self.at += letters;
-        if self.take_behind_space(b"1234") {
-            self.block = Expected::Nothing;
-            Field::Motion
-        } else {
-            self.at = start;
-            self.strange(start)
+    /// The pieces of a block that can be read.
+    fn push_block(&mut self, range: Range<usize>) {
+        let Some(fields) = fields_of(self.line, range) else {
+            return;
+        };
+        let numbers = [
+            (Field::X, Some(fields.x)),
+            (Field::Y, Some(fields.y)),
+            (Field::J, Some(fields.j)),
+            (Field::Radius, fields.radius),
+        ];
+        let mut at = fields.first;
+        for (field, digits) in numbers {
+            let Some(digits) = digits else { continue };
+            let between = self.line.get(at..digits.start).unwrap_or_default();
+            if let Some(b) = memchr::memchr2(b'B', b'b', between) {
+                self.push(Field::Separator, at + b..at + b + 1);
+            }
+            at = digits.end;
+            self.push(field, digits);
         }
+        self.push(Field::Axis, fields.axis);
+        self.push(Field::Convexity, fields.side.unwrap_or_default());
+        self.push(Field::Motion, fields.motion);
     }
 
-    fn word(&mut self, words: &Words<'_>, rest: &[u8], start: usize) -> Field {
-        let letters = words.letters_of(rest);
-        if let Some(word) = words.meaning(letters) {
-            self.at += letters.len();
-            self.block = Expected::Nothing;
-            return match word {
-                Word::Pause => Field::Pause,
-                Word::End => Field::End,
-            };
+    /// The pieces of a block that is being written or damaged, and behind them one that is none, up to the next space or comment; where
+    /// they end.
+    fn push_broken(&mut self, start: usize) -> usize {
+        const NUMBERS: [Field; 4] = [Field::X, Field::Y, Field::J, Field::Radius];
+        let rest = self.line.get(start..).unwrap_or_default();
+        let scan = Scan::of(rest);
+        let place = |range: &Range<usize>| range.start + start..range.end + start;
+        let (mut numbers, mut end) = (scan.numbers(), start);
+        if let [row, first, ..] = numbers
+            && (row.b, first.b.is_some_and(|b| b > row.digits.end)) == (None, true)
+        {
+            end = start + row.digits.end;
+            self.push(Field::Number, start..end);
+            numbers = numbers.get(1..).unwrap_or_default();
         }
-        if start_point(rest).is_some() {
-            self.run_to_end();
-            return Field::StartPoint;
+        let with_b = numbers.iter().take_while(|number| number.b.is_some());
+        let fields = NUMBERS.iter().cycle().skip(self.begun);
+        for (number, &field) in with_b.zip(fields) {
+            self.begun = (self.begun + 1) % NUMBERS.len();
+            let b = start + number.start();
+            self.push(Field::Separator, b..b + 1);
+            self.push(field, place(&number.digits));
+            end = start + number.digits.end;
         }
-        self.strange(start)
-    }
-
-    fn behind_semicolon(&mut self, rest: &[u8]) -> Field {
-        if start_point(&rest[1..]).is_some() {
-            self.run_to_end();
-            return Field::StartPoint;
+        if numbers.iter().all(|number| number.b.is_some()) && scan.axis.is_some() {
+            self.push(Field::Axis, place(&scan.axis_range));
+            self.push(Field::Convexity, place(&scan.side_range));
+            self.push(Field::Motion, place(&scan.motion_range));
+            end = start + scan.end;
         }
-        let numbers = before_comment(&rest[1..]);
-        if two_numbers(numbers).is_some() {
-            self.at += 1 + numbers.trim_ascii_end().len();
-            return Field::Coordinates;
-        }
-        self.run_to_end();
-        Field::Comment
-    }
-
-    /// To the end of the line, space left out.
-    fn run_to_end(&mut self) {
-        let rest = &self.line[self.at..];
-        let length = rest
-            .iter()
-            .rposition(|byte| !matches!(byte, b' ' | b'\t' | 0x0b | 0x0c | 0x1a))
-            .map_or(0, |last| last + 1);
-        self.at += length.max(1);
-    }
-
-    /// To the next space or comment.
-    fn strange(&mut self, start: usize) -> Field {
-        let rest = &self.line[start..];
-        let length = rest
-            .iter()
-            .position(|byte| byte.is_ascii_whitespace() || *byte == b';')
-            .unwrap_or(rest.len());
+        let rest = self.line.get(end..).unwrap_or_default();
+        let is_over = |byte: &u8| byte.is_ascii_whitespace() || *byte == b';';
+        let length = rest.iter().position(is_over).unwrap_or(rest.len());
         // At least one byte, so that there is an end.
-        self.at = start + length.max(1);
-        Field::Strange
+        let behind = (end + length).max(start + 1);
+        self.push(Field::Strange, end..behind);
+        behind
     }
 }
 
@@ -387,7 +262,10 @@ mod tests {
             "B1B2B3G",
             "Separator B | X 1 | Separator B | Y 2 | Separator B | J 3 | Strange G",
         );
-        check("9900B0B9900GXL1", "Strange 9900B0B9900GXL1");
+        check(
+            "9900B0B9900GXL1",
+            "X 9900 | Separator B | Y 0 | Separator B | J 9900 | Axis GX | Motion L1",
+        );
         check("B1x2 D", "Separator B | X 1 | Strange x2 | Pause D");
         check("N", "Strange N");
     }

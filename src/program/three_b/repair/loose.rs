@@ -1,10 +1,9 @@
 //! What is left of a block that cannot be read: its numbers, its axis and its motion, as far as they are there.
 
-use super::super::block::{Block, CountingAxis, Motion, Quadrant};
+use super::super::around::n_word;
+use super::super::block::{Block, CountingAxis, Motion};
+use super::super::scan::{self, Scan};
 use std::ops::Range;
-
-/// More digits than a number of a block has.
-const DIGITS: usize = 12;
 
 /// A number of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,127 +34,60 @@ pub(super) struct Reading {
     pub(crate) keys: usize,
 }
 
-/// Reads what there is of one block in a text, which holds nothing else but a number before it and a comment behind it.
+/// What there is of one block in a text, which holds nothing else but a number before it and a comment behind it.
 pub(in super::super) fn loose(text: &[u8]) -> Option<Loose> {
-    let mut at = 0;
-    let skip = |at: &mut usize| {
-        while matches!(text.get(*at), Some(b' ' | b'\t' | b'|')) {
-            *at += 1;
-        }
+    let is_between = |byte: &u8| matches!(byte, b' ' | b'\t' | b'|');
+    let skipped = |from: usize, skips: &dyn Fn(&u8) -> bool| {
+        let space = text.iter().skip(from).take_while(|byte| skips(byte));
+        from + space.count()
     };
-    let upper = |at: usize| text.get(at).map(u8::to_ascii_uppercase);
-    skip(&mut at);
-    if upper(at) == Some(b'N') {
-        at += 1;
-        skip(&mut at);
-        while text.get(at).is_some_and(u8::is_ascii_digit) {
-            at += 1;
-        }
-        skip(&mut at);
-        at += usize::from(upper(at) == Some(b':'));
-        skip(&mut at);
+    let mut start = skipped(0, &is_between);
+    let own = text.get(start..)?;
+    if let Some(b'N' | b'n') = own.first() {
+        // Its digits may be lost.
+        start += n_word(own).map_or(1, |(_, length)| length);
+        start = skipped(start, &|byte| is_between(byte) || *byte == b':');
     }
-    let start = at;
-    let (mut numbers, mut marks) = (Vec::new(), 0);
-    loop {
-        skip(&mut at);
-        let has_b = upper(at) == Some(b'B');
-        at += usize::from(has_b);
-        skip(&mut at);
-        let mut digits = Vec::new();
-        let first = at;
-        while let Some(byte) = text.get(at) {
-            match byte {
-                b'0'..=b'9' => digits.push(*byte),
-                b'O' | b'o' => digits.push(b'0'),
-                b'-' | b'+' | b'.' | b',' => marks += 1,
-                _ => break,
-            }
-            at += 1;
-        }
-        if !has_b && at == first {
-            break;
-        }
-        if digits.len() > DIGITS {
-            return None;
-        }
-        numbers.push(digits);
-    }
-    let mut end = at;
-    let mut missing = 0;
-    let mut axis = None;
-    let has_g = upper(at) == Some(b'G');
-    at += usize::from(has_g);
-    skip(&mut at);
-    match upper(at) {
-        Some(b'X') => axis = Some(CountingAxis::X),
-        Some(b'Y') => axis = Some(CountingAxis::Y),
-        // Another letter in its place.
-        Some(letter)
-            if has_g
-                && letter.is_ascii_alphabetic()
-                && !matches!(letter, b'L' | b'S' | b'N' | b'R' | b'D') => {}
-        _ => at = at.wrapping_sub(1),
-    }
-    at = at.wrapping_add(1);
-    missing += usize::from(!has_g) + usize::from(axis.is_none());
-    if has_g || axis.is_some() {
-        end = at;
-    }
-    skip(&mut at);
-    let kinds: &[fn(Quadrant) -> Motion] = match (upper(at), upper(at + 1)) {
-        (Some(b'L'), _) => &[Motion::Line],
-        (Some(b'S'), _) => &[Motion::Clockwise],
-        (Some(b'N'), _) => &[Motion::CounterClockwise],
-        (Some(b'R'), _) => &[Motion::CounterClockwise, Motion::Clockwise],
-        _ => &[Motion::Line, Motion::CounterClockwise, Motion::Clockwise],
-    };
-    let mut has_kind = kinds.len() < 3;
-    at += usize::from(has_kind);
-    skip(&mut at);
-    if has_kind
-        && !matches!(kinds, [only] if matches!(only(Quadrant::First), Motion::Line(_)))
-        && upper(at) == Some(b'R')
-    {
-        at += 1;
-    } else if matches!(kinds, [only] if !matches!(only(Quadrant::First), Motion::Line(_))) {
-        missing += 1;
-    }
-    missing += usize::from(kinds.len() > 1);
-    if has_kind {
-        end = at;
-    }
-    skip(&mut at);
-    let quadrant = text
-        .get(at)
-        .and_then(|byte| Quadrant::from_number(byte.wrapping_sub(b'0')));
-    if text.get(at).is_some_and(u8::is_ascii_digit) {
-        at += 1;
-        end = at;
-        has_kind = true;
-    }
-    missing += usize::from(quadrant.is_none());
-    let rest = text.get(at..).unwrap_or_default();
-    let is_over = rest
-        .iter()
-        .find(|byte| !matches!(byte, b' ' | b'\t' | b'|'))
-        .is_none_or(|byte| !byte.is_ascii_alphanumeric());
-    let is_block = has_g || axis.is_some() || has_kind;
-    if !is_over || !is_block || !(2..=3).contains(&numbers.len()) {
+    let own = text.get(start..)?;
+    let scan = Scan::all_of(own);
+    let behind = own.get(scan.end..)?.iter().find(|byte| !is_between(byte));
+    let is_over = behind.is_none_or(|byte| !byte.is_ascii_alphanumeric());
+    let is_block = !scan.axis_range.is_empty() || !scan.motion_range.is_empty();
+    let is_four_b = scan.side.is_some() || !(2..=3).contains(&scan.numbers().len());
+    if !is_over || !is_block || is_four_b || scan.is_too_long {
         return None;
     }
-    let kind_of = |motion: &Motion| kinds.iter().any(|kind| kind(motion.quadrant()) == *motion);
-    let is_in = |motion: &Motion| quadrant.is_none_or(|quadrant| motion.quadrant() == quadrant);
-    let motions = Motion::all()
-        .filter(|motion| kind_of(motion) && is_in(motion))
-        .collect();
+    let digits = |number: &scan::Number| {
+        let bytes = own.get(number.digits.clone()).unwrap_or_default();
+        let digit = |byte: &u8| match byte {
+            b'0'..=b'9' => Some(*byte),
+            byte => byte.is_ascii_alphabetic().then_some(b'0'),
+        };
+        bytes.iter().filter_map(digit).collect()
+    };
+    let kind_of = |motion: &Motion| {
+        let mut kinds = scan.kinds.iter();
+        kinds.any(|kind| kind(motion.quadrant()) == *motion)
+    };
+    let is_in = |motion: &Motion| {
+        let quadrant = scan.quadrant;
+        quadrant.is_none_or(|quadrant| motion.quadrant() == quadrant)
+    };
+    let missing = [
+        !scan.has_g,
+        scan.axis.is_none(),
+        scan.lacks_r || scan.kinds.len() > 1,
+        scan.quadrant.is_none(),
+    ];
     Some(Loose {
-        range: start..end,
-        numbers,
-        axis,
-        motions,
-        marks,
-        missing,
+        range: start..start + scan.end,
+        numbers: scan.numbers().iter().map(digits).collect(),
+        axis: scan.axis,
+        motions: Motion::all()
+            .filter(|motion| kind_of(motion) && is_in(motion))
+            .collect(),
+        marks: scan.marks,
+        missing: missing.into_iter().map(usize::from).sum(),
     })
 }
 

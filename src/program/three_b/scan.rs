@@ -1,0 +1,322 @@
+//! One block read letter by letter, as far as it goes: the one reader of numbers, axis and motion. What a damaged block was meant to be
+//! is said in [`super::fields`] and [`super::repair`], from what is found here.
+
+#![warn(clippy::indexing_slicing)]
+
+use super::block::{Block, CountingAxis, Motion, PartArc, Quadrant};
+use crate::program::alike::wide_space;
+use std::ops::Range;
+
+/// More digits than any controller takes are not read as a number.
+const MOST_DIGITS: usize = 12;
+
+/// Four of a 4B block, and that of its row.
+const MOST_NUMBERS: usize = 5;
+
+/// Where reading stopped, and what was expected there.
+pub(super) type Expected = (usize, &'static str);
+
+/// A number of the block as it stands.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Number {
+    /// Place of its `B`, where it has one.
+    pub(crate) b: Option<usize>,
+    /// Empty where the number is not there.
+    pub(crate) digits: Range<usize>,
+    pub(crate) value: Option<i64>,
+}
+
+impl Number {
+    pub(crate) fn start(&self) -> usize {
+        self.b.unwrap_or(self.digits.start)
+    }
+}
+
+/// What there is of one block. Places are bytes of the text.
+#[derive(Default)]
+pub(super) struct Scan {
+    all: [Number; MOST_NUMBERS],
+    count: usize,
+    /// A letter O stands for a zero.
+    pub(crate) has_letter_o: bool,
+    /// Marks among the digits that no number has.
+    pub(crate) marks: usize,
+    /// A number has more digits than any has, or there are more numbers.
+    pub(crate) is_too_long: bool,
+    pub(crate) has_g: bool,
+    pub(crate) axis: Option<CountingAxis>,
+    /// `GX`.
+    pub(crate) axis_range: Range<usize>,
+    /// `D` and `DD` of a 4B block: whether it is concave.
+    pub(crate) side: Option<bool>,
+    pub(crate) side_range: Range<usize>,
+    /// What the letters of the motion may mean.
+    pub(crate) kinds: &'static [fn(Quadrant) -> Motion],
+    pub(crate) lacks_r: bool,
+    pub(crate) quadrant: Option<Quadrant>,
+    /// `NR1`.
+    pub(crate) motion_range: Range<usize>,
+    /// Behind the last that was read.
+    pub(crate) end: usize,
+    /// Where it is no sound block any more.
+    pub(crate) stopped: Option<Expected>,
+    /// Reading goes on behind what is damaged.
+    goes_on: bool,
+}
+
+const LINE: &[fn(Quadrant) -> Motion] = &[Motion::Line];
+const CLOCKWISE: &[fn(Quadrant) -> Motion] = &[Motion::Clockwise];
+const COUNTER_CLOCKWISE: &[fn(Quadrant) -> Motion] = &[Motion::CounterClockwise];
+const ARCS: &[fn(Quadrant) -> Motion] = &[Motion::CounterClockwise, Motion::Clockwise];
+const ALL: &[fn(Quadrant) -> Motion] = &[Motion::Line, Motion::CounterClockwise, Motion::Clockwise];
+
+impl Scan {
+    /// Reads up to what no block has.
+    pub(super) fn of(text: &[u8]) -> Scan {
+        Scan::read(text, false)
+    }
+
+    /// Reads on behind what is damaged.
+    pub(super) fn all_of(text: &[u8]) -> Scan {
+        Scan::read(text, true)
+    }
+
+    #[inline]
+    fn read(text: &[u8], goes_on: bool) -> Scan {
+        let mut scan = Scan {
+            goes_on,
+            kinds: ALL,
+            ..Scan::default()
+        };
+        let mut reader = Reader { text, at: 0 };
+        // What is left of it is in the scan.
+        let _ = scan.take(&mut reader);
+        scan
+    }
+
+    pub(crate) fn numbers(&self) -> &[Number] {
+        self.all.get(..self.count).unwrap_or_default()
+    }
+
+    /// The one motion that it can mean.
+    pub(crate) fn motion(&self) -> Option<Motion> {
+        match self.kinds {
+            [kind] => self.quadrant.map(kind),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn part(&self, radius: Option<&Number>) -> Option<PartArc> {
+        self.side.map(|concave| PartArc {
+            radius: radius.and_then(|radius| radius.value).unwrap_or(0),
+            concave,
+        })
+    }
+
+    /// The block where all of it is written as it should be, and how many bytes it takes. The way of nearly all of them.
+    pub(super) fn sound(&self) -> Option<(Block, Option<PartArc>, usize)> {
+        let (x, y, j, radius) = match self.numbers() {
+            [x, y, j] => (x, y, j, None),
+            [x, y, j, radius] => (x, y, j, Some(radius)),
+            _ => return None,
+        };
+        let has_all_b = self.numbers().iter().all(|number| number.b.is_some());
+        let is_sound = self.stopped.is_none() && has_all_b && !self.has_letter_o;
+        if !is_sound || radius.is_some() != self.side.is_some() {
+            return None;
+        }
+        let block = Block {
+            x: x.value.unwrap_or(0),
+            y: y.value.unwrap_or(0),
+            j: j.value?,
+            axis: self.axis?,
+            motion: self.motion()?,
+        };
+        Some((block, self.part(radius), self.end))
+    }
+
+    /// Something else stands where a part of the block should; `None` where reading ends there.
+    fn stops(&mut self, at: usize, expected: &'static str) -> Option<()> {
+        self.stopped = self.stopped.or(Some((at, expected)));
+        self.goes_on.then_some(())
+    }
+
+    fn take(&mut self, reader: &mut Reader<'_>) -> Option<()> {
+        while self.take_number(reader)? {}
+        self.take_axis(reader)?;
+        let at = reader.at_next();
+        if reader.take(b'D') {
+            self.side = Some(reader.take(b'D'));
+            self.side_range = at..reader.at;
+            self.end = reader.at;
+        }
+        self.take_motion(reader)
+    }
+
+    /// A number with or without its `B`; false where there is none.
+    #[inline]
+    fn take_number(&mut self, reader: &mut Reader<'_>) -> Option<bool> {
+        let at = reader.at_next();
+        let b = reader.take(b'B').then_some(at);
+        let start = reader.at_next();
+        let (mut value, mut significant, mut digits): (i64, usize, usize) = (0, 0, 0);
+        while let Some(&byte) = reader.text.get(reader.at) {
+            let digit = match byte {
+                b'0'..=b'9' => byte - b'0',
+                b'O' | b'o' => {
+                    self.has_letter_o = true;
+                    0
+                }
+                b'-' | b'+' | b'.' | b',' if self.goes_on => {
+                    self.marks += 1;
+                    reader.at += 1;
+                    continue;
+                }
+                _ => break,
+            };
+            digits += 1;
+            significant += usize::from(significant > 0 || digit != 0);
+            if significant <= MOST_DIGITS {
+                value = value * 10 + i64::from(digit);
+            }
+            reader.at += 1;
+        }
+        if digits > MOST_DIGITS {
+            self.is_too_long = true;
+        }
+        if significant > MOST_DIGITS {
+            self.stops(start, say!(at_most_12_digits))?;
+        }
+        if b.is_none() && reader.at == start {
+            return Some(false);
+        }
+        let Some(place) = self.all.get_mut(self.count) else {
+            self.is_too_long = true;
+            let fourth = self.all.get(3).map_or(start, Number::start);
+            self.stops(fourth, say!(g_and_the_counting_axis));
+            return None;
+        };
+        *place = Number {
+            b,
+            digits: start..reader.at,
+            value: (digits > 0).then_some(value),
+        };
+        self.count += 1;
+        self.end = reader.at;
+        Some(true)
+    }
+
+    fn take_axis(&mut self, reader: &mut Reader<'_>) -> Option<()> {
+        let at = reader.at_next();
+        self.has_g = reader.take(b'G');
+        if !self.has_g {
+            let expected = match self.count {
+                0 => say!(b_and_the_numbers),
+                1 => say!(digits_of_x_or_b_before_y),
+                2 => say!(digits_of_y_or_b_before_j),
+                _ => say!(g_and_the_counting_axis),
+            };
+            self.stops(at, expected)?;
+        }
+        let letter = reader.next();
+        self.axis = match letter {
+            Some(b'X') => Some(CountingAxis::X),
+            Some(b'Y') => Some(CountingAxis::Y),
+            _ => None,
+        };
+        if self.axis.is_some() {
+            reader.at += 1;
+        } else if self.has_g {
+            self.stops(reader.at, say!(x_or_y_after_g))?;
+            // Another letter in its place.
+            let is_other = |letter: u8| {
+                letter.is_ascii_alphabetic() && !matches!(letter, b'L' | b'S' | b'N' | b'R' | b'D')
+            };
+            reader.at += usize::from(letter.is_some_and(is_other));
+        }
+        if self.has_g || self.axis.is_some() {
+            self.axis_range = at..reader.at;
+            self.end = reader.at;
+        }
+        Some(())
+    }
+
+    fn take_motion(&mut self, reader: &mut Reader<'_>) -> Option<()> {
+        let at = reader.at_next();
+        match reader.next() {
+            Some(b'L') => self.kinds = LINE,
+            Some(b'S') => self.kinds = CLOCKWISE,
+            Some(b'N') => self.kinds = COUNTER_CLOCKWISE,
+            letter => {
+                self.stops(at, say!(the_motion_and_a_quadrant))?;
+                if letter == Some(b'R') {
+                    self.kinds = ARCS;
+                }
+            }
+        }
+        reader.at += usize::from(self.kinds.len() < ALL.len());
+        let expected = match self.kinds {
+            [kind] => match kind(Quadrant::First) {
+                Motion::Line(_) => None,
+                Motion::Clockwise(_) => Some(say!(r_of_sr)),
+                Motion::CounterClockwise(_) => Some(say!(r_of_nr)),
+            },
+            _ => None,
+        };
+        if let Some(expected) = expected
+            && !reader.take(b'R')
+        {
+            self.lacks_r = true;
+            self.stops(reader.at, expected)?;
+        }
+        let end = reader.at;
+        let digit = reader.next().filter(u8::is_ascii_digit);
+        self.quadrant = digit.and_then(|digit| Quadrant::from_number(digit - b'0'));
+        if self.quadrant.is_none() {
+            self.stops(reader.at, say!(a_quadrant_from_1_to_4))?;
+        }
+        reader.at = if digit.is_some() { reader.at + 1 } else { end };
+        if reader.at > at {
+            self.motion_range = at..reader.at;
+            self.end = reader.at;
+        }
+        Some(())
+    }
+}
+
+struct Reader<'a> {
+    text: &'a [u8],
+    at: usize,
+}
+
+impl Reader<'_> {
+    /// The place behind space and the bars of a table.
+    #[inline]
+    fn at_next(&mut self) -> usize {
+        while let Some(byte) = self.text.get(self.at) {
+            match byte {
+                b' ' | b'\t' | b'|' => self.at += 1,
+                0xc2.. => match self.text.get(self.at..).map_or(0, wide_space) {
+                    0 => break,
+                    wide => self.at += wide,
+                },
+                _ => break,
+            }
+        }
+        self.at
+    }
+
+    /// The byte there, as a capital letter.
+    #[inline]
+    fn next(&mut self) -> Option<u8> {
+        let at = self.at_next();
+        self.text.get(at).map(u8::to_ascii_uppercase)
+    }
+
+    #[inline]
+    fn take(&mut self, letter: u8) -> bool {
+        let found = self.next() == Some(letter);
+        self.at += usize::from(found);
+        found
+    }
+}
