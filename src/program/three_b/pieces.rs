@@ -4,7 +4,7 @@
 #![warn(clippy::indexing_slicing)]
 
 use super::fields::fields_of;
-use super::scan::Scan;
+use super::scan::{Number, Scan};
 use super::tokens::{Token, Tokens, readable};
 use super::words::{Word, Words};
 use std::ops::Range;
@@ -78,10 +78,14 @@ pub(crate) fn pieces(line: &[u8], words: &Words<'_>) -> Vec<Piece> {
                 tokens.at = range.end;
                 cutter.push(Field::Coordinates, start..range.end);
             }
-            Token::Block { row, .. } => {
+            Token::Block { row, faults, .. } => {
                 let before = [Field::Strange, Field::Number][usize::from(row.is_some())];
                 cutter.push(before, start..range.start);
-                cutter.push_block(range);
+                if row.is_none() && faults.is_empty() {
+                    cutter.push_scan(&tokens.scan, tokens.scan.numbers(), range.start);
+                } else {
+                    cutter.push_mended(range);
+                }
             }
             Token::Word { word, .. } => cutter.push(
                 match word {
@@ -111,29 +115,62 @@ impl Cutter<'_> {
     /// A piece without the space at its end; of what stands before a block, without the bars of its table.
     fn push(&mut self, field: Field, range: Range<usize>) {
         let is_before = matches!(field, Field::Number | Field::Strange);
-        let is_space = |byte: &u8| match byte {
+        let is_space = |byte: u8| match byte {
             b' ' | b'\t' | 0x0b | 0x0c | 0x1a => true,
             b'|' | b',' => is_before,
             _ => false,
         };
-        let bytes = self.line.get(range.clone()).unwrap_or_default();
-        let Some(last) = bytes.iter().rposition(|byte| !is_space(byte)) else {
+        let mut end = range.end;
+        while let Some(last) = end.checked_sub(1).filter(|last| *last >= range.start)
+            && self.line.get(last).is_some_and(|byte| is_space(*byte))
+        {
+            end = last;
+        }
+        if end <= range.start {
             return;
-        };
-        let raw = |at: usize| self.raw.get(at + self.from).copied().unwrap_or(b' ');
-        let mut end = range.start + last + 1;
+        }
         // A wide mark takes more bytes than the one that it is read as.
+        let raw = |at: usize| self.raw.get(at + self.from).copied().unwrap_or(b' ');
         if raw(end - 1) >= 0x80 {
             while self.line.get(end) == Some(&b' ') && raw(end) != b' ' {
                 end += 1;
             }
         }
-        let range = range.start + self.from..end + self.from;
-        self.found.push(Piece { field, range });
+        self.add(field, range.start..end);
     }
 
-    /// The pieces of a block that can be read.
-    fn push_block(&mut self, range: Range<usize>) {
+    /// A piece, where it is not empty.
+    fn add(&mut self, field: Field, range: Range<usize>) {
+        if !range.is_empty() {
+            let range = range.start + self.from..range.end + self.from;
+            self.found.push(Piece { field, range });
+        }
+    }
+
+    /// The numbers of a block that lead with their `B`, and the rest of it where all of them do; where they end.
+    fn push_scan(&mut self, scan: &Scan, numbers: &[Number], start: usize) -> usize {
+        const FIELDS: [Field; 4] = [Field::X, Field::Y, Field::J, Field::Radius];
+        let place = |range: &Range<usize>| range.start + start..range.end + start;
+        let mut end = start;
+        for number in numbers {
+            let Some(b) = number.b else { return end };
+            self.add(Field::Separator, start + b..start + b + 1);
+            let field = FIELDS.get(self.begun).copied().unwrap_or(Field::X);
+            self.add(field, place(&number.digits));
+            self.begun = (self.begun + 1) % FIELDS.len();
+            end = start + number.digits.end;
+        }
+        if scan.axis.is_none() {
+            return end;
+        }
+        self.add(Field::Axis, place(&scan.axis_range));
+        self.add(Field::Convexity, place(&scan.side_range));
+        self.add(Field::Motion, place(&scan.motion_range));
+        start + scan.end
+    }
+
+    /// The pieces of a block that is damaged, and can be read.
+    fn push_mended(&mut self, range: Range<usize>) {
         let Some(fields) = fields_of(self.line, range) else {
             return;
         };
@@ -148,24 +185,22 @@ impl Cutter<'_> {
             let Some(digits) = digits else { continue };
             let between = self.line.get(at..digits.start).unwrap_or_default();
             if let Some(b) = memchr::memchr2(b'B', b'b', between) {
-                self.push(Field::Separator, at + b..at + b + 1);
+                self.add(Field::Separator, at + b..at + b + 1);
             }
             at = digits.end;
-            self.push(field, digits);
+            self.add(field, digits);
         }
-        self.push(Field::Axis, fields.axis);
-        self.push(Field::Convexity, fields.side.unwrap_or_default());
-        self.push(Field::Motion, fields.motion);
+        self.add(Field::Axis, fields.axis);
+        self.add(Field::Convexity, fields.side.unwrap_or_default());
+        self.add(Field::Motion, fields.motion);
     }
 
-    /// The pieces of a block that is being written or damaged, and behind them one that is none, up to the next space or comment; where
-    /// they end.
+    /// The pieces of a block that is being written or cannot be read, and behind them one that is none, up to the next space or comment;
+    /// where they end.
     fn push_broken(&mut self, start: usize) -> usize {
-        const NUMBERS: [Field; 4] = [Field::X, Field::Y, Field::J, Field::Radius];
-        let rest = self.line.get(start..).unwrap_or_default();
-        let scan = Scan::of(rest);
-        let place = |range: &Range<usize>| range.start + start..range.end + start;
-        let (mut numbers, mut end) = (scan.numbers(), start);
+        let scan = Scan::of(self.line.get(start..).unwrap_or_default());
+        let mut numbers = scan.numbers();
+        let mut end = start;
         if let [row, first, ..] = numbers
             && (row.b, first.b.is_some_and(|b| b > row.digits.end)) == (None, true)
         {
@@ -173,21 +208,7 @@ impl Cutter<'_> {
             self.push(Field::Number, start..end);
             numbers = numbers.get(1..).unwrap_or_default();
         }
-        let with_b = numbers.iter().take_while(|number| number.b.is_some());
-        let fields = NUMBERS.iter().cycle().skip(self.begun);
-        for (number, &field) in with_b.zip(fields) {
-            self.begun = (self.begun + 1) % NUMBERS.len();
-            let b = start + number.start();
-            self.push(Field::Separator, b..b + 1);
-            self.push(field, place(&number.digits));
-            end = start + number.digits.end;
-        }
-        if numbers.iter().all(|number| number.b.is_some()) && scan.axis.is_some() {
-            self.push(Field::Axis, place(&scan.axis_range));
-            self.push(Field::Convexity, place(&scan.side_range));
-            self.push(Field::Motion, place(&scan.motion_range));
-            end = start + scan.end;
-        }
+        end = end.max(self.push_scan(&scan, numbers, start));
         let rest = self.line.get(end..).unwrap_or_default();
         let is_over = |byte: &u8| byte.is_ascii_whitespace() || *byte == b';';
         let length = rest.iter().position(is_over).unwrap_or(rest.len());

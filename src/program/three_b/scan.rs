@@ -9,6 +9,7 @@ use std::ops::Range;
 
 /// More digits than any controller takes are not read as a number.
 const MOST_DIGITS: usize = 12;
+const LARGEST: i64 = 999_999_999_999;
 
 /// Four of a 4B block, and that of its row.
 const MOST_NUMBERS: usize = 5;
@@ -146,7 +147,7 @@ impl Scan {
         self.take_axis(reader)?;
         let at = reader.at_next();
         if reader.take(b'D') {
-            self.side = Some(reader.take(b'D'));
+            self.side = Some(reader.take_next(b'D'));
             self.side_range = at..reader.at;
             self.end = reader.at;
         }
@@ -158,8 +159,8 @@ impl Scan {
     fn take_number(&mut self, reader: &mut Reader<'_>) -> Option<bool> {
         let at = reader.at_next();
         let b = reader.take(b'B').then_some(at);
-        let start = reader.at_next();
-        let (mut value, mut significant, mut digits): (i64, usize, usize) = (0, 0, 0);
+        let start = if b.is_some() { reader.at_next() } else { at };
+        let (mut value, mut marks) = (0_i64, 0);
         while let Some(&byte) = reader.text.get(reader.at) {
             let digit = match byte {
                 b'0'..=b'9' => byte - b'0',
@@ -168,23 +169,19 @@ impl Scan {
                     0
                 }
                 b'-' | b'+' | b'.' | b',' if self.goes_on => {
-                    self.marks += 1;
+                    marks += 1;
                     reader.at += 1;
                     continue;
                 }
                 _ => break,
             };
-            digits += 1;
-            significant += usize::from(significant > 0 || digit != 0);
-            if significant <= MOST_DIGITS {
-                value = value * 10 + i64::from(digit);
-            }
+            value = value.saturating_mul(10).saturating_add(i64::from(digit));
             reader.at += 1;
         }
-        if digits > MOST_DIGITS {
-            self.is_too_long = true;
-        }
-        if significant > MOST_DIGITS {
+        let digits = reader.at - start - marks;
+        self.marks += marks;
+        self.is_too_long |= digits > MOST_DIGITS;
+        if value > LARGEST {
             self.stops(start, say!(at_most_12_digits))?;
         }
         if b.is_none() && reader.at == start {
@@ -218,7 +215,8 @@ impl Scan {
             };
             self.stops(at, expected)?;
         }
-        let letter = reader.next();
+        reader.at_next();
+        let letter = reader.here();
         self.axis = match letter {
             Some(b'X') => Some(CountingAxis::X),
             Some(b'Y') => Some(CountingAxis::Y),
@@ -243,34 +241,37 @@ impl Scan {
 
     fn take_motion(&mut self, reader: &mut Reader<'_>) -> Option<()> {
         let at = reader.at_next();
-        match reader.next() {
-            Some(b'L') => self.kinds = LINE,
-            Some(b'S') => self.kinds = CLOCKWISE,
-            Some(b'N') => self.kinds = COUNTER_CLOCKWISE,
+        let r = match reader.here() {
+            Some(b'L') => {
+                self.kinds = LINE;
+                None
+            }
+            Some(b'S') => {
+                self.kinds = CLOCKWISE;
+                Some(say!(r_of_sr))
+            }
+            Some(b'N') => {
+                self.kinds = COUNTER_CLOCKWISE;
+                Some(say!(r_of_nr))
+            }
             letter => {
                 self.stops(at, say!(the_motion_and_a_quadrant))?;
                 if letter == Some(b'R') {
                     self.kinds = ARCS;
                 }
+                None
             }
-        }
-        reader.at += usize::from(self.kinds.len() < ALL.len());
-        let expected = match self.kinds {
-            [kind] => match kind(Quadrant::First) {
-                Motion::Line(_) => None,
-                Motion::Clockwise(_) => Some(say!(r_of_sr)),
-                Motion::CounterClockwise(_) => Some(say!(r_of_nr)),
-            },
-            _ => None,
         };
-        if let Some(expected) = expected
-            && !reader.take(b'R')
+        reader.at += usize::from(self.kinds.len() < ALL.len());
+        if let Some(expected) = r
+            && !reader.take_next(b'R')
         {
             self.lacks_r = true;
             self.stops(reader.at, expected)?;
         }
         let end = reader.at;
-        let digit = reader.next().filter(u8::is_ascii_digit);
+        reader.at_next();
+        let digit = reader.here().filter(u8::is_ascii_digit);
         self.quadrant = digit.and_then(|digit| Quadrant::from_number(digit - b'0'));
         if self.quadrant.is_none() {
             self.stops(reader.at, say!(a_quadrant_from_1_to_4))?;
@@ -306,17 +307,24 @@ impl Reader<'_> {
         self.at
     }
 
-    /// The byte there, as a capital letter.
+    /// The byte at the cursor, as a capital letter.
     #[inline]
-    fn next(&mut self) -> Option<u8> {
-        let at = self.at_next();
-        self.text.get(at).map(u8::to_ascii_uppercase)
+    fn here(&self) -> Option<u8> {
+        self.text.get(self.at).map(u8::to_ascii_uppercase)
     }
 
+    /// Takes the letter at the cursor.
     #[inline]
     fn take(&mut self, letter: u8) -> bool {
-        let found = self.next() == Some(letter);
+        let found = self.here() == Some(letter);
         self.at += usize::from(found);
         found
+    }
+
+    /// Takes the letter behind space.
+    #[inline]
+    fn take_next(&mut self, letter: u8) -> bool {
+        self.at_next();
+        self.take(letter)
     }
 }

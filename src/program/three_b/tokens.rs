@@ -65,6 +65,8 @@ pub(super) struct Tokens<'a> {
     pub(crate) at: usize,
     /// A block has been read in this line.
     behind_block: bool,
+    /// Of the last token that may have been a block, from its place on.
+    pub(crate) scan: Scan,
 }
 
 impl<'a> Tokens<'a> {
@@ -73,6 +75,7 @@ impl<'a> Tokens<'a> {
             line,
             at: 0,
             behind_block: false,
+            scan: Scan::default(),
         }
     }
 
@@ -198,8 +201,8 @@ impl<'a> Tokens<'a> {
     fn word_or_block(&mut self, words: &Words<'_>) -> (Token, Range<usize>) {
         let start = self.at;
         let rest = self.from(start);
-        let scan = Scan::of(rest);
-        if let Some((block, part, length)) = scan.sound() {
+        self.scan = Scan::of(rest);
+        if let Some((block, part, length)) = self.scan.sound() {
             self.behind_block = true;
             let token = Token::Block {
                 block,
@@ -233,7 +236,7 @@ impl<'a> Tokens<'a> {
             };
             return self.within(start, rest, token);
         }
-        match found_in(rest, &scan) {
+        match found_in(rest, &self.scan) {
             Ok(found) => {
                 self.at += found.fields.end;
                 self.behind_block = true;

@@ -2,8 +2,6 @@
 
 #![warn(clippy::indexing_slicing)]
 
-use crate::text::head;
-
 /// What a word between the blocks does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Word {
@@ -43,12 +41,6 @@ impl Words<'_> {
             return Some(Word::End);
         }
         (is("D") || is("A")).then_some(Word::Pause)
-    }
-
-    /// The letters and digits that `text` begins with, as far as a word may reach.
-    pub(super) fn letters_of<'t>(&self, text: &'t [u8]) -> &'t [u8] {
-        let longest = self.pause.len().max(self.end.len()).max(2);
-        word_of(head(text, longest + 1))
     }
 
     /// True for the two words that the settings name.

@@ -108,6 +108,11 @@ fn every_layout_is_read() {
         "B0B21500B21500GYL2 ; hole,left pin,right",
         "0,21500,21500 Y L2",
     );
+    // Two axes are none.
+    check(
+        "B9900B0B9900GXYL1",
+        "! 14..17 column 15: found `YL1`, expected L, SR or NR and a quadrant",
+    );
     // The only way to part the digits is that in which J has its zero.
     check(
         "B17000B9234017000GXL1",
