@@ -277,6 +277,27 @@ mod tests {
     }
 
     #[test]
+    fn rows_of_tables_and_wide_marks_are_cut_as_they_are_read() {
+        check(
+            "| 1 | B | 9900 | B | 0 | B | 9900 | GX | L1 |",
+            "Number 1 | Separator B | X 9900 | Separator B | Y 0 | Separator B | J 9900 | Axis GX | Motion L1",
+        );
+        check(
+            "AB B1B2B2GYL1；1，2",
+            "Strange AB | Separator B | X 1 | Separator B | Y 2 | Separator B | J 2 | Axis GY | Motion L1 | Coordinates ；1，2",
+        );
+        check("N3：B1B", "Number N3： | Separator B | X 1 | Separator B");
+        check(
+            "B25B1B2B2GYL1",
+            "Number B25 | Separator B | X 1 | Separator B | Y 2 | Separator B | J 2 | Axis GY | Motion L1",
+        );
+        check(
+            "2 B 0 Y B 000 B 5000 GY L2",
+            "Number 2 | Separator B | X 0 | Strange Y | Separator B | Y 000 | Separator B | J 5000 | Axis GY | Motion L2",
+        );
+    }
+
+    #[test]
     fn what_is_unfinished_or_damaged_is_cut_as_far_as_it_goes() {
         check("B1B", "Separator B | X 1 | Separator B");
         check(
