@@ -201,6 +201,7 @@ fn read_plain_line(line: &[u8], offset: usize, words: &Words<'_>, each: &mut dyn
             Token::Comment { .. } => Item::CommentedBlock { range, column },
             Token::DecimalCommas => Item::Fault(SyntaxFault::new(range, Flaw::DecimalCommas)),
             Token::Broken(expected) => {
+                tokens.skip_broken_block();
                 let found = line.get(range.start - offset..).unwrap_or_default();
                 Item::Fault(SyntaxFault {
                     number: number.take(),

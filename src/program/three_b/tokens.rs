@@ -46,7 +46,7 @@ pub(super) enum Token {
     },
     /// Neither block, word nor comment, and nothing that wants to be a block.
     Text,
-    /// A block that cannot be read: its range begins where reading stopped, and this was expected there.
+    /// A block that cannot be read: reading stopped at its place, and this was expected there.
     Broken(&'static str),
 }
 
@@ -97,8 +97,7 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// The next token and where it stands. Behind coordinates nothing else of the line is looked at, and behind a broken block what
-    /// stands behind its quadrant.
+    /// The next token and where it stands. Behind coordinates nothing else of the line is looked at.
     pub(super) fn next(&mut self, words: &Words<'_>) -> Option<(Token, Range<usize>)> {
         self.skip_space();
         let start = self.at;
@@ -253,18 +252,23 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// Goes behind the quadrant that the broken block ends in, where more blocks may stand, or to the end.
+    /// Reading of a block stops at a byte.
     fn broken(&mut self, at: usize, expected: &'static str) -> (Token, Range<usize>) {
-        let rest = self.from(at);
+        self.at = at;
+        (Token::Broken(expected), at..at)
+    }
+
+    /// Goes behind the quadrant that a broken block ends in, where more blocks may stand, or to the end.
+    pub(super) fn skip_broken_block(&mut self) {
+        let rest = self.from(self.at);
         let comment = memchr::memchr(b';', rest).unwrap_or(rest.len());
         let is_end = |window: &[u8]| matches!(window, [b'L' | b'R' | b'l' | b'r', b'1'..=b'4']);
         match head(rest, comment).windows(2).position(is_end) {
             Some(end) => {
-                self.at = at + end + 2;
+                self.at += end + 2;
                 self.behind_block = true;
             }
             None => self.at = self.line.len(),
         }
-        (Token::Broken(expected), at..self.at)
     }
 }
