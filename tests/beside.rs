@@ -16,6 +16,7 @@ use wedm::settings::{Effective, from_toml};
 #[derive(Clone, Debug)]
 enum Shape {
     Polyline(Vec<[f64; 3]>),
+    Open(Vec<[f64; 3]>),
     Circle([f64; 2], f64),
 }
 
@@ -37,10 +38,10 @@ fn document(shapes: &[(Shape, Role)], settings: &Arc<Effective>) -> Document {
     let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
     for (index, (shape, role)) in shapes.iter().enumerate() {
         let (kind, geometry) = match shape {
-            Shape::Polyline(vertices) => (
+            Shape::Polyline(vertices) | Shape::Open(vertices) => (
                 Kind::LightPolyline,
                 Geometry::Polyline {
-                    closed: true,
+                    closed: matches!(shape, Shape::Polyline(_)),
                     vertices: vertices
                         .iter()
                         .map(|&[x, y, bulge]| Vertex::new(x, y, bulge))
@@ -68,9 +69,18 @@ fn document(shapes: &[(Shape, Role)], settings: &Arc<Effective>) -> Document {
 
 /// The program of a drawing; `None` where none is made.
 fn program_of(document: &Document, format: Format) -> Option<String> {
+    program_of_some(document, format, None)
+}
+
+/// The same of the contours that hold some handles.
+fn program_of_some(
+    document: &Document,
+    format: Format,
+    handles: Option<Vec<String>>,
+) -> Option<String> {
     let wanted = Wanted {
         format,
-        handles: None,
+        handles: handles.as_deref(),
         layers: None,
         force: true,
     };
@@ -355,6 +365,207 @@ fn one_changed_block_is_named_and_no_other() {
     assert_eq!((invented, missed), (0, 0));
 }
 
+/// A drawing whose settings say a correction and no more, and what its program was written under beside that.
+#[derive(Clone, Debug)]
+struct Otherwise {
+    case: Case,
+    /// What holds for the drawing.
+    now: String,
+    /// The contours that are cut, in this order.
+    handles: Option<Vec<String>>,
+}
+
+/// An open contour that the wire runs beside.
+fn open() -> impl Strategy<Value = Vec<(Shape, Role)>> {
+    let vertex = (0.0..4.0f64, 0.0..6.0f64, -0.3..0.3f64, prop::bool::ANY);
+    let vertices = prop::collection::vec(vertex, 3..7);
+    (vertices, prop::bool::ANY).prop_map(|(vertices, is_left)| {
+        let at = |(index, (x, y, bulge, is_arc)): (usize, (f64, f64, f64, bool))| {
+            let bulge = if is_arc { bulge } else { 0.0 };
+            [index as f64 * 8.0 + x, y, bulge]
+        };
+        let vertices = vertices.into_iter().enumerate().map(at).collect();
+        let role = if is_left { Role::Left } else { Role::Right };
+        vec![(Shape::Open(vertices), role)]
+    })
+}
+
+fn otherwise() -> impl Strategy<Value = Otherwise> {
+    let of = |words: &[&'static str]| prop::sample::select(words.to_vec());
+    let keys = (
+        of(&["", "", "tab = 2.5", "tab = 1.2"]),
+        of(&["", "", "direction = \"cw\"", "direction = \"as-drawn\""]),
+        of(&["", "", "", "corner = \"intersection\""]),
+        of(&["", "layout = \"checking\""]),
+        of(&["", "", "", "closing-overlap = 1.5"]),
+        of(&[
+            "",
+            "",
+            "lead-in = 1.7",
+            "lead = \"straight\"",
+            "lead = \"arc\"",
+        ]),
+        of(&["", "", "order = \"nearest\"", "order = \"as-drawn\""]),
+        of(&["", "", "compensation = \"controller\""]),
+    );
+    let corrections = prop::sample::select(vec![
+        "correction = 0.1",
+        "correction = 0.1",
+        "correction = 0.137",
+        "[passes]\ncorrections = [0.2, 0.15]",
+        "[passes]\ncorrections = [0.2159, 0.1626, 0.1473, 0.1346]",
+        "[passes]\ncorrections = [0.2, 0.16, 0.13]\nsequence = \"one-way\"",
+    ]);
+    let formats = prop::sample::select(vec![Format::ThreeB, Format::Iso, Format::FourB]);
+    let profile = of(&["", "profile = \"fast-wire\"", "profile = \"robofil\""]);
+    let handles = prop::option::of((0usize..3, prop::bool::ANY));
+    let shapes = prop_oneof![5 => shape(), 1 => open()];
+    (shapes, corrections, keys, formats, profile, handles).prop_map(
+        |(shapes, corrections, keys, format, profile, handles)| {
+            let (tab, direction, corner, layout, overlap, lead, order, compensation) = keys;
+            let compensation = if format == Format::Iso {
+                compensation
+            } else {
+                ""
+            };
+            let keys = [
+                profile,
+                tab,
+                direction,
+                corner,
+                layout,
+                overlap,
+                lead,
+                order,
+                compensation,
+            ];
+            let handles = handles.map(|(first, two)| {
+                let of = |index: usize| format!("{:X}", 42 + index % shapes.len());
+                let mut all = vec![of(first)];
+                all.extend((two && shapes.len() > 1).then(|| of(first + 1)));
+                all
+            });
+            Otherwise {
+                now: format!("correction = 0.1\n[program]\n{profile}\n"),
+                case: Case {
+                    shapes,
+                    settings: format!("{corrections}\n[program]\n{}\n", keys.join("\n")),
+                    format,
+                },
+                handles,
+            }
+        },
+    )
+}
+
+/// What is wrong with what is said of one program, unchanged and with a change of each kind.
+fn judge_otherwise(of: &Otherwise, picks: &[(f64, usize, bool)]) -> Vec<(&'static str, String)> {
+    let Otherwise { case, now, handles } = of;
+    let mut wrong: Vec<(&'static str, String)> = Vec::new();
+    let [written, now] = [&case.settings, now].map(|text| settings_of(text));
+    let made = document(&case.shapes, &written);
+    let Some(text) = program_of_some(&made, case.format, handles.clone()) else {
+        return wrong;
+    };
+    let drawn_of = |shapes: &[(Shape, Role)]| {
+        let snapshot = document(shapes, &now).snapshot().unwrap();
+        Drawn::of(&snapshot.drawing, &snapshot.outlines, &snapshot.settings)
+    };
+    let drawn = drawn_of(&case.shapes);
+    let told = |drawn: &Drawn, text: &str| {
+        compare(drawn, &traced(text, case.format, &now)).map(|found| found.differences)
+    };
+    let Some(whole) = compare(&drawn, &traced(&text, case.format, &now)) else {
+        return vec![("nothing", format!("nothing is alike\n{text}"))];
+    };
+    if !whole.differences.is_empty() {
+        return vec![("invented", format!("{:?}\n{text}", whole.differences))];
+    }
+    let lines: Vec<&str> = text.lines().collect();
+    let end = if text.contains("\r\n") { "\r\n" } else { "\n" };
+    for &(share, _, is_more) in picks {
+        let block = &whole.follows[(share * whole.follows.len() as f64) as usize];
+        let line = line_of(&text, block.start);
+        let mut expect =
+            |kind, wrong_text: String, drawn: &Drawn, lines: Range<usize>, most: usize| {
+                let found = told(drawn, &wrong_text);
+                let at: Vec<usize> = found.iter().flatten().map(|found| found.line).collect();
+                if at.is_empty() || at.len() > most || at.iter().any(|at| !lines.contains(at)) {
+                    wrong.push((kind, format!("line {}: {found:?}\n{wrong_text}", line + 1)));
+                }
+            };
+        let numbers = lengths(&text, block);
+        let number = &numbers[(share * 7919.0) as usize % numbers.len()];
+        if let Some(text) = with_number(&text, number, if is_more { 3 } else { -3 }) {
+            expect("number", text, &drawn, line..line + 1, 1);
+        }
+        let with = |change: &dyn Fn(&mut Vec<&str>)| {
+            let mut lines = lines.clone();
+            change(&mut lines);
+            lines.join(end) + end
+        };
+        let next = lines.get(line + 1).copied().unwrap_or_default();
+        let is_block = |line: &str| line.contains(['B', 'X']) && !line.starts_with([';', '%']);
+        if is_block(next) && next != lines[line] {
+            let text = with(&|lines| lines.swap(line, line + 1));
+            expect("exchanged", text, &drawn, line..line + 2, 2);
+        }
+        let text = with(&|lines| {
+            lines.remove(line);
+        });
+        expect("lost", text, &drawn, line.saturating_sub(1)..line + 1, 1);
+        let text = with(&|lines| lines.insert(line, lines[line]));
+        expect("doubled", text, &drawn, line..line + 2, 1);
+    }
+    // A vertex of the first contour, where that is cut.
+    if handles
+        .as_ref()
+        .is_none_or(|handles| handles.iter().any(|handle| handle == "2A"))
+    {
+        let mut shapes = case.shapes.clone();
+        let mut moved = 0;
+        if let Shape::Polyline(vertices) | Shape::Open(vertices) = &mut shapes[0].0 {
+            moved = (picks[0].0 * vertices.len() as f64) as usize;
+            vertices[moved][0] += 0.003;
+        }
+        let found = told(&drawn_of(&shapes), &text).unwrap_or_default();
+        // Once in each pass.
+        if !(1..=written.corrections.len()).contains(&found.len()) {
+            wrong.push(("drawing", format!("vertex {moved}: {found:?}\n{text}")));
+        }
+    }
+    wrong
+}
+
+/// Programs of which the drawing's settings do not know how they were written: nothing is said of those that are unchanged, of a change
+/// just its own line. `WEDM_CASES=500 cargo test --test beside otherwise -- --nocapture` tells of each that is not so.
+#[test]
+fn programs_that_were_written_otherwise_are_known() {
+    use proptest::strategy::ValueTree;
+    use proptest::test_runner::TestRunner;
+    let count = std::env::var("WEDM_CASES").map_or(40, |count| count.parse().unwrap());
+    let mut runner = TestRunner::deterministic();
+    let pick = (0.0..1.0f64, 0usize..2, prop::bool::ANY);
+    let strategy = (otherwise(), prop::collection::vec(pick, 2));
+    let mut counts: std::collections::BTreeMap<&str, usize> = Default::default();
+    for number in 0..count {
+        let (of, picks) = strategy.new_tree(&mut runner).unwrap().current();
+        if std::env::var("WEDM_CASE").is_ok_and(|only| only != number.to_string()) {
+            continue;
+        }
+        for (kind, wrong) in judge_otherwise(&of, &picks) {
+            let settings = of.case.settings.replace('\n', " ");
+            println!(
+                "==== {kind} case {number} {:?} {settings} {:?}\n{:?}\n{wrong}",
+                of.case.format, of.handles, of.case.shapes
+            );
+            *counts.entry(kind).or_default() += 1;
+        }
+    }
+    println!("wrong of {count}: {counts:?}");
+    assert!(counts.is_empty(), "{counts:?}");
+}
+
 /// A ring of short arcs and chords, drawn on no grid, the same one at every run.
 fn ring(count: usize) -> Vec<[f64; 3]> {
     let mut seed = 20_261_u64;
@@ -612,4 +823,110 @@ fn every_number_is_held_against_the_drawing() {
             assert!(count > 50);
         }
     }
+}
+
+/// The segments of a published example, a circle as the circle.
+fn geometry_of(list: &serde_json::Value) -> Vec<Geometry> {
+    let point = |value: &serde_json::Value| {
+        Point::new(value[0].as_f64().expect("x"), value[1].as_f64().expect("y"))
+    };
+    let of = |value: &serde_json::Value| {
+        let (start, end) = (&value["start"], &value["end"]);
+        let center = || point(&value["center"]);
+        match value["type"].as_str() {
+            Some("line") => Geometry::Line {
+                start: point(start),
+                end: point(end),
+            },
+            Some("circle") => Geometry::Circle {
+                center: center(),
+                radius: value["radius"].as_f64().expect("a radius"),
+            },
+            _ if start == end => Geometry::Circle {
+                center: center(),
+                radius: (point(start) - center()).norm(),
+            },
+            _ => {
+                let (from, to) = match value["dir"] == "ccw" {
+                    true => (point(start), point(end)),
+                    false => (point(end), point(start)),
+                };
+                let angle = |at: Point| (at.y - center().y).atan2(at.x - center().x);
+                Geometry::Arc {
+                    center: center(),
+                    radius: (from - center()).norm(),
+                    start_angle: angle(from),
+                    end_angle: angle(to),
+                }
+            }
+        }
+    };
+    list.as_array().into_iter().flatten().map(of).collect()
+}
+
+/// Programs that others have published follow the contours that they are of: where those are known, under their correction; else the path
+/// of the wire. Of those of more than two blocks each that is 3 µm too long is named, and no other.
+#[test]
+fn a_published_program_follows_its_contours() {
+    let examples: Vec<serde_json::Value> =
+        serde_json::from_str(include_str!("data/published_3b.json")).expect("examples");
+    let mut named = 0;
+    for example in &examples {
+        let id = example["id"].as_str().expect("id");
+        let nominal = geometry_of(&example["geometry"]["nominal_contour"]);
+        let (geometry, settings) = match nominal.is_empty() {
+            true => (
+                geometry_of(&example["geometry"]["wire_path"]),
+                "[program]\ncompensation = \"none\"\n".to_owned(),
+            ),
+            false => (nominal, format!("correction = {}\n", example["offset_mm"])),
+        };
+        let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
+        for (index, geometry) in geometry.into_iter().enumerate() {
+            let closed = matches!(geometry, Geometry::Circle { .. });
+            drawing.push(Entity {
+                handle: format!("{:X}", 42 + index).as_str().into(),
+                layer: "0".into(),
+                role: closed.then_some(Role::Opening),
+                kind: Kind::Line,
+                geometry,
+            });
+        }
+        let settings = settings_of(&settings);
+        let document = Document::new(Source::Cad(Arc::new(drawing)), settings.clone());
+        let drawn = document.drawn().unwrap();
+        let blocks: Vec<&str> = example["program"]
+            .as_array()
+            .expect("blocks")
+            .iter()
+            .filter_map(serde_json::Value::as_str)
+            .collect();
+        let told = |blocks: &[&str]| {
+            let text = blocks.join("\n") + "\nDD\n";
+            let found = compare(&drawn, &traced(&text, Format::ThreeB, &settings));
+            found.map(|found| found.differences)
+        };
+        assert_eq!(told(&blocks), Some(Vec::new()), "{id}: {blocks:?}");
+        if blocks.len() < 3 {
+            continue;
+        }
+        for index in 0..blocks.len() {
+            let text = blocks[index];
+            let numbers = lengths(text, &(0..text.len()));
+            // J says how far it goes, whatever X and Y are reduced to.
+            let longer = numbers
+                .last()
+                .and_then(|number| with_number(text, number, 3));
+            let Some(longer) = longer else {
+                continue;
+            };
+            let mut wrong = blocks.clone();
+            wrong[index] = &longer;
+            let lines: Option<Vec<usize>> =
+                told(&wrong).map(|found| found.iter().map(|found| found.line).collect());
+            assert_eq!(lines, Some(vec![index]), "{id}: {wrong:?}");
+            named += 1;
+        }
+    }
+    assert!(examples.len() >= 30 && named >= 20, "{named}");
 }

@@ -297,3 +297,22 @@ proptest! {
         }
     }
 }
+
+/// A block that leads only the upper end elsewhere is no block that stands twice, and is not deleted.
+#[test]
+fn a_block_that_moves_only_the_upper_end_is_not_doubled() {
+    let settings = settings("");
+    for second in ["G01 X20. Y0. U0. V1.", "G01 X20. Y0. : X19. Y1."] {
+        let text = format!(
+            "G92 X0. Y0.\nG90\nG01 X10. Y0. U1. V0.\nG01 X20. Y0. U2. V0.\n{second}\nG01 X20. Y20. U1. V1.\nG01 X0. Y20.\nG01 X0. Y0. U0. V0.\nM02\n"
+        );
+        let doubled = |text: &str| {
+            let (found, _) = read(text, &settings).findings(&settings, usize::MAX);
+            let of_rule = found.iter().filter(|one| one.rule == Rule::DoubledBlock);
+            of_rule.count()
+        };
+        assert_eq!(doubled(&text), 0, "{text}");
+        let upright = text.replace(second, "G01 X20. Y0.").replace(" U2. V0.", "");
+        assert_eq!(doubled(&upright), 1, "{upright}");
+    }
+}

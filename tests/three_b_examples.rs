@@ -1,10 +1,9 @@
 //! Published and computed 3B examples: geometry in, the very blocks out, and the published text back to its geometry.
 //! Some of them are a whole wire path: a line in, a circle from where it ends, the same line out.
 //!
-//! The collection is read from the folder that `WEDM_SHARED` names, or `../shared` beside the project; without it nothing is compared.
+//! Each example in `data/published_3b.json` says where it comes from.
 
 use serde_json::Value;
-use std::path::PathBuf;
 use wedm::analysis::Analysis;
 use wedm::drawing::{Contour, Drawing, Entity, Geometry, Outline, Role, Unit, Vertex};
 use wedm::geometry::{Arc, Point, Segment};
@@ -12,16 +11,9 @@ use wedm::program::three_b::{Block, Item, Motion, Words, decode, read, write};
 use wedm::settings::{Compensation, Direction, Effective, PointSetting};
 use wedm::toolpath::plan;
 
-fn examples() -> Option<Vec<Value>> {
-    let shared = std::env::var_os("WEDM_SHARED").map_or_else(
-        || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared"),
-        PathBuf::from,
-    );
-    let text = std::fs::read_to_string(shared.join("oracles/3b.json")).ok();
-    if text.is_none() {
-        println!("skipped: no oracles/3b.json");
-    }
-    Some(serde_json::from_str(&text?).expect("the examples are JSON"))
+fn examples() -> Vec<Value> {
+    let text = include_str!("data/published_3b.json");
+    serde_json::from_str(text).expect("the examples are JSON")
 }
 
 fn point(value: &Value) -> Point {
@@ -177,7 +169,7 @@ type Drawer = fn(&[Segment]) -> (Drawing, Vec<Outline>);
 #[test]
 fn wire_paths_give_the_published_blocks() {
     let mut compared = 0;
-    for example in examples().unwrap_or_default() {
+    for example in examples() {
         let id = example["id"].as_str().expect("id");
         let path = segments(&example["geometry"]["wire_path"]);
         let lines: Vec<&str> = example["program"]
@@ -220,7 +212,7 @@ fn wire_paths_give_the_published_blocks() {
 
 #[test]
 fn nominal_contours_give_the_published_blocks_of_the_offset() {
-    for example in examples().unwrap_or_default() {
+    for example in examples() {
         let nominal = &example["geometry"]["nominal_contour"];
         let circle = &nominal[0];
         if circle["type"] != "circle" {
@@ -244,9 +236,7 @@ fn nominal_contours_give_the_published_blocks_of_the_offset() {
             role: Role::Opening,
         };
         let start = point(&example["geometry"]["wire_start"]);
-        let correction = example["compensation"]["offset_mm"]
-            .as_f64()
-            .expect("offset");
+        let correction = example["offset_mm"].as_f64().expect("offset");
         let settings = Effective {
             correction,
             thread: Some(PointSetting::One([start.x, start.y])),
@@ -268,7 +258,7 @@ fn nominal_contours_give_the_published_blocks_of_the_offset() {
 
 #[test]
 fn published_text_decodes_to_its_path() {
-    for example in examples().unwrap_or_default() {
+    for example in examples() {
         let lines: Vec<&str> = example["program"]
             .as_array()
             .expect("blocks")

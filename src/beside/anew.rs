@@ -27,35 +27,48 @@ pub(super) struct Anew {
     shift: Vector,
 }
 
-/// What has been written, with what it was written by; nothing where that cannot be.
+/// Under what a program is written.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Under {
+    pub settings: Effective,
+    /// The contours that it cuts; all where none are named.
+    pub handles: Option<Vec<String>>,
+}
+
+/// What has been written for a drawing.
 #[derive(Debug, Default)]
-pub(super) struct Kept(Mutex<Vec<(Asked, Option<Arc<Anew>>)>>);
+pub(super) struct Kept {
+    /// With what it was written by; nothing where that cannot be.
+    written: Mutex<Vec<(Asked, Option<Arc<Anew>>)>>,
+    /// Under what a program was found to be written last.
+    guess: Mutex<Option<Under>>,
+}
 
 #[derive(Clone, Debug, PartialEq)]
 struct Asked {
     format: Format,
-    settings: Effective,
+    under: Under,
 }
 
 impl Asked {
-    fn of(traced: &Traced, settings: &Effective) -> Asked {
+    fn of(traced: &Traced, under: &Under) -> Asked {
         let format = match (traced.counts, traced.four_b) {
             (false, _) => Format::Iso,
             (true, false) => Format::ThreeB,
             (true, true) => Format::FourB,
         };
-        let mut settings = settings.clone();
+        let mut under = under.clone();
         if traced.states_ends {
-            settings.layout = Layout::Checking;
+            under.settings.layout = Layout::Checking;
         }
-        Asked { format, settings }
+        Asked { format, under }
     }
 }
 
 impl Kept {
-    pub fn anew(&self, drawn: &Drawn, traced: &Traced, settings: &Effective) -> Option<Arc<Anew>> {
-        let asked = Asked::of(traced, settings);
-        let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+    pub fn anew(&self, drawn: &Drawn, traced: &Traced, under: &Under) -> Option<Arc<Anew>> {
+        let asked = Asked::of(traced, under);
+        let lock = || self.written.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, known)) = lock().iter().find(|(other, _)| *other == asked) {
             return known.clone();
         }
@@ -72,10 +85,20 @@ impl Kept {
         kept.push((asked, made.clone()));
         made
     }
+
+    pub fn guess(&self) -> Option<Under> {
+        let guess = self.guess.lock().unwrap_or_else(PoisonError::into_inner);
+        guess.clone()
+    }
+
+    pub fn note(&self, guess: Under) {
+        *self.guess.lock().unwrap_or_else(PoisonError::into_inner) = Some(guess);
+    }
 }
 
 impl Anew {
-    fn of(drawn: &Drawn, Asked { format, settings }: &Asked) -> Option<Anew> {
+    fn of(drawn: &Drawn, Asked { format, under }: &Asked) -> Option<Anew> {
+        let settings = &under.settings;
         let segments: usize = drawn.cut().map(|outline| outline.contour.len()).sum();
         if settings.mills
             || settings.pass_error().is_some()
@@ -87,7 +110,7 @@ impl Anew {
             &drawn.drawing,
             &drawn.outlines,
             &format.settings(settings),
-            None,
+            under.handles.as_deref(),
         )
         .ok()?;
         let text = format.write(&paths, drawn.unit_mm, settings, &mut |_, _| true);

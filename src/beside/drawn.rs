@@ -1,6 +1,6 @@
 //! What is taken of a drawing: its contours, by segments, and the programs that we would write for it.
 
-use super::anew::{Anew, Kept};
+use super::anew::{Anew, Kept, Under};
 use super::traced::Traced;
 use crate::drawing::{ContourSegment, Drawing, EntityId, Outline};
 use crate::geometry::Side;
@@ -82,9 +82,22 @@ impl Drawn {
         }
     }
 
-    /// The program that we would write for it in the form of another one, under these settings.
-    pub(super) fn anew(&self, traced: &Traced, settings: &Effective) -> Option<Arc<Anew>> {
-        self.kept.anew(self, traced, settings)
+    /// The program that we would write for it in the form of another one.
+    pub(super) fn anew(&self, traced: &Traced, under: &Under) -> Option<Arc<Anew>> {
+        self.kept.anew(self, traced, under)
+    }
+
+    /// Under its own settings, all of it.
+    pub(super) fn as_set(&self) -> Under {
+        Under {
+            settings: (*self.settings).clone(),
+            handles: None,
+        }
+    }
+
+    /// What has been guessed of a program of it.
+    pub(super) fn kept(&self) -> &Kept {
+        &self.kept
     }
 
     /// What an entity is called.

@@ -1,164 +1,118 @@
 //! A program as we write it for its drawing, block by block.
 //!
-//! The drawing's program is written anew under the same settings. Where that has the same blocks but for a few, somebody has changed those:
-//! each is named, in whatever number it was changed, and nothing else is. Of everything else nothing is known here.
+//! The drawing's program is written anew under the same settings (`anew`), or under those that the program speaks for (`guess`). Where that has
+//! the same blocks but for a few, somebody has changed those: each is named, in whatever number it was changed, and nothing else is. Of
+//! everything else nothing is known here.
 
-use super::anew::Anew;
-use super::comparison::{Comparison, Difference, FEW, longest_cut, looked_at};
+use super::anew::{Anew, Under};
+use super::comparison::{Comparison, Difference, FEW, looked_at};
 use super::drawn::Drawn;
-use super::infer;
+use super::guess::otherwise;
 use super::traced::{Block, Motion, Traced};
 use super::walk::Kind;
 use crate::drawing::EntityId;
 use crate::geometry::{Point, Vector};
-use crate::settings::{Compensation, Corner, Direction, Effective};
 
-/// How far a block may lie from the one that is written anew, or one of its numbers from that, µm.
+/// How far a block may lie from the one that is written anew, or one of its numbers from that, µm; and where that was written under
+/// settings that are not known to the last digit.
 const ALIKE: f64 = 2.0;
+const ROUNDED: f64 = 1.5;
 /// Where the blocks of a program lie as near as this in the mean, it was written with just these settings, µm.
 const SAME: f64 = 1e-2;
-/// Where they lie farther away than this in the mean, another writer wrote it, µm.
-const OURS: f64 = 0.5;
 /// What a way in or out, or between contours, is off by more is meant: its hole is elsewhere, µm.
 const SLIP: f64 = 50.0;
-/// Blocks that are written anew under other settings, at most.
-const MOST_TRIED: usize = 30_000;
+/// Blocks that may be lost, or be there too many, in one place.
+const LOST: usize = 3;
+/// Of fewer blocks one that is off may speak for other settings.
+const SMALL: usize = 40;
+/// What is off by more is no rounding, mm.
+const ROUNDING: f64 = 5e-3;
+
+/// What is told of a program by one that is written anew.
+#[derive(Clone, Debug)]
+pub(super) struct Told {
+    pub comparison: Comparison,
+    /// How far the blocks of which nothing is told are off in the mean, µm.
+    pub mean: f64,
+    /// Blocks are lost, or are there too many.
+    pub has_gap: bool,
+}
+
+impl Told {
+    /// It was written with just these settings.
+    pub fn is_exact(&self) -> bool {
+        self.mean < SAME
+    }
+
+    /// How much speaks against it, the least first.
+    pub fn doubt(&self) -> (bool, usize, bool) {
+        let many = self.comparison.differences.len().min(2);
+        (!self.is_exact(), many, self.has_gap)
+    }
+}
 
 /// Holds a program against a drawing; `None` where it follows nothing of it.
 ///
 /// A program that is ours is known block by block, and so is a change of 3 µm in it; one of another writer has room for its roundings.
 pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
-    let known = own(drawn, traced, &drawn.settings).map(|(known, _)| known);
+    let Some(known) = own(drawn, traced, &drawn.as_set()) else {
+        let guessed = otherwise(drawn, traced).map(|told| told.comparison);
+        return guessed.or_else(|| looked_at(drawn, traced));
+    };
+    let blocks = traced.blocks.len();
+    // Of few blocks any may be as other settings have it; of many, a few may be as another writer rounds them.
+    let is_doubtful = match &known.comparison.differences[..] {
+        [] => false,
+        [_] => known.has_gap || blocks < SMALL,
+        all => 16 * all.len() > blocks || all.iter().any(|one| one.off < ROUNDING),
+    };
+    if !is_doubtful {
+        return Some(known.comparison);
+    }
+    let guessed = otherwise(drawn, traced).filter(|told| told.doubt() < known.doubt());
+    let known = guessed.unwrap_or(known).comparison;
+    if known.differences.len() < 2 {
+        return Some(known);
+    }
     // One may be as another writer has it in a place or two.
-    let is_certain = |known: &Comparison| known.differences.len() < 2;
-    if known.as_ref().is_some_and(is_certain) {
-        return known;
-    }
-    let Some(known) = known else {
-        return otherwise(drawn, traced).or_else(|| looked_at(drawn, traced));
-    };
-    let seen = looked_at(drawn, traced);
     let is_clean = |seen: &Comparison| seen.differences.is_empty();
-    seen.filter(is_clean).or(Some(known))
+    looked_at(drawn, traced).filter(is_clean).or(Some(known))
 }
 
-/// What somebody has changed in a program that is ours by other settings: its correction, direction, corners and way in are found out.
-fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
-    let settings = &*drawn.settings;
-    if settings.corrections.len() > 1 {
-        return None;
-    }
-    let is_offset = traced.blocks.iter().any(|block| block.is_offset);
-    let base = Effective {
-        compensation: match (settings.compensation, is_offset) {
-            (Compensation::Path, true) => Compensation::Controller,
-            (Compensation::Controller, false) => Compensation::Path,
-            (set, _) => set,
-        },
-        ..settings.clone()
-    };
-    let ways = [Direction::Ccw, Direction::Cw, Direction::AsDrawn];
-    let corners = [Corner::Arc, Corner::Intersection];
-    let mut all = Vec::new();
-    for lead_in in [None, Some(lead_in(traced)?)] {
-        for correction in corrections(drawn, traced) {
-            all.extend(ways.map(|way| corners.map(|corner| (lead_in, correction, way, corner))));
-        }
-    }
-    let drawn_segments = drawn.cut().map(|outline| outline.contour.len());
-    let tries = MOST_TRIED / traced.blocks.len().max(drawn_segments.sum()).max(1);
-    let all = all.into_iter().flatten().take(tries);
-    let mut best: Option<(Comparison, f64)> = None;
-    for (lead_in, correction, direction, corner) in all {
-        let settings = Effective {
-            correction,
-            corrections: vec![correction],
-            direction,
-            corner,
-            lead_in: lead_in.unwrap_or(base.lead_in),
-            stated_lead_in: lead_in.or(base.stated_lead_in),
-            ..base.clone()
-        };
-        let told = own(drawn, traced, &settings);
-        let told = told.filter(|(told, mean)| told.differences.len() < 2 && *mean < OURS);
-        if let Some(told) = told
-            && best.as_ref().is_none_or(|(_, least)| told.1 < *least)
-        {
-            let is_exact = told.1 < SAME;
-            best = Some(told);
-            if is_exact {
-                break;
-            }
-        }
-    }
-    best.map(|(told, _)| told)
-}
-
-/// Corrections that a program may have been written with, mm: of three places.
-fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<f64> {
-    let scale = drawn.unit_mm * 1e3;
-    let speaks_for = infer::corrections(drawn.contours().iter(), scale, &longest_cut(traced));
-    let arcs = traced
-        .blocks
-        .iter()
-        .filter_map(|block| block.segment()?.as_arc());
-    // Round a corner it is the radius; a transition of 4B is larger by a step.
-    let least = arcs
-        .map(|arc| arc.radius / 1e3)
-        .fold(f64::INFINITY, f64::min);
-    let least = least.is_finite().then_some([least, least - 1e-3]);
-    let rounded = speaks_for
-        .into_iter()
-        .take(2)
-        .chain(least.into_iter().flatten());
-    let near = |mm: f64| [0.0, -1e-3, 1e-3].map(|by| ((mm + by) * 1e3).round() / 1e3);
-    let mut all = vec![drawn.settings.correction];
-    for mm in rounded.flat_map(near).filter(|mm| *mm > 0.0) {
-        if !all.contains(&mm) {
-            all.push(mm);
-        }
-    }
-    // A shorter number first.
-    let places = |mm: &f64| (*mm * 1e3).round() as i64;
-    all[1..].sort_by_key(|mm| (places(mm) % 5 != 0, places(mm) % 10 != 0));
-    all
-}
-
-/// The length of the first way in, mm.
-fn lead_in(traced: &Traced) -> Option<f64> {
-    let [all, contour] = traced.cuts.first()?;
-    let blocks = traced.blocks.get(all.start..contour.start)?;
-    let length: f64 = blocks
-        .iter()
-        .filter_map(|block| Some(block.segment()?.length()))
-        .sum();
-    Some((length / 10.0).round() / 100.0)
-}
-
-/// What somebody has changed in a program that is ours under these settings, and how far the other blocks are off in the mean, µm; `None`
-/// where it is not.
-fn own(drawn: &Drawn, traced: &Traced, settings: &Effective) -> Option<(Comparison, f64)> {
-    let anew = &*drawn.anew(traced, settings)?;
-    if anew.traced.blocks.len() != traced.blocks.len() {
-        return None;
-    }
-    let words: Vec<Words> = pairs(traced, anew)
-        .map(|(own, meant)| Words::of(traced, own, anew, meant))
-        .collect();
+/// What somebody has changed in a program that is ours under these settings; `None` where it is not.
+pub(super) fn own(drawn: &Drawn, traced: &Traced, under: &Under) -> Option<Told> {
+    let anew = &*drawn.anew(traced, under)?;
+    let pairs = Pairs::of(traced, anew)?;
     // Placed where the drawing is, or anywhere.
-    let anywhere = traced.begin()? - anew.traced.begin()?;
+    let anywhere = pairs.away();
     let as_drawn = (traced.is_placed && anew.traced.is_placed).then(Vector::zeros);
-    let fewer = |(told, _): &(Comparison, f64)| told.differences.len();
-    let all = as_drawn.into_iter().chain([anywhere]);
-    all.filter_map(|from| told(anew, traced, &words, from))
-        .min_by_key(fewer)
+    let placed = as_drawn.and_then(|from| pairs.told(from));
+    if placed.as_ref().is_some_and(|told| told.doubt().1 == 0) {
+        return placed;
+    }
+    let all = placed.into_iter().chain(pairs.told(anywhere));
+    all.min_by_key(|told| told.comparison.differences.len())
 }
 
-fn pairs<'a>(traced: &'a Traced, anew: &'a Anew) -> impl Iterator<Item = (&'a Block, &'a Block)> {
-    traced.blocks.iter().zip(&anew.traced.blocks)
+/// The blocks of a program, each beside the one that is written anew.
+struct Pairs<'a> {
+    traced: &'a Traced,
+    anew: &'a Anew,
+    pairs: Vec<Pair<'a>>,
+    /// The block at which some are lost or too many, and one of these.
+    gap: Option<(&'a Block, &'a Block)>,
+}
+
+struct Pair<'a> {
+    own: &'a Block,
+    meant: &'a Block,
+    words: Words,
+    /// Blocks before it are lost, or too many.
+    behind_gap: bool,
 }
 
 /// The words of a block beside those of the one that is written anew.
+#[derive(Clone, Copy)]
 struct Words {
     /// They are the same.
     are_same: bool,
@@ -191,65 +145,212 @@ impl Words {
             stated,
         }
     }
+
+    /// But for a rounding.
+    fn are_near(&self) -> bool {
+        self.apart.is_some_and(|apart| apart <= 1.0)
+    }
 }
 
-/// The same for a program that lies so far from the one that is written anew.
-fn told(anew: &Anew, traced: &Traced, words: &[Words], from: Vector) -> Option<(Comparison, f64)> {
-    let rewritten = words.iter().filter(|words| !words.are_same).count();
-    let is_in_our_words = 2 * rewritten <= traced.blocks.len();
-    let (mut found, mut stated) = (Vec::new(), Vec::new());
-    let (mut before, mut beside) = (false, 0.0);
-    for ((own, meant), words) in pairs(traced, anew).zip(words) {
-        let is_first = !std::mem::take(&mut before);
-        if own.is_offset != meant.is_offset {
+impl<'a> Pairs<'a> {
+    /// `None` where more is unlike than blocks that are lost, or too many, in one place.
+    fn of(traced: &'a Traced, anew: &'a Anew) -> Option<Pairs<'a>> {
+        let (own, meant) = (&traced.blocks[..], &anew.traced.blocks[..]);
+        let (more, lost) = (
+            own.len().saturating_sub(meant.len()),
+            meant.len().saturating_sub(own.len()),
+        );
+        if more.max(lost) > LOST || own.is_empty() {
             return None;
         }
-        let away = away(&own.motion, &meant.motion, from, !is_first)?;
-        let off = match words.apart {
-            Some(apart) if is_in_our_words => away.max(apart),
-            _ => away,
+        let pair = |(own, meant): (&'a Block, &'a Block)| Pair {
+            own,
+            meant,
+            words: Words::of(traced, own, anew, meant),
+            behind_gap: false,
         };
-        if off <= ALIKE {
-            beside += away;
-            let off = words.stated;
-            stated.extend((off > ALIKE).then(|| named(own, None, off, Kind::Stated)));
-            continue;
+        let mut pairs: Vec<Pair> = Vec::with_capacity(own.len());
+        if more + lost == 0 {
+            pairs.extend(own.iter().zip(meant).map(pair));
+            return Some(Pairs {
+                traced,
+                anew,
+                pairs,
+                gap: None,
+            });
         }
-        if words.are_same {
-            // The same words mean something else behind a block that ends elsewhere, or under another mode.
-            if is_first {
+        let before = own.iter().zip(meant).map(pair);
+        pairs.extend(before.take_while(|pair| pair.words.are_near()));
+        let at = pairs.len();
+        let behind = own.get(at + more..)?.iter().zip(meant.get(at + lost..)?);
+        pairs.extend(behind.map(pair));
+        if !pairs[at..].iter().all(|pair| pair.words.are_near()) {
+            return None;
+        }
+        if let Some(next) = pairs.get_mut(at) {
+            next.behind_gap = true;
+        }
+        let place = own.get(at).or(own.last())?;
+        let of = if more > 0 {
+            own.get(at)?
+        } else {
+            meant.get(at)?
+        };
+        let is_stop = of.motion == Motion::Stop;
+        (!is_stop).then_some(Pairs {
+            traced,
+            anew,
+            pairs,
+            gap: Some((place, of)),
+        })
+    }
+
+    /// Where most of the program lies from the one that is written anew.
+    fn away(&self) -> Vector {
+        let ends = |pair: &Pair| {
+            let ([_, end], [_, meant]) = (ends_of(&pair.own.motion)?, ends_of(&pair.meant.motion)?);
+            Some(end - meant)
+        };
+        let all: Vec<Vector> = self.pairs.iter().filter_map(ends).collect();
+        let middle = |axis: usize| {
+            let mut all: Vec<f64> = all.iter().map(|away| away[axis]).collect();
+            let half = all.len() / 2;
+            match all.is_empty() {
+                true => 0.0,
+                false => *all.select_nth_unstable_by(half, f64::total_cmp).1,
+            }
+        };
+        Vector::new(middle(0), middle(1))
+    }
+
+    /// What is unlike for a program that lies so far from the one that is written anew.
+    fn told(&self, from: Vector) -> Option<Told> {
+        let (traced, anew) = (self.traced, self.anew);
+        let rewritten = self
+            .pairs
+            .iter()
+            .filter(|pair| !pair.words.are_same)
+            .count();
+        let is_in_our_words = 2 * rewritten <= traced.blocks.len();
+        let (mut before, mut beside) = (false, 0.0);
+        let mut all = Vec::with_capacity(self.pairs.len());
+        for pair in &self.pairs {
+            let (own, meant, words) = (pair.own, pair.meant, pair.words);
+            if own.is_offset != meant.is_offset {
                 return None;
             }
-            continue;
+            let is_behind = before || pair.behind_gap;
+            let away = away(&own.motion, &meant.motion, from, is_behind);
+            // A block too many may have other kinds behind it.
+            let away = away.or(pair.behind_gap.then_some(0.0))?;
+            let off = match words.apart {
+                Some(apart) if is_in_our_words => away.max(apart),
+                _ => away,
+            };
+            beside += if off <= ALIKE { away } else { 0.0 };
+            before = off > ROUNDED && !(is_behind && words.are_same);
+            all.push((off, is_behind));
         }
-        let (segment, kind) = match anew.source_of(&meant.motion) {
-            Some(segment) => (Some(segment), Kind::Block),
-            None if off <= SLIP => (None, Kind::Lead),
-            None => return None,
+        let mean = beside / traced.blocks.len() as f64;
+        let alike = if mean < SAME { ALIKE } else { ROUNDED };
+        let (mut found, mut stated) = (Vec::new(), Vec::new());
+        // Of the last that is named: its number, and whether the program is elsewhere since.
+        let mut run: Option<(usize, bool)> = None;
+        for (number, (pair, (off, is_behind))) in self.pairs.iter().zip(&all).enumerate() {
+            let (own, meant, words) = (pair.own, pair.meant, pair.words);
+            if let Some((_, is_elsewhere)) = &mut run {
+                *is_elsewhere &= *off > alike || !self.is_placed(number, from);
+            }
+            if *off <= alike {
+                let off = words.stated;
+                stated.extend((off > alike).then(|| named(own, None, off, Kind::Stated)));
+                continue;
+            }
+            if words.are_same {
+                // The same words mean something else behind a block that ends elsewhere, or under another mode.
+                if !is_behind {
+                    return None;
+                }
+                continue;
+            }
+            let goes_on = run.is_some_and(|(last, is_elsewhere)| {
+                number - last <= FEW && is_elsewhere
+                    || last + 1 == number && self.are_exchanged(last)
+            });
+            run = Some((number, !self.is_placed(number, from)));
+            // What is moved and comes back is one change, and so are two blocks that are exchanged.
+            if goes_on && self.comes_back(number, from) {
+                continue;
+            }
+            let (segment, kind) = match anew.source_of(&meant.motion) {
+                Some(segment) => (Some(segment), Kind::Block),
+                None if *off <= SLIP => (None, Kind::Lead),
+                None => return None,
+            };
+            found.push(named(own, segment, *off, kind));
+        }
+        if found.len() > FEW.min(traced.blocks.len() / 3) {
+            return None;
+        }
+        if stated.len() <= FEW {
+            found.append(&mut stated);
+        }
+        if let Some((place, of)) = self.gap {
+            let segment = anew.source_of(&of.motion);
+            let length = ends_of(&of.motion).map_or(0.0, |[start, end]| (end - start).norm());
+            let kind = if segment.is_some() {
+                Kind::Block
+            } else {
+                Kind::Lead
+            };
+            found.push(named(place, segment, length, kind));
+        }
+        found.extend(begun_elsewhere(traced, &anew.traced));
+        found.sort_by_key(|difference| difference.range.start);
+        let contours = anew
+            .traced
+            .cuts
+            .iter()
+            .flat_map(|[_, contour]| contour.clone());
+        let cut = contours.filter_map(|index| traced.blocks.get(index));
+        let follows = cut.filter(|block| matches!(block.motion, Motion::Cut(_)));
+        Some(Told {
+            comparison: Comparison {
+                follows: follows.map(|block| block.range.clone()).collect(),
+                differences: found,
+            },
+            mean,
+            has_gap: self.gap.is_some(),
+        })
+    }
+
+    /// Two blocks one after the other, each in the place of the other.
+    fn are_exchanged(&self, first: usize) -> bool {
+        let [one, two] = [first, first + 1].map(|number| self.pairs.get(number));
+        let (Some(one), Some(two)) = (one, two) else {
+            return false;
         };
-        found.push(named(own, segment, off, kind));
-        before = true;
+        let is = |own: &Block, meant: &Block| {
+            self.traced.said(own).is_like(&self.anew.traced.said(meant))
+        };
+        is(one.own, two.meant) && is(two.own, one.meant)
     }
-    if found.len() > FEW.min(traced.blocks.len() / 3) {
-        return None;
+
+    /// Whether a block ends where it is meant to.
+    fn is_placed(&self, number: usize, from: Vector) -> bool {
+        let Some(pair) = self.pairs.get(number) else {
+            return true;
+        };
+        match (ends_of(&pair.own.motion), ends_of(&pair.meant.motion)) {
+            (Some([_, end]), Some([_, meant])) => (end - from - meant).norm() <= ROUNDED,
+            _ => true,
+        }
     }
-    if stated.len() <= FEW {
-        found.append(&mut stated);
+
+    /// Behind this block, or one of the next few, the program is where it is meant to be.
+    fn comes_back(&self, number: usize, from: Vector) -> bool {
+        (number..number + FEW).any(|number| self.is_placed(number, from))
     }
-    found.extend(begun_elsewhere(traced, &anew.traced));
-    found.sort_by_key(|difference| difference.range.start);
-    let contours = anew
-        .traced
-        .cuts
-        .iter()
-        .flat_map(|[_, contour]| contour.clone());
-    let cut = contours.filter_map(|index| traced.blocks.get(index));
-    let follows = cut.filter(|block| matches!(block.motion, Motion::Cut(_)));
-    let told = Comparison {
-        follows: follows.map(|block| block.range.clone()).collect(),
-        differences: found,
-    };
-    Some((told, beside / traced.blocks.len() as f64))
 }
 
 fn named(block: &Block, segment: Option<(EntityId, usize)>, off: f64, kind: Kind) -> Difference {

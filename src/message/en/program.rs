@@ -29,7 +29,6 @@ declare! {
     the_program_runs_subprograms => "the program runs subprograms: a line of them is run in more than one place";
     the_control_makes_corners_of_its_own => "the control makes corners of its own (R on a straight cut, `,R`, `,C`): its moves are not those of the lines";
     the_way_of_the_upper_guide_is_not_followed => "the way of the upper guide (U, V) is not followed";
-    a_taper_of_g51_or_g52_is_not_followed => "a taper (G51, G52) is not followed";
     a_letter_stands_twice(letter) => "{letter} stands twice";
     a_word_takes_the_coordinates_for_a_place_of_the_machine => "a word takes the coordinates for a place of the machine";
     words_lie_on_each_other => "words lie on each other";

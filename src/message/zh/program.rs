@@ -29,7 +29,6 @@ translate! {
     the_program_runs_subprograms => "程序调用子程序：子程序中的一行会在多处执行";
     the_control_makes_corners_of_its_own => "控制系统自行处理拐角（直线切割中的 R、`,R`、`,C`）：它的移动与程序行不一致";
     the_way_of_the_upper_guide_is_not_followed => "上导丝嘴的移动（U、V）不支持";
-    a_taper_of_g51_or_g52_is_not_followed => "锥度（G51、G52）不支持";
     a_letter_stands_twice(letter) => "{letter} 出现两次";
     a_word_takes_the_coordinates_for_a_place_of_the_machine => "有代码把坐标当作机床位置";
     words_lie_on_each_other => "代码相互重叠";

@@ -102,6 +102,8 @@ impl Stretch {
             ..
         } = &mut *self;
         let (inch, known_faults) = (after.inch, faults.len());
+        // The wire's upper end may go elsewhere than before.
+        let mut leans = false;
         let block = read_line(line, offset, |note| match note {
             Note::Fault { fault, range } => {
                 // One fault a line is enough: the others may come of it.
@@ -110,6 +112,7 @@ impl Stretch {
                 }
             }
             Note::Foreign { code, range } => {
+                leans |= code.tilts();
                 match foreign.iter_mut().find(|word| word.code == code) {
                     Some(word) => word.count += 1,
                     None => foreign.push(Foreign {
@@ -184,7 +187,7 @@ impl Stretch {
                     self.evidence.arc(&made, self.reading.tolerance);
                 }
                 self.moves += 1;
-                if is_free {
+                if is_free && !leans {
                     self.said(&block, &made, range);
                 }
                 let Turned {

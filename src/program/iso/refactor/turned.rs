@@ -3,6 +3,7 @@
 use super::{Iso, swapped_sides};
 use crate::program::iso::block::Block;
 use crate::program::iso::plain::words_in;
+use crate::program::iso::taper::{Words, refuse_anywhere};
 use crate::program::iso::word::{Number, Token};
 use crate::program::refactor::{Rewrite, Sheet, Transform};
 use crate::text::TextEdit;
@@ -14,6 +15,7 @@ pub(super) fn turn_words(
     transform: Transform,
     rewrite: &mut Rewrite<Iso>,
 ) -> Result<(), String> {
+    refuse_anywhere(sheet.document, Words::Guide)?;
     let text = sheet.document.text();
     let edits = &mut rewrite.extra.words;
     if transform.mirrors() {
@@ -54,17 +56,13 @@ fn line_words(
             b'Y' => (0, 1),
             b'I' => (1, 0),
             b'J' => (1, 1),
-            b'U' | b'V' => {
-                fault = Some(say!(the_way_of_the_upper_guide_is_not_followed).to_owned());
-                return;
-            }
             b'G' => {
                 is_wait |= number.whole() == Some(4);
                 let motion = match (number.mantissa, number.decimals) {
                     (2, 0) => "G03",
                     (3, 0) => "G02",
-                    (51 | 52, 0) if transform.mirrors() => {
-                        fault = Some(say!(a_taper_of_g51_or_g52_is_not_followed).to_owned());
+                    (51 | 52 | 141 | 142, 0) if transform.mirrors() => {
+                        fault = Some(say!(a_taper_is_not_followed).to_owned());
                         return;
                     }
                     _ => return,

@@ -1,0 +1,356 @@
+//! Under which settings a program of ours was written, where those of the drawing are others.
+//!
+//! What can be measured in the program is: its contours and their order, corrections, the way in, tab and overlap. What cannot is tried.
+//! Each guess is written anew, and that which has most blocks in common with the program is bettered, one setting after the other.
+
+use super::anew::{Anew, Under};
+use super::comparison::FEW;
+use super::drawn::Drawn;
+use super::own::{Told, own};
+use super::traced::{Block, Motion, Traced};
+use super::{infer, measure};
+use crate::geometry::Segment;
+use crate::settings::{
+    Compensation, Corner, Direction, Effective, Lead, LengthSetting, Order, Sequence, SkimCorner,
+};
+use rustc_hash::FxHashMap;
+
+/// Blocks that are written anew under guessed settings, at most; and what one guess costs at least.
+const MOST_TRIED: usize = 30_000;
+const LEAST_COST: usize = 60;
+/// Where the blocks of a program lie farther away than this in the mean, another writer wrote it, µm.
+const OURS: f64 = 0.5;
+/// Passes that are thought of, at most.
+const PASSES: usize = 4;
+
+/// What somebody has changed in a program that is ours under other settings.
+pub(super) fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Told> {
+    let last = drawn.kept().guess();
+    let again = last.and_then(|last| own(drawn, traced, &last));
+    if let Some(told) = again.filter(is_certain) {
+        return Some(told);
+    }
+    let mut search = Search::of(drawn, traced)?;
+    search.all();
+    let (told, under) = search.told?;
+    drawn.kept().note(under);
+    Some(told)
+}
+
+/// No other guess has to be looked for.
+fn is_certain(told: &Told) -> bool {
+    told.is_exact() && told.comparison.differences.len() < 2 && !told.has_gap
+}
+
+struct Search<'a> {
+    drawn: &'a Drawn,
+    traced: &'a Traced,
+    /// Blocks that may still be written.
+    fuel: usize,
+    cost: usize,
+    best: Under,
+    /// How much that has in common with the program, of 1.
+    score: f64,
+    /// The blocks of the program, whichever way they are gone, and as they are gone.
+    ways: [FxHashMap<Way, i32>; 2],
+    /// What is told of the program by the best guess that leaves little to tell.
+    told: Option<(Told, Under)>,
+}
+
+/// Where a block leads, µm, and what it is.
+type Way = (i64, i64, u8);
+
+impl<'a> Search<'a> {
+    fn of(drawn: &'a Drawn, traced: &'a Traced) -> Option<Search<'a>> {
+        let is_offset = traced.blocks.iter().any(|block| block.is_offset);
+        let settings = &*drawn.settings;
+        let compensation = match (settings.compensation, is_offset) {
+            (Compensation::Path, true) => Compensation::Controller,
+            (Compensation::Controller, false) => Compensation::Path,
+            (set, _) => set,
+        };
+        let handles = measure::contours(drawn, traced);
+        let settings = Effective {
+            compensation,
+            order: match handles {
+                Some(_) => Order::AsDrawn,
+                None => settings.order,
+            },
+            ..settings.clone()
+        };
+        let segments: usize = drawn.cut().map(|outline| outline.contour.len()).sum();
+        let ways = [false, true].map(|is_directed| {
+            let mut ways = FxHashMap::default();
+            for block in &traced.blocks {
+                *ways.entry(way(block, is_directed)).or_default() += 1;
+            }
+            ways
+        });
+        (!traced.blocks.is_empty()).then(|| Search {
+            drawn,
+            traced,
+            fuel: MOST_TRIED,
+            cost: traced
+                .blocks
+                .len()
+                .max(segments.min(2 * traced.blocks.len()))
+                .max(LEAST_COST),
+            best: Under { settings, handles },
+            score: -1.0,
+            ways,
+            told: None,
+        })
+    }
+
+    fn is_done(&self) -> bool {
+        self.told.as_ref().is_some_and(|(told, _)| is_certain(told))
+    }
+
+    fn all(&mut self) {
+        let base = self.best.clone();
+        self.each(false, self.of_corrections());
+        if self.score <= 0.0 && base.handles.is_some() {
+            // The contours may have been taken for others.
+            let settings = self.drawn.settings.order;
+            self.best = Under {
+                handles: None,
+                settings: Effective {
+                    order: settings,
+                    ..base.settings
+                },
+            };
+            self.each(false, self.of_corrections());
+        }
+        self.score = -1.0;
+        self.each(true, vec![self.best.clone()]);
+        for _ in 0..2 {
+            let before = self.score;
+            self.each(true, self.of_directions());
+            self.each(true, self.of_leads());
+            self.each(true, self.of_tabs());
+            self.each(true, self.of_overlaps());
+            self.each(true, self.of_passes());
+            if self.is_done() || self.score <= before {
+                return;
+            }
+        }
+    }
+
+    /// Tries guesses, and keeps the one that is most like the program.
+    fn each(&mut self, is_directed: bool, guesses: Vec<Under>) {
+        for guess in guesses {
+            if self.is_done() || self.fuel < self.cost {
+                return;
+            }
+            self.fuel -= self.cost;
+            let Some(anew) = self.drawn.anew(self.traced, &guess) else {
+                continue;
+            };
+            let score = self.likeness(&anew, is_directed);
+            if score <= 0.5 && self.score >= score {
+                continue;
+            }
+            let told = own(self.drawn, self.traced, &guess);
+            let told = told.filter(|told| {
+                let many = told.comparison.differences.len();
+                told.mean < OURS && many < 2 && !told.has_gap || told.is_exact() && many <= FEW
+            });
+            if let Some(told) = told {
+                let is_better = |(other, _): &(Told, Under)| {
+                    (told.doubt(), told.mean) < (other.doubt(), other.mean)
+                };
+                if self.told.as_ref().is_none_or(is_better) {
+                    self.told = Some((told, guess.clone()));
+                }
+            }
+            if score > self.score {
+                (self.best, self.score) = (guess, score);
+            }
+        }
+    }
+
+    /// The share of blocks that a program has in common with ours.
+    fn likeness(&self, anew: &Anew, is_directed: bool) -> f64 {
+        let mut left = self.ways[usize::from(is_directed)].clone();
+        let mut common = 0;
+        for block in &anew.traced.blocks {
+            if let Some(count) = left.get_mut(&way(block, is_directed))
+                && *count > 0
+            {
+                *count -= 1;
+                common += 1;
+            }
+        }
+        let both = anew.traced.blocks.len() + self.traced.blocks.len();
+        f64::from(2 * common) / both as f64
+    }
+
+    /// The best guess with other settings.
+    fn with(&self, change: impl FnOnce(&mut Effective)) -> Under {
+        let mut guess = self.best.clone();
+        change(&mut guess.settings);
+        guess
+    }
+
+    fn of_corrections(&self) -> Vec<Under> {
+        let mut guesses = vec![self.best.clone()];
+        for corrections in corrections(self.drawn, self.traced) {
+            for corner in [Corner::Arc, Corner::Intersection] {
+                guesses.push(self.with(|settings| {
+                    settings.correction = corrections[0];
+                    settings.pass = (corrections.len() > 1).then_some(1);
+                    settings.corrections = corrections.clone();
+                    settings.corner = corner;
+                }));
+            }
+        }
+        guesses
+    }
+
+    fn of_directions(&self) -> Vec<Under> {
+        let all = [Direction::Ccw, Direction::Cw, Direction::AsDrawn];
+        let of = |direction| self.with(|settings| settings.direction = direction);
+        all.map(of).into()
+    }
+
+    fn of_leads(&self) -> Vec<Under> {
+        let own = &self.drawn.settings;
+        let lengths = measure::leads(self.traced).into_iter();
+        let lengths = lengths.map(|length| (length, Some(length)));
+        let mut guesses = Vec::new();
+        for (length, stated) in [(own.lead_in, own.stated_lead_in)]
+            .into_iter()
+            .chain(lengths)
+        {
+            for lead in [Lead::Perpendicular, Lead::Straight, Lead::Arc] {
+                guesses.push(self.with(|settings| {
+                    (settings.lead, settings.lead_in, settings.stated_lead_in) =
+                        (lead, length, stated);
+                }));
+            }
+        }
+        guesses
+    }
+
+    fn of_tabs(&self) -> Vec<Under> {
+        let lengths = measure::tabs(self.traced, self.best.settings.correction);
+        let of = |tab| self.with(|settings| settings.tab = LengthSetting::One(tab));
+        lengths.into_iter().map(of).collect()
+    }
+
+    fn of_overlaps(&self) -> Vec<Under> {
+        let lengths = measure::overlaps(self.traced);
+        let of = |overlap| self.with(|settings| settings.closing_overlap = overlap);
+        lengths.into_iter().map(of).collect()
+    }
+
+    fn of_passes(&self) -> Vec<Under> {
+        if self.best.settings.corrections.len() < 2 {
+            return Vec::new();
+        }
+        let mut guesses = Vec::new();
+        for sequence in [Sequence::Alternate, Sequence::OneWay] {
+            for skim_corner in [SkimCorner::Sharp, SkimCorner::ConstantStock] {
+                guesses.push(self.with(|settings| {
+                    settings.passes.sequence = Some(sequence);
+                    settings.passes.skim_corner = Some(skim_corner);
+                }));
+            }
+        }
+        guesses
+    }
+}
+
+/// What a block is by where it leads; where the way along it does not count, that of the upper half of the plane.
+fn way(block: &Block, is_directed: bool) -> Way {
+    let (by, kind) = match &block.motion {
+        Motion::Cut(segment) => {
+            let kind = match segment.as_arc() {
+                None => 0,
+                Some(arc) if arc.sweep > 0.0 && is_directed => 1,
+                Some(_) => 2,
+            };
+            (segment.end() - segment.start(), kind)
+        }
+        Motion::Way(_, by) => (*by, 3),
+        Motion::Stop => return (0, 0, 4),
+    };
+    let (x, y) = (by.x.round() as i64, by.y.round() as i64);
+    match is_directed || (y, x) >= (0, 0) {
+        true => (x, y, kind),
+        false => (-x, -y, kind),
+    }
+}
+
+/// Corrections that a program may have been written with, mm, those of several passes falling.
+fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<Vec<f64>> {
+    let scale = drawn.unit_mm * 1e3;
+    let speaks_for = infer::corrections(drawn.contours().iter(), scale, &measure::first(traced));
+    let arcs = traced
+        .blocks
+        .iter()
+        .filter_map(|block| block.segment()?.as_arc());
+    // Round a corner it is the radius; a transition of 4B is larger by a step.
+    let least = arcs
+        .map(|arc| arc.radius / 1e3)
+        .fold(f64::INFINITY, f64::min);
+    let least = least.is_finite().then_some([least, least - 1e-3]);
+    let places = |mm: f64| (mm * 1e3).round() / 1e3;
+    let rounded = speaks_for.iter().copied().take(2);
+    let rounded = rounded.chain(least.into_iter().flatten());
+    let near = |mm: f64| [0.0, -1e-3, 1e-3].map(|by| places(mm + by));
+    let mut single: Vec<f64> = Vec::new();
+    for mm in rounded.flat_map(near).filter(|mm| *mm > 0.0) {
+        if !single.contains(&mm) {
+            single.push(mm);
+        }
+    }
+    // A shorter number first.
+    let steps = |mm: &f64| (*mm * 1e3).round() as i64;
+    single.sort_by_key(|mm| (steps(mm) % 5 != 0, steps(mm) % 10 != 0));
+    let mut all: Vec<Vec<f64>> = single.into_iter().map(|mm| vec![mm]).collect();
+    let own = drawn.settings.each_correction();
+    if own.len() == 1 {
+        all.insert(0, own);
+    }
+    let count = measure::passes(traced).min(PASSES);
+    if count > 1 {
+        let of_control = traced.four_b || traced.blocks.iter().any(|block| block.is_offset);
+        let falling = |from: f64| {
+            let of = |pass: usize| from * (1.0 - 0.1 * pass as f64);
+            (0..count).map(of).collect()
+        };
+        // Where the control adds the correction, all passes are one way.
+        let mut lists: Vec<Vec<f64>> = match of_control {
+            true => {
+                let single = all.iter().take(4).map(|list| list[0]);
+                let aside = measure::aside(traced);
+                aside.into_iter().chain(single).map(falling).collect()
+            }
+            false => Vec::new(),
+        };
+        let mut each = measure::rounds(traced);
+        each.truncate(PASSES);
+        let of_round = |round: &Vec<Segment>| {
+            infer::corrections(drawn.contours().iter(), scale, round)
+                .first()
+                .copied()
+        };
+        let of_rounds: Option<Vec<f64>> = each.iter().map(of_round).collect();
+        let together = (speaks_for.len() >= count).then(|| speaks_for[..count].to_vec());
+        for mut list in of_rounds
+            .into_iter()
+            .filter(|list| list.len() > 1)
+            .chain(together)
+        {
+            list.sort_by(|a, b| b.total_cmp(a));
+            lists.push(list.iter().map(|mm| (mm * 200.0).round() / 200.0).collect());
+            lists.push(list.iter().map(|mm| places(*mm)).collect());
+            lists.push(list);
+        }
+        all.splice(0..0, lists);
+    }
+    // What the votes come to where it has more than three places.
+    all.extend(speaks_for.first().map(|mm| vec![*mm]));
+    all
+}
