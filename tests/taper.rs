@@ -316,3 +316,28 @@ fn a_block_that_moves_only_the_upper_end_is_not_doubled() {
         assert_eq!(doubled(&upright), 1, "{upright}");
     }
 }
+
+/// What would part the upper end from the lower one, or turn the side to which the wire leans, is refused.
+#[test]
+fn no_refactoring_parts_the_upper_end_from_the_lower_one() {
+    let settings = settings("");
+    let second = "G92 X0. Y0.\nG90\nG01 X10. Y0. : X11. Y-1.\nG01 X20. Y0. : X21. Y-1.\nG01 X20. Y20. : X21. Y21.\nG01 X0. Y0. : X-1. Y-1.\nM02\n";
+    let guide = second
+        .replace(": X11. Y-1.", "U1. V-1.")
+        .replace(": X21. Y-1.", "U2.")
+        .replace(": X21. Y21.", "V0.")
+        .replace(": X-1. Y-1.", "U0.");
+    let side = "G92 X0. Y0.\nG90\nG141 A2.\nG01 X20. Y0.\nX20. Y20.\nX0.\nY0.\nG140\nM02\n";
+    let all = ["mirror", "rotate", "scale", "coordinates"];
+    for (text, refused) in [(second, &all[..]), (&guide, &all), (side, &["mirror"])] {
+        let program = read(text, &settings);
+        let mut count = 0;
+        for proposal in wedm::program::refactorings(&program, &settings, 0..0, |_| true) {
+            if refused.iter().any(|kind| proposal.id.contains(kind)) {
+                assert!(proposal.edits.is_err(), "{}: {text}", proposal.id);
+                count += 1;
+            }
+        }
+        assert!(count >= 2, "{text}");
+    }
+}

@@ -152,7 +152,7 @@ fn hundredths(um: f64) -> f64 {
 }
 
 /// Lengths that are thought of for one setting, at most.
-const LENGTHS: usize = 16;
+const LENGTHS: usize = 48;
 
 /// Adds a length, in hundredths of a millimetre, where it is another one.
 fn note(found: &mut Vec<f64>, um: f64) {
@@ -166,7 +166,8 @@ fn note(found: &mut Vec<f64>, um: f64) {
 pub(super) fn tabs(traced: &Traced, correction: f64) -> Vec<f64> {
     let mut found = vec![0.0];
     let stops = (0..traced.blocks.len()).filter(|&at| traced.blocks[at].motion == Motion::Stop);
-    for stop in stops.take(2 * BEHIND) {
+    // What is cut off comes last.
+    for stop in stops.rev().take(2 * BEHIND) {
         let behind: Vec<&Segment> =
             segments(traced, stop + 1..(stop + BEHIND).min(traced.blocks.len())).collect();
         // The wall is the shorter or the longer one of an arc, by whether the wire runs inside of it.
@@ -184,7 +185,14 @@ pub(super) fn tabs(traced: &Traced, correction: f64) -> Vec<f64> {
             }
         }
     }
+    round_first(&mut found);
     found
+}
+
+/// Somebody sets a round number rather than another.
+fn round_first(found: &mut [f64]) {
+    let hundredths = |mm: &f64| (mm * 100.0).round() as i64;
+    found.sort_by_key(|mm| [50, 10, 5].map(|round| hundredths(mm) % round != 0));
 }
 
 /// How far a program may go on past its start, mm; not at all first. It does so in the blocks before its way out.
@@ -200,6 +208,7 @@ pub(super) fn overlaps(traced: &Traced) -> Vec<f64> {
             }
         }
     }
+    round_first(&mut found);
     found
 }
 

@@ -83,15 +83,29 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
 pub(super) fn own(drawn: &Drawn, traced: &Traced, under: &Under) -> Option<Told> {
     let anew = &*drawn.anew(traced, under)?;
     let pairs = Pairs::of(traced, anew)?;
-    // Placed where the drawing is, or anywhere.
-    let anywhere = pairs.away();
+    // Placed where the drawing is, or anywhere: where it begins, or where most of it lies.
+    let anywhere = traced.begin()? - anew.traced.begin()?;
     let as_drawn = (traced.is_placed && anew.traced.is_placed).then(Vector::zeros);
-    let placed = as_drawn.and_then(|from| pairs.told(from));
-    if placed.as_ref().is_some_and(|told| told.doubt().1 == 0) {
-        return placed;
+    let mut best: Option<Told> = None;
+    let many = |told: &Option<Told>| {
+        let told = told.as_ref();
+        told.map_or(usize::MAX, |told| told.comparison.differences.len())
+    };
+    for (nth, enough) in [0, 0, 1].into_iter().enumerate() {
+        if many(&best) <= enough {
+            break;
+        }
+        let from = match nth {
+            0 => as_drawn,
+            1 => Some(anywhere),
+            _ => Some(pairs.away()),
+        };
+        let told = from.and_then(|from| pairs.told(from));
+        if many(&told) < many(&best) {
+            best = told;
+        }
     }
-    let all = placed.into_iter().chain(pairs.told(anywhere));
-    all.min_by_key(|told| told.comparison.differences.len())
+    best
 }
 
 /// The blocks of a program, each beside the one that is written anew.
