@@ -3,9 +3,8 @@
 //! It hangs on the drawing, the settings and the format alone, not on the program that is held against it: it is kept as long as the drawing
 //! is, so that an edit of the program writes nothing.
 
-use super::drawn::Drawn;
 use super::traced::{Motion, Traced};
-use crate::drawing::EntityId;
+use crate::drawing::{Drawing, EntityId, Outline};
 use crate::geometry::{Segment, Vector};
 use crate::program::write::scaled;
 use crate::program::{Document, Format, Language};
@@ -33,6 +32,14 @@ pub(super) struct Under {
     pub settings: Effective,
     /// The contours that it cuts; all where none are named.
     pub handles: Option<Vec<String>>,
+}
+
+/// What it is written of.
+pub(super) struct Of<'a> {
+    pub drawing: &'a Drawing,
+    pub outlines: &'a [Outline],
+    /// mm of the drawing's unit.
+    pub unit_mm: f64,
 }
 
 /// What has been written for a drawing.
@@ -66,13 +73,13 @@ impl Asked {
 }
 
 impl Kept {
-    pub fn anew(&self, drawn: &Drawn, traced: &Traced, under: &Under) -> Option<Arc<Anew>> {
+    pub fn anew(&self, of: &Of<'_>, traced: &Traced, under: &Under) -> Option<Arc<Anew>> {
         let asked = Asked::of(traced, under);
         let lock = || self.written.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, known)) = lock().iter().find(|(other, _)| *other == asked) {
             return known.clone();
         }
-        let made = Anew::of(drawn, &asked).map(Arc::new);
+        let made = Anew::of(of, &asked).map(Arc::new);
         let mut kept = lock();
         let blocks = |anew: &Option<Arc<Anew>>| {
             100 + anew.as_ref().map_or(0, |anew| anew.traced.blocks.len())
@@ -97,30 +104,32 @@ impl Kept {
 }
 
 impl Anew {
-    fn of(drawn: &Drawn, Asked { format, under }: &Asked) -> Option<Anew> {
+    fn of(of: &Of<'_>, Asked { format, under }: &Asked) -> Option<Anew> {
         let settings = &under.settings;
-        let segments: usize = drawn.cut().map(|outline| outline.contour.len()).sum();
+        let cut = of.outlines.iter();
+        let cut = cut.filter(|outline| outline.contour.double_of.is_none());
+        let segments: usize = cut.map(|outline| outline.contour.len()).sum();
         if settings.mills
             || settings.pass_error().is_some()
-            || segments.max(drawn.drawing.len()) > MOST
+            || segments.max(of.drawing.len()) > MOST
         {
             return None;
         }
         let paths = plan(
-            &drawn.drawing,
-            &drawn.outlines,
+            of.drawing,
+            of.outlines,
             &format.settings(settings),
             under.handles.as_deref(),
         )
         .ok()?;
-        let text = format.write(&paths, drawn.unit_mm, settings, &mut |_, _| true);
+        let text = format.write(&paths, of.unit_mm, settings, &mut |_, _| true);
         let language = match format {
             Format::Iso | Format::Milling => Language::Iso,
             Format::ThreeB | Format::FourB => Language::ThreeB,
         };
         let document = Document::read(language, text.ok()?.text.into_bytes(), settings);
         let traced = Traced::of(&document);
-        let scale = drawn.unit_mm * 1e3;
+        let scale = of.unit_mm * 1e3;
         let shift = match traced.is_placed {
             true => Vector::zeros(),
             false => paths.first()?.begin() * scale - traced.begin()?,

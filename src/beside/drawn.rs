@@ -1,6 +1,6 @@
 //! What is taken of a drawing: its contours, by segments, and the programs that we would write for it.
 
-use super::anew::{Anew, Kept, Under};
+use super::anew::{Anew, Kept, Of, Under};
 use super::traced::Traced;
 use crate::drawing::{ContourSegment, Drawing, EntityId, Outline};
 use crate::geometry::Side;
@@ -84,7 +84,12 @@ impl Drawn {
 
     /// The program that we would write for it in the form of another one.
     pub(super) fn anew(&self, traced: &Traced, under: &Under) -> Option<Arc<Anew>> {
-        self.kept.anew(self, traced, under)
+        let of = Of {
+            drawing: &self.drawing,
+            outlines: &self.outlines,
+            unit_mm: self.unit_mm,
+        };
+        self.kept.anew(&of, traced, under)
     }
 
     /// Under its own settings, all of it.

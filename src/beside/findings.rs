@@ -1,6 +1,6 @@
 //! What is said of a comparison, at the program and at the drawing.
 
-use super::own::compare;
+use super::compare::compare;
 use super::{Comparison, Difference, DifferenceKind, Drawn, Traced};
 use crate::finding::{Detail, Finding, Place, Rule, Severity, Unlike};
 use crate::settings::Effective;

@@ -9,6 +9,7 @@
 
 mod anchor;
 mod anew;
+mod compare;
 mod comparison;
 mod drawn;
 mod findings;
@@ -26,13 +27,13 @@ mod single;
 mod traced;
 mod walk;
 
+pub use compare::compare;
 pub use comparison::{Comparison, Difference, DifferenceKind};
 pub use drawn::Drawn;
 pub(crate) use findings::of_program;
 pub use findings::{Beside, Partner, of_drawing};
 pub use names::{Named, plain};
 pub(crate) use names::{drawing_named, head_of, name_of, programs_beside};
-pub use own::compare;
 pub use traced::Traced;
 
 /// How far a block may lie from where the drawing has it, µm.

@@ -5,9 +5,8 @@
 //! everything else nothing is known here.
 
 use super::anew::{Anew, Under};
-use super::comparison::{Comparison, Difference, FEW, looked_at};
+use super::comparison::{Comparison, Difference, FEW};
 use super::drawn::Drawn;
-use super::guess::otherwise;
 use super::traced::{Block, Motion, Traced};
 use super::walk::Kind;
 use crate::drawing::EntityId;
@@ -23,10 +22,6 @@ const SAME: f64 = 1e-2;
 const SLIP: f64 = 50.0;
 /// Blocks that may be lost, or be there too many, in one place.
 const LOST: usize = 3;
-/// Of fewer blocks one that is off may speak for other settings.
-const SMALL: usize = 40;
-/// What is off by more is no rounding, mm.
-const ROUNDING: f64 = 5e-3;
 
 /// What is told of a program by one that is written anew.
 #[derive(Clone, Debug)]
@@ -49,34 +44,6 @@ impl Told {
         let many = self.comparison.differences.len().min(2);
         (!self.is_exact(), many, self.has_gap)
     }
-}
-
-/// Holds a program against a drawing; `None` where it follows nothing of it.
-///
-/// A program that is ours is known block by block, and so is a change of 3 µm in it; one of another writer has room for its roundings.
-pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
-    let Some(known) = own(drawn, traced, &drawn.as_set()) else {
-        let guessed = otherwise(drawn, traced).map(|told| told.comparison);
-        return guessed.or_else(|| looked_at(drawn, traced));
-    };
-    let blocks = traced.blocks.len();
-    // Of few blocks any may be as other settings have it; of many, a few may be as another writer rounds them.
-    let is_doubtful = match &known.comparison.differences[..] {
-        [] => false,
-        [_] => known.has_gap || blocks < SMALL,
-        all => 16 * all.len() > blocks || all.iter().any(|one| one.off < ROUNDING),
-    };
-    if !is_doubtful {
-        return Some(known.comparison);
-    }
-    let guessed = otherwise(drawn, traced).filter(|told| told.doubt() < known.doubt());
-    let known = guessed.unwrap_or(known).comparison;
-    if known.differences.len() < 2 {
-        return Some(known);
-    }
-    // One may be as another writer has it in a place or two.
-    let is_clean = |seen: &Comparison| seen.differences.is_empty();
-    looked_at(drawn, traced).filter(is_clean).or(Some(known))
 }
 
 /// What somebody has changed in a program that is ours under these settings; `None` where it is not.

@@ -1,0 +1,40 @@
+//! A program held against its drawing: as we write it under the drawing's settings, under others, else by how its blocks lie.
+
+use super::comparison::{Comparison, looked_at};
+use super::drawn::Drawn;
+use super::guess::otherwise;
+use super::own::own;
+use super::traced::Traced;
+
+/// Of fewer blocks one that is off may speak for other settings.
+const SMALL: usize = 40;
+/// What is off by more is no rounding, mm.
+const ROUNDING: f64 = 5e-3;
+
+/// Holds a program against a drawing; `None` where it follows nothing of it.
+///
+/// A program that is ours is known block by block, and so is a change of 3 µm in it; one of another writer has room for its roundings.
+pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
+    let Some(known) = own(drawn, traced, &drawn.as_set()) else {
+        let guessed = otherwise(drawn, traced).map(|told| told.comparison);
+        return guessed.or_else(|| looked_at(drawn, traced));
+    };
+    let blocks = traced.blocks.len();
+    // Of few blocks any may be as other settings have it; of many, a few may be as another writer rounds them.
+    let is_doubtful = match &known.comparison.differences[..] {
+        [] => false,
+        [_] => known.has_gap || blocks < SMALL,
+        all => 16 * all.len() > blocks || all.iter().any(|one| one.off < ROUNDING),
+    };
+    if !is_doubtful {
+        return Some(known.comparison);
+    }
+    let guessed = otherwise(drawn, traced).filter(|told| told.doubt() < known.doubt());
+    let known = guessed.unwrap_or(known).comparison;
+    if known.differences.len() < 2 {
+        return Some(known);
+    }
+    // One may be as another writer has it in a place or two.
+    let is_clean = |seen: &Comparison| seen.differences.is_empty();
+    looked_at(drawn, traced).filter(is_clean).or(Some(known))
+}
