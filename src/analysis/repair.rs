@@ -174,7 +174,7 @@ impl Analysis {
         });
         let edits = apart(fixes);
         let before = self.tallied(drawing);
-        most_together(&edits, self.tries(), wanted, |together, _| {
+        most_together(edits, self.tries(), wanted, |together, _| {
             let changes = together.iter().flat_map(|edit| &edit.changes);
             let tried = DrawingEdit {
                 changes: changes.cloned().collect(),
