@@ -59,7 +59,7 @@ fn main() {
         let corners = |count: usize| -> Vec<[f64; 2]> {
             let corner = |at: usize| {
                 let (sin, cos) = (TAU * at as f64 / count as f64).sin_cos();
-                let away = 0.16 * count as f64 + if at % 2 == 0 { 0.0 } else { 0.8 };
+                let away = 0.16 * count as f64 + if at.is_multiple_of(2) { 0.0 } else { 0.8 };
                 [away * cos, away * sin]
             };
             (0..count).map(corner).collect()

@@ -57,7 +57,11 @@ fn star(count: usize) -> Vec<[f64; 3]> {
     let radius = rays as f64 * 1.2 / TAU;
     let corner = |at: usize| {
         let (sin, cos) = (TAU * at as f64 / (2 * rays) as f64).sin_cos();
-        let away = if at % 2 == 0 { radius } else { radius - 2.0 };
+        let away = if at.is_multiple_of(2) {
+            radius
+        } else {
+            radius - 2.0
+        };
         [away * cos, away * sin]
     };
     let corners: Vec<[f64; 2]> = (0..2 * rays).map(corner).collect();

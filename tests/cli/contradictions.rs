@@ -3,9 +3,9 @@
 use super::Desk;
 
 #[path = "../support/contradictions.rs"]
-mod contradictions;
+mod rows;
 
-use contradictions::CONTRADICTIONS;
+use rows::CONTRADICTIONS;
 
 #[test]
 fn contradictions_are_findings_and_never_a_default() {

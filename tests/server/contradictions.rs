@@ -4,9 +4,9 @@ use crate::support::Client;
 use serde_json::json;
 
 #[path = "../support/contradictions.rs"]
-mod contradictions;
+mod rows;
 
-use contradictions::CONTRADICTIONS;
+use rows::CONTRADICTIONS;
 
 #[test]
 fn contradictions_are_published() {

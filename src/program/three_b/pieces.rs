@@ -79,7 +79,10 @@ pub(crate) fn pieces(line: &[u8], words: &Words<'_>) -> Vec<Piece> {
                 cutter.push(Field::Coordinates, start..range.end);
             }
             Token::Block { row, faults, .. } => {
-                let before = [Field::Strange, Field::Number][usize::from(row.is_some())];
+                let before = match row {
+                    Some(_) => Field::Number,
+                    None => Field::Strange,
+                };
                 cutter.push(before, start..range.start);
                 if row.is_none() && faults.is_empty() {
                     cutter.push_scan(&tokens.scan, tokens.scan.numbers(), range.start);

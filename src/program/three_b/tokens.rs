@@ -115,7 +115,7 @@ impl<'a> Tokens<'a> {
             0x80.. if looks_like_a_block(before_comment(rest)) => {
                 return Some(self.broken(start, say!(a_block_in_plain_letters_and_digits)));
             }
-            0x80.. => return Some(self.to_end(start, Token::Comment { holds_block: false })),
+            0x80.. => return Some(self.rest_of_line(start, Token::Comment { holds_block: false })),
             b'(' => match row_number(rest) {
                 Some((number, length)) if !self.behind_block => {
                     return Some(self.taken(length, Token::Number(number)));
@@ -146,7 +146,7 @@ impl<'a> Tokens<'a> {
     fn behind_semicolon(&mut self, start: usize) -> (Token, Range<usize>) {
         let comment = self.from(start + 1);
         if let Some(at) = start_point(comment) {
-            return self.to_end(start, Token::StartPoint(at));
+            return self.rest_of_line(start, Token::StartPoint(at));
         }
         // The numbers may be as long as they are.
         let end = memchr::memchr(b';', comment).unwrap_or(comment.len());
@@ -179,7 +179,7 @@ impl<'a> Tokens<'a> {
     }
 
     /// A token up to the end of the line.
-    fn to_end(&mut self, start: usize, token: Token) -> (Token, Range<usize>) {
+    fn rest_of_line(&mut self, start: usize, token: Token) -> (Token, Range<usize>) {
         self.at = self.line.len();
         (token, start..self.at)
     }
@@ -219,7 +219,7 @@ impl<'a> Tokens<'a> {
             return self.taken(letters.len(), Token::Word { word, is_own });
         }
         if let Some(at) = start_point(rest) {
-            return self.to_end(start, Token::StartPoint(at));
+            return self.rest_of_line(start, Token::StartPoint(at));
         }
         if matches!(rest.first(), Some(b'N' | b'n'))
             && let Some((number, length)) = n_word(rest)
