@@ -572,6 +572,36 @@ fn programs_that_were_written_otherwise_are_known() {
     );
 }
 
+/// Where a guess has another tab than the program, it parts from it before the stop and behind it: that says nothing of the program.
+#[test]
+fn an_unchanged_program_with_a_tab_that_the_settings_do_not_know_has_nothing_said() {
+    let written = "correction = 0.137\n[program]\ntab = 2.5\nlead = \"straight\"\n";
+    for teeth in [7, 9, 13] {
+        let vertex = |index: usize| {
+            let (share, high, bulge) = [
+                (0.0, 0.0, 0.0),
+                (0.15, 1.0, -0.4),
+                (0.5, 1.0, 0.0),
+                (0.65, 0.0, 0.4),
+            ][index % 4];
+            let angle = -((index / 4) as f64 + share + 0.3) / teeth as f64 * TAU;
+            let radius = 2.0 * teeth as f64 + high;
+            [radius * angle.cos(), radius * angle.sin(), bulge]
+        };
+        let gear = [(
+            Shape::Polyline((0..4 * teeth).map(vertex).collect()),
+            Role::Punch,
+        )];
+        let text = program_of(&document(&gear, &settings_of(written)), Format::ThreeB).unwrap();
+        let settings = settings_of("correction = 0.1\n");
+        let snapshot = document(&gear, &settings).snapshot().unwrap();
+        let drawn = Drawn::of(&snapshot.drawing, &snapshot.outlines, &snapshot.settings);
+        let found = compare(&drawn, &traced(&text, Format::ThreeB, &settings));
+        let said = found.map_or(Vec::new(), |found| found.differences);
+        assert_eq!(said, [], "{teeth} teeth\n{text}");
+    }
+}
+
 /// A ring of short arcs and chords, drawn on no grid, the same one at every run.
 fn ring(count: usize) -> Vec<[f64; 3]> {
     let mut seed = 20_261_u64;

@@ -7,6 +7,7 @@ use super::anew::{Anew, Under};
 use super::comparison::FEW;
 use super::drawn::Drawn;
 use super::own::{Told, own};
+use super::tabs::tabs;
 use super::traced::{Block, Motion, Traced};
 use super::{infer, measure};
 use crate::geometry::Segment;
@@ -20,6 +21,8 @@ const MOST_TRIED: usize = 30_000;
 const LEAST_COST: usize = 60;
 /// Where the blocks of a program lie farther away than this in the mean, another writer wrote it, µm.
 const OURS: f64 = 0.5;
+/// By how much a block at a stop is off where a tab was guessed wrong, mm.
+const FAR: f64 = 0.05;
 /// Passes that are thought of, at most.
 const PASSES: usize = 4;
 
@@ -153,7 +156,8 @@ impl<'a> Search<'a> {
             let told = own(self.drawn, self.traced, &guess);
             let told = told.filter(|told| {
                 let many = told.comparison.differences.len();
-                told.mean < OURS && many < 2 && !told.has_gap || told.is_exact() && many <= FEW
+                (told.mean < OURS && many < 2 && !told.has_gap || told.is_exact() && many <= FEW)
+                    && !self.parts_at_a_stop(told)
             });
             if let Some(told) = told {
                 let is_better = |(other, _): &(Told, Under)| {
@@ -167,6 +171,23 @@ impl<'a> Search<'a> {
                 (self.best, self.score) = (guess, score);
             }
         }
+    }
+
+    /// What differs by much ends where the wire stops or begins there, or it is off on both sides of a stop: the tab is of another length
+    /// than was guessed, and nobody changed anything.
+    fn parts_at_a_stop(&self, told: &Told) -> bool {
+        let off = |block: &Block| {
+            let mut all = told.comparison.differences.iter();
+            let of = all.find(|difference| difference.range == block.range);
+            of.map_or(0.0, |difference| difference.off)
+        };
+        self.traced.blocks.windows(3).any(|about| match about {
+            [before, stop, behind] if stop.motion == Motion::Stop => {
+                let (one, other) = (off(before), off(behind));
+                one.max(other) > FAR || one.min(other) > 0.0
+            }
+            _ => false,
+        })
     }
 
     /// The share of blocks that a program has in common with ours.
@@ -233,7 +254,12 @@ impl<'a> Search<'a> {
     }
 
     fn of_tabs(&self) -> Vec<Under> {
-        let lengths = measure::tabs(self.traced, self.best.settings.correction);
+        let without = self.with(|settings| settings.tab = LengthSetting::One(0.0));
+        let Some(anew) = self.drawn.anew(self.traced, &without) else {
+            return Vec::new();
+        };
+        let corrections = self.best.settings.each_correction();
+        let lengths = tabs(self.drawn, self.traced, &anew, &corrections);
         let of = |tab| self.with(|settings| settings.tab = LengthSetting::One(tab));
         lengths.into_iter().map(of).collect()
     }

@@ -1,7 +1,7 @@
 //! What can be measured in a program that is ours: which contours it cuts, how it comes to them, what it leaves standing.
 
 use super::drawn::Drawn;
-use super::traced::{Motion, Traced};
+use super::traced::Traced;
 use crate::geometry::{Bounds, Segment, Vector};
 use std::ops::Range;
 
@@ -9,8 +9,8 @@ use std::ops::Range;
 const BESIDE: f64 = 1_000.0;
 /// Pairs of boxes that are compared, at most.
 const MOST: usize = 2_000_000;
-/// Blocks behind a stop that may cut a tab off.
-const BEHIND: usize = 4;
+/// Cuts that are asked how far they go on past their start, at most.
+const ASKED: usize = 8;
 
 /// The blocks that cut from one threading to the next: those of one contour, or of one pass.
 fn cuts(traced: &Traced) -> impl Iterator<Item = Range<usize>> {
@@ -162,33 +162,6 @@ fn note(found: &mut Vec<f64>, um: f64) {
     }
 }
 
-/// What a program may leave standing until it is cut off, mm; nothing first. It is cut by one of the first blocks behind a stop, or several.
-pub(super) fn tabs(traced: &Traced, correction: f64) -> Vec<f64> {
-    let mut found = vec![0.0];
-    let stops = (0..traced.blocks.len()).filter(|&at| traced.blocks[at].motion == Motion::Stop);
-    // What is cut off comes last.
-    for stop in stops.rev().take(2 * BEHIND) {
-        let behind: Vec<&Segment> =
-            segments(traced, stop + 1..(stop + BEHIND).min(traced.blocks.len())).collect();
-        // The wall is the shorter or the longer one of an arc, by whether the wire runs inside of it.
-        for by in [0.0, -correction * 1e3, correction * 1e3] {
-            let of = |segment: &Segment| match segment.as_arc() {
-                Some(arc) => arc.sweep.abs() * (arc.radius + by).max(0.0),
-                None => segment.length(),
-            };
-            for first in 0..behind.len() {
-                let mut sum = 0.0;
-                for segment in &behind[first..] {
-                    sum += of(segment);
-                    note(&mut found, sum);
-                }
-            }
-        }
-    }
-    round_first(&mut found);
-    found
-}
-
 /// Somebody sets a round number rather than another.
 fn round_first(found: &mut [f64]) {
     let hundredths = |mm: &f64| (mm * 100.0).round() as i64;
@@ -198,7 +171,7 @@ fn round_first(found: &mut [f64]) {
 /// How far a program may go on past its start, mm; not at all first. It does so in the blocks before its way out.
 pub(super) fn overlaps(traced: &Traced) -> Vec<f64> {
     let mut found = vec![0.0];
-    for cut in cuts(traced).take(2 * BEHIND) {
+    for cut in cuts(traced).take(ASKED) {
         let own: Vec<&Segment> = segments(traced, cut).collect();
         for ways_out in 1..=2 {
             let mut sum = 0.0;

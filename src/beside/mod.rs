@@ -24,6 +24,7 @@ mod own;
 mod pose;
 mod rounds;
 mod single;
+mod tabs;
 mod traced;
 mod walk;
 

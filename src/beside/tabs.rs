@@ -1,0 +1,192 @@
+//! How long the tabs of a program are, measured along the drawing's walls.
+
+use super::anew::Anew;
+use super::drawn::Drawn;
+use super::traced::{Motion, Traced};
+use crate::geometry::{Point, Segment, Vector};
+use crate::program::write::scaled;
+use rustc_hash::FxHashMap;
+use std::ops::Range;
+
+/// Blocks on either side of a stop, and at the ends of a cut, that may begin or end at a tab.
+const ABOUT: usize = 4;
+/// Blocks of a cut that are asked where it lies, and votes of each, at most.
+const ASKED: usize = 200;
+const VOTES: usize = 64;
+/// Votes for one place lie within this, µm.
+const ONE: f64 = 3.0;
+/// Walls that are measured, at most.
+const WALLS: usize = 50_000;
+/// How near a place of the path has to lie to the distance of the path from its wall, µm.
+const NEAR: f64 = 4.0;
+/// A length is the roundest number, in µm, that is as near as this.
+const ROUND: [f64; 5] = [500.0, 100.0, 50.0, 10.0, 1.0];
+const ROUNDED: f64 = 2.0;
+/// Lengths that are told, at most.
+const TOLD: usize = 16;
+
+/// What a program may leave standing until it is cut off, mm, by another one that was written of the drawing with the same corrections:
+/// none, and how far it is from a place where the wire stops, or begins again, to an entry.
+pub(super) fn tabs(drawn: &Drawn, traced: &Traced, anew: &Anew, corrections: &[f64]) -> Vec<f64> {
+    let mut found = vec![0.0];
+    if !traced
+        .blocks
+        .iter()
+        .any(|block| block.motion == Motion::Stop)
+    {
+        return found;
+    }
+    let walls = Walls::of(drawn, corrections);
+    let Some(walls) = walls else { return found };
+    let entries = |of: &Traced| -> Vec<(usize, f64)> {
+        let cuts = of.cuts.iter().filter_map(|[all, contour]| {
+            let start = of.blocks.get(contour.start)?.segment()?.start();
+            walls.foot(start + laid(of, all, anew)?)
+        });
+        cuts.collect()
+    };
+    let mut all = entries(&anew.traced);
+    all.extend(entries(traced));
+    let mut lengths: Vec<f64> = Vec::new();
+    for [cut, _] in &traced.cuts {
+        let Some(by) = laid(traced, cut, anew) else {
+            continue;
+        };
+        for place in places(traced, cut) {
+            let Some((contour, at)) = walls.foot(place + by) else {
+                continue;
+            };
+            let whole = walls.contours[contour].1;
+            for (_, entry) in all.iter().filter(|(own, _)| *own == contour) {
+                let away = (entry - at).rem_euclid(whole);
+                lengths.extend([away, whole - away]);
+            }
+        }
+    }
+    let mut rounded: Vec<(usize, f64)> = Vec::new();
+    for um in lengths {
+        let near = ROUND.iter().enumerate().find_map(|(rank, to)| {
+            let round = (um / to).round() * to;
+            ((round - um).abs() <= ROUNDED).then_some((rank, round / 1e3))
+        });
+        rounded.extend(near.filter(|near| near.1 > 0.02 && !rounded.contains(near)));
+    }
+    rounded.sort_by(|one, other| one.0.cmp(&other.0).then(one.1.total_cmp(&other.1)));
+    found.extend(rounded.into_iter().map(|(_, mm)| mm).take(TOLD));
+    found
+}
+
+/// The walls of each contour, in the direction of travel, each with the way to its begin; and how long the contour is.
+struct Walls {
+    contours: Vec<(Vec<(Segment, f64)>, f64)>,
+    /// How far the path may lie from them, µm.
+    away: Vec<f64>,
+}
+
+impl Walls {
+    fn of(drawn: &Drawn, corrections: &[f64]) -> Option<Walls> {
+        let scale = drawn.unit_mm * 1e3;
+        let contours = drawn.contours();
+        let sum: usize = contours.iter().map(|contour| contour.segments.len()).sum();
+        let of_contours = contours.iter().map(|contour| {
+            let mut way = 0.0;
+            let segments = contour.segments.iter().map(|segment| {
+                let own = scaled(&segment.geometry, scale);
+                way += own.length();
+                (own, way - own.length())
+            });
+            (segments.collect(), way)
+        });
+        let on_it = std::iter::once(0.0);
+        (sum <= WALLS).then(|| Walls {
+            contours: of_contours.collect(),
+            away: on_it.chain(corrections.iter().map(|mm| mm * 1e3)).collect(),
+        })
+    }
+
+    /// The contour beside which a place of the path lies, and how far along it.
+    fn foot(&self, place: Point) -> Option<(usize, f64)> {
+        let mut best: Option<(f64, usize, f64)> = None;
+        for (index, (segments, _)) in self.contours.iter().enumerate() {
+            for (wall, begin) in segments {
+                let away = wall.distance_to(place);
+                let is_beside = self.away.iter().any(|own| (away - own).abs() <= NEAR);
+                if is_beside && best.is_none_or(|(least, ..)| away < least) {
+                    let share = wall.share_of(place).clamp(0.0, 1.0);
+                    best = Some((away, index, begin + share * wall.length()));
+                }
+            }
+        }
+        best.map(|(_, index, at)| (index, at))
+    }
+}
+
+/// Where a tab may begin: at the ends of blocks about the stops of a cut, and about its own ends.
+fn places(traced: &Traced, cut: &Range<usize>) -> Vec<Point> {
+    let is_near = |index: usize| {
+        let about = index.saturating_sub(ABOUT)..=index + ABOUT;
+        index < cut.start + ABOUT
+            || index + ABOUT >= cut.end
+            || about.into_iter().any(|near| {
+                let block = traced.blocks.get(near);
+                block.is_some_and(|block| block.motion == Motion::Stop)
+            })
+    };
+    let near = cut.clone().filter(|index| is_near(*index));
+    let segments = near.filter_map(|index| traced.blocks.get(index)?.segment());
+    segments.map(Segment::end).collect()
+}
+
+/// From the places of a cut to those of the drawing: where most of its blocks are pieces of the path.
+fn laid(traced: &Traced, cut: &Range<usize>, anew: &Anew) -> Option<Vector> {
+    let steps = |um: f64| um.round() as i64;
+    let key = |segment: &Segment| match segment {
+        Segment::Line(line) => {
+            let by = line.end - line.start;
+            let by = if (by.y, by.x) < (0.0, 0.0) { -by } else { by };
+            (steps(by.x), steps(by.y))
+        }
+        Segment::Arc(arc) => (steps(arc.radius), i64::MIN),
+    };
+    // Of a line its middle stands for it, whichever way it is gone.
+    let stands_for = |segment: &Segment| match segment {
+        Segment::Line(line) => line.start + (line.end - line.start) / 2.0,
+        Segment::Arc(arc) => arc.center,
+    };
+    let mut pieces: FxHashMap<(i64, i64), Vec<Point>> = FxHashMap::default();
+    for piece in anew.on_walls() {
+        pieces
+            .entry(key(piece))
+            .or_default()
+            .push(stands_for(piece));
+    }
+    let blocks = traced.blocks.get(cut.clone())?;
+    let segments: Vec<&Segment> = blocks.iter().filter_map(|block| block.segment()).collect();
+    let step = segments.len().div_ceil(ASKED).max(1);
+    let mut votes: Vec<Vector> = Vec::new();
+    for segment in segments.into_iter().step_by(step) {
+        let (x, y) = key(segment);
+        let about = if y == i64::MIN { 0..=0 } else { -1..=1 };
+        for (x, y) in (-1..=1).flat_map(|by| about.clone().map(move |more| (x + by, y + more))) {
+            let own = pieces.get(&(x, y)).into_iter().flatten();
+            votes.extend(own.take(VOTES).map(|place| place - stands_for(segment)));
+        }
+    }
+    votes.sort_by(|one, other| one.x.total_cmp(&other.x));
+    // Of each vote, those that lie near it in x stand about it.
+    let count = |of: usize| {
+        let is_near = |other: &&Vector| (*other - votes[of]).amax() <= ONE;
+        let in_x = |other: &&Vector| (other.x - votes[of].x).abs() <= ONE;
+        let behind = votes[of..].iter().take_while(in_x).filter(is_near);
+        let before = votes[..of].iter().rev().take_while(in_x).filter(is_near);
+        behind.count() + before.count()
+    };
+    let most = (0..votes.len()).max_by_key(|of| count(*of))?;
+    let near = votes
+        .iter()
+        .filter(|vote| (*vote - votes[most]).amax() <= ONE);
+    let (sum, count) = near.fold((Vector::zeros(), 0.0), |(sum, count), vote| {
+        (sum + vote, count + 1.0)
+    });
+    Some(sum / count)
+}
