@@ -154,38 +154,26 @@ pub(super) fn is_remark(line: &[u8], at: usize, words: &Words<'_>) -> bool {
 /// Whether text has enough of a block to be taken for a broken one.
 pub(super) fn wants_to_be_a_block(text: &[u8]) -> bool {
     let code = before_comment(head(text, 160));
-    let followed_by = |first: &[u8], fits: fn(u8) -> bool| {
-        let mut count = 0;
-        for (at, byte) in code.iter().enumerate() {
-            let next = code
-                .iter()
-                .skip(at + 1)
-                .find(|byte| !matches!(byte, b' ' | b'\t' | b'|'));
-            count += usize::from(
-                first.contains(&byte.to_ascii_uppercase()) && next.is_some_and(|&next| fits(next)),
-            );
+    // Letters B, and those with a digit behind them; axes; quadrants.
+    let (mut letters, mut numbers, mut axes, mut ends) = (0, 0, 0, 0);
+    let is_letter =
+        |byte: &u8| matches!(byte, b'B' | b'b' | b'G' | b'g' | b'L' | b'l' | b'R' | b'r');
+    for (at, letter) in code.iter().enumerate().filter(|(_, byte)| is_letter(byte)) {
+        let mut behind = code.iter().skip(at + 1);
+        let next = behind.find(|byte| !matches!(byte, b' ' | b'\t' | b'|'));
+        let is_digit = next.is_some_and(u8::is_ascii_digit);
+        match letter {
+            b'B' | b'b' => {
+                letters += 1;
+                numbers += usize::from(is_digit);
+            }
+            b'G' | b'g' => axes += usize::from(matches!(next, Some(b'X' | b'Y' | b'x' | b'y'))),
+            _ => ends += usize::from(is_digit),
         }
-        count
-    };
-    let numbers = followed_by(b"B", |byte| byte.is_ascii_digit());
-    let axes = followed_by(b"G", |byte| {
-        matches!(byte.to_ascii_uppercase(), b'X' | b'Y')
-    });
-    let ends = followed_by(b"LR", |byte| byte.is_ascii_digit());
-    let begins = matches!(
-        code.first().map(u8::to_ascii_uppercase),
-        Some(b'B' | b'0'..=b'9')
-    );
+    }
+    let begins = matches!(code.first(), Some(b'B' | b'b' | b'0'..=b'9'));
     let kinds = usize::from(numbers > 0) + usize::from(axes > 0) + usize::from(ends > 0);
-    kinds >= 2
-        || (begins
-            && (numbers >= 2
-                || kinds == 1
-                    && code
-                        .iter()
-                        .filter(|byte| byte.eq_ignore_ascii_case(&b'B'))
-                        .count()
-                        >= 2))
+    kinds >= 2 || begins && (numbers >= 2 || kinds == 1 && letters >= 2)
 }
 
 /// Whether a text in other letters has what a block has: three numbers, an axis and a quadrant.

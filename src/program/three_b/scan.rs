@@ -5,7 +5,7 @@
 
 use super::block::{Block, CountingAxis, Motion, PartArc, Quadrant};
 use crate::program::alike::wide_space;
-use std::ops::Range;
+use std::ops::{Deref, DerefMut, Range};
 
 /// More digits than any controller takes are not read as a number.
 const MOST_DIGITS: usize = 12;
@@ -37,7 +37,16 @@ impl Number {
 #[derive(Default)]
 pub(super) struct Scan {
     all: [Number; MOST_NUMBERS],
+    /// So many of them are of this block.
     count: usize,
+    found: Found,
+}
+
+/// What there is beside the numbers.
+#[derive(Default)]
+pub(super) struct Found {
+    /// A number has no `B` before it.
+    lacks_b: bool,
     /// A letter O stands for a zero.
     pub(crate) has_letter_o: bool,
     /// Marks among the digits that no number has.
@@ -65,6 +74,20 @@ pub(super) struct Scan {
     goes_on: bool,
 }
 
+impl Deref for Scan {
+    type Target = Found;
+
+    fn deref(&self) -> &Found {
+        &self.found
+    }
+}
+
+impl DerefMut for Scan {
+    fn deref_mut(&mut self) -> &mut Found {
+        &mut self.found
+    }
+}
+
 const LINE: &[fn(Quadrant) -> Motion] = &[Motion::Line];
 const CLOCKWISE: &[fn(Quadrant) -> Motion] = &[Motion::Clockwise];
 const COUNTER_CLOCKWISE: &[fn(Quadrant) -> Motion] = &[Motion::CounterClockwise];
@@ -74,25 +97,29 @@ const ALL: &[fn(Quadrant) -> Motion] = &[Motion::Line, Motion::CounterClockwise,
 impl Scan {
     /// Reads up to what no block has.
     pub(super) fn of(text: &[u8]) -> Scan {
-        Scan::read(text, false)
+        let mut scan = Scan::default();
+        scan.read(text, false);
+        scan
     }
 
     /// Reads on behind what is damaged.
     pub(super) fn all_of(text: &[u8]) -> Scan {
-        Scan::read(text, true)
+        let mut scan = Scan::default();
+        scan.read(text, true);
+        scan
     }
 
-    #[inline]
-    fn read(text: &[u8], goes_on: bool) -> Scan {
-        let mut scan = Scan {
+    /// Reads another block in the place of this one.
+    pub(super) fn read(&mut self, text: &[u8], goes_on: bool) {
+        self.count = 0;
+        self.found = Found {
             goes_on,
             kinds: ALL,
-            ..Scan::default()
+            ..Found::default()
         };
         let mut reader = Reader { text, at: 0 };
         // What is left of it is in the scan.
-        let _ = scan.take(&mut reader);
-        scan
+        let _ = self.take(&mut reader);
     }
 
     pub(crate) fn numbers(&self) -> &[Number] {
@@ -115,14 +142,14 @@ impl Scan {
     }
 
     /// The block where all of it is written as it should be, and how many bytes it takes. The way of nearly all of them.
+    #[inline]
     pub(super) fn sound(&self) -> Option<(Block, Option<PartArc>, usize)> {
         let (x, y, j, radius) = match self.numbers() {
             [x, y, j] => (x, y, j, None),
             [x, y, j, radius] => (x, y, j, Some(radius)),
             _ => return None,
         };
-        let has_all_b = self.numbers().iter().all(|number| number.b.is_some());
-        let is_sound = self.stopped.is_none() && has_all_b && !self.has_letter_o;
+        let is_sound = self.stopped.is_none() && !self.lacks_b && !self.has_letter_o;
         if !is_sound || radius.is_some() != self.side.is_some() {
             return None;
         }
@@ -158,9 +185,15 @@ impl Scan {
     #[inline]
     fn take_number(&mut self, reader: &mut Reader<'_>) -> Option<bool> {
         let at = reader.at_next();
-        let b = reader.take(b'B').then_some(at);
-        let start = if b.is_some() { reader.at_next() } else { at };
-        let (mut value, mut marks) = (0_i64, 0);
+        let (b, start) = match reader.text.get(at) {
+            Some(b'B' | b'b') => {
+                reader.at += 1;
+                (Some(at), reader.at_next())
+            }
+            Some(b'0'..=b'9' | b'O' | b'o' | b'-' | b'+' | b'.' | b',') => (None, at),
+            _ => return Some(false),
+        };
+        let (mut value, mut marks) = (reader.take_digits(), 0);
         while let Some(&byte) = reader.text.get(reader.at) {
             let digit = match byte {
                 b'0'..=b'9' => byte - b'0',
@@ -199,6 +232,7 @@ impl Scan {
             value: (digits > 0).then_some(value),
         };
         self.count += 1;
+        self.lacks_b |= b.is_none();
         self.end = reader.at;
         Some(true)
     }
@@ -296,6 +330,8 @@ impl Reader<'_> {
     fn at_next(&mut self) -> usize {
         while let Some(byte) = self.text.get(self.at) {
             match byte {
+                // What stands there nearly always.
+                b'!'..=b'{' => break,
                 b' ' | b'\t' | b'|' => self.at += 1,
                 0xc2.. => match self.text.get(self.at..).map_or(0, wide_space) {
                     0 => break,
@@ -305,6 +341,20 @@ impl Reader<'_> {
             }
         }
         self.at
+    }
+
+    /// As many digits as overflow nothing.
+    #[inline]
+    fn take_digits(&mut self) -> i64 {
+        let (mut value, most) = (0, self.at + 18);
+        while self.at < most
+            && let Some(digit) = self.text.get(self.at).map(|byte| byte.wrapping_sub(b'0'))
+            && digit <= 9
+        {
+            value = value * 10 + i64::from(digit);
+            self.at += 1;
+        }
+        value
     }
 
     /// The byte at the cursor, as a capital letter.

@@ -200,7 +200,7 @@ impl<'a> Tokens<'a> {
     fn word_or_block(&mut self, words: &Words<'_>) -> (Token, Range<usize>) {
         let start = self.at;
         let rest = self.from(start);
-        self.scan = Scan::of(rest);
+        self.scan.read(rest, false);
         if let Some((block, part, length)) = self.scan.sound() {
             self.behind_block = true;
             let token = Token::Block {
