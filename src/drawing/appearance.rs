@@ -1,5 +1,6 @@
 //! What a CAD program shows of an entity: its colour, and whether it is to be seen at all.
 
+use super::{Drawing, EntityId};
 use std::sync::Arc;
 
 /// Whether an entity is to be seen in the CAD program. What is not seen is not cut, unless somebody gives it a role.
@@ -104,6 +105,135 @@ impl Color {
             .ok()
             .filter(|index| *index > 0)
             .map(Color::Index)
+    }
+}
+
+impl Drawing {
+    /// Says whether an entity is seen, and which layer decides it. True when that is something new.
+    pub(crate) fn set_visibility(
+        &mut self,
+        id: EntityId,
+        visibility: Visibility,
+        layer: &Arc<str>,
+    ) -> bool {
+        let before = match visibility {
+            Visibility::Shown => self.unseen.remove(&id),
+            other => self.unseen.insert(id, (other, layer.clone())),
+        };
+        before.map_or(Visibility::Shown, |(before, _)| before) != visibility
+    }
+
+    pub fn visibility(&self, id: EntityId) -> Visibility {
+        self.unseen
+            .get(&id)
+            .map_or(Visibility::Shown, |(visibility, _)| *visibility)
+    }
+
+    /// Entities that are not simply shown, with the layer that decides it; in no order.
+    pub(crate) fn unseen(&self) -> impl Iterator<Item = (EntityId, Visibility, &Arc<str>)> + '_ {
+        self.unseen
+            .iter()
+            .map(|(&id, (visibility, layer))| (id, *visibility, layer))
+    }
+
+    /// Says in which linetype an entity is drawn; `None` is a continuous one. True when that is something new.
+    pub(crate) fn set_linetype(&mut self, id: EntityId, linetype: Option<Linetype>) -> bool {
+        let before = self.linetypes.get(&id);
+        let is_new = before != linetype.as_ref();
+        if is_new {
+            match linetype {
+                Some(linetype) => drop(self.linetypes.insert(id, linetype)),
+                None => drop(self.linetypes.remove(&id)),
+            }
+        }
+        is_new
+    }
+
+    /// The linetype in which an entity is drawn, where it is not a continuous one.
+    pub(crate) fn linetype(&self, id: EntityId) -> Option<&Linetype> {
+        self.linetypes.get(&id)
+    }
+
+    /// Says what the source has for an entity in words. True when that is something new.
+    pub(crate) fn set_marks(&mut self, id: EntityId, marks: Option<Marks>) -> bool {
+        let before = match marks.clone() {
+            Some(marks) => self.marks.insert(id, marks),
+            None => self.marks.remove(&id),
+        };
+        before != marks
+    }
+
+    /// Whether there are words for any entity.
+    pub(crate) fn has_marks(&self) -> bool {
+        !self.marks.is_empty() || !self.on_marked_layers.is_empty()
+    }
+
+    /// The entities that there are words for: of their own, or of their layer; in no order.
+    pub(crate) fn marked(&self) -> impl Iterator<Item = EntityId> + '_ {
+        let by_layer = self.on_marked_layers.iter();
+        let by_layer = by_layer.filter(|id| !self.marks.contains_key(id));
+        self.marks.keys().chain(by_layer).copied()
+    }
+
+    /// The words for an entity: its own, then those of its layer.
+    pub(crate) fn marks(&self, id: EntityId) -> impl Iterator<Item = &str> + '_ {
+        let layer = self.get(id).and_then(|entity| mark_of_layer(&entity.layer));
+        let own = self.marks.get(&id).into_iter();
+        own.flat_map(|marks| marks.iter().map(|mark| &**mark))
+            .chain(layer)
+    }
+
+    pub(super) fn look_at_layer(&mut self, id: EntityId) {
+        let layer = self.get(id).and_then(|entity| mark_of_layer(&entity.layer));
+        if layer.is_some() {
+            self.on_marked_layers.insert(id);
+        } else if !self.on_marked_layers.is_empty() {
+            self.on_marked_layers.remove(&id);
+        }
+    }
+
+    /// How an entity looks, for one that is removed and may come back.
+    pub(crate) fn appearance(&self, id: EntityId) -> Appearance {
+        Appearance {
+            unseen: self.unseen.get(&id).cloned(),
+            linetype: self.linetypes.get(&id).cloned(),
+            marks: self.marks.get(&id).cloned(),
+            color: self.colors.get(id.0 as usize).copied().flatten(),
+        }
+    }
+
+    pub(crate) fn set_appearance(&mut self, id: EntityId, appearance: Appearance) {
+        if let Some(unseen) = appearance.unseen {
+            self.unseen.insert(id, unseen);
+        }
+        self.set_linetype(id, appearance.linetype);
+        self.set_marks(id, appearance.marks);
+        self.set_color(id, appearance.color);
+    }
+
+    /// Gives an entity a colour of its own, or leaves it that of its layer. True when that is something new.
+    pub(crate) fn set_color(&mut self, id: EntityId, color: Option<Color>) -> bool {
+        let index = id.0 as usize;
+        if color.is_some() && index >= self.colors.len() {
+            self.colors.resize(index + 1, None);
+        }
+        self.colors
+            .get_mut(index)
+            .is_some_and(|slot| std::mem::replace(slot, color) != color)
+    }
+
+    pub(crate) fn set_layer_color(&mut self, layer: &str, color: Color) {
+        self.layer_colors.insert(layer.to_lowercase(), color);
+    }
+
+    /// The colour in which an entity is drawn: its own, else that of its layer; `None` where the source tells none.
+    pub fn color(&self, id: EntityId) -> Option<Color> {
+        let own = self.colors.get(id.0 as usize).copied().flatten();
+        own.or_else(|| {
+            self.layer_colors
+                .get(&self.get(id)?.layer.to_lowercase())
+                .copied()
+        })
     }
 }
 

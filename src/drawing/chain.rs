@@ -8,7 +8,9 @@
 //! meet; the other places are for `knots`. Of entities in one place one is chained, see `doubles`. The order says where a contour
 //! begins and which way it runs: with its first entity, in that one's direction.
 
-use super::ends::{Buckets, Cell, Cells, End, Ends, NO_ENDS, has_ends};
+mod groups;
+
+use super::ends::{Buckets, Cells, End, Ends, NO_ENDS, has_ends};
 use super::joints::Joints;
 use super::linked::{Linked, Way};
 use super::{Contour, Drawing, EntityId, Piece, Role};
@@ -16,7 +18,6 @@ use crate::geometry::Point;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
-use std::ops::Range;
 
 /// Up to so many entities are put in order without a look at all others.
 const FEW: usize = 16;
@@ -379,97 +380,6 @@ impl Chains {
             new.push(key);
         }
         new
-    }
-
-    /// Makes groups of the contours of entities.
-    fn group(&mut self, entities: &[EntityId], joints: &Joints) {
-        for (one, other) in self.neighbours(entities, joints) {
-            self.unite(one, other);
-        }
-    }
-
-    /// Contours with an end in one cell, or in cells beside each other near the border.
-    fn neighbours(&self, entities: &[EntityId], joints: &Joints) -> Vec<(Key, Key)> {
-        let count = joints.list_count();
-        let of_share = |nth: usize| {
-            let lists = nth * SHARE..((nth + 1) * SHARE).min(count);
-            self.neighbours_in(lists, entities, joints)
-        };
-        match count.div_ceil(SHARE) {
-            0 | 1 => of_share(0),
-            shares => {
-                let found: Vec<Vec<(Key, Key)>> =
-                    (0..shares).into_par_iter().map(of_share).collect();
-                found.concat()
-            }
-        }
-    }
-
-    fn neighbours_in(
-        &self,
-        lists: Range<usize>,
-        entities: &[EntityId],
-        joints: &Joints,
-    ) -> Vec<(Key, Key)> {
-        let mut neighbours = Vec::new();
-        let at = |end: End| {
-            let id = entities[end.entity() as usize];
-            (
-                end.of(self.ends_of[id.0 as usize]),
-                self.contour_of[id.0 as usize],
-            )
-        };
-        let mut cells: Vec<(Cell, Key)> = Vec::new();
-        for list in lists {
-            cells.clear();
-            for end in joints.of_list(list) {
-                let (place, key) = at(end);
-                let mut about = self.cells.about(place);
-                let Some(own) = about.next() else { continue };
-                match cells.iter_mut().find(|(cell, _)| *cell == own) {
-                    Some((_, last)) if *last == key => {}
-                    Some((_, last)) => neighbours.push((std::mem::replace(last, key), key)),
-                    None => cells.push((own, key)),
-                }
-                for beside in about {
-                    // All others there are of its group.
-                    let other = joints
-                        .of_cell(beside)
-                        .map(at)
-                        .find(|(place, _)| self.cells.of(*place) == beside);
-                    neighbours.extend(
-                        other
-                            .filter(|(_, other)| *other != key)
-                            .map(|(_, other)| (other, key)),
-                    );
-                }
-            }
-        }
-        neighbours
-    }
-
-    /// Makes one group of those of two contours: the larger takes in the smaller.
-    fn unite(&mut self, one: Key, other: Key) {
-        let group = |contour: Key| self.group_of.get(&contour).copied();
-        let (larger, smaller) = match (group(one), group(other)) {
-            (Some(one), Some(other)) if one == other => return,
-            (Some(one), Some(other)) => {
-                let size = |group: Key| self.groups.get(&group).map_or(0, Vec::len);
-                let (larger, smaller) = if size(one) >= size(other) {
-                    (one, other)
-                } else {
-                    (other, one)
-                };
-                (larger, self.groups.remove(&smaller).unwrap_or_default())
-            }
-            (Some(group), None) => (group, vec![other]),
-            (None, Some(group)) => (group, vec![one]),
-            (None, None) => (self.fresh_key(), vec![one, other]),
-        };
-        for &contour in &smaller {
-            self.group_of.insert(contour, larger);
-        }
-        self.groups.entry(larger).or_default().extend(smaller);
     }
 }
 

@@ -1,9 +1,10 @@
 //! ELLIPSE and SPLINE: their records to curves. Their points are world coordinates.
 
-use super::entity::{Common, Numbers, Outcome, Plane, missing, tag_of_record};
+use super::entity::{Common, Outcome, Plane, tag_of_record};
 use super::fault;
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
+use super::numbers::{Numbers, missing};
 use super::shape::{Shape, ellipse};
 use super::space::{FLAT, Lies, Space, Vector3, in_space};
 use crate::drawing::Kind;

@@ -1,11 +1,10 @@
 //! INSERT: which block it draws, where, how often and how it is stretched.
 
-use super::entity::{
-    Common, Insert, Numbers, Outcome, Plane, missing, pass_over_followers, value_line_of,
-};
+use super::entity::{Common, Insert, Outcome, Plane, pass_over_followers, value_line_of};
 use super::fault::quoted;
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
+use super::numbers::{Numbers, missing};
 use super::space::{Space, Vector3, in_space};
 use crate::geometry::{Vector, direction, left_normal};
 

@@ -27,6 +27,7 @@ mod layers;
 pub(crate) mod lexer;
 pub(crate) mod lines;
 pub(crate) mod number;
+mod numbers;
 pub(crate) mod place;
 mod plain;
 mod reader;

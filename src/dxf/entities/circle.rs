@@ -1,10 +1,11 @@
 //! ARC and CIRCLE.
 
 use crate::drawing::{Geometry, Kind};
-use crate::dxf::entity::{Numbers, Outcome, Plane, value_line_of};
+use crate::dxf::entity::{Outcome, Plane, value_line_of};
 use crate::dxf::fault::quoted;
 use crate::dxf::layers::Layers;
 use crate::dxf::lexer::{Lexer, Tag};
+use crate::dxf::numbers::Numbers;
 use crate::dxf::shape::Shape;
 use crate::geometry::{Point, radians};
 

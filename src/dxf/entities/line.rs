@@ -1,9 +1,10 @@
 //! LINE.
 
 use crate::drawing::{Geometry, Kind};
-use crate::dxf::entity::{Numbers, Outcome};
+use crate::dxf::entity::Outcome;
 use crate::dxf::layers::Layers;
 use crate::dxf::lexer::{Lexer, Tag};
+use crate::dxf::numbers::Numbers;
 use crate::dxf::shape::Shape;
 use crate::dxf::space::{Lies, Vector3};
 use crate::geometry::Point;

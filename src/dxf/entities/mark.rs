@@ -1,10 +1,11 @@
 //! TEXT, MTEXT and POINT: what may mark where a cut starts.
 
 use crate::drawing::{Geometry, Kind};
-use crate::dxf::entity::{Numbers, Outcome, Plane, Read};
+use crate::dxf::entity::{Outcome, Plane, Read};
 use crate::dxf::frame;
 use crate::dxf::layers::Layers;
 use crate::dxf::lexer::{Lexer, Tag};
+use crate::dxf::numbers::Numbers;
 use crate::dxf::shape::Shape;
 use crate::dxf::space::{Lies, Space, Vector3};
 use crate::dxf::strings::{words_of_mtext, words_of_text};

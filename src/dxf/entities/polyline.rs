@@ -2,11 +2,12 @@
 
 use crate::drawing::{Geometry, Kind, Vertex};
 use crate::dxf::entity::{
-    Common, Outcome, Plane, VertexLines, missing, pass_over, pass_over_followers, tag_of_record,
+    Common, Outcome, Plane, VertexLines, pass_over, pass_over_followers, tag_of_record,
 };
 use crate::dxf::fault::{meaning, quoted};
 use crate::dxf::layers::Layers;
 use crate::dxf::lexer::{Lexer, Tag};
+use crate::dxf::numbers::missing;
 use crate::dxf::shape::Shape;
 use crate::dxf::space::{Lies, Space, Vector3, in_space as at_height};
 

@@ -1,0 +1,102 @@
+//! What a program becomes in another language, or as a drawing.
+
+use super::Refusal;
+use crate::document::Document;
+use crate::dxf;
+use crate::finding::Severity;
+use crate::program::Format;
+use crate::program::convert::{self, Cuts};
+use crate::rule::Rule;
+
+/// What a program becomes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Target {
+    Drawing,
+    Program(Format),
+}
+
+impl Target {
+    /// What a program can become; to mill a drawing takes more than the path of a wire.
+    const PROGRAMS: [Format; 3] = [Format::ThreeB, Format::FourB, Format::Iso];
+
+    fn program(name: &str) -> Option<Target> {
+        let format = Target::PROGRAMS
+            .into_iter()
+            .find(|format| format.name() == name);
+        format.map(Target::Program)
+    }
+
+    /// What a name, or the ending of a file's name, stands for. The error says which there are.
+    pub(crate) fn of(name: &str) -> Result<Target, String> {
+        match name.to_ascii_lowercase().as_str() {
+            "dxf" => Ok(Target::Drawing),
+            "nc" => Ok(Target::Program(Format::Iso)),
+            lower => Target::program(lower).ok_or_else(|| {
+                let names = Target::PROGRAMS.map(Format::name).join(", ");
+                say!(a_target_that_is_not_written, name, names)
+            }),
+        }
+    }
+}
+
+/// A program as a drawing, or in another language.
+pub(crate) struct Converted {
+    pub(crate) bytes: Vec<u8>,
+    /// Blocks of the program that was written.
+    pub(crate) blocks: Option<usize>,
+    pub(crate) cuts: Cuts,
+}
+
+/// Turns a program into a drawing, or into one of another language, which is proved.
+pub(crate) fn convert(
+    document: &Document,
+    target: Target,
+    force: bool,
+) -> Result<Converted, Refusal> {
+    let Some(program) = document.program() else {
+        return Err(Refusal::Sentence(say!(a_drawing_is_no_program).into()));
+    };
+    let mut errors = document.all_findings().to_vec();
+    errors.retain(|finding| finding.severity == Severity::Error);
+    let any_errors = errors
+        .iter()
+        .any(|finding| finding.rule != Rule::NotTheDrawing);
+    // A radius that the wire cannot follow does not change where it goes, nor does what the drawing is now.
+    errors.retain(|finding| !matches!(finding.rule, Rule::SmallRadius | Rule::NotTheDrawing));
+    if !force && !errors.is_empty() {
+        return Err(Refusal::Errors(errors));
+    }
+    if program.mills() {
+        return Err(Refusal::Sentence(say!(it_is_milled).into()));
+    }
+    let cuts = convert::cuts(program);
+    if cuts.cuts.is_empty() {
+        return Err(Refusal::Sentence(say!(it_cuts_nothing).into()));
+    }
+    let format = match target {
+        Target::Drawing => {
+            let bytes = dxf::write(&cuts.drawing()).map_err(Refusal::Fault)?;
+            return Ok(Converted {
+                bytes,
+                blocks: None,
+                cuts,
+            });
+        }
+        Target::Program(format) => format,
+    };
+    let settings = document.settings();
+    if let Some(reason) = cuts.refusal(format, settings) {
+        return Err(Refusal::Sentence(reason));
+    }
+    // µm are the unit of the cuts.
+    let written = format.write(&cuts.paths(), 1e-3, settings, &mut |_, _| true);
+    let written = written.map_err(|error| {
+        let errors = (force || any_errors).then_some(errors);
+        Refusal::of_proof(error, errors, |reason| say!(no_other_program, reason))
+    })?;
+    Ok(Converted {
+        bytes: written.text.into_bytes(),
+        blocks: Some(written.blocks),
+        cuts,
+    })
+}
