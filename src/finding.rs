@@ -48,8 +48,18 @@ impl From<&ContourSegment> for Place {
 }
 
 impl Place {
+    /// The entity that it lies at in a drawing, and the segment where it is one.
+    pub(crate) fn entity(&self) -> Option<(EntityId, Option<usize>)> {
+        match *self {
+            Place::Segment { entity, segment } => Some((entity, Some(segment))),
+            Place::Entity { entity } => Some((entity, None)),
+            Place::Text { .. } | Place::Document => None,
+        }
+    }
+
     fn is_of(&self, entities: &FxHashSet<EntityId>) -> bool {
-        matches!(self, Place::Segment { entity, .. } | Place::Entity { entity } if entities.contains(entity))
+        self.entity()
+            .is_some_and(|(entity, _)| entities.contains(&entity))
     }
 }
 
@@ -59,8 +69,7 @@ impl Finding {
         let of_entities = |entities| {
             self.place.is_of(entities) || self.related.iter().any(|place| place.is_of(entities))
         };
-        matches!(self.place, Place::Text { .. } | Place::Document)
-            || entities.is_none_or(of_entities)
+        self.place.entity().is_none() || entities.is_none_or(of_entities)
     }
 }
 

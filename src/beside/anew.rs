@@ -169,11 +169,6 @@ impl Anew {
             .pieces
             .iter()
             .min_by(|(one, _), (other, _)| farthest(one).total_cmp(&farthest(other)));
-        match nearest?.1 {
-            Source::Segment { entity, segment }
-            | Source::Corner { entity, segment }
-            | Source::Overlap { entity, segment } => Some((entity, segment)),
-            Source::Tab | Source::LeadIn | Source::LeadOut => None,
-        }
+        nearest?.1.segment()
     }
 }

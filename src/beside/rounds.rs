@@ -165,12 +165,7 @@ impl Rounds {
             beside: None,
         };
         for piece in path {
-            let source = match piece.source {
-                Source::Segment { entity, segment }
-                | Source::Corner { entity, segment }
-                | Source::Overlap { entity, segment } => Some((entity, segment)),
-                Source::Tab | Source::LeadIn | Source::LeadOut => None,
-            };
+            let source = piece.source.segment();
             match scaled(&piece.geometry, scale) {
                 // A circle has no place where it begins.
                 Segment::Arc(arc) if arc.is_full_turn() => {

@@ -188,11 +188,7 @@ pub(crate) fn row(path: &Path, document: &Document, finding: &Finding) -> Row {
 
 fn related(document: &Document, finding: &Finding, other: &Place) -> Option<RelatedRow> {
     let (text, range) = (document.text()?, document.range_of(other)?);
-    let (entity, segment) = match *other {
-        Place::Segment { entity, segment } => (entity, Some(segment)),
-        Place::Entity { entity } => (entity, None),
-        Place::Text { .. } | Place::Document => return None,
-    };
+    let (entity, segment) = other.entity()?;
     let handle = &document.drawing()?.get(entity)?.handle;
     let message = finding::related(finding, handle, segment, document.telling());
     let ((line, column), (end_line, end_column)) =

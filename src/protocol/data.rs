@@ -98,11 +98,7 @@ impl FindingData {
             }
         }
         let related = |place: &Place| {
-            let (entity, segment) = match *place {
-                Place::Segment { entity, segment } => (entity, Some(segment)),
-                Place::Entity { entity } => (entity, None),
-                Place::Text { .. } | Place::Document => return None,
-            };
+            let (entity, segment) = place.entity()?;
             Some(RelatedPlace {
                 handle: drawing?.get(entity)?.handle.to_string(),
                 segment,

@@ -76,11 +76,7 @@ fn range_at(document: &Document, place: &Place, encoding: Encoding) -> Range {
 
 /// The entity of a place in a drawing, and the segment.
 fn entity_of<'a>(document: &'a Document, place: &Place) -> Option<(&'a Entity, Option<usize>)> {
-    let (entity, segment) = match *place {
-        Place::Segment { entity, segment } => (entity, Some(segment)),
-        Place::Entity { entity } => (entity, None),
-        Place::Text { .. } | Place::Document => return None,
-    };
+    let (entity, segment) = place.entity()?;
     Some((document.drawing()?.get(entity)?, segment))
 }
 

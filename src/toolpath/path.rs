@@ -30,13 +30,19 @@ pub enum Source {
 
 impl Source {
     /// The segment of the drawing, where it is of one.
-    pub(crate) fn place(self) -> Option<Place> {
+    pub(crate) fn segment(self) -> Option<(EntityId, usize)> {
         match self {
             Source::Segment { entity, segment }
             | Source::Corner { entity, segment }
-            | Source::Overlap { entity, segment } => Some(Place::Segment { entity, segment }),
+            | Source::Overlap { entity, segment } => Some((entity, segment)),
             Source::Tab | Source::LeadIn | Source::LeadOut => None,
         }
+    }
+
+    /// The same as the place of a finding.
+    pub(crate) fn place(self) -> Option<Place> {
+        let (entity, segment) = self.segment()?;
+        Some(Place::Segment { entity, segment })
     }
 }
 
