@@ -249,6 +249,13 @@ impl SourceText {
         own.unwrap_or("\n")
     }
 
+    /// Those of some edits that change anything, in the order of the text.
+    pub(crate) fn changing(&self, mut edits: Vec<TextEdit>) -> Vec<TextEdit> {
+        edits.sort_by_key(|edit| edit.range.start);
+        edits.retain(|edit| self.slice(edit.range.clone()) != Some(edit.text.as_bytes()));
+        edits
+    }
+
     /// The edit that leaves a word out, with the space behind it in its line.
     pub(crate) fn without_word(&self, word: &Range<usize>) -> TextEdit {
         let behind = self.bytes().get(word.end..).unwrap_or_default();

@@ -1376,3 +1376,67 @@ fn points_are_hints() {
         assert_eq!(told, [severity]);
     }
 }
+
+/// The drawing on the page of a rule, turned by a quarter and mirrored.
+fn mirrored(drawing: &Drawing) -> Drawing {
+    let place = |at: Point| Point::new(at.y, at.x);
+    let angle = |angle: f64| positive_angle(PI / 2.0 - angle);
+    let mut other = Drawing::new(drawing.unit);
+    for &id in drawing.order() {
+        let mut entity = drawing.get(id).unwrap().clone();
+        entity.geometry = match entity.geometry {
+            Geometry::Polyline { closed, vertices } => Geometry::Polyline {
+                closed,
+                vertices: vertices
+                    .iter()
+                    .map(|vertex| Vertex::new(vertex.point.y, vertex.point.x, -vertex.bulge))
+                    .collect(),
+            },
+            Geometry::Line { start, end } => Geometry::Line {
+                start: place(start),
+                end: place(end),
+            },
+            Geometry::Arc {
+                center,
+                radius,
+                start_angle,
+                end_angle,
+            } => Geometry::Arc {
+                center: place(center),
+                radius,
+                start_angle: angle(end_angle),
+                end_angle: angle(start_angle),
+            },
+            Geometry::Circle { center, radius } => Geometry::Circle {
+                center: place(center),
+                radius,
+            },
+            Geometry::Text { at, text } => Geometry::Text {
+                at: place(at),
+                text,
+            },
+        };
+        other.push(entity);
+    }
+    other
+}
+
+/// A new rule needs no row here: the drawing on its page is its fixture.
+#[test]
+fn what_a_rule_finds_on_its_page_it_finds_in_the_mirror() {
+    let pictures = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures");
+    let mut tried = 0;
+    for rule in Rule::ALL {
+        let Ok(bytes) = std::fs::read(pictures.join(format!("{}.dxf", rule.name()))) else {
+            continue;
+        };
+        let document = wedm::dxf::Document::read(bytes);
+        let drawing = document.drawing();
+        let expected = count(&analysed(drawing).1, rule);
+        let other = mirrored(drawing);
+        let found = count(&analysed(&other).1, rule);
+        assert_eq!(found, expected, "{}", rule.name());
+        tried += usize::from(expected > 0);
+    }
+    assert!(tried >= 10, "{tried} rules find something on their pages");
+}

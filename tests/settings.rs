@@ -271,7 +271,7 @@ impl Sentences {
 }
 
 /// What a key means, or one of its words, in Chinese.
-fn in_chinese(row: &Row, word: Option<&str>) -> &'static str {
+fn in_chinese(row: &Row, word: Option<&str>) -> String {
     let name = || word.map_or(row.key.clone(), |word| format!("{} = {word}", row.key));
     row.in_chinese(word)
         .unwrap_or_else(|| panic!("src/message/meanings.rs does not have {}", name()))
@@ -312,14 +312,14 @@ fn every_meaning_has_its_twin_with_the_same_links_and_code() {
         assert!(is_chinese && chinese.ends_with('。'), "{name}: {chinese}");
     };
     for row in rows() {
-        same(&row.key, &row.meaning, in_chinese(&row, None));
+        same(&row.key, &row.meaning, &in_chinese(&row, None));
         if !row.key.starts_with("drawings.NAME") {
             for (word, meaning) in words(&schema_of(&row)) {
                 if !meaning.is_empty() {
                     same(
                         &format!("{} = {word}", row.key),
                         meaning,
-                        in_chinese(&row, Some(word)),
+                        &in_chinese(&row, Some(word)),
                     );
                 }
             }
@@ -365,7 +365,7 @@ fn editor_schema(row: &Row, schema: &Value, is_root: bool, sentences: &mut Sente
                     false => sentences.named(
                         &format!("{}.{name}", row.key),
                         meaning,
-                        in_chinese(row, Some(name)),
+                        &in_chinese(row, Some(name)),
                     ),
                 })
                 .collect();
@@ -450,7 +450,7 @@ fn the_settings_page_of_vs_code_has_every_key() {
             let key = row.key.strip_prefix("profiles.NAME.")?;
             let mut schema = editor_schema(row, &schema_of(row), false, &mut sentences);
             let chinese = in_chinese(row, None);
-            schema["description"] = sentences.named(&row.key, &row.plain_meaning(), chinese);
+            schema["description"] = sentences.named(&row.key, &row.plain_meaning(), &chinese);
             Some((camel_case(key), schema))
         })
         .collect();
@@ -470,7 +470,7 @@ fn the_settings_page_of_vs_code_has_every_key() {
         }
         // The pages of the rules are there in Chinese, too.
         let [english, chinese] = [
-            (&*row.meaning, docs.to_owned()),
+            (row.meaning.clone(), docs.to_owned()),
             (in_chinese(row, None), format!("{docs}zh/")),
         ]
         .map(|(meaning, rules)| {
@@ -642,7 +642,6 @@ fn a_profile_that_ships_is_named_wherever_profiles_are_listed() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let places = [
         "docs/programs.md",
-        "src/settings/keys.rs",
         "clients/vscode/src/commands/profiles.ts",
     ];
     for place in places {

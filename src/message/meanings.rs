@@ -84,7 +84,7 @@ const MEANINGS: &[(&str, &str)] = &[
     ("program.units = mm", "毫米。"),
     ("program.units = inch", "英寸。"),
     ("program.drawing", "程序所依据的图形文件，路径从程序所在文件夹算起，用来与图形对照：[`not-the-drawing`](rules/not-the-drawing.md)。未设置时，取程序注释中写明的，否则取同名的 DXF。"),
-    ("program.profile", "ISO 程序的写法：`fast-wire`、`robofil`、`generic`，或 `profiles` 中的一个。"),
+    ("program.profile", "ISO 程序的写法：{profiles}，或 `profiles` 中的一个。"),
     ("program.end", "结束程序的代码，由字母和数字组成。"),
     ("program.pause", "使机床停下以便剪丝、穿丝的代码，由字母和数字组成。"),
     ("job.thickness", "工件高度，mm。"),

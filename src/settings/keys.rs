@@ -3,7 +3,7 @@
 //! Any level may set any key. A key that is added here is read, overlaid and documented; what is to be done with it is its user's matter.
 
 use super::reader::{Reader, Table};
-use super::row::{Range, Row};
+use super::row::{Range, Row, naming_profiles};
 use super::spelling::words_of;
 use super::table::{Overlay, as_toml, kebab_case};
 use super::value::Node;
@@ -197,7 +197,7 @@ tables! {
         /// The drawing that programs belong to, from their own folder on, which they are compared with:
         /// [`not-the-drawing`](rules/not-the-drawing.md). Not set: the one that a comment of the program names, else the DXF of the same name.
         drawing: String => path;
-        /// How ISO programs are written: `fast-wire`, `robofil`, `generic`, or one of `profiles`.
+        /// How ISO programs are written: {profiles}, or one of `profiles`.
         profile: String = "generic" => profile_name;
         /// Word of letters and digits that ends the program.
         end: String = "DD" => word;

@@ -1,5 +1,7 @@
 //! What the row of a key says: its name, its default, the numbers that it takes, and what it means.
 
+use super::shipped_profiles;
+
 /// The numbers that a key takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
@@ -59,15 +61,18 @@ pub struct Row {
 
 impl Row {
     /// The meaning of the key, or of one of its words, in Chinese.
-    pub fn in_chinese(&self, word: Option<&str>) -> Option<&'static str> {
+    pub fn in_chinese(&self, word: Option<&str>) -> Option<String> {
         let of_word = word.map(|word| format!("{} = {word}", self.key));
-        crate::message::meaning_in_chinese(of_word.as_deref().unwrap_or(&self.key))
+        let own = crate::message::meaning_in_chinese(of_word.as_deref().unwrap_or(&self.key))?;
+        Some(naming_profiles(own, "、"))
     }
 
     /// The meaning in the language that is spoken, without the targets of its links.
     pub fn plain_meaning(&self) -> String {
         let mut plain = String::new();
-        let mut rest = crate::message::meaning(&self.key).unwrap_or(&self.meaning);
+        let spoken = crate::message::meaning(&self.key);
+        let meaning = spoken.map_or_else(|| self.meaning.clone(), |own| naming_profiles(own, "、"));
+        let mut rest = meaning.as_str();
         while let Some((before, link)) = rest.split_once("](") {
             plain.extend(before.rsplitn(2, '[').collect::<Vec<_>>().into_iter().rev());
             rest = link.split_once(')').map_or("", |(_, behind)| behind);
@@ -82,4 +87,10 @@ impl Row {
         let first = first.split(". ").next().unwrap_or_default();
         first.trim_end_matches(['.', ' ']).to_owned()
     }
+}
+
+/// A meaning with the names of the profiles that ship where it says `{profiles}`.
+pub(super) fn naming_profiles(meaning: &str, between: &str) -> String {
+    let names = || shipped_profiles().map(|name| format!("`{name}`"));
+    meaning.replace("{profiles}", &names().collect::<Vec<_>>().join(between))
 }

@@ -120,7 +120,7 @@ macro_rules! table {
                     range: where_given!($(Some($range))?),
                     read: stringify!($read),
                     words: words!($read $type),
-                    meaning: [$($doc.trim()),*].join(" "),
+                    meaning: naming_profiles(&[$($doc.trim()),*].join(" "), ", "),
                 }),*]
             }
 

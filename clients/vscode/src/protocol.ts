@@ -637,7 +637,7 @@ export interface ProgramSettings {
    */
   drawing?: string;
   /**
-   * How ISO programs are written: `fast-wire`, `robofil`, `generic`, or one of `profiles`.
+   * How ISO programs are written: `fast-wire`, `generic`, `robofil`, or one of `profiles`.
    */
   profile?: string;
   /**

@@ -84,9 +84,7 @@ pub(super) fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, 
             None => edits.push(call),
         }
     }
-    edits.sort_by_key(|edit| edit.range.start);
-    edits.retain(|edit| text.bytes().get(edit.range.clone()) != Some(edit.text.as_bytes()));
-    Ok(edits)
+    Ok(text.changing(edits))
 }
 
 /// True where a line begins a program (`O`).

@@ -19,9 +19,7 @@ pub(super) fn numbered(document: &Document) -> Vec<TextEdit> {
             }
         }
     }
-    let bytes = document.text().bytes();
-    edits.retain(|edit| bytes.get(edit.range.clone()) != Some(edit.text.as_bytes()));
-    edits
+    document.text().changing(edits)
 }
 
 /// The edits that leave the block numbers out, with the space behind them.

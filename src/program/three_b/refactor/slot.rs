@@ -23,9 +23,7 @@ pub(super) fn edits(
     for (&row, news) in &rewrite.rows {
         edits.push(slot(text, content, row, news)?);
     }
-    edits.sort_by_key(|edit| edit.range.start);
-    edits.retain(|edit| text.bytes().get(edit.range.clone()) != Some(edit.text.as_bytes()));
-    Ok(edits)
+    Ok(text.changing(edits))
 }
 
 fn new_header(text: &SourceText, header: &Range<usize>, start: Node) -> Result<TextEdit, String> {
