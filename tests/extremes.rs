@@ -6,16 +6,18 @@ use std::sync::Arc;
 use wedm::document::{Document, Source};
 use wedm::finding::Edit;
 use wedm::program::{self, Language};
-use wedm::settings::Effective;
+use wedm::settings::{Budget, Effective};
 
 /// More than `format!` takes as a width.
 const WIDE: usize = 70_000;
 
 fn dxf(text: &str) -> Document {
-    Document::new(
-        Source::Dxf(wedm::dxf::Document::read(text.as_bytes().to_vec())),
-        Arc::new(Effective::default()),
-    )
+    dxf_under(text, Effective::default())
+}
+
+fn dxf_under(text: &str, settings: Effective) -> Document {
+    let read = wedm::dxf::Document::read(text.as_bytes().to_vec());
+    Document::new(Source::Dxf(read), Arc::new(settings))
 }
 
 fn three_b(text: &str) -> Document {
@@ -137,10 +139,15 @@ fn group_codes_behind_more_padding_than_a_column_can_be_wide_are_repaired() {
 
 /// Entities in a drawing in mm.
 fn drawing(entities: impl Iterator<Item = String>) -> Document {
+    drawing_under(entities, Effective::default())
+}
+
+fn drawing_under(entities: impl Iterator<Item = String>, settings: Effective) -> Document {
     let entities: String = entities.collect();
-    dxf(&format!(
+    let text = format!(
         "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"
-    ))
+    );
+    dxf_under(&text, settings)
 }
 
 fn said(document: &mut Document) -> Vec<(&'static str, String)> {
@@ -159,7 +166,17 @@ fn what_lies_side_by_side_by_the_thousand_is_compared_within_bounds_and_what_was
     let lines = |count: usize| {
         let line =
             |number: usize| format!("0\nLINE\n10\n{number}\n20\n0\n11\n{number}\n21\n7000\n");
-        let mut document = drawing((0..count).map(line));
+        // A tenth of what a drawing is granted, so that a tenth of the lines is too many.
+        let granted = Budget::default();
+        let budget = Budget {
+            looks: granted.looks / 10,
+            ..granted
+        };
+        let settings = Effective {
+            budget,
+            ..Effective::default()
+        };
+        let mut document = drawing_under((0..count).map(line), settings);
         said(&mut document)
             .into_iter()
             .filter(|(rule, _)| *rule == "not-judged")
@@ -167,7 +184,7 @@ fn what_lies_side_by_side_by_the_thousand_is_compared_within_bounds_and_what_was
             .collect::<Vec<_>>()
     };
     assert_eq!(lines(500), [""; 0]);
-    let [sentence] = &lines(24_000)[..] else {
+    let [sentence] = &lines(2_400)[..] else {
         panic!("one finding is expected")
     };
     assert!(sentence.contains("not compared"), "{sentence}");

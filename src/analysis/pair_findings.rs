@@ -246,8 +246,8 @@ impl Pairs {
             &seen.iter().map(|(_, _, each)| *each).collect::<Vec<_>>(),
             &|key| outlook(key).map(|it| it.contour.len()),
         );
-        // What is open is not cut, and an error of its own: how near it comes to others, what it touches, and which others of its kind it
-        // crosses is asked again when it is closed.
+        // What is open is not cut, and an error of its own: how near it comes to others, and what it touches, crosses or runs on is asked
+        // again when it is closed.
         let doubled: FxHashSet<EntityId> = doubles
             .iter()
             .flat_map(|(one, other)| [*one, *other])
@@ -291,17 +291,14 @@ impl Pairs {
             } else {
                 each.mildest
             };
-            let one_of_them = || is_told_open(each.one.0) || is_told_open(each.other.0);
             let is_absorbed = !is_for_a_path
                 && open_is_an_error
                 && each.one.0 != each.other.0
-                && match rule.rule {
-                    Rule::SelfIntersection if mildest.is_none() => {
-                        is_told_open(each.one.0) && is_told_open(each.other.0)
-                    }
-                    Rule::SelfIntersection | Rule::NarrowSlot => one_of_them(),
-                    _ => false,
-                };
+                && matches!(
+                    rule.rule,
+                    Rule::SelfIntersection | Rule::NarrowSlot | Rule::Overlap
+                )
+                && (is_told_open(each.one.0) || is_told_open(each.other.0));
             if is_absorbed {
                 *told.absorbed.entry((*number, mildest)).or_default() += 1;
                 continue;

@@ -58,10 +58,8 @@ pub(crate) fn program_svg(
         crate::message::lengths(cut / 1000.0, jumps / 1000.0, " · "),
         say!(where_it_ends, closure.x, closure.y),
     ];
-    let alert = alert(faults);
+    let alert = alert(faults, trace.upper_unknown.as_deref());
     let alert = alert.as_ref().map(|(class, text)| (*class, text.as_str()));
-    let unknown = trace.upper_unknown.as_deref();
-    let facts: Vec<&str> = facts.iter().map(String::as_str).chain(unknown).collect();
     sheet.heading(&title, &facts.join(" · "), alert);
     sheet.line(format_args!(
         "{}",
@@ -137,19 +135,19 @@ fn joins(a: &Step, b: &Step) -> bool {
 }
 
 /// How many errors and warnings there are, with the class of the worst.
-fn alert(faults: &[(usize, Severity, String)]) -> Option<(&'static str, String)> {
+fn alert(
+    faults: &[(usize, Severity, String)],
+    unknown: Option<&str>,
+) -> Option<(&'static str, String)> {
     let count = |severity| faults.iter().filter(|fault| fault.1 == severity).count();
     let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
-    let class = |severity| class_of(severity);
-    match (errors, warnings) {
-        (0, 0) => None,
-        (0, _) => Some((class(Severity::Warning), say!(warnings, warnings))),
-        (_, 0) => Some((class(Severity::Error), say!(errors, errors))),
-        _ => {
-            let both = format!("{} · {}", say!(errors, errors), say!(warnings, warnings));
-            Some((class(Severity::Error), both))
-        }
-    }
+    let told = [
+        (errors > 0).then(|| (Severity::Error, say!(errors, errors))),
+        (warnings > 0).then(|| (Severity::Warning, say!(warnings, warnings))),
+        unknown.map(|why| (Severity::Information, why.to_owned())),
+    ];
+    let (severities, told): (Vec<Severity>, Vec<String>) = told.into_iter().flatten().unzip();
+    Some((class_of(*severities.first()?), told.join(" · ")))
 }
 
 fn path(

@@ -62,8 +62,9 @@ impl Sheet {
             escaped(title)
         ));
         self.line(format_args!(
-            r#"<text class="note" x="{MARGIN}" y="54">{}</text>"#,
-            escaped(facts)
+            r#"<text class="note" x="{MARGIN}" y="54"><title>{0}</title>{1}</text>"#,
+            escaped(facts),
+            escaped(&shortened(facts, COLUMNS))
         ));
         if let Some((class, alert)) = alert {
             self.line(format_args!(

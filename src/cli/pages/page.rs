@@ -50,6 +50,7 @@ pub(super) struct Line {
     smallest_mm: Option<f64>,
     errors: usize,
     warnings: usize,
+    notes: usize,
     blocks: Option<usize>,
     minutes: Option<f64>,
 }
@@ -81,6 +82,7 @@ impl Page {
         let program = job::generate(&snapshot, findings.to_vec(), &wanted, &())
             .map_err(|refusal| refusal.sentence(opened.document.telling()));
         let count = |severity| rows.iter().filter(|row| row.severity == severity).count();
+        let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
         let Snapshot {
             drawing,
             outlines,
@@ -103,8 +105,9 @@ impl Page {
                 name: output::name(&opened.path),
                 contours: outlines.len(),
                 smallest_mm: arcs.first().map(|arc| arc.radius_mm),
-                errors: count(Severity::Error),
-                warnings: count(Severity::Warning),
+                errors,
+                warnings,
+                notes: rows.len() - errors - warnings,
                 blocks: program.as_ref().ok().map(|made| made.program.blocks),
             },
             unit_mm,
@@ -127,16 +130,7 @@ impl Page {
     }
 
     pub(super) fn html(&self) -> String {
-        let Line {
-            name,
-            errors,
-            warnings,
-            ..
-        } = &self.line;
-        let counts = match (errors, warnings) {
-            (0, 0) => span("good", say!(nothing_found)),
-            _ => counts(*errors, *warnings),
-        };
+        let (name, counts) = (&self.line.name, counts(&self.line));
         let parts = [
             format!("<h1>{}</h1>\n<p class=\"under\">{counts}</p>\n", text(name)),
             self.picture.clone(),
@@ -373,15 +367,11 @@ pub(super) fn index(lines: &[(String, Line)]) -> String {
     let row = |(page, line): &(String, Line)| {
         let link = format!("<a href=\"{}\">{}</a>", text(page), text(&line.name));
         let smallest = line.smallest_mm.map(|radius| format!("{radius:.4}"));
-        let found = match (line.errors, line.warnings) {
-            (0, 0) => span("good", say!(nothing_found)),
-            (errors, warnings) => counts(errors, warnings),
-        };
         let mut cells = vec![
             ("", link),
             number(line.contours),
             number(smallest.unwrap_or_default()),
-            ("", found),
+            ("", counts(line)),
             number(
                 line.blocks
                     .map(|blocks| blocks.to_string())
@@ -417,12 +407,23 @@ fn span(class: &str, content: impl std::fmt::Display) -> String {
     format!("<span class=\"{class}\">{}</span>", text(content))
 }
 
-fn counts(errors: usize, warnings: usize) -> String {
+fn counts(line: &Line) -> String {
+    let Line {
+        errors,
+        warnings,
+        notes,
+        ..
+    } = *line;
     let told = [
         (errors > 0).then(|| span("error", say!(errors, errors))),
         (warnings > 0).then(|| span("warning", say!(warnings, warnings))),
+        (notes > 0).then(|| span("faint", say!(notes, notes))),
     ];
-    told.into_iter().flatten().collect::<Vec<_>>().join(" · ")
+    let told: Vec<String> = told.into_iter().flatten().collect();
+    match told.is_empty() {
+        true => span("good", say!(nothing_found)),
+        false => told.join(" · "),
+    }
 }
 
 fn class_of(severity: Severity) -> &'static str {

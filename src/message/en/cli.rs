@@ -202,7 +202,7 @@ declare! {
     checked(files, result) => "{files} checked: {result}";
     says(level, sentence) => "{level}: {sentence}";
     area_of(area) => ", area {area:.3} mm²";
-    contour_and_what_it_is(index, shape, role, segments, length) => "contour {index}: {shape}, {role}, {segments}, length {length:.3} mm";
+    contour_and_what_it_is(index, shape, role, segments, length) => "contour {index}: {shape}, {role}, {segments}, contour {length:.3} mm";
     action_without_a_title => "without a title";
     the_preferred_action(title) => "preferred: {title}";
     another_action(title) => "or: {title}";

@@ -202,7 +202,7 @@ translate! {
     checked(files, result) => "已检查 {files}：{result}";
     says(level, sentence) => "{level}：{sentence}";
     area_of(area) => "，面积 {area:.3} mm²";
-    contour_and_what_it_is(index, shape, role, segments, length) => "轮廓 {index}：{shape}，{role}，{segments}，长 {length:.3} mm";
+    contour_and_what_it_is(index, shape, role, segments, length) => "轮廓 {index}：{shape}，{role}，{segments}，轮廓 {length:.3} mm";
     action_without_a_title => "（没有标题）";
     the_preferred_action(title) => "首选：{title}";
     another_action(title) => "或：{title}";
