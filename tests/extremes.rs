@@ -166,10 +166,10 @@ fn what_lies_side_by_side_by_the_thousand_is_compared_within_bounds_and_what_was
     let lines = |count: usize| {
         let line =
             |number: usize| format!("0\nLINE\n10\n{number}\n20\n0\n11\n{number}\n21\n7000\n");
-        // A tenth of what a drawing is granted, so that a tenth of the lines is too many.
+        // A twentieth of what a drawing is granted, so that a tenth of the lines is too many.
         let granted = Budget::default();
         let budget = Budget {
-            looks: granted.looks / 10,
+            looks: granted.looks / 20,
             ..granted
         };
         let settings = Effective {

@@ -246,8 +246,8 @@ impl Pairs {
             &seen.iter().map(|(_, _, each)| *each).collect::<Vec<_>>(),
             &|key| outlook(key).map(|it| it.contour.len()),
         );
-        // What is open is not cut, and an error of its own: how near it comes to others, and what it touches, crosses or runs on is asked
-        // again when it is closed.
+        // What is open is not cut, and an error of its own: how near it comes to others, and what it touches or crosses is asked again
+        // when it is closed.
         let doubled: FxHashSet<EntityId> = doubles
             .iter()
             .flat_map(|(one, other)| [*one, *other])
@@ -294,10 +294,7 @@ impl Pairs {
             let is_absorbed = !is_for_a_path
                 && open_is_an_error
                 && each.one.0 != each.other.0
-                && matches!(
-                    rule.rule,
-                    Rule::SelfIntersection | Rule::NarrowSlot | Rule::Overlap
-                )
+                && matches!(rule.rule, Rule::SelfIntersection | Rule::NarrowSlot)
                 && (is_told_open(each.one.0) || is_told_open(each.other.0));
             if is_absorbed {
                 *told.absorbed.entry((*number, mildest)).or_default() += 1;

@@ -62,9 +62,11 @@ impl Sheet {
             escaped(title)
         ));
         self.line(format_args!(
-            r#"<text class="note" x="{MARGIN}" y="54"><title>{0}</title>{1}</text>"#,
-            escaped(facts),
-            escaped(&shortened(facts, COLUMNS))
+            r#"<text class="note" x="{MARGIN}" y="54">{}</text>"#,
+            match shortened(facts, COLUMNS) {
+                short if short == facts => escaped(facts),
+                short => format!("<title>{}</title>{}", escaped(facts), escaped(&short)),
+            }
         ));
         if let Some((class, alert)) = alert {
             self.line(format_args!(
