@@ -3,10 +3,12 @@
 use super::cut::{Cut, PartAt};
 use super::document::Document;
 use super::moves::{Move, Place, apart, micrometres};
+use super::part::Part;
 use super::stretch::StopAt;
 use crate::geometry::{Point, Segment};
 use crate::program::path::{
-    self, Blocks, Ends, HasCuts, HeldWay, Lay, Node, PartedWay, Writing, is_tab, mixed, pieces_of,
+    self, BehindStops, Blocks, Ends, HasCuts, HeldWay, Lay, Node, PartedWay, Way, Writing, goes_on,
+    mixed, pieces_of,
 };
 use std::cell::OnceCell;
 use std::ops::Range;
@@ -14,16 +16,8 @@ use std::ops::Range;
 impl HasCuts for Document {
     type Cut = Cut;
 
-    /// Where it begins and ends, seen from where it begins.
     fn ends(&self, cut: &Cut) -> Ends {
-        let ([first, second], [_, last]) = (&cut.sum.first, &cut.sum.last);
-        let seen = |place: Place| Node::at(micrometres(apart(place, first.from)));
-        Ends {
-            begin: [first.from, first.to, second.to].map(seen),
-            end: [last.from, last.to].map(seen),
-            blocks: cut.sum.moves as usize,
-            tolerance: self.tolerance(cut),
-        }
+        self.ends_of(&cut.sum)
     }
 
     fn twice_area(&self, cut: &Cut) -> f64 {
@@ -66,7 +60,19 @@ impl HasCuts for Document {
 impl Document {
     /// How far a cut may end beside a place and still end in it, µm.
     pub(super) fn tolerance(&self, cut: &Cut) -> f64 {
-        path::tolerance(cut.sum.arcs as usize).max(self.reading().writing().slack)
+        self.ends(cut).tolerance
+    }
+
+    /// Where some moves begin and end, seen from where they begin.
+    fn ends_of(&self, sum: &Part) -> Ends {
+        let ([first, second], [_, last]) = (&sum.first, &sum.last);
+        let seen = |place: Place| Node::at(micrometres(apart(place, first.from)));
+        Ends {
+            begin: [first.from, first.to, second.to].map(seen),
+            end: [last.from, last.to].map(seen),
+            blocks: sum.moves as usize,
+            tolerance: path::tolerance(sum.arcs as usize).max(self.reading().writing().slack),
+        }
     }
 
     /// The cuts with which something may be wrong, each with what goes on behind the stop at its tab; and the stops before tabs.
@@ -140,61 +146,33 @@ fn contours(cuts: Vec<Option<Cut>>, tabs: &[StopAt]) -> Vec<Cut> {
 /// The stops before tabs, in the order in which they run.
 fn tabs(document: &Document, cuts: &[Option<Cut>]) -> Vec<StopAt> {
     let mut found = Vec::new();
-    if document
-        .stretches()
-        .iter()
-        .all(|stretch| stretch.pauses == 0)
-    {
+    let stretches = document.stretches();
+    if stretches.iter().all(|stretch| stretch.pauses == 0) {
         return found;
     }
-    // Cuts that are open, one behind the other.
-    let mut open: Vec<OpenCut<'_>> = Vec::new();
-    for cut in cuts {
-        let is_open = |cut: &&Cut| cut.sum.whole && !document.goes_round(cut);
-        let Some(cut) = cut.as_ref().filter(is_open) else {
-            open.clear();
-            continue;
-        };
-        let goes_on = |last: &OpenCut<'_>| {
-            last.cut.single_stop().is_some() && last.cut.sum.last[1].to == cut.sum.first[0].from
-        };
-        if !open.last().is_some_and(goes_on) {
-            open.clear();
-        }
-        open.push(OpenCut {
+    let open_cut = cuts.iter().map(|cut| {
+        let cut = cut.as_ref()?;
+        (cut.sum.whole && !document.goes_round(cut)).then(|| OpenCut {
             cut,
             pieces: OnceCell::new(),
+        })
+    });
+    let cuts: Vec<Option<OpenCut<'_>>> = open_cut.collect();
+    let mut first = 0;
+    while first < cuts.len() {
+        let end = cuts[first].as_ref().and_then(|open| {
+            let mut behind = Behind {
+                document,
+                cuts: &cuts[first..],
+                taken: 1,
+                sum: open.cut.sum,
+            };
+            (goes_on(&mut behind) == Some(true)).then_some(first + behind.taken)
         });
-        let way = |cuts: Range<usize>| held(document, &open[cuts]);
-        let last = open.len() - 1;
-        let moves = |begin: usize| {
-            open[begin..]
-                .iter()
-                .map(|open| open.cut.sum.moves)
-                .sum::<u32>()
-        };
-        let is_tab = |begin: &usize| {
-            moves(*begin) > 2
-                && is_tab(
-                    &way(*begin..last),
-                    &way(last..last + 1),
-                    &way(*begin..last + 1),
-                ) == Some(true)
-        };
-        if let Some(begin) = (0..last).find(is_tab) {
-            found.extend(
-                open[begin..last]
-                    .iter()
-                    .filter_map(|open| open.cut.single_stop()),
-            );
-            open.clear();
-        }
-        if open.len() > MOST_STOPS {
-            open.remove(0);
-        }
-        if cut.single_stop().is_none() {
-            open.clear();
-        }
+        let before_stops = first..end.map_or(first, |end| end - 1);
+        let stops = cuts[before_stops].iter().flatten();
+        found.extend(stops.filter_map(|open| open.cut.single_stop()));
+        first = end.unwrap_or(first + 1);
     }
     found
 }
@@ -205,25 +183,56 @@ struct OpenCut<'a> {
     pieces: OnceCell<Vec<Segment>>,
 }
 
-/// Cuts as one way, from where the first begins.
-fn held(document: &Document, cuts: &[OpenCut<'_>]) -> HeldWay {
-    let begin = cuts.first().map_or([0, 0], |open| open.cut.sum.start());
-    let mut way = HeldWay::from(Node::at(Point::origin()), document.reading().writing());
-    for (nth, OpenCut { cut, pieces }) in cuts.iter().enumerate() {
-        if nth > 0 {
-            way.stop_here();
-        }
-        let own = pieces.get_or_init(|| pieces_of(&document.way(cut)).unwrap_or_default());
-        let by = micrometres(apart(cut.sum.start(), begin)).coords;
-        for piece in own.iter().map(|piece| piece.moved(by)) {
-            way.push(piece, piece.as_arc().is_some(), Node::at(piece.end()));
-        }
-    }
-    way
+/// Open cuts that go on behind the stops of each other.
+struct Behind<'a> {
+    document: &'a Document,
+    /// From the first one on; `None` for what is not open.
+    cuts: &'a [Option<OpenCut<'a>>],
+    taken: usize,
+    /// Of all that were taken.
+    sum: Part,
 }
 
-/// Stops in one contour.
-const MOST_STOPS: usize = 4;
+impl BehindStops for Behind<'_> {
+    fn take_next(&mut self) -> Option<()> {
+        let [last, next] = self.cuts.get(self.taken - 1..self.taken + 1)? else {
+            return None;
+        };
+        let (last, next) = (last.as_ref()?.cut, next.as_ref()?.cut);
+        let goes_on = last.single_stop().is_some() && last.sum.last[1].to == next.sum.first[0].from;
+        self.sum.append(goes_on.then_some(&next.sum)?);
+        self.taken += 1;
+        Some(())
+    }
+
+    fn ends(&self) -> Ends {
+        self.document.ends_of(&self.sum)
+    }
+
+    /// From where the first of them begins.
+    fn way(&self, cuts: Range<usize>) -> impl Way {
+        let open = || self.cuts[cuts.clone()].iter().flatten();
+        let begin = open().next().map_or([0, 0], |open| open.cut.sum.start());
+        let writing = self.document.reading().writing();
+        let mut way = HeldWay::from(Node::at(Point::origin()), writing);
+        for (nth, OpenCut { cut, pieces }) in open().enumerate() {
+            if nth > 0 {
+                way.stop_here();
+            }
+            let own = || pieces_of(&self.document.way(cut)).unwrap_or_default();
+            let by = micrometres(apart(cut.sum.start(), begin)).coords;
+            for piece in pieces.get_or_init(own).iter().map(|piece| piece.moved(by)) {
+                way.push(piece, piece.as_arc().is_some(), Node::at(piece.end()));
+            }
+        }
+        way
+    }
+
+    /// None of them goes round.
+    fn last_stands_alone(&self) -> bool {
+        false
+    }
+}
 
 /// The way of some parts that go on one behind the other, stretches and their parts, from where the first begins.
 pub(super) fn way_of(

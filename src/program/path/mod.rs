@@ -2,6 +2,7 @@
 //!
 //! Lengths are µm. Nothing here knows how a language is written.
 
+mod behind_stops;
 mod contour;
 mod crossing;
 mod crossings;
@@ -16,7 +17,8 @@ mod tight;
 mod trace;
 mod way;
 
-pub(in crate::program) use contour::{Ends, closing, is_tab, not_closed};
+pub(in crate::program) use behind_stops::{BehindStops, goes_on};
+pub(in crate::program) use contour::{Ends, closing, not_closed};
 pub(in crate::program) use crossing::crossings as crossings_of;
 pub(in crate::program) use crossings::{Found, Known};
 pub(crate) use cut::Cut;
@@ -33,4 +35,4 @@ pub(crate) use trace::Chain;
 pub use trace::{Kind, Step, Trace};
 pub(crate) use way::Writing;
 pub(crate) use way::tolerance;
-pub(in crate::program) use way::{HeldWay, Node};
+pub(in crate::program) use way::{HeldWay, Node, Way};

@@ -9,15 +9,11 @@ use super::cuts::joined;
 use super::{At, Cut, Document, PartAt, View};
 use crate::finding::{Axis, Detail, Fault, Finding, Rule, Severity};
 use crate::geometry::{Bounds, Vector};
-use crate::program::path::{HasCuts, Known, absurd_size, is_tab, tolerance};
+use crate::program::path::{
+    BehindStops, Ends, HasCuts, Known, Way, absurd_size, goes_on, tolerance,
+};
 use std::borrow::Cow;
 use std::ops::Range;
-
-/// Pauses in one contour, to hold the part before its last piece is cut.
-const PAUSES_WITHIN: usize = 16;
-
-/// Those of them behind which a tab is looked for.
-const TABS_WITHIN: usize = 4;
 
 /// Cuts that belong to one contour.
 struct GoesOn {
@@ -27,6 +23,45 @@ struct GoesOn {
     behind: PartAt,
     /// All of them, where the last one cuts off the tab.
     held: Option<Cut>,
+}
+
+/// An open cut and what has been taken from behind its stops.
+struct OpenCuts<'a> {
+    document: &'a Document,
+    end: Option<At>,
+    cuts: Vec<Cut>,
+    /// All up to each of them as one.
+    wholes: Vec<Cut>,
+    /// Where those behind the first begin.
+    begins: Vec<PartAt>,
+}
+
+impl BehindStops for OpenCuts<'_> {
+    fn take_next(&mut self) -> Option<()> {
+        let whole = self.wholes.last()?;
+        let begin = self.document.part_behind(whole.parts[1]);
+        let next = self.document.cut_from(begin, self.end)?;
+        self.wholes.push(joined(whole.clone(), &next));
+        self.cuts.push(next);
+        self.begins.push(begin);
+        Some(())
+    }
+
+    fn ends(&self) -> Ends {
+        self.document.ends(&self.wholes[self.wholes.len() - 1])
+    }
+
+    fn way(&self, cuts: Range<usize>) -> impl Way {
+        self.document.way(match cuts.start {
+            0 => &self.wholes[cuts.end - 1],
+            single => &self.cuts[single],
+        })
+    }
+
+    fn last_stands_alone(&self) -> bool {
+        let last = &self.cuts[self.cuts.len() - 1];
+        last.sum.blocks > 0 && (last.is_jump || self.document.is_closed(last))
+    }
 }
 
 impl Document {
@@ -141,32 +176,20 @@ impl Document {
     /// What goes on with an open cut behind a stop: a tab, or blocks that come back to the start together, in whatever order they
     /// are cut. `None` where there is nothing.
     fn goes_on(&self, view: &View, cut: &Cut) -> Option<GoesOn> {
-        let mut whole = cut.clone();
-        let mut begins = Vec::new();
-        let mut may_be_tab = true;
-        for pause in 0..PAUSES_WITHIN {
-            let next = self.part_behind(whole.parts[1]);
-            let more = self.cut_from(next, view.end)?;
-            let longer = joined(whole.clone(), &more);
-            begins.push(next);
-            may_be_tab &= pause < TABS_WITHIN;
-            let is_tab = may_be_tab
-                && more.sum.blocks > 0
-                && longer.sum.blocks > 2
-                && is_tab(&self.way(&whole), &self.way(&more), &self.way(&longer)) == Some(true);
-            if is_tab || longer.sum.ends().close() {
-                return Some(GoesOn {
-                    begins,
-                    behind: self.part_behind(more.parts[1]),
-                    held: is_tab.then_some(longer),
-                });
-            }
-            // What closes by itself is a contour of its own, and what leads to it no tab.
-            may_be_tab =
-                may_be_tab && (more.sum.blocks == 0 || !(more.is_jump || self.is_closed(&more)));
-            whole = longer;
-        }
-        None
+        let mut open = OpenCuts {
+            document: self,
+            end: view.end,
+            cuts: vec![cut.clone()],
+            wholes: vec![cut.clone()],
+            begins: Vec::new(),
+        };
+        let is_tab = goes_on(&mut open)?;
+        let whole = open.wholes.pop()?;
+        Some(GoesOn {
+            begins: open.begins,
+            behind: self.part_behind(whole.parts[1]),
+            held: is_tab.then_some(whole),
+        })
     }
 
     /// True for the way back to where the wire was threaded, behind a stop at the end of a closed contour.

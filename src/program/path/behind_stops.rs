@@ -1,0 +1,49 @@
+//! What goes on with an open cut behind a stop: the tab of its contour, or pieces that come back to the start together.
+
+use super::contour::{Ends, is_tab};
+use super::way::Way;
+use std::ops::Range;
+
+/// Stops in one contour, to hold the part before its last piece is cut.
+const STOPS_WITHIN: usize = 16;
+
+/// Those of them behind which a tab is looked for.
+const TABS_WITHIN: usize = 4;
+
+/// Cuts behind each other with a stop between each two, from an open one on, as a language puts them together.
+pub(crate) trait BehindStops {
+    /// Takes the cut behind the next stop; `None` where nothing goes on there.
+    fn take_next(&mut self) -> Option<()>;
+
+    /// Those that were taken, the open one among them, as one.
+    fn ends(&self) -> Ends;
+
+    /// Some of them as one way.
+    fn way(&self, cuts: Range<usize>) -> impl Way;
+
+    /// The last one is a contour of its own or the way to one: what leads to it is no tab.
+    fn last_stands_alone(&self) -> bool;
+}
+
+/// Takes what goes on with the open cut; true where the last of it is a tab, else they come back to the start together, in whatever
+/// order they are cut. `None` where there is nothing.
+pub(crate) fn goes_on(cuts: &mut impl BehindStops) -> Option<bool> {
+    let mut may_be_tab = true;
+    for last in 1..=STOPS_WITHIN {
+        cuts.take_next()?;
+        may_be_tab &= last <= TABS_WITHIN;
+        let ends = cuts.ends();
+        let ends_with_tab = may_be_tab
+            && ends.blocks > 2
+            && is_tab(
+                &cuts.way(0..last),
+                &cuts.way(last..last + 1),
+                &cuts.way(0..last + 1),
+            ) == Some(true);
+        if ends_with_tab || ends.close() {
+            return Some(ends_with_tab);
+        }
+        may_be_tab = may_be_tab && !cuts.last_stands_alone();
+    }
+    None
+}
