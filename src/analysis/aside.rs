@@ -177,29 +177,19 @@ impl Analysis {
             .map(|(&key, known)| (key, known.index.bounds()))
             .chain(self.lone.iter().map(|(&key, lone)| (key, lone.reach)))
             .collect();
-        let mut grid = Grid::default();
-        if keys.len() > MANY {
-            others
-                .iter()
-                .for_each(|&(key, bounds)| grid.insert(key, bounds));
-        }
+        let is_closed =
+            |key: ContourKey| self.chains.get(key).is_some_and(|contour| contour.closed);
+        let mut closed = others.clone();
+        closed.retain(|(key, _)| is_closed(*key));
+        let is_many = keys.len() > MANY;
+        let [others, closed] = [others, closed].map(|all| ByPlace::of(all, is_many));
         let judge = |&key: &ContourKey| {
             let lone = self.lone.get(&key)?;
-            let mut near = Vec::new();
-            match keys.len() > MANY {
-                true => drop(grid.near(&lone.reach, |other| near.push(other))),
-                false => near.extend(
-                    others
-                        .iter()
-                        .filter(|(_, bounds)| bounds.touches(&lone.reach))
-                        .map(|(other, _)| *other),
-                ),
-            }
-            near.retain(|&other| other != key);
-            let is_aside = !near.iter().any(|&other| self.faces(drawing, lone, other))
-                && near
-                    .iter()
-                    .any(|&other| self.holds_some_of(drawing, &lone.line, other));
+            // What lies in no closed contour is asked no more: all that it crosses may be near it.
+            let holds = |other: ContourKey| self.holds_some_of(drawing, &lone.line, other);
+            let faces = |other: ContourKey| other != key && self.faces(drawing, lone, other);
+            let is_aside = closed.near(&lone.reach).into_iter().any(holds)
+                && !others.near(&lone.reach).into_iter().any(faces);
             Some((key, is_aside))
         };
         let judged: Vec<(ContourKey, bool)> = keys.iter().filter_map(judge).collect();
@@ -316,6 +306,39 @@ impl Analysis {
             }
         }
         (whole, lone)
+    }
+}
+
+/// Contours by their boxes, sorted by place where that pays.
+struct ByPlace {
+    all: Vec<(ContourKey, Bounds)>,
+    grid: Option<Grid<ContourKey>>,
+}
+
+impl ByPlace {
+    fn of(all: Vec<(ContourKey, Bounds)>, is_many: bool) -> ByPlace {
+        let sorted = || {
+            let mut grid = Grid::default();
+            all.iter()
+                .for_each(|&(key, bounds)| grid.insert(key, bounds));
+            grid
+        };
+        ByPlace {
+            grid: is_many.then(sorted),
+            all,
+        }
+    }
+
+    fn near(&self, area: &Bounds) -> Vec<ContourKey> {
+        let mut near = Vec::new();
+        match &self.grid {
+            Some(grid) => drop(grid.near(area, |key| near.push(key))),
+            None => {
+                let touched = self.all.iter().filter(|(_, bounds)| bounds.touches(area));
+                near.extend(touched.map(|(key, _)| *key));
+            }
+        }
+        near
     }
 }
 
