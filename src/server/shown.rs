@@ -36,7 +36,10 @@ pub(super) struct Shown {
     settings: Option<Arc<Effective>>,
     /// Of each kept finding, by which it is sought.
     marks: Vec<u64>,
+    /// Behind those of the last publish the last ones that have gone: what a key has taken away, the next often brings back.
     kept: Vec<Option<Kept>>,
+    /// How many are of the last publish.
+    count: usize,
 }
 
 /// A finding as it was rendered.
@@ -55,6 +58,9 @@ const PLACE: &str = r#"{"start":{"line":0,"character":0},"end":{"line":0,"charac
 /// Findings with one mark that are looked at for the one that is sought: many of one rule may stand in one text.
 const MOST_ALIKE: usize = 16;
 
+/// Findings that have gone and are kept.
+const MOST_GONE: usize = 256;
+
 impl Shown {
     /// The findings as a JSON array; with the document's `uri` their other places, too.
     pub(crate) fn render(
@@ -70,7 +76,7 @@ impl Shown {
             self.settings = settings.cloned();
         }
         let drawing = document.drawing().map(|drawing| &**drawing);
-        let marks: Vec<u64> = findings.iter().map(mark).collect();
+        let mut marks: Vec<u64> = findings.iter().map(mark).collect();
         let (mut shown, mut kept, mut next) = (Vec::new(), Vec::with_capacity(marks.len()), 0);
         shown.push(b'[');
         // No text within a string looks like this: its quotes are escaped.
@@ -83,7 +89,9 @@ impl Shown {
             });
             let own = match known.and_then(|at| self.kept.get_mut(at)?.take().zip(Some(at + 1))) {
                 Some((old, behind)) => {
-                    next = behind;
+                    if behind <= self.count {
+                        next = behind;
+                    }
                     Kept { finding, ..old }
                 }
                 None => {
@@ -111,6 +119,12 @@ impl Shown {
             kept.push(Some(own));
         }
         shown.push(b']');
+        self.count = kept.len();
+        let old = self.marks.drain(..).zip(self.kept.drain(..));
+        let gone = old.filter(|(_, kept)| kept.is_some()).take(MOST_GONE);
+        let (gone_marks, gone): (Vec<u64>, Vec<Option<Kept>>) = gone.unzip();
+        marks.extend(gone_marks);
+        kept.extend(gone);
         (self.marks, self.kept) = (marks, kept);
         Written::from(shown)
     }
