@@ -19,7 +19,7 @@ pub(crate) struct PartAt {
 pub(crate) struct Cut {
     pub(crate) parts: Vec<PartAt>,
     /// All of them as one.
-    pub(crate) sum: Part,
+    pub(crate) sum: Box<Part>,
     /// The line that begins it, and the one that ends it, in the text.
     pub(crate) range: Range<usize>,
     pub(crate) last_range: Range<usize>,
@@ -45,7 +45,7 @@ impl Cut {
             flip: its.flip.map(|(at, line)| (at, place(line))),
             range: place(its.range),
             last_range: place(its.last_range),
-            sum: its,
+            sum: Box::new(its),
             stop: None,
             stops: 0,
             before_tab: None,

@@ -286,7 +286,7 @@ impl<'a> Report<'a> {
 
     /// A cut as a whole: does it close, does the wire run on the right side of it, is an arc too tight.
     fn judge(&mut self, cut: &Cut) {
-        let sum = &cut.sum;
+        let sum = &*cut.sum;
         if sum.open && !self.is_whole() {
             // What is cut short says nothing of the whole.
             return;
