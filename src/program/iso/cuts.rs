@@ -165,7 +165,7 @@ fn tabs(document: &Document, cuts: &[Option<Cut>]) -> Vec<StopAt> {
                 document,
                 cuts: &cuts[first..],
                 taken: 1,
-                sum: open.cut.sum,
+                sum: *open.cut.sum,
             };
             (goes_on(&mut behind) == Some(true)).then_some(first + behind.taken)
         });
