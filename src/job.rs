@@ -56,6 +56,18 @@ pub enum Refusal {
 }
 
 impl Refusal {
+    /// An error where the drawing stands against it, not where something is yet to be said.
+    fn severity(&self) -> Severity {
+        match self {
+            Refusal::Sentence(_) | Refusal::Cancelled => Severity::Information,
+            Refusal::Findings(findings) => {
+                let severities = findings.iter().map(|finding| finding.severity);
+                severities.min().unwrap_or(Severity::Error)
+            }
+            _ => Severity::Error,
+        }
+    }
+
     /// The refusal for a person.
     pub fn sentence(&self, telling: impl Into<Telling>) -> String {
         match self {
@@ -206,7 +218,10 @@ pub(crate) fn picture(
                 unit_mm: settings.unit_of(&snapshot.drawing).mm,
                 mills: settings.mills,
             };
-            (Planned::default(), Some(refusal.sentence(telling)))
+            (
+                Planned::default(),
+                Some((refusal.severity(), refusal.sentence(telling))),
+            )
         }
     };
     let view = View {
@@ -215,7 +230,9 @@ pub(crate) fn picture(
         outlines: &snapshot.outlines,
         findings,
         paths: &planned.paths,
-        why: why.as_deref(),
+        why: why
+            .as_ref()
+            .map(|(severity, why)| (*severity, why.as_str())),
         settings,
     };
     let svg = picture::svg(&view);
@@ -394,6 +411,13 @@ fn written(
         })?;
     let mut warnings = findings;
     warnings.retain(|finding| finding.severity <= Severity::Warning);
+    warnings.extend(toolpath::shortened_leads(
+        &snapshot.drawing,
+        &snapshot.outlines,
+        &of_format,
+        &paths,
+        &holes,
+    ));
     let mut work = toolpath::work(&snapshot.drawing, &snapshot.outlines, settings, &paths);
     if let Some(milled) = &program.milled {
         warnings.extend(milling::uneven(snapshot, milled));

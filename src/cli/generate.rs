@@ -73,7 +73,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     output::write(arguments.output.as_deref(), made.program.text.as_bytes())?;
     // What is wrong with the drawing says `wedm check`; these are of the program.
     let of_program = |finding: &&Finding| {
-        finding.rule == Rule::Settings
+        matches!(finding.rule, Rule::Settings | Rule::LeadIn)
             || matches!(
                 finding.detail,
                 Detail::OffsetCollapse { point: true, .. } | Detail::NoPartner { .. }

@@ -39,8 +39,8 @@ pub struct View<'a> {
     pub findings: &'a [Finding],
     /// In the order in which they are cut.
     pub paths: &'a [WirePath],
-    /// Why there are none.
-    pub why: Option<&'a str>,
+    /// Why there are none, and how bad that is.
+    pub why: Option<(Severity, &'a str)>,
     pub settings: &'a Effective,
 }
 
@@ -131,11 +131,14 @@ fn alert(view: &View, faults: &[subject::Fault]) -> (Severity, String) {
         1 => parts.push(say!(n1_arc_is_too_tight).to_owned()),
         count => parts.push(say!(arcs_are_too_tight, count)),
     }
-    parts.extend(view.why.map(|why| match view.settings.mills {
+    parts.extend(view.why.map(|(_, why)| match view.settings.mills {
         false => say!(no_wire_path_because, why),
         true => say!(no_electrode_path_because, why),
     }));
-    let worst = faults.iter().map(|fault| fault.severity).min();
+    let severities = faults.iter().map(|fault| fault.severity);
+    let worst = severities
+        .chain(view.why.map(|(severity, _)| severity))
+        .min();
     (worst.unwrap_or(Severity::Information), parts.join(" · "))
 }
 

@@ -41,7 +41,7 @@ pub(crate) use part::{Cutting, Part, part};
 pub(crate) use path::lengths;
 pub use path::{PathSegment, Refusal, Source, WirePath};
 pub(crate) use rounds::rounds;
-pub(crate) use stated::{is_stated, short_layers, stated_faults};
+pub(crate) use stated::{is_stated, short_layers, shortened_leads, stated_faults};
 pub(crate) use work::Work;
 pub use work::{LargestWire, largest_wire, work};
 

@@ -1,7 +1,8 @@
 //! What the settings say of tabs, overlaps, thread holes, entries and steps, held against the contours while they are drawn.
 
 use super::leads::finding;
-use super::{Refusal, WirePath, lengths, plan};
+use super::order::name;
+use super::{Refusal, StartHole, WirePath, lengths, plan};
 use crate::drawing::{Drawing, Outline};
 use crate::finding::{Finding, Place, Rule, Severity};
 use crate::settings::{Compensation, Effective, LengthSetting};
@@ -69,6 +70,47 @@ pub(crate) fn is_stated(settings: &Effective) -> bool {
         || settings.thread.is_some()
         || settings.entry.is_some()
         || own.any(|own| own.thread.is_some() || own.entry.is_some())
+}
+
+/// The leads that are shorter than the settings say, for which there was no room.
+pub(crate) fn shortened_leads(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &Effective,
+    paths: &[WirePath],
+    holes: &[StartHole],
+) -> Vec<Finding> {
+    let Some(wanted) = settings.stated_lead_in else {
+        return Vec::new();
+    };
+    let unit_mm = settings.unit_of(drawing).mm;
+    let firsts = paths.iter().filter(|path| path.is_first());
+    let shortened = firsts.zip(holes).filter_map(|(path, hole)| {
+        let mut pieces = path.segments.iter();
+        let begin = pieces.find(|piece| piece.source.place().is_some())?;
+        // Where the control offsets, the lead ends at the contour, and is as much longer.
+        let beside = if path.side.is_some() {
+            settings.correction
+        } else {
+            0.0
+        };
+        let length = (begin.geometry.start() - hole.at).norm() * unit_mm - beside;
+        // A wire that only stands, or that has no room beside its path, has no lead.
+        let is_shortened = !hole.is_given && length > 0.0 && length < 0.9 * wanted;
+        let severity = settings.severity_over(Rule::LeadIn, Severity::Warning)?;
+        let outline = outlines.get(path.outline)?;
+        let sentence = || {
+            say!(
+                the_lead_is_shortened,
+                name(drawing, outline),
+                wanted,
+                length
+            )
+        };
+        let place = begin.source.place();
+        is_shortened.then(|| finding(Rule::LeadIn, severity, place, sentence(), None))
+    });
+    shortened.collect()
 }
 
 /// The contours of which a layer is shorter than the step of linear compensation.

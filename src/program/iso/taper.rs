@@ -1,5 +1,5 @@
 //! Words with which the upper guide goes another way than the lower one. What they say hangs on the order, the direction and the mode of
-//! the moves of X and Y: what changes those refuses a program that has them.
+//! the moves of X and Y: what changes those and would not keep it refuses a program that has them.
 
 use crate::program::iso::document::Document;
 use std::ops::Range;
@@ -50,10 +50,10 @@ fn reason(document: &Document, line: usize, wanted: Words) -> Option<&'static st
         };
         match letter {
             b'U' | b'V' if number(at + 1).is_some() => {
-                Some(say!(the_way_of_the_upper_guide_is_not_followed))
+                Some(say!(the_way_of_the_upper_guide_would_not_be_kept))
             }
             b':' if code[at..].iter().any(|byte| matches!(byte, b'X' | b'Y')) => {
-                Some(say!(the_second_contour_behind_the_colon_is_not_followed))
+                Some(say!(the_second_contour_behind_the_colon_would_not_be_kept))
             }
             b'G' if wanted == Words::All => {
                 let whole = number(at + 1)
@@ -61,13 +61,13 @@ fn reason(document: &Document, line: usize, wanted: Words) -> Option<&'static st
                     .and_then(|number| number.parse::<u32>().ok());
                 whole
                     .filter(|code| matches!(code, 51 | 52 | 140..=142))
-                    .map(|_| say!(a_taper_is_not_followed))
+                    .map(|_| say!(a_taper_would_not_be_kept))
             }
             b'T' if wanted == Words::All
                 && matches!(code.get(at + 1), Some(b'P' | b'N'))
                 && number(at + 2).is_some() =>
             {
-                Some(say!(the_planes_of_a_taper_are_not_followed))
+                Some(say!(the_planes_of_a_taper_would_not_be_kept))
             }
             _ => None,
         }

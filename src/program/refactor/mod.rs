@@ -15,7 +15,7 @@ mod start_here;
 mod transform;
 
 pub(in crate::program) use notation::{Change, Content, Contour, Notation, Rewrite, Row, Sheet};
-pub(in crate::program) use scale::scaled;
+pub(in crate::program) use scale::{INCH, scaled};
 pub(in crate::program) use transform::Transform;
 
 use crate::settings::Effective;

@@ -15,15 +15,18 @@ pub(super) fn all<N: Notation>() -> [Refactoring<N>; 2] {
         Refactoring {
             id: "refactor.rewrite.scale.inchToMm",
             title: |_| say!(scale_from_inch_to_mm).into(),
-            rewrite: |sheet| between_units(sheet, 25.4),
+            rewrite: |sheet| between_units(sheet, INCH),
         },
         Refactoring {
             id: "refactor.rewrite.scale.mmToInch",
             title: |_| say!(scale_from_mm_to_inch).into(),
-            rewrite: |sheet| between_units(sheet, 1.0 / 25.4),
+            rewrite: |sheet| between_units(sheet, 1.0 / INCH),
         },
     ]
 }
+
+/// mm.
+pub(in crate::program) const INCH: f64 = 25.4;
 
 /// Nothing where a word of the program says the unit.
 fn between_units<N: Notation>(sheet: &Sheet<'_, N>, factor: f64) -> Result<Vec<TextEdit>, String> {

@@ -2,6 +2,7 @@
 
 mod centers;
 mod mode;
+mod planes;
 mod rows;
 #[cfg(test)]
 mod tests;
@@ -215,7 +216,7 @@ impl Notation for Iso {
         rewrite: &mut Rewrite<Iso>,
     ) -> Result<(), String> {
         rewrite.extra.words = positions(sheet.document, factor)?;
-        Ok(())
+        planes::scale(sheet.document, factor, &mut rewrite.extra.words)
     }
 
     fn write(

@@ -62,7 +62,7 @@ fn line_words(
                     (2, 0) => "G03",
                     (3, 0) => "G02",
                     (51 | 52 | 141 | 142, 0) if transform.mirrors() => {
-                        fault = Some(say!(a_taper_is_not_followed).to_owned());
+                        fault = Some(say!(a_taper_would_not_be_kept).to_owned());
                         return;
                     }
                     _ => return,
