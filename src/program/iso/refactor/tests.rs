@@ -266,10 +266,10 @@ fn blocks_are_numbered_and_calls_follow() {
 
 #[test]
 fn the_planes_of_a_taper_go_into_another_unit_and_are_scaled_by_nothing_else() {
-    let tapered = "TP0.0; TN1.25;\nG92 X0. Y0.\nG51 A2.\nG01 X1.0000 Y0.\nG50\nG01 X0. Y0.\nM02\n";
+    let tapered = "TP0.0\nTN1.25\nG92 X0. Y0.\nG51 A2.\nG01 X1.0000 Y0.\nG50\nG01 X0. Y0.\nM02\n";
     let in_mm = after(tapered, "refactor.rewrite.scale.inchToMm").unwrap();
-    let first = in_mm.lines().next().unwrap();
-    assert!(first.contains("TN31.75"), "{in_mm}");
+    let other = in_mm.lines().nth(1);
+    assert_eq!(other, Some("TN31.75"), "{in_mm}");
     let refused = scaled_by(&read(tapered), 2.0).unwrap_err();
     assert!(refused.contains("TP, TN"), "{refused}");
 }
