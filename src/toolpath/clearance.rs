@@ -7,17 +7,27 @@ use crate::geometry::{
 use std::ops::Range;
 use std::sync::OnceLock;
 
-/// Walls in boxes of boxes over their order along the contour, in which neighbours lie together.
+/// Walls in boxes of boxes: a few that follow each other along the contour in one, and of these, where there are many, a few that lie
+/// together anywhere, as the turns of a spiral do.
 #[derive(Debug)]
 pub(crate) struct Walls {
     segments: Vec<Segment>,
     /// Boxes of `FAN` segments, then boxes of `FAN` of those, up to one.
     levels: Vec<Vec<Bounds>>,
+    /// Of each box of the second level, where it is of the first few along the contour; empty where they stand in their order.
+    order: Vec<u32>,
     /// What lies about each, once it has been asked for; `None` where that is too much.
     about: OnceLock<Option<About>>,
+    /// Of each its directions at both ends, once they have been asked for.
+    tangents: OnceLock<Vec<[Vector; 2]>>,
+    /// Of all as one closed contour, the same.
+    twice_area: OnceLock<f64>,
 }
 
 const FAN: usize = 8;
+
+/// Up to so many walls lie together as they follow each other.
+const MOST_IN_ORDER: usize = 1024;
 
 /// So many walls about each are kept.
 const MOST_ABOUT: usize = 32;
@@ -35,21 +45,45 @@ impl Walls {
     pub(crate) fn new(segments: Vec<Segment>) -> Walls {
         let mut level: Vec<Bounds> = segments.iter().map(Segment::bounds).collect();
         let mut levels = Vec::new();
+        let mut order = Vec::new();
         while level.len() > 1 {
             let above = level.chunks(FAN).map(|boxes| {
                 let mut bounds = Bounds::EMPTY;
                 boxes.iter().for_each(|inner| bounds.merge(inner));
                 bounds
             });
-            let above = above.collect();
+            let mut above: Vec<Bounds> = above.collect();
+            if levels.is_empty() && segments.len() > MOST_IN_ORDER {
+                order = by_place(&above);
+                above = order.iter().map(|&few| above[few as usize]).collect();
+            }
             levels.push(std::mem::replace(&mut level, above));
         }
         levels.push(level);
         Walls {
             segments,
             levels,
+            order,
             about: OnceLock::new(),
+            tangents: OnceLock::new(),
+            twice_area: OnceLock::new(),
         }
+    }
+
+    /// Of each segment its directions at both ends.
+    pub(crate) fn tangents(&self) -> &[[Vector; 2]] {
+        let ends = |segment: &Segment| [segment.start_tangent(), segment.end_tangent()];
+        self.tangents
+            .get_or_init(|| self.segments.iter().map(ends).collect())
+    }
+
+    /// Twice the signed area of all as one closed contour.
+    pub(crate) fn twice_area(&self) -> f64 {
+        *self.twice_area.get_or_init(|| {
+            let first = self.segments.first();
+            let origin = first.map_or_else(Point::origin, Segment::start);
+            self.segments.iter().map(|one| one.twice_area(origin)).sum()
+        })
     }
 
     pub(crate) fn segment(&self, index: usize) -> &Segment {
@@ -61,12 +95,14 @@ impl Walls {
         self.find_near(path, distance, |_, _| true)
     }
 
-    /// The same for a path that runs beside the wall `own` no further from it than `distance` and a little: then few walls are asked.
+    /// The same for a path that runs beside the wall `own` no further from it than `distance` and a little: then few walls are asked, and
+    /// that one itself where `with_own`.
     pub(crate) fn too_near_beside(
         &self,
         own: usize,
         path: &Segment,
         distance: f64,
+        with_own: bool,
     ) -> Option<usize> {
         let bounds = path.bounds();
         let (area, boxes) = (bounds.grown(distance), &self.levels[0]);
@@ -82,7 +118,9 @@ impl Walls {
         let range = about.begins[own] as usize..about.begins[own + 1] as usize;
         let mut walls = about.walls[range].iter().map(|&wall| wall as usize);
         walls.find(|&wall| {
-            boxes[wall].touches(&area) && self.distance_below(path, wall, distance).is_some()
+            (with_own || wall != own)
+                && boxes[wall].touches(&area)
+                && self.distance_below(path, wall, distance).is_some()
         })
     }
 
@@ -201,10 +239,40 @@ impl Walls {
             .rev()
             .filter(|&index| boxes[index].touches(reach))
             .find_map(|index| {
-                let within = index * FAN..((index + 1) * FAN).min(below);
+                let first = match self.order.get(index).filter(|_| level == 1) {
+                    Some(&few) => few as usize * FAN,
+                    None => index * FAN,
+                };
+                let within = first..(first + FAN).min(below);
                 self.find_in(level - 1, within, reach, is_it)
             })
     }
+}
+
+/// The order of boxes in which those that lie together stand together: by the bits of column and row of their middles in turn.
+fn by_place(boxes: &[Bounds]) -> Vec<u32> {
+    let mut all = Bounds::EMPTY;
+    boxes.iter().for_each(|one| all.merge(one));
+    let scale = f64::from(u16::MAX) / all.width().max(all.height()).max(f64::MIN_POSITIVE);
+    let spread = |coordinate: f64| {
+        let mut bits = u32::from((coordinate * scale) as u16);
+        for (shift, mask) in [
+            (8, 0x00ff_00ff),
+            (4, 0x0f0f_0f0f),
+            (2, 0x3333_3333),
+            (1, 0x5555_5555),
+        ] {
+            bits = (bits | bits << shift) & mask;
+        }
+        bits
+    };
+    let place = |one: &Bounds| {
+        let middle = (one.min - all.min + (one.max - all.min)) / 2.0;
+        spread(middle.x) | spread(middle.y) << 1
+    };
+    let mut keys: Vec<(u32, u32)> = boxes.iter().map(place).zip(0..).collect();
+    keys.sort_unstable();
+    keys.into_iter().map(|(_, index)| index).collect()
 }
 
 /// Smallest distance between two segments, 0 where they cross or touch.
@@ -275,7 +343,35 @@ fn between_arcs(a: &Arc, b: &Arc) -> f64 {
 /// True where two segments are seen to be at least `distance` apart by what carries one of them, at less cost than their distance. False
 /// says nothing.
 fn are_apart(a: &Segment, b: &Segment, distance: f64) -> bool {
-    keeps_off(a, b, distance) || keeps_off(b, a, distance)
+    keeps_off(a, b, distance)
+        || keeps_off(b, a, distance)
+        || lies_behind(a, b, distance)
+        || lies_behind(b, a, distance)
+}
+
+/// True where `segment` is an arc, and `other` lies behind it: nowhere further out than its radius less `distance`, in the direction of any
+/// place of the arc. So lie the walls beside a corner that the wire rolls about.
+fn lies_behind(segment: &Segment, other: &Segment, distance: f64) -> bool {
+    let Segment::Arc(arc) = segment else {
+        return false;
+    };
+    let ways = [arc.start, arc.end].map(|end| (end - arc.center) / arc.radius);
+    // Every direction between two that are no more than 120° apart is the sum of them, times no more than 1 each.
+    let room = (arc.radius - distance) / 2.0;
+    let is_narrow = arc.is_minor() && ways[0].dot(&ways[1]) >= -0.5;
+    let is_shallow = |it: &Segment| it.as_arc().is_some_and(Arc::is_shallow);
+    if !(is_narrow && room >= 0.0) || is_shallow(segment) || is_shallow(other) {
+        return false;
+    }
+    ways.iter().all(|way| {
+        let out = |point: Point| (point - arc.center).dot(way);
+        out(other.start()) <= room
+            && out(other.end()) <= room
+            && other.as_arc().is_none_or(|round| {
+                out(round.center) + round.radius <= room
+                    || !round.spans(round.center + way * round.radius)
+            })
+    })
 }
 
 /// True where all of `segment` keeps a distance from the line or circle that carries `other`, on one side of it.
@@ -374,7 +470,7 @@ mod tests {
         for (own, wall) in all.iter().enumerate() {
             for shift in [0.0, 0.05, 0.2, 3.0] {
                 let path = wall.moved(Vector::new(shift, shift));
-                let found = walls.too_near_beside(own, &path, 0.1);
+                let found = walls.too_near_beside(own, &path, 0.1, true);
                 assert_eq!(found, walls.too_near(&path, 0.1), "{own} {shift}");
                 let is_near = |wall: &Segment| distance_between(&path, wall) < 0.1;
                 assert_eq!(found.is_some(), all.iter().any(is_near), "{own} {shift}");

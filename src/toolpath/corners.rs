@@ -64,7 +64,8 @@ pub(super) struct Raw {
 }
 
 impl Raw {
-    pub(crate) fn new(walls: &[Wall], joining: &Joining) -> Raw {
+    /// `tangents` are those of each wall at its ends.
+    pub(crate) fn new(walls: &[Wall], tangents: &[[Vector; 2]], joining: &Joining) -> Raw {
         let mut raw = Raw {
             elements: Vec::with_capacity(walls.len()),
             joints: Vec::with_capacity(walls.len()),
@@ -83,13 +84,17 @@ impl Raw {
                     Segment::line(center, center)
                 }
             };
-            let next = &walls[(index + 1) % walls.len()].geometry;
+            let after = [index + 1, 0][usize::from(index + 1 == walls.len())];
             let element = Element {
                 geometry,
                 source: wall.source,
                 wall: index,
             };
-            match corner(&wall.geometry, next, joining) {
+            match corner(
+                wall.geometry.end(),
+                [tangents[index][1], tangents[after][0]],
+                joining,
+            ) {
                 Way::Through(joint) => raw.push(element, joint),
                 Way::Roll(arc) => {
                     let source = match wall.source {
@@ -138,12 +143,11 @@ enum Way {
     Roll(Arc),
 }
 
-fn corner(wall: &Segment, next: &Segment, joining: &Joining) -> Way {
+/// The way round a vertex, from one direction into another.
+fn corner(vertex: Point, [before, behind]: [Vector; 2], joining: &Joining) -> Way {
     let Joining {
         correction, side, ..
     } = *joining;
-    let vertex = wall.end();
-    let (before, behind) = (wall.end_tangent(), next.start_tangent());
     let from = vertex + left_normal(before) * (side * correction);
     let to = vertex + left_normal(behind) * (side * correction);
     if (from - to).norm() <= joining.touch {
@@ -185,7 +189,9 @@ pub(super) fn with_tips(
         if !are_neighbours(&extended[before], wall) || !are_neighbours(&extended[after], next) {
             continue;
         }
-        let Way::Roll(whole) = corner(&walls[wall].geometry, &walls[next].geometry, joining) else {
+        let (one, other) = (&walls[wall].geometry, &walls[next].geometry);
+        let turn = [one.end_tangent(), other.start_tangent()];
+        let Way::Roll(whole) = corner(one.end(), turn, joining) else {
             continue;
         };
         let is_whole = (roll.geometry.start() - whole.start).norm() <= joining.touch
@@ -359,9 +365,10 @@ impl Ring<'_> {
         );
         let shorter = if a.length() < b.length() { index } else { next };
         let rank = |point: &Point| {
-            let beside = [a, b]
-                .iter()
-                .any(|segment| !(-1e-9..=1.0 + 1e-9).contains(&segment.share_of(*point)));
+            let is_beside = |segment: &&Segment| {
+                !segment.spans(*point) && !(-1e-9..=1.0 + 1e-9).contains(&segment.share_of(*point))
+            };
+            let beside = [a, b].iter().any(is_beside);
             (beside, (point - near).norm())
         };
         let best = meetings(a, b).into_iter().min_by(|p, q| {
@@ -377,10 +384,15 @@ impl Ring<'_> {
 
     fn runs_backwards(&self, index: usize, start: Point, end: Point) -> bool {
         let geometry = &self.elements[index].geometry;
+        if let Segment::Line(line) = geometry {
+            let along = line.end - line.start;
+            let forward = (end - start).dot(&along);
+            return forward < 0.0 && forward * forward > 1e-18 * along.norm_squared();
+        }
         let length = geometry.length();
         length > 0.0
             && !is_all_of(geometry, start, end)
-            && (geometry.share_of(end) - geometry.share_of(start)) * length < -1e-9
+            && (share_on(geometry, end) - share_on(geometry, start)) * length < -1e-9
     }
 
     fn trimmed(mut self) -> Option<Vec<(usize, Element)>> {
@@ -428,13 +440,33 @@ pub(super) fn close_up(element: &mut Element, end: Point) {
     }
 }
 
+/// No more than rounding of coordinates.
+const SAME: f64 = 1e-11;
+
+/// The share of a segment at which one of its points lies: an angle need not be worked out for its ends.
+fn share_on(segment: &Segment, point: Point) -> f64 {
+    let is_at = |end: Point| (point - end).norm_squared() <= SAME * SAME;
+    match segment {
+        Segment::Arc(arc) if !arc.is_full_turn() && arc.length() > 1e3 * SAME => {
+            if is_at(arc.start) {
+                0.0
+            } else if is_at(arc.end) {
+                1.0
+            } else {
+                arc.share_of(point)
+            }
+        }
+        _ => segment.share_of(point),
+    }
+}
+
 /// True for points that are the ends of a segment but for what is no more than rounding of coordinates.
 fn is_all_of(segment: &Segment, start: Point, end: Point) -> bool {
-    const SAME: f64 = 1e-11;
+    let is_at = |one: Point, other: Point| (one - other).norm_squared() <= SAME * SAME;
     start != end
+        && is_at(segment.start(), start)
+        && is_at(segment.end(), end)
         && segment.length() > 1e3 * SAME
-        && (segment.start() - start).norm() <= SAME
-        && (segment.end() - end).norm() <= SAME
 }
 
 /// The part of a segment, or of what carries it, from `start` to `end`.
@@ -445,7 +477,7 @@ pub(super) fn between(segment: &Segment, start: Point, end: Point) -> Segment {
             Segment::Arc(Arc { start, end, ..*arc })
         }
         Segment::Arc(arc) => {
-            let (from, to) = (arc.share_of(start), arc.share_of(end));
+            let (from, to) = (share_on(segment, start), share_on(segment, end));
             Segment::Arc(Arc {
                 start_angle: arc.start_angle + arc.sweep * from,
                 sweep: arc.sweep * (to - from),

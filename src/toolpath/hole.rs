@@ -113,9 +113,9 @@ impl Job<'_> {
     /// What a hole cuts into, or comes too near to.
     fn hole_fault(&self, at: Point, reach: f64, contours: &Contours) -> Option<Finding> {
         let rounding = self.units(1e-6);
-        contours.walls.nearer(at, reach - rounding)?;
-        let distance = contours.walls.distance_to(at, reach);
-        let wall = contours.walls.nearer(at, distance + rounding)?;
+        contours.walls().nearer(at, reach - rounding)?;
+        let distance = contours.walls().distance_to(at, reach);
+        let wall = contours.walls().nearer(at, distance + rounding)?;
         let diameter = self.settings.start_hole?;
         let left = distance * self.unit_mm - diameter / 2.0;
         let handle = name(self.drawing, &self.outlines[contours.outline_of(wall)]);
@@ -203,7 +203,7 @@ impl Job<'_> {
         };
         let diameter = self.units(self.settings.start_hole.unwrap_or_default());
         let rounding = self.units(1e-6);
-        contours.walls.nearer(at, reach - rounding).is_none()
+        contours.walls().nearer(at, reach - rounding).is_none()
             && others.iter().all(|other| {
                 let apart = (other - at).norm();
                 apart <= rounding || apart >= diameter
@@ -236,7 +236,7 @@ impl Job<'_> {
             drawing: self.drawing,
             own,
             islands: self.outlines.iter().filter(lies_within).collect(),
-            walls: &contours.walls,
+            walls: contours.walls(),
         };
         let half = bounds.width().max(bounds.height()) / 2.0;
         if !half.is_finite() || half <= 0.0 {

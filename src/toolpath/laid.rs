@@ -4,6 +4,7 @@ use super::clearance::Walls;
 use super::corners::{Element, Joining, Raw, with_tips};
 use super::job::{Job, ROUNDING};
 use super::loops::{self, Found};
+use super::nest::{Before, Nest};
 use super::offset::{Wall, walls};
 use super::open::{one_side, there_and_back};
 use super::path::Refusal;
@@ -89,13 +90,24 @@ impl Job<'_> {
         Ok((walls, own, laid))
     }
 
-    /// The path along a contour, proved; `walls` have the wire on the side of that sign. That of an open one runs from beside the begin of
-    /// the first wall to beside the end of the last.
+    /// The path along a contour, as `laid_within` has it, of which nothing has been proved before.
     pub(super) fn laid(
         &self,
         walls: &[Wall],
         own: &Walls,
         along: Along,
+    ) -> Result<Outcome, Refusal> {
+        self.laid_within(walls, own, along, None)
+    }
+
+    /// The path along a contour, proved; `walls` have the wire on the side of that sign. That of an open one runs from beside the begin of
+    /// the first wall to beside the end of the last. What has been proved of a pass `before` is not looked at again.
+    pub(super) fn laid_within(
+        &self,
+        walls: &[Wall],
+        own: &Walls,
+        along: Along,
+        before: Option<Before>,
     ) -> Result<Outcome, Refusal> {
         let Along {
             side,
@@ -117,7 +129,15 @@ impl Job<'_> {
             tolerance: self.units(self.settings.tolerances.report),
         };
         self.go_on()?;
-        let raw = Raw::new(&round, &joining);
+        let of_round = || {
+            let ends = |wall: &Wall| [wall.geometry.start_tangent(), wall.geometry.end_tangent()];
+            round.iter().map(ends).collect()
+        };
+        let tangents = match closed {
+            true => Cow::Borrowed(own.tangents()),
+            false => Cow::Owned(of_round()),
+        };
+        let raw = Raw::new(&round, &tangents, &joining);
         let rounding = self.units(ROUNDING);
         let proof = Proof {
             walls: &round,
@@ -144,11 +164,11 @@ impl Job<'_> {
             _ => raw.trimmed(),
         };
         let found = match closed {
-            true => found.filter(|path| keeps_its_side(path, walls, side)),
+            true => found.filter(|path| keeps_its_side(path, walls, own, side)),
             false => found.and_then(|path| one_side(vec![path], &raw, walls.len()).ok()),
         };
         if let Some(path) = found
-            && self.holds(&proof, &path)?.is_ok()
+            && self.holds(&proof, &path, before.map(Nest::new))?.is_ok()
         {
             return Ok(Ok(tipped(path)));
         }
@@ -199,7 +219,7 @@ impl Job<'_> {
         let Some(path) = loops.pop() else {
             return Ok(Err(Fault::Nothing));
         };
-        if !keeps_its_side(&path, walls, side) {
+        if !keeps_its_side(&path, walls, own, side) {
             return Ok(Err(Fault::Unproved { wall: 0 }));
         }
         self.vouched(&proof, path, tipped)
@@ -213,7 +233,7 @@ impl Job<'_> {
         tipped: impl Fn(Vec<(usize, Element)>) -> Laid,
     ) -> Result<Outcome, Refusal> {
         Ok(self
-            .holds(proof, &path)?
+            .holds(proof, &path, None)?
             .map(|()| tipped(path))
             .map_err(|Unproved { wall }| Fault::Unproved { wall }))
     }
@@ -223,10 +243,11 @@ impl Job<'_> {
         &self,
         proof: &Proof,
         path: &[(usize, Element)],
+        mut nest: Option<Nest>,
     ) -> Result<Result<(), Unproved>, Refusal> {
         for pieces in path.chunks(STEP) {
             self.go_on()?;
-            if let Err(fault) = proof.pieces_hold(pieces) {
+            if let Err(fault) = proof.pieces_hold(pieces, nest.as_mut()) {
                 return Ok(Err(fault));
             }
         }
@@ -314,14 +335,11 @@ pub(super) fn goes_out_and_back(path: &[Element]) -> bool {
 }
 
 /// True when a path runs round as its contour does, inside an opening and outside a punch. Out and back along a line is no way round.
-fn keeps_its_side(path: &[(usize, Element)], walls: &[Wall], side: f64) -> bool {
+fn keeps_its_side(path: &[(usize, Element)], walls: &[Wall], own: &Walls, side: f64) -> bool {
     let Some(origin) = walls.first().map(|wall| wall.geometry.start()) else {
         return false;
     };
-    let contour: f64 = walls
-        .iter()
-        .map(|wall| wall.geometry.twice_area(origin))
-        .sum();
+    let contour = own.twice_area();
     let area: f64 = path
         .iter()
         .map(|(_, element)| element.geometry.twice_area(origin))

@@ -15,6 +15,7 @@ use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::{Point, Segment};
 use crate::settings::{Effective, Lead};
+use std::sync::OnceLock;
 
 /// mm that a start hole keeps from what the wire cuts.
 pub(super) const HOLE_CLEAR: f64 = 0.1;
@@ -27,25 +28,32 @@ const HALVED_BEYOND: u32 = 4;
 
 /// The walls of all contours.
 pub(super) struct Contours {
-    pub(crate) walls: Walls,
+    segments: Vec<Segment>,
+    /// The same, once somebody has asked what is near.
+    walls: OnceLock<Walls>,
     /// By wall: the outline, and the segment of the drawing.
     of: Vec<(usize, EntityId, usize)>,
 }
 
 impl Contours {
     pub(crate) fn new(drawing: &Drawing, outlines: &[Outline]) -> Contours {
-        let (mut walls, mut of) = (Vec::new(), Vec::new());
+        let (mut segments, mut of) = (Vec::new(), Vec::new());
         let is_cut = |(_, outline): &(usize, &Outline)| outline.contour.double_of.is_none();
         for (index, outline) in outlines.iter().enumerate().filter(is_cut) {
             for segment in outline.contour.segments(drawing) {
-                walls.push(segment.geometry);
+                segments.push(segment.geometry);
                 of.push((index, segment.entity, segment.segment));
             }
         }
         Contours {
-            walls: Walls::new(walls),
+            segments,
+            walls: OnceLock::new(),
             of,
         }
+    }
+
+    pub(crate) fn walls(&self) -> &Walls {
+        self.walls.get_or_init(|| Walls::new(self.segments.clone()))
     }
 
     /// The outline that a wall is of.
@@ -178,10 +186,11 @@ impl Surroundings<'_> {
             return Some(Obstacle::Own(wall));
         }
         let is_other = |wall: usize| self.contours.outline_of(wall) != self.outline;
-        if let Some(wall) = self
-            .contours
-            .walls
-            .find_near(lead, self.clearance, |wall, _| is_other(wall))
+        if self.outlines.len() > 1
+            && let Some(wall) = self
+                .contours
+                .walls()
+                .find_near(lead, self.clearance, |wall, _| is_other(wall))
         {
             return Some(Obstacle::Contour(wall));
         }

@@ -15,6 +15,7 @@ mod laid;
 mod leads;
 mod loops;
 pub(crate) mod milling;
+mod nest;
 mod offset;
 mod open;
 mod order;

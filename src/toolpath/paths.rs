@@ -8,6 +8,7 @@ use super::finished::{Finished, Kerf, finished};
 use super::job::{Job, ROUNDING};
 use super::laid::{Along, Fault, Laid, Outcome};
 use super::leads::{Contours, Kerfs, fault};
+use super::nest::Before;
 use super::offset::{Wall, walls};
 use super::order::{begin_at, directed, name};
 use super::path::{Refusal, Source, WirePath};
@@ -129,7 +130,9 @@ impl Job<'_> {
                 Err(refusal) => return Err(refusal),
             }
         }
-        let kerfs = Kerfs::new(offsets.iter().filter_map(|(_, unled)| {
+        // What is cut along a contour is in no way of its own leads.
+        let others = if offsets.len() > 1 { &offsets[..] } else { &[] };
+        let kerfs = Kerfs::new(others.iter().filter_map(|(_, unled)| {
             let rough = unled.passes.first()?;
             Some((unled.outline, &rough.path[..]))
         }));
@@ -210,7 +213,7 @@ impl Job<'_> {
             Some(index) != but && (outline.contour.closed || outline.wire_side().is_some())
         };
         let clearance = self.clearance(self.units(self.settings.correction));
-        contours.walls.find_near(way, clearance, counts)
+        contours.walls().find_near(way, clearance, counts)
     }
 
     /// The ways from one contour to the next that cut through a part, where the wire stays threaded.
@@ -346,7 +349,9 @@ impl Job<'_> {
                 closed,
             };
             let laid = match (first.take(), passes.first()) {
-                (None, Some(rough)) => self.skim(&walls, &own, rough, along)?,
+                (None, Some(rough)) => {
+                    self.skim(&walls, &own, [rough, passes.last().unwrap_or(rough)], along)?
+                }
                 (None, None) => self.laid(&walls, &own, along)?,
                 (Some(first), _) => first,
             };
@@ -410,17 +415,24 @@ impl Job<'_> {
     }
 
     /// The path of a pass behind the first: beside the contour, or where the corners are to have a constant stock beside the first path.
+    /// Of the passes before it there are the first and the last.
     pub(super) fn skim(
         &self,
         walls: &[Wall],
         own: &Walls,
-        rough: &Pass,
+        [rough, last]: [&Pass; 2],
         along: Along,
     ) -> Result<Outcome, Refusal> {
         let by = rough.correction - along.correction;
         let is_constant = self.settings.passes.skim_corner() == SkimCorner::ConstantStock;
         if !is_constant || by <= self.units(ROUNDING) || rough.path.is_empty() {
-            return self.laid(walls, own, along);
+            let before = Before {
+                path: &last.path,
+                correction: last.correction,
+            };
+            // With tips a path is more than what has been proved, and beside the first path it has been otherwise.
+            let is_plain = along.corner == Corner::Arc && !is_constant;
+            return self.laid_within(walls, own, along, is_plain.then_some(before));
         }
         let beside: Vec<Wall> = rough
             .path

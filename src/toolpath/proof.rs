@@ -6,9 +6,10 @@
 
 use super::clearance::Walls;
 use super::corners::{Element, Raw, meetings};
+use super::nest::Nest;
 use super::offset::Wall;
 use crate::drawing::winding_of;
-use crate::geometry::{Line, Point, Segment};
+use crate::geometry::{Arc, Line, Point, Segment};
 use std::sync::OnceLock;
 
 /// What the offset of one contour is held against. Lengths in drawing units.
@@ -68,27 +69,58 @@ impl Proof<'_> {
     }
 
     /// Some pieces of a path: nowhere nearer to a wall than the correction, and at it from their own.
-    pub(crate) fn pieces_hold(&self, pieces: &[(usize, Element)]) -> Result<(), Unproved> {
+    pub(crate) fn pieces_hold(
+        &self,
+        pieces: &[(usize, Element)],
+        mut nest: Option<&mut Nest>,
+    ) -> Result<(), Unproved> {
         for (_, element) in pieces {
-            let geometry = &element.geometry;
-            let least = self.correction - self.rounding;
-            let too_near = match self.closed {
-                true => self.own.too_near_beside(element.wall, geometry, least),
-                false => self.own.too_near(geometry, least),
-            };
-            if let Some(wall) = too_near {
-                return Err(Unproved { wall });
-            }
-            let own = &self.walls[element.wall].geometry;
-            let is_off = |point: Point| own.distance_to(point) > self.correction + self.rounding;
-            if [0.0, 0.5, 1.0]
-                .iter()
-                .any(|&share| is_off(geometry.point_at(share)))
-            {
-                return Err(Unproved { wall: element.wall });
+            let beyond = nest.as_mut().and_then(|nest| nest.beyond(self, element));
+            match beyond {
+                Some(parts) => {
+                    let [begin, end] = parts;
+                    let begin = begin.map(|part| (part, part.start()));
+                    let end = end.map(|part| (part, part.end()));
+                    for (part, outer) in begin.into_iter().chain(end) {
+                        self.part_holds(&part, outer, element.wall)?;
+                    }
+                }
+                None => self.piece_holds(&element.geometry, element.wall)?,
             }
         }
         Ok(())
+    }
+
+    /// The same of what reaches, up to a point, beyond an earlier pass, and is known to run at the correction from its own wall.
+    fn part_holds(&self, part: &Segment, outer: Point, wall: usize) -> Result<(), Unproved> {
+        let least = self.correction - self.rounding;
+        let too_near = match self.closed {
+            true => self.own.too_near_beside(wall, part, least, false),
+            false => self.own.too_near(part, least),
+        };
+        let is_off = self.walls[wall].geometry.distance_to(outer) > self.correction + self.rounding;
+        match too_near.or(is_off.then_some(wall)) {
+            Some(wall) => Err(Unproved { wall }),
+            None => Ok(()),
+        }
+    }
+
+    fn piece_holds(&self, geometry: &Segment, wall: usize) -> Result<(), Unproved> {
+        let least = self.correction - self.rounding;
+        let too_near = match self.closed {
+            true => self.own.too_near_beside(wall, geometry, least, true),
+            false => self.own.too_near(geometry, least),
+        };
+        if let Some(wall) = too_near {
+            return Err(Unproved { wall });
+        }
+        let own = &self.walls[wall].geometry;
+        let is_off = |point: Point| own.distance_to(point) > self.correction + self.rounding;
+        let places = [geometry.start(), middle(geometry), geometry.end()];
+        match places.into_iter().any(is_off) {
+            true => Err(Unproved { wall }),
+            false => Ok(()),
+        }
     }
 
     /// Nothing that was cut off is a place of the path: what is left out of the raw elements `range` is too near to some wall.
@@ -113,23 +145,43 @@ impl Proof<'_> {
                 next % by_raw.len().max(1),
             ];
             let beside = beside.map(|place| by_raw.get(place).map(|(_, element)| element));
+            let [before, behind] = beside;
             if let [(_, piece)] = &by_raw[first..next]
                 && self.is_whole(&piece.geometry, &element.geometry)
             {
                 continue;
             }
-            let mut done = 0.0;
+            let raw = &element.geometry;
             let shares = |piece: &(usize, Element)| {
-                let share = |point| element.geometry.share_of(point).clamp(0.0, 1.0);
-                match piece.1.geometry {
+                let share = |point| raw.share_of(point).clamp(0.0, 1.0);
+                match (&piece.1.geometry, raw) {
                     // Both ends of a full turn are one point.
-                    Segment::Arc(arc) if arc.is_full_turn() => (0.0, 1.0),
-                    geometry => (share(geometry.start()), share(geometry.end())),
+                    (Segment::Arc(arc), _) if arc.is_full_turn() => [0.0, 1.0],
+                    (Segment::Arc(arc), Segment::Arc(raw)) if raw.sweep != 0.0 => {
+                        let from = (arc.start_angle - raw.start_angle) / raw.sweep;
+                        [from, from + arc.sweep / raw.sweep].map(|share| share.clamp(0.0, 1.0))
+                    }
+                    (geometry, _) => [share(geometry.start()), share(geometry.end())],
                 }
             };
-            for (from, to) in by_raw[first..next].iter().map(shares).chain([(1.0, 1.0)]) {
-                if (from - done) * length > 2.0 * self.rounding
-                    && self.is_missing(index, done, from, beside, &by_raw[first..next])
+            let mut done = (0.0, raw.start());
+            let pieces = by_raw[first..next].iter().map(|piece| {
+                let ([from, to], geometry) = (shares(piece), &piece.1.geometry);
+                [(from, geometry.start()), (to, geometry.end())]
+            });
+            for [from, to] in pieces.chain([[(1.0, raw.end()); 2]]) {
+                if (from.0 - done.0) * length > 2.0 * self.rounding
+                    && self.is_missing(
+                        index,
+                        stretch_of(raw, done, from),
+                        // What is cut off at the end, by what comes next.
+                        if from.0 == 1.0 {
+                            [behind, before]
+                        } else {
+                            beside
+                        },
+                        &by_raw[first..next],
+                    )
                 {
                     return Err(Unproved { wall: element.wall });
                 }
@@ -150,12 +202,10 @@ impl Proof<'_> {
     fn is_missing(
         &self,
         index: usize,
-        from: f64,
-        to: f64,
+        stretch: Segment,
         beside: [Option<&Element>; 2],
         same: &[(usize, Element)],
     ) -> bool {
-        let stretch = self.raw.elements[index].geometry.part(from, to);
         // Most is cut off at a corner, by the wall that comes next.
         let takes_all = |element: &&Element| {
             is_all_within(
@@ -228,26 +278,58 @@ impl Proof<'_> {
     }
 }
 
+/// The stretch of a raw element between two places, each with its share of it.
+fn stretch_of(raw: &Segment, from: (f64, Point), to: (f64, Point)) -> Segment {
+    let place = |(share, point): (f64, Point)| match share {
+        // What lies beyond an end has been cut back to it.
+        0.0 => raw.start(),
+        1.0 => raw.end(),
+        _ => point,
+    };
+    let (start, end) = (place(from), place(to));
+    match raw {
+        Segment::Line(_) => Segment::line(start, end),
+        Segment::Arc(arc) => Segment::Arc(Arc {
+            start_angle: arc.start_angle + arc.sweep * from.0,
+            sweep: arc.sweep * (to.0 - from.0),
+            start,
+            end,
+            ..*arc
+        }),
+    }
+}
+
+/// The middle of a segment, for an arc from its ends where these say it well.
+fn middle(segment: &Segment) -> Point {
+    match segment {
+        Segment::Arc(arc) if !arc.is_shallow() && arc.sweep.abs() < 3.0 => {
+            let out = (arc.start - arc.center) + (arc.end - arc.center);
+            let way = out.try_normalize(0.0);
+            way.map_or(arc.center, |way| arc.center + way * arc.radius)
+        }
+        _ => segment.point_at(0.5),
+    }
+}
+
 /// True when a stretch is seen to lie within `distance` of a wall, all but its ends nearer than that. False says nothing.
 ///
 /// The distance from a line is convex: it is nowhere larger than at the corners of what the stretch lies within. Beside an arc of no more than
 /// a half turn these corners lie in its sector, which is convex, too: there only how far they are from the centre counts.
 fn is_all_within(stretch: &Segment, wall: &Segment, distance: f64) -> bool {
     let (start, end) = (stretch.start(), stretch.end());
+    let half_way = middle(stretch);
     let apex = match stretch {
         Segment::Line(_) => start,
         Segment::Arc(arc) if arc.sweep.abs() > 2.0 => return false,
         Segment::Arc(arc) => {
-            let middle = arc.point_at(0.5) - arc.center;
-            arc.center + middle / (arc.sweep / 2.0).cos()
+            let out = half_way - arc.center;
+            arc.center + out * (out.norm_squared() / out.dot(&(start - arc.center)))
         }
     };
     let corners = [start, end, apex];
     let most = distance * (1.0 + 1e-9);
     let is_within = |point: &Point| wall.distance_to(*point) <= most;
-    if wall.distance_to(stretch.point_at(0.5)) >= distance * (1.0 - 1e-7)
-        || !corners.iter().all(is_within)
-    {
+    if wall.distance_to(half_way) >= distance * (1.0 - 1e-7) || !corners.iter().all(is_within) {
         return false;
     }
     let Segment::Arc(arc) = wall else {

@@ -44,7 +44,7 @@ pub(crate) fn rounds(
         };
         let laid = match (first.take_if(|_| correction == rough), &before) {
             (Some(first), _) => first,
-            (None, Some(rough)) => job.skim(&walls, &own, rough, along)?,
+            (None, Some(rough)) => job.skim(&walls, &own, [rough, rough], along)?,
             (None, None) => job.laid(&walls, &own, along)?,
         };
         let Ok(Laid::Path(path)) = laid else {
