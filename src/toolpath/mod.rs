@@ -24,6 +24,7 @@ mod path;
 mod paths;
 mod proof;
 mod rounds;
+mod skim;
 mod stated;
 mod tab;
 #[cfg(test)]

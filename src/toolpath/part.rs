@@ -205,7 +205,7 @@ impl Job<'_> {
                     corner: settings.corner,
                     closed: true,
                 };
-                self.skim(&walls, &own, &rough, along)?
+                self.skim(&walls, &own, [&rough, &rough], along)?
             }
             (laid, _) => laid,
         };

@@ -6,9 +6,8 @@ use super::corners::{Element, elements};
 use super::entry::{Entry, default_entry, path_point};
 use super::finished::{Finished, Kerf, finished};
 use super::job::{Job, ROUNDING};
-use super::laid::{Along, Fault, Laid, Outcome};
+use super::laid::{Along, Fault, Laid};
 use super::leads::{Contours, Kerfs, fault};
-use super::nest::Before;
 use super::offset::{Wall, walls};
 use super::order::{begin_at, directed, name};
 use super::path::{Refusal, Source, WirePath};
@@ -17,7 +16,7 @@ use super::way::Landing;
 use crate::drawing::{Contour, Role};
 use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::{Point, Segment, Side};
-use crate::settings::{Corner, Jumps, SkimCorner};
+use crate::settings::Jumps;
 use rustc_hash::FxHashMap;
 
 /// The offsets of a contour, before they have leads, all in the direction of the first pass.
@@ -327,12 +326,10 @@ impl Job<'_> {
             }));
         };
         let (contour, turned) = self.towards(index, wanted)?;
-        let side = if turned {
-            own_side.reversed()
-        } else {
-            own_side
-        }
-        .sign();
+        let side = match turned {
+            true => own_side.reversed().sign(),
+            false => own_side.sign(),
+        };
         let corrections = settings.each_correction();
         let corrections = || corrections.iter().map(|&mm| self.units(mm));
         let rough = corrections().fold(0.0, f64::max);
@@ -350,7 +347,8 @@ impl Job<'_> {
             };
             let laid = match (first.take(), passes.first()) {
                 (None, Some(rough)) => {
-                    self.skim(&walls, &own, [rough, passes.last().unwrap_or(rough)], along)?
+                    let last = passes.last().unwrap_or(rough);
+                    self.skim(&walls, &own, [rough, last], along)?
                 }
                 (None, None) => self.laid(&walls, &own, along)?,
                 (Some(first), _) => first,
@@ -358,10 +356,11 @@ impl Job<'_> {
             let path = match laid {
                 Ok(Laid::Path(path)) => path,
                 Ok(Laid::Point(begin)) => {
+                    let (path, element) = (Vec::new(), 0);
                     passes.push(Pass {
                         correction,
-                        path: Vec::new(),
-                        element: 0,
+                        path,
+                        element,
                         begin,
                     });
                     continue;
@@ -411,67 +410,6 @@ impl Job<'_> {
             entry,
             side,
             passes,
-        })
-    }
-
-    /// The path of a pass behind the first: beside the contour, or where the corners are to have a constant stock beside the first path.
-    /// Of the passes before it there are the first and the last.
-    pub(super) fn skim(
-        &self,
-        walls: &[Wall],
-        own: &Walls,
-        [rough, last]: [&Pass; 2],
-        along: Along,
-    ) -> Result<Outcome, Refusal> {
-        let by = rough.correction - along.correction;
-        let is_constant = self.settings.passes.skim_corner() == SkimCorner::ConstantStock;
-        if !is_constant || by <= self.units(ROUNDING) || rough.path.is_empty() {
-            let before = Before {
-                path: &last.path,
-                correction: last.correction,
-            };
-            // With tips a path is more than what has been proved, and beside the first path it has been otherwise.
-            let is_plain = along.corner == Corner::Arc && !is_constant;
-            return self.laid_within(walls, own, along, is_plain.then_some(before));
-        }
-        let beside: Vec<Wall> = rough
-            .path
-            .iter()
-            .map(|element| Wall {
-                geometry: element.geometry,
-                source: element.source,
-            })
-            .collect();
-        let near = Walls::new(beside.iter().map(|wall| wall.geometry).collect());
-        let back = Along {
-            side: -along.side,
-            correction: by,
-            corner: Corner::Arc,
-            closed: along.closed,
-        };
-        let laid = self.laid(&beside, &near, back)?;
-        Ok(match laid {
-            Ok(Laid::Path(mut path)) => {
-                for element in &mut path {
-                    element.wall = rough.path[element.wall].wall;
-                }
-                let least = along.correction - 2.0 * self.units(ROUNDING);
-                let into = path
-                    .iter()
-                    .find_map(|element| own.too_near(&element.geometry, least));
-                match into {
-                    Some(wall) => Err(Fault::Unproved { wall }),
-                    None => Ok(Laid::Path(path)),
-                }
-            }
-            Err(Fault::Several { near, wall }) => Err(Fault::Several {
-                near,
-                wall: rough.path[wall].wall,
-            }),
-            Err(Fault::Unproved { wall }) => Err(Fault::Unproved {
-                wall: rough.path[wall].wall,
-            }),
-            nothing => nothing,
         })
     }
 
