@@ -121,3 +121,138 @@ impl<'a> Nest<'a> {
         Some(parts)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::clearance::Walls;
+    use super::super::corners::{Joining, Raw};
+    use super::super::offset::Wall;
+    use super::super::rounds::rounds;
+    use super::*;
+    use crate::drawing::{ContourSegment, EntityId};
+    use crate::geometry::Side;
+    use crate::settings::Effective;
+    use std::f64::consts::TAU;
+    use std::sync::OnceLock;
+
+    fn walls(vertices: &[[f64; 3]]) -> Vec<Wall> {
+        let next = vertices.iter().cycle().skip(1);
+        let wall = |(segment, (from, to)): (usize, (&[f64; 3], &[f64; 3]))| Wall {
+            geometry: Segment::from_bulge(
+                Point::new(from[0], from[1]),
+                Point::new(to[0], to[1]),
+                from[2],
+            ),
+            source: Source::Segment {
+                entity: EntityId(0),
+                segment,
+            },
+        };
+        vertices.iter().zip(next).enumerate().map(wall).collect()
+    }
+
+    /// In the corners of an opening each side of the later path is longer by the difference of the corrections; about the round end
+    /// opposite nothing is.
+    #[test]
+    fn what_reaches_beyond_an_earlier_pass_is_told() {
+        let walls = walls(&[
+            [0.0, 0.0, 0.0],
+            [10.0, 0.0, 1.0],
+            [10.0, 4.0, 0.0],
+            [0.0, 4.0, 0.0],
+        ]);
+        let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
+        let laid = |correction: f64| {
+            let joining = Joining {
+                correction,
+                side: 1.0,
+                touch: 1e-7,
+                tolerance: 1e-6,
+            };
+            let raw = Raw::new(&walls, own.tangents(), &joining);
+            let path = raw.trimmed().unwrap();
+            (
+                raw,
+                path.into_iter()
+                    .map(|(_, element)| element)
+                    .collect::<Vec<_>>(),
+            )
+        };
+        let ((_, outer), (raw, inner)) = (laid(0.3), laid(0.1));
+        let proof = Proof {
+            walls: &walls,
+            raw: &raw,
+            own: &own,
+            correction: 0.1,
+            side: 1.0,
+            rounding: 1e-6,
+            closed: true,
+            near_raw: OnceLock::new(),
+        };
+        let beyond = |correction: f64| {
+            let before = Before {
+                path: &outer,
+                correction,
+            };
+            let mut nest = Nest::new(before);
+            let parts = inner.iter().map(|element| nest.beyond(&proof, element));
+            let lengths = |parts: [Option<Segment>; 2]| {
+                parts.map(|part| part.map_or(0.0, |part| (part.length() * 1e6).round() / 1e6))
+            };
+            parts.map(|parts| parts.map(lengths)).collect::<Vec<_>>()
+        };
+        let expected = [[0.2, 0.0], [0.0, 0.0], [0.0, 0.2], [0.2, 0.2]];
+        assert_eq!(beyond(0.3), expected.map(Some));
+        // A path that does not lie where it is said to says nothing.
+        assert_eq!(beyond(0.4), [None; 4]);
+    }
+
+    #[test]
+    fn passes_are_the_same_behind_others_and_alone() {
+        let mut state = 5_u64;
+        let mut number = || {
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (state >> 33) as f64 / (1_u64 << 31) as f64
+        };
+        let settings = Effective::default();
+        let (mut paths, mut refused) = (0, 0);
+        for _ in 0..300 {
+            let count = 4 + (number() * 24.0) as usize;
+            let radius = 0.3 + count as f64 * 0.06 * number();
+            let vertex = |at: usize| {
+                let (sin, cos) = (TAU * at as f64 / count as f64).sin_cos();
+                let away = radius * (1.0 - 0.5 * number());
+                let bulge = if number() < 0.4 {
+                    0.0
+                } else {
+                    1.4 * number() - 0.7
+                };
+                [away * cos, away * sin, bulge]
+            };
+            let vertices: Vec<[f64; 3]> = (0..count).map(vertex).collect();
+            let segments: Vec<ContourSegment> = walls(&vertices)
+                .iter()
+                .enumerate()
+                .map(|(segment, wall)| ContourSegment {
+                    entity: EntityId(0),
+                    segment,
+                    reversed: false,
+                    geometry: wall.geometry,
+                })
+                .collect();
+            for side in [Side::Left, Side::Right] {
+                let laid = |all: &[f64]| rounds(&segments, (side, true), all, &settings, 1.0);
+                let all = [0.1, 0.08, 0.03];
+                let together = laid(&all);
+                for (correction, path) in all.iter().zip(&together) {
+                    assert_eq!(*path, laid(&[*correction])[0], "{correction} {vertices:?}");
+                    paths += usize::from(path.is_some());
+                    refused += usize::from(path.is_none());
+                }
+            }
+        }
+        assert!(paths > 900 && refused > 100, "{paths} {refused}");
+    }
+}
