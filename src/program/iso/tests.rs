@@ -382,6 +382,29 @@ fn contour() -> impl Strategy<Value = String> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(6))]
+    #[test]
+    fn an_edit_among_passes_leaves_them_as_read_afresh(
+        rounds in prop::collection::vec((prop::sample::select(vec!["10.", "10.", "10.", "9.9", "40."]), 0_usize..12), 60..110),
+        edits in prop::collection::vec((0_usize..5000, 0_usize..3, prop::sample::select(vec!["", "5", "1", "\n", "X", "G01 X-3. Y2.\n", "G03 X0. Y0. I-5. J0.\n"])), 1..4),
+    ) {
+        // Some of the squares cross themselves.
+        let round = |(side, kind): &(&str, usize)| match kind {
+            0 => format!("G01 X{side} Y0.\nG01 X0. Y{side}\nG01 X{side} Y{side}\nG01 X0. Y0.\n"),
+            1 => format!("G01 X{side} Y0.\nG02 X{side} Y{side} I0. J5.\nG01 X0. Y{side}\nG01 X0. Y0.\n"),
+            _ => format!("G01 X{side} Y0.\nG01 X{side} Y{side}\nG01 X0. Y{side}\nG01 X0. Y0.\n"),
+        };
+        let text: String = rounds.iter().map(round).collect();
+        let mut document = read(&format!("G90\nG92 X0. Y0.\n{text}M02\n"));
+        for (start, length, replacement) in edits {
+            document.edit(start..start + length, replacement);
+            let fresh = Document::read(document.text().bytes().to_vec());
+            prop_assert_eq!(document.plain_findings(), fresh.plain_findings());
+        }
+    }
+}
+
+proptest! {
     #[test]
     fn an_edited_document_is_the_one_read_afresh(
         lines in prop::collection::vec(line(), 0..700),

@@ -6,8 +6,8 @@
 
 use super::crossing::{Crossing, MOST_PAIRS, Tangle, come_near, crossings, margin};
 use super::lay::keep_first;
-use super::parted::{PartedWay, micrometres};
-use super::passes::{passes, pieces_of};
+use super::parted::{Part, PartedWay, micrometres};
+use super::passes::{Before, passes};
 use super::way::Way;
 use crate::finding::{Detail, Fault, Finding, NotJudged, Place, Rule, Severity};
 use crate::geometry::{Bounds, Segment, Vector};
@@ -30,6 +30,8 @@ pub(crate) struct Known {
     pairs: FxHashMap<Pair, Near>,
     /// What was found in cuts, by their marks.
     found: FxHashMap<u64, Arc<Found>>,
+    /// The last cut of several passes that was looked through.
+    passed: Option<Box<Passed>>,
     /// What is in use since the last look began: pairs of parts, and cuts.
     used: [usize; 2],
 }
@@ -67,11 +69,38 @@ impl Known {
         {
             return Found::default();
         }
-        let passes = passes(way);
-        if passes.is_empty() {
+        let before = self.passed.as_ref().and_then(|before| before.like(way));
+        let passes = passes(way, before);
+        if passes.all.is_empty() {
             return search(way, self);
         }
-        crossings_of_passes(&pieces_of(way).unwrap_or_default(), &passes)
+        let [first, last] = passes.known;
+        let known = self.passed.take().map(|before| before.crossings);
+        let mut crossings = known.unwrap_or_default();
+        let others = passes.all.get(first..passes.all.len() - last);
+        let own = others.unwrap_or_default().iter();
+        let own = own.map(|pass| crossings_of_pass(way, pass));
+        crossings.splice(first..crossings.len() - last, own);
+        let placed = |(pass, crossings): (&Range<usize>, &Vec<Crossing>)| {
+            let begin = pass.start;
+            let placed = |one: &Crossing| Crossing {
+                first: one.first + begin,
+                second: one.second + begin,
+                at: one.at,
+            };
+            crossings.iter().map(placed).collect::<Vec<_>>()
+        };
+        let all = passes.all.iter().zip(&crossings).flat_map(placed).collect();
+        self.passed = Some(Box::new(Passed {
+            parts: parts_of(way),
+            tolerance: way.tolerance(),
+            passes: passes.all,
+            crossings,
+        }));
+        Found {
+            crossings: all,
+            ..Found::default()
+        }
     }
 
     /// The look has ended: forgets all where much more is known than is in use.
@@ -83,6 +112,42 @@ impl Known {
         if self.found.len() > 4 * cuts + 4096 {
             self.found.clear();
         }
+    }
+}
+
+/// A part by its way, its blocks and where it begins.
+type PartMark = (u64, usize, [i64; 2]);
+
+fn parts_of(way: &PartedWay<'_>) -> Vec<PartMark> {
+    let mark = |part: &Part<'_>| (part.lay.mark, part.blocks, part.start);
+    way.parts.iter().map(mark).collect()
+}
+
+/// A cut of several passes: where an edit leaves most of it as it was, the others are not looked through again.
+#[derive(Clone, Debug)]
+struct Passed {
+    parts: Vec<PartMark>,
+    tolerance: f64,
+    passes: Vec<Range<usize>>,
+    /// Where each of them crosses itself, counted from its begin.
+    crossings: Vec<Vec<Crossing>>,
+}
+
+impl Passed {
+    /// What a way has in common with it.
+    fn like(&self, way: &PartedWay<'_>) -> Option<Before<'_>> {
+        let parts = parts_of(way);
+        let is_one = |(own, other): &(&PartMark, &PartMark)| own == other;
+        let first = self.parts.iter().zip(&parts).take_while(is_one).count();
+        let (own, others) = (self.parts.get(first..)?, parts.get(first..)?);
+        let both = own.iter().rev().zip(others.iter().rev());
+        let last = both.take_while(is_one).count();
+        let blocks = |parts: &[PartMark]| parts.iter().map(|(_, blocks, _)| blocks).sum();
+        let same = [self.parts.get(..first)?, own.get(own.len() - last..)?].map(blocks);
+        (self.tolerance == way.tolerance()).then_some(Before {
+            passes: &self.passes,
+            same,
+        })
     }
 }
 
@@ -262,25 +327,11 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
     }
 }
 
-/// Where the passes of a cut cross themselves, each for itself: one may lie on another, and ways in and out cross others.
-fn crossings_of_passes(pieces: &[Segment], passes: &[Range<usize>]) -> Found {
-    let crossings = passes.iter().flat_map(|pass| {
-        let own = pieces.get(pass.clone()).unwrap_or_default();
-        let arcs = own.iter().filter(|piece| piece.as_arc().is_some()).count();
-        let placed = |one: Crossing| Crossing {
-            first: one.first + pass.start,
-            second: one.second + pass.start,
-            ..one
-        };
-        crossings(own, arcs)
-            .into_iter()
-            .map(placed)
-            .collect::<Vec<_>>()
-    });
-    Found {
-        crossings: crossings.collect(),
-        ..Found::default()
-    }
+/// Where a pass of a cut crosses itself, counted from its begin: it may lie on another, and ways in and out cross others.
+fn crossings_of_pass(way: &PartedWay<'_>, pass: &Range<usize>) -> Vec<Crossing> {
+    let own: Vec<Segment> = pass.clone().filter_map(|index| way.piece(index)).collect();
+    let arcs = own.iter().filter(|piece| piece.as_arc().is_some()).count();
+    crossings(&own, arcs)
 }
 
 /// The pieces of a part from the origin, with boxes about them, about pairs of boxes, and so on up to one.

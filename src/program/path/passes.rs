@@ -11,10 +11,24 @@ const BETWEEN: usize = 6;
 const BESIDE: f64 = 1_000.0;
 
 /// The passes of a way, the ways in and out with the first and the last of them; none where it goes round once.
-pub(crate) fn passes(way: &dyn Way) -> Vec<Range<usize>> {
+#[derive(Default)]
+pub(crate) struct Passes {
+    pub(crate) all: Vec<Range<usize>>,
+    /// So many of the first and of the last were known.
+    pub(crate) known: [usize; 2],
+}
+
+/// The passes of a way that is like this one.
+pub(crate) struct Before<'a> {
+    pub(crate) passes: &'a [Range<usize>],
+    /// So many of its first and of its last blocks are those of this one, where they are.
+    pub(crate) same: [usize; 2],
+}
+
+pub(crate) fn passes(way: &dyn Way, before: Option<Before<'_>>) -> Passes {
     may_have_passes(way)
-        .map(|()| found(way))
-        .filter(|passes| passes.len() > 1)
+        .map(|()| found(way, before))
+        .filter(|passes| passes.all.len() > 1)
         .unwrap_or_default()
 }
 
@@ -34,11 +48,13 @@ fn may_have_passes(way: &dyn Way) -> Option<()> {
     })
 }
 
-fn found(way: &dyn Way) -> Vec<Range<usize>> {
+fn found(way: &dyn Way, before: Option<Before<'_>>) -> Passes {
     let mut pieces = Ahead {
         way,
+        first: 0,
         held: Vec::new(),
     };
+    let mut known = [0, 0];
     let tolerance = way.tolerance();
     let mut passes: Vec<Range<usize>> = Vec::new();
     let mut first_box: Option<Bounds> = None;
@@ -54,25 +70,76 @@ fn found(way: &dyn Way) -> Vec<Range<usize>> {
         from = round.end;
         // What lies between two passes leads to the next.
         passes.push(passes.last().map_or(0, |before| before.end)..round.end);
+        let Some(before) = &before else { continue };
+        if passes.len() == 1 {
+            known[0] = before.at_the_begin(&passes);
+            passes.extend_from_slice(before.passes.get(1..known[0]).unwrap_or_default());
+            from = passes.last().map_or(0, |last| last.end);
+            pieces.go_to(from);
+        }
+        // What the others are hangs on the first, and on what is still to come.
+        if known[0] > 0
+            && let Some(rest) = before.from(from, way.count())
+        {
+            let own = passes.len();
+            passes.extend(rest);
+            known[1] = passes.len() - own;
+            break;
+        }
     }
     if let Some(last) = passes.last_mut() {
         last.end = way.count();
     }
-    passes
+    Passes { all: passes, known }
 }
 
-/// The pieces of a way, asked for as far as somebody looks.
+impl Before<'_> {
+    /// How many of its passes lie in what both ways begin with, where its first is this one. Where the last round ends is not known.
+    fn at_the_begin(&self, first: &[Range<usize>]) -> usize {
+        let whole = self.passes.split_last().map_or(&[][..], |(_, whole)| whole);
+        match whole.first() == first.first() {
+            true => whole.partition_point(|pass| pass.end <= self.same[0]),
+            false => 0,
+        }
+    }
+
+    /// Its passes from a block of this way on, which has so many, where one begins there and both ways go on alike.
+    fn from(&self, from: usize, count: usize) -> Option<impl Iterator<Item = Range<usize>>> {
+        let its_count = self.passes.last()?.end;
+        let behind = count
+            .checked_sub(from)
+            .filter(|behind| *behind <= self.same[1])?;
+        let its_from = its_count.checked_sub(behind)?;
+        let at = self
+            .passes
+            .binary_search_by_key(&its_from, |pass| pass.start);
+        let rest = self.passes.get(at.ok()?..)?.iter();
+        let moved = move |at: usize| at - its_from + from;
+        Some(rest.map(move |pass| moved(pass.start)..moved(pass.end)))
+    }
+}
+
+/// The pieces of a way from one on, asked for as far as somebody looks.
 struct Ahead<'a> {
     way: &'a dyn Way,
+    first: usize,
     held: Vec<Segment>,
 }
 
 impl Ahead<'_> {
     fn piece(&mut self, index: usize) -> Option<Segment> {
+        let index = index.checked_sub(self.first)?;
         while self.held.len() <= index {
-            self.held.push(self.way.piece(self.held.len())?);
+            self.held
+                .push(self.way.piece(self.first + self.held.len())?);
         }
         self.held.get(index).copied()
+    }
+
+    /// What comes before a piece is not asked for any more.
+    fn go_to(&mut self, first: usize) {
+        self.held.drain(..(first - self.first).min(self.held.len()));
+        self.first = first;
     }
 }
 
