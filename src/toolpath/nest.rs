@@ -5,7 +5,6 @@
 
 use super::corners::Element;
 use super::path::Source;
-use super::proof::Proof;
 use crate::geometry::{Arc, Point, Segment, left_normal};
 
 /// The path of an earlier pass, proved, beside the same walls on the same side, at no smaller correction.
@@ -13,6 +12,16 @@ use crate::geometry::{Arc, Point, Segment, left_normal};
 pub(super) struct Before<'a> {
     pub(crate) path: &'a [Element],
     pub(crate) correction: f64,
+}
+
+/// How the later path runs beside one wall.
+#[derive(Clone, Copy)]
+pub(super) struct Beside {
+    pub(crate) wall: Segment,
+    pub(crate) side: f64,
+    pub(crate) correction: f64,
+    /// How far a path may be off by rounding.
+    pub(crate) rounding: f64,
 }
 
 /// Which pieces of a path run beside what an earlier pass does.
@@ -29,7 +38,7 @@ impl<'a> Nest<'a> {
     /// What of a piece reaches beyond the piece of the earlier path beside the same wall. `None` where there is none, or that is not known.
     pub(crate) fn beyond(
         &mut self,
-        proof: &Proof,
+        beside: Beside,
         element: &Element,
     ) -> Option<[Option<Segment>; 2]> {
         /// So many pieces of the earlier path are looked at.
@@ -40,25 +49,25 @@ impl<'a> Nest<'a> {
             |other: &Element| other.wall == element.wall && is_roll(other) == is_roll(element);
         let found = path.iter().skip(self.at).take(AHEAD).position(is_same)?;
         self.at += found;
-        let by = correction - proof.correction;
-        let slack = 1e-3 * proof.rounding;
+        let by = correction - beside.correction;
+        let slack = 1e-3 * beside.rounding;
         if by < 0.0 {
             return None;
         }
         let mut parts = [None; 2];
         match (element.geometry, path.get(self.at)?.geometry) {
             (Segment::Line(inner), Segment::Line(outer)) => {
-                let own = proof.walls.get(element.wall)?.geometry;
+                let own = beside.wall;
                 let along = own.start_tangent();
-                let out = left_normal(along) * proof.side;
+                let out = left_normal(along) * beside.side;
                 let place = |point: Point, correction: f64| {
                     let from = point - own.start();
                     let is_on = (from.dot(&out) - correction).abs() <= slack;
                     is_on.then(|| from.dot(&along))
                 };
                 let (begin, end) = (
-                    place(inner.start, proof.correction)?,
-                    place(inner.end, proof.correction)?,
+                    place(inner.start, beside.correction)?,
+                    place(inner.end, beside.correction)?,
                 );
                 let (first, last) = (
                     place(outer.start, correction)?,
@@ -83,7 +92,7 @@ impl<'a> Nest<'a> {
                 let is_exact = |arc: &Arc| {
                     !arc.is_shallow()
                         && !arc.is_full_turn()
-                        && arc.radius > proof.rounding
+                        && arc.radius > beside.rounding
                         && is_on(arc, arc.start)
                         && is_on(arc, arc.end)
                 };
@@ -133,7 +142,6 @@ mod tests {
     use crate::geometry::Side;
     use crate::settings::Effective;
     use std::f64::consts::TAU;
-    use std::sync::OnceLock;
 
     fn walls(vertices: &[[f64; 3]]) -> Vec<Wall> {
         let next = vertices.iter().cycle().skip(1);
@@ -171,23 +179,16 @@ mod tests {
             };
             let raw = Raw::new(&walls, own.tangents(), &joining);
             let path = raw.trimmed().unwrap();
-            (
-                raw,
-                path.into_iter()
-                    .map(|(_, element)| element)
-                    .collect::<Vec<_>>(),
-            )
+            path.into_iter()
+                .map(|(_, element)| element)
+                .collect::<Vec<_>>()
         };
-        let ((_, outer), (raw, inner)) = (laid(0.3), laid(0.1));
-        let proof = Proof {
-            walls: &walls,
-            raw: &raw,
-            own: &own,
-            correction: 0.1,
+        let (outer, inner) = (laid(0.3), laid(0.1));
+        let beside = |element: &Element| Beside {
+            wall: walls[element.wall].geometry,
             side: 1.0,
+            correction: 0.1,
             rounding: 1e-6,
-            closed: true,
-            near_raw: OnceLock::new(),
         };
         let beyond = |correction: f64| {
             let before = Before {
@@ -195,7 +196,9 @@ mod tests {
                 correction,
             };
             let mut nest = Nest::new(before);
-            let parts = inner.iter().map(|element| nest.beyond(&proof, element));
+            let parts = inner
+                .iter()
+                .map(|element| nest.beyond(beside(element), element));
             let lengths = |parts: [Option<Segment>; 2]| {
                 parts.map(|part| part.map_or(0.0, |part| (part.length() * 1e6).round() / 1e6))
             };

@@ -6,7 +6,7 @@
 
 use super::clearance::Walls;
 use super::corners::{Element, Raw, meetings};
-use super::nest::Nest;
+use super::nest::{Beside, Nest};
 use super::offset::Wall;
 use crate::drawing::winding_of;
 use crate::geometry::{Arc, Line, Point, Segment};
@@ -75,7 +75,15 @@ impl Proof<'_> {
         mut nest: Option<&mut Nest>,
     ) -> Result<(), Unproved> {
         for (_, element) in pieces {
-            let beyond = nest.as_mut().and_then(|nest| nest.beyond(self, element));
+            let beyond = nest.as_mut().and_then(|nest| {
+                let beside = Beside {
+                    wall: self.walls[element.wall].geometry,
+                    side: self.side,
+                    correction: self.correction,
+                    rounding: self.rounding,
+                };
+                nest.beyond(beside, element)
+            });
             match beyond {
                 Some(parts) => {
                     let [begin, end] = parts;
