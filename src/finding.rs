@@ -213,8 +213,8 @@ pub struct Misfit {
     /// The part at whose segment the finding stands, and its partner: `punch` and `plate`, or names of workpieces.
     pub of: Arc<str>,
     pub partner: Arc<str>,
-    /// That of the two which stands too far out.
-    pub corner_of: Arc<str>,
+    /// That of the two which stands too far out in a corner; `None` where they bind along a wall, which no radius of a corner mends.
+    pub corner_of: Option<Arc<str>>,
 }
 
 #[derive(Clone, Debug, PartialEq)]

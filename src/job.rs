@@ -18,7 +18,7 @@ use crate::fit::{self, Fit};
 use crate::picture::{self, View};
 use crate::program::{self, Format, ProofError, ProvedProgram};
 use crate::rule::Rule;
-use crate::settings::Effective;
+use crate::settings::{Effective, LengthSetting};
 use crate::text::{Patch, TextEdit, edited};
 use crate::toolpath::{
     self, Finished, Planned, StartHole, WirePath, Work, entities_of, plan_while,
@@ -418,6 +418,7 @@ fn written(
         &paths,
         &holes,
     ));
+    warnings.extend(no_tab_kept(snapshot, &paths));
     let mut work = toolpath::work(&snapshot.drawing, &snapshot.outlines, settings, &paths);
     if let Some(milled) = &program.milled {
         warnings.extend(milling::uneven(snapshot, milled));
@@ -434,5 +435,22 @@ fn written(
             ..finished
         }),
         warnings,
+    })
+}
+
+/// What is said where a tab is asked for and no contour keeps one.
+fn no_tab_kept(snapshot: &Snapshot, paths: &[WirePath]) -> Option<Finding> {
+    let settings = &snapshot.settings;
+    let is_asked = match &settings.tab {
+        LengthSetting::One(length) => *length > 0.0,
+        LengthSetting::ByHandle(_) => false,
+    };
+    let is_left_out = is_asked && !settings.mills && !paths.iter().any(|path| path.cut_off);
+    is_left_out.then(|| Finding {
+        rule: Rule::Settings,
+        severity: Severity::Information,
+        place: Place::Document,
+        detail: Detail::Said(say!(no_contour_keeps_a_tab, "program.tab")),
+        related: Vec::new(),
     })
 }

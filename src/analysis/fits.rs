@@ -159,6 +159,11 @@ impl Analysis {
             self.settings.pair.clearance.unwrap_or(0.0) / self.limits.unit_mm,
         );
         for spot in pair.spots.iter().filter(|spot| spot.clearance < -rounding) {
+            // Walls are deepest where they end, in a corner.
+            let wide = self.wide(wanted, spot);
+            let is_corner = |other: &&Spot| other.turn > 0.0 && (other.at - spot.at).norm() <= wide;
+            let corner = Some(spot).filter(|spot| spot.turn > 0.0);
+            let corner = corner.or_else(|| pair.spots.iter().find(is_corner));
             let mut add = |at: SegmentOf, other: SegmentOf, of: &Arc<str>, partner: &Arc<str>| {
                 if report.counts(Rule::DoesNotFit, None) {
                     let misfit = Misfit {
@@ -167,7 +172,7 @@ impl Analysis {
                         wanted,
                         of: of.clone(),
                         partner: partner.clone(),
-                        corner_of: spot.of.clone(),
+                        corner_of: corner.map(|corner| corner.of.clone()),
                     };
                     let detail = Detail::DoesNotFit(Box::new(misfit));
                     report.add(
@@ -379,6 +384,11 @@ impl Analysis {
         }
     }
 
+    /// How far away from a spot what belongs to its corner may lie.
+    fn wide(&self, clearance: f64, spot: &Spot) -> f64 {
+        2.0 * self.limits.correction.max(clearance) + spot.clearance.abs()
+    }
+
     fn left_behind(&self, drawing: &Drawing, corner: &Corner, edit: &DrawingEdit) -> Option<f64> {
         let mut edited = drawing.clone();
         let delta = edited.apply(edit).ok()?;
@@ -389,7 +399,7 @@ impl Analysis {
         let spot = corner.spot;
         let place = (spot.segment.0, 0);
         let pair = after.pair_at(&edited, place)?;
-        let wide = 2.0 * self.limits.correction.max(corner.clearance) + (spot.clearance).abs();
+        let wide = self.wide(corner.clearance, spot);
         let near = |other: &&Spot| (other.at - spot.at).norm() <= wide;
         let left = pair.spots.iter().filter(near).map(|spot| spot.clearance);
         let binding = |pair: &Pair| {

@@ -1,7 +1,4 @@
 //! The program that we would write for a drawing, and what we have written so.
-//!
-//! It hangs on the drawing, the settings and the format alone, not on the program that is held against it: it is kept as long as the drawing
-//! is, so that an edit of the program writes nothing.
 
 use super::traced::{Motion, Traced};
 use crate::drawing::{Drawing, EntityId, Outline};
@@ -10,12 +7,9 @@ use crate::program::write::scaled;
 use crate::program::{Document, Format, Language};
 use crate::settings::{Effective, Layout};
 use crate::toolpath::{Source, WirePath, plan};
-use std::sync::{Arc, Mutex, PoisonError};
 
 /// Of more entities, or of contours of more segments, no program is written to hold another one against it.
 const MOST: usize = 20_000;
-/// Blocks of programs that are kept, at most.
-const MOST_KEPT: usize = 60_000;
 
 /// A program that was written anew, and the ways it was written of, µm.
 #[derive(Debug)]
@@ -42,23 +36,14 @@ pub(super) struct Of<'a> {
     pub unit_mm: f64,
 }
 
-/// What has been written for a drawing.
-#[derive(Debug, Default)]
-pub(super) struct Kept {
-    /// With what it was written by; nothing where that cannot be.
-    written: Mutex<Vec<(Asked, Option<Arc<Anew>>)>>,
-    /// Under what a program was found to be written last.
-    guess: Mutex<Option<Under>>,
-}
-
 #[derive(Clone, Debug, PartialEq)]
-struct Asked {
+pub(super) struct Asked {
     format: Format,
     under: Under,
 }
 
 impl Asked {
-    fn of(traced: &Traced, under: &Under) -> Asked {
+    pub fn of(traced: &Traced, under: &Under) -> Asked {
         let format = match (traced.counts, traced.four_b) {
             (false, _) => Format::Iso,
             (true, false) => Format::ThreeB,
@@ -72,39 +57,8 @@ impl Asked {
     }
 }
 
-impl Kept {
-    pub fn anew(&self, of: &Of<'_>, traced: &Traced, under: &Under) -> Option<Arc<Anew>> {
-        let asked = Asked::of(traced, under);
-        let lock = || self.written.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, known)) = lock().iter().find(|(other, _)| *other == asked) {
-            return known.clone();
-        }
-        let made = Anew::of(of, &asked).map(Arc::new);
-        let mut kept = lock();
-        let blocks = |anew: &Option<Arc<Anew>>| {
-            100 + anew.as_ref().map_or(0, |anew| anew.traced.blocks.len())
-        };
-        let sum: usize = kept.iter().map(|(_, anew)| blocks(anew)).sum();
-        if sum + blocks(&made) > MOST_KEPT {
-            // The first is the one that the settings ask for.
-            kept.truncate(1);
-        }
-        kept.push((asked, made.clone()));
-        made
-    }
-
-    pub fn guess(&self) -> Option<Under> {
-        let guess = self.guess.lock().unwrap_or_else(PoisonError::into_inner);
-        guess.clone()
-    }
-
-    pub fn note(&self, guess: Under) {
-        *self.guess.lock().unwrap_or_else(PoisonError::into_inner) = Some(guess);
-    }
-}
-
 impl Anew {
-    fn of(of: &Of<'_>, Asked { format, under }: &Asked) -> Option<Anew> {
+    pub fn of(of: &Of<'_>, Asked { format, under }: &Asked) -> Option<Anew> {
         let settings = &under.settings;
         let cut = of.outlines.iter();
         let cut = cut.filter(|outline| outline.contour.double_of.is_none());

@@ -23,6 +23,7 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     // Of few blocks any may be as other settings have it; of many, a few may be as another writer rounds them.
     let is_doubtful = match &known.comparison.differences[..] {
         [] => false,
+        _ if !known.is_exact() => true,
         [_] => known.has_gap || blocks < SMALL,
         all => 16 * all.len() > blocks || all.iter().any(|one| one.off < ROUNDING),
     };

@@ -41,12 +41,12 @@ pub struct Comparison {
     pub follows: Vec<Range<usize>>,
 }
 
-/// Differences of more blocks than this share speak for another drawing.
-const OTHER: f64 = 0.34;
 /// As many differences as this are one change each, whatever their share.
 pub(super) const FEW: usize = 6;
 /// What a block of 4B may be off by where another rounding of its transitions explains it, µm.
 const ROUNDED: f64 = 2.5;
+/// One of several blocks that are unlike is off by as much, µm.
+const CHANGED: f64 = 2.5;
 /// So many blocks have to be as we write them for each that is not: it is a change then, and not another writer's rounding.
 const OWN: usize = 8;
 /// Corrections that are found for further passes, at most.
@@ -389,11 +389,13 @@ impl Tried {
             .map(|[_, contour]| contour.len())
             .sum::<usize>()
             .max(1);
-        let unlike = self.unlike.len();
-        2 * self.followed >= count
-            && self.followed > 0
-            && (unlike <= FEW || (unlike as f64) < OTHER * self.followed as f64)
-            && unlike <= self.followed
+        // Several that hardly differ are as the way was guessed, and not as somebody changed it.
+        let is_change = |unlike: &Unlike| unlike.kind != Kind::Block || unlike.off >= CHANGED;
+        let all = &self.unlike[..];
+        let is_likely = self.followed >= all.len().max(1)
+            && (all.len() < 2 || all.iter().all(is_change))
+            && (all.len() < 3 || self.is_own());
+        2 * self.followed >= count && is_likely
     }
 
     fn or_better(self, other: impl FnOnce() -> Tried) -> Tried {

@@ -1,6 +1,7 @@
 //! What is taken of a drawing: its contours, by segments, and the programs that we would write for it.
 
-use super::anew::{Anew, Kept, Of, Under};
+use super::anew::{Anew, Of, Under};
+use super::kept::Kept;
 use super::traced::Traced;
 use crate::drawing::{ContourSegment, Drawing, EntityId, Outline};
 use crate::geometry::Side;

@@ -4,11 +4,14 @@
 //! Each guess is written anew, and that which has most blocks in common with the program is bettered, one setting after the other.
 
 use super::anew::{Anew, Under};
-use super::comparison::FEW;
+use super::comparison::{Difference, FEW};
 use super::drawn::Drawn;
+use super::kept::Guess;
 use super::own::{Told, own};
 use super::tabs::tabs;
 use super::traced::{Block, Motion, Traced};
+use super::walk::Kind;
+use super::way::{Way, way};
 use super::{infer, measure};
 use crate::geometry::Segment;
 use crate::settings::{
@@ -16,33 +19,112 @@ use crate::settings::{
 };
 use rustc_hash::FxHashMap;
 
-/// Blocks that are written anew under guessed settings, at most; and what one guess costs at least.
-const MOST_TRIED: usize = 30_000;
+/// Blocks that are written anew under guessed settings, at most; where a program was searched before that is the same but for a few
+/// blocks; and what one guess costs at least.
+const MOST_TRIED: usize = 300_000;
+const MOST_AGAIN: usize = 30_000;
 const LEAST_COST: usize = 60;
 /// Where the blocks of a program lie farther away than this in the mean, another writer wrote it, µm.
 const OURS: f64 = 0.5;
 /// By how much a block at a stop is off where a tab was guessed wrong, mm.
 const FAR: f64 = 0.05;
+/// What is off by less may be so because a guess is not that of the program, mm.
+const CHANGED: f64 = 2e-3;
+/// A correction may have four places: it is so many steps of 0.1 µm away from one that was found, at most.
+const STEPS: i32 = 12;
+/// A way in or out that is off by more is set otherwise, mm; and where it hangs on what is not known.
+const SLIP: f64 = 1e-2;
+const SLIGHT: f64 = 5e-3;
+/// A tab, an overlap or a lead of another length shows so many blocks from a stop or an end, at most.
+const ABOUT: usize = 3;
 /// Passes that are thought of, at most.
 const PASSES: usize = 4;
 
 /// What somebody has changed in a program that is ours under other settings.
 pub(super) fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Told> {
-    let last = drawn.kept().guess();
-    let again = last.and_then(|last| own(drawn, traced, &last));
-    if let Some(told) = again.filter(is_certain) {
-        return Some(told);
+    let kept = drawn.kept().guess();
+    let is_near = kept.as_ref().is_some_and(|kept| kept.is_near(traced));
+    if let Some(Guess { under, left, .. }) = &kept
+        && let Some(under) = under
+        && let Some(told) = own(drawn, traced, under)
+        && (is_certain(traced, &told)
+            || is_near && told.elsewhere == 0 && told.comparison.differences.len() <= *left)
+        && is_told(traced, &told)
+    {
+        return Some(without_leads(traced, told));
     }
     let mut search = Search::of(drawn, traced)?;
+    if is_near {
+        search.fuel = MOST_AGAIN;
+    }
     search.all();
-    let (told, under) = search.told?;
-    drawn.kept().note(under);
-    Some(told)
+    let (told, under) = search.told.unzip();
+    let told = told.map(|told| without_leads(traced, told));
+    let differences = |told: &Told| told.comparison.differences.len();
+    let left = told.as_ref().map_or(0, differences);
+    drawn.kept().note(Guess::of(traced, under, left));
+    told
 }
 
-/// No other guess has to be looked for.
-fn is_certain(told: &Told) -> bool {
-    told.is_exact() && told.comparison.differences.len() < 2 && !told.has_gap
+/// Where the control adds the correction, the program does not say which it is, and ways in and out hang on it.
+fn without_leads(traced: &Traced, told: Told) -> Told {
+    let is_offset = traced.blocks.iter().any(|block| block.is_offset);
+    told.without_leads(if is_offset { SLIGHT } else { SLIP })
+}
+
+/// Nothing is unlike, or one block of a contour that no setting would change alone.
+fn is_certain(traced: &Traced, told: &Told) -> bool {
+    match &told.comparison.differences[..] {
+        _ if told.elsewhere > 0 => false,
+        [] => told.is_exact(),
+        // Hardly any setting has one way alone elsewhere by so little.
+        [one] if one.kind == Kind::Lead => told.is_exact() && one.off <= SLIGHT,
+        [one] if told.is_exact() && !told.has_gap && one.kind == Kind::Block => {
+            let is_one = |block: &Block| block.range == one.range;
+            let blocks = &traced.blocks;
+            let at = blocks.iter().position(is_one).unwrap_or(0);
+            let about = at.saturating_sub(ABOUT)..=at + ABOUT;
+            let is_cut = |index: &usize| {
+                let block = blocks.get(*index);
+                block.is_some_and(|block| block.segment().is_some())
+            };
+            at >= ABOUT && about.clone().filter(is_cut).count() == about.count()
+        }
+        _ => false,
+    }
+}
+
+/// Whether what a guess leaves unlike is what somebody has changed, and nothing that another guess might have otherwise: then it speaks for
+/// a program that is ours to the last block, or for one change that is large enough to be none of a correction's.
+fn is_told(traced: &Traced, told: &Told) -> bool {
+    let all = &told.comparison.differences;
+    let is_ours = match told.is_exact() {
+        true => all.len() <= FEW,
+        false => {
+            let is_change = |one: &Difference| {
+                one.off >= CHANGED && (one.kind == Kind::Block || one.off <= SLIGHT)
+            };
+            told.mean < OURS && all.len() < 2 && !told.has_gap && all.iter().all(is_change)
+        }
+    };
+    is_ours && !parts_at_a_stop(traced, told)
+}
+
+/// What differs by much ends where the wire stops or begins there, or it is off on both sides of a stop: the tab is of another length
+/// than was guessed, and nobody changed anything.
+fn parts_at_a_stop(traced: &Traced, told: &Told) -> bool {
+    let off = |block: &Block| {
+        let mut all = told.comparison.differences.iter();
+        let of = all.find(|difference| difference.range == block.range);
+        of.map_or(0.0, |difference| difference.off)
+    };
+    traced.blocks.windows(3).any(|about| match about {
+        [before, stop, behind] if stop.motion == Motion::Stop => {
+            let (one, other) = (off(before), off(behind));
+            one.max(other) > FAR || one.min(other) > 0.0
+        }
+        _ => false,
+    })
 }
 
 struct Search<'a> {
@@ -59,9 +141,6 @@ struct Search<'a> {
     /// What is told of the program by the best guess that leaves little to tell.
     told: Option<(Told, Under)>,
 }
-
-/// Where a block leads, µm, and what it is.
-type Way = (i64, i64, u8);
 
 impl<'a> Search<'a> {
     fn of(drawn: &'a Drawn, traced: &'a Traced) -> Option<Search<'a>> {
@@ -106,7 +185,9 @@ impl<'a> Search<'a> {
     }
 
     fn is_done(&self) -> bool {
-        self.told.as_ref().is_some_and(|(told, _)| is_certain(told))
+        self.told
+            .as_ref()
+            .is_some_and(|(told, _)| is_certain(self.traced, told))
     }
 
     fn all(&mut self) {
@@ -133,6 +214,9 @@ impl<'a> Search<'a> {
             self.each(true, self.of_tabs());
             self.each(true, self.of_overlaps());
             self.each(true, self.of_passes());
+            for pass in 0..self.best.settings.each_correction().len() {
+                self.each(true, self.of_steps(pass));
+            }
             if self.is_done() || self.score <= before {
                 return;
             }
@@ -154,15 +238,14 @@ impl<'a> Search<'a> {
                 continue;
             }
             let told = own(self.drawn, self.traced, &guess);
-            let told = told.filter(|told| {
-                let many = told.comparison.differences.len();
-                (told.mean < OURS && many < 2 && !told.has_gap || told.is_exact() && many <= FEW)
-                    && !self.parts_at_a_stop(told)
-            });
+            let told = told.filter(|told| is_told(self.traced, told));
             if let Some(told) = told {
-                let is_better = |(other, _): &(Told, Under)| {
-                    (told.doubt(), told.mean) < (other.doubt(), other.mean)
+                // Of those that are not the program's own the nearest: one that is farther off may hide a change.
+                let rank = |told: &Told| match told.is_exact() {
+                    true => (told.doubt(), told.mean),
+                    false => ((true, 0, false), told.mean),
                 };
+                let is_better = |(other, _): &(Told, Under)| rank(&told) < rank(other);
                 if self.told.as_ref().is_none_or(is_better) {
                     self.told = Some((told, guess.clone()));
                 }
@@ -171,23 +254,6 @@ impl<'a> Search<'a> {
                 (self.best, self.score) = (guess, score);
             }
         }
-    }
-
-    /// What differs by much ends where the wire stops or begins there, or it is off on both sides of a stop: the tab is of another length
-    /// than was guessed, and nobody changed anything.
-    fn parts_at_a_stop(&self, told: &Told) -> bool {
-        let off = |block: &Block| {
-            let mut all = told.comparison.differences.iter();
-            let of = all.find(|difference| difference.range == block.range);
-            of.map_or(0.0, |difference| difference.off)
-        };
-        self.traced.blocks.windows(3).any(|about| match about {
-            [before, stop, behind] if stop.motion == Motion::Stop => {
-                let (one, other) = (off(before), off(behind));
-                one.max(other) > FAR || one.min(other) > 0.0
-            }
-            _ => false,
-        })
     }
 
     /// The share of blocks that a program has in common with ours.
@@ -218,9 +284,7 @@ impl<'a> Search<'a> {
         for corrections in corrections(self.drawn, self.traced) {
             for corner in [Corner::Arc, Corner::Intersection] {
                 guesses.push(self.with(|settings| {
-                    settings.correction = corrections[0];
-                    settings.pass = (corrections.len() > 1).then_some(1);
-                    settings.corrections = corrections.clone();
+                    correct(settings, &corrections);
                     settings.corner = corner;
                 }));
             }
@@ -236,8 +300,7 @@ impl<'a> Search<'a> {
 
     fn of_leads(&self) -> Vec<Under> {
         let own = &self.drawn.settings;
-        let lengths = measure::leads(self.traced).into_iter();
-        let lengths = lengths.map(|length| (length, Some(length)));
+        let lengths = measure::leads(self.traced, self.best.settings.correction);
         let mut guesses = Vec::new();
         for (length, stated) in [(own.lead_in, own.stated_lead_in)]
             .into_iter()
@@ -270,6 +333,19 @@ impl<'a> Search<'a> {
         lengths.into_iter().map(of).collect()
     }
 
+    /// One of the corrections by a few tenths of a micrometre more or less.
+    fn of_steps(&self, pass: usize) -> Vec<Under> {
+        let corrections = self.best.settings.each_correction();
+        let steps = (1..=STEPS).flat_map(|step| [step, -step]);
+        let of = |step: i32| {
+            let mut corrections = corrections.clone();
+            let own = corrections.get_mut(pass)?;
+            *own = ((*own * 1e4).round() + f64::from(step)) / 1e4;
+            (*own > 0.0).then(|| self.with(|settings| correct(settings, &corrections)))
+        };
+        steps.filter_map(of).collect()
+    }
+
     fn of_passes(&self) -> Vec<Under> {
         if self.best.settings.corrections.len() < 2 {
             return Vec::new();
@@ -287,25 +363,10 @@ impl<'a> Search<'a> {
     }
 }
 
-/// What a block is by where it leads; where the way along it does not count, that of the upper half of the plane.
-fn way(block: &Block, is_directed: bool) -> Way {
-    let (by, kind) = match &block.motion {
-        Motion::Cut(segment) => {
-            let kind = match segment.as_arc() {
-                None => 0,
-                Some(arc) if arc.sweep > 0.0 && is_directed => 1,
-                Some(_) => 2,
-            };
-            (segment.end() - segment.start(), kind)
-        }
-        Motion::Way(_, by) => (*by, 3),
-        Motion::Stop => return (0, 0, 4),
-    };
-    let (x, y) = (by.x.round() as i64, by.y.round() as i64);
-    match is_directed || (y, x) >= (0, 0) {
-        true => (x, y, kind),
-        false => (-x, -y, kind),
-    }
+fn correct(settings: &mut Effective, corrections: &[f64]) {
+    settings.correction = corrections.first().copied().unwrap_or_default();
+    settings.pass = (corrections.len() > 1).then_some(1);
+    settings.corrections = corrections.to_vec();
 }
 
 /// Corrections that a program may have been written with, mm, those of several passes falling.
@@ -322,7 +383,11 @@ fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<Vec<f64>> {
         .fold(f64::INFINITY, f64::min);
     let least = least.is_finite().then_some([least, least - 1e-3]);
     let places = |mm: f64| (mm * 1e3).round() / 1e3;
-    let rounded = speaks_for.iter().copied().take(2);
+    // A way in whose length is counted from the contour is shorter by the correction.
+    let leads = measure::leads(traced, 0.0).into_iter();
+    let leads = leads.map(|(length, _)| drawn.settings.lead_in - length);
+    let lead = leads.take(1).filter(|mm| (0.0..1.0).contains(mm));
+    let rounded = speaks_for.iter().copied().take(2).chain(lead);
     let rounded = rounded.chain(least.into_iter().flatten());
     let near = |mm: f64| [0.0, -1e-3, 1e-3].map(|by| places(mm + by));
     let mut single: Vec<f64> = Vec::new();

@@ -13,6 +13,8 @@ const MOST: f64 = 3_000.0;
 const ASKED: usize = 400;
 /// Angles of one corner, radians.
 const ANGLE: f64 = 0.01;
+/// By how much an arc may be cut off at either end, radians.
+const CUT_OFF: f64 = 0.2;
 /// Votes for one correction lie within this, µm.
 const ONE: f64 = 2.0;
 /// Corrections that are told, at most.
@@ -100,9 +102,11 @@ fn turned(segments: &[Segment], closed: bool) -> Vec<Turned> {
 /// What a block says of the correction, if it runs beside a segment or round the corner behind it; µm.
 fn vote(own: &Turned, block: &Turned) -> Option<f64> {
     let (along, run) = (&own.segment, &block.segment);
-    let same_way = turn(along.start_tangent(), run.start_tangent()).abs() <= ANGLE;
+    let turned = turn(along.start_tangent(), run.start_tangent()).abs();
+    let same_way = turned <= ANGLE;
     match (along.as_arc(), run.as_arc()) {
-        (Some(own), Some(arc)) if same_way && (own.sweep - arc.sweep).abs() <= ANGLE => {
+        // One that meets its neighbours at an angle is cut off by them.
+        (Some(own), Some(arc)) if turned.max((own.sweep - arc.sweep).abs()) <= CUT_OFF => {
             Some((own.radius - arc.radius).abs())
         }
         (None, None) if same_way => {

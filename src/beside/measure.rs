@@ -9,8 +9,10 @@ use std::ops::Range;
 const BESIDE: f64 = 1_000.0;
 /// Pairs of boxes that are compared, at most.
 const MOST: usize = 2_000_000;
-/// Cuts that are asked how far they go on past their start, at most.
+/// Cuts that are asked how they begin, and how far they go on past their start, at most.
 const ASKED: usize = 8;
+/// Lengths of ways in that are thought of, at most.
+const LEADS: usize = 2;
 
 /// The blocks that cut from one threading to the next: those of one contour, or of one pass.
 fn cuts(traced: &Traced) -> impl Iterator<Item = Range<usize>> {
@@ -138,13 +140,23 @@ pub(super) fn passes(traced: &Traced) -> usize {
     blocks.iter().filter(near).count()
 }
 
-/// Lengths of the first way in, mm.
-pub(super) fn leads(traced: &Traced) -> Vec<f64> {
-    let Some([all, contour]) = traced.cuts.first() else {
-        return Vec::new();
+/// How long the ways in may be set to be, mm, the longest first: where there is no room, one is shorter. And whether that is stated: then it
+/// counts from the path, else from the contour.
+pub(super) fn leads(traced: &Traced, correction: f64) -> Vec<(f64, Option<f64>)> {
+    let lead = |[all, contour]: &[Range<usize>; 2]| -> f64 {
+        let lead = segments(traced, all.start..contour.start.max(all.start + 1));
+        lead.map(Segment::length).sum()
     };
-    let lead = segments(traced, all.start..contour.start.max(all.start + 1));
-    vec![hundredths(lead.map(Segment::length).sum())]
+    let mut lengths: Vec<f64> = traced.cuts.iter().take(ASKED).map(lead).collect();
+    lengths.sort_by(|one, other| other.total_cmp(one));
+    lengths.dedup_by(|one, other| (*one - *other).abs() <= 2.0);
+    lengths.truncate(LEADS);
+    let of = |um: f64| {
+        let unstated = hundredths(um + correction * 1e3);
+        let stated = [hundredths(um), um.round() / 1e3];
+        std::iter::once((unstated, None)).chain(stated.map(|length| (length, Some(length))))
+    };
+    lengths.into_iter().flat_map(of).collect()
 }
 
 fn hundredths(um: f64) -> f64 {

@@ -16,6 +16,7 @@ mod findings;
 mod goes;
 mod guess;
 mod infer;
+mod kept;
 mod matching;
 mod measure;
 mod members;
@@ -27,6 +28,7 @@ mod single;
 mod tabs;
 mod traced;
 mod walk;
+mod way;
 
 pub use compare::compare;
 pub use comparison::{Comparison, Difference, DifferenceKind};

@@ -31,6 +31,8 @@ pub(super) struct Told {
     pub mean: f64,
     /// Blocks are lost, or are there too many.
     pub has_gap: bool,
+    /// Ways in and out that are elsewhere by so much that it is meant.
+    pub elsewhere: usize,
 }
 
 impl Told {
@@ -39,9 +41,22 @@ impl Told {
         self.mean < SAME
     }
 
+    /// Several ways in and out that are elsewhere are set otherwise, and so is one that is by more than `most`, mm; any other somebody has
+    /// changed.
+    pub fn without_leads(mut self, most: f64) -> Told {
+        let is_lead = |one: &Difference| one.kind == Kind::Lead;
+        let all = &mut self.comparison.differences;
+        let leads = || all.iter().filter(|one| is_lead(one));
+        if leads().count() > 1 || leads().any(|one| one.off > most) {
+            self.elsewhere += leads().count();
+            all.retain(|one| !is_lead(one));
+        }
+        self
+    }
+
     /// How much speaks against it, the least first.
     pub fn doubt(&self) -> (bool, usize, bool) {
-        let many = self.comparison.differences.len().min(2);
+        let many = self.comparison.differences.len().min(2) + self.elsewhere.min(2);
         (!self.is_exact(), many, self.has_gap)
     }
 }
@@ -234,7 +249,7 @@ impl<'a> Pairs<'a> {
         }
         let mean = beside / traced.blocks.len() as f64;
         let alike = if mean < SAME { ALIKE } else { ROUNDED };
-        let (mut found, mut stated) = (Vec::new(), Vec::new());
+        let (mut found, mut stated, mut elsewhere) = (Vec::new(), Vec::new(), 0);
         // Of the last that is named: its number, and whether the program is elsewhere since.
         let mut run: Option<(usize, bool)> = None;
         for (number, (pair, (off, is_behind))) in self.pairs.iter().zip(&all).enumerate() {
@@ -266,7 +281,11 @@ impl<'a> Pairs<'a> {
             let (segment, kind) = match anew.source_of(&meant.motion) {
                 Some(segment) => (Some(segment), Kind::Block),
                 None if *off <= SLIP => (None, Kind::Lead),
-                None => return None,
+                // The hole is elsewhere, and so is how the wire comes from it.
+                None => {
+                    (run, elsewhere) = (None, elsewhere + 1);
+                    continue;
+                }
             };
             found.push(named(own, segment, *off, kind));
         }
@@ -302,6 +321,7 @@ impl<'a> Pairs<'a> {
             },
             mean,
             has_gap: self.gap.is_some(),
+            elsewhere,
         })
     }
 

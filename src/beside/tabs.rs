@@ -19,9 +19,9 @@ const ONE: f64 = 3.0;
 const WALLS: usize = 50_000;
 /// How near a place of the path has to lie to the distance of the path from its wall, µm.
 const NEAR: f64 = 4.0;
-/// A length is the roundest number, in µm, that is as near as this.
+/// A length is a round number, in µm, that is as near as this: a block that was changed by 3 µm may lie before it.
 const ROUND: [f64; 5] = [500.0, 100.0, 50.0, 10.0, 1.0];
-const ROUNDED: f64 = 2.0;
+const ROUNDED: f64 = 5.0;
 /// Lengths that are told, at most.
 const TOLD: usize = 16;
 
@@ -65,11 +65,13 @@ pub(super) fn tabs(drawn: &Drawn, traced: &Traced, anew: &Anew, corrections: &[f
     }
     let mut rounded: Vec<(usize, f64)> = Vec::new();
     for um in lengths {
-        let near = ROUND.iter().enumerate().find_map(|(rank, to)| {
+        for (rank, to) in ROUND.iter().enumerate() {
             let round = (um / to).round() * to;
-            ((round - um).abs() <= ROUNDED).then_some((rank, round / 1e3))
-        });
-        rounded.extend(near.filter(|near| near.1 > 0.02 && !rounded.contains(near)));
+            let near = (rank, round / 1e3);
+            let is_near = (round - um).abs() <= ROUNDED && near.1 > 0.02;
+            let is_known = rounded.iter().any(|(_, known)| *known == near.1);
+            rounded.extend((is_near && !is_known).then_some(near));
+        }
     }
     rounded.sort_by(|one, other| one.0.cmp(&other.0).then(one.1.total_cmp(&other.1)));
     found.extend(rounded.into_iter().map(|(_, mm)| mm).take(TOLD));

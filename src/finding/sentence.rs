@@ -107,14 +107,15 @@ fn said(finding: &Finding, telling: Telling) -> String {
                 tool
             )
         }
-        Detail::DoesNotFit(misfit) => say!(
-            the_parts_bind_here,
-            misfit.of,
-            misfit.partner,
-            -misfit.clearance * unit_mm * 1e3,
-            misfit.corner_of,
-            misfit.wanted * unit_mm * 1e3
-        ),
+        Detail::DoesNotFit(misfit) => {
+            let [depth, wanted] =
+                [-misfit.clearance, misfit.wanted].map(|length| length * unit_mm * 1e3);
+            let (of, partner) = (&misfit.of, &misfit.partner);
+            match &misfit.corner_of {
+                Some(corner_of) => say!(the_parts_bind_here, of, partner, depth, corner_of, wanted),
+                None => say!(the_parts_bind_along_a_wall, of, partner, depth, wanted),
+            }
+        }
         Detail::NoPartner { of } => say!(the_contour_has_no_partner, of),
         Detail::OffsetCollapse {
             required,

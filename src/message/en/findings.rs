@@ -217,6 +217,7 @@ declare! {
     repair_it_in_the_drawing_and_make_the_program_again => "; repair it in the drawing, and make the program again";
     it_is_part_of_an_entity_that_cannot_be_edited_here => "; it is part of an entity that cannot be edited here";
     the_parts_bind_here(of, partner, depth, corner_of, wanted) => "{of} and {partner} bind here by {depth:.1} µm: the wire leaves too much in this corner of the {corner_of} for a clearance of {wanted:.1} µm";
+    the_parts_bind_along_a_wall(of, partner, depth, wanted) => "{of} and {partner} bind here by {depth:.1} µm along a wall, where there should be a clearance of {wanted:.1} µm: no radius of a corner mends that; the wall is drawn, or its wire led, too near to its partner";
     the_contour_has_no_partner(of) => "no contour of another workpiece runs beside this one of {of} within five clearances: it has no partner";
     touches_itself_or_another => "touches itself or another";
     crosses_itself_or_another => "crosses itself or another";

@@ -15,6 +15,7 @@ declare! {
     cuts_into_contour_or_comes_nearer(contour, correction) => "cuts into contour {contour} or comes nearer to it than the correction {correction:.3} mm";
     runs_into_the_cut_along_contour(contour) => "runs into the cut along contour {contour}";
     an_open_contour_keeps_no_tab(handle) => "contour {handle} is open: nothing of it drops, so it keeps no tab; give the tab by handle to the contours that keep one, or set it to 0";
+    no_contour_keeps_a_tab(key) => "{key}: no contour of this program keeps a tab; punches do, and openings whose slug is heavier than job.slug-limit";
     the_tab_is_longer_than_contour(tab, handle, length) => "the tab of {tab:.3} mm leaves nothing of contour {handle}, which is {length:.3} mm long: expected a shorter tab";
     the_overlap_is_longer_than_contour(overlap, handle, length) => "the overlap of {overlap:.3} mm goes all round contour {handle}, which is {length:.3} mm long: expected a shorter one";
     no_tab_fits_at(x, y) => "no tab begins at ({x:.3}, {y:.3}): the wire does not come there";

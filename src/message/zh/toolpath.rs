@@ -15,6 +15,7 @@ translate! {
     cuts_into_contour_or_comes_nearer(contour, correction) => "切入轮廓 {contour}，或到它的距离小于补偿量 {correction:.3} mm";
     runs_into_the_cut_along_contour(contour) => "切入轮廓 {contour} 的切缝";
     an_open_contour_keeps_no_tab(handle) => "轮廓 {handle} 未封闭：没有会落下的部分，因此不留暂留段；请按句柄只给需要的轮廓设置 tab，或把它设为 0";
+    no_contour_keeps_a_tab(key) => "{key}：此程序没有轮廓留暂留段；只有凸模，以及废料重于 job.slug-limit 的型孔才留";
     the_tab_is_longer_than_contour(tab, handle, length) => "暂留段长 {tab:.3} mm，而轮廓 {handle} 只长 {length:.3} mm，没有可切的了：请缩短暂留段";
     the_overlap_is_longer_than_contour(overlap, handle, length) => "重叠段长 {overlap:.3} mm，绕满了只长 {length:.3} mm 的轮廓 {handle}：请缩短重叠段";
     no_tab_fits_at(x, y) => "({x:.3}, {y:.3}) 处留不出暂留段：电极丝到不了那里";
