@@ -520,24 +520,24 @@ fn told(drawing: &Drawing) -> Vec<String> {
 
 #[test]
 fn what_was_drawn_later_in_between_is_told_as_if_it_had_always_stood_there() {
-    let line = |x0: f64, y0: f64, x1: f64, y1: f64| {
+    let triangle = |corners: [(f64, f64); 3]| {
         entity(
-            Geometry::Line {
-                start: Point::new(x0, y0),
-                end: Point::new(x1, y1),
+            Geometry::Polyline {
+                closed: true,
+                vertices: corners.map(|(x, y)| Vertex::new(x, y, 0.0)).into(),
             },
             None,
         )
     };
-    let lines = [
-        line(0.0, 0.0, 4.0, 4.0),
-        line(0.0, 4.0, 4.0, 0.0),
-        line(1.0, -1.0, 1.0, 5.0),
-        line(0.0, 0.0, 4.0, 4.0),
+    let outlines = [
+        triangle([(0.0, 0.0), (4.0, 4.0), (4.0, 0.0)]),
+        triangle([(0.0, 4.0), (4.0, 0.0), (0.0, 0.0)]),
+        triangle([(1.0, -1.0), (1.0, 5.0), (2.0, 5.0)]),
+        triangle([(0.0, 0.0), (4.0, 4.0), (4.0, 0.0)]),
     ];
     let mut fresh = Drawing::new(None);
-    lines.iter().for_each(|line| {
-        fresh.push(line.clone());
+    outlines.iter().for_each(|outline| {
+        fresh.push(outline.clone());
     });
     for drawn in [[3, 2, 1, 0], [2, 3, 0, 1], [1, 3, 0, 2]] {
         let mut drawing = Drawing::new(None);
@@ -545,7 +545,7 @@ fn what_was_drawn_later_in_between_is_told_as_if_it_had_always_stood_there() {
         for at in drawn {
             let position = stand.iter().filter(|&&other| other < at).count();
             stand.push(at);
-            drawing.insert_at(position, lines[at].clone());
+            drawing.insert_at(position, outlines[at].clone());
         }
         assert_eq!(told(&drawing), told(&fresh), "drawn as {drawn:?}");
     }
