@@ -3,6 +3,7 @@
 //!
 //! `UPDATE_EXPECT=1 cargo test --test programs refactor` records anew what they do.
 
+use super::language_of;
 use expect_test::expect_file;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -24,16 +25,12 @@ fn programs() -> Vec<PathBuf> {
         let mut own: Vec<PathBuf> = std::fs::read_dir(data.join(folder))
             .unwrap()
             .map(|entry| entry.unwrap().path())
-            .filter(|path| language(path).is_some())
+            .filter(|path| language_of(path).is_some())
             .collect();
         own.sort();
         files.extend(own);
     }
     files
-}
-
-fn language(path: &Path) -> Option<Language> {
-    Language::of_ending(path.extension()?.to_str()?)
 }
 
 fn applied(bytes: &[u8], edits: &[TextEdit]) -> Vec<u8> {
@@ -51,8 +48,8 @@ fn hash(bytes: &[u8]) -> u64 {
     })
 }
 
-/// What is selected: nothing, and so everything; a block by the cursor; some lines.
-fn selections(program: &program::Document) -> Vec<(String, Range<usize>)> {
+/// What is selected: nothing, and so everything; a block by the cursor, up to so many; some lines.
+fn selections(program: &program::Document, most: usize) -> Vec<(String, Range<usize>)> {
     let text = program.text();
     let lines: BTreeSet<usize> = program
         .trace()
@@ -62,7 +59,7 @@ fn selections(program: &program::Document) -> Vec<(String, Range<usize>)> {
         .map(|step| step.line)
         .collect();
     let mut found = vec![("nothing".to_owned(), 0..0)];
-    for line in lines.iter().take(6) {
+    for line in lines.iter().take(most) {
         let start = text.line_start(*line);
         found.push((format!("line {}", line + 1), start..start));
     }
@@ -95,8 +92,9 @@ fn refactorings_do_what_is_recorded_and_bring_no_error() {
     let mut record = String::new();
     let mut spoiled = Vec::new();
     for path in programs() {
-        let (language, bytes) = (language(&path).unwrap(), std::fs::read(&path).unwrap());
+        let (language, bytes) = (language_of(&path).unwrap(), std::fs::read(&path).unwrap());
         let before = errors(language, &bytes, &settings);
+        let is_wrong = path.parent().unwrap().ends_with("wrong");
         let name = path.file_name().unwrap().to_str().unwrap();
         let program = program::Document::read(language, bytes.clone(), &settings);
         let mut of_all: Vec<(String, Result<Vec<u8>, String>)> = Vec::new();
@@ -117,10 +115,7 @@ fn refactorings_do_what_is_recorded_and_bring_no_error() {
             match result {
                 Err(reason) => writeln!(record, "== {name}: {title}: refused: {reason}"),
                 Ok(after)
-                    if path
-                        .parent()
-                        .is_some_and(|folder| folder.ends_with("wrong"))
-                        || after.iter().filter(|byte| **byte == b'\n').count() > 60 =>
+                    if is_wrong || after.iter().filter(|byte| **byte == b'\n').count() > 60 =>
                 {
                     writeln!(record, "== {name}: {title}: {:016x}", hash(&after))
                 }
@@ -132,7 +127,7 @@ fn refactorings_do_what_is_recorded_and_bring_no_error() {
             }
             .unwrap();
         };
-        for (place, selection) in selections(&program) {
+        for (place, selection) in selections(&program, if is_wrong { 2 } else { 6 }) {
             for Proposal { id, title, edits } in
                 refactorings(&program, &settings, selection, |_| true)
             {
@@ -158,7 +153,7 @@ fn refactorings_of_faulty_programs_bring_no_other_fault() {
     let settings = Effective::default();
     let mut spoiled = BTreeSet::new();
     for path in programs() {
-        let (language, right) = (language(&path).unwrap(), std::fs::read(&path).unwrap());
+        let (language, right) = (language_of(&path).unwrap(), std::fs::read(&path).unwrap());
         let is_small = right.len() < 250 && language == Language::ThreeB;
         let digits = |at: &usize| right[*at].is_ascii_digit() && is_small;
         for at in (0..right.len()).filter(digits) {
