@@ -868,6 +868,73 @@ fn a_crossing_of_open_contours_is_told_by_their_openings() {
     }
 }
 
+/// An open contour is one finding: what only spoils a cut along it is a hint until it is closed.
+#[test]
+fn what_only_spoils_a_cut_is_a_hint_while_the_contour_is_open() {
+    let line = |from: (f64, f64), to: (f64, f64)| Geometry::Line {
+        start: Point::new(from.0, from.1),
+        end: Point::new(to.0, to.1),
+    };
+    let square = [
+        line((0.0, 0.0), (9.997, 0.0)),
+        line((10.0, 0.0), (10.0, 4.0)),
+        line((10.0, 4.0), (10.0, 4.003)),
+        line((10.0, 4.003), (10.0, 10.0)),
+        line((2.0, 10.0), (6.0, 10.0)),
+        line((10.0, 10.0), (0.0, 10.0)),
+        line((0.0, 10.0), (0.0, 0.0)),
+    ];
+    let rules = [Rule::Gap, Rule::ShortSegment, Rule::Overlap];
+    for (count, severity) in [(7, Severity::Warning), (6, Severity::Hint)] {
+        let mut drawing = Drawing::new(None);
+        for geometry in &square[..count] {
+            drawing.push(entity(geometry.clone(), None));
+        }
+        let (_, findings) = analysed(&drawing);
+        for rule in rules {
+            let told: Vec<Severity> = findings
+                .iter()
+                .filter(|finding| finding.rule == rule)
+                .map(|finding| finding.severity)
+                .collect();
+            assert_eq!(told, [severity], "{rule:?} of {count}: {findings:?}");
+        }
+    }
+}
+
+/// Warnings that were measured in a unit that is in doubt are hints; errors stay, and what somebody has set.
+#[test]
+fn a_size_that_speaks_against_the_unit_leaves_errors() {
+    for (scale, severity) in [(1.0, Severity::Warning), (1000.0, Severity::Hint)] {
+        let corners = [
+            (0.0, 0.0, 0.0),
+            (10.0 * scale, 0.0, 0.0),
+            (10.0 * scale, 0.003, 0.0),
+            (10.0 * scale, 10.0 * scale, 0.0),
+            (0.0, 10.0 * scale, 0.0),
+        ];
+        let mut drawing = closed(&corners).as_polyline(None);
+        drawing.push(entity(
+            Geometry::Circle {
+                center: Point::new(10.0 * scale, 5.0 * scale),
+                radius: 2.0 * scale,
+            },
+            None,
+        ));
+        let (_, findings) = analysed(&drawing);
+        let told = |rule: Rule| {
+            findings
+                .iter()
+                .find(|finding| finding.rule == rule)
+                .map(|finding| finding.severity)
+        };
+        assert_eq!(told(Rule::ShortSegment), Some(severity));
+        assert_eq!(told(Rule::SelfIntersection), Some(Severity::Error));
+        let units = (scale > 1.0).then_some(Severity::Warning);
+        assert_eq!(told(Rule::Units), units);
+    }
+}
+
 /// What cannot be measured on the part is not said; an error is.
 #[test]
 fn what_is_below_the_resolution_is_not_said() {

@@ -62,6 +62,9 @@ impl Analysis {
 
     pub(super) fn report(&mut self, drawing: &Drawing, limit: usize) -> Report {
         let mut report = Report::new(self.settings.clone(), limit);
+        if self.is_vast(drawing) {
+            report.doubt_unit();
+        }
         // By nesting, the role of each depends on all.
         let nested: Option<FxHashMap<ContourKey, Role>> = (self.settings.side == SideSetting::Auto)
             .then(|| {
@@ -204,14 +207,20 @@ impl Analysis {
         }
     }
 
+    /// What is suspended is not in the drawing.
+    fn is_there(&self, drawing: &Drawing, key: ContourKey) -> bool {
+        let first = self.chains.first_of(key);
+        first.is_some_and(|first| drawing.get(first).is_some())
+    }
+
+    /// True where a contour is larger than any machine.
+    fn is_vast(&self, drawing: &Drawing) -> bool {
+        self.vast.iter().any(|&key| self.is_there(drawing, key))
+    }
+
     /// Sizes that speak for another unit than the drawing's: of the largest contour.
     pub(super) fn report_size(&self, drawing: &Drawing, report: &mut Report) {
-        // What is suspended is not in the drawing.
-        let is_there = |key: ContourKey| {
-            self.chains
-                .first_of(key)
-                .is_some_and(|first| drawing.get(first).is_some())
-        };
+        let is_there = |key| self.is_there(drawing, key);
         let bounds_of = |key: ContourKey| {
             self.known
                 .get(&key)
@@ -219,7 +228,7 @@ impl Analysis {
                 .map(|known| known.index.bounds())
         };
         let mut keys = self.known.keys().copied();
-        let is_large = self.vast.iter().any(|&key| is_there(key));
+        let is_large = self.is_vast(drawing);
         let is_absurd = is_large
             || (self.known.keys().any(|&key| is_there(key))
                 && !keys.any(|key| {

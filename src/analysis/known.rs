@@ -141,6 +141,8 @@ impl Known {
 
     /// Adds the findings of the local rules in this contour, rule by rule, in order of travel.
     pub(crate) fn report(&self, outlook: &Outlook, wire_side: Option<Side>, report: &mut Report) {
+        // What is open is not cut: what only spoils a cut is a hint until it is closed.
+        let waits = !outlook.contour.closed && wire_side.is_none() && report.open_is_an_error();
         let of_rules = LOCAL_RULES.iter().zip(&self.observations);
         for ((rule, observations), counts) in of_rules.zip(&self.counts) {
             // What is seen where a closed contour begins is asked anew.
@@ -177,9 +179,14 @@ impl Known {
                 }
                 continue;
             }
-            report.count(rule.rule, rule.mildest, count);
+            let mildest = if waits {
+                Some(Severity::Hint)
+            } else {
+                rule.mildest
+            };
+            report.count(rule.rule, mildest, count);
             for &observation in observations {
-                if report.is_full(rule.rule, rule.mildest) {
+                if report.is_full(rule.rule, mildest) {
                     break;
                 }
                 if let (Some(place), Some(detail)) = (
@@ -188,7 +195,7 @@ impl Known {
                 ) {
                     report.add(
                         rule.rule,
-                        rule.mildest,
+                        mildest,
                         place,
                         detail,
                         (rule.related)(outlook, observation),

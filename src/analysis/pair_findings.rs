@@ -247,7 +247,7 @@ impl Pairs {
             &|key| outlook(key).map(|it| it.contour.len()),
         );
         // What is open is not cut, and an error of its own: how near it comes to others, and what it touches or crosses is asked again
-        // when it is closed.
+        // when it is closed; what open ones run on among themselves is a hint until then, since that has a fix.
         let doubled: FxHashSet<EntityId> = doubles
             .iter()
             .flat_map(|(one, other)| [*one, *other])
@@ -263,7 +263,7 @@ impl Pairs {
                         .all(|piece| doubled.contains(&piece.entity))
             })
         };
-        let open_is_an_error = report.is_an_error(Rule::OpenContour);
+        let open_is_an_error = report.open_is_an_error();
         for (at, (number, ends, each)) in seen.iter().enumerate() {
             let rule = &PAIR_RULES[*number];
             if rule.silent_for_doubles && doubles.contains(&(ends.0.0, ends.1.0))
@@ -285,17 +285,19 @@ impl Pairs {
             };
             let unknown = rule.warning_when_side_unknown
                 && (side_of(each.one.0).is_none() || side_of(each.other.0).is_none());
-            // Where the contour is the wire's own path it may well touch and cross itself: leads do.
-            let mildest = if unknown || is_for_a_path {
-                Some(Severity::Warning)
-            } else {
-                each.mildest
+            let [one_is_open, other_is_open] =
+                [each.one.0, each.other.0].map(|key| open_is_an_error && is_told_open(key));
+            let mildest = match rule.rule {
+                Rule::Overlap | Rule::DuplicateEntity if one_is_open && other_is_open => {
+                    Some(Severity::Hint)
+                }
+                // Where the contour is the wire's own path it may well touch and cross itself: leads do.
+                _ if unknown || is_for_a_path => Some(Severity::Warning),
+                _ => each.mildest,
             };
-            let is_absorbed = !is_for_a_path
-                && open_is_an_error
+            let is_absorbed = (one_is_open || other_is_open)
                 && each.one.0 != each.other.0
-                && matches!(rule.rule, Rule::SelfIntersection | Rule::NarrowSlot)
-                && (is_told_open(each.one.0) || is_told_open(each.other.0));
+                && matches!(rule.rule, Rule::SelfIntersection | Rule::NarrowSlot);
             if is_absorbed {
                 *told.absorbed.entry((*number, mildest)).or_default() += 1;
                 continue;

@@ -13,6 +13,7 @@ pub(crate) struct Report {
     kept: BTreeMap<Severity, Vec<Finding>>,
     count: usize,
     tally: Tally,
+    unit_is_in_doubt: bool,
 }
 
 /// How many findings there are, by severity and by rule.
@@ -92,6 +93,7 @@ impl Report {
             kept: BTreeMap::new(),
             count: 0,
             tally: Tally::default(),
+            unit_is_in_doubt: false,
         }
     }
 
@@ -105,11 +107,24 @@ impl Report {
         self.settings.compensation == Compensation::None
     }
 
+    /// Says that the size of the drawing speaks against its unit: what is measured in it is in doubt, and only hints until the unit is
+    /// settled. Errors stay.
+    pub(crate) fn doubt_unit(&mut self) {
+        self.unit_is_in_doubt = true;
+    }
+
+    /// True where an open contour is told of as an error, and what spoils only a cut along it can wait until it is closed.
+    pub(crate) fn open_is_an_error(&self) -> bool {
+        !self.is_for_a_path() && self.severity(Rule::OpenContour, None) == Some(Severity::Error)
+    }
+
     /// The severity of a rule, `mildest` where the case is milder than the rule and nobody has set it; `None` where it is off.
     fn severity(&self, rule: Rule, mildest: Option<Severity>) -> Option<Severity> {
         let set = self.settings.severity(rule)?;
+        let own = mildest.map_or(set, |mildest| set.max(mildest));
+        let doubtful = self.unit_is_in_doubt && own == Severity::Warning && rule != Rule::Units;
         self.settings
-            .severity_over(rule, mildest.map_or(set, |mildest| set.max(mildest)))
+            .severity_over(rule, if doubtful { Severity::Hint } else { own })
     }
 
     /// Counts a finding. True when it should be worked out and added.
@@ -132,11 +147,6 @@ impl Report {
         if let Some(severity) = self.severity(rule, mildest) {
             self.enter(rule, severity, count);
         }
-    }
-
-    /// True where a rule says errors.
-    pub(crate) fn is_an_error(&self, rule: Rule) -> bool {
-        self.severity(rule, None) == Some(Severity::Error)
     }
 
     fn enter(&mut self, rule: Rule, severity: Severity, count: usize) {

@@ -14,6 +14,11 @@ pub(super) fn oddity(findings: &mut Vec<Finding>, range: Range<usize>, sentence:
     push(findings, range, Severity::Warning, sentence);
 }
 
+/// How something was read that may be read so.
+pub(super) fn remark(findings: &mut Vec<Finding>, range: Range<usize>, sentence: String) {
+    push(findings, range, Severity::Information, sentence);
+}
+
 /// A part of the drawing that would take too much: a program of what is left would lack it.
 pub(super) fn left_out(findings: &mut Vec<Finding>, range: Range<usize>, what: NotJudged) {
     findings.push(Finding {

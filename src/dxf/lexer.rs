@@ -73,6 +73,12 @@ impl<'a> Lexer<'a> {
         fault::oddity(&mut self.findings, range, sentence);
     }
 
+    /// How a line was read that may be read so.
+    pub(super) fn remark(&mut self, line: usize, sentence: String) {
+        let range = self.lines.trimmed_range(line);
+        fault::remark(&mut self.findings, range, sentence);
+    }
+
     /// The line of the next tag.
     pub(crate) fn at(&self) -> usize {
         self.at

@@ -25,7 +25,7 @@ pub(super) fn line(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcom
     );
     if low != high {
         let sentence = say!(the_ends_of_this_line_differ_in_z).to_owned();
-        lexer.oddity(start.value_line(), sentence);
+        lexer.remark(start.value_line(), sentence);
     }
     let geometry = Geometry::Line {
         start: Point::new(x, y),
