@@ -195,6 +195,11 @@ impl Document {
         }
     }
 
+    /// Where the machine stands at the findings of a program.
+    pub(crate) fn whereabouts(&self) -> Option<program::Whereabouts<'_>> {
+        self.program().map(program::Document::whereabouts)
+    }
+
     /// Whether an entity of the drawing is a part of a contour that is cut.
     pub(crate) fn cuts(&self, id: EntityId) -> bool {
         self.analysis.cuts(id)

@@ -431,6 +431,41 @@ fn what_gitignore_and_its_like_name_is_passed_over() {
     assert!(here.stdout.starts_with("kept/tight.dxf:34:1: "), "{here:?}");
 }
 
+/// In the frame of `simulate`: from the program's start, or absolute where the program says where it begins.
+#[test]
+fn a_finding_of_a_program_says_where_the_machine_stands() {
+    let desk = Desk::new();
+    let open = "B10000B0B10000GXL1\nB0B10000B10000GYL2\nB10000B0B10000GXL3\nB0B9300B9300GYL4\nDD\n";
+    desk.write("open.3b", open);
+    desk.write("open.4b", format!("; Start Point = 5.0 , -2.0\n{open}"));
+    let iso = "G92X5.Y-2.\nG01X15.\nY8.\nX5.\nY-1.3\nM02\n";
+    desk.write("open.iso", iso);
+    desk.write("unread.3b", format!("hello\n{open}"));
+    for (name, places) in [
+        ("open.3b", vec!["(at 0.000, 0.700)"]),
+        ("open.4b", vec!["(at 5.000, -1.300)"]),
+        ("open.iso", vec!["(at 5.000, -1.300)"]),
+        ("unread.3b", vec!["(at 0.000, 0.000)"]),
+    ] {
+        let said = desk.run(&format!("check {name} --output concise"));
+        let found = said
+            .stdout
+            .lines()
+            .filter(|line| line.contains("["))
+            .map(|line| {
+                let at = line.rfind("(at ").unwrap_or(line.len());
+                &line[at..]
+            });
+        assert_eq!(found.collect::<Vec<_>>(), places, "{said:?}");
+    }
+    let json = desk.run("check open.iso --output json").stdout;
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let data = &json["diagnostics"][0]["data"];
+    assert_eq!(data["start"], serde_json::json!([5.0, 8.0]));
+    assert_eq!(data["end"], serde_json::json!([5.0, -1.3]));
+    assert_eq!(data["at"], data["end"]);
+}
+
 #[test]
 fn stdin_is_checked_under_the_name_that_it_is_given() {
     let desk = Desk::new();

@@ -7,6 +7,7 @@ use crate::finding;
 use crate::finding::{Detail, Finding, Fix, Keep, Place, Rule, Severity};
 use crate::job::{self, Refusal};
 use crate::message::{is_hidden, readable};
+use crate::program::Whereabouts;
 use crate::protocol::FindingData;
 use crate::settings;
 use crate::text::SourceText;
@@ -91,7 +92,11 @@ pub(crate) fn rows(path: &Path, document: &mut Document) -> Vec<Row> {
 /// The same of findings that are at hand.
 pub(crate) fn rows_of(path: &Path, document: &Document, findings: &[Finding]) -> Vec<Row> {
     let rows = findings.par_iter().with_min_len(SHARE);
-    rows.map(|finding| row(path, document, finding)).collect()
+    let whereabouts = || document.whereabouts();
+    rows.map_init(whereabouts, |own, finding| {
+        row_at(path, document, finding, own)
+    })
+    .collect()
 }
 
 /// What is suppressed in a document, with the reasons.
@@ -159,8 +164,16 @@ pub(crate) fn refuse_programs(
 
 /// One finding of a document.
 pub(crate) fn row(path: &Path, document: &Document, finding: &Finding) -> Row {
-    let drawing = document.drawing();
-    let data = FindingData::of(drawing.map(|drawing| &**drawing), finding);
+    row_at(path, document, finding, &mut document.whereabouts())
+}
+
+fn row_at(
+    path: &Path,
+    document: &Document,
+    finding: &Finding,
+    whereabouts: &mut Option<Whereabouts<'_>>,
+) -> Row {
+    let data = FindingData::of(document, finding, whereabouts);
     let range = document.range_of(&finding.place).unwrap_or(0..0);
     let message = finding::sentence(finding, document.telling());
     let mut row = Row::new(
@@ -294,17 +307,17 @@ impl Row {
         self.related.iter().take(MOST_OTHERS).map(told).chain(more)
     }
 
-    /// Which entity, which segment of it, and where that begins, in drawing units.
+    /// Which entity, which segment of it, and where that or the block of a program begins, in drawing units.
     pub(crate) fn whereabouts(&self) -> Option<String> {
         let data = &self.data;
-        let mut place = readable(data.handle.as_ref()?).into_owned();
-        if let Some(segment) = data.segment {
-            place = say!(segment, place, segment);
-        }
-        if let Some(point) = data.at.or(data.start).or(data.center) {
-            place.push_str(&say!(at_point, point.0, point.1));
-        }
-        Some(place)
+        let entity = data.handle.as_deref().map(readable).map(|handle| {
+            let of_segment = |segment| say!(segment, handle, segment);
+            data.segment.map_or_else(|| handle.to_string(), of_segment)
+        });
+        let point = data.at.or(data.start).or(data.center);
+        let point = point.map(|point| say!(at_point, point.0, point.1));
+        let places: Vec<String> = entity.into_iter().chain(point).collect();
+        (!places.is_empty()).then(|| places.join(say!(comma)))
     }
 }
 

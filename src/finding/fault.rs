@@ -1,6 +1,7 @@
 //! What is wrong in a program of any language, as numbers.
 
 use super::{Rule, Severity, Side};
+use crate::geometry::Vector;
 
 /// An axis of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -138,9 +139,10 @@ pub enum Fault {
         x: f64,
         y: f64,
     },
-    /// The way meets the block on line `other` (from 0) at a point, mm from the program's start.
+    /// The way meets the block on line `other` (from 0) at a point, mm from the contour's start, and from that of its own block.
     PathCrossesItself {
         at: [f64; 2],
+        from_block: Option<Vector>,
         other: usize,
     },
     /// The start of an arc is `start` from its centre, its end `end`.

@@ -152,7 +152,9 @@ pub(super) fn program(fault: &Fault) -> String {
             x / 1000.0,
             y / 1000.0
         ),
-        Fault::PathCrossesItself { at: [x, y], other } => {
+        Fault::PathCrossesItself {
+            at: [x, y], other, ..
+        } => {
             say!(the_wire_crosses_its_own_path, other + 1, x, y)
         }
         Fault::OffRadius { start, end } => {

@@ -4,6 +4,7 @@ use super::path::{Chain, Cut, Step, Trace, cut_of};
 use super::repair::gate;
 use super::report::Report;
 use super::steps::{self, Program};
+use super::whereabouts::Whereabouts;
 use super::{iso, three_b};
 use crate::finding::{Finding, Severity, TextFix};
 use crate::settings::Effective;
@@ -166,6 +167,11 @@ impl Document {
             Document::ThreeB(document) => document,
             Document::Iso(document) => &**document,
         }
+    }
+
+    /// Where the machine stands at what is said of the text.
+    pub(crate) fn whereabouts(&self) -> Whereabouts<'_> {
+        Whereabouts::within(self.program())
     }
 
     /// Where the machine goes, block by block.

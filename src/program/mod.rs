@@ -23,6 +23,7 @@ mod report;
 pub(crate) mod said;
 pub(crate) mod steps;
 pub mod three_b;
+mod whereabouts;
 pub(crate) mod write;
 
 pub use document::{Document, Language};
@@ -30,4 +31,5 @@ pub use format::Format;
 pub use layout::format;
 pub use refactor::Proposal;
 pub use refactorings::{refactorings, scaled};
+pub(crate) use whereabouts::{Stand, Whereabouts};
 pub(crate) use write::{ProofError, ProvedProgram};

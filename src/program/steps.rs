@@ -16,6 +16,9 @@ pub(crate) trait Program {
     /// Where the machine begins, µm: the origin where the program does not say; and whether it says.
     fn begin(&self) -> (Point, bool);
 
+    /// The first line that could not be read: where the machine stands behind it hangs on what was meant.
+    fn unread_line(&self) -> Option<usize>;
+
     fn chunk_count(&self) -> usize;
 
     /// The lines of the text that a chunk holds.

@@ -1,8 +1,9 @@
 //! The `data` of a diagnostic: a finding's numbers, the same object in text documents, drawings and `--output json`.
 
-use crate::drawing::Drawing;
+use crate::document::Document;
 use crate::finding::{Detail, Fault, Finding, NoFix, NotJudged, Place, Side, SmallRadius};
-use crate::geometry::Xy as Point;
+use crate::geometry::{Point, Xy};
+use crate::program::{Stand, Whereabouts};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +17,8 @@ pub(crate) struct RelatedPlace {
     pub(crate) segment: Option<usize>,
 }
 
-/// What a finding is about, in drawing units and degrees. Only what the finding has is there.
+/// What a finding is about, in drawing units and degrees; in a program in mm, points from its start or, where it says where it begins,
+/// absolute. Only what the finding has is there.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase", default)]
 pub(crate) struct FindingData {
@@ -31,11 +33,11 @@ pub(crate) struct FindingData {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) required: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) center: Option<Point>,
+    pub(crate) center: Option<Xy>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) start: Option<Point>,
+    pub(crate) start: Option<Xy>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) end: Option<Point>,
+    pub(crate) end: Option<Xy>,
     /// Degrees, positive counter-clockwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) sweep: Option<f64>,
@@ -63,7 +65,7 @@ pub(crate) struct FindingData {
     pub(crate) uncut: Option<f64>,
     /// The point where two segments meet, or near which a part is lost.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) at: Option<Point>,
+    pub(crate) at: Option<Xy>,
     /// Width of a slot, distance of two ends, deviation of chords from their circle, the clearance left between two parts, or how far a
     /// program is beside its drawing.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -82,9 +84,14 @@ pub(crate) struct FindingData {
 }
 
 impl FindingData {
-    /// The data of one finding; `drawing` is where its place lies, `None` for a program or a settings file.
-    pub(crate) fn of(drawing: Option<&Drawing>, finding: &Finding) -> FindingData {
+    /// The data of one finding of a document; `whereabouts` are those in its program.
+    pub(crate) fn of(
+        document: &Document,
+        finding: &Finding,
+        whereabouts: &mut Option<Whereabouts<'_>>,
+    ) -> FindingData {
         let mut data = FindingData::default();
+        let drawing = document.drawing();
         if let (Place::Segment { entity, .. } | Place::Entity { entity }, Some(drawing)) =
             (&finding.place, drawing)
             && let Some(found) = drawing.get(*entity)
@@ -171,7 +178,32 @@ impl FindingData {
             Detail::Program(fault) => data.program(fault),
             Detail::NotTheDrawing(unlike) => data.distance = unlike.off(),
         }
+        if let (Place::Text { range }, Some(whereabouts)) = (&finding.place, whereabouts)
+            && let Some(stand) = whereabouts.of(range)
+        {
+            data.stand(&finding.detail, stand);
+        }
         data
+    }
+
+    /// Where it is in the program, in whose frame all points are: a block of 3B knows its own from its start only.
+    fn stand(&mut self, detail: &Detail, stand: Stand) {
+        if let (Some(center), Some(start)) = (self.center, self.start) {
+            let [center, start] = [center, start].map(Into::<Point>::into);
+            self.center = Some((stand.start + (center - start)).into());
+        }
+        self.start = Some(stand.start.into());
+        self.end = stand.end.map(Into::into);
+        let Detail::Program(fault) = detail else {
+            return;
+        };
+        self.at = match **fault {
+            Fault::NotClosed { .. } | Fault::PositionMismatch { .. } => self.end,
+            Fault::PathCrossesItself { from_block, .. } => {
+                from_block.map(|by| (stand.start + by).into())
+            }
+            _ => None,
+        };
     }
 
     /// Lengths in mm, as in every text.
@@ -203,9 +235,6 @@ impl FindingData {
             Fault::TooManyDigits { value, .. } => self.length = Some(mm(value)),
             Fault::NotClosed { x, y } | Fault::PositionMismatch { x, y } => {
                 self.distance = Some(x.hypot(y) / 1000.0);
-            }
-            Fault::PathCrossesItself { at, .. } => {
-                self.at = Some(crate::geometry::Point::from(at).into())
             }
             Fault::OffRadius { start, end } => {
                 self.radius = Some(start / 1e3);

@@ -22,9 +22,13 @@ pub(super) fn diagnostics(
     findings: &[Finding],
     encoding: Encoding,
 ) -> Vec<Diagnostic> {
+    let mut whereabouts = document.whereabouts();
     let shown = findings.iter().take(PUBLISH_LIMIT);
     shown
-        .map(|finding| diagnostic(document, finding, encoding, None))
+        .map(|finding| {
+            let data = FindingData::of(document, finding, &mut whereabouts);
+            diagnostic(document, finding, data, encoding, None)
+        })
         .collect()
 }
 
@@ -32,6 +36,7 @@ pub(super) fn diagnostics(
 pub(super) fn diagnostic(
     document: &Document,
     finding: &Finding,
+    data: FindingData,
     encoding: Encoding,
     uri: Option<&str>,
 ) -> Diagnostic {
@@ -40,7 +45,7 @@ pub(super) fn diagnostic(
         .filter(|related| !related.is_empty());
     Diagnostic {
         related_information: related,
-        ..diagnostic_at(document, finding, encoding)
+        ..diagnostic_at(document, finding, data, encoding)
     }
 }
 
@@ -101,9 +106,12 @@ fn related_information(
 }
 
 /// A finding at its place, without the other places.
-fn diagnostic_at(document: &Document, finding: &Finding, encoding: Encoding) -> Diagnostic {
-    let drawing = document.drawing().map(|drawing| &**drawing);
-    let data = FindingData::of(drawing, finding);
+fn diagnostic_at(
+    document: &Document,
+    finding: &Finding,
+    data: FindingData,
+    encoding: Encoding,
+) -> Diagnostic {
     Diagnostic {
         range: ranges_of(document, finding, encoding, false)
             .next()

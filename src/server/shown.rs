@@ -75,7 +75,7 @@ impl Shown {
             *self = Shown::default();
             self.settings = settings.cloned();
         }
-        let drawing = document.drawing().map(|drawing| &**drawing);
+        let mut whereabouts = document.whereabouts();
         let mut marks: Vec<u64> = findings.iter().map(mark).collect();
         let (mut shown, mut kept, mut next) = (Vec::new(), Vec::with_capacity(marks.len()), 0);
         shown.push(b'[');
@@ -83,7 +83,7 @@ impl Shown {
         let needle = format!("\"range\":{PLACE}");
         let ranges_in = Finder::new(&needle);
         for (finding, &mark) in findings.into_iter().zip(&marks) {
-            let data = FindingData::of(drawing, &finding);
+            let data = FindingData::of(document, &finding, &mut whereabouts);
             let known = self.find(mark, next, |old| {
                 says_the_same(&old.finding, &finding) && old.data == data
             });
@@ -95,7 +95,7 @@ impl Shown {
                     Kept { finding, ..old }
                 }
                 None => {
-                    let mut rendered = diagnostic(document, &finding, encoding, uri);
+                    let mut rendered = diagnostic(document, &finding, data.clone(), encoding, uri);
                     rendered.range = Range::default();
                     for related in rendered.related_information.iter_mut().flatten() {
                         related.location.range = Range::default();

@@ -50,7 +50,7 @@ fn said(row: &Row) -> String {
     let places = row.whereabouts().into_iter().chain(others).chain(reason);
     match places.collect::<Vec<_>>().join("; ") {
         none if none.is_empty() => row.message.clone(),
-        places => format!("{} ({places})", row.message),
+        places => say!(with_its_places, row.message, places),
     }
 }
 

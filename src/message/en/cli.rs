@@ -51,7 +51,8 @@ declare! {
     what_the_machine_reads(names) => "what the machine reads: {names}";
     settings_of_wedm => "Settings of wedm for the drawings in this folder and below. What stands behind # holds without being said.";
     written_file(path) => "{path} written";
-    at_point(x, y) => ", at {x:.3}, {y:.3}";
+    at_point(x, y) => "at {x:.3}, {y:.3}";
+    with_its_places(what, places) => "{what} ({places})";
     in_line(what, line) => "{what} (line {line})";
     watching(files) => "watching {files} files; Ctrl-C ends";
     stdin_is_not_watched => "stdin cannot be watched, expected files and folders with --watch";

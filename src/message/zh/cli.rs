@@ -51,7 +51,8 @@ translate! {
     what_the_machine_reads(names) => "机床所读格式：{names}";
     settings_of_wedm => "wedm 的设置，用于本文件夹及其下的图形。# 后面是默认值，不写也有效。";
     written_file(path) => "已写出 {path}";
-    at_point(x, y) => "，位于 {x:.3}, {y:.3}";
+    at_point(x, y) => "位于 {x:.3}, {y:.3}";
+    with_its_places(what, places) => "{what}（{places}）";
     in_line(what, line) => "{what}（第 {line} 行）";
     watching(files) => "正在监视 {files} 个文件；按 Ctrl-C 结束";
     stdin_is_not_watched => "标准输入不能监视，--watch 要文件或文件夹";

@@ -8,10 +8,12 @@ use super::machine::Machine;
 use super::moves::{Course, Move, Place, micrometres};
 use super::part::Part;
 use super::read::words_of;
-use super::stretch::Stretch;
+use super::stretch::{Placed, Stretch};
+use crate::finding::{Rule, Severity};
 use crate::geometry::{Point, Segment};
 use crate::program::chunks::ChunkReader;
 use crate::program::path::{Kind, Step, Trace, Writing};
+use crate::program::report::place_of;
 use crate::program::steps::{self, Program, Sum};
 use crate::text::SourceText;
 use std::ops::Range;
@@ -215,6 +217,19 @@ impl Program for Document {
             });
         }
         begin.unwrap_or((Point::origin(), false))
+    }
+
+    fn unread_line(&self) -> Option<usize> {
+        let of_stretch = |placed: Placed<'_>| {
+            let mut faults = placed.stretch.faults.iter();
+            let fault = faults.find(|fault| {
+                fault.severity == Severity::Error
+                    && matches!(fault.rule, Rule::Syntax | Rule::TooManyDigits)
+            })?;
+            let (start, _) = place_of(fault);
+            Some(self.text().line_of(placed.offset + start))
+        };
+        self.placed().find_map(of_stretch)
     }
 
     fn chunk_count(&self) -> usize {

@@ -174,8 +174,13 @@ impl Found {
             else {
                 continue;
             };
+            // The corner that a control makes behind a block is of that block, too.
+            let before = crossing.second.checked_sub(1);
+            let is_corner = before.and_then(|before| way.range(before)) == Some(own.clone());
+            let piece = way.piece(crossing.second).filter(|_| !is_corner);
             let fault = Fault::PathCrossesItself {
                 at: [crossing.at.x / 1000.0, crossing.at.y / 1000.0],
+                from_block: piece.map(|piece| (crossing.at - piece.start()) / 1000.0),
                 other: text.line_of(from.start),
             };
             findings.push(Finding {

@@ -49,6 +49,20 @@ fn assert_parts_are_of_the_whole(document: &Document) -> Result<(), TestCaseErro
     prop_assert_eq!(document.program().begin().0, trace.start);
     let first = trace.steps.iter().find(|step| step.moves());
     prop_assert_eq!(document.first_move(), first.map(|step| step.range.clone()));
+    let (unread, mut whereabouts) = (document.program().unread_line(), document.whereabouts());
+    let mut seen = 0;
+    for step in &trace.steps {
+        // Two moves of one line begin where the first does.
+        let is_known = step.range.start >= seen && unread.is_none_or(|unread| step.line <= unread);
+        seen = seen.max(step.range.end);
+        let stands = whereabouts.of(&step.range).map(|stand| stand.start);
+        let begins = is_known.then(|| step.start / 1e3);
+        if unread.is_some_and(|unread| step.line > unread) {
+            prop_assert_eq!(stands, None);
+        } else if is_known {
+            prop_assert_eq!(stands, begins);
+        }
+    }
     for offset in (0..=text.len()).step_by(1 + text.len() / 29) {
         let range = offset..(offset + 200).min(text.len());
         let touches = |step: &&Step| step.range.start <= range.end && range.start <= step.range.end;

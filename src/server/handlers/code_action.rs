@@ -49,8 +49,11 @@ fn actions(
             .abilities
             .related_information
             .then_some(&*context.uri);
+        let mut whereabouts = document.whereabouts();
         for finding in chosen(context, document, params) {
-            let diagnostic = convert::diagnostic(document, &finding, context.encoding, related_of);
+            let data = FindingData::of(document, &finding, &mut whereabouts);
+            let diagnostic =
+                convert::diagnostic(document, &finding, data, context.encoding, related_of);
             for (index, fix) in document.fixes(&finding).iter().enumerate() {
                 let action = CodeAction {
                     title: finding::title(&fix.kind, unit_mm),

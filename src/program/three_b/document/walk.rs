@@ -3,7 +3,7 @@
 use super::super::around::StatedPoint;
 use super::super::decode::meant;
 use super::super::entry::{Entry, What};
-use super::super::stretch::is_jump;
+use super::super::stretch::{Stretch, is_jump};
 use super::{At, Document};
 use crate::geometry::{Point, Vector};
 use crate::program::path::{Kind, Step, Trace, Writing};
@@ -77,6 +77,14 @@ impl Program for Document {
         let start = self.heading().map(|(_, start)| start);
         let [x, y] = start.unwrap_or([0.0, 0.0]).map(|mm| (mm * 1000.0).round());
         (Point::new(x, y), start.is_some())
+    }
+
+    fn unread_line(&self) -> Option<usize> {
+        let is_unread = |of: &Stretch| of.parts.iter().any(|part| part.sum.unread > 0);
+        let stretch = self.stretches.iter().position(is_unread)?;
+        let entries = &self.stretches.get(stretch)?.entries;
+        let entry = entries.iter().find(|entry| entry.what == What::Unread)?;
+        Some(self.stretches.place(stretch).lines.start + entry.line as usize)
     }
 
     fn chunk_count(&self) -> usize {

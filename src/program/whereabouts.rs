@@ -1,0 +1,78 @@
+//! Where the machine stands at what is said of a program's text.
+
+use super::path::Step;
+use super::steps::Program;
+use crate::geometry::{Point, Vector};
+use std::ops::Range;
+
+/// Where the machine stands before a place of the text, and behind the block that is there, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Stand {
+    pub(crate) start: Point,
+    pub(crate) end: Option<Point>,
+}
+
+/// Asked of one place after another: the chunk that was walked last is kept.
+pub(crate) struct Whereabouts<'a> {
+    program: &'a dyn Program,
+    /// Behind this line nobody knows.
+    lost: usize,
+    chunk: Option<usize>,
+    steps: Vec<Step>,
+}
+
+impl<'a> Whereabouts<'a> {
+    pub(super) fn within(program: &'a dyn Program) -> Whereabouts<'a> {
+        Whereabouts {
+            lost: program.unread_line().unwrap_or(usize::MAX),
+            program,
+            chunk: None,
+            steps: Vec::new(),
+        }
+    }
+
+    pub(crate) fn of(&mut self, range: &Range<usize>) -> Option<Stand> {
+        let line = self.program.text().line_of(range.start);
+        if line > self.lost {
+            return None;
+        }
+        let chunk = self.chunk_of(line)?;
+        if self.chunk != Some(chunk) {
+            self.chunk = Some(chunk);
+            self.steps.clear();
+            let steps = &mut self.steps;
+            self.program
+                .walk(chunk, &mut 0, &mut |step| steps.push(step));
+        }
+        let ends_behind = |step: &&Step| step.range.end > range.start;
+        let Some(step) = self.steps.iter().find(ends_behind) else {
+            let start = in_mm(self.steps.last()?.end);
+            return Some(Stand { start, end: None });
+        };
+        let is_there = step.moves() && step.range.start < range.end;
+        Some(Stand {
+            start: in_mm(step.start),
+            end: is_there.then(|| in_mm(step.end)),
+        })
+    }
+
+    /// The first chunk that holds a line: where they stand as they run, it is not sought among all.
+    fn chunk_of(&self, line: usize) -> Option<usize> {
+        let count = self.program.chunk_count();
+        let holds = |chunk: &usize| self.program.lines_of(*chunk).contains(&line);
+        let (mut from, mut to) = (0, count);
+        while from < to {
+            let middle = from.midpoint(to);
+            match self.program.lines_of(middle).end <= line {
+                true => from = middle + 1,
+                false => to = middle,
+            }
+        }
+        let at_hand = self.chunk.into_iter().chain([from]);
+        at_hand.chain(0..count).find(holds)
+    }
+}
+
+fn in_mm(point: Point) -> Point {
+    Point::origin() + Vector::new(point.x, point.y) / 1e3
+}
