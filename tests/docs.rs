@@ -619,10 +619,19 @@ fn the_commands_do_what_is_shown(page: &str, language: &str) {
             "{}: {printed}",
             shown.command
         );
-        for line in shown.lines.iter().filter(|line| *line != "...") {
+        let (left_out, lines): (Vec<_>, Vec<_>) =
+            shown.lines.iter().partition(|line| *line == "...");
+        for line in &lines {
             assert!(
                 printed.lines().any(|other| is_shown(line, other)),
                 "{}: no line {line:?} in\n{printed}",
+                shown.command
+            );
+        }
+        for printed in printed.lines().filter(|_| left_out.is_empty()) {
+            assert!(
+                printed.is_empty() || lines.iter().any(|line| is_shown(line, printed)),
+                "{page}, {}: {printed:?} is not shown, nor `...` in its place",
                 shown.command
             );
         }
@@ -670,34 +679,66 @@ fn the_pictures_are_what_the_program_draws() {
 fn contributing_says_what_each_dependency_is_for() {
     let page = read(&root().join("CONTRIBUTING.md"));
     let (_, table) = page.split_once("## What each dependency is for").unwrap();
-    let named: Vec<&str> = table
-        .lines()
-        .filter_map(|line| line.strip_prefix("| ")?.split(" |").next())
-        .collect();
-    let named: Vec<&str> = named
-        .iter()
-        .flat_map(|cell| cell.trim_start_matches("*for tests:* ").split(", "))
-        .collect();
-    let manifest: toml::Table = read(&root().join("Cargo.toml")).parse().unwrap();
-    let of = |table: &toml::Value| {
-        table
-            .as_table()
-            .unwrap()
-            .keys()
-            .cloned()
-            .collect::<Vec<_>>()
+    let rows = table.lines().filter_map(|line| line.strip_prefix("| "));
+    let cells = rows.filter_map(|row| row.split(" |").next());
+    // The first row is the heading.
+    let named = |of_tests: bool| {
+        let cells = cells.clone().skip(1).filter_map(move |cell| {
+            let tests = cell.strip_prefix("*for tests:* ");
+            if of_tests {
+                tests
+            } else {
+                tests.is_none().then_some(cell)
+            }
+        });
+        let names = cells.flat_map(|cell| cell.split(", "));
+        names.map(str::to_owned).collect::<BTreeSet<_>>()
     };
-    let unix = &manifest["target"]["cfg(unix)"]["dependencies"];
-    for name in [
-        &manifest["dependencies"],
-        unix,
-        &manifest["dev-dependencies"],
-    ]
-    .into_iter()
-    .flat_map(of)
-    {
-        assert!(named.contains(&name.as_str()), "{name} is not in the table");
+    let manifest: toml::Table = read(&root().join("Cargo.toml")).parse().unwrap();
+    let keys = |table: &toml::Value| table.as_table().unwrap().keys().cloned().collect();
+    let mut own: BTreeSet<String> = keys(&manifest["dependencies"]);
+    own.append(&mut keys(&manifest["target"]["cfg(unix)"]["dependencies"]));
+    assert_eq!(named(false), own);
+    assert_eq!(named(true), keys(&manifest["dev-dependencies"]));
+}
+
+/// A page that says in which documents a rule works names those of the table.
+#[test]
+fn the_pages_say_where_their_rules_work() {
+    let all = [
+        (Subject::Drawing, ""),
+        (Subject::ThreeB, "3B"),
+        (Subject::FourB, "4B"),
+        (Subject::Iso, "ISO"),
+    ];
+    let mut count = 0;
+    for rule in Rule::ALL {
+        for (folder, begins, drawings) in [
+            ("docs/rules", "Works in ", "drawings"),
+            ("docs/zh/rules", "适用于", "图形"),
+        ] {
+            let page = read(&root().join(format!("{folder}/{}.md", rule.name())));
+            for line in page.split(begins).skip(1) {
+                let said = line.split(['.', '。']).next().unwrap();
+                for (subject, word) in all {
+                    let word = if subject == Subject::Drawing {
+                        drawings
+                    } else {
+                        word
+                    };
+                    let is_found = rule.subjects().contains(&subject);
+                    assert_eq!(
+                        said.contains(word),
+                        is_found,
+                        "{folder}: {}: {said}",
+                        rule.name()
+                    );
+                }
+                count += 1;
+            }
+        }
     }
+    assert!(count >= 2, "no page says it");
 }
 
 /// What stands behind the first word of a page's "Default severity: ".
