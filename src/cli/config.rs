@@ -8,7 +8,8 @@ use clap::{Args, Subcommand};
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
-  wedm config schema > wedm.schema.json    completion and checks in editors that take a schema for TOML")]
+  wedm config schema > wedm.schema.json    completion and checks in editors that take a schema for TOML:
+                                           `#:schema ./wedm.schema.json` in the first line of wedm.toml")]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     what: What,

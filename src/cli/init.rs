@@ -44,6 +44,9 @@ pub(crate) struct Arguments {
     force: bool,
 }
 
+/// As `wedm config schema` is kept beside a `wedm.toml`: editors by way of taplo read the line that names it.
+const SCHEMA_NAME: &str = "wedm.schema.json";
+
 fn machines() -> clap::builder::PossibleValuesParser {
     let names = shipped_profiles().map(|name| &*name.to_owned().leak());
     std::iter::once("3b")
@@ -108,7 +111,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if machine != "3b" {
         set.push(("program.profile", format!("\"{machine}\"")));
     }
-    output::write(Some(&path), file(&set).as_bytes())?;
+    let schema = arguments.folder.join(SCHEMA_NAME);
+    let head = match schema.exists() {
+        true => format!("#:schema ./{SCHEMA_NAME}\n"),
+        false => String::new(),
+    };
+    output::write(Some(&path), (head + &file(&set)).as_bytes())?;
     output::say(&say!(written_file, output::name(&path)));
     Ok(Verdict::Clean)
 }

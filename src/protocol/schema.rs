@@ -56,13 +56,40 @@ pub(crate) fn settings_schema() -> Value {
             name_rules(table);
         }
     }
-    json!({
+    let mut whole = json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": settings::FILE_NAME,
         "type": "object",
         "allOf": [settings],
         "$defs": definitions,
-    })
+    });
+    leave_out_null(&mut whole);
+    whole
+}
+
+/// TOML has no null, which an editor would propose.
+fn leave_out_null(part: &mut Value) {
+    match part {
+        Value::Array(items) => items.iter_mut().for_each(leave_out_null),
+        Value::Object(keys) => {
+            for (key, value) in keys.iter_mut() {
+                if let (Value::Array(kinds), "type" | "anyOf" | "enum") = (value, key.as_str()) {
+                    let is_null = |kind: &Value| *kind == json!("null") || kind["type"] == "null";
+                    kinds.retain(|kind| !kind.is_null() && !is_null(kind));
+                }
+            }
+            // What fits one of one fits all, and a fault within is told as such.
+            if keys
+                .get("anyOf")
+                .is_some_and(|all| all.as_array().map(Vec::len) == Some(1))
+            {
+                let all = keys.remove("anyOf").unwrap_or_default();
+                keys.insert("allOf".into(), all);
+            }
+            keys.values_mut().for_each(leave_out_null);
+        }
+        _ => {}
+    }
 }
 
 /// Turns what each rule has in a table into keys of their own, which editors complete and check.
@@ -177,6 +204,7 @@ mod tests {
             assert!(schema["$defs"].get(name).is_some(), "{name}");
         }
         assert!(schema["$defs"].get("Inspection").is_none());
+        assert!(!text.contains("null"), "TOML has none");
         // Names of rules are completed, and a misspelt one is marked.
         let rules = &schema["$defs"]["Settings"]["properties"]["rules"];
         let reasons =
