@@ -5,6 +5,7 @@
 
 use serde_json::{Map, Value, json};
 use std::path::Path;
+use wedm::rule::Rule;
 use wedm::settings::{Row, camel_case, rows};
 
 /// What stands between two lines of a file, the lines left out.
@@ -489,6 +490,9 @@ fn the_settings_page_of_vs_code_has_every_key() {
                 format!("{chinese}未设置：{default}。"),
             ],
         };
+        if row.key == "rules" {
+            schema["propertyNames"] = json!({ "enum": Rule::ALL.map(Rule::name) });
+        }
         schema["markdownDescription"] = sentences.named(&row.key, &english, &chinese);
         let key: Vec<String> = row.key.split('.').map(camel_case).collect();
         entries.push(format!(

@@ -8,6 +8,7 @@ export interface Declared {
   markdownDescription?: string;
   additionalProperties?: Declared | boolean;
   properties?: Record<string, Declared>;
+  propertyNames?: { enum: string[] };
 }
 
 export interface Offer {
@@ -54,8 +55,9 @@ function tables(keys: Map<string, Declared>): Offer[] {
 function names(keys: Map<string, Declared>, table: string): Offer[] {
   const own = [...keys].filter(([key, setting]) => (table === "" ? !key.includes(".") && !isTable(setting) : key.startsWith(`${table}.`)));
   const listed = own.map(([key, setting]) => [table === "" ? key : key.slice(table.length + 1), setting] as const);
-  const known = Object.entries(keys.get(table)?.properties ?? {});
-  return [...listed, ...known].map(([name, setting]) => ({ kind: "key", label: name, text: `${name} = `, detail: setting.markdownDescription ?? "" }));
+  const { properties = {}, propertyNames } = keys.get(table) ?? {};
+  const named = (propertyNames?.enum ?? []).map((name): [string, Declared] => [name, {}]);
+  return [...listed, ...Object.entries(properties), ...named].map(([name, setting]) => ({ kind: "key", label: name, text: `${name} = `, detail: setting.markdownDescription ?? "" }));
 }
 
 function values(setting: Declared | undefined, isQuoted: boolean): Offer[] {

@@ -110,6 +110,28 @@ export async function text(checks: Checks): Promise<void> {
       await expectSoon("a file that is repaired", repaired, () => readFile(file, "utf8"));
       await window.squiggles.first().waitFor({ state: "hidden" });
     });
+    await checks.check("tables, rules and their severities are completed in a wedm.toml", async () => {
+      await writeFile(join(host.folder, "wedm.toml"), "");
+      await window.open("wedm.toml");
+      const offered = host.page.locator(".suggest-widget.visible .monaco-list-row");
+      const complete = async (typed: string, whole: string): Promise<void> => {
+        await host.page.keyboard.type(typed, { delay: 50 });
+        await offered.filter({ hasText: whole }).first().waitFor();
+        await checks.shot(`settings-${whole}`);
+        await host.page.keyboard.press("Enter");
+        await offered.first().waitFor({ state: "hidden" });
+      };
+      await complete("corr", "correction");
+      await host.page.keyboard.type("0.04\n");
+      await complete("[ru", "rules");
+      await host.page.keyboard.press("End");
+      await host.page.keyboard.type("\n");
+      await complete("small", "small-radius");
+      await complete('"warn', "warning");
+      await host.page.keyboard.press("Control+s");
+      const written = (): Promise<string> => readFile(join(host.folder, "wedm.toml"), "utf8");
+      await expectSoon("the settings", async () => (await written()) === 'correction = 0.04\n[rules]\nsmall-radius = "warning"', written);
+    });
   } finally {
     await host.stop();
   }

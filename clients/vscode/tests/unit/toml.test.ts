@@ -16,6 +16,8 @@ test("a wedm.toml is completed from the settings of the manifest", () => {
   holds(labels([], "["), ["program", "passes", "milling", "layers", "rules"], ["correction", "server"]);
   holds(labels(["[program]", 'layout = "compact"'], "le"), ["lead-in", "tab", "closing-overlap"], ["correction", "thickness"]);
   holds(labels(["[program] # mine", "[job]"], ""), ["thickness", "slug-limit"], ["tab"]);
+  holds(labels(["[rules]"], "sm"), ["small-radius", "gap"], ["correction"]);
+  assert.deepEqual(labels(["[rules]"], "gap = "), ["error", "warning", "information", "hint", "off"]);
   assert.deepEqual(labels([], "side = "), ["both", "auto", "opening", "punch", "left", "right"]);
   assert.deepEqual(labels(["[milling]"], "slot-ends = "), ["true", "false"]);
   assert.deepEqual(labels(["[layers]"], "DIE = "), ["opening", "punch", "both", "left", "right", "ignore"]);
