@@ -444,7 +444,7 @@ fn a_finding_of_a_program_says_where_the_machine_stands() {
     for (name, places) in [
         ("open.3b", vec!["(at 0.000, 0.700)"]),
         ("open.4b", vec!["(at 5.000, -1.300)"]),
-        ("open.iso", vec!["(at 5.000, -1.300)"]),
+        ("open.iso", vec!["(at 5.000, -1.300)", "(at 15.000, 8.000)"]),
         ("unread.3b", vec!["(at 0.000, 0.000)"]),
     ] {
         let said = desk.run(&format!("check {name} --output concise"));
@@ -479,7 +479,7 @@ fn stdin_is_checked_under_the_name_that_it_is_given() {
     assert!(
         of_drawing
             .stdout
-            .starts_with("stdin.dxf:34:1: error[small-radius]"),
+            .starts_with("stdin:34:1: error[small-radius]"),
         "{of_drawing:?}"
     );
     assert!(!of_drawing.stdout.contains("wedm fix"), "{of_drawing:?}");
@@ -487,10 +487,10 @@ fn stdin_is_checked_under_the_name_that_it_is_given() {
         said("check - --stdin-name fine/new.dxf", "tight.dxf").code,
         Some(0)
     );
-    assert_eq!(
-        said("check - --stdin-name hole.3b", "hole.3b").code,
-        Some(0)
-    );
+    for arguments in ["check - --stdin-name hole.3b", "check -"] {
+        let of_program = said(arguments, "hole.3b");
+        assert_eq!(of_program.code, Some(0), "{of_program:?}");
+    }
     assert_eq!(
         said("check - --stdin-name plate.dwg", "tight.dxf").code,
         Some(2)
@@ -554,7 +554,18 @@ fn a_settings_file_is_begun() {
     ] {
         assert!(text.contains(&format!("\n{line}\n")), "{line}: {text}");
     }
+    assert!(!text.contains("#:schema"), "{text}");
     check(&desk, begin, 2, &["!it is there already"]);
+    desk.write(
+        "work/wedm.schema.json",
+        desk.run("config schema").stdout.as_bytes(),
+    );
+    check(&desk, &format!("{begin} --force"), 0, &[]);
+    let text = String::from_utf8(desk.read("work/wedm.toml")).unwrap();
+    assert!(
+        text.starts_with("#:schema ./wedm.schema.json\n# "),
+        "{text}"
+    );
     desk.write("work/clean.dxf", desk.read("clean.dxf"));
     check(&desk, "check work", 0, &["nothing found"]);
     // The table leaves the part as it is drawn: the finished part says nothing is cut beyond.
@@ -806,7 +817,15 @@ fn formats_that_are_not_read_are_named_and_not_skipped() {
         );
     }
     // In a folder the strange ones are left.
-    check(&desk, "check strange", 0, &["0 files checked"]);
+    check(
+        &desk,
+        "check strange",
+        0,
+        &[
+            "0 files checked",
+            "!warning: nothing is found whose name ends with one of .dxf, ",
+        ],
+    );
     assert!(!desk.run("check strange").stderr.contains("a.txt"));
 }
 
@@ -1022,7 +1041,7 @@ fn the_help_is_in_chinese_where_that_is_spoken() {
     );
     let chinese = desk.run("check --help --lang zh").stdout;
     assert!(
-        chinese.contains("- concise: 每个问题一行") && chinese.contains("[默认：stdin.dxf]"),
+        chinese.contains("- concise: 每个问题一行") && chinese.contains("没有时看内容"),
         "{chinese}"
     );
     assert!(

@@ -96,10 +96,8 @@ fn summarise(arguments: &Arguments, target: Target, made: &Converted) {
         None => contours,
     };
     let written = output::target_name(arguments.output.as_deref());
-    output::say(&format!(
-        "{} {written}: {what}",
-        styled(output::GOOD, say!(written))
-    ));
+    let written = format!("{} {written}", styled(output::GOOD, say!(written)));
+    output::say(&say!(says, written, what));
     if target == Target::Drawing
         && (cuts.four_b.is_some() || cuts.cuts.iter().any(|cut| cut.side.is_some()))
     {

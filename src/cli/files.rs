@@ -18,7 +18,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Name endings that a folder is searched for.
-const ENDINGS: [&str; 6] = ["dxf", "dxb", "3b", "4b", "iso", "nc"];
+pub(crate) const ENDINGS: [&str; 6] = ["dxf", "dxb", "3b", "4b", "iso", "nc"];
 
 /// A file that has been read.
 pub(crate) struct Opened {
@@ -68,8 +68,10 @@ pub(crate) fn open(path: &Path, common: &Common, last: &Settings) -> Result<Open
     })
 }
 
-/// What stands on stdin, read as if it were the file of that name, and what is wrong with the settings that hold for it.
+/// What stands on stdin, read as if it were the file of the name that is given, and what is wrong with the settings that hold for it.
+/// Without one it is a drawing unless it reads as a program.
 pub(crate) fn open_stdin(
+    given: Option<&Path>,
     name: &Path,
     common: &Common,
     last: &Settings,
@@ -78,7 +80,8 @@ pub(crate) fn open_stdin(
     let (settings, rows) = settings_for(name, common, last)?;
     let bytes = disk::read_stream_at_most(std::io::stdin().lock(), LARGEST_STREAM, Vec::new())
         .map_err(|reason| Failure::of(name, reason))?;
-    let kind = kind.or_else(|failure| kind_of_content(name, &bytes).ok_or(failure))?;
+    let of_content = || kind_of_content(name, &bytes).or(given.is_none().then_some(Kind::Dxf));
+    let kind = kind.or_else(|failure| of_content().ok_or(failure))?;
     Ok((document(&kind, bytes, Arc::new(settings)).0, rows))
 }
 
@@ -330,7 +333,7 @@ pub(crate) fn search(paths: &[PathBuf], search: &Search) -> Found {
                 Err(error) => {
                     let place = place_of(&error).unwrap_or(path).display().to_string();
                     let reason = reason_of(&error).map_or_else(|| error.to_string(), plain);
-                    found.failures.push(Failure(format!("{place}: {reason}")));
+                    found.failures.push(Failure(say!(says, place, reason)));
                 }
             }
         }

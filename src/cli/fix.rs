@@ -225,10 +225,8 @@ fn summarise(path: &Path, repair: &Repair) {
         } else {
             String::new()
         };
-        output::say(&format!(
-            "{name}: {}{rounds}",
-            styled(output::GOOD, say!(repaired, repaired))
-        ));
+        let repaired = styled(output::GOOD, say!(repaired, repaired));
+        output::say(&say!(says, name, format!("{repaired}{rounds}")));
     } else if repair.is_changed() {
         let count = |rows: &[Row]| {
             rows.iter()
@@ -236,10 +234,8 @@ fn summarise(path: &Path, repair: &Repair) {
                 .count()
         };
         let gone = count(&repair.before).saturating_sub(count(&repair.after));
-        output::say(&format!(
-            "{name}: {}",
-            styled(output::GOOD, say!(repaired, say!(findings, gone)))
-        ));
+        let repaired = styled(output::GOOD, say!(repaired, say!(findings, gone)));
+        output::say(&say!(says, name, repaired));
     } else if is_sound {
         output::say(&say!(nothing_to_repair, name));
     } else {
@@ -248,11 +244,9 @@ fn summarise(path: &Path, repair: &Repair) {
     for (row, reason) in &repair.refused {
         let place = format!("{name}:{}:{}", row.line, row.column);
         let reason = readable(reason);
-        output::say(&format!(
-            "{} {place}: {}: {reason}",
-            styled(output::WARNING, say!(not_repaired)),
-            row.message
-        ));
+        let why = say!(says, place, say!(says, row.message, reason));
+        let heading = styled(output::WARNING, say!(not_repaired));
+        output::say(&say!(says, heading, why));
     }
     let is_refused = |row: &Row| {
         repair.refused.iter().any(|(other, _)| {
@@ -270,7 +264,8 @@ fn summarise(path: &Path, repair: &Repair) {
             .collect::<Vec<_>>()
             .join(say!(comma));
         let heading = styled(output::WARNING, say!(left));
-        output::say(&say!(left_in_all, heading, counts, output::word(path)));
+        let counts = say!(left_in_all, counts, output::word(path));
+        output::say(&say!(says, heading, counts));
         return;
     }
     for row in left {
@@ -281,10 +276,7 @@ fn summarise(path: &Path, repair: &Repair) {
             _ => "",
         };
         let place = format!("{name}:{}:{}", row.line, row.column);
-        output::say(&format!(
-            "{} {place}: {}{reason}",
-            styled(output::WARNING, say!(left)),
-            row.message
-        ));
+        let what = say!(says, place, format!("{}{reason}", row.message));
+        output::say(&say!(says, styled(output::WARNING, say!(left)), what));
     }
 }

@@ -117,7 +117,8 @@ impl Measured {
         let handles = handles.join(" ");
         let layers: Vec<&str> = self.layers.iter().map(String::as_str).collect();
         let layers = say!(on_layers, readable(&layers.join(say!(comma))));
-        format!("{extents}{smallest}{layers}: {}{more}", readable(&handles))
+        let handles = format!("{}{more}", readable(&handles));
+        say!(says, format!("{extents}{smallest}{layers}"), handles)
     }
 }
 

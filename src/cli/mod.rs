@@ -42,7 +42,7 @@ use std::process::ExitCode;
 
 /// Language server and command line for wire EDM
 ///
-/// Finds every arc that is tighter than the wire's correction, repairs it, and writes proved 3B programs.
+/// Finds every arc that is tighter than the wire's correction, repairs it, and writes proved 3B, 4B and ISO programs.
 /// Without a command it is the language server on stdin and stdout; on a terminal, this help.
 #[derive(Debug, Parser)]
 #[command(name = "wedm", version, max_term_width = 100, after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
@@ -133,7 +133,7 @@ struct Failure(String);
 impl Failure {
     /// What is wrong with a file.
     fn of(path: &Path, reason: impl Display) -> Failure {
-        Failure(format!("{}: {reason}", path.display()))
+        Failure(say!(says, path.display(), reason.to_string()))
     }
 }
 

@@ -279,7 +279,7 @@ impl Row {
                     .map(|other| Level::NOTE.message(other));
                 let keeps = self.keeps.iter().map(|(title, lines)| {
                     let lines = lines.trim_end().replace('\n', "  ");
-                    Level::HELP.message(format!("{}: {}", readable(title), readable(&lines)))
+                    Level::HELP.message(say!(says, readable(title), readable(&lines)))
                 });
                 let reason = self
                     .suppressed

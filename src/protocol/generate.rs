@@ -39,6 +39,14 @@ pub(crate) struct Closure {
     pub(crate) y: f64,
 }
 
+impl Closure {
+    /// Rounded to nm: what is below comes of reckoning.
+    pub(crate) fn of(drift: [f64; 2]) -> Closure {
+        let [x, y] = drift.map(|um| (um * 1e3).round() / 1e3 + 0.0);
+        Closure { x, y }
+    }
+}
+
 /// Result of `wedm/generate`: a program that has been decoded again and held against its path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
@@ -116,10 +124,7 @@ impl Program {
             blocks: proved.blocks,
             length: proved.length,
             jumps: proved.jumps,
-            closure: Closure {
-                x: proved.closure[0],
-                y: proved.closure[1],
-            },
+            closure: Closure::of(proved.closure),
             deviation: proved.deviation,
             finished: finished.map(|finished| FinishedPart {
                 uncut: finished.uncut,

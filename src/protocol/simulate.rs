@@ -110,10 +110,7 @@ impl Simulation {
         }
         Simulation {
             blocks,
-            closure: Closure {
-                x: closure.x,
-                y: closure.y,
-            },
+            closure: Closure::of([closure.x, closure.y]),
             length,
             cut,
             jumps,

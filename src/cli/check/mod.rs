@@ -10,7 +10,7 @@ use super::explain::rule_name;
 use super::files;
 use super::options::Common;
 use super::report::{MOST, Row};
-use super::{Failure, Verdict, output};
+use super::{Failure, Verdict, output, output::styled};
 use crate::finding::{Rule, Severity};
 use crate::job;
 use crate::settings::Settings;
@@ -32,7 +32,8 @@ Examples:
   wedm check --statistics --exclude 'old/**' drawings/
   wedm check --output sarif drawings/ > findings.sarif
   wedm check --deny warning plate.dxf program.3b
-  generate-plate | wedm check - --stdin-name plate.dxf")]
+  generate-plate | wedm check -
+  generate-plate | wedm check - --stdin-name drawings/plate.dxf")]
 pub(crate) struct Arguments {
     /// Files, and folders to search; `-` is stdin
     #[arg(value_name = "PATH", default_value = ".")]
@@ -55,9 +56,9 @@ pub(crate) struct Arguments {
     /// Search hidden files, too, and what .gitignore and its like name
     #[arg(long)]
     no_ignore: bool,
-    /// Name of what comes on stdin: its ending says what it is, its folder which wedm.toml holds
-    #[arg(long, value_name = "NAME", default_value = "stdin.dxf")]
-    stdin_name: PathBuf,
+    /// Name of what comes on stdin: its ending says what it is, else its content; its folder which wedm.toml holds
+    #[arg(long, value_name = "NAME")]
+    stdin_name: Option<PathBuf>,
     /// Check again whenever a file changes, until the process is ended
     #[arg(long)]
     watch: bool,
@@ -167,6 +168,12 @@ fn report(arguments: &Arguments) -> Result<Verdict, Failure> {
         .failures
         .iter()
         .for_each(|Failure(sentence)| output::complain(sentence));
+    if survey.files == 0 && survey.failures.is_empty() {
+        let warning = styled(output::WARNING, say!(warning));
+        let endings = files::ENDINGS.map(|ending| format!(".{ending}"));
+        let sentence = say!(no_document_is_found, endings.join(say!(comma)));
+        output::say(&say!(says, warning, sentence));
+    }
     Ok(verdict(&survey, arguments.deny))
 }
 
@@ -239,9 +246,14 @@ fn check(
     is_last: bool,
 ) -> Checked {
     let (common, stdin) = (&arguments.common, path == Path::new("-"));
-    let name = if stdin { &arguments.stdin_name } else { path };
+    let given = arguments.stdin_name.as_deref();
+    let name = if stdin {
+        given.unwrap_or(Path::new("stdin"))
+    } else {
+        path
+    };
     let opened = if stdin {
-        files::open_stdin(name, common, settings)
+        files::open_stdin(given, name, common, settings)
     } else {
         files::open(name, common, settings).map(|opened| (opened.document, opened.settings_rows))
     };

@@ -68,8 +68,8 @@ pub(super) fn summary(survey: &Survey) -> String {
             count => say!(files_that_can_be_repaired, say!(files, count)),
         };
         let heading = styled(output::NOTE, heading);
-        let command = say!(the_command_that_fixes, heading, output::word(first));
-        let _ = writeln!(text, "{command}");
+        let command = format!("wedm fix {} --in-place", output::word(first));
+        let _ = writeln!(text, "{}", say!(says, heading, command));
     }
     text
 }

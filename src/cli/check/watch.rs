@@ -14,7 +14,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<std::convert::Infallible, Fai
     let mut seen = state(arguments);
     loop {
         report(arguments)?;
-        output::say(&say!(watching, seen.len()));
+        output::say(&say!(watching, say!(files, seen.len())));
         loop {
             std::thread::sleep(PAUSE);
             let now = state(arguments);

@@ -43,7 +43,7 @@ declare! {
     nothing_found => "nothing found";
     next_steps => "Go on with";
     the_settings_of_this_session => "the settings of this session";
-    left_in_all(heading, counts, path) => "{heading} {counts}; wedm check {path} says where";
+    left_in_all(counts, path) => "{counts}; wedm check {path} says where";
     it_is_there_already => "it is there already, expected a folder without one, or --force";
     wire_diameter_mm => "diameter of the wire, mm";
     spark_gap_mm => "spark gap, mm";
@@ -54,10 +54,10 @@ declare! {
     at_point(x, y) => "at {x:.3}, {y:.3}";
     with_its_places(what, places) => "{what} ({places})";
     in_line(what, line) => "{what} (line {line})";
-    watching(files) => "watching {files} files; Ctrl-C ends";
+    no_document_is_found(endings) => "nothing is found whose name ends with one of {endings}";
+    watching(files) => "watching {files}; Ctrl-C ends";
     stdin_is_not_watched => "stdin cannot be watched, expected files and folders with --watch";
-    the_command_that_fixes(heading, file) => "{heading} wedm fix {file} --in-place";
-    files_that_can_be_repaired(files) => "{files} can be repaired, such as:";
+    files_that_can_be_repaired(files) => "{files} can be repaired, such as";
     against_its_own_direction => ", against its own direction";
     gap_of_um_closed_after_segment(distance, after) => "gap of {distance:.3} µm closed after segment {after}";
     closed_counter_clockwise => "closed, counter-clockwise";
@@ -156,7 +156,7 @@ declare! {
     the_server_asks_for_the_edit => "The server asks for the edit (wedm/applyDrawingEdit), the CAD program applies it.";
     nothing_to_repair(name) => "{name}: nothing to repair";
     nothing_could_be_repaired_safely(name) => "{name}: nothing could be repaired safely";
-    not_repaired => "not repaired:";
+    not_repaired => "not repaired";
     its_fix_moves_the_contour_by_more_than_the_correction => " (its fix moves the contour by more than the correction: choose it in the editor)";
     several_files_are_found(files) => "{files} found, expected one, or --in-place, --check or --diff";
     would_be_formatted_heading => "would be formatted:";
@@ -196,7 +196,7 @@ declare! {
     expected_a_number_above_0 => "expected a number above 0";
     where_it_ends_and_how_far_beside(x, y, deviation) => ", ends {x:.0}, {y:.0} µm from its start, at most {deviation:.2} µm beside a block's end";
     size_and_corner_in_mm(width, height, x, y) => "{width:.3} x {height:.3} mm, from {x:.3}, {y:.3}";
-    repair_what_can_be_repaired => "repair what can be repaired with:";
+    repair_what_can_be_repaired => "repair what can be repaired with";
     of_unknown_version => "of unknown version";
     rule_and_place_of_a_segment(rule, line, handle, segment, x, y) => "{rule} {line}{handle} segment {segment}, at {x:.3}, {y:.3}";
     nothing_to_check(files) => "{files} checked";
@@ -212,7 +212,7 @@ declare! {
     version_with(version, count) => "version {version}: {count}";
     in_rounds(rounds) => " in {rounds} rounds";
     repaired(what) => "{what} repaired";
-    left => "left:";
+    left => "left";
     programs_formatted(programs, unchanged) => "{programs} formatted, {unchanged} unchanged";
     programs_would_be_formatted(programs, unchanged) => "{programs} would be formatted, {unchanged} unchanged";
     all_in_units(entities, segments, units, result) => "{entities}, {segments} in {units}: {result}";

@@ -43,7 +43,7 @@ translate! {
     nothing_found => "没有发现问题";
     next_steps => "接下来可以试：";
     the_settings_of_this_session => "本次会话的设置";
-    left_in_all(heading, counts, path) => "{heading} {counts}；用 wedm check {path} 查看位置";
+    left_in_all(counts, path) => "{counts}；用 wedm check {path} 查看位置";
     it_is_there_already => "文件已存在；请换一个没有它的文件夹，或加 --force";
     wire_diameter_mm => "电极丝直径，mm";
     spark_gap_mm => "放电间隙，mm";
@@ -54,10 +54,10 @@ translate! {
     at_point(x, y) => "位于 {x:.3}, {y:.3}";
     with_its_places(what, places) => "{what}（{places}）";
     in_line(what, line) => "{what}（第 {line} 行）";
-    watching(files) => "正在监视 {files} 个文件；按 Ctrl-C 结束";
+    no_document_is_found(endings) => "没有找到以这些扩展名结尾的文件：{endings}";
+    watching(files) => "正在监视 {files}；按 Ctrl-C 结束";
     stdin_is_not_watched => "标准输入不能监视，--watch 要文件或文件夹";
-    the_command_that_fixes(heading, file) => "{heading} wedm fix {file} --in-place";
-    files_that_can_be_repaired(files) => "{files}可以修复，例如：";
+    files_that_can_be_repaired(files) => "{files}可以修复，例如";
     against_its_own_direction => "，与自身画线方向相反";
     gap_of_um_closed_after_segment(distance, after) => "段 {after} 后 {distance:.3} µm 的间隙已闭合";
     closed_counter_clockwise => "封闭，逆时针";
@@ -156,7 +156,7 @@ translate! {
     the_server_asks_for_the_edit => "服务器要求修改（wedm/applyDrawingEdit），由 CAD 程序执行。";
     nothing_to_repair(name) => "{name}：没有需要修复的";
     nothing_could_be_repaired_safely(name) => "{name}：没有能安全修复的";
-    not_repaired => "未修复：";
+    not_repaired => "未修复";
     its_fix_moves_the_contour_by_more_than_the_correction => "（修复会使轮廓移动超过补偿量：请在编辑器中选择）";
     several_files_are_found(files) => "找到 {files}，应为一个，或加 --in-place、--check 或 --diff";
     would_be_formatted_heading => "格式将改变：";
@@ -196,7 +196,7 @@ translate! {
     expected_a_number_above_0 => "应为大于 0 的数";
     where_it_ends_and_how_far_beside(x, y, deviation) => "，终点距起点 {x:.0}, {y:.0} µm，偏离程序段终点最多 {deviation:.2} µm";
     size_and_corner_in_mm(width, height, x, y) => "{width:.3} x {height:.3} mm，从 {x:.3}, {y:.3} 起";
-    repair_what_can_be_repaired => "可修复的用以下命令修复：";
+    repair_what_can_be_repaired => "可修复的用以下命令修复";
     of_unknown_version => "（版本未知）";
     rule_and_place_of_a_segment(rule, line, handle, segment, x, y) => "{rule} {line}{handle} 段 {segment}，位于 {x:.3}, {y:.3}";
     nothing_to_check(files) => "已检查 {files}";
@@ -212,7 +212,7 @@ translate! {
     version_with(version, count) => "版本 {version}：{count}";
     in_rounds(rounds) => "，共 {rounds} 轮";
     repaired(what) => "已修复 {what}";
-    left => "剩余：";
+    left => "剩余";
     programs_formatted(programs, unchanged) => "已整理 {programs}，{unchanged} 个不变";
     programs_would_be_formatted(programs, unchanged) => "{programs}的格式将改变，{unchanged} 个不变";
     all_in_units(entities, segments, units, result) => "{entities}，{segments}，单位 {units}：{result}";

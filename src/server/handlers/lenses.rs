@@ -48,7 +48,7 @@ pub(in crate::server) fn code_lens(
     });
     // A command without a name is shown and does nothing.
     let of_contours = contours().take(LENSES).map(|symbol| {
-        let title = format!("{}: {}", symbol.name, symbol.detail);
+        let title = say!(says, symbol.name, symbol.detail);
         lens(symbol.selection.clone(), title, "", None)
     });
     Ok(Some(of_program.chain(of_contours).collect()))
