@@ -440,12 +440,15 @@ fn a_finding_of_a_program_says_where_the_machine_stands() {
     desk.write("open.4b", format!("; Start Point = 5.0 , -2.0\n{open}"));
     let iso = "G92X5.Y-2.\nG01X15.\nY8.\nX5.\nY-1.3\nM02\n";
     desk.write("open.iso", iso);
-    desk.write("unread.3b", format!("hello\n{open}"));
+    let unread = open
+        .replace("GXL1", "GXL7")
+        .replace("B10000GXL3", "B9000GXL3");
+    desk.write("unread.3b", unread);
     for (name, places) in [
         ("open.3b", vec!["(at 0.000, 0.700)"]),
         ("open.4b", vec!["(at 5.000, -1.300)"]),
         ("open.iso", vec!["(at 5.000, -1.300)", "(at 15.000, 8.000)"]),
-        ("unread.3b", vec!["(at 0.000, 0.000)"]),
+        ("unread.3b", vec!["(at 0.000, 0.000)", ""]),
     ] {
         let said = desk.run(&format!("check {name} --output concise"));
         let found = said

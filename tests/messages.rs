@@ -342,7 +342,7 @@ fn chinese_rows_are_chinese() {
     // Code words, and words that Chinese does without.
     const WITHOUT: [&str; 4] = [
         "wedm demo",
-        "{heading} wedm fix {file} --in-place",
+        "wedm fix {file} --in-place",
         "profile {name}：{why}",
         "",
     ];

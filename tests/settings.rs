@@ -491,7 +491,7 @@ fn the_settings_page_of_vs_code_has_every_key() {
             ],
         };
         if row.key == "rules" {
-            schema["propertyNames"] = json!({ "enum": Rule::ALL.map(Rule::name) });
+            schema["propertyNames"] = json!({ "enum": Rule::ALL.map(Rule::name).to_vec() });
         }
         schema["markdownDescription"] = sentences.named(&row.key, &english, &chinese);
         let key: Vec<String> = row.key.split('.').map(camel_case).collect();

@@ -1358,7 +1358,8 @@ export interface Location {
   range: Range;
 }
 /**
- * What a finding is about, in drawing units and degrees. Only what the finding has is there.
+ * What a finding is about, in drawing units and degrees; in a program in mm, points from its start or, where it says where it begins,
+ * absolute. Only what the finding has is there.
  */
 export interface FindingData {
   handle?: string;

@@ -68,7 +68,7 @@ pub(super) fn summary(survey: &Survey) -> String {
             count => say!(files_that_can_be_repaired, say!(files, count)),
         };
         let heading = styled(output::NOTE, heading);
-        let command = format!("wedm fix {} --in-place", output::word(first));
+        let command = say!(the_command_that_fixes, output::word(first));
         let _ = writeln!(text, "{}", say!(says, heading, command));
     }
     text

@@ -57,6 +57,7 @@ declare! {
     no_document_is_found(endings) => "nothing is found whose name ends with one of {endings}";
     watching(files) => "watching {files}; Ctrl-C ends";
     stdin_is_not_watched => "stdin cannot be watched, expected files and folders with --watch";
+    the_command_that_fixes(file) => "wedm fix {file} --in-place";
     files_that_can_be_repaired(files) => "{files} can be repaired, such as";
     against_its_own_direction => ", against its own direction";
     gap_of_um_closed_after_segment(distance, after) => "gap of {distance:.3} µm closed after segment {after}";

@@ -57,6 +57,7 @@ translate! {
     no_document_is_found(endings) => "没有找到以这些扩展名结尾的文件：{endings}";
     watching(files) => "正在监视 {files}；按 Ctrl-C 结束";
     stdin_is_not_watched => "标准输入不能监视，--watch 要文件或文件夹";
+    the_command_that_fixes(file) => "wedm fix {file} --in-place";
     files_that_can_be_repaired(files) => "{files}可以修复，例如";
     against_its_own_direction => "，与自身画线方向相反";
     gap_of_um_closed_after_segment(distance, after) => "段 {after} 后 {distance:.3} µm 的间隙已闭合";

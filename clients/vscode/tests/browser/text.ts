@@ -127,7 +127,7 @@ export async function text(checks: Checks): Promise<void> {
       await host.page.keyboard.press("End");
       await host.page.keyboard.type("\n");
       await complete("small", "small-radius");
-      await complete('"warn', "warning");
+      await complete("warn", "warning");
       await host.page.keyboard.press("Control+s");
       const written = (): Promise<string> => readFile(join(host.folder, "wedm.toml"), "utf8");
       await expectSoon("the settings", async () => (await written()) === 'correction = 0.04\n[rules]\nsmall-radius = "warning"', written);
