@@ -3,26 +3,21 @@
 //! A line is written anew from what the reader finds in it and read again before it counts. Damaged lines, headings and lines whose
 //! new form would say anything else stay byte for byte as they are.
 
+mod chunk;
 mod line;
 mod stand;
 
-use self::line::Writer;
-use self::stand::{Stated, Walk};
-use crate::geometry::{Point, Vector};
-use crate::program::alike::with_plain_marks;
+use self::chunk::{Chunk, Line, count_blocks, has_end};
+use self::line::{Formed, Writer};
+use self::stand::Walk;
 use crate::program::edits::{self, AT_ONCE, LineEdits};
-use crate::program::three_b::around::before_comment;
-use crate::program::three_b::decode::decode;
 use crate::program::three_b::layout::layout_in;
 use crate::program::three_b::parse::{Item, read_line};
-use crate::program::three_b::words::{Word, Words};
+use crate::program::three_b::words::Words;
 use crate::settings::Layout;
 use crate::text::{SourceText, TextEdit};
 use rayon::prelude::*;
 use std::ops::Range;
-
-/// How far a stated end point may lie from the block's own and still be it: 2 µm, and 1 µm for each arc since the last one.
-const STATED_TOLERANCE: f64 = 2.0;
 
 /// Blocks that are looked at to find out in which layout a text stands.
 const LOOKED_AT: usize = 1000;
@@ -105,73 +100,7 @@ fn numbers_count_blocks(chunks: &[Chunk]) -> bool {
         .all(|(number, ordinal)| number.is_none_or(|number| number == ordinal))
 }
 
-/// Some lines as the reader finds them, and what comes of them on the way through the program.
-struct Chunk {
-    first_line: usize,
-    lines: Vec<Line>,
-    /// Blocks, words and headers of all lines, without faults and other text.
-    items: Vec<Item>,
-    /// Where the blocks among them lead.
-    ways: Vec<Option<Way>>,
-    /// What their stated end points are worth, one for each item.
-    stated: Vec<Stated>,
-    /// Blocks before these lines.
-    ordinal: u64,
-    /// The end word has come before.
-    is_over: bool,
-}
-
-struct Line {
-    /// Behind its last item.
-    end: usize,
-    is_sound: bool,
-}
-
-/// Where a block leads, µm.
-#[derive(Clone, Copy)]
-struct Way {
-    by: Vector,
-    is_arc: bool,
-}
-
 impl Chunk {
-    fn read(text: &SourceText, words: &Words<'_>, lines: Range<usize>) -> Chunk {
-        let mut chunk = Chunk {
-            first_line: lines.start,
-            lines: Vec::with_capacity(lines.len()),
-            items: Vec::with_capacity(lines.len()),
-            ways: Vec::with_capacity(lines.len()),
-            stated: Vec::with_capacity(lines.len()),
-            ordinal: 0,
-            is_over: false,
-        };
-        for line in lines {
-            // The reader skips a byte order mark at offset 0 only.
-            let shift = usize::from(line > 0);
-            let mut is_sound = true;
-            let line = text.line(line);
-            read_line(line, shift, words, |mut item| match &mut item {
-                Item::Fault(_) | Item::Text { .. } => is_sound = false,
-                Item::CommentedBlock { .. } => {}
-                Item::Block { range, .. }
-                | Item::Word { range, .. }
-                | Item::StartPoint { range, .. } => {
-                    *range = range.start - shift..range.end - shift;
-                    chunk.ways.push(way_of(&item));
-                    chunk.items.push(item);
-                }
-            });
-            // Wide marks and spaces among the fields stay as they stand.
-            let code = before_comment(line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line));
-            is_sound &= code.is_ascii() || with_plain_marks(code).is_none();
-            chunk.lines.push(Line {
-                end: chunk.items.len(),
-                is_sound,
-            });
-        }
-        chunk
-    }
-
     /// The edits of those of its lines that are asked for.
     fn form(
         &self,
@@ -208,44 +137,6 @@ impl Chunk {
         }
         edits
     }
-}
-
-fn way_of(item: &Item) -> Option<Way> {
-    let Item::Block { block, .. } = item else {
-        return None;
-    };
-    let segment = decode(block, Point::origin()).ok()?;
-    Some(Way {
-        by: segment.end().coords,
-        is_arc: segment.as_arc().is_some(),
-    })
-}
-
-fn count_blocks(items: &[Item]) -> u64 {
-    items
-        .iter()
-        .filter(|item| matches!(item, Item::Block { .. }))
-        .count() as u64
-}
-
-fn has_end(items: &[Item]) -> bool {
-    items.iter().any(|item| {
-        matches!(
-            item,
-            Item::Word {
-                word: Word::End,
-                ..
-            }
-        )
-    })
-}
-
-/// A line in its new form: text, and the bytes of the old line that stand behind it as they are.
-struct Formed {
-    /// From here on the old line is replaced: behind a byte order mark.
-    from: usize,
-    head: String,
-    kept: Range<usize>,
 }
 
 fn replace(edits: &mut LineEdits, text: &SourceText, line: usize, formed: Formed) {

@@ -1,7 +1,6 @@
 //! One line in its new form.
 
-use super::Formed;
-use super::stand::Stated;
+use super::chunk::Stated;
 use crate::program::three_b::block::{Block, PartArc};
 use crate::program::three_b::layout::{
     push_block_number, push_end_point, push_fields, push_to_comment_column,
@@ -11,6 +10,15 @@ use crate::program::three_b::pieces::{Field, Piece, pieces};
 use crate::program::three_b::words::Words;
 use crate::settings::Layout;
 use std::borrow::Cow;
+use std::ops::Range;
+
+/// A line in its new form: text, and the bytes of the old line that stand behind it as they are.
+pub(super) struct Formed {
+    /// From here on the old line is replaced: behind a byte order mark.
+    pub(crate) from: usize,
+    pub(crate) head: String,
+    pub(crate) kept: Range<usize>,
+}
 
 /// Writes one line anew.
 pub(super) struct Writer<'a> {

@@ -1,6 +1,6 @@
 //! The machine on its way through a program that is formatted, and what its stated end points are worth.
 
-use super::{Chunk, Line, STATED_TOLERANCE, Way, count_blocks, has_end};
+use super::chunk::{Chunk, Line, Stated, Way, count_blocks, has_end};
 use crate::geometry::Point;
 use crate::program::three_b::around::StatedPoint;
 use crate::program::three_b::block::Node;
@@ -8,6 +8,9 @@ use crate::program::three_b::encode::{point_of, snap as node_of};
 use crate::program::three_b::parse::Item;
 use crate::program::three_b::words::Word;
 use crate::settings::Layout;
+
+/// How far a stated end point may lie from the block's own and still be it: 2 µm, and 1 µm for each arc since the last one.
+const STATED_TOLERANCE: f64 = 2.0;
 
 /// The way through a program, line by line.
 pub(super) struct Walk {
@@ -138,14 +141,4 @@ enum Trust {
     UnlessStated,
     /// Behind something damaged.
     Lost,
-}
-
-/// A stated end point, or where the block ends without one.
-#[derive(Clone, Copy)]
-pub(super) enum Stated {
-    /// It is the block's own.
-    Right(Node),
-    Wrong,
-    /// There is none; the block's own, where it is known.
-    Absent(Option<Node>),
 }
