@@ -21,9 +21,9 @@ const WAY: &str = "WAY";
 /// Arcs that turn by more, nearly full circles, are not held well by a bulge, rad.
 const MOST_BY_BULGE: f64 = TAU * 0.75;
 
-/// Consecutive cuts, µm.
+/// The way of one cut, µm.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Cut {
+pub struct CutPath {
     /// Each begins where the one before ended.
     pub(crate) segments: Vec<Segment>,
     /// Segments at the beginning that lead to a contour, which others go round.
@@ -38,7 +38,7 @@ pub struct Cut {
     pub(crate) switched: Option<usize>,
 }
 
-impl Cut {
+impl CutPath {
     /// The segments of the contour, without the ways in and out.
     pub fn contour(&self) -> &[Segment] {
         self.segments
@@ -50,7 +50,7 @@ impl Cut {
 /// What a program comes to.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cuts {
-    pub cuts: Vec<Cut>,
+    pub cuts: Vec<CutPath>,
     /// Moves without the wire, from and to, µm.
     pub ways: Vec<[Point; 2]>,
     /// Lines of blocks that lead nowhere, from 0.
@@ -83,7 +83,7 @@ pub fn cuts(document: &Document) -> Cuts {
             cuts.taper = iso::refuse_taper(program, iso::TaperWords::All).err();
         }
     }
-    let mut open = Cut::default();
+    let mut open = CutPath::default();
     let mut spans = spans.iter().peekable();
     let mut node = trace.start;
     let mut arcs = 0_usize;
@@ -225,7 +225,7 @@ impl Cuts {
     }
 
     /// Ends a cut: joins the ends of its contour, and those of its ways in and out, where they are one place.
-    fn close(&mut self, mut cut: Cut) {
+    fn close(&mut self, mut cut: CutPath) {
         let count = cut.segments.len();
         let last = count.saturating_sub(cut.lead_out + 1);
         let (Some(begin), Some(end)) = (
@@ -319,7 +319,7 @@ impl Cuts {
 
     /// The cuts as paths of the wire in µm, to be written in another language.
     pub fn paths(&self) -> Vec<WirePath> {
-        let source = |cut: &Cut, index: usize| match index {
+        let source = |cut: &CutPath, index: usize| match index {
             _ if index < cut.lead_in => Source::LeadIn,
             _ if index + cut.lead_out >= cut.segments.len() => Source::LeadOut,
             _ => Source::Segment {

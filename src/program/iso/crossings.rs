@@ -1,6 +1,6 @@
 //! Where the cuts of a program cross themselves, found anew for what an edit has touched.
 
-use super::cut::Cut;
+use super::cut::JoinedCut;
 use super::cuts::way_of;
 use super::document::{Crossings, Document};
 use crate::finding::Finding;
@@ -12,11 +12,15 @@ impl Crossings {
     pub(crate) fn look(&mut self, document: &Document) {
         let Crossings { known, found } = self;
         found.clear();
-        document.look_through(known, document.contours().iter(), |cut: &Cut, crossings| {
-            if !crossings.is_clean() {
-                found.push((cut.places(), crossings));
-            }
-        });
+        document.look_through(
+            known,
+            document.contours().iter(),
+            |cut: &JoinedCut, crossings| {
+                if !crossings.is_clean() {
+                    found.push((cut.places(), crossings));
+                }
+            },
+        );
     }
 
     /// Whether a cut that crosses itself runs through a stretch.

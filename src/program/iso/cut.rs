@@ -15,8 +15,9 @@ pub(crate) struct PartAt {
     pub(crate) offset: usize,
 }
 
+/// Consecutive moves, put together from the parts of the stretches that they run through.
 #[derive(Clone, Debug)]
-pub(crate) struct Cut {
+pub(crate) struct JoinedCut {
     pub(crate) parts: Vec<PartAt>,
     /// All of them as one.
     pub(crate) sum: Box<Part>,
@@ -32,11 +33,11 @@ pub(crate) struct Cut {
     pub(crate) flip: Option<(Place, Range<usize>)>,
 }
 
-impl Cut {
-    pub(crate) fn of(placed: &Placed<'_>, stretch: usize, part: usize) -> Option<Cut> {
+impl JoinedCut {
+    pub(crate) fn of(placed: &Placed<'_>, stretch: usize, part: usize) -> Option<JoinedCut> {
         let (offset, its) = (placed.offset, placed.stretch.part_at(part)?);
         let place = |(start, end): (u32, u32)| offset + start as usize..offset + end as usize;
-        let mut cut = Cut {
+        let mut cut = JoinedCut {
             parts: vec![PartAt {
                 stretch,
                 part,
@@ -66,7 +67,7 @@ impl Cut {
     }
 
     /// This cut and then the next, which goes on from where it ends: behind the stop at its tab, where there was one.
-    pub(crate) fn append(&mut self, next: Cut) {
+    pub(crate) fn append(&mut self, next: JoinedCut) {
         if self.stops > 0 {
             self.before_tab.get_or_insert(self.sum.moves);
         }

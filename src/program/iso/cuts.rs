@@ -1,6 +1,6 @@
 //! The cuts of a program, put together from its stretches, whether they close, and which stops stand within a contour, before its tab.
 
-use super::cut::{Cut, PartAt};
+use super::cut::{JoinedCut, PartAt};
 use super::document::Document;
 use super::moves::{Move, Place, apart, micrometres};
 use super::part::Part;
@@ -14,52 +14,52 @@ use std::cell::OnceCell;
 use std::ops::Range;
 
 impl HasCuts for Document {
-    type Cut = Cut;
+    type Cut = JoinedCut;
 
-    fn ends(&self, cut: &Cut) -> Ends {
+    fn ends(&self, cut: &JoinedCut) -> Ends {
         self.ends_of(&cut.sum)
     }
 
-    fn twice_area(&self, cut: &Cut) -> f64 {
+    fn twice_area(&self, cut: &JoinedCut) -> f64 {
         // nm² in µm².
         cut.sum.twice_area as f64 / 1e6
     }
 
-    fn only_lay(&self, cut: &Cut) -> Option<&Lay> {
+    fn only_lay(&self, cut: &JoinedCut) -> Option<&Lay> {
         let (stretch, part) = cut.only_place()?;
         self.stretches().get(stretch)?.lays.get(part)
     }
 
-    fn way<'a>(&'a self, cut: &Cut) -> PartedWay<'a> {
+    fn way<'a>(&'a self, cut: &JoinedCut) -> PartedWay<'a> {
         let Ends { begin, end, .. } = self.ends(cut);
         let ends = [[begin[0], begin[1]], end];
         let stop = cut.before_tab.map(|moves| moves as usize);
         way_of(self, cut.places(), stop, Some(ends))
     }
 
-    fn mark(&self, cut: &Cut) -> u64 {
+    fn mark(&self, cut: &JoinedCut) -> u64 {
         let lay = |at: &PartAt| self.stretches().get(at.stretch)?.lays.get(at.part);
         let stop = cut.before_tab.map_or(0, |moves| u64::from(moves) + 1);
         let marks = cut.parts.iter().filter_map(lay).map(|lay| lay.mark);
         marks.fold(stop, mixed)
     }
 
-    fn last_block(&self, cut: &Cut) -> Option<Range<usize>> {
+    fn last_block(&self, cut: &JoinedCut) -> Option<Range<usize>> {
         Some(cut.last_range.clone())
     }
 
-    fn part_count(&self, cut: &Cut) -> usize {
+    fn part_count(&self, cut: &JoinedCut) -> usize {
         cut.parts.len()
     }
 
-    fn is_doubtful(&self, cut: &Cut) -> bool {
+    fn is_doubtful(&self, cut: &JoinedCut) -> bool {
         !cut.sum.whole || cut.sum.faulty
     }
 }
 
 impl Document {
     /// How far a cut may end beside a place and still end in it, µm.
-    pub(super) fn tolerance(&self, cut: &Cut) -> f64 {
+    pub(super) fn tolerance(&self, cut: &JoinedCut) -> f64 {
         self.ends(cut).tolerance
     }
 
@@ -76,7 +76,7 @@ impl Document {
     }
 
     /// The cuts with which something may be wrong, each with what goes on behind the stop at its tab; and the stops before tabs.
-    pub(super) fn find_contours(&self) -> (Vec<Cut>, Vec<StopAt>) {
+    pub(super) fn find_contours(&self) -> (Vec<JoinedCut>, Vec<StopAt>) {
         let cuts = cuts(self);
         let tabs = tabs(self, &cuts);
         (contours(cuts, &tabs), tabs)
@@ -84,10 +84,10 @@ impl Document {
 }
 
 /// The cuts in the order in which they run; `None` stands for cuts with which nothing is wrong, all in one stretch.
-fn cuts(document: &Document) -> Vec<Option<Cut>> {
+fn cuts(document: &Document) -> Vec<Option<JoinedCut>> {
     let mut cuts = Vec::new();
     // The last one, while more may come to it.
-    let mut open: Option<Cut> = None;
+    let mut open: Option<JoinedCut> = None;
     for (index, placed) in document.placed().enumerate() {
         let stretch = placed.stretch;
         if let Some(whole) = stretch.ends_cut_before
@@ -115,7 +115,7 @@ fn cuts(document: &Document) -> Vec<Option<Cut>> {
                 cuts.push(None);
                 continue;
             };
-            let Some(own) = Cut::of(&placed, index, part) else {
+            let Some(own) = JoinedCut::of(&placed, index, part) else {
                 continue;
             };
             match &mut open {
@@ -129,22 +129,22 @@ fn cuts(document: &Document) -> Vec<Option<Cut>> {
 }
 
 /// The cuts with which something may be wrong, each with what goes on behind the stop at its tab.
-fn contours(cuts: Vec<Option<Cut>>, tabs: &[StopAt]) -> Vec<Cut> {
-    let mut contours: Vec<Cut> = Vec::new();
+fn contours(cuts: Vec<Option<JoinedCut>>, tabs: &[StopAt]) -> Vec<JoinedCut> {
+    let mut contours: Vec<JoinedCut> = Vec::new();
     let mut goes_on = false;
     for cut in cuts.into_iter().flatten() {
         match contours.last_mut().filter(|_| goes_on) {
             Some(before) => before.append(cut),
             None => contours.push(cut),
         }
-        let stop = contours.last().and_then(Cut::single_stop);
+        let stop = contours.last().and_then(JoinedCut::single_stop);
         goes_on = stop.is_some_and(|stop| tabs.binary_search(&stop).is_ok());
     }
     contours
 }
 
 /// The stops before tabs, in the order in which they run.
-fn tabs(document: &Document, cuts: &[Option<Cut>]) -> Vec<StopAt> {
+fn tabs(document: &Document, cuts: &[Option<JoinedCut>]) -> Vec<StopAt> {
     let mut found = Vec::new();
     let stretches = document.stretches();
     if stretches.iter().all(|stretch| stretch.pauses == 0) {
@@ -179,7 +179,7 @@ fn tabs(document: &Document, cuts: &[Option<Cut>]) -> Vec<StopAt> {
 
 /// A cut that does not go round for itself, and its moves, once they were asked for.
 struct OpenCut<'a> {
-    cut: &'a Cut,
+    cut: &'a JoinedCut,
     pieces: OnceCell<Vec<Segment>>,
 }
 

@@ -2,7 +2,7 @@
 
 use super::block::{Block, Offset};
 use super::control::{Control, lines_from};
-use super::cut::Cut;
+use super::cut::JoinedCut;
 use super::evidence::Evidence;
 use super::limits::Limits;
 use super::machine::Machine;
@@ -34,7 +34,7 @@ pub struct Document {
     /// The order of the lines, where it is not that of the text: then there is one stretch for each range in it.
     order: Option<Order>,
     /// The cuts with which something may be wrong, each with what goes on behind the stop at its tab.
-    contours: Vec<Cut>,
+    contours: Vec<JoinedCut>,
     /// Where they cross themselves.
     crossings: Box<Crossings>,
     /// The stops within contours, before their tabs, in the order in which they run.
@@ -173,7 +173,7 @@ impl Document {
         self.tabs.binary_search(&stop).is_ok()
     }
 
-    pub(super) fn contours(&self) -> &[Cut] {
+    pub(super) fn contours(&self) -> &[JoinedCut] {
         &self.contours
     }
 

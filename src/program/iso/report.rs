@@ -4,7 +4,7 @@ mod arcs;
 mod text;
 
 use super::block::Code;
-use super::cut::Cut;
+use super::cut::JoinedCut;
 use super::document::{Document, Table};
 use super::fixes::have_met;
 use super::limits::Limits;
@@ -275,7 +275,7 @@ impl<'a> Report<'a> {
         }
         let known = self.findings.len();
         for part in placed.stretch.inner() {
-            if let Some(cut) = Cut::of(placed, index, part) {
+            if let Some(cut) = JoinedCut::of(placed, index, part) {
                 self.judge(&cut);
             }
         }
@@ -285,7 +285,7 @@ impl<'a> Report<'a> {
     }
 
     /// A cut as a whole: does it close, does the wire run on the right side of it, is an arc too tight.
-    fn judge(&mut self, cut: &Cut) {
+    fn judge(&mut self, cut: &JoinedCut) {
         let sum = &*cut.sum;
         if sum.open && !self.is_whole() {
             // What is cut short says nothing of the whole.

@@ -20,7 +20,7 @@ use std::ops::Range;
 
 /// A cut that has begun before some line and may go on in it, nm.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Begun {
+pub(crate) struct BegunCut {
     /// Its first move, which is the way in where it has one.
     pub(crate) from: Place,
     pub(crate) to: Place,
@@ -154,20 +154,20 @@ impl Document {
     }
 
     /// The cut that is under way before a line.
-    pub(crate) fn begun_cut(&self, line: usize) -> Option<Begun> {
+    pub(crate) fn begun_cut(&self, line: usize) -> Option<BegunCut> {
         self.begun(self.run_up_to(line, false)?)
     }
 
     /// The cut that is under way behind a line.
-    pub(crate) fn begun_cut_with(&self, line: usize) -> Option<Begun> {
+    pub(crate) fn begun_cut_with(&self, line: usize) -> Option<BegunCut> {
         self.begun(self.run_up_to(line, true)?)
     }
 
-    fn begun(&self, (index, own): (usize, Stretch)) -> Option<Begun> {
+    fn begun(&self, (index, own): (usize, Stretch)) -> Option<BegunCut> {
         // What stands before the last stretch in which a cut begins does not matter.
         let before = &self.stretches()[..index];
         let from = before.iter().rposition(Stretch::bounds_cuts).unwrap_or(0);
-        let mut begun: Option<Begun> = None;
+        let mut begun: Option<BegunCut> = None;
         for stretch in before[from..].iter().chain([&own]) {
             if stretch.ends_cut_before.is_some() {
                 begun = None;
@@ -181,15 +181,15 @@ impl Document {
 }
 
 /// The cut that is under way behind a part, which goes on with what was under way before.
-fn begun_by(before: Option<Begun>, part: &Part) -> Option<Begun> {
+fn begun_by(before: Option<BegunCut>, part: &Part) -> Option<BegunCut> {
     let last = part.last[1];
-    let first = before.unwrap_or(Begun {
+    let first = before.unwrap_or(BegunCut {
         from: part.first[0].from,
         to: part.first[0].to,
         last,
         moves: 0,
     });
-    part.open.then_some(Begun {
+    part.open.then_some(BegunCut {
         last,
         moves: first.moves + part.moves,
         ..first

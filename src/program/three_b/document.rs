@@ -69,9 +69,9 @@ struct At {
 /// A part by its stretch and its index in there.
 type PartAt = (usize, usize);
 
-/// Blocks between two words.
+/// Blocks between two words, put together from the parts of the stretches that they run through.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Cut {
+pub(crate) struct JoinedCut {
     /// First and last part.
     parts: [PartAt; 2],
     sum: Sum,
@@ -87,7 +87,7 @@ struct View {
     /// Where the machine stands before each stretch, µm.
     begins: Vec<Point>,
     /// The cuts that reach over the end of a stretch, or begin or end the text, in their order. The others are parts of one stretch.
-    outer: Vec<Cut>,
+    outer: Vec<JoinedCut>,
     /// Where the contours begin that do not close.
     open: Vec<PartAt>,
     /// The parts in which an odd joint about the end of a stretch is told.
@@ -95,7 +95,7 @@ struct View {
     /// Where cuts begin that go on with the contour before them, behind the stop at its tab.
     tabs: Vec<PartAt>,
     /// The contours that are held by a tab until that is cut off, while they are looked through for crossings.
-    held: Vec<Cut>,
+    held: Vec<JoinedCut>,
     /// The word that ends the program.
     end: Option<At>,
     last_block: Option<At>,

@@ -5,7 +5,7 @@ use crate::geometry::{Arc, Point, left_normal};
 use crate::program::grid::{best_center, snap};
 use crate::program::iso::block::Motion;
 use crate::program::iso::moves::{CenterRule, Course, Move, Place, Reading, added, micrometres};
-use crate::program::iso::steps::Begun;
+use crate::program::iso::steps::BegunCut;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A chord that runs this nearly along the way before it makes no arc that leaves it tangent: the sine of the angle between them.
@@ -90,7 +90,11 @@ impl Offer<'_> {
 
 /// Centres in µm, each with what is said about it: the arc that leaves the cut before without a corner, that of R, a quarter and a half
 /// turn.
-fn candidates(made: &Move, begun: Option<&Begun>, reading: &Reading) -> Vec<(Point, &'static str)> {
+fn candidates(
+    made: &Move,
+    begun: Option<&BegunCut>,
+    reading: &Reading,
+) -> Vec<(Point, &'static str)> {
     let (from, to) = (micrometres(made.from), micrometres(made.to));
     let chord = to - from;
     let turn = if made.motion == Motion::CounterClockwise {

@@ -9,7 +9,7 @@ use crate::program::iso::document::Document;
 use crate::program::iso::machine::Machine;
 use crate::program::iso::moves::Move;
 use crate::program::iso::plain::words;
-use crate::program::iso::steps::Begun;
+use crate::program::iso::steps::BegunCut;
 use crate::program::iso::style::Style;
 use crate::program::iso::word::{Number, Token, WordFault};
 use std::borrow::Cow;
@@ -313,7 +313,7 @@ impl Offer<'_> {
 
     /// The straight ways back to where the cut began and to the end of its way in, behind the word that cuts where it is missing.
     fn ways_back(&mut self, motion: &str) {
-        let Some(Begun { from, to, .. }) = self.document.begun_cut(self.line) else {
+        let Some(BegunCut { from, to, .. }) = self.document.begun_cut(self.line) else {
             return;
         };
         let Machine { at, zero, lost, .. } = self.machine;

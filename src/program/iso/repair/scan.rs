@@ -43,7 +43,7 @@ impl Line {
 
 /// The cut that is under way.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Cut {
+struct CutUnderWay {
     start: Place,
     /// Where its first move ends.
     entered: Place,
@@ -92,7 +92,7 @@ impl Against {
 struct Scan {
     machine: Machine,
     against: Against,
-    cut: Option<Cut>,
+    cut: Option<CutUnderWay>,
     torn: bool,
     said: Option<Block>,
 }
@@ -363,7 +363,7 @@ impl Scan {
             None => {
                 let whole = !std::mem::take(&mut self.torn);
                 let (start, entered, arcs) = (made.from, made.to, u32::from(made.is_arc()));
-                self.cut = Some(Cut {
+                self.cut = Some(CutUnderWay {
                     start,
                     entered,
                     moves: 1,
@@ -419,7 +419,7 @@ impl Scan {
 }
 
 /// What speaks against how a cut closes that ends with a move.
-fn closing(cut: &Cut, from: Place, to: Place, reading: &Reading) -> Against {
+fn closing(cut: &CutUnderWay, from: Place, to: Place, reading: &Reading) -> Against {
     if !cut.whole {
         return Against::default();
     }

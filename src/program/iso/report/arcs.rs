@@ -1,7 +1,7 @@
 //! Arcs that the wire cannot follow at its distance, upright or leaning.
 
 use super::super::block::{Motion, Offset};
-use super::super::cut::Cut;
+use super::super::cut::JoinedCut;
 use super::super::moves::Course;
 use super::super::part::Tight;
 use super::super::tilt::{TiltedArc, Unknown};
@@ -13,7 +13,7 @@ use std::ops::Range;
 
 impl Report<'_> {
     /// The arcs of a cut that may be too tight, with their places in the text.
-    fn tight_of(&self, cut: &Cut) -> Vec<(Tight, Range<usize>)> {
+    fn tight_of(&self, cut: &JoinedCut) -> Vec<(Tight, Range<usize>)> {
         let mut found = Vec::new();
         for part in &cut.parts {
             let Some(stretch) = self.document.stretches().get(part.stretch) else {
@@ -43,7 +43,7 @@ impl Report<'_> {
     }
 
     /// Arcs that the wire cannot follow at its distance: those of a part's contour, where the control or nobody offsets it.
-    pub(super) fn tight_arcs(&mut self, cut: &Cut, orientation: i128) {
+    pub(super) fn tight_arcs(&mut self, cut: &JoinedCut, orientation: i128) {
         for (
             Tight {
                 arc: step, radius, ..

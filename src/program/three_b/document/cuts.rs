@@ -2,7 +2,7 @@
 
 use super::super::entry::{BlockEntry, Entry};
 use super::super::stretch::{Stretch, Sum, is_jump};
-use super::{At, Cut, Document, PartAt, View};
+use super::{At, Document, JoinedCut, PartAt, View};
 use std::ops::Range;
 
 impl Document {
@@ -76,8 +76,8 @@ impl Document {
     }
 
     /// The blocks from a part on, up to the next word; `None` behind the end of the program.
-    pub(super) fn cut_from(&self, start: PartAt, end: Option<At>) -> Option<Cut> {
-        let mut cut: Option<Cut> = None;
+    pub(super) fn cut_from(&self, start: PartAt, end: Option<At>) -> Option<JoinedCut> {
+        let mut cut: Option<JoinedCut> = None;
         let (mut stretch, mut index) = start;
         while let Some(of) = self.stretches.get(stretch) {
             for (nth, part) in of.parts.iter().enumerate().skip(index) {
@@ -89,7 +89,7 @@ impl Document {
                 }) {
                     return cut;
                 }
-                let own = cut.get_or_insert(Cut {
+                let own = cut.get_or_insert(JoinedCut {
                     parts: [(stretch, nth); 2],
                     sum: Sum::default(),
                     is_jump: false,
@@ -158,7 +158,7 @@ impl Document {
     }
 
     /// The cuts that are not parts of one stretch.
-    pub(super) fn outer_cuts(&self, end: Option<At>) -> Vec<Cut> {
+    pub(super) fn outer_cuts(&self, end: Option<At>) -> Vec<JoinedCut> {
         let mut cuts = Vec::new();
         let mut next = Some((0, 0));
         while let Some(cut) = next.and_then(|start| self.cut_from(start, end)) {
@@ -178,7 +178,7 @@ impl Document {
     }
 
     /// The contour that a part belongs to, or the way between two: its cut, and those before and behind at its tabs.
-    pub(super) fn cut_of_part(&self, view: &View, part: PartAt) -> Option<Cut> {
+    pub(super) fn cut_of_part(&self, view: &View, part: PartAt) -> Option<JoinedCut> {
         let mut cut = self.own_cut_of_part(view, part)?;
         while view.tabs.binary_search(&cut.parts[0]).is_ok() {
             let (stretch, part) = cut.parts[0];
@@ -207,7 +207,7 @@ impl Document {
     }
 
     /// The cut that a part belongs to.
-    fn own_cut_of_part(&self, view: &View, (stretch, part): PartAt) -> Option<Cut> {
+    fn own_cut_of_part(&self, view: &View, (stretch, part): PartAt) -> Option<JoinedCut> {
         let of = self.stretches.get(stretch)?;
         if part > 0 && part + 1 < of.parts.len() {
             return self.cut_from((stretch, part), view.end);
@@ -228,7 +228,7 @@ impl Document {
         self.view.tabs.binary_search(&part).is_ok()
     }
 
-    pub(super) fn closes(&self, view: &View, cut: &Cut) -> bool {
+    pub(super) fn closes(&self, view: &View, cut: &JoinedCut) -> bool {
         view.open.binary_search(&cut.parts[0]).is_err()
     }
 
@@ -237,7 +237,7 @@ impl Document {
         &'a self,
         end: Option<At>,
         named: fn(&Stretch) -> &[usize],
-    ) -> impl Iterator<Item = Cut> + 'a {
+    ) -> impl Iterator<Item = JoinedCut> + 'a {
         let up_to = end.map_or(usize::MAX, |end| end.stretch);
         let stretches = self
             .stretches
@@ -252,7 +252,7 @@ impl Document {
     }
 
     /// The entries of a cut in their order.
-    pub(super) fn entries_of(&self, cut: &Cut) -> impl DoubleEndedIterator<Item = At> + '_ {
+    pub(super) fn entries_of(&self, cut: &JoinedCut) -> impl DoubleEndedIterator<Item = At> + '_ {
         let [(first_stretch, first_part), (last_stretch, last_part)] = cut.parts;
         let entries = |(stretch, part): PartAt| {
             let parts = self
@@ -276,16 +276,16 @@ impl Document {
     }
 
     /// The blocks of a cut in their order.
-    pub(super) fn blocks_of(&self, cut: &Cut) -> impl DoubleEndedIterator<Item = At> + '_ {
+    pub(super) fn blocks_of(&self, cut: &JoinedCut) -> impl DoubleEndedIterator<Item = At> + '_ {
         let is_block = |at: &At| self.entry(*at).is_some_and(|entry| entry.block().is_some());
         self.entries_of(cut).filter(is_block)
     }
 
-    pub(super) fn last_block_of(&self, cut: &Cut) -> Option<At> {
+    pub(super) fn last_block_of(&self, cut: &JoinedCut) -> Option<At> {
         self.blocks_of(cut).next_back()
     }
 
-    pub(super) fn cut_of(&self, at: At) -> Option<Cut> {
+    pub(super) fn cut_of(&self, at: At) -> Option<JoinedCut> {
         self.stretches.get(at.stretch)?;
         self.cut_of_part(&self.view, (at.stretch, self.part_of(at)))
     }
@@ -300,8 +300,8 @@ impl Document {
 }
 
 /// A cut and the one behind its stop as one contour.
-pub(super) fn joined(cut: Cut, behind: &Cut) -> Cut {
-    Cut {
+pub(super) fn joined(cut: JoinedCut, behind: &JoinedCut) -> JoinedCut {
+    JoinedCut {
         parts: [cut.parts[0], behind.parts[1]],
         sum: cut.sum.then(&behind.sum),
         is_jump: false,

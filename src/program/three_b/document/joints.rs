@@ -4,7 +4,7 @@
 use super::super::entry::{Entry, What};
 use super::super::rules::{Counts, TextFix};
 use super::super::stretch::{Edge, Local, shape};
-use super::{At, Cut, Document, View};
+use super::{At, Document, JoinedCut, View};
 use crate::finding::{Detail, Fault, Finding, FixKind};
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::path::{may_be_odd, odd_joint, tolerance};
@@ -70,7 +70,7 @@ impl Document {
     }
 
     /// Whether an odd joint is told: nothing else is wrong with the contour, and a spur is no way out and in again between two passes.
-    pub(super) fn is_told(&self, view: &View, cut: &Cut, at: At, fault: &Fault) -> bool {
+    pub(super) fn is_told(&self, view: &View, cut: &JoinedCut, at: At, fault: &Fault) -> bool {
         let tip = || self.stands_before(view, at);
         let begin = || Some(self.stands_before(view, self.blocks_of(cut).next()?));
         let is_lead =
@@ -108,7 +108,7 @@ impl Document {
     }
 
     /// Whether an odd joint of a cut is told.
-    pub(super) fn is_odd(&self, view: &View, cut: &Cut) -> bool {
+    pub(super) fn is_odd(&self, view: &View, cut: &JoinedCut) -> bool {
         let [(first_stretch, first), (last_stretch, last)] = cut.parts;
         let of_stretch = |stretch: usize| {
             let faults = self.stretches.get(stretch).map_or(&[][..], |of| &of.faults);

@@ -6,7 +6,7 @@ use super::super::parse::unexpected;
 use super::super::repair::FEWEST_BLAMED;
 use super::super::rules;
 use super::cuts::joined;
-use super::{At, Cut, Document, PartAt, View};
+use super::{At, Document, JoinedCut, PartAt, View};
 use crate::finding::{Axis, Detail, Fault, Finding, Rule, Severity};
 use crate::geometry::{Bounds, Vector};
 use crate::program::path::{
@@ -22,16 +22,16 @@ struct GoesOn {
     /// What comes behind them.
     behind: PartAt,
     /// All of them, where the last one cuts off the tab.
-    held: Option<Cut>,
+    held: Option<JoinedCut>,
 }
 
 /// An open cut and what has been taken from behind its stops.
 struct OpenCuts<'a> {
     document: &'a Document,
     end: Option<At>,
-    cuts: Vec<Cut>,
+    cuts: Vec<JoinedCut>,
     /// All up to each of them as one.
-    wholes: Vec<Cut>,
+    wholes: Vec<JoinedCut>,
     /// Where those behind the first begin.
     begins: Vec<PartAt>,
 }
@@ -112,8 +112,8 @@ impl Document {
 
     /// `not-closed`, and the block that is to blame where it is plain. A contour that stops before its tab goes on behind the stop.
     fn judge_contours(&self, view: &mut View) {
-        let is_open = |cut: &Cut| !cut.is_jump && !self.goes_round(cut);
-        let mut candidates: Vec<Cut> = self
+        let is_open = |cut: &JoinedCut| !cut.is_jump && !self.goes_round(cut);
+        let mut candidates: Vec<JoinedCut> = self
             .inner_cuts(view.end, |stretch| &stretch.open)
             .filter(is_open)
             .collect();
@@ -161,7 +161,7 @@ impl Document {
     }
 
     /// Whether the machine stops twice where a cut ends.
-    fn ends_open(&self, view: &View, cut: &Cut) -> bool {
+    fn ends_open(&self, view: &View, cut: &JoinedCut) -> bool {
         let last = cut.parts[1];
         let word = self.stretches.get(last.0).and_then(|of| {
             let part = of.parts.get(last.1)?;
@@ -175,7 +175,7 @@ impl Document {
 
     /// What goes on with an open cut behind a stop: a tab, or blocks that come back to the start together, in whatever order they
     /// are cut. `None` where there is nothing.
-    fn goes_on(&self, view: &View, cut: &Cut) -> Option<GoesOn> {
+    fn goes_on(&self, view: &View, cut: &JoinedCut) -> Option<GoesOn> {
         let mut open = OpenCuts {
             document: self,
             end: view.end,
@@ -193,7 +193,7 @@ impl Document {
     }
 
     /// True for the way back to where the wire was threaded, behind a stop at the end of a closed contour.
-    fn leads_out(&self, view: &View, cut: &Cut) -> bool {
+    fn leads_out(&self, view: &View, cut: &JoinedCut) -> bool {
         let (stretch, part) = cut.parts[0];
         let before = part
             .checked_sub(1)
@@ -204,7 +204,7 @@ impl Document {
         })
     }
 
-    fn judge_open(&self, view: &mut View, cut: &Cut) {
+    fn judge_open(&self, view: &mut View, cut: &JoinedCut) {
         if cut.sum.unread > 0 {
             return;
         }
@@ -236,7 +236,7 @@ impl Document {
     }
 
     /// Whether a number is left out among the numbers of a cut: a block is lost then.
-    fn lacks_a_number(&self, cut: &Cut) -> bool {
+    fn lacks_a_number(&self, cut: &JoinedCut) -> bool {
         let numbers: Vec<u32> = self
             .blocks_of(cut)
             .filter_map(|at| self.entry(at)?.number())
@@ -255,7 +255,7 @@ impl Document {
     /// `path-crosses-itself`. What stands before and behind the stop at a tab is one contour.
     fn judge_crossings(&self, view: &mut View, known: &mut Known, clean: &mut Vec<PartAt>) {
         let held = std::mem::take(&mut view.held);
-        let is_held = |cut: &Cut| {
+        let is_held = |cut: &JoinedCut| {
             let behind = held.partition_point(|whole| whole.parts[0] <= cut.parts[0]);
             let whole = behind.checked_sub(1).and_then(|index| held.get(index));
             whole.is_some_and(|whole| cut.parts[1] <= whole.parts[1])

@@ -10,7 +10,7 @@ use super::super::repair::{
     BLOCKS, Change, Item, Loose, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs,
 };
 use super::super::rules::{TextFix, block_number};
-use super::{At, Cut, Document};
+use super::{At, Document, JoinedCut};
 use crate::finding::{Axis, Fault, Finding, FixKind, Place, Rule};
 use crate::program::grid::Node;
 use crate::program::repair::offered;
@@ -66,7 +66,7 @@ impl Document {
     }
 
     /// The block that keeps a contour open, by its number in the cut, where no other repair is as likely.
-    pub(super) fn blamed(&self, cut: &Cut) -> Option<(usize, Fault)> {
+    pub(super) fn blamed(&self, cut: &JoinedCut) -> Option<(usize, Fault)> {
         let (places, pieces) = self.pieces_of(cut)?;
         let path = self.path_of(cut, &places, &pieces, false);
         let found = repairs(&path, Scope::Blocks);
@@ -131,7 +131,7 @@ impl Document {
 
     fn path_of<'a>(
         &'a self,
-        cut: &Cut,
+        cut: &JoinedCut,
         places: &[At],
         pieces: &'a [Piece],
         is_closed: bool,
@@ -164,7 +164,7 @@ impl Document {
     }
 
     /// The blocks of a contour, those that cannot be read among them; `None` where there are too few or too many, or they are 4B.
-    fn pieces_of(&self, cut: &Cut) -> Option<(Vec<At>, Vec<Piece>)> {
+    fn pieces_of(&self, cut: &JoinedCut) -> Option<(Vec<At>, Vec<Piece>)> {
         if !BLOCKS.contains(&(cut.sum.blocks + cut.sum.unread)) {
             return None;
         }

@@ -3,7 +3,7 @@
 use super::super::fields::fields_of;
 use super::super::rules::{self, Counts};
 use super::super::stretch::Local;
-use super::{Cut, Document};
+use super::{Document, JoinedCut};
 use crate::finding::{Detail, Finding, Severity};
 use crate::program::repair::gate::Tried;
 use crate::program::report::{Found, Report, place_of};
@@ -65,7 +65,7 @@ impl Document {
         self.all()
     }
 
-    fn cut_of_local(&self, stretch: usize, local: &Local) -> Option<Cut> {
+    fn cut_of_local(&self, stretch: usize, local: &Local) -> Option<JoinedCut> {
         self.cut_of_part(&self.view, (stretch, local.part))
     }
 

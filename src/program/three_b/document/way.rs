@@ -2,7 +2,7 @@
 
 use super::super::decode::meant;
 use super::super::entry::{BlockEntry, Entry, Move};
-use super::{At, Cut, Document};
+use super::{At, Document, JoinedCut};
 use crate::geometry::{Point, Segment};
 use crate::program::path::{Blocks, Ends, HasCuts, Lay, Node, Part, PartedWay, Writing, mixed};
 use std::ops::Range;
@@ -21,17 +21,17 @@ struct HeldPart {
 }
 
 impl HasCuts for Document {
-    type Cut = Cut;
+    type Cut = JoinedCut;
 
-    fn ends(&self, cut: &Cut) -> Ends {
+    fn ends(&self, cut: &JoinedCut) -> Ends {
         cut.sum.ends()
     }
 
-    fn twice_area(&self, cut: &Cut) -> f64 {
+    fn twice_area(&self, cut: &JoinedCut) -> f64 {
         cut.sum.twice_area
     }
 
-    fn only_lay(&self, cut: &Cut) -> Option<&Lay> {
+    fn only_lay(&self, cut: &JoinedCut) -> Option<&Lay> {
         let [(stretch, part), last] = cut.parts;
         let of = self
             .stretches
@@ -40,7 +40,7 @@ impl HasCuts for Document {
         of.parts.get(part).map(|part| &part.lay)
     }
 
-    fn way<'a>(&'a self, cut: &Cut) -> PartedWay<'a> {
+    fn way<'a>(&'a self, cut: &JoinedCut) -> PartedWay<'a> {
         let (mut held, mut parts) = (Vec::new(), Vec::new());
         let mut at = Move::default();
         let [(first_stretch, first_part), (last_stretch, last_part)] = cut.parts;
@@ -78,19 +78,19 @@ impl HasCuts for Document {
         PartedWay::new(Box::new(blocks), parts, cut.stop, None)
     }
 
-    fn mark(&self, cut: &Cut) -> u64 {
+    fn mark(&self, cut: &JoinedCut) -> u64 {
         mixed(cut.sum.mark, cut.stop.map_or(0, |blocks| blocks as u64 + 1))
     }
 
-    fn last_block(&self, cut: &Cut) -> Option<Range<usize>> {
+    fn last_block(&self, cut: &JoinedCut) -> Option<Range<usize>> {
         self.last_block_of(cut).map(|at| self.range_of(at))
     }
 
-    fn part_count(&self, cut: &Cut) -> usize {
+    fn part_count(&self, cut: &JoinedCut) -> usize {
         cut.parts[1].0 - cut.parts[0].0 + 1
     }
 
-    fn is_doubtful(&self, cut: &Cut) -> bool {
+    fn is_doubtful(&self, cut: &JoinedCut) -> bool {
         cut.is_jump || cut.sum.errors > 0
     }
 }
