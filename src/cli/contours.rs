@@ -82,6 +82,18 @@ fn list(contours: &Contours) -> String {
     text
 }
 
+/// What a contour is, or where the wire runs.
+pub(super) fn role(role: Role) -> &'static str {
+    match role {
+        Role::Opening => say!(opening),
+        Role::Punch => say!(punch),
+        Role::Both => say!(both_sides),
+        Role::Left => say!(wire_on_the_left),
+        Role::Right => say!(wire_on_the_right),
+        Role::Ignore => say!(not_cut),
+    }
+}
+
 pub(super) fn heading(index: usize, contour: &ContoursContour, unit_mm: f64) -> String {
     let shape = match (contour.closed, contour.direction) {
         (false, _) => say!(open),
@@ -89,14 +101,7 @@ pub(super) fn heading(index: usize, contour: &ContoursContour, unit_mm: f64) -> 
         (true, Some(Direction::Cw)) => say!(closed_clockwise),
         (true, None) => say!(closed_without_area),
     };
-    let role = match contour.role {
-        Role::Opening => say!(opening),
-        Role::Punch => say!(punch),
-        Role::Both => say!(both_sides),
-        Role::Left => say!(wire_on_the_left),
-        Role::Right => say!(wire_on_the_right),
-        Role::Ignore => say!(not_cut),
-    };
+    let role = role(contour.role);
     let length = contour.length * unit_mm;
     let area = contour
         .area

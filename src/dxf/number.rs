@@ -169,6 +169,11 @@ fn eight_digits(digits: [u8; 8]) -> Option<u64> {
     are_digits.then_some(eight)
 }
 
+fn digit(text: &[u8], at: usize) -> Option<u8> {
+    let digit = text.get(at)?.wrapping_sub(b'0');
+    (digit < 10).then_some(digit)
+}
+
 /// `[+-] digits [. digits] [e [+-] digits]` with at least one digit before the exponent.
 fn decimal(text: &[u8]) -> Option<f64> {
     if let Some((value, _)) = leading(text).filter(|&(_, length)| length == text.len()) {
@@ -181,22 +186,14 @@ fn decimal(text: &[u8]) -> Option<f64> {
     };
     let mut at = start;
     let (mut mantissa, mut digits, mut scale) = (0u64, 0u32, 0i32);
-    while let Some(digit) = text
-        .get(at)
-        .map(|byte| byte.wrapping_sub(b'0'))
-        .filter(|&digit| digit < 10)
-    {
+    while let Some(digit) = digit(text, at) {
         mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
         digits += 1;
         at += 1;
     }
     if text.get(at) == Some(&b'.') {
         at += 1;
-        while let Some(digit) = text
-            .get(at)
-            .map(|byte| byte.wrapping_sub(b'0'))
-            .filter(|&digit| digit < 10)
-        {
+        while let Some(digit) = digit(text, at) {
             mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
             digits += 1;
             scale -= 1;
@@ -221,11 +218,7 @@ fn decimal(text: &[u8]) -> Option<f64> {
         };
         let first = at;
         let mut exponent = 0i32;
-        while let Some(digit) = text
-            .get(at)
-            .map(|byte| byte.wrapping_sub(b'0'))
-            .filter(|&digit| digit < 10)
-        {
+        while let Some(digit) = digit(text, at) {
             exponent = (exponent * 10 + i32::from(digit)).min(100_000);
             at += 1;
         }

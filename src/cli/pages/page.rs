@@ -1,12 +1,12 @@
 //! What stands on the page of a drawing, and on the index.
 
+use super::super::contours;
 use super::super::files::Opened;
 use super::super::report::{self, Row};
 use super::super::{Failure, output};
 use super::html::{self, Cell, cell, more, number, table, text};
 use super::job as of_job;
 use crate::document::Snapshot;
-use crate::drawing::Role;
 use crate::finding::{Rule, Severity};
 use crate::job::{self, Generated, Wanted};
 use crate::message::{lengths, spoken};
@@ -174,14 +174,7 @@ impl Page {
             } else {
                 say!(open)
             };
-            let role = match contour.role {
-                Role::Opening => say!(opening),
-                Role::Punch => say!(punch),
-                Role::Both => say!(both_sides),
-                Role::Left => say!(wire_on_the_left),
-                Role::Right => say!(wire_on_the_right),
-                Role::Ignore => say!(not_cut),
-            };
+            let role = contours::role(contour.role);
             let area = contour
                 .area
                 .map(|area| format!("{:.3}", area * self.unit_mm * self.unit_mm));
