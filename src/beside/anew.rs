@@ -100,7 +100,7 @@ impl Anew {
     }
 
     /// What the paths run of beside walls and round corners, µm.
-    pub fn on_walls(&self) -> impl Iterator<Item = &Segment> {
+    pub(crate) fn on_walls(&self) -> impl Iterator<Item = &Segment> {
         let is_on_wall = |source: &Source| source.place().is_some();
         let own = self
             .pieces
@@ -110,7 +110,7 @@ impl Anew {
     }
 
     /// The segment of the drawing that a block follows; `None` for the ways in and out and between.
-    pub fn source_of(&self, motion: &Motion) -> Option<(EntityId, usize)> {
+    pub(crate) fn source_of(&self, motion: &Motion) -> Option<(EntityId, usize)> {
         let Motion::Cut(segment) = motion else {
             return None;
         };

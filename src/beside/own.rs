@@ -37,13 +37,13 @@ pub(super) struct Told {
 
 impl Told {
     /// It was written with just these settings.
-    pub fn is_exact(&self) -> bool {
+    pub(crate) fn is_exact(&self) -> bool {
         self.mean < SAME
     }
 
     /// Several ways in and out that are elsewhere are set otherwise, and so is one that is by more than `most`, mm; any other somebody has
     /// changed.
-    pub fn without_leads(mut self, most: f64) -> Told {
+    pub(crate) fn without_leads(mut self, most: f64) -> Told {
         let is_lead = |one: &Difference| one.kind == Kind::Lead;
         let all = &mut self.comparison.differences;
         let leads = || all.iter().filter(|one| is_lead(one));
@@ -55,7 +55,7 @@ impl Told {
     }
 
     /// How much speaks against it, the least first.
-    pub fn doubt(&self) -> (bool, usize, bool) {
+    pub(crate) fn doubt(&self) -> (bool, usize, bool) {
         let many = self.comparison.differences.len().min(2) + self.elsewhere.min(2);
         (!self.is_exact(), many, self.has_gap)
     }

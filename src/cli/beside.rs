@@ -16,7 +16,7 @@ type Programs = Arc<Vec<(PathBuf, PathBuf)>>;
 
 /// What is known of folders: each is looked at once.
 #[derive(Default)]
-pub struct Folders {
+pub(crate) struct Folders {
     /// The programs in a folder, each with its drawing.
     found: Mutex<FxHashMap<PathBuf, Programs>>,
 }
