@@ -1,6 +1,7 @@
 //! Start holes, which are drilled for the wire to be threaded through: where they are proposed, and what is wrong with them.
 
 use super::clearance::Walls;
+use super::containment::Places;
 use super::job::Job;
 use super::leads::{Contours, HOLE_CLEAR, finding};
 use super::order::{self, name};
@@ -64,7 +65,7 @@ impl Job<'_> {
             outlines,
             None,
             Order::AsDrawn,
-            &order::Places::default(),
+            &Places::default(),
             zero_length,
         )
         .ok()?;

@@ -5,6 +5,7 @@
 //! cannot be, there is an error finding at the place and no path. Everything is in drawing units; settings are in mm.
 
 mod clearance;
+mod containment;
 mod corners;
 mod drawn;
 mod entry;
@@ -81,7 +82,7 @@ pub struct Planned {
 
 /// One contour among the cuts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Cut {
+pub(crate) struct ContourToCut {
     /// Index into the outlines.
     pub(crate) outline: usize,
     /// The start mark that is nearest to it, of those that are nearer to no other contour.
@@ -94,7 +95,7 @@ pub(crate) fn cuts(
     drawing: &Drawing,
     outlines: &[Outline],
     settings: &Effective,
-) -> Option<Vec<Cut>> {
+) -> Option<Vec<ContourToCut>> {
     const MOST_CONTOURS: usize = 20_000;
     const MOST_COMPARED: usize = 20_000_000;
     /// A path is laid for the order of the nearest.
@@ -124,7 +125,7 @@ pub(crate) fn cuts(
     Some(
         chosen
             .into_iter()
-            .map(|outline| Cut {
+            .map(|outline| ContourToCut {
                 outline,
                 mark: wanted::mark_of(&marks, outline),
             })

@@ -1,9 +1,10 @@
 //! Which contours are cut, in which direction, and where on them the cut begins.
 
+use super::containment::{Nesting, Places};
 use super::corners::{Element, between};
 use super::path::{Refusal, WirePath};
-use crate::drawing::{Contour, Drawing, EntityId, Outline, winding};
-use crate::geometry::{Arc, Bounds, Grid, Point, Segment};
+use crate::drawing::{Contour, Drawing, EntityId, Outline};
+use crate::geometry::{Arc, Point, Segment};
 use crate::settings::{Direction, Order};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::cmp::Ordering;
@@ -156,103 +157,6 @@ fn picks(drawing: &Drawing, outlines: &[Outline], handles: &[String]) -> FxHashM
         }
     }
     picks
-}
-
-/// The place that each outline is given among all, by its index, where it is given one.
-pub(super) type Places = FxHashMap<usize, u32>;
-
-/// Which of some contours lie within which.
-struct Nesting {
-    /// By place: the places of the contours round it, the outermost first.
-    around: Vec<Vec<usize>>,
-}
-
-impl Nesting {
-    fn new(drawing: &Drawing, outlines: &[Outline], chosen: &[usize]) -> Nesting {
-        let boxes: Vec<Bounds> = chosen
-            .iter()
-            .map(|&index| outlines[index].contour.bounds(drawing))
-            .collect();
-        let is_closed = |place: &usize| outlines[chosen[*place]].contour.closed;
-        let mut grid = Grid::default();
-        for place in (0..chosen.len()).filter(is_closed) {
-            grid.insert(place, boxes[place]);
-        }
-        let mut around = vec![Vec::new(); chosen.len()];
-        for inner in (0..chosen.len()).filter(is_closed) {
-            let Some(first) = outlines[chosen[inner]].contour.segment(drawing, 0) else {
-                continue;
-            };
-            let point = first.geometry.point_at(0.5);
-            let holders: &mut Vec<usize> = &mut around[inner];
-            grid.near(&Bounds::of_points(&[point]), |outer| holders.push(outer));
-            holders.retain(|&outer| {
-                boxes[outer] != boxes[inner]
-                    && boxes[outer].merged(&boxes[inner]) == boxes[outer]
-                    && winding(drawing, &outlines[chosen[outer]].contour, point) != 0
-            });
-            // From left to right, so that the first holder is the outermost.
-            let left = |place: usize| boxes[place].min.x;
-            holders.sort_by(|&a, &b| left(a).total_cmp(&left(b)).then(a.cmp(&b)));
-        }
-        Nesting { around }
-    }
-
-    /// When each is cut by the `places` that some are given: a contour at its own, what lies within it no later. Where none is given, last.
-    fn turns(&self, chosen: &[usize], places: &Places) -> Vec<u32> {
-        let own = |place: usize| places.get(&chosen[place]).copied().unwrap_or(u32::MAX);
-        let turn = |place: usize| {
-            let around = self.around[place].iter().map(|&outer| own(outer));
-            around.fold(own(place), u32::min)
-        };
-        (0..chosen.len()).map(turn).collect()
-    }
-
-    /// Each in its turn, and directly before it what lies within it and was not cut yet, the innermost first.
-    fn just_before(&self) -> Vec<usize> {
-        let mut within = vec![Vec::new(); self.around.len()];
-        for (inner, around) in self.around.iter().enumerate() {
-            around.iter().for_each(|&outer| within[outer].push(inner));
-        }
-        let mut is_cut = vec![false; self.around.len()];
-        let mut order = Vec::with_capacity(self.around.len());
-        for (place, mut inner) in within.into_iter().enumerate() {
-            inner.sort_by_key(|&inner| (std::cmp::Reverse(self.around[inner].len()), inner));
-            for next in inner.into_iter().chain([place]) {
-                if !std::mem::replace(&mut is_cut[next], true) {
-                    order.push(next);
-                }
-            }
-        }
-        order
-    }
-
-    /// Leaves an order alone in which nothing comes before what it holds. Else the contours within one outermost contour follow each
-    /// other, the innermost first; which outermost comes first stays as it was.
-    fn inside_first(&self) -> Vec<usize> {
-        let mut order: Vec<usize> = (0..self.around.len()).collect();
-        if self
-            .around
-            .iter()
-            .enumerate()
-            .all(|(inner, around)| around.iter().all(|&outer| outer > inner))
-        {
-            return order;
-        }
-        let outermost = |place: usize| self.around[place].first().copied().unwrap_or(place);
-        let mut group: Vec<usize> = (0..self.around.len()).collect();
-        for place in 0..self.around.len() {
-            group[outermost(place)] = group[outermost(place)].min(place);
-        }
-        order.sort_by_key(|&place| {
-            (
-                group[outermost(place)],
-                std::cmp::Reverse(self.around[place].len()),
-                place,
-            )
-        });
-        order
-    }
 }
 
 /// Brings paths into an order in which each is followed by the one that begins nearest to where it ends, of those within which nothing

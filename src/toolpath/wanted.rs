@@ -1,6 +1,7 @@
 //! Where the wire is to be threaded, and where a contour is entered: what the settings say, and the marks in the drawing.
 
-use super::order::{Places, outline_of};
+use super::containment::Places;
+use super::order::outline_of;
 use super::path::Refusal;
 use crate::drawing::{Drawing, Geometry, Outline, Role, winding};
 use crate::geometry::Point;

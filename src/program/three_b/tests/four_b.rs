@@ -1,7 +1,16 @@
 //! The part's contour in 4B.
 
-use super::*;
+use super::{arc, line, path_of};
+use crate::drawing::EntityId;
+use crate::geometry::{Point, Segment, turn};
+use crate::program::ProofError;
+use crate::program::three_b::Document;
+use crate::program::three_b::block::Block;
+use crate::program::three_b::decode::decode;
+use crate::program::three_b::parse::{Item, read};
+use crate::program::three_b::words::Words;
 use crate::program::three_b::write_four_b;
+use crate::settings::{Compensation, Effective};
 
 /// A plate of 20 by 10 mm, entered in the middle of its lower side, and its 4B program for a wire on `side` of the travel.
 fn four_b(side: crate::finding::Side, last: [f64; 2]) -> Result<String, ProofError> {

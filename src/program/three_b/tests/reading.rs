@@ -1,6 +1,12 @@
 //! What is read of a text, damaged or not.
 
-use super::*;
+use super::blocks;
+use crate::geometry::Point;
+use crate::program::three_b::around::StatedPoint;
+use crate::program::three_b::block::{Block, CountingAxis, Motion, Quadrant};
+use crate::program::three_b::decode::{DecodeFault, decode};
+use crate::program::three_b::parse::{Item, read};
+use crate::program::three_b::words::{Word, Words};
 
 #[test]
 fn text_of_every_writer_is_read() {

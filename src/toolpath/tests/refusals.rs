@@ -1,0 +1,166 @@
+//! What has no path, and paths that nobody wants any more.
+
+use super::{SQUARE, at, defaults, drawing};
+use crate::drawing::{Drawing, Entity, Geometry, Outline, Role};
+use crate::finding::{Rule, Severity};
+use crate::geometry::Point;
+use crate::settings::{Compensation, Direction, Effective, PointSetting, SideSetting};
+use crate::toolpath::{Refusal, plan, plan_while};
+use std::collections::BTreeMap;
+
+fn check_refused(polyline: &[[f64; 3]], role: Option<Role>, settings: Effective, expected: &str) {
+    let (drawing, outlines) = drawing(&[(polyline, role)]);
+    assert_eq!(
+        plan(&drawing, &outlines, &settings, None),
+        Err(Refusal::Sentence(expected.into()))
+    );
+}
+
+#[test]
+fn what_cannot_be_planned_is_refused_in_a_sentence() {
+    check_refused(
+        SQUARE,
+        Some(Role::Both),
+        defaults(),
+        "side of contour 2A is not known: say opening or punch",
+    );
+    check_refused(
+        SQUARE,
+        None,
+        defaults(),
+        "contour 2A is open: the side of the wire is not known; close it, or set compensation to none to cut it as drawn",
+    );
+    check_refused(
+        SQUARE,
+        Some(Role::Opening),
+        Effective {
+            entry: at(5.0, 0.02),
+            ..defaults()
+        },
+        "the entry (5, 0.02) lies 0.020 mm from contour 2A, expected a point on it",
+    );
+    check_refused(
+        SQUARE,
+        None,
+        Effective {
+            compensation: Compensation::None,
+            entry: at(5.0, 0.0),
+            ..defaults()
+        },
+        "contour 2A is open and cannot be entered at (5, 0), expected one of its ends",
+    );
+    let table = BTreeMap::from([("77".to_string(), [0.0, 0.0])]);
+    check_refused(
+        SQUARE,
+        Some(Role::Opening),
+        Effective {
+            thread: Some(PointSetting::ByHandle(table)),
+            ..defaults()
+        },
+        "there is no entity with the handle 77",
+    );
+    check_refused(
+        &[],
+        Some(Role::Opening),
+        defaults(),
+        "there is no contour to cut",
+    );
+    let (drawing, outlines) =
+        drawing(&[(SQUARE, Some(Role::Opening)), (SQUARE, Some(Role::Opening))]);
+    let settings = Effective {
+        thread: at(5.0, 5.0),
+        ..defaults()
+    };
+    let sentence = "one thread hole is given for 2 contours: choose one contour by its handle, or give a table by handle";
+    assert_eq!(
+        plan(&drawing, &outlines, &settings, None),
+        Err(Refusal::Sentence(sentence.into()))
+    );
+    assert!(plan(&drawing, &outlines, &settings, Some(&["2A".to_string()])).is_ok());
+}
+
+#[test]
+fn a_slot_narrower_than_the_wire_is_left_out_and_an_error() {
+    for (width, fits) in [(0.19, false), (0.2, true), (0.201, true)] {
+        let keyhole: &[[f64; 3]] = &[
+            [0.0, 0.0, 0.0],
+            [10.0, 0.0, 0.0],
+            [10.0, 5.0, 0.0],
+            [20.0, 5.0, 0.0],
+            [20.0, 5.0 + width, 0.0],
+            [10.0, 5.0 + width, 0.0],
+            [10.0, 10.0, 0.0],
+            [0.0, 10.0, 0.0],
+        ];
+        let (drawing, outlines) = drawing(&[(keyhole, Some(Role::Opening))]);
+        for direction in [Direction::Ccw, Direction::Cw] {
+            let settings = Effective {
+                direction,
+                ..defaults()
+            };
+            let path = plan(&drawing, &outlines, &settings, None)
+                .expect("a path")
+                .remove(0);
+            let furthest = path
+                .segments
+                .iter()
+                .map(|piece| piece.geometry.end().x)
+                .fold(0.0, f64::max);
+            assert_eq!(furthest > 19.0, fits, "{width}");
+        }
+        let settings = Effective {
+            side: SideSetting::Opening,
+            ..defaults()
+        };
+        let (findings, _) = crate::analysis::Analysis::new(&drawing, std::sync::Arc::new(settings))
+            .findings(&drawing, usize::MAX);
+        let told = findings
+            .iter()
+            .any(|finding| finding.rule == Rule::NarrowSlot && finding.severity == Severity::Error);
+        assert_eq!(told, !fits, "{width} {findings:?}");
+    }
+}
+
+#[test]
+fn a_path_that_nobody_wants_any_more_is_given_up() {
+    let (drawing, outlines) = circles(40);
+    let asked = std::cell::Cell::new(0);
+    // Given up at each of the places where it asks, whichever comes first.
+    let until = |most: usize| {
+        asked.set(0);
+        let goes_on = || {
+            asked.set(asked.get() + 1);
+            asked.get() <= most
+        };
+        plan_while(&drawing, &outlines, &defaults(), None, false, &goes_on)
+    };
+    assert!(until(usize::MAX).is_ok());
+    let places = asked.get();
+    assert!(places > 40 * 3, "{places}");
+    for most in 0..places {
+        assert_eq!(until(most), Err(Refusal::Cancelled), "{most} of {places}");
+        assert_eq!(asked.get(), most + 1, "nothing is done once it has said so");
+    }
+}
+
+/// Openings side by side.
+fn circles(count: usize) -> (Drawing, Vec<Outline>) {
+    let mut drawing = Drawing::new(None);
+    for number in 0..count {
+        let geometry = Geometry::Circle {
+            center: Point::new(number as f64 * 10.0, 0.0),
+            radius: 3.0,
+        };
+        drawing.push(Entity {
+            handle: format!("{number}").into(),
+            layer: "0".into(),
+            role: Some(Role::Opening),
+            kind: crate::drawing::Kind::Circle,
+            geometry,
+        });
+    }
+    let outlines = crate::analysis::Analysis::new(&drawing, std::sync::Arc::new(defaults()))
+        .outlines(&drawing)
+        .to_vec();
+    (drawing, outlines)
+}
