@@ -138,7 +138,7 @@ mod tests {
     }
 
     /// Every command, every option and every key of the settings is explained in Chinese. One process speaks one language: the test
-    /// speaks it in a process of its own, `tests/cli.rs` asks the binary.
+    /// speaks it in a process of its own, `tests/cli` asks the binary.
     #[test]
     fn all_help_has_its_twin() {
         if std::env::var_os("WEDM_TEST_OF_HELP").is_none() {

@@ -1,0 +1,187 @@
+//! Pictures and new drawings.
+
+use super::{Desk, check};
+use std::path::Path;
+
+#[test]
+fn a_picture_is_well_formed_enough_to_be_shown() {
+    let desk = Desk::new();
+    check(
+        &desk,
+        "draw narrow.dxf -o narrow.svg",
+        0,
+        &["!drawn without the path of the wire"],
+    );
+    let picture = String::from_utf8(desk.read("narrow.svg")).unwrap();
+    assert!(picture.starts_with("<svg xmlns=") && picture.ends_with("</svg>\n"));
+    assert!(!picture.contains("NaN") && !picture.contains("inf"));
+    check(&desk, "draw clean.dxf --side opening -o clean.svg", 0, &[]);
+    assert!(
+        String::from_utf8(desk.read("clean.svg"))
+            .unwrap()
+            .contains("class=\"wire\"")
+    );
+}
+
+/// Two holes, of which the second is cut first.
+const HOLES: &str = "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n5\n2A\n10\n0\n20\n0\n40\n5\n\
+    0\nCIRCLE\n5\n2B\n10\n20\n20\n0\n40\n5\n0\nENDSEC\n0\nEOF\n";
+
+#[test]
+fn a_picture_says_what_it_is_in_which_order_and_how_long() {
+    let desk = Desk::new();
+    desk.write("holes.dxf", HOLES);
+    desk.write(
+        "wedm.toml",
+        "side = \"opening\"\n[drawings.\"holes.dxf\".contours.2B]\norder = 1\n",
+    );
+    let lengths = "cut 81.2 mm";
+    desk.run("draw holes.dxf -o holes.svg");
+    let picture = String::from_utf8(desk.read("holes.svg")).unwrap();
+    for said in [
+        "holes.dxf · contours and wire path</text>",
+        "2 contours · 30.000 × 10.000 mm · contour 62.8 mm · cut 81.2 mm · jumps 20.0 mm",
+        "class=\"jump\"",
+        ">1</text>",
+        ">2</text>",
+    ] {
+        assert!(picture.contains(said), "{said}: {picture}");
+    }
+    // The program of it speaks of the same lengths.
+    let made = desk.run("generate holes.dxf --format 3b -o holes.3b");
+    let said = made.stderr;
+    assert!(
+        said.contains(lengths) && said.contains("jumps 20.0 mm"),
+        "{said}"
+    );
+    let told = desk.run("simulate holes.3b");
+    let said = told.stdout;
+    assert!(
+        said.contains(lengths) && said.contains("jumps 20.0 mm"),
+        "{said}"
+    );
+    desk.run("draw holes.3b -o program.svg");
+    let picture = String::from_utf8(desk.read("program.svg")).unwrap();
+    assert!(picture.contains("holes.3b · path of the wire"), "{picture}");
+    assert!(picture.contains("cut 81.2 mm · jumps 20.0 mm"), "{picture}");
+    // Where the side is not known there is no path, and the picture says why.
+    desk.write("wedm.toml", "");
+    desk.run("draw holes.dxf -o none.svg");
+    let picture = String::from_utf8(desk.read("none.svg")).unwrap();
+    assert!(
+        picture.contains("contours, no wire path</text>"),
+        "{picture}"
+    );
+    assert!(
+        picture.contains("no wire path: side of contour 2A is not known"),
+        "{picture}"
+    );
+}
+
+#[test]
+fn pictures_are_written_as_png_and_pdf_too() {
+    let desk = Desk::new();
+    desk.write("holes.dxf", HOLES);
+    for (target, begins) in [
+        ("a.PNG", &b"\x89PNG"[..]),
+        ("a.pdf", b"%PDF-"),
+        ("a.svg", b"<svg "),
+    ] {
+        let ended = desk.run(&format!("--lang zh draw holes.dxf -o {target}"));
+        assert_eq!(ended.code, Some(0), "{ended:?}");
+        let bytes = desk.read(target);
+        assert!(bytes.starts_with(begins), "{target}: {} bytes", bytes.len());
+    }
+    let ended = desk.run("draw holes.dxf -o a.jpg");
+    let said = ended.stderr;
+    assert!(
+        said.contains(".jpg is not written, expected .svg, .png, .pdf or .dxf"),
+        "{said}"
+    );
+}
+
+/// `UPDATE_EXPECT=1 cargo test --test cli` makes the pictures anew.
+#[test]
+fn the_pictures_of_the_documentation_are_current() {
+    let desk = Desk::new();
+    let drawing = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures/small-radius.dxf");
+    desk.write("small-radius.dxf", std::fs::read(drawing).unwrap());
+    check(
+        &desk,
+        "check small-radius.dxf --side opening",
+        1,
+        &["3 errors"],
+    );
+    let faulty = desk.run("draw small-radius.dxf --side opening").stdout;
+    check(
+        &desk,
+        "fix small-radius.dxf --side opening --in-place",
+        0,
+        &["!3 arcs repaired"],
+    );
+    let fixed = desk.run("draw small-radius.dxf --side opening").stdout;
+    expect_test::expect_file!["../../docs/pictures/small-radius.svg"].assert_eq(&faulty);
+    expect_test::expect_file!["../../docs/pictures/small-radius-fixed.svg"].assert_eq(&fixed);
+}
+
+#[test]
+fn a_new_drawing_holds_the_contours_and_the_path_of_the_wire() {
+    let desk = Desk::new();
+    check(&desk, "draw clean.dxf --side opening -o path.dxf", 0, &[]);
+    let list = desk
+        .run("inspect path.dxf --output json --side opening")
+        .json();
+    let layers = |layer: &str| {
+        list["entities"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter(|entity| entity["layer"] == layer)
+            .count()
+    };
+    // A lead in and out, and a piece of path for each segment and for the one that is cut in two by the entry.
+    let contour = desk.run("inspect clean.dxf --output json").json();
+    let segments = contour["entities"][0]["segments"].as_array().unwrap().len();
+    assert_eq!((layers("DIE"), layers("WIRE")), (1, segments + 3));
+}
+
+/// A picture of what an electrode mills speaks of no wire and of no hole to thread it through.
+#[test]
+fn pictures_of_milling_speak_of_the_electrode() {
+    let desk = Desk::new();
+    desk.write(
+        "wedm.toml",
+        "[milling]\ntool-diameter = 1.0\ngap = 0.05\nlayer = 0.05\ndepth = 0.2\nwear = 0.001\n",
+    );
+    desk.write(
+        "slot.dxf",
+        "0\nSECTION\n2\nENTITIES\n0\nLINE\n5\n2A\n8\n0\n10\n0\n20\n0\n11\n10\n21\n0\n0\nENDSEC\n0\nEOF\n",
+    );
+    check(
+        &desk,
+        "generate slot.dxf --format milling -o milled.iso",
+        0,
+        &[],
+    );
+    for (file, title, language) in [
+        (
+            "slot.dxf",
+            "slot.dxf · contours and path of the electrode",
+            "en",
+        ),
+        ("milled.iso", "milled.iso · path of the electrode", "en"),
+        ("slot.dxf", "slot.dxf · 轮廓和电极路线", "zh"),
+        ("milled.iso", "milled.iso · 电极路线", "zh"),
+    ] {
+        let drawn = desk.run(&format!("--lang {language} draw {file}"));
+        assert_eq!(drawn.code, Some(0), "{drawn:?}");
+        assert!(
+            drawn.stdout.contains(title),
+            "no {title} in {}",
+            drawn.stdout
+        );
+        for wire in ["wire<", "wire's", "thread hole", "电极丝", "穿丝"] {
+            assert!(!drawn.stdout.contains(wire), "{wire} in {}", drawn.stdout);
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Settings of the project, of a file that an option names, and of options.
+
+use super::{Desk, check};
+
+#[test]
+fn a_settings_file_is_begun() {
+    let desk = Desk::new();
+    check(
+        &desk,
+        "init --wire 0.25 --gap 0.03 --passes 3 --machine robofil work",
+        2,
+        &["!work/wedm.toml"],
+    );
+    std::fs::create_dir(desk.path("work")).unwrap();
+    let begin = "init --wire 0.25 --gap 0.03 --passes 3 --machine robofil work";
+    check(&desk, begin, 0, &["!work/wedm.toml written"]);
+    let text = String::from_utf8(desk.read("work/wedm.toml")).unwrap();
+    for line in [
+        "wire-diameter = 0.25",
+        "corrections = [0.2150, 0.1700, 0.1400]",
+        "gaps = [0.0300, 0.0150, 0.0150]",
+        "profile = \"robofil\"",
+        "# margin = 0.001",
+    ] {
+        assert!(text.contains(&format!("\n{line}\n")), "{line}: {text}");
+    }
+    assert!(!text.contains("#:schema"), "{text}");
+    check(&desk, begin, 2, &["!it is there already"]);
+    desk.write(
+        "work/wedm.schema.json",
+        desk.run("config schema").stdout.as_bytes(),
+    );
+    check(&desk, &format!("{begin} --force"), 0, &[]);
+    let text = String::from_utf8(desk.read("work/wedm.toml")).unwrap();
+    assert!(
+        text.starts_with("#:schema ./wedm.schema.json\n# "),
+        "{text}"
+    );
+    desk.write("work/clean.dxf", desk.read("clean.dxf"));
+    check(&desk, "check work", 0, &["nothing found"]);
+    // The table leaves the part as it is drawn: the finished part says nothing is cut beyond.
+    let written = desk.run("generate work/clean.dxf --side punch --format iso");
+    assert!(
+        written
+            .stderr
+            .contains("finished part: at most 0.0000 mm stay uncut")
+            && written.stderr.contains("; 0.0000 mm cut beyond"),
+        "{}",
+        written.stderr
+    );
+}
+
+#[test]
+fn settings_come_from_the_project_then_the_option_file_then_the_options() {
+    let desk = Desk::new();
+    desk.write("job/deep/tight.dxf", desk.read("tight.dxf"));
+    desk.write("job/wedm.toml", "correction = 0.05\n");
+    desk.write("fine.toml", "correction = 0.2\n");
+    check(&desk, "check job/deep/tight.dxf", 0, &["nothing found"]);
+    check(
+        &desk,
+        "check job/deep/tight.dxf --config fine.toml",
+        1,
+        &["the correction 0.200 mm"],
+    );
+    check(
+        &desk,
+        "check job/deep/tight.dxf --config fine.toml --correction 0.3",
+        1,
+        &["the correction 0.300 mm"],
+    );
+}
+
+#[test]
+fn a_fault_in_the_settings_is_a_finding_in_them() {
+    let desk = Desk::new();
+    for (toml, line) in [
+        ("side = \"both\"\ncorrection = \"thick\"\n", 2),
+        ("correction = \n", 1),
+        ("corection = 0.1\n", 1),
+    ] {
+        desk.write("job/wedm.toml", toml);
+        desk.write("job/clean.dxf", desk.read("clean.dxf"));
+        desk.write("job/again.dxf", desk.read("clean.dxf"));
+        check(
+            &desk,
+            "check job",
+            1,
+            &["error[settings]", "wedm.toml:", "2 files checked: 1 error"],
+        );
+        let json = desk.run("check job/clean.dxf --output json").json();
+        assert_eq!(json["diagnostics"][0]["line"], line, "{json}");
+        assert!(
+            json["diagnostics"][0]["path"]
+                .as_str()
+                .unwrap()
+                .ends_with("wedm.toml")
+        );
+        // Nothing is made with settings that may not be those that were meant.
+        check(
+            &desk,
+            "generate job/clean.dxf --side opening",
+            2,
+            &["!error[settings]", "!settings that do not fit"],
+        );
+        check(
+            &desk,
+            "fix job/clean.dxf --diff",
+            2,
+            &["!settings that do not fit"],
+        );
+    }
+}
