@@ -1,11 +1,9 @@
 //! The part's contour in 4B.
 
 use super::{arc, line, path_of};
-use crate::drawing::EntityId;
 use crate::geometry::{Point, Segment, turn};
 use crate::program::ProofError;
 use crate::program::three_b::Document;
-use crate::program::three_b::block::Block;
 use crate::program::three_b::decode::decode;
 use crate::program::three_b::parse::{Item, read};
 use crate::program::three_b::words::Words;

@@ -3,7 +3,7 @@
 use super::{C, distance, unled, without_leads, wrong};
 use crate::drawing::Role;
 use crate::finding::{Detail, Place, Rule, Severity};
-use crate::geometry::Point;
+use crate::geometry::{Point, direction};
 use crate::settings::{Compensation, Corner, Direction, Effective, SideSetting};
 use crate::toolpath::tests::{at, defaults, drawing, samples, shown};
 use crate::toolpath::{PathSegment, Refusal, plan};
