@@ -27,6 +27,9 @@ use std::ops::Range;
 /// How many lines before its cut the word that switches the correction is looked for.
 const SWITCH_REACH: usize = 1_000;
 
+/// Twice the area of what is more than a line there and back, nm².
+const LEAST_TWICE_AREA: u128 = 2_000_000;
+
 /// Of more spurs it is not asked whether they are ways out and in again.
 const MOST_SPURS: usize = 32;
 
@@ -64,7 +67,7 @@ impl Document {
         }
         report.spurs();
         for cut in self.contours() {
-            report.judge(cut);
+            report.judge(cut, self.contours());
         }
         report.findings.extend(self.crossings().findings(self));
         report.taper();
@@ -276,7 +279,7 @@ impl<'a> Report<'a> {
         let known = self.findings.len();
         for part in placed.stretch.inner() {
             if let Some(cut) = JoinedCut::of(placed, index, part) {
-                self.judge(&cut);
+                self.judge(&cut, &[]);
             }
         }
         let is_clean = self.findings.len() == known;
@@ -284,8 +287,9 @@ impl<'a> Report<'a> {
         is_clean
     }
 
-    /// A cut as a whole: does it close, does the wire run on the right side of it, is an arc too tight.
-    fn judge(&mut self, cut: &JoinedCut) {
+    /// A cut as a whole: does it close, does the wire run on the right side of it, is an arc too tight. `all` are those with which it may
+    /// belong together.
+    fn judge(&mut self, cut: &JoinedCut, all: &[JoinedCut]) {
         let sum = &*cut.sum;
         if sum.open && !self.is_whole() {
             // What is cut short says nothing of the whole.
@@ -298,7 +302,7 @@ impl<'a> Report<'a> {
             self.findings.extend(finding);
         }
         // Contours that are only a line there and back have no inside.
-        let orientation = if closes && sum.twice_area.unsigned_abs() > 2_000_000 {
+        let orientation = if closes && sum.twice_area.unsigned_abs() > LEAST_TWICE_AREA {
             sum.twice_area.signum()
         } else {
             0
@@ -308,14 +312,18 @@ impl<'a> Report<'a> {
             _ => None,
         };
         if let Some(side) = side {
-            let inside = (side == Side::Left) == (orientation > 0);
-            let is_wrong = match self.limits.side {
+            let is_inside = |area: i128| (side == Side::Left) == (area > 0);
+            let is_wrong = |inside: bool| match self.limits.side {
                 SideSetting::Opening => !inside,
                 SideSetting::Punch => inside,
                 _ => false,
             };
             let range = || self.switch_range(cut.range.start);
-            if is_wrong {
+            let mut inside = is_inside(orientation);
+            if is_wrong(inside) {
+                inside = self.area_with_tab(cut, all).map_or(inside, is_inside);
+            }
+            if is_wrong(inside) {
                 self.add(
                     range(),
                     Fault::RoleSide {
@@ -338,6 +346,31 @@ impl<'a> Report<'a> {
             }
         }
         self.tight_arcs(cut, orientation);
+    }
+
+    /// Twice the area of the contour of which a cut is the tab, or all but the tab, where both are cut from the thread hole and back there.
+    fn area_with_tab(&self, cut: &JoinedCut, all: &[JoinedCut]) -> Option<i128> {
+        let begins = |sum: &Part| sum.first.map(|step| step.to);
+        let ends = |sum: &Part| sum.last.map(|step| step.from);
+        let tolerance = self.document.tolerance(cut);
+        let meet = |one: Spot, other: Spot| distance(one, other) / 1e3 <= tolerance;
+        let common = |some: [Spot; 2], others: [Spot; 2]| {
+            let is_met = move |spot: &Spot| others.iter().any(|other| meet(*spot, *other));
+            some.into_iter().filter(is_met)
+        };
+        let own = &*cut.sum;
+        let area = |other: &Part| {
+            let from = common(begins(own), ends(other));
+            let mut tabs =
+                from.flat_map(|from| common(ends(own), begins(other)).map(move |to| (from, to)));
+            let area = own.twice_area.wrapping_add(other.twice_area);
+            let are_one = other.start() == own.start()
+                && other.side == own.side
+                && area.unsigned_abs() > LEAST_TWICE_AREA
+                && tabs.any(|(from, to)| !meet(from, to));
+            are_one.then_some(area)
+        };
+        all.iter().find_map(|other| area(&other.sum))
     }
 
     /// G41 that becomes G42 within a cut, at the word that does so.

@@ -38,6 +38,9 @@ const NEARLY_ON: f64 = 0.05;
 /// So many blocks may go on past the place where a way closes.
 const MOST_BEYOND: usize = 8;
 
+/// Cosine of the turn between an arc that leads to a contour and what it is tangent to, at the least.
+const SMOOTH: f64 = 0.999;
+
 /// How often the way is followed twice as far to see two of its branches part.
 const DOUBLINGS: usize = 10;
 
@@ -52,13 +55,21 @@ pub(in crate::program) struct Tangle<'a> {
     pub(crate) piece: &'a dyn Fn(usize) -> Option<Segment>,
     pub(crate) count: usize,
     pub(crate) margin: f64,
+    /// How far beside the last pass its tab is cut, µm.
+    pub(crate) aside: f64,
     /// Pieces that have been gone through.
     pub(crate) steps: Cell<usize>,
 }
 
 /// Where a way that is held as a whole crosses itself.
 pub(in crate::program) fn crossings(pieces: &[Segment], arcs: usize) -> Vec<Crossing> {
+    crossings_beside(pieces, arcs, 0.0)
+}
+
+/// The same of a way whose tab is cut so far beside it.
+pub(super) fn crossings_beside(pieces: &[Segment], arcs: usize, aside: f64) -> Vec<Crossing> {
     let way = Tangle {
+        aside,
         piece: &|index| pieces.get(index).copied(),
         count: pieces.len(),
         margin: margin(arcs),
@@ -213,6 +224,8 @@ impl Tangle<'_> {
     fn crosses(&self, first: usize, second: usize, at: Point) -> bool {
         if self.is_where_leads_end(first, second, at)
             || self.goes_on_past_its_start(first, second, at)
+            || self.cuts_the_end_of_the_way_in(first, second, at)
+            || self.are_ways_in_and_out(first, second)
         {
             return false;
         }
@@ -281,6 +294,42 @@ impl Tangle<'_> {
             .all(|point| is_on(first, point) && is_on(second, point))
     }
 
+    /// The way out, from where a tab begins, crosses the way in: both go through what drops. Each is a line or one and an arc that is
+    /// tangent to it and to the contour, and the wire turns back where it was threaded.
+    fn are_ways_in_and_out(&self, first: usize, second: usize) -> bool {
+        let Some(last) = self.count.checked_sub(1).filter(|last| *last > 4) else {
+            return false;
+        };
+        let is_smooth = |one: usize, other: usize| {
+            let (one, other) = (self.at(one), self.at(other));
+            one.zip(other)
+                .is_some_and(|(one, other)| one.end_tangent().dot(&other.start_tangent()) > SMOOTH)
+        };
+        let is_arc = |index: usize| self.at(index).is_some_and(|it| it.as_arc().is_some());
+        let way_in = 1 + usize::from(is_arc(1) && is_smooth(0, 1) && is_smooth(1, 2));
+        let out = is_arc(last - 1) && is_smooth(last - 2, last - 1) && is_smooth(last - 1, last);
+        let (Some(begin), Some(end)) = (self.at(0), self.at(last)) else {
+            return false;
+        };
+        first < way_in
+            && second >= last - usize::from(out)
+            && (begin.start() - end.end()).norm() <= 2.0 * self.margin
+            && begin.start_tangent().dot(&end.end_tangent()) < 0.0
+    }
+
+    /// The tab is cut beside the pass before it, through the end of the way in of that pass.
+    fn cuts_the_end_of_the_way_in(&self, first: usize, second: usize, at: Point) -> bool {
+        let lies_beside = |point: Point| {
+            let piece = self.at(second);
+            piece.is_some_and(|piece| piece.distance_to(point) <= 2.0 * self.aside + self.margin)
+        };
+        let ends_beside = |index: usize| {
+            let end = self.at(index).map(|piece| piece.end());
+            end.is_some_and(|end| lies_beside(end) && lies_beside(nalgebra::center(&at, &end)))
+        };
+        self.aside > 0.0 && first <= 1 && (first..=1).any(ends_beside)
+    }
+
     /// The way goes on along its first blocks past the place where it closes, and out from there: it cuts nothing but its own way in.
     /// A way in or out is a block, or one and an arc.
     fn goes_on_past_its_start(&self, first: usize, second: usize, at: Point) -> bool {
@@ -296,7 +345,7 @@ impl Tangle<'_> {
             let Some(closes) = self.count.checked_sub(way_out + beyond) else {
                 return false;
             };
-            if closes <= way_in + beyond || first > way_in + beyond || second + 1 < closes {
+            if closes < way_in + beyond || first > way_in + beyond || second + 1 < closes {
                 return false;
             }
             let runs_along = |number: usize| {

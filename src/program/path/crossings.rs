@@ -4,10 +4,10 @@
 //! to each other: an edit changes the pairs of the part that it touched, and of what it moved away from the rest. Which pieces cross is
 //! then decided from the whole way, so that it does not hang on where parts begin.
 
-use super::crossing::{Crossing, MOST_PAIRS, Tangle, come_near, crossings, margin};
+use super::crossing::{Crossing, MOST_PAIRS, Tangle, come_near, crossings_beside, margin};
 use super::lay::keep_first;
 use super::parted::{Part, PartedWay, micrometres};
-use super::passes::{Before, passes};
+use super::passes::{BESIDE, Before, passes};
 use super::way::Way;
 use crate::finding::{Detail, Fault, Finding, NotJudged, Place, Rule, Severity};
 use crate::geometry::{Bounds, Segment, Vector};
@@ -79,7 +79,8 @@ impl Known {
         let mut crossings = known.unwrap_or_default();
         let others = passes.all.get(first..passes.all.len() - last);
         let own = others.unwrap_or_default().iter();
-        let own = own.map(|pass| crossings_of_pass(way, pass));
+        let aside = aside_at_stop(way);
+        let own = own.map(|pass| crossings_of_pass(way, pass, aside));
         crossings.splice(first..crossings.len() - last, own);
         let placed = |(pass, crossings): (&Range<usize>, &Vec<Crossing>)| {
             let begin = pass.start;
@@ -322,6 +323,7 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
         piece: &piece,
         count,
         margin: margin(way.arcs()),
+        aside: aside_at_stop(way),
         steps: Cell::new(0),
     }
     .crossings(near);
@@ -333,10 +335,25 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
 }
 
 /// Where a pass of a cut crosses itself, counted from its begin: it may lie on another, and ways in and out cross others.
-fn crossings_of_pass(way: &PartedWay<'_>, pass: &Range<usize>) -> Vec<Crossing> {
+fn crossings_of_pass(way: &PartedWay<'_>, pass: &Range<usize>, aside: f64) -> Vec<Crossing> {
     let own: Vec<Segment> = pass.clone().filter_map(|index| way.piece(index)).collect();
     let arcs = own.iter().filter(|piece| piece.as_arc().is_some()).count();
-    crossings(&own, arcs)
+    crossings_beside(&own, arcs, aside)
+}
+
+/// How far the wire goes across behind the stop, to cut the tab in another pass than the one before, µm; 0 where it goes on as it came.
+fn aside_at_stop(way: &PartedWay<'_>) -> f64 {
+    let across = || {
+        let behind = way.stop()?;
+        let before = way.piece(behind.checked_sub(1)?)?;
+        let step = way.piece(behind)?;
+        let (by, along) = (step.end() - step.start(), before.end_tangent());
+        let is_across = step.as_arc().is_none()
+            && by.norm() <= BESIDE
+            && 2.0 * by.dot(&along).abs() < by.norm();
+        is_across.then(|| by.norm())
+    };
+    across().unwrap_or(0.0)
 }
 
 /// The pieces of a part from the origin, with boxes about them, about pairs of boxes, and so on up to one.

@@ -8,7 +8,7 @@ use std::ops::Range;
 const BETWEEN: usize = 6;
 
 /// How far the boxes of two passes of one contour may lie apart on each side, µm: more than any two corrections differ.
-const BESIDE: f64 = 1_000.0;
+pub(super) const BESIDE: f64 = 1_000.0;
 
 /// The passes of a way, the ways in and out with the first and the last of them; none where it goes round once.
 #[derive(Default)]
