@@ -518,6 +518,45 @@ fn two_drawn_parts_are_held_against_each_other_and_meet_in_no_other_rule() {
 }
 
 /// Lines of two parts whose ends are nearer to each other than the join tolerance.
+/// Parts that are looser than they should be: what is left is the true distance, not the clearance that was asked for.
+#[test]
+fn more_than_the_clearance_is_said_as_it_is() {
+    for clearance in [0.005, 0.01, 0.02] {
+        // Cut twice with a correction below half the kerf: both parts lose what is missing.
+        for less in [0.0, 0.002, 0.009] {
+            for drawn_as in ["punch", "plate"] {
+                let own = settings(&format!(
+                    "wire-diameter = 0.18\ngap = 0.01\ncorrection = {:?}\n[pair]\ndrawn-as = \"{drawn_as}\"\nclearance = {clearance:?}\n",
+                    0.1 - less
+                ));
+                let found = fit_of(&circle(7.0), &own);
+                let expected = clearance + 2.0 * less;
+                let label = format!("{clearance} {less} {drawn_as}: {}", found.least());
+                assert!((found.least() - expected).abs() < 1e-9, "{label}");
+                assert!(found.fits() && found.spots().count() == 0, "{label}");
+            }
+        }
+        // Two drawn parts, so far from each other.
+        for share in [1.0, 1.3, 2.0, 3.0, 4.9] {
+            let apart: f64 = share * clearance;
+            let text = DRAWN.replace("clearance = 0.01", &format!("clearance = {clearance}"));
+            let own = settings(&text);
+            assert_eq!(own.pair.clearance, Some(clearance), "{text}");
+            let drawing = drawing(vec![
+                polyline("PU", "A", grown(20.0, 10.0, 0.0, 0.3)),
+                polyline("PL", "B", grown(20.0, 10.0, apart, 0.3 + apart)),
+            ]);
+            let found = fit_of(&drawing, &own);
+            assert_eq!(found.pairs.len(), 1, "{clearance} {share}");
+            assert!(
+                (found.least() - apart).abs() < 1e-6,
+                "{clearance} {share}: {}",
+                found.least()
+            );
+        }
+    }
+}
+
 #[test]
 fn entities_of_two_workpieces_are_not_chained_to_each_other() {
     let own = settings(&DRAWN.replace("0.01\n[workpieces]", "0.006\n[workpieces]"));

@@ -120,7 +120,7 @@ impl Analysis {
         };
         match settings.partners() {
             Some(Partners::CutTwice(_)) => {
-                let pair = fit::cut_twice(drawing, punch, settings, &|| true);
+                let pair = fit::cut_twice(drawing, punch, settings, false, &|| true);
                 (pair.ok(), None)
             }
             Some(Partners::Drawn) => {
@@ -132,7 +132,7 @@ impl Analysis {
                     return (None, None);
                 };
                 let parts = [&*punch_part, &*plate_part];
-                let pair = fit::drawn_pair(drawing, [punch, plate], parts, settings);
+                let pair = fit::drawn_pair(drawing, [punch, plate], parts, settings, false);
                 let kept = [(Role::Punch, punch_part), (Role::Opening, plate_part)];
                 (Some(pair), Some(kept))
             }

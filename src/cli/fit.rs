@@ -100,13 +100,22 @@ fn table(fit: &Fit) -> String {
         let line = say!(a_contour_has_no_partner, alone.handle, alone.of);
         let _ = writeln!(text, "{}", readable(&line));
     }
-    let (least, wanted) = (fit.least * 1e3, fit.clearance * 1e3);
-    let places = say!(places, fit.places.len());
     let verdict = match fit.fits {
         true => styled(output::GOOD, say!(fits)),
         false => styled(output::ERROR, say!(do_not_fit)),
     };
-    let verdict = say!(verdict_of_the_fit, verdict, least, wanted, places);
-    let _ = writeln!(text, "{verdict}");
+    let _ = writeln!(text, "{}", of_least(fit, &verdict));
     text
+}
+
+/// How much is left, and whether that is more than there should be.
+pub(super) fn of_least(fit: &Fit, verdict: &str) -> String {
+    let (least, wanted) = (fit.least * 1e3, fit.clearance * 1e3);
+    let places = say!(places, fit.places.len());
+    let mut sentence = say!(verdict_of_the_fit, verdict, least, wanted, places);
+    // As it is printed.
+    if least - wanted >= 0.1 {
+        sentence += &say!(everywhere_more_is_left, least - wanted);
+    }
+    sentence
 }

@@ -15,6 +15,8 @@ pub(super) struct Limits {
     pub rounding: f64,
     /// What is left beside walls that are followed on both sides; `None` where both parts are drawn, and each place is looked at.
     pub along_walls: Option<f64>,
+    /// It is asked how much is left where nothing is missing, too.
+    pub asks_least: bool,
 }
 
 /// A corner is looked round up to so many half kerfs from where the wire turned.
@@ -23,9 +25,13 @@ const FARTHEST: f64 = 16.0;
 /// The most looks at one edge for how deep it stands in the other part.
 const MOST: usize = 2_000;
 
+/// How often twice as much clearance is asked for to see how much is left: partners lie within five of each other.
+const DOUBLINGS: u32 = 6;
+
 /// Lays the punch in the plate. `names` are what the two are called.
 pub(super) fn held(punch: &Part, plate: &Part, names: [Arc<str>; 2], limits: &Limits) -> Pair {
     let mut spots = corners([punch, plate], &names, false, limits);
+    let both = names.clone();
     let [of_punch, of_plate] = names;
     let turned = [of_plate.clone(), of_punch.clone()];
     spots.extend(corners([plate, punch], &turned, true, limits));
@@ -60,11 +66,35 @@ pub(super) fn held(punch: &Part, plate: &Part, names: [Arc<str>; 2], limits: &Li
         .iter()
         .map(|spot| spot.clearance)
         .fold(least, f64::min);
+    if limits.asks_least && spots.is_empty() {
+        least = more_than_wanted(punch, plate, both, limits);
+    }
     Pair {
         least,
         spots,
         punch: segments(punch),
         plate: segments(plate),
+    }
+}
+
+/// How much is left where it is tightest, of parts that have the clearance everywhere: so much more is asked for that it is missing.
+fn more_than_wanted(punch: &Part, plate: &Part, names: [Arc<str>; 2], limits: &Limits) -> f64 {
+    let least = |clearance: f64| {
+        let more = Limits {
+            clearance,
+            asks_least: false,
+            ..*limits
+        };
+        let pair = held(punch, plate, names.clone(), &more);
+        (pair.least < clearance).then_some(pair.least)
+    };
+    match limits.along_walls {
+        Some(apart) if apart > limits.clearance => least(apart).unwrap_or(apart),
+        Some(_) => limits.clearance,
+        None => {
+            let mut asked = (1..=DOUBLINGS).map(|nth| limits.clearance * f64::from(1 << nth));
+            asked.find_map(least).unwrap_or(limits.clearance)
+        }
     }
 }
 

@@ -42,7 +42,7 @@ pub struct Spot {
 /// One part laid in the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
-    /// The least clearance all round.
+    /// The least clearance all round; where none is missing, and nobody asks how much more there is, that which there should be.
     pub least: f64,
     /// Where less is left than there should be, in the order of the outline of the punch, then of that of the plate.
     pub spots: Vec<Spot>,
@@ -66,7 +66,7 @@ pub struct Fit {
 impl Fit {
     pub fn least(&self) -> f64 {
         let all = self.pairs.iter().map(|pair| pair.least);
-        all.fold(self.clearance, f64::min)
+        all.reduce(f64::min).unwrap_or(self.clearance)
     }
 
     pub fn fits(&self) -> bool {
@@ -100,7 +100,7 @@ pub fn fit(
             let twice = outlines.iter().filter(|outline| is_cut_twice(outline));
             for outline in twice {
                 fit.pairs
-                    .push(cut_twice(drawing, outline, settings, goes_on)?);
+                    .push(cut_twice(drawing, outline, settings, true, goes_on)?);
             }
         }
         Partners::Drawn => {
@@ -115,7 +115,7 @@ pub fn fit(
                     return Err(Refusal::Cancelled);
                 }
                 let parts = [&parts.0?, &parts.1?];
-                let pair = drawn_pair(drawing, [punch, plate], parts, settings);
+                let pair = drawn_pair(drawing, [punch, plate], parts, settings, true);
                 fit.pairs.push(pair);
             }
             let first = |index: &usize| {
@@ -140,11 +140,13 @@ pub(crate) fn is_cut_twice(outline: &Outline) -> bool {
         && outline.contour.double_of.is_none()
 }
 
-/// The punch and the plate that are cut along one contour, one laid in the other. Both are made at once.
+/// The punch and the plate that are cut along one contour, one laid in the other. Both are made at once. `asks_least`: how much is left
+/// where nothing is missing, too.
 pub(crate) fn cut_twice(
     drawing: &Drawing,
     outline: &Outline,
     settings: &Effective,
+    asks_least: bool,
     goes_on: &dyn Fn() -> bool,
 ) -> Result<Pair, Refusal> {
     let part_of = |of: Use| {
@@ -171,6 +173,7 @@ pub(crate) fn cut_twice(
         clearance,
         rounding: settings.tolerances.report / unit_mm,
         along_walls: Some(along_walls),
+        asks_least,
     };
     Ok(held::held(&parts.0?, &parts.1?, names, &limits))
 }
@@ -207,6 +210,7 @@ pub(crate) fn drawn_pair(
     outlines: [&Outline; 2],
     [punch, plate]: [&Part; 2],
     settings: &Effective,
+    asks_least: bool,
 ) -> Pair {
     let names = outlines.map(|it| name_of(drawing, &it.contour, settings));
     let unit_mm = settings.unit_of(drawing).mm;
@@ -214,6 +218,7 @@ pub(crate) fn drawn_pair(
         clearance: settings.pair.clearance.unwrap_or(0.0) / unit_mm,
         rounding: settings.tolerances.report / unit_mm,
         along_walls: None,
+        asks_least,
     };
     held::held(punch, plate, names, &limits)
 }

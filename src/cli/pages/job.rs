@@ -1,5 +1,6 @@
 //! What the job comes to, on its page: the drill list, time and material, and whether the parts fit.
 
+use super::super::fit::of_least;
 use super::html::{cell, more, number, table, text};
 use crate::document::Snapshot;
 use crate::job;
@@ -106,13 +107,11 @@ pub(super) fn fit_part(fit: &Result<Fit, String>) -> String {
         Ok(fit) => fit,
         Err(reason) => return format!("<p class=\"error\">{}</p>\n", text(reason)),
     };
-    let (least, wanted) = (fit.least * 1e3, fit.clearance * 1e3);
-    let places = say!(places, fit.places.len());
     let (class, verdict) = match fit.fits {
         true => ("good", say!(fits)),
         false => ("error", say!(do_not_fit)),
     };
-    let sentence = say!(verdict_of_the_fit, verdict, least, wanted, places);
+    let sentence = of_least(fit, verdict);
     let alone: String = fit
         .alone
         .iter()

@@ -20,6 +20,7 @@ declare! {
     fits => "fits";
     do_not_fit => "does not fit";
     verdict_of_the_fit(fits, least, wanted, places) => "{fits}: {least:.1} µm of {wanted:.1} are left where it is tightest, clearance is missing at {places}";
+    everywhere_more_is_left(more) => "; everywhere {more:.1} µm more is left than there should be";
     the_program_is_there_already => "it is there already, expected a folder without it, or --overwrite";
     the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}: {part}, correction {corrections} mm, {blocks}, {length}";
     the_wire_runs_on_the_other_side(part) => "      {part}: the clearance is larger than the correction, so the wire runs on the other side of what is drawn";

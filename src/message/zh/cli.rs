@@ -20,6 +20,7 @@ translate! {
     fits => "能够配合";
     do_not_fit => "不能配合";
     verdict_of_the_fit(fits, least, wanted, places) => "{fits}：最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm，间隙不足 {places}";
+    everywhere_more_is_left(more) => "；各处都比应有的间隙多 {more:.1} µm";
     the_program_is_there_already => "文件已存在，应换没有它的文件夹，或加 --overwrite";
     the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}：{part}，补偿量 {corrections} mm，{blocks}，{length}";
     the_wire_runs_on_the_other_side(part) => "      {part}：间隙大于补偿量，电极丝走在图线的另一侧";
