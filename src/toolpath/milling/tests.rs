@@ -91,10 +91,9 @@ fn feeds_are_those_of_the_published_formulas() {
 
 #[test]
 fn the_simulated_floor_lies_where_it_was_measured() {
-    for (case, none, uniform, first_plain, linear, slack) in [
-        (ROW_1, 0.1570, 0.2010, 0.1988, 0.1999, 6e-5),
-        // What was measured linearly took steps of 0.503.
-        (ROW_2, 0.0737, 0.2010, 0.1979, 0.1992, 8e-4),
+    for (case, none, uniform, first_plain, linear) in [
+        (ROW_1, 0.1570, 0.2010, 0.1988, 0.1999),
+        (ROW_2, 0.0737, 0.2010, 0.1979, 0.1999),
     ] {
         let mean = |compensation| {
             let layers = layers(case, compensation);
@@ -102,7 +101,7 @@ fn the_simulated_floor_lies_where_it_was_measured() {
         };
         near(mean(WearCompensation::None), none, 6e-5, "none");
         near(mean(WearCompensation::Uniform), uniform, 6e-5, "uniform");
-        near(mean(WearCompensation::Linear), linear, slack, "linear");
+        near(mean(WearCompensation::Linear), linear, 6e-5, "linear");
         // The first layer fed its height alone, as some do, leaves it further away; all fed alike is what is written.
         let all = layers(case, WearCompensation::Uniform);
         let too_much = all.feed(all.electrode.layer) - all.electrode.layer;
@@ -121,6 +120,43 @@ fn the_simulated_floor_lies_where_it_was_measured() {
     let [_, least, most] = floor(&layers, &steps(&layers));
     near(least, 0.1997, 6e-5, "highest");
     near(most, 0.2025, 6e-5, "deepest");
+}
+
+/// The second case is published with 0.1992 under linear compensation: what 0.5 mm wear was fed each 0.503 mm, which is ten of 125 cells of
+/// its way, so that each feed is 0.5 % short. Fed by dz/ds = ν h W / A on the whole way it is 0.1999.
+#[test]
+fn a_linear_feed_that_comes_late_leaves_the_floor_too_high() {
+    let layers = layers(ROW_2, WearCompensation::Linear);
+    let electrode = &layers.electrode;
+    let late = layers.length / 125.0 * 10.0;
+    for (fed_each, depth) in [(0.5, 0.1992), (late, 0.1999)] {
+        let of_step = electrode.wear_along() * electrode.layer * fed_each;
+        let mut floor = Floor::new(electrode, layers.length, false, 0.0);
+        let (mut fed, mut gone) = (0.0, 0.0);
+        for layer in 0..electrode.layers() {
+            fed += electrode.layer;
+            floor.feed(fed);
+            let mut at = 0.0;
+            while at < layers.length - 1e-9 {
+                let to = (at + late - gone).min(layers.length);
+                let turned = |at: f64| {
+                    if layer % 2 == 0 {
+                        at
+                    } else {
+                        layers.length - at
+                    }
+                };
+                floor.along(turned(at), turned(to));
+                gone += to - at;
+                at = to;
+                if gone > late - 1e-9 {
+                    (fed, gone) = (fed + of_step, 0.0);
+                    floor.feed(fed);
+                }
+            }
+        }
+        near(floor.depths()[0], depth, 6e-5, "depth");
+    }
 }
 
 /// What the electrode loses is ν times what is eroded, whatever it does, and nothing is eroded above the tip.
