@@ -423,6 +423,38 @@ fn the_correction_is_never_lost_without_a_word() {
     }
 }
 
+/// What tilts the wire is not in a conversion: nothing is made of it unless somebody forces it, and then it is said. Planes by which
+/// nothing leans lose nothing but their words.
+#[test]
+fn a_taper_is_dropped_only_where_it_is_forced() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, words, end, leans) in [
+        ("angle", "G51 A2.\n", "G50\n", true),
+        ("right", "G52 A0.5\n", "G50\n", true),
+        ("guides", "", "G01 X5. Y5. U0.3 V0.\n", true),
+        ("no-angle", "G51\n", "", true),
+        ("planes", "TP0.\nTN40.\n", "", false),
+    ] {
+        let text = format!(
+            "G92 X0 Y0\nG90\n{words}G01 X5. Y0.\nY5.\n{end}X-5.\nY-5.\nX5.\nY0.\nX0.\nM02\n"
+        );
+        std::fs::write(folder.path().join("in.iso"), text).unwrap();
+        std::fs::write(folder.path().join("wedm.toml"), "[job]\nthickness = 40\n").unwrap();
+        for to in ["iso", "3b", "dxf"] {
+            let (code, _, said) = wedm(folder.path(), &format!("convert in.iso -o {name}.{to}"));
+            assert_eq!(code, i32::from(leans), "{name} as {to}: {said}");
+            assert_eq!(folder.path().join(format!("{name}.{to}")).exists(), !leans);
+            assert_eq!(said.contains("--force"), leans, "{name} as {to}: {said}");
+            let (code, _, said) = wedm(
+                folder.path(),
+                &format!("convert in.iso --force -o {name}.{to}"),
+            );
+            assert_eq!(code, 0, "{name} as {to}: {said}");
+            assert!(said.contains("not written: the taper"), "{said}");
+        }
+    }
+}
+
 #[test]
 fn the_command_converts_and_refuses() {
     let folder = tempfile::tempdir().unwrap();

@@ -73,6 +73,9 @@ pub(crate) fn convert(
     if cuts.cuts.is_empty() {
         return Err(Refusal::Sentence(say!(it_cuts_nothing).into()));
     }
+    if let Some(taper) = cuts.taper.as_ref().filter(|_| cuts.leans && !force) {
+        return Err(Refusal::Sentence(say!(no_conversion_of_a_taper, taper)));
+    }
     let format = match target {
         Target::Drawing => {
             let bytes = dxf::write(&cuts.drawing()).map_err(Refusal::Fault)?;

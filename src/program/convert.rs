@@ -1,5 +1,7 @@
 //! A program as its cuts: what the machine runs from one stop or rapid to the next, joined, to be drawn or written in another language.
 
+mod rings;
+
 use super::document::Document;
 use super::format::Format;
 use super::iso;
@@ -32,6 +34,8 @@ pub struct CutPath {
     pub lead_out: usize,
     /// The contour comes back to where it began.
     pub closed: bool,
+    /// Segments before each stop within it.
+    stops: Vec<usize>,
     /// The side of travel on which the control lets the wire run.
     pub(crate) side: Option<Side>,
     /// The line in which that changes within the contour, from 0.
@@ -44,6 +48,12 @@ impl CutPath {
         self.segments
             .get(self.lead_in..self.segments.len().saturating_sub(self.lead_out))
             .unwrap_or_default()
+    }
+
+    fn insert(&mut self, at: usize, segment: Segment) {
+        self.segments.insert(at, segment);
+        let behind = self.stops.iter_mut().filter(|stop| **stop >= at);
+        behind.for_each(|stop| *stop += 1);
     }
 }
 
@@ -61,6 +71,8 @@ pub struct Cuts {
     pub(crate) corrections: Vec<(String, f64)>,
     /// What says that the upper guide goes another way.
     pub(crate) taper: Option<String>,
+    /// It does so within the cuts: the wire leans, or nobody knows how far.
+    pub(crate) leans: bool,
     /// Lines of the stops within contours, before their tabs, from 0: no cut holds them.
     pub(crate) stops: Vec<usize>,
     /// By how much contours did not close before their ends were made one, the most of it, µm.
@@ -73,9 +85,13 @@ pub struct Cuts {
 pub fn cuts(document: &Document) -> Cuts {
     let trace = document.trace();
     let spans = path::cuts(&trace);
+    let leans = !trace.upper.iter().all(Vec::is_empty) || trace.upper_unknown.is_some();
     let trace = trace.into_meant();
     let stated = stated_ends(document);
-    let mut cuts = Cuts::default();
+    let mut cuts = Cuts {
+        leans,
+        ..Cuts::default()
+    };
     match document {
         Document::ThreeB(program) => cuts.four_b = program.first_four_b_line(),
         Document::Iso(program) => {
@@ -94,6 +110,7 @@ pub fn cuts(document: &Document) -> Cuts {
         if !step.moves() {
             let is_within = spans.peek().is_some_and(|span| span.steps.contains(&index));
             cuts.stops.extend(is_within.then_some(step.line));
+            open.stops.extend(is_within.then_some(open.segments.len()));
             continue;
         }
         let Some(ideal) = step.ideal else {
@@ -247,13 +264,13 @@ impl Cuts {
                 if end.distance_to(target) <= 2.0 * tolerance(arcs) {
                     let share = end.share_of(target);
                     cut.segments[last] = end.part(0.0, share);
-                    cut.segments.insert(last + 1, end.part(share, 1.0));
+                    cut.insert(last + 1, end.part(share, 1.0));
                     cut.lead_out += 1;
                 } else {
                     let share = begin.share_of(end.end());
                     target = begin.point_at(share);
                     cut.segments[cut.lead_in] = begin.part(share, 1.0);
-                    cut.segments.insert(cut.lead_in, begin.part(0.0, share));
+                    cut.insert(cut.lead_in, begin.part(0.0, share));
                     cut.lead_in += 1;
                 }
             }
@@ -296,20 +313,36 @@ impl Cuts {
         };
     }
 
-    /// The program as a drawing in mm: contours as polylines with bulges, the ways in and out and those without the wire as lines.
+    /// The program as a drawing in mm: contours as polylines with bulges, the ways in and out and those without the wire as lines. Of
+    /// several passes the last is the contour; those before it lie on layers of their own.
     pub fn drawing(&self) -> Drawing {
         let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
-        for cut in &self.cuts {
+        let mut cuts = &self.cuts[..];
+        while let Some((cut, behind)) = cuts.split_first() {
+            if let Some((passes, count)) = rings::passes(cuts) {
+                let last = passes.len();
+                for (ring, number) in passes.iter().zip(1..) {
+                    let layer = if number == last {
+                        CUT.into()
+                    } else {
+                        format!("PASS{number}")
+                    };
+                    let leads = if number == last { &ring.leads[..] } else { &[] };
+                    leads.iter().for_each(|lead| push_lead(&mut drawing, lead));
+                    push_contour(&mut drawing, &layer, &ring.segments, true);
+                }
+                cuts = cuts.get(count..).unwrap_or_default();
+                continue;
+            }
             let way_out = cut.segments.len().saturating_sub(cut.lead_out);
             cut.segments[..cut.lead_in.min(way_out)]
                 .iter()
                 .for_each(|lead| push_lead(&mut drawing, lead));
-            if let Some(geometry) = polyline(cut.contour(), cut.closed) {
-                drawing.push(Entity::new(CUT, CUT, geometry));
-            }
+            push_contour(&mut drawing, CUT, cut.contour(), cut.closed);
             cut.segments[way_out..]
                 .iter()
                 .for_each(|lead| push_lead(&mut drawing, lead));
+            cuts = behind;
         }
         for &ends in &self.ways {
             push_line(&mut drawing, WAY, ends);
@@ -350,6 +383,12 @@ impl Cuts {
             })
         });
         paths.collect()
+    }
+}
+
+fn push_contour(drawing: &mut Drawing, layer: &str, segments: &[Segment], closed: bool) {
+    if let Some(geometry) = polyline(segments, closed) {
+        drawing.push(Entity::new(layer, layer, geometry));
     }
 }
 

@@ -6,6 +6,7 @@ declare! {
     the_control_adds_the_correction_of_the_program => "the control adds the correction of this program (G41, G42), which none of 3B does: convert it to .dxf, and generate the 3B program of that drawing";
     the_correction_of_the_program_is_not_that_of_the_settings(name, correction, of_settings) => "the program's own correction {name} is {correction:.3} mm, that of the settings {of_settings:.3} mm: the transition arcs of 4B hang on it, set correction to the one that the machine has";
     not_written_the_corrections_of_the_program(corrections) => "not written: the program's own corrections, {corrections}; set them at the machine";
+    no_conversion_of_a_taper(taper) => "{taper}; a conversion holds the lower contour alone: with --force that is written";
     not_written_the_taper(taper) => "not written: the taper; {taper}";
     not_written_the_stop_before_a_tab(line) => "not written: the stop in line {line}, which holds the part while its tab is cut";
     the_format_is_not_known(name, formats) => "format is \"{name}\", expected {formats}";

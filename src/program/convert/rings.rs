@@ -1,0 +1,159 @@
+//! Passes of one contour, each closed by the tab that it leaves and a later cut takes away.
+
+use super::Cut;
+use crate::geometry::{Bounds, Point, Segment};
+use crate::program::path::{lie_beside, tolerance};
+
+/// Blocks of a way in or out at most.
+const LEAD: usize = 2;
+
+/// Blocks of a tab at most.
+const TAB: usize = 64;
+
+/// A pass as a closed contour, and the way to it from the thread hole.
+pub(super) struct Ring {
+    pub segments: Vec<Segment>,
+    pub leads: Vec<Segment>,
+}
+
+/// The passes that some cuts begin with, rough to finish, and how many cuts they are; `None` where these are not several passes of one
+/// contour.
+pub(super) fn passes(cuts: &[Cut]) -> Option<(Vec<Ring>, usize)> {
+    let begin = cuts.first()?.segments.first()?.start();
+    let arcs = |cut: &Cut| {
+        cut.segments
+            .iter()
+            .filter(|it| it.as_arc().is_some())
+            .count()
+    };
+    let near = 2.0 * tolerance(cuts.first().map_or(0, arcs));
+    let begins_there = |cut: &&Cut| {
+        let first = cut.segments.first();
+        first.is_some_and(|first| (first.start() - begin).norm() <= near)
+    };
+    let count = cuts.iter().take_while(begins_there).count();
+    let cuts = cuts.get(..count).filter(|cuts| cuts.len() > 1)?;
+    let whole: Option<Vec<Ring>> = cuts.iter().map(|cut| whole(cut, near)).collect();
+    let rings = whole.filter(|rings| all_beside(rings)).or_else(|| {
+        let runs: Vec<&[Segment]> = cuts.iter().flat_map(runs).collect();
+        let all = 0..runs.len();
+        let with_tabs = all.filter_map(|run| with_tab(&runs, run, begin, near));
+        let mut rings: Vec<Ring> = with_tabs.collect();
+        // What goes on past the start comes again in the next pass, and goes round nothing.
+        let largest = rings.iter().map(Ring::bounds);
+        let largest = largest.max_by(|one, other| one.width().total_cmp(&other.width()))?;
+        rings.retain(|ring| lie_beside(&largest, &ring.bounds()));
+        Some(rings).filter(|rings| all_beside(rings))
+    })?;
+    Some((rings, count))
+}
+
+/// Several, each beside the first.
+fn all_beside(rings: &[Ring]) -> bool {
+    let first = rings.first().map(Ring::bounds);
+    let is_beside = |ring: &Ring| first.is_some_and(|first| lie_beside(&first, &ring.bounds()));
+    rings.len() > 1 && rings.iter().all(is_beside)
+}
+
+impl Ring {
+    fn bounds(&self) -> Bounds {
+        let boxes = self.segments.iter().map(Segment::bounds);
+        boxes.fold(Bounds::EMPTY, |whole, part| whole.merged(&part))
+    }
+}
+
+/// What a cut does from stop to stop.
+fn runs(cut: &Cut) -> impl Iterator<Item = &[Segment]> {
+    let ends = cut.stops.iter().copied().chain([cut.segments.len()]);
+    let mut from = 0;
+    ends.filter_map(move |end| {
+        let run = cut.segments.get(from..end);
+        from = end;
+        run
+    })
+}
+
+/// A cut that closes by itself, without a stop.
+fn whole(cut: &Cut, near: f64) -> Option<Ring> {
+    let all = &cut.segments[..];
+    let known = cut.lead_in..all.len().saturating_sub(cut.lead_out);
+    // Ways in and out in an arc end in one place of the contour, and come there by two.
+    let closes = |from: usize| {
+        let begin = all.get(from)?.start();
+        let ends = (from + 1..all.len()).rev().take(2 * LEAD + 1);
+        let mut there = ends.filter(|to| (all[to - 1].end() - begin).norm() <= near);
+        there.next().map(|to| from..to)
+    };
+    let contour = match cut.lead_in {
+        0 => (1..=LEAD).rev().find_map(closes).unwrap_or(known),
+        _ => known,
+    };
+    let segments = all.get(contour.clone())?;
+    let leads = all[..contour.start].iter().chain(&all[contour.end..]);
+    (cut.closed && cut.stops.is_empty() && !segments.is_empty()).then(|| Ring {
+        segments: segments.to_vec(),
+        leads: leads.copied().collect(),
+    })
+}
+
+/// A run from where a pass begins to its tab, or back, with the tab as it is cut in another run.
+fn with_tab(runs: &[&[Segment]], run: usize, thread: Point, near: f64) -> Option<Ring> {
+    let own = runs[run];
+    let others = || {
+        let others = runs.iter().enumerate();
+        others
+            .filter(|(index, _)| *index != run)
+            .map(|(_, other)| *other)
+    };
+    let is_at = |one: Point, other: Point| (one - other).norm() <= near;
+    let starts = (0..=LEAD.min(own.len())).rev();
+    let both = starts.flat_map(|from| (0..=LEAD).map(move |after| (from, after)).rev());
+    both.filter_map(|(from, after)| {
+        let to = own.len().checked_sub(after)?;
+        let main = own.get(from..to).filter(|main| !main.is_empty())?;
+        let ends = [main.last()?.end(), main.first()?.start()];
+        let is_open = !is_at(ends[0], ends[1]) && !ends.iter().any(|end| is_at(*end, thread));
+        let length = |pieces: &[Segment]| pieces.iter().map(Segment::length).sum::<f64>();
+        let tabs = || others().filter_map(|other| tab_in(other, ends, &is_at));
+        let shorter = || tabs().find(|tab| length(tab) < length(main));
+        is_open.then(shorter).flatten().map(|tab| {
+            let is_at_thread = |point: Point| is_at(point, thread);
+            let lead = match own.first().is_some_and(|first| is_at_thread(first.start())) {
+                true => &own[..from],
+                false => &own[to..],
+            };
+            Ring {
+                segments: main.iter().copied().chain(tab).collect(),
+                leads: lead.to_vec(),
+            }
+        })
+    })
+    .next()
+}
+
+/// What of a run leads from one place to the other, turned round where it comes from there.
+fn tab_in(
+    run: &[Segment],
+    [from, to]: [Point; 2],
+    is_at: &dyn Fn(Point, Point) -> bool,
+) -> Option<Vec<Segment>> {
+    run.iter().enumerate().find_map(|(first, piece)| {
+        let is_back = is_at(piece.start(), to);
+        if !is_back && !is_at(piece.start(), from) {
+            return None;
+        }
+        let other = if is_back { from } else { to };
+        let behind = run[first..].iter().take(TAB);
+        let count = behind
+            .take_while(|piece| !is_at(piece.end(), other))
+            .count()
+            + 1;
+        let tab = run
+            .get(first..first + count)
+            .filter(|tab| tab.len() <= TAB)?;
+        Some(match is_back {
+            true => tab.iter().rev().map(Segment::reversed).collect(),
+            false => tab.to_vec(),
+        })
+    })
+}
