@@ -173,6 +173,8 @@ pub enum Detail {
     /// A contour of the workpiece `of` has no partner in another.
     NoPartner {
         of: Arc<str>,
+        /// Workpieces of which nothing is drawn.
+        missing: Vec<String>,
     },
     /// A program and its drawing are not alike.
     NotTheDrawing(Box<Unlike>),

@@ -421,7 +421,11 @@ fn written(
     warnings.extend(no_tab_kept(snapshot, &paths));
     let mut work = toolpath::work(&snapshot.drawing, &snapshot.outlines, settings, &paths);
     if let Some(milled) = &program.milled {
-        warnings.extend(milling::uneven(snapshot, milled));
+        // With what the simulation says of the floor, in place of what was said before it.
+        let uneven = milling::uneven(snapshot, milled);
+        let is_said = |one: &Finding| uneven.iter().any(|own| own.place == one.place);
+        warnings.retain(|one| one.rule != Rule::Settings || !is_said(one));
+        warnings.extend(uneven);
         work = milling::in_layers(work, milled);
     }
     Ok(Generated {

@@ -60,19 +60,31 @@ impl Analysis {
                     self.report_pair(drawing, both, report);
                 }
                 for &index in &drawn.alone {
-                    self.report_alone(drawing, &outlines[index], report);
+                    self.report_alone(drawing, &outlines[index], &drawn.missing, report);
                 }
             }
         }
     }
 
-    fn report_alone(&self, drawing: &Drawing, outline: &Outline, report: &mut Report) {
+    fn report_alone(
+        &self,
+        drawing: &Drawing,
+        outline: &Outline,
+        missing: &[String],
+        report: &mut Report,
+    ) {
         let mildest = Some(Severity::Warning);
         if report.counts(Rule::DoesNotFit, mildest)
             && let Some(first) = outline.contour.segment(drawing, 0)
         {
             let of = fit::name_of(drawing, &outline.contour, &self.settings);
-            let (place, detail) = (Place::from(&first), Detail::NoPartner { of });
+            let (place, detail) = (
+                Place::from(&first),
+                Detail::NoPartner {
+                    of,
+                    missing: missing.to_vec(),
+                },
+            );
             report.add(Rule::DoesNotFit, mildest, place, detail, Vec::new());
         }
     }

@@ -61,13 +61,13 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         force: arguments.force,
     };
     let findings = document.all_findings();
+    let is_alone = |finding: &&Finding| matches!(finding.detail, Detail::NoPartner { .. });
+    let alone: Vec<Finding> = findings.iter().filter(is_alone).cloned().collect();
+    report::say(path, document, &alone);
     let made = match job::pair(&snapshot, &findings, &wanted, &()) {
         Ok(made) => made,
         Err(refusal) => return report::refuse_programs(path, document, &refusal),
     };
-    let is_alone = |finding: &&Finding| matches!(finding.detail, Detail::NoPartner { .. });
-    let alone: Vec<Finding> = findings.iter().filter(is_alone).cloned().collect();
-    report::say(path, document, &alone);
     let folder = match (&arguments.output, path.parent()) {
         (Some(folder), _) => folder.clone(),
         (None, Some(folder)) => folder.to_path_buf(),

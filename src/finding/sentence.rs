@@ -116,7 +116,13 @@ fn said(finding: &Finding, telling: Telling) -> String {
                 None => say!(the_parts_bind_along_a_wall, of, partner, depth, wanted),
             }
         }
-        Detail::NoPartner { of } => say!(the_contour_has_no_partner, of),
+        Detail::NoPartner { of, missing } => {
+            let sentence = say!(the_contour_has_no_partner, of);
+            match missing.is_empty() {
+                true => sentence,
+                false => sentence + &say!(nothing_is_drawn_of, missing.join(", ")),
+            }
+        }
         Detail::OffsetCollapse {
             required,
             point: true,
@@ -259,6 +265,7 @@ fn unlike(what: &Unlike, unit_mm: f64) -> String {
             )
         }
         Unlike::Nothing { other } => say!(nothing_is_like_the_other, other),
+        Unlike::Milled { other } => say!(it_is_milled_otherwise, other),
         Unlike::Unreadable { other, reason } => {
             say!(it_is_not_held_against_its_other, other, reason)
         }

@@ -46,6 +46,8 @@ pub enum Unlike {
     Left { other: Arc<str>, line: usize },
     /// Nothing of the one is like the other.
     Nothing { other: Arc<str> },
+    /// An electrode mills it otherwise than the settings of the drawing say, so its blocks are not compared.
+    Milled { other: Arc<str> },
     /// The other cannot be read.
     Unreadable { other: Arc<str>, reason: String },
     /// The program may belong to `more` as well.
@@ -70,7 +72,10 @@ impl Unlike {
     pub(crate) fn is_of_whole(&self) -> bool {
         matches!(
             self,
-            Unlike::Nothing { .. } | Unlike::Unreadable { .. } | Unlike::Several { .. }
+            Unlike::Nothing { .. }
+                | Unlike::Milled { .. }
+                | Unlike::Unreadable { .. }
+                | Unlike::Several { .. }
         )
     }
 }

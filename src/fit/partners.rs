@@ -16,6 +16,8 @@ pub struct Drawn {
     pub pairs: Vec<[usize; 2]>,
     /// Contours of workpieces that have none.
     pub alone: Vec<usize>,
+    /// The names of workpieces of which nothing is drawn.
+    pub missing: Vec<String>,
 }
 
 /// One contour that may have a partner.
@@ -98,6 +100,13 @@ pub(crate) fn partners(drawing: &Drawing, outlines: &[Outline], settings: &Effec
             drawn.pairs.push([place(punch), place(plate)]);
         }
     }
+    let is_drawn = |number: u16| {
+        let mut contours = outlines.iter();
+        contours.any(|outline| workpiece_of(drawing, &outline.contour, settings) == number)
+    };
+    let names = settings.workpieces.names().iter().zip(1..);
+    let missing = names.filter(|(_, number)| !is_drawn(*number));
+    drawn.missing = missing.map(|(name, _)| name.clone()).collect();
     drawn.pairs.sort_unstable();
     drawn.alone = candidates
         .iter()

@@ -74,6 +74,9 @@ pub fn pair(
         }
         Partners::Drawn => {
             let roles = roles_of_partners(snapshot);
+            if roles.is_empty() && !wanted.force {
+                return Err(Refusal::Sentence(say!(no_contour_has_a_partner).into()));
+            }
             let names = settings.workpieces.names().iter().zip(1..);
             let planned = names.map(|(name, number)| {
                 let mut own = settings.of_workpiece(number);

@@ -154,7 +154,7 @@ impl FindingData {
                 data.required = Some(misfit.wanted);
                 data.kind = Some(misfit.of.to_string());
             }
-            Detail::NoPartner { of } => data.kind = Some(of.to_string()),
+            Detail::NoPartner { of, .. } => data.kind = Some(of.to_string()),
             Detail::Unwritable(_) | Detail::Said(_) => {}
             Detail::NotJudged(what) => data.count = left_out(what),
             Detail::DuplicateEntity { count } => data.count = (*count > 1).then_some(*count),

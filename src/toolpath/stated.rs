@@ -5,7 +5,7 @@ use super::order::name;
 use super::{Refusal, StartHole, WirePath, lengths, plan};
 use crate::drawing::{Drawing, Outline};
 use crate::finding::{Finding, Place, Rule, Severity};
-use crate::settings::{Compensation, Effective, LengthSetting};
+use crate::settings::{Compensation, Effective, Electrode, LengthSetting};
 
 /// In drawings of more segments the path says it when one is asked for.
 const MOST_SEGMENTS: usize = 2_000;
@@ -38,7 +38,11 @@ pub(crate) fn stated_faults(
         return Vec::new();
     }
     match plan(drawing, outlines, settings, Some(&handles)) {
-        Ok(paths) => short_layers(drawing, outlines, settings, &paths),
+        Ok(paths) => {
+            let mut found = short_layers(drawing, outlines, settings, &paths);
+            found.extend(worn_layers(drawing, outlines, settings, &paths));
+            found
+        }
         Err(Refusal::Findings(mut found)) => {
             found.retain(|found| found.rule == Rule::LeadIn);
             found
@@ -58,7 +62,8 @@ pub(crate) fn is_stated(settings: &Effective) -> bool {
         return false;
     }
     if settings.mills {
-        return settings.milling.step.is_some();
+        let wears = settings.milling.wear.is_some_and(|wear| wear > 0.0);
+        return wears || settings.milling.step.is_some();
     }
     let keeps_tabs = match &settings.tab {
         LengthSetting::One(length) => *length > 0.0,
@@ -113,6 +118,26 @@ pub(crate) fn shortened_leads(
     shortened.collect()
 }
 
+/// The contours along which the electrode loses more than a layer in each layer.
+fn worn_layers(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &Effective,
+    paths: &[WirePath],
+) -> Vec<Finding> {
+    of_layers(
+        drawing,
+        outlines,
+        settings,
+        paths,
+        &|electrode, path, length| {
+            let wear = electrode.wear_of_layer(length, path.counter_clockwise.is_some());
+            let severity = settings.severity_over(Rule::Settings, Severity::Warning)?;
+            (wear > 1.0).then(|| (severity, say!(the_electrode_wears_more_than_a_layer, wear)))
+        },
+    )
+}
+
 /// The contours of which a layer is shorter than the step of linear compensation.
 pub(crate) fn short_layers(
     drawing: &Drawing,
@@ -120,20 +145,36 @@ pub(crate) fn short_layers(
     settings: &Effective,
     paths: &[WirePath],
 ) -> Vec<Finding> {
+    of_layers(
+        drawing,
+        outlines,
+        settings,
+        paths,
+        &|electrode, _, length| {
+            let sentence = || say!(the_step_is_longer, electrode.step, length);
+            (electrode.step > length).then(|| (Severity::Error, sentence()))
+        },
+    )
+}
+
+/// What is said of paths by the electrode that mills them and how long they are, mm.
+fn of_layers(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &Effective,
+    paths: &[WirePath],
+    said: &dyn Fn(&Electrode, &WirePath, f64) -> Option<(Severity, String)>,
+) -> Vec<Finding> {
     let Some(electrode) = settings.electrode().ok().filter(|_| settings.mills) else {
         return Vec::new();
     };
     let unit_mm = settings.unit_of(drawing).mm;
-    let short = paths.iter().filter_map(|path| {
+    let of_path = |path: &WirePath| {
         let length = lengths(std::slice::from_ref(path)).0 * unit_mm;
-        let first = outlines.get(path.outline)?.contour.pieces.first()?;
-        let place = Place::Entity {
-            entity: first.entity,
-        };
-        let sentence = || say!(the_step_is_longer, electrode.step, length);
-        let severity = Severity::Error;
-        (electrode.step > length)
-            .then(|| finding(Rule::Settings, severity, Some(place), sentence(), None))
-    });
-    short.collect()
+        let (severity, sentence) = said(&electrode, path, length)?;
+        let entity = outlines.get(path.outline)?.contour.pieces.first()?.entity;
+        let place = Some(Place::Entity { entity });
+        Some(finding(Rule::Settings, severity, place, sentence, None))
+    };
+    paths.iter().filter_map(of_path).collect()
 }

@@ -92,6 +92,7 @@ pub const CONTRADICTIONS: &[Contradiction] = &[
     row(NESTED, wire!("[pair]\ndrawn-as = \"punch\"\nclearance = 0.01\n[workpieces]\none = [\"A\"]\ntwo = [\"B\"]\n"), "settings", "expected one of the two"),
     row(CROSSED, wire!("pair.clearance = 0.01\n[workpieces]\none = [\"A\"]\ntwo = [\"A\"]\n"), "settings", "the layer A"),
     row(CROSSED, wire!("side = \"auto\"\npair.clearance = 0.01\n[workpieces]\none = [\"A\"]\ntwo = [\"B\"]\n"), "does-not-fit", "it has no partner"),
+    row(CROSSED, wire!("side = \"auto\"\npair.clearance = 0.01\n[workpieces]\none = [\"A\"]\ntwo = [\"C\"]\n"), "does-not-fit", "nothing is drawn on the layers of two"),
     // Milling.
     row(NARROW, "side = \"opening\"\n[milling]\ntool-diameter = 1\ngap = 0.05\nlayer = 0.01\ndepth = 0.2\nwear = 0.02\n", "narrow-slot", "the electrode needs 1.100 mm"),
     row(NARROW, "side = \"opening\"\nmilling.tool-diameter = 1\n", "settings", "expected milling.gap"),

@@ -10,6 +10,7 @@ declare! {
     the_program_does_not_follow_this_segment(program, line, off) => "{program} does not follow this segment: its line {line} ends {off} mm from where the drawing has it; write the program anew if the drawing has changed";
     the_program_begins_this_contour_elsewhere(program, line, off) => "{program} begins this contour {off} mm elsewhere, in line {line}; write the program anew if the drawing has changed";
     the_program_leaves_this_contour_before_this_segment(program, line) => "{program} leaves this contour in line {line}, before this segment";
+    it_is_milled_otherwise(other) => "it is not compared with {other}: the program mills otherwise than the [milling] of that drawing says";
     nothing_is_like_the_other(other) => "nothing of it is like {other}, which it belongs to by its name: they were not compared";
     it_is_not_held_against_its_other(other, reason) => "it was not compared with {other}: {reason}";
     it_is_held_against_the_first(drawing, more) => "it was compared with {drawing}; {more} has the same name, and one of the two is meant";
@@ -219,6 +220,7 @@ declare! {
     the_parts_bind_here(of, partner, depth, corner_of, wanted) => "{of} and {partner} bind here by {depth:.1} µm: the wire leaves too much in this corner of the {corner_of} for a clearance of {wanted:.1} µm";
     the_parts_bind_along_a_wall(of, partner, depth, wanted) => "{of} and {partner} bind here by {depth:.1} µm along a wall, where there should be a clearance of {wanted:.1} µm: no radius of a corner mends that; the wall is drawn, or its wire led, too near to its partner";
     the_contour_has_no_partner(of) => "no contour of another workpiece runs beside this one of {of} within five clearances: it has no partner";
+    nothing_is_drawn_of(names) => "; nothing is drawn on the layers of {names}";
     touches_itself_or_another => "touches itself or another";
     crosses_itself_or_another => "crosses itself or another";
     line => "line";

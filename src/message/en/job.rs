@@ -17,6 +17,7 @@ declare! {
     a_program_is_no_drawing => "it is a program, expected a drawing (.dxf)";
     nothing_is_said_of_a_wire(format) => "nothing is said of a wire, only [milling] of an electrode: choose the format milling, or set correction or wire-diameter for {format}";
     a_pair_is_not_milled => "a pair is cut by a wire: expected 3b, 4b or iso";
+    the_electrode_wears_more_than_a_layer(wear) => "the electrode gets {wear:.2} layers shorter in each layer along this contour: the floor is uneven within one layer; a larger electrode or a shorter contour wears less";
     the_step_is_longer(step, length) => "milling.step is {step} mm, longer than a layer of this contour, {length:.3} mm: expected a shorter step";
     the_floor_is_uneven(wear, least, most) => "the electrode gets {wear:.2} layers shorter in each layer along this contour: the floor is uneven within one layer, in the end {least:.4} to {most:.4} mm deep; a larger electrode or a shorter contour wears less";
     it_is_milled => "an electrode mills it layer by layer: its heights belong to its moves, and it is no path of a wire";

@@ -35,6 +35,7 @@ declare! {
     one_is_given_for_several_contours(what, count) => "one {what} is given for {count} contours: choose one contour by its handle, or give a table by handle";
     entry => "entry";
     whether_it_fits_needs(missing) => "whether the parts fit is not known: expected {missing} to be set";
+    no_contour_has_a_partner => "no contour of a workpiece has a partner in another one: there is no pair to cut (--force writes the programs none the less)";
     a_pair_needs(missing) => "the corrections of a pair are not known: expected {missing} to be set";
     no_contour_is_of_a_pair => "no contour is of a pair: expected closed contours that the wire runs on both sides of, or two workpieces in each other";
     passes_run_on_both_sides_of_the_contour(part) => "some passes of the {part} run on the one side of the contour, some on the other: the clearance lies between their corrections";

@@ -17,6 +17,7 @@ translate! {
     a_program_is_no_drawing => "这是程序，此处要图形（.dxf）";
     nothing_is_said_of_a_wire(format) => "没有电极丝的数据，只有 [milling] 的电极：请选格式 milling，或为 {format} 设置 correction 或 wire-diameter";
     a_pair_is_not_milled => "成对的零件用电极丝切割：应为 3b、4b 或 iso";
+    the_electrode_wears_more_than_a_layer(wear) => "沿此轮廓每铣一层，电极缩短 {wear:.2} 层：一层之内底面不平；电极粗一些或轮廓短一些，损耗就小";
     the_step_is_longer(step, length) => "milling.step 是 {step} mm，比此轮廓一层的长度 {length:.3} mm 还长：步长应更短";
     the_floor_is_uneven(wear, least, most) => "沿此轮廓每铣一层，电极缩短 {wear:.2} 层：一层之内底面不平，最后深 {least:.4} 到 {most:.4} mm；电极粗一些或轮廓短一些，损耗就小";
     it_is_milled => "它由电极分层铣削：高度与各段运动相关，不是电极丝的路径";

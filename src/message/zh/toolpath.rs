@@ -35,6 +35,7 @@ translate! {
     one_is_given_for_several_contours(what, count) => "一个{what}对应 {count} 个轮廓：请用句柄选一个轮廓，或按句柄列表给出";
     entry => "切入点";
     whether_it_fits_needs(missing) => "不知道凸模与凹模是否配合：请设置 {missing}";
+    no_contour_has_a_partner => "没有一个工件的轮廓在其他工件中有配对：没有可切的一对（--force 仍写出程序）";
     a_pair_needs(missing) => "不知道这一对零件的补偿量：请设置 {missing}";
     no_contour_is_of_a_pair => "没有成对的轮廓：应有两侧都走丝的封闭轮廓，或互相套在一起的两个工件";
     passes_run_on_both_sides_of_the_contour(part) => "{part} 的各次切割有的在轮廓一侧，有的在另一侧：间隙落在它们的补偿量之间";
