@@ -887,6 +887,16 @@ fn every_number_is_held_against_the_drawing() {
         ),
         (
             Format::Iso,
+            "correction = 0.12\n[program]\ntab = 2.0\n",
+            "correction = 0.12\n[program]\ntab = 2.0\n",
+        ),
+        (
+            Format::ThreeB,
+            "correction = 0.12\n[program]\ntab = 1.79\nclosing-overlap = 0.4\n",
+            "correction = 0.12\n[program]\ntab = 1.79\nclosing-overlap = 0.4\n",
+        ),
+        (
+            Format::Iso,
             "correction = 0.12\n[program]\ncompensation = \"controller\"\n",
             own,
         ),
@@ -967,6 +977,76 @@ fn every_number_is_held_against_the_drawing() {
                 }
             }
             assert!(count > 50);
+        }
+    }
+}
+
+/// A circle alone says nothing of the correction, nor of the way in: under settings that do not know them its program is as it should be.
+#[test]
+fn an_unchanged_program_of_a_circle_has_nothing_said() {
+    for role in [Role::Punch, Role::Opening] {
+        for (correction, lead, at) in [
+            (0.12, 3.0, 0.0),
+            (0.09, 2.0, 5.0),
+            (0.155, 4.0, -3.5),
+            (0.2, 3.0, 12.345),
+        ] {
+            for format in [Format::ThreeB, Format::Iso] {
+                let shapes = [(Shape::Circle([at, 0.0], 10.0), role)];
+                let written = settings_of(&format!(
+                    "correction = {correction}\n[program]\nlead-in = {lead}\n"
+                ));
+                let text = program_of(&document(&shapes, &written), format).unwrap();
+                let settings = settings_of("");
+                let drawn = document(&shapes, &settings).drawn().unwrap();
+                let found = compare(&drawn, &traced(&text, format, &settings));
+                let said = found.map_or(Vec::new(), |found| found.differences);
+                assert_eq!(said, [], "{correction} {lead} {role:?}\n{text}");
+            }
+        }
+    }
+}
+
+/// The wire of a program is threaded where it is, whatever the settings say since: the contour is entered, and closes, elsewhere.
+#[test]
+fn a_thread_hole_that_was_moved_since_is_no_fault_of_the_program() {
+    let (p, q) = (plate(0.0)[0].0.clone(), Shape::Circle([8.0, 8.0], 4.0));
+    for (shape, role, places) in [
+        (
+            p.clone(),
+            Role::Opening,
+            [[8.0, 4.0], [9.0, 5.0], [9.5, 5.5], [8.1, 4.0]],
+        ),
+        (
+            p,
+            Role::Punch,
+            [[8.0, -4.0], [9.0, -5.0], [30.0, 5.0], [8.1, -4.0]],
+        ),
+        (
+            q,
+            Role::Opening,
+            [[8.0, 8.0], [8.0, 9.0], [9.0, 8.0], [8.0, 8.1]],
+        ),
+    ] {
+        let under = |[x, y]: [f64; 2], keys: &str| {
+            settings_of(&format!(
+                "correction = 0.1\n[program]\nthread = [{x:?}, {y:?}]\n{keys}"
+            ))
+        };
+        let shapes = [(shape, role)];
+        for format in [Format::ThreeB, Format::Iso, Format::FourB] {
+            for keys in ["", "lead = \"straight\"\n", "tab = 2.0\n"] {
+                let keys = if format == Format::FourB { "" } else { keys };
+                let written = under(places[0], keys);
+                let text = program_of(&document(&shapes, &written), format).unwrap();
+                for place in places {
+                    let settings = under(place, keys);
+                    let drawn = document(&shapes, &settings).drawn().unwrap();
+                    let found = compare(&drawn, &traced(&text, format, &settings));
+                    let said = found.map_or(Vec::new(), |found| found.differences);
+                    assert_eq!(said, [], "{keys} {format:?} {place:?}\n{text}");
+                }
+            }
         }
     }
 }

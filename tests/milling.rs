@@ -5,6 +5,7 @@ mod support;
 
 use std::sync::Arc;
 use support::generate;
+use wedm::beside::{Traced, compare};
 use wedm::document::{Document, Source};
 use wedm::drawing::{Drawing, Entity, Geometry, Kind, Role, Unit, Vertex};
 use wedm::finding::{Finding, Rule, Severity};
@@ -611,5 +612,64 @@ fn other_electrodes_come_out_by_the_same_formulas() {
             (one.floor[0] - layer * count).abs() < near,
             "{text}: {one:?}"
         );
+    }
+}
+
+/// A milling program follows its drawing as it was written, and one whose numbers were changed by 3 µm is told at its line; one that was
+/// written under other settings is not compared, and nothing in it is named.
+#[test]
+fn a_milling_program_is_held_against_its_drawing() {
+    let ring = ring(1.27);
+    for (contours, way) in [
+        (vec![(false, SLOT)], "none"),
+        (vec![(true, &ring[..])], "uniform"),
+        (vec![(true, &ring[..]), (false, SLOT)], "linear"),
+    ] {
+        let of = |depth: f64| {
+            format!(
+                "side = \"opening\"\n[milling]\ntool-diameter = 0.5\ngap = 0.02\nlayer = 0.05\ndepth = {depth}\nwear = 0.02\n\
+                 wear-compensation = \"{way}\"\nstep = 0.5\n"
+            )
+        };
+        let (text, drawing) = (of(0.2), drawing(&contours));
+        let program = milled(&drawing, &text).program.text;
+        let told = |program: &str, text: &str| {
+            let settings = Arc::new(settings(text));
+            let source = Source::Cad(Arc::new(drawing.clone()));
+            let drawn = Document::new(source, settings.clone()).drawn().unwrap();
+            let read = wedm::program::Document::read(Language::Iso, program.into(), &settings);
+            let found = compare(&drawn, &Traced::of(&read))?.differences;
+            Some(found.iter().map(|one| one.line).collect::<Vec<_>>())
+        };
+        assert_eq!(told(&program, &text), Some(Vec::new()), "{way}\n{program}");
+        assert_eq!(told(&program, &of(0.3)), None, "{way}");
+        let mut changed = 0;
+        for (line, own) in program.lines().enumerate() {
+            for letter in ['X', 'Y', 'I', 'J'] {
+                let Some(at) = own
+                    .find(letter)
+                    .filter(|_| own.starts_with("G01") || own.starts_with("G03"))
+                else {
+                    continue;
+                };
+                let end = own[at..].find(' ').map_or(own.len(), |end| at + end);
+                let number: f64 = own[at + 1..end].parse().unwrap();
+                changed += 1;
+                if changed % 5 != 0 {
+                    continue;
+                }
+                let new = format!("{}{:.3}{}", &own[..=at], number + 0.003, &own[end..]);
+                let mut lines: Vec<&str> = program.lines().collect();
+                lines[line] = &new;
+                let found = told(&(lines.join("\n") + "\n"), &text);
+                assert_eq!(
+                    found,
+                    Some(vec![line]),
+                    "{way}: line {}: {own} {new}",
+                    line + 1
+                );
+            }
+        }
+        assert!(changed > 7, "{way}");
     }
 }

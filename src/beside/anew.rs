@@ -2,7 +2,7 @@
 
 use super::traced::{Motion, Traced};
 use crate::drawing::{Drawing, EntityId, Outline};
-use crate::geometry::{Segment, Vector};
+use crate::geometry::{Point, Segment, Vector};
 use crate::program::write::scaled;
 use crate::program::{Document, Format, Language};
 use crate::settings::{Effective, Layout};
@@ -45,6 +45,7 @@ pub(super) struct Asked {
 impl Asked {
     pub fn of(traced: &Traced, under: &Under) -> Asked {
         let format = match (traced.counts, traced.four_b) {
+            (false, _) if traced.mills => Format::Milling,
             (false, _) => Format::Iso,
             (true, false) => Format::ThreeB,
             (true, true) => Format::FourB,
@@ -59,14 +60,16 @@ impl Asked {
 
 impl Anew {
     pub fn of(of: &Of<'_>, Asked { format, under }: &Asked) -> Option<Anew> {
-        let settings = &under.settings;
+        let milled = match (format, under.settings.mills) {
+            (Format::Milling, true) => Some(under.settings.milled().ok()?),
+            (Format::Milling, false) | (_, true) => return None,
+            (_, false) => None,
+        };
+        let settings = milled.as_ref().unwrap_or(&under.settings);
         let cut = of.outlines.iter();
         let cut = cut.filter(|outline| outline.contour.double_of.is_none());
         let segments: usize = cut.map(|outline| outline.contour.len()).sum();
-        if settings.mills
-            || settings.pass_error().is_some()
-            || segments.max(of.drawing.len()) > MOST
-        {
+        if settings.pass_error().is_some() || segments.max(of.drawing.len()) > MOST {
             return None;
         }
         let paths = plan(
@@ -107,6 +110,13 @@ impl Anew {
             .iter()
             .filter(move |(_, source)| is_on_wall(source));
         own.map(|(piece, _)| piece)
+    }
+
+    /// A place of the program that was written lies on the way beside a wall or round a corner.
+    pub fn is_on_wall(&self, place: Point, tolerance: f64) -> bool {
+        let at = place + self.shift;
+        self.on_walls()
+            .any(|piece| piece.distance_to(at) <= tolerance)
     }
 
     /// The segment of the drawing that a block follows; `None` for the ways in and out and between.

@@ -11,11 +11,20 @@ const SMALL: usize = 40;
 /// What is off by more is no rounding, mm.
 const ROUNDING: f64 = 5e-3;
 
+/// One block that is off by no more is a slip, mm.
+const SLIP: f64 = 1e-2;
+
 /// Holds a program against a drawing; `None` where it follows nothing of it.
 ///
 /// A program that is ours is known block by block, and so is a change of 3 µm in it; one of another writer has room for its roundings.
 pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
-    let Some(known) = own(drawn, traced, &drawn.as_set()) else {
+    let known = own(drawn, traced, &drawn.as_set());
+    if traced.mills {
+        // Layers that are not there are so by other settings.
+        let known = known.filter(|told| !told.has_gap);
+        return known.map(|told| told.comparison);
+    }
+    let Some(known) = known else {
         let guessed = otherwise(drawn, traced).map(|told| told.comparison);
         return guessed.or_else(|| looked_at(drawn, traced));
     };
@@ -24,6 +33,8 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     let is_doubtful = match &known.comparison.differences[..] {
         [] => false,
         _ if !known.is_exact() => true,
+        // Nobody sets anything otherwise by so little.
+        [one] if known.elsewhere == 0 && !known.has_gap && one.off <= SLIP => false,
         [_] => known.has_gap || blocks < SMALL,
         all => 16 * all.len() > blocks || all.iter().any(|one| one.off < ROUNDING),
     };

@@ -75,7 +75,12 @@ pub(super) fn looked_at(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     if own.is_own() && !is_loose {
         return own.told(traced);
     }
-    near.surely(traced).told(traced)
+    let near = near.surely(traced);
+    // Under settings that are not those of the drawing what is unlike may be as they have it.
+    if near.is_guess && !near.is_clean() && !near.is_one_change() {
+        return None;
+    }
+    near.told(traced)
 }
 
 /// The way of laying a program on its drawing that explains it best, with room for roundings.
@@ -83,7 +88,7 @@ fn nearest(drawn: &Drawn, traced: &Traced, courses: &[Course]) -> Tried {
     let mut best = try_with(drawn, traced, courses, false);
     if !best.is_clean() {
         let other = with_other_corner(drawn);
-        best = best.or_better(|| try_with(&other, traced, courses, false));
+        best = best.or_better(|| try_with(&other, traced, courses, false).guessed());
     }
     if !best.is_sound(traced) {
         let blocks = longest_cut(traced);
@@ -96,7 +101,7 @@ fn nearest(drawn: &Drawn, traced: &Traced, courses: &[Course]) -> Tried {
             wanted.push(vec![Course::Beside(mm)]);
         }
         for courses in wanted {
-            best = best.or_better(|| try_with(drawn, traced, &courses, false));
+            best = best.or_better(|| try_with(drawn, traced, &courses, false).guessed());
             if best.is_clean() {
                 break;
             }
@@ -137,6 +142,8 @@ struct Tried {
     laid: Option<(Rc<Rounds>, Pose)>,
     /// Every block is known to follow.
     is_sure: bool,
+    /// It is laid otherwise than the settings have it.
+    is_guess: bool,
 }
 
 /// `exact`: by what our own writers make of the drawing.
@@ -298,6 +305,7 @@ impl Tried {
             follows: Vec::new(),
             laid: None,
             is_sure: false,
+            is_guess: false,
         }
     }
 
@@ -320,6 +328,7 @@ impl Tried {
             follows: walked.follows,
             laid: Some(laid),
             is_sure: false,
+            is_guess: false,
         }
     }
 
@@ -328,6 +337,19 @@ impl Tried {
             is_sure: true,
             ..self
         }
+    }
+
+    fn guessed(self) -> Tried {
+        Tried {
+            is_guess: true,
+            ..self
+        }
+    }
+
+    /// All but one block is as it is laid, and that is off by more than any rounding.
+    fn is_one_change(&self) -> bool {
+        let is_change = |one: &Unlike| one.kind == Kind::Block && one.off >= CHANGED;
+        self.unlike.len() == 1 && self.is_own() && self.unlike.iter().all(is_change)
     }
 
     /// The same program by what our own writers make of the drawing.
@@ -412,7 +434,10 @@ impl Tried {
         if !self.is_sound(traced) {
             return None;
         }
-        let differences = self.unlike.into_iter().map(|unlike| {
+        // What is off by less is a rounding, whoever wrote it.
+        let is_change = |unlike: &Unlike| unlike.kind != Kind::Block || unlike.off >= TOLERANCE;
+        let unlike = self.unlike.into_iter().filter(is_change);
+        let differences = unlike.map(|unlike| {
             let block = &traced.blocks[unlike.block];
             Difference {
                 range: block.range.clone(),

@@ -55,11 +55,12 @@ pub(crate) fn of_program(
         return found;
     }
     let Some(Comparison { differences, .. }) = compare(drawn, traced) else {
-        found.extend(finding(
-            Unlike::Nothing { other: other() },
-            Place::Document,
-            settings,
-        ));
+        let other = other();
+        let nothing = match traced.mills {
+            true => Unlike::Milled { other },
+            false => Unlike::Nothing { other },
+        };
+        found.extend(finding(nothing, Place::Document, settings));
         return found;
     };
     found.extend(differences.into_iter().filter_map(|difference| {
@@ -126,7 +127,11 @@ pub fn of_drawing(
             return Vec::new();
         }
         let Some(Comparison { differences, .. }) = compare(drawn, traced) else {
-            return whole(Unlike::Nothing { other: other() });
+            // The program says it.
+            return match traced.mills {
+                true => Vec::new(),
+                false => whole(Unlike::Nothing { other: other() }),
+            };
         };
         let said = differences.into_iter().filter_map(|difference| {
             let (entity, segment) = difference.segment?;

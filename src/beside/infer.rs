@@ -54,6 +54,11 @@ pub(super) fn corrections<'a>(
         if (wider - higher).abs() <= ONE {
             votes.extend([wider.abs(); 3]);
         }
+        // A circle has no corners: what each arc of the program says, wherever it begins.
+        if let Some(radius) = circle(&segments) {
+            let arcs = blocks.iter().filter_map(Segment::as_arc);
+            votes.extend(arcs.map(|arc| (arc.radius - radius).abs()));
+        }
         let forward = turned(&segments, contour.closed);
         let reversed: Vec<Segment> = segments.iter().rev().map(Segment::reversed).collect();
         let back = turned(&reversed, contour.closed);
@@ -77,6 +82,18 @@ pub(super) fn corrections<'a>(
     found.sort_by(|a, b| b.0.cmp(&a.0).then(a.1.total_cmp(&b.1)));
     found.truncate(TOLD);
     found.into_iter().map(|(_, mm)| mm).collect()
+}
+
+/// The radius of segments that are one circle.
+fn circle(segments: &[Segment]) -> Option<f64> {
+    let first = segments.first()?.as_arc()?;
+    let is_of_it = |segment: &Segment| {
+        let arc = segment.as_arc();
+        arc.is_some_and(|arc| {
+            (arc.center - first.center).norm() + (arc.radius - first.radius).abs() < ONE
+        })
+    };
+    segments.iter().all(is_of_it).then_some(first.radius)
 }
 
 fn turned(segments: &[Segment], closed: bool) -> Vec<Turned> {

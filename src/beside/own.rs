@@ -10,7 +10,7 @@ use super::drawn::Drawn;
 use super::traced::{Block, Motion, Traced};
 use super::walk::Kind;
 use crate::drawing::EntityId;
-use crate::geometry::{Point, Vector};
+use crate::geometry::{Point, Segment, Vector};
 
 /// How far a block may lie from the one that is written anew, or one of its numbers from that, µm; and where that was written under
 /// settings that are not known to the last digit.
@@ -74,7 +74,9 @@ pub(super) fn own(drawn: &Drawn, traced: &Traced, under: &Under) -> Option<Told>
         told.map_or(usize::MAX, |told| told.comparison.differences.len())
     };
     for (nth, enough) in [0, 0, 1].into_iter().enumerate() {
-        if many(&best) <= enough {
+        // Where the wire is threaded elsewhere, the program lies where most of it does.
+        let is_moved = best.as_ref().is_some_and(|told| told.elsewhere > 0);
+        if many(&best) <= if is_moved { 0 } else { enough } {
             break;
         }
         let from = match nth {
@@ -278,6 +280,11 @@ impl<'a> Pairs<'a> {
             if goes_on && self.comes_back(number, from) {
                 continue;
             }
+            // The wire is threaded elsewhere, and the contour closes where it comes from there.
+            if elsewhere > 0 && self.closes_at_its_entry(own, from) {
+                run = None;
+                continue;
+            }
             let (segment, kind) = match anew.source_of(&meant.motion) {
                 Some(segment) => (Some(segment), Kind::Block),
                 None if *off <= SLIP => (None, Kind::Lead),
@@ -289,7 +296,11 @@ impl<'a> Pairs<'a> {
             };
             found.push(named(own, segment, *off, kind));
         }
-        if found.len() > FEW.min(traced.blocks.len() / 3) {
+        // Of a program that is ours most blocks are just as we write them.
+        let moves = |pair: &&Pair| pair.own.motion != Motion::Stop;
+        let moving = self.pairs.iter().filter(moves).count();
+        let off = all.iter().filter(|(off, _)| *off > alike).count();
+        if 2 * off > moving || found.len() > FEW.min(traced.blocks.len() / 3) {
             return None;
         }
         if stated.len() <= FEW {
@@ -346,6 +357,21 @@ impl<'a> Pairs<'a> {
             (Some([_, end]), Some([_, meant])) => (end - from - meant).norm() <= ROUNDED,
             _ => true,
         }
+    }
+
+    /// A block that ends on a wall, where its contour began.
+    fn closes_at_its_entry(&self, own: &Block, from: Vector) -> bool {
+        let blocks = &self.traced.blocks;
+        let Some(end) = own.segment().map(Segment::end) else {
+            return false;
+        };
+        let mut begins = self.traced.cuts.iter().filter_map(|[_, contour]| {
+            let last = blocks.get(contour.end.checked_sub(1)?)?;
+            let first = blocks.get(contour.start)?.segment()?;
+            (last.range == own.range).then(|| first.start())
+        });
+        begins.any(|begin| (begin - end).norm() <= ROUNDED)
+            && self.anew.is_on_wall(end - from, ROUNDED)
     }
 
     /// Behind this block, or one of the next few, the program is where it is meant to be.

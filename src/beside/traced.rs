@@ -22,6 +22,8 @@ pub struct Traced {
     /// The ends of arcs are where the machine stops counting: a little beside the place that is meant.
     pub(super) counts: bool,
     pub(super) four_b: bool,
+    /// An electrode mills it, layer by layer: it is compared with what we write, and with no path of a wire.
+    pub(super) mills: bool,
     /// The text, where it is not too long to be held against another one.
     pub(super) text: SourceText,
     /// Coordinates stand behind blocks.
@@ -59,12 +61,8 @@ impl Block {
 }
 
 impl Traced {
-    /// A program that mills is no path of a wire, and is compared with nothing.
     pub fn of(program: &Document) -> Traced {
-        let mut trace = program.trace();
-        if program.mills() {
-            trace.steps.clear();
-        }
+        let trace = program.trace();
         let cuts = path::cuts(&trace);
         let cuts = cuts.iter().filter(|cut| !cut.is_way);
         // What does not come back to where it began may be a part of a contour that is cut before or behind.
@@ -107,6 +105,7 @@ impl Traced {
             is_placed: is_placed || program.language() == Language::Iso,
             counts: program.language() == Language::ThreeB,
             four_b,
+            mills: program.mills(),
         }
     }
 

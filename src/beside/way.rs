@@ -14,7 +14,12 @@ pub(super) fn way(block: &Block, is_directed: bool) -> Way {
                 Some(arc) if arc.sweep > 0.0 && is_directed => 1,
                 Some(_) => 2,
             };
-            (segment.end() - segment.start(), kind)
+            // A full turn leads nowhere: its centre says how large it is.
+            let by = match segment.as_arc().filter(|arc| arc.is_full_turn()) {
+                Some(arc) => arc.center - arc.start,
+                None => segment.end() - segment.start(),
+            };
+            (by, kind)
         }
         Motion::Way(_, by) => (*by, 3),
         Motion::Stop => return (0, 0, 4),
