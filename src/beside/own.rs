@@ -76,7 +76,8 @@ pub(super) fn own(drawn: &Drawn, traced: &Traced, under: &Under) -> Option<Told>
     for (nth, enough) in [0, 0, 1].into_iter().enumerate() {
         // Where the wire is threaded elsewhere, the program lies where most of it does.
         let is_moved = best.as_ref().is_some_and(|told| told.elsewhere > 0);
-        if many(&best) <= if is_moved { 0 } else { enough } {
+        let enough = if is_moved { 0 } else { enough };
+        if many(&best) <= enough {
             break;
         }
         let from = match nth {
@@ -280,8 +281,8 @@ impl<'a> Pairs<'a> {
             if goes_on && self.comes_back(number, from) {
                 continue;
             }
-            // The wire is threaded elsewhere, and the contour closes where it comes from there.
-            if elsewhere > 0 && self.closes_at_its_entry(own, from) {
+            // The wire is threaded elsewhere, and the contour begins and closes where it comes from there.
+            if elsewhere > 0 && self.is_at_its_entry(number, from) {
                 run = None;
                 continue;
             }
@@ -359,19 +360,24 @@ impl<'a> Pairs<'a> {
         }
     }
 
-    /// A block that ends on a wall, where its contour began.
-    fn closes_at_its_entry(&self, own: &Block, from: Vector) -> bool {
+    /// A block with which its contour begins on a wall and that ends where it is meant to; or one that ends on a wall, where its contour
+    /// began.
+    fn is_at_its_entry(&self, number: usize, from: Vector) -> bool {
         let blocks = &self.traced.blocks;
-        let Some(end) = own.segment().map(Segment::end) else {
+        let Some(own) = self.pairs.get(number).map(|pair| pair.own) else {
             return false;
         };
-        let mut begins = self.traced.cuts.iter().filter_map(|[_, contour]| {
+        let entry = self.traced.cuts.iter().find_map(|[_, contour]| {
+            let begin = blocks.get(contour.start)?;
+            let entry = begin.segment()?.start();
+            if begin.range == own.range && self.is_placed(number, from) {
+                return Some(entry);
+            }
             let last = blocks.get(contour.end.checked_sub(1)?)?;
-            let first = blocks.get(contour.start)?.segment()?;
-            (last.range == own.range).then(|| first.start())
+            let closes = (entry - last.segment()?.end()).norm() <= ROUNDED;
+            (last.range == own.range && closes).then_some(entry)
         });
-        begins.any(|begin| (begin - end).norm() <= ROUNDED)
-            && self.anew.is_on_wall(end - from, ROUNDED)
+        entry.is_some_and(|entry| self.anew.is_on_wall(entry - from, ROUNDED))
     }
 
     /// Behind this block, or one of the next few, the program is where it is meant to be.

@@ -10,7 +10,7 @@ translate! {
     the_program_does_not_follow_this_segment(program, line, off) => "{program} 不沿这一段：其第 {line} 行的终点偏离图形位置 {off} mm；若图形已改，请重新生成程序";
     the_program_begins_this_contour_elsewhere(program, line, off) => "{program} 在第 {line} 行开始此轮廓，偏离 {off} mm；若图形已改，请重新生成程序";
     the_program_leaves_this_contour_before_this_segment(program, line) => "{program} 在第 {line} 行离开此轮廓，未切到这一段";
-    it_is_milled_otherwise(other) => "未与 {other} 比较：程序的铣削与该图纸的 [milling] 设置不同";
+    it_is_milled_otherwise(other) => "未与 {other} 比较：程序的铣削与该图形的 [milling] 设置不同";
     nothing_is_like_the_other(other) => "与同名的 {other} 没有任何相符之处：未作比较";
     it_is_not_held_against_its_other(other, reason) => "未与 {other} 比较：{reason}";
     it_is_held_against_the_first(drawing, more) => "已与 {drawing} 比较；{more} 同名，应为其中之一";
