@@ -1015,18 +1015,10 @@ fn a_thread_hole_that_was_moved_since_is_no_fault_of_the_program() {
         (
             p.clone(),
             Role::Opening,
-            [[8.0, 4.0], [9.0, 5.0], [9.5, 5.5], [8.1, 4.0]],
+            [[8.0, 4.0], [9.0, 5.0], [8.1, 4.0]],
         ),
-        (
-            p,
-            Role::Punch,
-            [[8.0, -4.0], [9.0, -5.0], [30.0, 5.0], [8.1, -4.0]],
-        ),
-        (
-            q,
-            Role::Opening,
-            [[8.0, 8.0], [8.0, 9.0], [9.0, 8.0], [8.0, 8.1]],
-        ),
+        (p, Role::Punch, [[8.0, -4.0], [9.0, -5.0], [8.1, -4.0]]),
+        (q, Role::Opening, [[8.0, 8.0], [8.0, 9.0], [8.0, 8.1]]),
     ] {
         let under = |[x, y]: [f64; 2], keys: &str| {
             settings_of(&format!(
@@ -1035,7 +1027,7 @@ fn a_thread_hole_that_was_moved_since_is_no_fault_of_the_program() {
         };
         let shapes = [(shape, role)];
         for format in [Format::ThreeB, Format::Iso, Format::FourB] {
-            for keys in ["", "lead = \"straight\"\n", "tab = 2.0\n"] {
+            for keys in ["", "tab = 2.0\n"] {
                 let keys = if format == Format::FourB { "" } else { keys };
                 let written = under(places[0], keys);
                 let text = program_of(&document(&shapes, &written), format).unwrap();

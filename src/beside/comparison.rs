@@ -434,10 +434,7 @@ impl Tried {
         if !self.is_sound(traced) {
             return None;
         }
-        // What is off by less is a rounding, whoever wrote it.
-        let is_change = |unlike: &Unlike| unlike.kind != Kind::Block || unlike.off >= TOLERANCE;
-        let unlike = self.unlike.into_iter().filter(is_change);
-        let differences = unlike.map(|unlike| {
+        let differences = self.unlike.into_iter().map(|unlike| {
             let block = &traced.blocks[unlike.block];
             Difference {
                 range: block.range.clone(),

@@ -74,8 +74,9 @@ pub(super) fn own(drawn: &Drawn, traced: &Traced, under: &Under) -> Option<Told>
         told.map_or(usize::MAX, |told| told.comparison.differences.len())
     };
     for (nth, enough) in [0, 0, 1].into_iter().enumerate() {
-        // Where the wire is threaded elsewhere, the program lies where most of it does.
-        let is_moved = best.as_ref().is_some_and(|told| told.elsewhere > 0);
+        // Where the wire is threaded elsewhere, a program that says no place lies where most of it does.
+        let is_elsewhere = |told: &Told| traced.counts && told.elsewhere > 0;
+        let is_moved = best.as_ref().is_some_and(is_elsewhere);
         let enough = if is_moved { 0 } else { enough };
         if many(&best) <= enough {
             break;
@@ -282,7 +283,7 @@ impl<'a> Pairs<'a> {
                 continue;
             }
             // The wire is threaded elsewhere, and the contour begins and closes where it comes from there.
-            if elsewhere > 0 && self.is_at_its_entry(number, from) {
+            if elsewhere > 0 && *off > SLIP && self.is_at_its_entry(number, from) {
                 run = None;
                 continue;
             }
@@ -361,12 +362,19 @@ impl<'a> Pairs<'a> {
     }
 
     /// A block with which its contour begins on a wall and that ends where it is meant to; or one that ends on a wall, where its contour
-    /// began.
+    /// began or its tab begins.
     fn is_at_its_entry(&self, number: usize, from: Vector) -> bool {
         let blocks = &self.traced.blocks;
         let Some(own) = self.pairs.get(number).map(|pair| pair.own) else {
             return false;
         };
+        // The tab before it begins elsewhere, too.
+        let at = blocks.iter().position(|block| block.range == own.range);
+        let next = at.and_then(|at| blocks.get(at + 1));
+        let goes_to_tab = next.is_some_and(|next| next.motion == Motion::Stop)
+            && number > 0
+            && self.is_placed(number - 1, from);
+        let tab = own.segment().filter(|_| goes_to_tab).map(Segment::end);
         let entry = self.traced.cuts.iter().find_map(|[_, contour]| {
             let begin = blocks.get(contour.start)?;
             let entry = begin.segment()?.start();
@@ -377,7 +385,8 @@ impl<'a> Pairs<'a> {
             let closes = (entry - last.segment()?.end()).norm() <= ROUNDED;
             (last.range == own.range && closes).then_some(entry)
         });
-        entry.is_some_and(|entry| self.anew.is_on_wall(entry - from, ROUNDED))
+        let moved = entry.or(tab);
+        moved.is_some_and(|place| self.anew.is_on_wall(place - from, ROUNDED))
     }
 
     /// Behind this block, or one of the next few, the program is where it is meant to be.
