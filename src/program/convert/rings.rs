@@ -1,6 +1,6 @@
 //! Passes of one contour, each closed by the tab that it leaves and a later cut takes away.
 
-use super::Cut;
+use super::CutPath;
 use crate::geometry::{Bounds, Point, Segment};
 use crate::program::path::{lie_beside, tolerance};
 
@@ -18,16 +18,16 @@ pub(super) struct Ring {
 
 /// The passes that some cuts begin with, rough to finish, and how many cuts they are; `None` where these are not several passes of one
 /// contour.
-pub(super) fn passes(cuts: &[Cut]) -> Option<(Vec<Ring>, usize)> {
+pub(super) fn passes(cuts: &[CutPath]) -> Option<(Vec<Ring>, usize)> {
     let begin = cuts.first()?.segments.first()?.start();
-    let arcs = |cut: &Cut| {
+    let arcs = |cut: &CutPath| {
         cut.segments
             .iter()
             .filter(|it| it.as_arc().is_some())
             .count()
     };
     let near = 2.0 * tolerance(cuts.first().map_or(0, arcs));
-    let begins_there = |cut: &&Cut| {
+    let begins_there = |cut: &&CutPath| {
         let first = cut.segments.first();
         first.is_some_and(|first| (first.start() - begin).norm() <= near)
     };
@@ -63,7 +63,7 @@ impl Ring {
 }
 
 /// What a cut does from stop to stop.
-fn runs(cut: &Cut) -> impl Iterator<Item = &[Segment]> {
+fn runs(cut: &CutPath) -> impl Iterator<Item = &[Segment]> {
     let ends = cut.stops.iter().copied().chain([cut.segments.len()]);
     let mut from = 0;
     ends.filter_map(move |end| {
@@ -74,7 +74,7 @@ fn runs(cut: &Cut) -> impl Iterator<Item = &[Segment]> {
 }
 
 /// A cut that closes by itself, without a stop.
-fn whole(cut: &Cut, near: f64) -> Option<Ring> {
+fn whole(cut: &CutPath, near: f64) -> Option<Ring> {
     let all = &cut.segments[..];
     let known = cut.lead_in..all.len().saturating_sub(cut.lead_out);
     // Ways in and out in an arc end in one place of the contour, and come there by two.
