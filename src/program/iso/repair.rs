@@ -194,7 +194,10 @@ impl Contour for Suspect<'_> {
     type Lead = Vec<Move>;
 
     const CLEARLY: f64 = 1.5;
-    const FINALISTS: usize = 16;
+
+    fn finalists(&self) -> usize {
+        16
+    }
 
     fn order(&self) -> Vec<usize> {
         self.order.clone()

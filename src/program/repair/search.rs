@@ -89,8 +89,8 @@ pub(in crate::program) trait Contour {
     /// How much more the second best repair has to ask for, for the best to be sure.
     const CLEARLY: f64;
 
-    /// The best changes that are held against each other.
-    const FINALISTS: usize;
+    /// How many of the best changes are held against each other: each is followed along the whole contour.
+    fn finalists(&self) -> usize;
 
     /// The blocks that are searched, those nearest to what is wrong first.
     fn order(&self) -> Vec<usize>;
@@ -193,7 +193,7 @@ fn fillings(gap: Vector, headings: Option<[Vector; 2]>) -> impl Iterator<Item = 
 /// Those that lead somewhere of their own, best first.
 fn ranked<C: Contour>(contour: &C, mut judged: Vec<Judged<C>>) -> Vec<Repair<C::Meant>> {
     judged.sort_by(|(a, _), (b, _)| a.left.cmp(&b.left).then(a.cost.total_cmp(&b.cost)));
-    judged.truncate(C::FINALISTS);
+    judged.truncate(contour.finalists());
     let crosses_now = !judged.is_empty() && contour.crosses(None);
     // Of those that lead the same way the first is the plainest; what crosses itself as before comes last.
     let (mut kept, mut leads, mut crossing) = (Vec::<Judged<C>>::new(), Vec::new(), Vec::new());
@@ -275,8 +275,10 @@ mod tests {
         type Meant = (&'static str, usize);
         type Lead = Option<u8>;
         const CLEARLY: f64 = 1.0;
-        const FINALISTS: usize = 10;
 
+        fn finalists(&self) -> usize {
+            10
+        }
         fn order(&self) -> Vec<usize> {
             vec![0]
         }

@@ -40,6 +40,9 @@ const STATED: f64 = 4.0;
 /// Changes that are looked at.
 const LOOKED_AT: usize = 400;
 
+/// Blocks that are gone through for them: in a long contour fewer changes are looked at.
+const LOOKED_THROUGH: usize = 40_000;
+
 /// A block of a contour on its way, changed or not.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Item {
@@ -146,7 +149,10 @@ impl Contour for Suspect<'_> {
     type Lead = Lead;
 
     const CLEARLY: f64 = 0.4;
-    const FINALISTS: usize = LOOKED_AT;
+
+    fn finalists(&self) -> usize {
+        (LOOKED_THROUGH / self.items.len().max(1)).min(LOOKED_AT)
+    }
 
     /// The place behind the last block is one where a block may be lost.
     fn order(&self) -> Vec<usize> {
