@@ -157,13 +157,16 @@ pub(crate) fn short_layers(
     )
 }
 
-/// What is said of paths by the electrode that mills them and how long they are, mm.
+/// What is said of a path of so many mm by the electrode that mills it.
+type Said<'a> = &'a dyn Fn(&Electrode, &WirePath, f64) -> Option<(Severity, String)>;
+
+/// What is said of paths by the electrode that mills them.
 fn of_layers(
     drawing: &Drawing,
     outlines: &[Outline],
     settings: &Effective,
     paths: &[WirePath],
-    said: &dyn Fn(&Electrode, &WirePath, f64) -> Option<(Severity, String)>,
+    said: Said,
 ) -> Vec<Finding> {
     let Some(electrode) = settings.electrode().ok().filter(|_| settings.mills) else {
         return Vec::new();
