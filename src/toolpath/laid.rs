@@ -19,6 +19,9 @@ use std::sync::OnceLock;
 /// Walls up to this long, mm, are left out where there is no path otherwise.
 const CRUMB: f64 = 4e-6;
 
+/// Walls up to this long, mm, are left out where a path does not hold its proof otherwise.
+const SPECK: f64 = 4e-5;
+
 /// Elements of a path that are looked at between two questions whether it is still wanted.
 const STEP: usize = 1024;
 
@@ -77,15 +80,24 @@ impl Job<'_> {
             closed,
         };
         let laid = self.laid(&walls, &own, along)?;
-        if laid.is_err()
-            && walls
+        let left_out: &[f64] = match laid {
+            Ok(_) => &[],
+            Err(Fault::Unproved { .. }) => &[CRUMB, SPECK],
+            Err(Fault::Nothing | Fault::Several { .. }) => &[CRUMB],
+        };
+        let mut longer = 0.0;
+        for &most in left_out {
+            let lengths = longer..=self.units(most);
+            if walls
                 .iter()
-                .any(|wall| wall.geometry.length() <= self.units(CRUMB))
-        {
-            let (walls, own) = of(CRUMB);
-            if let Ok(path) = self.laid(&walls, &own, along)? {
-                return Ok((walls, own, Ok(path)));
+                .any(|wall| lengths.contains(&wall.geometry.length()))
+            {
+                let (walls, own) = of(most);
+                if let Ok(path) = self.laid(&walls, &own, along)? {
+                    return Ok((walls, own, Ok(path)));
+                }
             }
+            longer = self.units(most);
         }
         Ok((walls, own, laid))
     }
