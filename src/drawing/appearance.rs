@@ -123,7 +123,7 @@ impl Drawing {
         before.map_or(Visibility::Shown, |(before, _)| before) != visibility
     }
 
-    pub(crate) fn visibility(&self, id: EntityId) -> Visibility {
+    pub fn visibility(&self, id: EntityId) -> Visibility {
         self.unseen
             .get(&id)
             .map_or(Visibility::Shown, |(visibility, _)| *visibility)
@@ -227,7 +227,7 @@ impl Drawing {
     }
 
     /// The colour in which an entity is drawn: its own, else that of its layer; `None` where the source tells none.
-    pub(crate) fn color(&self, id: EntityId) -> Option<Color> {
+    pub fn color(&self, id: EntityId) -> Option<Color> {
         let own = self.colors.get(id.0 as usize).copied().flatten();
         own.or_else(|| {
             self.layer_colors

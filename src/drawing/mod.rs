@@ -289,7 +289,7 @@ impl Drawing {
     }
 
     /// False for a part of a block and for arcs fitted to a curve: the source has no numbers of their own for them.
-    pub(crate) fn is_editable(&self, id: EntityId) -> bool {
+    pub fn is_editable(&self, id: EntityId) -> bool {
         !self.fixed.contains(&id)
     }
 
