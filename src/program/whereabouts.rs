@@ -15,8 +15,8 @@ pub(crate) struct Stand {
 /// Asked of one place after another: the chunk that was walked last is kept.
 pub(crate) struct Whereabouts<'a> {
     program: &'a dyn Program,
-    /// Behind this line nobody knows.
-    lost: usize,
+    /// Behind this line nobody knows; sought among all lines when a place is asked of.
+    lost: Option<usize>,
     chunk: Option<usize>,
     steps: Vec<Step>,
 }
@@ -24,16 +24,18 @@ pub(crate) struct Whereabouts<'a> {
 impl<'a> Whereabouts<'a> {
     pub(super) fn within(program: &'a dyn Program) -> Whereabouts<'a> {
         Whereabouts {
-            lost: program.unread_line().unwrap_or(usize::MAX),
             program,
+            lost: None,
             chunk: None,
             steps: Vec::new(),
         }
     }
 
     pub(crate) fn of(&mut self, range: &Range<usize>) -> Option<Stand> {
-        let line = self.program.text().line_of(range.start);
-        if line > self.lost {
+        let program = self.program;
+        let line = program.text().line_of(range.start);
+        let unread = || program.unread_line().unwrap_or(usize::MAX);
+        if line > *self.lost.get_or_insert_with(unread) {
             return None;
         }
         let chunk = self.chunk_of(line)?;
@@ -41,8 +43,7 @@ impl<'a> Whereabouts<'a> {
             self.chunk = Some(chunk);
             self.steps.clear();
             let steps = &mut self.steps;
-            self.program
-                .walk(chunk, &mut 0, &mut |step| steps.push(step));
+            program.walk(chunk, &mut 0, &mut |step| steps.push(step));
         }
         let ends_behind = |step: &&Step| step.range.end > range.start;
         let Some(step) = self.steps.iter().find(ends_behind) else {
