@@ -1,6 +1,6 @@
 //! What lies on something else.
 
-use super::{SQUARE, all_fixed, analysed, closed, count, drawings, entity, settings};
+use super::{SQUARE, all_fixed, analysed, closed, count, drawing_of, drawings, entity, settings};
 use std::f64::consts::PI;
 use wedm::document::{Document, Source};
 use wedm::drawing::{Drawing, Entity, Geometry, Role};
@@ -308,10 +308,7 @@ fn what_lies_wholly_on_another_entity_goes_with_fix_all() {
         // Each reaches past the other: which of them ends where is not for a program to say.
         (vec![line(0.0, 6.0), line(4.0, 10.0)], 1, 2),
     ] {
-        let mut drawing = Drawing::new(None);
-        geometries.into_iter().for_each(|geometry| {
-            drawing.push(entity(geometry, None));
-        });
+        let drawing = drawing_of(geometries, None);
         assert_eq!(count(&analysed(&drawing).1, Rule::Overlap), overlaps);
         let fixed = all_fixed(drawing);
         assert_eq!(fixed.len(), left);

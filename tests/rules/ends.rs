@@ -1,7 +1,8 @@
 //! Ends that do not meet, and contours that are open.
 
 use super::{
-    SQUARE, Shape, all_fixed, analysed, check, closed, count, drawings, entity, open, saying_from,
+    SQUARE, Shape, all_fixed, analysed, check, closed, count, drawing_of, drawings, entity, open,
+    repaired, saying_from, severities,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -41,16 +42,7 @@ fn contours_that_are_open() {
             .iter()
             .find(|finding| finding.rule == Rule::OpenContour)
             .unwrap();
-        let mut closed = drawing.clone();
-        closed
-            .apply(
-                &analysis
-                    .fixes(&drawing, finding)
-                    .first()
-                    .expect("a fix")
-                    .edit,
-            )
-            .unwrap();
+        let closed = repaired(&drawing, &analysis, finding);
         let findings = analysed(&closed).1;
         assert_eq!(
             (
@@ -81,10 +73,7 @@ fn a_crossing_of_open_contours_is_told_by_their_openings() {
     for (geometries, openings, crossings) in
         [(vec![one(), other()], 2, 0), (vec![one(), ring], 1, 0)]
     {
-        let mut drawing = Drawing::new(None);
-        for geometry in geometries {
-            drawing.push(entity(geometry, None));
-        }
+        let drawing = drawing_of(geometries, None);
         let (_, findings) = analysed(&drawing);
         let told = [Rule::OpenContour, Rule::SelfIntersection].map(|rule| count(&findings, rule));
         assert_eq!(told, [openings, crossings], "{findings:?}");
@@ -109,17 +98,10 @@ fn what_only_spoils_a_cut_is_a_hint_while_the_contour_is_open() {
     ];
     let rules = [Rule::Gap, Rule::ShortSegment, Rule::Overlap];
     for (count, severity) in [(7, Severity::Warning), (6, Severity::Hint)] {
-        let mut drawing = Drawing::new(None);
-        for geometry in &square[..count] {
-            drawing.push(entity(geometry.clone(), None));
-        }
+        let drawing = drawing_of(square[..count].to_vec(), None);
         let (_, findings) = analysed(&drawing);
         for rule in rules {
-            let told: Vec<Severity> = findings
-                .iter()
-                .filter(|finding| finding.rule == rule)
-                .map(|finding| finding.severity)
-                .collect();
+            let told = severities(&findings, rule);
             assert_eq!(told, [severity], "{rule:?} of {count}: {findings:?}");
         }
     }
@@ -298,24 +280,12 @@ fn ends_that_do_not_meet() {
             0,
         ),
     ] {
-        let mut drawing = Drawing::new(None);
-        geometries.into_iter().for_each(|geometry| {
-            drawing.push(entity(geometry, None));
-        });
+        let drawing = drawing_of(geometries, None);
         let (analysis, findings) = analysed(&drawing);
         assert_eq!(count(&findings, Rule::Gap), gaps, "{findings:#?}");
         for finding in findings.iter().filter(|finding| finding.rule == Rule::Gap) {
             assert_eq!(finding.related.len(), 1);
-            let mut edited = drawing.clone();
-            edited
-                .apply(
-                    &analysis
-                        .fixes(&drawing, finding)
-                        .first()
-                        .expect("a fix")
-                        .edit,
-                )
-                .unwrap();
+            let edited = repaired(&drawing, &analysis, finding);
             assert_eq!(count(&analysed(&edited).1, Rule::Gap), gaps - 1);
         }
         let quiet = all_fixed(drawing);

@@ -43,6 +43,15 @@ fn entity(geometry: Geometry, role: Option<Role>) -> Entity {
     }
 }
 
+/// A drawing of these, in their order.
+fn drawing_of(geometries: impl IntoIterator<Item = Geometry>, role: Option<Role>) -> Drawing {
+    let mut drawing = Drawing::new(None);
+    for geometry in geometries {
+        drawing.push(entity(geometry, role));
+    }
+    drawing
+}
+
 impl Shape {
     fn geometry(&self) -> Geometry {
         Geometry::Polyline {
@@ -56,9 +65,7 @@ impl Shape {
     }
 
     fn as_polyline(&self, role: Option<Role>) -> Drawing {
-        let mut drawing = Drawing::new(None);
-        drawing.push(entity(self.geometry(), role));
-        drawing
+        drawing_of([self.geometry()], role)
     }
 
     fn as_chain(&self, role: Option<Role>) -> Drawing {
@@ -146,11 +153,21 @@ fn analysed(drawing: &Drawing) -> (Analysis, Vec<Finding>) {
     (analysis, findings)
 }
 
+fn severities(findings: &[Finding], rule: Rule) -> Vec<Severity> {
+    let of_rule = findings.iter().filter(|finding| finding.rule == rule);
+    of_rule.map(|finding| finding.severity).collect()
+}
+
 fn count(findings: &[Finding], rule: Rule) -> usize {
-    findings
-        .iter()
-        .filter(|finding| finding.rule == rule)
-        .count()
+    severities(findings, rule).len()
+}
+
+/// The drawing behind the first fix of a finding.
+fn repaired(drawing: &Drawing, analysis: &Analysis, finding: &Finding) -> Drawing {
+    let fixes = analysis.fixes(drawing, finding);
+    let mut repaired = drawing.clone();
+    repaired.apply(&fixes.first().expect("a fix").edit).unwrap();
+    repaired
 }
 
 /// Every way to draw the shape.
