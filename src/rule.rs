@@ -1,5 +1,6 @@
-//! Every rule of every document, once: its name, its severity where nothing is set, the kinds of documents that it speaks of, and what
-//! it says in a few words. The page of a rule is `docs/rules/<name>.md`, in Chinese below `docs/zh`; its check stands where it can see what it needs.
+//! Every rule of every document, listed once: its name, its default severity, the kinds of documents it applies to, and
+//! its summary. The page of a rule is `docs/rules/<name>.md`, in Chinese below `docs/zh`. The check of a rule lives in
+//! the room that has the data for it.
 
 mod page;
 
@@ -7,7 +8,7 @@ pub(crate) use page::Line;
 
 use crate::message::Language;
 
-/// How bad a finding is; the order is from worst to mildest.
+/// How bad a finding is, from worst to mildest.
 #[derive(
     Clone,
     Copy,
@@ -29,7 +30,7 @@ pub enum Severity {
     Hint,
 }
 
-/// A kind of document that findings are said of.
+/// A kind of document that has findings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
     Drawing,
@@ -39,10 +40,10 @@ pub enum Subject {
     Settings,
 }
 
-/// Makes the rules of rows: variant, name, severity, what it says (a row of `message/en/`), kinds of documents.
+/// Makes the rules of rows: variant, name, severity, summary (a row of `message/en/`), kinds of documents.
 macro_rules! rules {
     ($($rule:ident $name:literal $severity:ident $summary:ident $($subject:ident)+;)+) => {
-        /// The rules by the names that users see. Order is that of the documentation.
+        /// The rules under the names that users see, in the order of the documentation.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Rule {
             $(#[doc = $name] $rule,)+
@@ -61,7 +62,7 @@ macro_rules! rules {
                 }
             }
 
-            /// Its page of documentation as it is written.
+            /// The source of its documentation page.
             fn written(self, language: Language) -> &'static str {
                 match (language, self) {
                     $((Language::English, Rule::$rule) => include_str!(concat!("../docs/rules/", $name, ".md")),)+
@@ -69,7 +70,7 @@ macro_rules! rules {
                 }
             }
 
-            /// What it says, in a few words, for lists of rules.
+            /// Its summary, for lists of rules.
             pub fn summary(self) -> &'static str {
                 match self {
                     $(Rule::$rule => say!($summary),)+
@@ -156,7 +157,7 @@ impl Rule {
         self.row().severity
     }
 
-    /// The kinds of documents that it speaks of.
+    /// The kinds of documents that it applies to.
     pub fn subjects(self) -> &'static [Subject] {
         self.row().subjects
     }

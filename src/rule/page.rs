@@ -1,11 +1,11 @@
-//! The page of a rule as the program holds it: Markdown that leads nowhere but to other rules.
+//! The page of a rule as the program holds it: Markdown that links only to other rules.
 
 use super::Rule;
 use crate::message::{Language, spoken};
 
 impl Rule {
-    /// The page of documentation in the language that is spoken, without pictures; of its links those to other rules are left, as
-    /// `NAME.md`.
+    /// The page in the language in force, without pictures. Links to other rules stay, as `NAME.md`; all other links
+    /// become plain text.
     pub(crate) fn page(self) -> String {
         self.page_in(spoken())
     }
@@ -28,7 +28,7 @@ impl Rule {
         page + "\n"
     }
 
-    /// The page as plain text for a terminal, line by line, each with what it is.
+    /// The page as plain text for a terminal: lines, each with its kind.
     pub(crate) fn lines(self) -> Vec<(Line, String)> {
         let mut is_code = false;
         let mut lines = Vec::new();
@@ -55,7 +55,7 @@ impl Rule {
     }
 }
 
-/// What a line of a page is.
+/// The kind of a line of a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Line {
     Heading,
@@ -63,7 +63,7 @@ pub(crate) enum Line {
     Code,
 }
 
-/// Markdown in which links whose target is not kept are their text alone.
+/// The Markdown with every link that is not kept replaced by its text.
 fn unlinked(text: &str, keep: impl Fn(&str) -> bool) -> String {
     let mut out = String::with_capacity(text.len());
     let mut rest = text;

@@ -1,10 +1,11 @@
 //! `arc-as-chords`: five or more lines in a row whose ends lie on one circle.
 //!
-//! Somewhere on its way the drawing's arc was broken into chords. The wire cuts the facets, and the program has a block for
-//! each. Fix: one arc.
+//! Some export broke the drawing's arc into chords. The wire cuts the facets, and the program has a block for each.
+//! Fix: one arc.
 //!
-//! What is seen at a segment depends on a window of [`LEAST`] chords from there on and from the one before: a sequence begins
-//! where a window fits one circle and that before does not. How far the sequence reaches is found when it is shown.
+//! An observation at a segment depends on two windows of [`LEAST`] chords: the one that starts there and the one that
+//! starts a segment earlier. A sequence begins where the first fits one circle and the second does not. Its length is
+//! worked out only when it is shown.
 
 use super::{LocalRule, Observation, Outlook};
 use crate::drawing::{Change, ContourSegment, Geometry, Vertex};
@@ -23,16 +24,17 @@ pub(crate) const RULE: LocalRule = LocalRule {
     ..LocalRule::PLAIN
 };
 
-/// Chords that make an arc.
+/// The number of chords that make an arc.
 const LEAST: usize = 5;
 
-/// Chords of one finding; more of them are a second one once the first are an arc.
+/// The most chords in one finding. Further chords make a second finding once the first are an arc.
 const MOST: usize = 4096;
 
-/// Tangent of the largest turn (25°) from chord to chord: a hexagon is a hexagon, 16 chords to the round are an arc.
+/// Tangent of the largest turn (25°) from chord to chord: a hexagon stays a hexagon, 16 chords to the full circle are
+/// an arc.
 const STEEPEST: f64 = 0.466_307_658;
 
-/// The circle that some points in a row lie on.
+/// The circle through some points in a row.
 #[derive(Clone, Copy, Debug)]
 struct Fit {
     center: Point,
@@ -41,8 +43,8 @@ struct Fit {
     counter_clockwise: bool,
 }
 
-/// The circle of the ends of chords in a row; `None` where they do not all turn the same way, by little enough, within
-/// `tolerance` of one circle, and clearly more so than of a straight line.
+/// The circle through the ends of chords in a row. `None` unless they all turn the same way by a small angle, lie
+/// within `tolerance` of one circle, and fit it clearly better than a straight line.
 fn fit(points: &[Point], tolerance: f64) -> Option<Fit> {
     let (&first, &last) = (points.first()?, points.last()?);
     let mut side = 0.0;
@@ -55,7 +57,7 @@ fn fit(points: &[Point], tolerance: f64) -> Option<Fit> {
         side = sine;
     }
     let chords = points.len() - 1;
-    // All the way round, the ends are one point.
+    // On a full circle both ends are one point.
     let round = (last - first).norm() < (points[1] - first).norm() * 0.5;
     let (middle, end) = if round {
         (points[chords / 3], points[2 * chords / 3])
@@ -96,7 +98,7 @@ fn center_through(a: Point, b: Point, c: Point) -> Option<Point> {
     )
 }
 
-/// Corners of the segments from `first` on, as far as they are lines, at most `count` of them.
+/// Corners of at most `count` segments from `first` on, as long as they are lines.
 fn corners(outlook: &Outlook, first: isize, count: usize) -> Vec<Point> {
     let mut points = Vec::with_capacity(count.min(MOST) + 1);
     let mut end = None;
@@ -118,22 +120,22 @@ fn window_fits(outlook: &Outlook, first: isize) -> bool {
 }
 
 fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observation>) {
-    // From the segment before the range on.
+    // Starts at the segment before the range.
     let fits = windows(outlook, range.start as isize - 1..range.end as isize);
     for (index, pair) in range.zip(fits.windows(2)) {
-        // A round of nothing but chords has no beginning: it may be given one at the first segment.
+        // A full circle of chords has no beginning, so the first segment may serve as one.
         if pair[1] && (!pair[0] || (outlook.contour.closed && index == 0)) {
             observations.push(Observation::at(index));
         }
     }
 }
 
-/// Whether [`LEAST`] chords of one circle follow each other from each of some segments on.
+/// For each of some segments: whether [`LEAST`] chords of one circle follow it.
 fn windows(outlook: &Outlook, starts: Range<isize>) -> Vec<bool> {
     if outlook.contour.len() < LEAST {
         return vec![false; starts.len()];
     }
-    // `None` for what is no line.
+    // `None` for a segment that is no line.
     let line = |index: isize| match outlook.segment(index)?.geometry {
         Segment::Line(line) => Some(line),
         Segment::Arc(_) => None,
@@ -152,9 +154,9 @@ fn windows(outlook: &Outlook, starts: Range<isize>) -> Vec<bool> {
     lines.windows(LEAST).map(fits).collect()
 }
 
-/// For each of some segments: whether the corner where it begins is one between chords that are told as an arc.
+/// For each of some segments: whether the corner at its start lies between chords that are reported as an arc.
 pub(crate) fn are_between_chords(outlook: &Outlook, range: Range<usize>) -> Vec<bool> {
-    // The chord before the corner and the one behind it lie in one window.
+    // One window holds the chord before the corner and the chord after it.
     let starts = range.start as isize - (LEAST as isize - 1)..range.end as isize - 1;
     windows(outlook, starts)
         .windows(LEAST - 1)
@@ -162,22 +164,22 @@ pub(crate) fn are_between_chords(outlook: &Outlook, range: Range<usize>) -> Vec<
         .collect()
 }
 
-/// What is told of a corner may depend on so many segments before and behind it.
+/// The answer at a corner depends on at most this many segments before and after it.
 pub(crate) const REACH: usize = LEAST;
 
-/// Corners that turn by more (radians) are none between chords.
+/// A corner that turns by more than this (radians) does not lie between chords.
 pub(crate) fn steepest() -> f64 {
     STEEPEST.atan()
 }
 
-/// At the first segment of a closed contour: whether the sequence begins there, or is one that has no beginning.
+/// Whether, at the first segment of a closed contour, the sequence begins there or has no beginning at all.
 fn holds(outlook: &Outlook, observation: Observation) -> bool {
     let most = outlook.contour.len().min(MOST) as isize;
     let first = observation.index as isize;
     !window_fits(outlook, first - 1) || (2..most).all(|back| window_fits(outlook, first - back))
 }
 
-/// The longest sequence from `first` on that one circle holds.
+/// The longest sequence from `first` on that fits one circle.
 fn sequence(outlook: &Outlook, first: usize) -> Option<(usize, Fit, Vec<Point>)> {
     let tolerance = outlook.limits.tolerances.chords;
     let mut points = corners(outlook, first as isize, outlook.contour.len().min(MOST));
@@ -231,12 +233,12 @@ fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
         arcs.push((range, arc));
     };
     if chords == count && outlook.contour.closed {
-        // All the way round, it takes two arcs.
+        // A full circle takes two arcs.
         add(0..chords / 2, &fit, &points);
         add(chords / 2..chords, &fit, &points);
     } else {
         add(0..chords, &fit, &points);
-        // What one finding does not hold goes on behind it: it would be the next finding.
+        // Chords beyond the limit go on behind the new arc: they would be the next finding.
         let (mut last, limit) = (
             chords,
             if outlook.contour.closed {
@@ -278,7 +280,7 @@ fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
     }]
 }
 
-/// How far an arc lies from the chords that it takes the place of: at the middle of the longest chord, and at its ends.
+/// The distance of an arc from the chords that it replaces: at the middle of the longest chord, and at its ends.
 fn moved(points: &[Point], arc: &Arc) -> f64 {
     let longest = points
         .windows(2)
@@ -292,7 +294,7 @@ fn moved(points: &[Point], arc: &Arc) -> f64 {
     arc.radius * (1.0 - half.cos()) + deviation
 }
 
-/// Each arc takes the place of its chords' first vertex, the others go.
+/// Each arc replaces its chords' first vertex; the other vertices go.
 fn in_polyline(
     outlook: &Outlook,
     places: &[ContourSegment],
@@ -329,7 +331,7 @@ fn in_polyline(
     Some(changes)
 }
 
-/// An ARC comes in behind the first LINE, the LINEs go.
+/// An ARC is added behind the first LINE, and the LINEs go.
 fn in_chain(
     outlook: &Outlook,
     places: &[ContourSegment],

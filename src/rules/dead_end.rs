@@ -1,9 +1,10 @@
-//! `lost-pocket`, seen where it begins: a disc of the correction that touches two walls and comes no further between them.
+//! `lost-pocket`, found at its mouth: a disc of the correction touches two walls and gets no further between them.
 //!
-//! What lies beyond, along the contour from the one wall to the other, the wire never cuts. A single sharp corner is such an end, too, and
-//! is left as `sharp-corner` says, with R (1 / cos(θ/2) − 1). More than that is an error, whatever shape it has: the end of a slot
-//! that tapers, a chamfer or a fillet in chords that is smaller than the wire, a V between walls that face each other and that the
-//! wire does not come into at all. An arc below the correction is `small-radius`, as long as that tells of all that is left.
+//! The wire never cuts what lies beyond, along the contour from one wall to the other. A single sharp corner is such an
+//! end too; `sharp-corner` says how much it leaves, R (1 / cos(θ/2) − 1). If more is left, it is an error whatever its
+//! shape: the end of a tapering slot, a chamfer or chorded fillet smaller than the wire, a V between facing walls that
+//! the wire cannot enter at all. An arc below the correction is `small-radius`, as long as that explains everything
+//! that is left.
 
 use super::arc_as_chords::are_between_chords;
 use super::disc::{Touch, loci, slack, touch};
@@ -18,44 +19,45 @@ pub(crate) const RULE: PairRule = PairRule {
     rule: Rule::LostPocket,
     reach: |limits| 2.0 * limits.correction,
     check,
-    // Said of what lies between the two, by `left`.
+    // `left` explains what lies between the two.
     pair_by_pair: false,
     ..PairRule::PLAIN
 };
 
-/// A turn (radians) up to which two walls that face each other are parallel: the normals of arcs of kilometres are no better known.
+/// Two facing walls are parallel up to this turn (radians): the normals of arcs with radii of kilometres are known no
+/// better.
 const OPPOSITE: f64 = 1e-6;
 
-/// Less than this, mm, is what rounding to three decimals makes of a contour.
+/// Rounding a contour to three decimals leaves less than this, mm.
 const LEAST_MM: f64 = 5e-4;
 
-/// A turn (radians) above which the two walls of a corner face each other.
+/// The two walls of a corner face each other above this turn (radians).
 const FACING: f64 = FRAC_PI_2 + 1e-3;
 
-/// A disc of the correction that touches two walls of a contour, with what lies beyond it.
+/// A disc of the correction that touches two walls of a contour, and what lies beyond it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DeadEnd {
     pub(crate) center: Point,
     radius: f64,
     side: Side,
-    /// In the direction of travel, what lies beyond the disc goes from the one to the other.
+    /// In the direction of travel, what lies beyond the disc runs from the first to the second.
     from: Touch,
     to: Touch,
-    /// How many segments further the second is.
+    /// The number of segments from the first to the second.
     steps: usize,
 }
 
 /// What the wire leaves beyond a dead end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Left {
-    /// How far the farthest point of the contour lies from what is cut.
+    /// The largest distance of the contour from what is cut.
     pub(crate) depth: f64,
     pub(crate) near: Point,
-    /// The segment that the wire stays farthest from.
+    /// The segment farthest from the wire.
     pub(crate) index: usize,
 }
 
-/// The disc that the wire's centre carries: an arc of the correction, and a slot twice as wide, it still follows.
+/// The disc that the wire's centre carries. The wire still follows an arc of the correction and a slot twice as wide.
 fn radius(limits: &Limits) -> f64 {
     limits.correction - limits.tolerances.report
 }
@@ -89,11 +91,12 @@ fn check(one: &Wall, other: &Wall, same_contour: bool) -> Vec<PairObservation> {
     observations
 }
 
-/// A turn (as the distance of unit vectors) up to which lines are asked whether they run on.
+/// Two lines may continue each other up to this turn (as the distance of unit vectors).
 const RUNS_ON: f64 = 0.25;
 
-/// True for two lines that run the same way, the one behind the other and too far off for a disc to touch both: where it touches two walls,
-/// the places are as far from each other as the two normals, times its radius. Most of what is near a line among many short ones is so.
+/// True for two lines in the same direction, one behind the other and too far apart for one disc to touch both: the
+/// places where a disc touches two walls are as far apart as the two normals times its radius. Among many short lines
+/// most neighbours are like this.
 fn run_on(one: &Wall, other: &Wall, radius: f64) -> bool {
     let (Segment::Line(line), Segment::Line(next)) = (one.geometry(), other.geometry()) else {
         return false;
@@ -111,7 +114,8 @@ fn run_on(one: &Wall, other: &Wall, radius: f64) -> bool {
     if turned > RUNS_ON {
         return false;
     }
-    // In the vertex that it starts in, a wall is touched from anywhere between its own normal and that of the wall before.
+    // In its start vertex a wall is touched from any direction between its own normal and the normal of the wall
+    // before.
     for wall in [one, other] {
         turned = turned.max(
             wall.before
@@ -133,16 +137,16 @@ fn run_on(one: &Wall, other: &Wall, radius: f64) -> bool {
     turned <= RUNS_ON && 2.0 * turned * radius + rounding < gap
 }
 
-/// True when two segments of a contour of so many, by their indices, both lie in what is beyond a disc, or touch it, which in the direction
-/// of travel goes from the first to the second of its walls.
+/// True when two segments, by their indices, both lie in or touch what is beyond a disc. In the direction of travel
+/// that part runs from the first to the second of its walls; `count` is that of the contour's segments.
 pub(crate) fn holds([from, to]: [usize; 2], count: usize, segments: [usize; 2]) -> bool {
     let along = |index: usize| (index + count - from) % count.max(1);
     segments.into_iter().all(|index| along(index) <= along(to))
 }
 
 impl DeadEnd {
-    /// The end that a disc about `center` makes between two walls of a contour. `None` where it does not touch both, where it may
-    /// go on, and for a single corner that is as deep as any of its kind.
+    /// The end that a disc about `center` makes between two walls of a contour. `None` where it does not touch both,
+    /// where it may pass, and for a single corner no deeper than others of its kind.
     pub(crate) fn between(one: &Wall, other: &Wall, side: Side, center: Point) -> Option<DeadEnd> {
         let (outlook, limits) = (&one.outlook, one.outlook.limits);
         let radius = radius(limits);
@@ -151,7 +155,7 @@ impl DeadEnd {
             touch(other, side, center, radius)?,
         );
         let spin = cross(first.normal, second.normal) * side.sign();
-        // Walls right opposite to each other let it pass.
+        // Walls exactly opposite each other let it pass.
         if spin.abs() < OPPOSITE {
             return None;
         }
@@ -198,8 +202,9 @@ impl DeadEnd {
         from + isize::from(!self.from.at_vertex)..from + self.steps as isize
     }
 
-    /// True where both places are the one corner that the contour turns away in, and all of the contour seems to lie beyond it: ends that
-    /// miss each other by g let the disc touch the wall before the corner up to √(2 g r) from it.
+    /// True where both places are the one corner that turns away from the wire, so that the whole contour seems to lie
+    /// beyond it: ends that miss each other by g let the disc touch the wall before the corner up to √(2 g r) away from
+    /// it.
     fn is_at_one_joint(&self, outlook: &Outlook) -> bool {
         let before = (self.from.index + outlook.contour.len() - 1) % outlook.contour.len();
         if self.steps == 0 || !self.from.at_vertex || self.to.index != before {
@@ -231,7 +236,7 @@ impl DeadEnd {
         ) * self.side.sign()
     }
 
-    /// True when no segment beside the two walls reaches into the disc.
+    /// True when only the two walls reach into the disc.
     fn is_clear_nearby(&self, one: &Wall, other: &Wall) -> bool {
         let least = self.radius - slack(one.outlook.limits, self.radius);
         let reach = NEIGHBOURS as isize;
@@ -241,12 +246,12 @@ impl DeadEnd {
         near.all(|segment| segment.distance_to(self.center) >= least)
     }
 
-    /// False where a look at a few segments tells that no more is left than in a single corner.
+    /// False where a look at a few segments shows that no more is left than in a single corner.
     fn may_matter(&self, outlook: &Outlook) -> bool {
         self.steps > NEIGHBOURS || self.is_more_than_a_corner(outlook, false)
     }
 
-    /// How far a point is from what the wire cuts with its centre here.
+    /// The distance of a point from what the wire cuts with its centre here.
     fn depth(&self, point: Point) -> f64 {
         (point - self.center).norm() - self.radius
     }
@@ -256,7 +261,7 @@ impl DeadEnd {
         [self.from.index, self.to.index]
     }
 
-    /// Points of what lies beyond the disc among which the deepest is.
+    /// Points beyond the disc; the deepest point is among them.
     fn points<'a>(&'a self, outlook: &'a Outlook) -> impl Iterator<Item = (isize, Point)> + 'a {
         let joints = self
             .joints()
@@ -274,7 +279,7 @@ impl DeadEnd {
         joints.chain(bellies)
     }
 
-    /// What is left beyond the disc, where that is more than `sharp-corner` and `small-radius` tell of.
+    /// What is left beyond the disc, where that is more than `sharp-corner` and `small-radius` explain.
     pub(crate) fn left(&self, outlook: &Outlook) -> Option<Left> {
         if !self.is_more_than_a_corner(outlook, true) {
             return None;
@@ -288,7 +293,7 @@ impl DeadEnd {
             .map(|(at, point)| (at, self.depth(point), point))
             .collect();
         let depth = points.iter().map(|point| point.1).fold(0.0, f64::max);
-        // Which of equally deep points is named does not hang on where the contour begins, or which way it runs.
+        // The choice among equally deep points must not depend on where the contour begins or which way it runs.
         let named = |least: f64| move |value: &f64| *value >= least - 1e-9;
         let near = points
             .iter()
@@ -312,9 +317,9 @@ impl DeadEnd {
         })
     }
 
-    /// Whether more is left than each single corner explains, and than is said of each arc below the correction: a wall between two
-    /// corners that the wire does not come to, and a corner that is deeper than its own turn tells.
-    /// With `spares_chords`, corners between the chords of an arc that the wire can follow are none.
+    /// Whether more is left than the single corners and the arcs below the correction explain: a wall between two
+    /// corners that the wire does not reach, or a corner deeper than its own turn explains. With `spares_chords`,
+    /// joints between the chords of an arc that the wire can follow do not count as corners.
     fn is_more_than_a_corner(&self, outlook: &Outlook, spares_chords: bool) -> bool {
         let limits = outlook.limits;
         let least = LEAST_MM / limits.unit_mm;
@@ -333,7 +338,7 @@ impl DeadEnd {
                 .any(|(_, point)| self.depth(point) > depth + least)
         };
         if let Some(told) = told {
-            // Nothing but arcs that bend about the wire are a run, which `small-radius` mends as one.
+            // A run holds only arcs that bend about the wire; `small-radius` mends it as one.
             let is_of_run = |index: isize| {
                 let segment = outlook.segment(index).map(|segment| segment.geometry);
                 segment.is_some_and(|segment| {
@@ -370,7 +375,7 @@ impl DeadEnd {
                 .any(|corner| faces(corner) || is_beyond(corner))
     }
 
-    /// The corners that turn towards the wire, in order. Joints with nothing but crumbs between them are one.
+    /// The corners that turn towards the wire, in order. Joints with only crumbs between them are one corner.
     fn corners(&self, outlook: &Outlook, spares_chords: bool) -> Vec<TurnedIn> {
         let least = LEAST_MM / outlook.limits.unit_mm;
         let mut corners = Vec::new();
@@ -389,7 +394,8 @@ impl DeadEnd {
         corners
     }
 
-    /// The corner between the segment before the first of some joints and that behind the last, if it turns towards the wire.
+    /// The corner between the segment before the first of some joints and the segment behind the last, if it turns
+    /// towards the wire.
     fn corner_at(
         &self,
         outlook: &Outlook,

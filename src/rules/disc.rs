@@ -1,4 +1,4 @@
-//! A disc beside the walls of a contour: where it touches them, and where its centre may lie that it does.
+//! A disc beside the walls of a contour: where it touches them, and where its centre may lie so that it does.
 
 use super::Limits;
 use super::wall::{Corner, Wall};
@@ -6,10 +6,10 @@ use crate::finding::Side;
 use crate::geometry::Locus;
 use crate::geometry::{Point, Segment, Vector, left_normal, turn};
 
-/// A turn (radians) below which two segments are one wall.
+/// Two segments that turn by less than this (radians) are one wall.
 const SMOOTH: f64 = 1e-6;
 
-/// A wall that a disc touches: at a place of it, or at the vertex that it starts in.
+/// A wall that a disc touches: at a place of it, or at its start vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Touch {
     pub(crate) index: usize,
@@ -23,7 +23,7 @@ pub(super) fn slack(limits: &Limits, radius: f64) -> f64 {
     (1e-6 * radius).max(limits.tolerances.clearance)
 }
 
-/// Where a disc may lie that touches a wall, or the vertex that it starts in.
+/// Where a disc may lie that touches a wall, or its start vertex.
 pub(super) fn loci(wall: &Wall, side: Side, radius: f64) -> [Option<Locus>; 2] {
     let along = Locus::beside(
         wall.geometry(),
@@ -39,12 +39,12 @@ pub(super) fn loci(wall: &Wall, side: Side, radius: f64) -> [Option<Locus>; 2] {
     ]
 }
 
-/// The vertex that a wall starts in.
+/// The start vertex of a wall.
 fn start_of(wall: &Wall) -> Option<Corner> {
     wall.corners().next()
 }
 
-/// True for a vertex that the contour turns away from the wire in.
+/// True for a vertex where the contour turns away from the wire.
 fn is_tip(corner: &Corner, side: Side) -> bool {
     let (Some(incoming), Some(outgoing)) = (corner.incoming, corner.outgoing) else {
         return false;
@@ -81,7 +81,7 @@ pub(super) fn touch(wall: &Wall, side: Side, center: Point, radius: f64) -> Opti
     })
 }
 
-/// The place of a segment's line or circle nearest to `point`, which lies at `share` of it.
+/// The place on a segment's line or circle nearest to `point`, which lies at `share` of the segment.
 fn foot(segment: &Segment, point: Point, share: f64) -> Point {
     match segment {
         Segment::Line(line) => line.start + (line.end - line.start) * share,

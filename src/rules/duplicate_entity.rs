@@ -1,6 +1,6 @@
-//! `duplicate-entity`: two entities in the same place, within 0.005 mm, whichever way they run.
+//! `duplicate-entity`: two entities in the same place, within 0.005 mm, in either direction.
 //!
-//! The wire would cut the same way twice, or the chaining would branch there. Fix: delete the later one.
+//! The wire would cut the same path twice, or the chaining would branch there. Fix: delete the later one.
 
 use super::short_segment::is_point;
 use super::wall::Wall;
@@ -24,8 +24,9 @@ pub(crate) const RULE: PairRule = PairRule {
     ..PairRule::PLAIN
 };
 
-/// Seen at the first segment of each of the two entities, once for a pair of entities. Closed ones may begin anywhere and have their
-/// vertices elsewhere: they are seen at the first segment of the earlier one and that of the other which it begins on.
+/// Found at the first segments of the two entities, once for each pair. Closed entities may begin anywhere and have
+/// their vertices elsewhere: they are found at the first segment of the earlier one and the segment of the later one on
+/// which it begins.
 fn are_doubles(one: &Wall, other: &Wall) -> Option<bool> {
     let (a, b) = (one.segment, other.segment);
     if a.entity == b.entity || a.segment != 0 {
@@ -39,7 +40,7 @@ fn are_doubles(one: &Wall, other: &Wall) -> Option<bool> {
     {
         return None;
     }
-    // A point is cut no times.
+    // A point is never cut.
     if [a, b]
         .into_iter()
         .all(|point| is_point(&one.outlook, &point))
@@ -65,7 +66,8 @@ fn are_doubles(one: &Wall, other: &Wall) -> Option<bool> {
     Some(forward() || backward() || rings())
 }
 
-/// True when the first of two closed outlines begins on segment `at` of the other, and each lies on the other all along.
+/// True when the first of two closed outlines begins on segment `at` of the other, and each lies on the other
+/// everywhere.
 fn are_one_ring(first: &Geometry, second: &Geometry, at: usize, tolerance: f64, flat: f64) -> bool {
     let (Some(begin), Some(under)) = (first.segment_of(0, flat), second.segment_of(at, flat))
     else {
@@ -74,14 +76,15 @@ fn are_one_ring(first: &Geometry, second: &Geometry, at: usize, tolerance: f64, 
     let start = begin.start();
     let share = under.share_of(start).clamp(0.0, 1.0);
     let is_on = |segment: &Segment, point: Point| segment.distance_to(point) <= tolerance;
-    // A point that two segments meet in belongs to the one that begins there.
+    // A point where two segments meet belongs to the segment that begins there.
     let is_alone = second.segment_count() == 1;
     if !is_on(&under, start)
         || (!is_alone && (under.end() - start).norm() <= tolerance && share > 0.5)
     {
         return false;
     }
-    // A little further on, the one still lies beside the start of the other: most outlines that meet in a point are told apart here.
+    // A little further on the one must still lie beside the start of the other: this rejects most outlines that only
+    // meet in a point.
     let Some(before) = second.segment_of(
         (at + second.segment_count() - 1) % second.segment_count().max(1),
         flat,
@@ -135,7 +138,7 @@ impl Ring {
         self.ends.last().copied().unwrap_or(0.0)
     }
 
-    /// How far along a share of one segment lies.
+    /// The distance along the outline at a share of one segment.
     fn distance_of(&self, index: usize, share: f64) -> f64 {
         let end = self.ends.get(index).copied().unwrap_or(0.0);
         end - self.segments.get(index).map_or(0.0, Segment::length) * (1.0 - share)

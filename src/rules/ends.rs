@@ -1,12 +1,12 @@
-//! Moving one end of an entity, the other end staying where it is.
+//! Moves one end of an entity while the other end stays.
 
 use crate::drawing::{Change, ContourSegment, Drawing, Geometry, Vertex};
 use crate::geometry::{Arc, Point, Segment};
 use std::f64::consts::PI;
 
-/// The change that puts the end (or, with `at_end` false, the start) of a contour's segment to `to`. A line swings about its
-/// other end, an arc keeps its sweep. `None` where the segment is not the last of its entity on that side, for a circle, and
-/// for an arc of nearly a full turn, whose ends say little about it.
+/// The change that moves the end (or, with `at_end` false, the start) of a contour's segment to `to`. A line swings
+/// about its other end, an arc keeps its sweep. `None` where the segment is not the last of its entity on that side,
+/// for a circle, and for an arc of nearly a full turn, whose ends hardly determine it.
 pub(crate) fn end_moved(
     drawing: &Drawing,
     place: &ContourSegment,
@@ -65,8 +65,8 @@ pub(crate) fn end_moved(
     }
 }
 
-/// The change that brings two ends together which should meet: the start of the segment behind goes to the end of the one
-/// before. Where only the one before is straight, it is that one which moves: a line bears it better than an arc.
+/// The change that joins two ends which should meet: the start of the later segment moves to the end of the earlier
+/// one. Where only the earlier one is straight, that one moves instead: a line bears it better than an arc.
 pub(crate) fn joined(
     drawing: &Drawing,
     before: &ContourSegment,

@@ -1,6 +1,6 @@
 //! `gap`: the ends of two entities that follow each other do not meet, but come within the join tolerance.
 //!
-//! They are one contour, and the path is laid as if they met; the control sees a step in the coordinates. Fix: the one end
+//! They are one contour, and the path is laid as if they met; the control sees a step in the coordinates. Fix: one end
 //! moves onto the other.
 
 use super::ends::joined;
@@ -18,7 +18,7 @@ pub(crate) const RULE: LocalRule = LocalRule {
     ..LocalRule::PLAIN
 };
 
-/// Only where a piece begins can there be a gap.
+/// A gap can only be where an entity begins.
 fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observation>) {
     let pieces = &outlook.contour.pieces;
     let first = pieces.partition_point(|piece| piece.first() < range.start);
@@ -32,7 +32,7 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
     }
 }
 
-/// Ends that are no further apart are where they belong: what rounds to the resolution is no more than that.
+/// Ends up to this distance apart count as meeting: it is no more than rounding to the resolution.
 fn least(outlook: &Outlook) -> f64 {
     let tolerances = &outlook.limits.tolerances;
     tolerances.report.max(1.5 * tolerances.resolution)

@@ -1,12 +1,12 @@
 //! `lost-pocket` and `offset-collapse`: what the offset of a whole contour loses.
 //!
-//! The wire's centre runs along the contour's offset by the correction. Where that offset falls into several loops, the wire is
-//! threaded into one of them and never comes into the others: those are pockets behind a neck, and lost. Where nothing
-//! is left of it, the wire does not fit in at all. Both hold for a closed contour with a known wire side only.
+//! The wire's centre runs along the contour's offset by the correction. Where that offset falls into several loops, the
+//! wire is threaded into one of them and never reaches the others: those pockets behind a neck are lost. Where the
+//! offset is empty, the wire does not fit at all. Both need a closed contour with a known wire side.
 //!
-//! A dead end that is too narrow all along has no loop of its own and is `narrow-slot` alone; a hole made of arcs below the
-//! correction is `small-radius` alone. The offset is the work of the library `cavalier_contours`, which is believed only where
-//! its loops keep clear of the contour, and where it says "nothing" only if no disc of the correction is found to fit.
+//! A dead end that is too narrow all along has no loop of its own and is only `narrow-slot`; a hole made of arcs below
+//! the correction is only `small-radius`. The library `cavalier_contours` makes the offset. It is believed only where
+//! its loops keep clear of the contour, and its empty result only if no disc of the correction fits.
 
 use super::{Outlook, small_radius};
 use crate::finding::Side;
@@ -14,20 +14,21 @@ use crate::geometry::{Bounds, Point, Segment, left_normal};
 use cavalier_contours::polyline::{PlineSource, PlineSourceMut, Polyline};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Contours of more segments are not asked: the offset would take longer than an edit may. `narrow-slot` is still seen there.
+/// Contours with more segments are skipped: their offset would take longer than an edit may. `narrow-slot` still works
+/// there.
 pub(crate) const MOST_SEGMENTS: usize = 5_000;
 
 /// What the offset of a contour loses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Lost {
-    /// Nothing is left of it.
+    /// All of it: the offset is empty.
     All,
-    /// A part, by the point of its loop that lies deepest in it and the index of the segment beside that.
+    /// A part, by the point of its loop that lies deepest in it and the index of the segment beside that point.
     Pocket { near: Point, index: usize },
 }
 
-/// What the offset to `side` of a contour loses. `has_neck` tells that two of its walls form a narrow slot: without one,
-/// it can lose nothing but all.
+/// What the offset to `side` of a contour loses. `has_neck` says that two of its walls form a narrow slot; without one
+/// the offset is lost as a whole or not at all.
 pub(crate) fn check(outlook: &Outlook, side: Side, has_neck: bool) -> Vec<Lost> {
     let contour = outlook.contour;
     if !contour.closed || contour.len() > MOST_SEGMENTS {
@@ -73,12 +74,12 @@ pub(crate) fn check(outlook: &Outlook, side: Side, has_neck: bool) -> Vec<Lost> 
         let lost = inward && !segments.iter().all(tight) && !segments.iter().any(fits);
         return if lost { vec![Lost::All] } else { Vec::new() };
     }
-    // The wire is threaded into the largest; outside a punch that is the one round it.
+    // The wire is threaded into the largest loop; outside a punch that is the loop around it.
     loops.sort_by(|a, b| b.1.total_cmp(&a.1));
     let largest = Bounds::of_points(&loops[0].0);
     let threaded = nalgebra::center(&largest.min, &largest.max);
     let pocket = |(points, _): &(Vec<Point>, f64)| {
-        // Away from the neck, which is told of by itself.
+        // Only away from the neck, which has its own finding.
         let depth = |point: &Point| nalgebra::distance(point, &threaded);
         let near = *points.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)))?;
         Some(Lost::Pocket {
@@ -91,7 +92,7 @@ pub(crate) fn check(outlook: &Outlook, side: Side, has_neck: bool) -> Vec<Lost> 
 
 /// The loops of an offset, each by its vertices and its area; `None` where the library fails.
 fn offset(segments: &[Segment], by: f64) -> Option<Vec<(Vec<Point>, f64)>> {
-    // Seen from the contour itself, so that coordinates far out cost no digits.
+    // Relative to the contour, so that far-off coordinates cost no digits.
     let origin = segments.first()?.start();
     let mut outline = Polyline::new_closed();
     let mut add = |segment: &Segment| {
@@ -99,7 +100,7 @@ fn offset(segments: &[Segment], by: f64) -> Option<Vec<(Vec<Point>, f64)>> {
         outline.add(start.x, start.y, segment.bulge());
     };
     for segment in segments.iter().filter(|segment| segment.length() > 1e-9) {
-        // The library takes no arc beyond a half turn.
+        // The library takes arcs up to a half turn only.
         if segment.bulge().abs() > 0.9 {
             [segment.part(0.0, 0.5), segment.part(0.5, 1.0)]
                 .iter()

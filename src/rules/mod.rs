@@ -1,7 +1,7 @@
-//! The rules of the wire: one folder or file each, with its check and its fix.
+//! The rules of the wire: a folder or file each, with its check and its fix.
 //!
-//! A rule speaks geometry: it sees contours and gives back findings on segments and fixes as drawing edits.
-//! It knows nothing of text, of protocols, or of how a sentence about it reads.
+//! A rule works on geometry: it takes contours and returns findings on segments and fixes as drawing edits. It knows
+//! nothing of text, protocols, or the wording of its messages.
 
 pub(crate) mod arc_as_chords;
 pub(crate) mod dead_end;
@@ -29,16 +29,16 @@ use crate::geometry::{Point, Segment, Tolerances, turn};
 use crate::settings::{Compensation, Effective};
 use std::ops::Range;
 
-/// What the rules measure against, in the units of one drawing.
+/// The limits that rules measure against, in the units of one drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Limits {
     /// The largest correction of all passes.
     pub(crate) correction: f64,
-    /// The smallest correction of all passes: what the last pass takes, the earlier ones need not leave.
+    /// The smallest correction of all passes. Earlier passes may leave what the last one takes.
     pub(crate) last_correction: f64,
-    /// What the last pass leaves in a sharp corner.
+    /// The radius that the last pass leaves in a sharp corner.
     pub(crate) corner_radius: f64,
-    /// Each pass runs its own way: the control does not offset what is drawn.
+    /// Each pass runs its own path: the control does not offset the drawn contour.
     passes_are_drawn: bool,
     /// Radius that a fix gives: correction + margin.
     pub(crate) fix_radius: f64,
@@ -81,16 +81,16 @@ pub(crate) struct Outlook<'a> {
     pub(crate) limits: &'a Limits,
     /// The number of its workpiece: contours of others do not meet it.
     pub(crate) part: u16,
-    /// Segments that need not be worked out again.
+    /// Segments that need no new look.
     pub(crate) at_hand: Option<&'a AtHand>,
 }
 
-/// A stretch of segments of a contour, and how it turns between them, worked out once for all rules.
+/// A stretch of segments of a contour and the turns between them, worked out once for all rules.
 #[derive(Debug)]
 pub(crate) struct AtHand {
     first: usize,
     segments: Vec<ContourSegment>,
-    /// How the contour turns where each of the segments begins, but for the first.
+    /// The contour's turn at the start of each segment but the first.
     turns: Vec<Option<f64>>,
 }
 
@@ -104,7 +104,7 @@ impl AtHand {
         let first = range.start;
         let count = range.len();
         let mut segments: Vec<ContourSegment> = contour.segments_in(drawing, range).collect();
-        // Where an entity is missing their numbers are not those of the contour.
+        // Where an entity is missing, the numbers are not those of the contour.
         if segments.len() != count {
             segments.clear();
         }
@@ -136,7 +136,7 @@ fn turn_between(limits: &Limits, before: &Segment, behind: &Segment) -> Option<f
 }
 
 impl Outlook<'_> {
-    /// Segment at `index`, which goes round and round on a closed contour; `None` past the ends of an open one.
+    /// Segment at `index`, which wraps round on a closed contour; `None` past the ends of an open one.
     pub(crate) fn segment(&self, index: isize) -> Option<ContourSegment> {
         let count = self.contour.len() as isize;
         if count == 0 || (!self.contour.closed && !(0..count).contains(&index)) {
@@ -165,20 +165,20 @@ impl Outlook<'_> {
     }
 }
 
-/// Something that a rule has seen at one segment of a contour. Small, since a contour may have one at every segment;
-/// its numbers are worked out when it is shown.
+/// An observation of a rule at one segment of a contour. Small, since a contour may have one at every segment; its
+/// numbers are worked out when it is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Observation {
     /// Index of the segment within the contour.
     pub(crate) index: u32,
-    /// The side of travel that it concerns, `None` where it holds whichever side the wire runs on.
+    /// The side of travel that it concerns, `None` where it holds on either side.
     pub(crate) side: Option<Side>,
-    /// Says nothing where the wire side is not known.
+    /// Silent where the wire side is not known.
     pub(crate) needs_side: bool,
 }
 
 impl Observation {
-    /// At the segment with this index, whichever side the wire runs on.
+    /// An observation at the segment with this index, on either side of the wire.
     pub(crate) fn at(index: usize) -> Observation {
         Observation {
             index: index as u32,
@@ -188,30 +188,32 @@ impl Observation {
     }
 }
 
-/// A rule on a segment and its near neighbours. All of them stand in `LOCAL_RULES`.
+/// A rule on a segment and its near neighbours. `LOCAL_RULES` lists them all.
 pub(crate) struct LocalRule {
     pub(crate) rule: Rule,
-    /// Looks at the segments `range` of a contour and adds what it sees there. What it sees at a segment may depend only on
-    /// that segment and those within `reach` of it.
+    /// Checks the segments `range` of a contour and adds its observations. An observation at a segment may depend only
+    /// on that segment and those within `reach` of it.
     pub(crate) check: fn(&Outlook, Range<usize>, &mut Vec<Observation>),
-    /// How many segments before and behind a changed one must be looked at again.
+    /// How many segments before and behind a changed one must be checked again.
     pub(crate) reach: fn(&Outlook, Range<usize>) -> (usize, usize),
-    /// Whether what was seen at the first segment of a closed contour stands, where that depends on the whole round.
+    /// Whether the observation at the first segment of a closed contour stands, where that depends on the whole
+    /// contour.
     pub(crate) holds: fn(&Outlook, Observation) -> bool,
     /// The other places that are concerned.
     pub(crate) related: fn(&Outlook, Observation) -> Vec<Place>,
-    /// The numbers of a observation. With a count, the wire side is not known and one finding stands for so many observations.
+    /// The numbers of an observation. A count means that the wire side is not known and one finding stands for that
+    /// many observations.
     pub(crate) detail: fn(&Outlook, Observation, Option<usize>) -> Option<Detail>,
     /// Repairs, the preferred one first.
     pub(crate) fixes: fn(&Outlook, Observation) -> Vec<Fix>,
-    /// Where the wire side is not known: one hint for each contour in place of a finding for each observation.
+    /// Where the wire side is not known: one hint for each contour instead of a finding for each observation.
     pub(crate) one_hint_when_side_unknown: bool,
     /// Where the case is milder than the rule.
     pub(crate) mildest: Option<Severity>,
 }
 
 impl LocalRule {
-    /// A rule that sees nothing, in a segment by itself.
+    /// A rule without observations, in a segment by itself.
     const PLAIN: LocalRule = LocalRule {
         rule: Rule::More,
         check: |_, _, _| {},
@@ -225,7 +227,7 @@ impl LocalRule {
     };
 }
 
-/// The segment before the joint that a observation stands at, where it is of another entity.
+/// The segment before the joint of an observation, where it is of another entity.
 fn other_at_joint(outlook: &Outlook, observation: Observation) -> Vec<Place> {
     let (before, own) = (
         outlook.segment(observation.index as isize - 1),
@@ -248,11 +250,11 @@ pub(crate) const LOCAL_RULES: &[LocalRule] = &[
 /// A place, and the other places that are concerned.
 pub(crate) type Places = (Place, Vec<Place>);
 
-/// A rule on a contour as a whole, cheap enough to be asked at every report. All of them stand in `CONTOUR_RULES`.
+/// A rule on a whole contour, cheap enough to run at every report. `CONTOUR_RULES` lists them all.
 pub(crate) struct ContourRule {
     pub(crate) rule: Rule,
     pub(crate) holds: fn(&Outlook) -> bool,
-    /// The severity that it has at most under some settings, unless the user has set the rule.
+    /// The mildest severity that some settings ask for, unless the user has set the rule.
     pub(crate) mildest: fn(&Effective) -> Option<Severity>,
     /// The place, and the other places that are concerned.
     pub(crate) places: fn(&Outlook) -> Option<Places>,
@@ -264,41 +266,42 @@ pub(crate) struct ContourRule {
 /// Every rule on whole contours.
 pub(crate) const CONTOUR_RULES: &[ContourRule] = &[open_contour::RULE];
 
-/// What a pair rule has seen between two segments.
+/// What a pair rule has observed between two segments.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct PairObservation {
-    /// Sides of travel that it concerns, of the first and of the second segment; `None` where any.
+    /// Sides of travel that it concerns, of the first and of the second segment; `None` for either.
     pub(crate) sides: (Option<Side>, Option<Side>),
-    /// A disc (centre, radius) that no segment of the drawing may reach into, else there is nothing to see.
+    /// A disc (centre, radius) that must be empty: no segment of the drawing may reach into it, else the observation
+    /// falls.
     pub(crate) disc: Option<(Point, f64)>,
-    /// Only the contour's own segments count there.
+    /// Only the contour's own segments count for the disc.
     pub(crate) own_disc: bool,
     /// Where the case is milder than the rule.
     pub(crate) mildest: Option<Severity>,
 }
 
-/// A rule on segments that come near each other. All of them stand in `PAIR_RULES`.
+/// A rule on segments that come near each other. `PAIR_RULES` lists them all.
 pub(crate) struct PairRule {
     pub(crate) rule: Rule,
-    /// How near two segments must come to be looked at together. A disc that must be empty lies within this of both.
+    /// Two segments are checked together up to this distance. A disc that must be empty lies within it of both.
     pub(crate) reach: fn(&Limits) -> f64,
-    /// Looks at two segments, the one of the earlier entity first; the flag tells that they are of one contour.
-    /// What it sees may depend only on the two and on the `NEIGHBOURS` that follow and precede each in its contour.
+    /// Checks two segments, that of the earlier entity first; the flag says that they are of one contour. The
+    /// observation may depend only on the two and on the `NEIGHBOURS` before and after each in its contour.
     pub(crate) check: fn(&Wall, &Wall, bool) -> Vec<PairObservation>,
     pub(crate) detail: fn(&Wall, &Wall, bool) -> Option<Detail>,
     pub(crate) fixes: fn(&Wall, &Wall) -> Vec<Fix>,
-    /// What neighbouring pairs see is one thing: the narrowest stands for all.
+    /// Neighbouring pairs observe one thing: the narrowest stands for all.
     pub(crate) one_per_place: bool,
-    /// Not said of two entities that are doubles of each other as a whole.
+    /// Silent for two entities that are duplicates of each other as a whole.
     pub(crate) silent_for_doubles: bool,
     /// At most a warning where the wire side is not known.
     pub(crate) warning_when_side_unknown: bool,
-    /// Each pair that sees something is a finding; else whoever asks for what was seen makes the findings of it.
+    /// Each observed pair is a finding; otherwise the caller makes the findings.
     pub(crate) pair_by_pair: bool,
 }
 
 impl PairRule {
-    /// A rule that sees nothing, and says what it sees pair by pair.
+    /// A rule without observations that makes a finding of each pair.
     const PLAIN: PairRule = PairRule {
         rule: Rule::More,
         reach: |_| 0.0,
@@ -315,7 +318,7 @@ impl PairRule {
 /// How many segments before and behind a segment a pair rule may look at.
 pub(crate) const NEIGHBOURS: usize = 4;
 
-/// Every rule on pairs of segments; `duplicate-entity` first, which others are silent for.
+/// Every rule on pairs of segments. `duplicate-entity` comes first, since others are silent for its pairs.
 pub(crate) const PAIR_RULES: &[PairRule] = &[
     duplicate_entity::RULE,
     overlap::RULE,

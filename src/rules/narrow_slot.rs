@@ -1,8 +1,9 @@
 //! `narrow-slot`: two facing walls on the wire side, closer together than the wire is wide.
 //!
-//! Seen is each local minimum of the width: a disc of a diameter below twice the correction that touches two walls from
-//! opposite sides, holds no other part of the outlines, and could only grow by moving along the slot. A corner is none: between its
-//! walls the disc can always shrink. The mouth of a run of arcs below the correction is none either: `small-radius` says it.
+//! An observation is a local minimum of the width: a disc with a diameter below twice the correction that touches two
+//! walls from opposite sides, holds no other part of the outlines, and could only grow by moving along the slot. A
+//! corner is not a slot: between its walls the disc can always shrink. The mouth of a run of arcs below the correction
+//! is left to `small-radius`.
 
 use super::wall::{Corner, Joints, Wall, parts_for_good, side_of};
 use super::{Limits, NEIGHBOURS, PairObservation, PairRule, small_radius};
@@ -102,7 +103,7 @@ fn narrowest(one: &Wall, other: &Wall, same_contour: bool) -> Option<Slot> {
                 .then(|| (corner.side(toward), wall_side(b, foot, -toward)))
             });
         }
-        // Between the two ends of an open contour lies the opening of it: `open-contour` says it.
+        // Between the two ends of an open contour is its opening, which `open-contour` reports.
         for met in other
             .corners()
             .filter(|met| !(same_contour && corner.is_free_end() && met.is_free_end()))
@@ -131,8 +132,8 @@ fn narrowest(one: &Wall, other: &Wall, same_contour: bool) -> Option<Slot> {
     })
 }
 
-/// True when the distance of two walls has a minimum, or stays as it is, where they are `width` apart and curve toward each
-/// other with these curvatures (the second derivatives of the distance; −∞ for a vertex, which cannot be moved).
+/// True when the distance of two walls has a minimum or stays constant, where they are `width` apart and curve toward
+/// each other with these curvatures (the second derivatives of the distance; −∞ for a vertex, which cannot be moved).
 fn is_minimum(width: f64, one: f64, other: f64) -> bool {
     const ROUNDING: f64 = 1e-6;
     let (u, v) = (1.0 - width * one, 1.0 - width * other);
@@ -167,7 +168,7 @@ fn is_mouth(one: &Wall, other: &Wall, limits: &Limits) -> bool {
             index
         };
         if index == other.index {
-            // Two straight walls with a round end are a slot all the same: that is seen between the walls.
+            // Two straight walls with a round end are still a slot: the observation is between the walls.
             return own;
         }
         let Some(segment) = one.beside(steps as isize) else {

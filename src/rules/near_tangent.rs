@@ -1,7 +1,7 @@
-//! `near-tangent`: two segments that look tangent and are not quite.
+//! `near-tangent`: two segments that look tangent but are not quite.
 //!
 //! The control takes the joint for a corner: it stops there or turns the offset round it, and the wire leaves a mark.
-//! Fix: the arc at the joint becomes tangent, or two lines that nearly are one become one.
+//! Fix: the arc at the joint becomes tangent, or two nearly collinear lines become one.
 
 use super::arc_as_chords::{self, are_between_chords};
 use super::sharp_corner::{CLEAR, inner_side, own_share};
@@ -26,7 +26,7 @@ pub(crate) const RULE: LocalRule = LocalRule {
 const LEAST: f64 = 0.02 * std::f64::consts::PI / 180.0;
 
 fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observation>) {
-    // Asked only where there is a kink at all.
+    // Only asked where there is a kink.
     let mut between: Option<Vec<bool>> = None;
     for index in range.clone() {
         if let Some(turn) = outlook
@@ -38,7 +38,7 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
             if between.get(index - range.start) == Some(&true) {
                 continue;
             }
-            // Where the wire runs inside, the larger of them are sharp corners, if these are spoken of.
+            // Where the wire runs inside, the larger kinks are sharp corners, if `sharp-corner` is on.
             let uncut = own_share(outlook.limits.last_correction, turn);
             let is_corner = uncut >= outlook.limits.tolerances.resolution;
             observations.push(Observation {
@@ -49,8 +49,8 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
     }
 }
 
-/// Whether the kink before the segment at `index` moves anything by what can be measured: the shorter of the two segments leaves the
-/// direction of the other by so much at its middle.
+/// Whether the kink before the segment at `index` is measurable: at its middle, the shorter of the two segments is off
+/// the direction of the other by that much.
 fn shows(outlook: &Outlook, index: usize, turn: f64) -> bool {
     let length = |index: isize| {
         outlook
@@ -69,7 +69,7 @@ fn detail(outlook: &Outlook, observation: Observation, _count: Option<usize>) ->
     })
 }
 
-/// The change that moves the contour least, and by less than a difference that counts as the same place.
+/// The change that moves the contour least, and by less than the difference between two places that count as one.
 fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
     let index = observation.index as isize;
     let (Some(before), Some(behind)) = (outlook.segment(index - 1), outlook.segment(index)) else {
@@ -96,7 +96,8 @@ fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
     found.into_iter().enumerate().map(fix).collect()
 }
 
-/// The arc at one side of the joint, of the same radius, tangent there and at its other end if it was, or through that end.
+/// The arc at one side of the joint, of the same radius and tangent there. At its other end it stays tangent if it was;
+/// otherwise it still goes through that end.
 fn arc_of(
     outlook: &Outlook,
     index: isize,
@@ -126,7 +127,7 @@ fn arc_of(
     edits.collect()
 }
 
-/// Two lines in a row as one.
+/// Merges two lines in a row.
 fn one_line(
     outlook: &Outlook,
     before: &ContourSegment,

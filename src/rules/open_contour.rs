@@ -1,4 +1,4 @@
-//! `open-contour`: a contour that does not come back to where it began.
+//! `open-contour`: a contour that does not come back to its start.
 //!
 //! The wire has no side on an open contour, and nothing drops out of the plate. Fix: close it with a line.
 
@@ -17,19 +17,20 @@ pub(crate) const RULE: ContourRule = ContourRule {
     fixes,
 };
 
-/// A gap of less than this share of the contour, or than so many join tolerances (1 mm), was most likely meant to be closed.
+/// A gap below this share of the contour, or below this many join tolerances (1 mm), was most likely meant to be
+/// closed.
 const SHARE: f64 = 0.05;
 const JOINS: f64 = 100.0;
 
 fn holds(outlook: &Outlook) -> bool {
-    // What has no length is told of by `short-segment`.
+    // `short-segment` reports an entity without length.
     !outlook.contour.closed
         && outlook
             .contour
             .has_length(outlook.drawing, outlook.limits.tolerances.zero_length)
 }
 
-/// Where the contour itself is the wire's path, or the middle of a slot that is milled, it may well be open.
+/// Where the contour itself is the wire's path, or the middle of a milled slot, it may well be open.
 fn mildest(settings: &Effective) -> Option<Severity> {
     let is_path = settings.compensation == Compensation::None || settings.mills;
     is_path.then_some(Severity::Information)
@@ -60,7 +61,7 @@ fn fixes(outlook: &Outlook) -> Vec<Fix> {
     let (from, to) = (last.end(), first.start());
     let length = (to - from).norm();
     let contour = outlook.contour;
-    // One line, closed with another, would only be cut twice.
+    // Closing a single line with another would only cut it twice.
     let encloses = contour.len() > 1 || last.as_arc().is_some();
     let Some(piece) = contour
         .pieces
@@ -69,7 +70,7 @@ fn fixes(outlook: &Outlook) -> Vec<Fix> {
     else {
         return Vec::new();
     };
-    // A spline has no vertices of its own to be closed with.
+    // A spline has no vertices of its own to close it with.
     let own = outlook.drawing.is_editable(piece.entity)
         && matches!(
             outlook

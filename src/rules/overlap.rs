@@ -1,7 +1,7 @@
-//! `overlap`: two segments on one line or one circle that run on one another over more than 0.005 mm.
+//! `overlap`: two segments on one line or one circle that coincide over more than 0.005 mm.
 //!
-//! The wire would go twice along the same wall, and which way the contour goes on is anybody's guess. Two entities that are
-//! doubles of each other as a whole are `duplicate-entity`. Fix: an entity that lies wholly within another one goes.
+//! The wire would go twice along the same wall, and the way on is ambiguous. Two entities that duplicate each other as
+//! a whole are `duplicate-entity`. Fix: an entity that lies wholly within another one goes.
 
 use super::wall::{Joints, Wall};
 use super::{PairObservation, PairRule};

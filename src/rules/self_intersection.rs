@@ -1,8 +1,8 @@
 //! `self-intersection`: a contour crosses or touches itself or another one.
 //!
-//! The offset of such an outline is not one path: the wire cuts into the part, or cuts a piece of it off. A crossing is an error.
-//! Touching is one, too, between closed outlines; where an open contour ends on another one, as a lead-in that was drawn
-//! does, it is a warning. Segments that run on one another are `overlap`.
+//! The offset of such an outline is not one path: the wire cuts into the part, or cuts a piece of it off. A crossing is
+//! an error. Touching is an error too between closed outlines; where an open contour ends on another one, as a drawn
+//! lead-in does, it is a warning. Segments that run along each other are `overlap`.
 
 use super::wall::{Corner, Joints, Wall, parts_for_good};
 use super::{PairObservation, PairRule};
@@ -39,10 +39,10 @@ struct Contact {
     touches: bool,
 }
 
-/// Where two segments cross, else where they touch; not at a joint of theirs.
+/// Where two segments cross, else where they touch, but not at a joint of theirs.
 ///
 /// A vertex that lies on the other segment within the touch tolerance belongs to the segment that starts in it, so that
-/// each place is seen by one pair. Whether it is a crossing there is told by the two sides that the contour comes from and goes to.
+/// one pair reports each place. The sides that the contour comes from and goes to decide whether it crosses there.
 fn contact(one: &Wall, other: &Wall, same_contour: bool) -> Option<Contact> {
     let tolerances = &one.outlook.limits.tolerances;
     let (a, b) = (one.geometry(), other.geometry());
@@ -62,7 +62,7 @@ fn contact(one: &Wall, other: &Wall, same_contour: bool) -> Option<Contact> {
         same_place: tolerances.same_place,
     };
     let at_joint = |point: Point| joints.are_at(point, tolerances.join);
-    // Where the two come so near without one going through the other that a meeting close by is none of its own.
+    // Here the two come so near without crossing that a meeting close by is not a separate one.
     let ends_of = |ends: &Segment, on: &Segment| {
         [ends.start(), ends.end()]
             .into_iter()
@@ -117,7 +117,7 @@ fn contact(one: &Wall, other: &Wall, same_contour: bool) -> Option<Contact> {
     })
 }
 
-/// Two segments, and how near counts.
+/// Two segments, and the distance that counts as near.
 struct Near<'a> {
     a: &'a Segment,
     b: &'a Segment,
@@ -143,7 +143,7 @@ impl Near<'_> {
             .any(|end| (end - point).norm() <= self.touch)
     }
 
-    /// A point of a segment some way from one of its ends, far enough that rounding does not decide on which side it lies.
+    /// A point of a segment some way from one of its ends, far enough that rounding does not decide its side.
     fn some_way_from(&self, segment: &Segment, start: bool) -> Point {
         let share = (50.0 * self.touch / segment.length().max(f64::MIN_POSITIVE)).min(0.5);
         segment.point_at(if start { share } else { 1.0 - share })
@@ -187,7 +187,7 @@ impl Near<'_> {
             (one.outgoing, other.incoming),
             (one.outgoing, other.outgoing),
         ];
-        // Open ends that meet are what chaining speaks of.
+        // Chaining reports open ends that meet.
         if open(one) && open(other) || along.into_iter().any(|(a, b)| self.runs_along(a, b)) {
             return None;
         }

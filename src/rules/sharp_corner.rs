@@ -1,7 +1,8 @@
-//! `sharp-corner`: a corner that the wire runs inside of.
+//! `sharp-corner`: a corner with the wire on its inside.
 //!
-//! A round wire leaves at least its own radius and the spark gap there, whatever was drawn. Fix: a fillet of that radius,
-//! so that the drawing says what comes off the machine. Corners between chords that `arc-as-chords` takes for an arc are none.
+//! A round wire leaves at least its own radius and the spark gap there, whatever the drawing says. Fix: a fillet of
+//! that radius, so that the drawing shows what comes off the machine. Corners between chords that `arc-as-chords` takes
+//! for an arc do not count.
 
 use super::arc_as_chords::{self, are_between_chords};
 use super::disc::{loci, slack, touch};
@@ -27,16 +28,16 @@ pub(crate) const RULE: LocalRule = LocalRule {
 /// Turns (radians) above this are corners.
 const LEAST: f64 = 1.0 * std::f64::consts::PI / 180.0;
 
-/// Below this a joint is one that nearly is tangent, and `near-tangent` speaks of it, unless the wire is known to run inside.
+/// A joint below this is nearly tangent and left to `near-tangent`, unless the wire is known to run inside.
 pub(crate) const CLEAR: f64 = 2.0 * std::f64::consts::PI / 180.0;
 
-/// The side on which the wire runs inside a corner that turns by `turn`; `None` for what is no corner.
+/// The side on which the wire runs inside a corner that turns by `turn`; `None` where there is no corner.
 pub(crate) fn inner_side(turn: f64) -> Option<Side> {
     (turn.abs() > LEAST).then_some(if turn > 0.0 { Side::Left } else { Side::Right })
 }
 
 fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observation>) {
-    // Asked only where some corner is flat enough.
+    // Only asked where some corner is flat enough.
     let mut between: Option<Vec<bool>> = None;
     let (first, steepest) = (range.start, arc_as_chords::steepest());
     for index in range.clone() {
@@ -63,8 +64,8 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
     }
 }
 
-/// Left with R, which the last pass leaves; uncut is what stands between the arc and this one corner: `R (1 / cos(θ/2) − 1)` between
-/// straight walls, less where they are short. What stays beyond that since the wire does not come so far is `lost-pocket`.
+/// The last pass leaves R; uncut is what stands between the arc and this one corner: `R (1 / cos(θ/2) − 1)` between
+/// straight walls, less where they are short. Anything beyond that is `lost-pocket`: the wire does not get there.
 fn detail(outlook: &Outlook, observation: Observation, count: Option<usize>) -> Option<Detail> {
     let index = observation.index as usize;
     let turn = outlook.turn_at(index)?;
@@ -79,12 +80,13 @@ fn detail(outlook: &Outlook, observation: Observation, count: Option<usize>) -> 
     })
 }
 
-/// How many segments on either side of a corner may hold the disc that stands in it.
+/// How many segments on either side of a corner may hold the disc in it.
 const HOLDING: isize = 8;
 
-/// What stays of the corner where the segment at `index` begins beside a disc of `radius`, on the side that the contour turns to: between
-/// long walls what the disc that touches both leaves; where these are short or fall back, no more than `R (1 / cos(θ/2) − 1)`, which is
-/// the corner's own share of what is lost there. `None` at the end of an open contour.
+/// What stays of the corner at the start of the segment at `index` beside a disc of `radius`, on the side that the
+/// contour turns to. Between long walls that is what the disc that touches both leaves. Where the walls are short or
+/// fall back it is at most `R (1 / cos(θ/2) − 1)`, the corner's own share of the loss. `None` at the end of an open
+/// contour.
 fn corner_depth(outlook: &Outlook, index: usize, radius: f64) -> Option<f64> {
     let count = outlook.contour.len();
     let wall = |index: isize| {
@@ -139,7 +141,7 @@ fn corner_depth(outlook: &Outlook, index: usize, radius: f64) -> Option<f64> {
     {
         return Some(depth);
     }
-    // A wall holds the disc, or the tip that it starts in does: behind the corner a tip may end the last wall.
+    // A wall holds the disc, or the tip at its start does: behind the corner a tip may end the last wall.
     let early: Vec<Wall> = (1..=reach)
         .filter_map(|steps| wall(index - steps))
         .collect();

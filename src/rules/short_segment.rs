@@ -1,7 +1,8 @@
 //! `short-segment`: a segment shorter than 0.005 mm.
 //!
-//! Controllers compute corners and compensation between neighbours: over a segment of a few microns they jerk, stop, or turn
-//! the offset the wrong way. Fix: the segment goes, its neighbours meet. What has no length at all just goes.
+//! Controllers compute corners and compensation between neighbours: over a segment of a few microns they jerk, stop, or
+//! turn the offset the wrong way. Fix: the segment goes and its neighbours meet. An entity without any length just
+//! goes.
 
 use super::ends::joined;
 use super::{LocalRule, Observation, Outlook};
@@ -23,7 +24,7 @@ pub(crate) const RULE: LocalRule = LocalRule {
     ..LocalRule::PLAIN
 };
 
-/// What has no length at all is drawn for nothing, and does no harm.
+/// An entity without length draws nothing and does no harm.
 pub(crate) const POINTS: LocalRule = LocalRule {
     check: |outlook, range, observations| {
         let zero_length = outlook.limits.tolerances.zero_length;
@@ -86,7 +87,7 @@ fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
     changes.map(fix).into_iter().collect()
 }
 
-/// True where the entity of a segment has no other and no length: nothing changes when it goes.
+/// True where the segment is its entity's only one and has no length: its removal changes nothing.
 pub(super) fn is_point(outlook: &Outlook, place: &ContourSegment) -> bool {
     let is_alone = outlook
         .drawing
@@ -128,7 +129,7 @@ fn in_polyline(place: &ContourSegment, closed: bool, vertices: &[Vertex]) -> Opt
     }])
 }
 
-/// The entity goes and a neighbour's end moves to where the other neighbour is; a line's rather than an arc's.
+/// The entity goes and a neighbour's end moves to the other neighbour; a line's end rather than an arc's.
 fn in_chain(outlook: &Outlook, index: isize, place: &ContourSegment) -> Option<Vec<Change>> {
     let (before, behind) = (outlook.segment(index - 1)?, outlook.segment(index + 1)?);
     if [before.entity, behind.entity].contains(&place.entity)

@@ -16,7 +16,8 @@ pub(crate) struct Wall<'a> {
     pub(crate) before: Option<Segment>,
 }
 
-/// A vertex of a contour: where one segment ends and the next begins. One of the two is missing at the end of an open contour.
+/// A vertex of a contour: where one segment ends and the next begins. One of the two is missing at the end of an open
+/// contour.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Corner {
     pub(crate) at: Point,
@@ -47,8 +48,8 @@ impl<'a> Wall<'a> {
             .map(|segment| segment.geometry)
     }
 
-    /// The vertex that the segment starts in; and the one it ends in where no other segment starts there. So each vertex
-    /// belongs to one segment.
+    /// The start vertex of the segment, and its end vertex if no other segment starts there. So each vertex belongs to
+    /// one segment.
     pub(crate) fn corners(&self) -> impl Iterator<Item = Corner> + use<> {
         let geometry = *self.geometry();
         let start = Corner {
@@ -65,7 +66,7 @@ impl<'a> Wall<'a> {
         std::iter::once(start).chain(end)
     }
 
-    /// How many steps forward it is from this segment to `other` of the same contour; up to `NEIGHBOURS`.
+    /// The number of steps forward from this segment to `other` of the same contour; up to `NEIGHBOURS`.
     fn steps_to(&self, other: &Wall) -> Option<usize> {
         let count = self.outlook.contour.len();
         let steps = if self.outlook.contour.closed {
@@ -77,17 +78,17 @@ impl<'a> Wall<'a> {
     }
 }
 
-/// How two segments of one contour hang together.
+/// How two segments of one contour are connected.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Joints {
     /// The ends of the two that are one joint, or have only short segments between them.
     pub(crate) points: Vec<Point>,
-    /// One follows the other at once, at one end only.
+    /// One directly follows the other, at one end only.
     pub(crate) neighbours: bool,
 }
 
 impl Joints {
-    /// The joints of two segments; what lies between them counts as part of a joint where it is no longer than `short`.
+    /// The joints of two segments. Segments no longer than `short` between them count as part of a joint.
     pub(crate) fn of(one: &Wall, other: &Wall, same_contour: bool, short: f64) -> Joints {
         let mut joints = Joints::default();
         if !same_contour {
@@ -140,7 +141,8 @@ impl Corner {
         self.incoming.is_none() || self.outgoing.is_none()
     }
 
-    /// True when no step along the contour brings the vertex nearer to what lies in `direction` (a unit vector) of it.
+    /// True when no step along the contour brings the vertex nearer to what lies in the unit vector `direction` from
+    /// it.
     pub(crate) fn is_nearest(&self, direction: Vector) -> bool {
         const ROUNDING: f64 = 1e-6;
         self.outgoing

@@ -7,17 +7,17 @@ use crate::geometry::{Arc, Point, Segment, left_normal, positive_angle};
 use crate::rules::Limits;
 use std::collections::BTreeMap;
 
-/// What becomes of one segment, in its entity's own direction.
+/// The fate of one segment, in its entity's own direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Fate {
     Kept(Segment),
     Removed,
 }
 
-/// The edit that makes all `replacements`, each given with the travel that it was found in. They must not overlap.
+/// The edit that makes all `replacements`, each given with its travel. They must not overlap.
 ///
-/// The longest arc of each run becomes the new arc, its neighbours are cut back to the feet, what lies between goes.
-/// `None` where a run has no arc that could carry the new one.
+/// The longest arc of each run becomes the new arc, its neighbours are cut back to the feet, and the rest goes. `None`
+/// where a run has no arc that could carry the new one.
 pub(crate) fn drawing_edit(
     drawing: &Drawing,
     replacements: &[(Travel, Replacement)],
@@ -61,8 +61,8 @@ pub(crate) fn drawing_edit(
     Some(DrawingEdit { changes })
 }
 
-/// The edit that rounds the corner between the segments at `before` and behind it, which turns to the left, with the fix
-/// radius. `None` where no such arc fits, or where an entity cannot take it.
+/// The edit that rounds the corner between the segments at `before` and behind it, which turns to the left, with the
+/// fix radius. `None` where no such arc fits, or where an entity cannot take it.
 pub(crate) fn fillet(travel: &Travel, before: isize, limits: &Limits) -> Option<DrawingEdit> {
     let arc = corner_arc(travel, before, limits)?;
     let (one, other) = (travel.segment(before)?, travel.segment(before + 1)?);
@@ -90,7 +90,7 @@ pub(crate) fn fillet(travel: &Travel, before: isize, limits: &Limits) -> Option<
                 Segment::Arc(arc.reversed()),
             ),
         };
-        // The two ends of an open polyline may touch in a corner: that joint is no vertex of its own.
+        // The two ends of an open polyline may touch in a corner: that joint has no vertex of its own.
         if (early + 1) % vertices.len() == late {
             let bulge_of = |segment: Segment, old: Vertex| {
                 if segment.as_arc().is_some() {
@@ -150,9 +150,9 @@ pub(crate) fn fillet(travel: &Travel, before: isize, limits: &Limits) -> Option<
     Some(DrawingEdit { changes })
 }
 
-/// The edit of the original "R minimum" tool: the arc's end points stay, its radius becomes the fix radius; and the angle
-/// (radians) by which the contour kinks at each end. `None` past a half turn, where it would remove a bulb, and where the
-/// arc is no entity's own.
+/// The edit of the original "R minimum" tool: the arc's end points stay and its radius becomes the fix radius; and the
+/// angle (radians) by which the contour kinks at each end. `None` past a half turn, where it would remove a bulb, and
+/// where no single entity is the arc.
 pub(crate) fn keep_end_points(
     drawing: &Drawing,
     segment: &ContourSegment,
@@ -200,7 +200,7 @@ pub(crate) fn keep_end_points(
     ))
 }
 
-/// The position whose segment becomes the new arc: the longest arc that curves as it does.
+/// The position whose segment becomes the new arc: the longest arc that curves the same way.
 fn carrier(travel: &Travel, replacement: &Replacement) -> Option<isize> {
     let length = |position: isize| match travel.segment(position)?.geometry {
         Segment::Arc(arc) if arc.sweep > 0.0 => Some(arc.length()),
@@ -280,7 +280,7 @@ fn entity_changes(
             ..
         } => match (fates.get(&0)?, drawing.segment(id, 0)?) {
             (Fate::Kept(Segment::Arc(arc)), Segment::Arc(old)) => {
-                // An angle that stays is kept as the drawing has it, to the last digit.
+                // An angle that stays is kept to the drawing's last digit.
                 let kept = (arc.center == old.center).then(|| {
                     (
                         (arc.start == old.start).then_some(*start_angle),

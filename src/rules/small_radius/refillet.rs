@@ -1,4 +1,4 @@
-//! The new arc of a run: where its centre lies, whether it fits, how far it moves the contour.
+//! The new arc of a run: where its centre lies, whether it fits, and how far it moves the contour.
 
 use super::Travel;
 use crate::finding::NoFix;
@@ -8,11 +8,11 @@ use crate::rules::Limits;
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
-/// How many segments at one end may be swallowed. Each must lie within the correction of the new arc, so only
-/// contours of many tiny segments come near it.
+/// How many segments at one end may be swallowed. Each must lie within the correction of the new arc, so only contours
+/// of many tiny segments come near it.
 const MOST_SWALLOWED: usize = 24;
 
-/// One arc of the fix radius in the place of a run.
+/// One arc of the fix radius that replaces a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Replacement {
     /// Positions of the two neighbours that stay; everything between them goes.
@@ -26,8 +26,8 @@ pub(crate) struct Replacement {
     pub(crate) moved: f64,
 }
 
-/// What came of looking for a replacement, and the region that it was looked for in: as long as nothing in there
-/// changes, the answer stands.
+/// The result of the search for a replacement and the region it depends on: the result holds as long as nothing in
+/// there changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Attempt {
     pub(crate) outcome: Result<Replacement, NoFix>,
@@ -36,10 +36,10 @@ pub(crate) struct Attempt {
 
 /// Looks for the arc of radius `limits.fix_radius` that replaces `run`.
 ///
-/// Its centre lies on two loci, one for each end: at a line the parallel, at an arc the concentric circle shifted to the
-/// wire side, or the circle about the end vertex itself. A solution counts when its feet lie on the neighbours, it turns
-/// by at most a half turn, and its disc keeps clear of the whole contour. Where none fits, short neighbours are swallowed,
-/// as long as that moves the contour by no more than the correction.
+/// Its centre lies on two loci, one for each end: at a line the parallel, at an arc the concentric circle shifted to
+/// the wire side, or the circle about the end vertex itself. A solution counts when its feet lie on the neighbours, it
+/// turns by at most a half turn, and its disc keeps clear of the whole contour. Where none fits, short neighbours are
+/// swallowed, as long as that moves the contour by no more than the correction.
 pub(crate) fn refillet(travel: &Travel, run: &RangeInclusive<isize>, limits: &Limits) -> Attempt {
     let mut search = Search::new(travel, limits, run.clone());
     let outcome = search.search();
@@ -49,8 +49,8 @@ pub(crate) fn refillet(travel: &Travel, run: &RangeInclusive<isize>, limits: &Li
     }
 }
 
-/// The arc at `position` with the radius it has, made tangent to its neighbour at its end (or, with `at_end` false, at its
-/// start). At the other end it is tangent too, or keeps the vertex. No promise on how far the contour moves.
+/// The arc at `position`, with its radius, made tangent to its neighbour at its end (or, with `at_end` false, at its
+/// start). At the other end it is tangent too, or keeps the vertex. It may move the contour by any distance.
 pub(crate) fn made_tangent(
     travel: &Travel,
     position: isize,
@@ -77,7 +77,7 @@ pub(crate) fn made_tangent(
         } else {
             (Hold::Neighbour, elsewhere)
         };
-        // Held by a vertex, the arc must end where the neighbour does.
+        // An arc held by a vertex must end where the neighbour does.
         for arc in search.arcs(&one, at_start, &other, at_end) {
             found.push(Replacement {
                 before,
@@ -91,8 +91,9 @@ pub(crate) fn made_tangent(
     found
 }
 
-/// The arc of radius `limits.fix_radius` that rounds the corner between the segments at `before` and behind it, which turns
-/// to the left. `None` where it does not fit: its feet must lie on the two and its disc keep clear of the contour.
+/// The arc of radius `limits.fix_radius` that rounds the corner between the segments at `before` and behind it, which
+/// turns to the left. `None` where it does not fit: its feet must lie on the two and its disc keep clear of the
+/// contour.
 pub(crate) fn corner_arc(travel: &Travel, before: isize, limits: &Limits) -> Option<Arc> {
     let (one, other) = (
         travel.segment(before)?.geometry,
@@ -115,7 +116,7 @@ pub(crate) fn corner_arc(travel: &Travel, before: isize, limits: &Limits) -> Opt
         .find(|arc| leaves_enough(arc) && search.is_clear(arc, before, before + 1))
 }
 
-/// What the new arc is held by at one end.
+/// What holds the new arc at one end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Hold {
     /// Tangent to the neighbour.
@@ -130,10 +131,10 @@ struct Search<'a> {
     run: RangeInclusive<isize>,
     region: Bounds,
     would_seal: bool,
-    /// Whether a neighbour may be left shorter than what is worth cutting, and whether one would have been.
+    /// Whether a neighbour may be left too short to cut, and whether one would have been.
     leaves_crumbs: bool,
     would_leave_crumb: bool,
-    /// How far the disc may dip into what is replaced.
+    /// How far the disc may dip into the replaced segments.
     slack: f64,
     old_center: Point,
     arcs: usize,
@@ -157,7 +158,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The arcs that are held so at their two ends.
+    /// The arcs held this way at their two ends.
     fn arcs(&self, one: &Segment, at_start: Hold, other: &Segment, at_end: Hold) -> Vec<Arc> {
         let (Some(first), Some(second)) = (
             self.locus(one, one.end(), at_start),
@@ -176,7 +177,7 @@ impl<'a> Search<'a> {
         let (first, last) = (*self.run.start(), *self.run.end());
         let count = self.travel.len() as isize;
         if self.arcs as isize >= count {
-            // A hole, or an outline of nothing but tight arcs: there is no neighbour to be tangent to.
+            // A hole, or an outline of tight arcs only, has no neighbour to be tangent to.
             return Err(if self.travel.contour.closed {
                 NoFix::NarrowSlot
             } else {
@@ -194,9 +195,9 @@ impl<'a> Search<'a> {
         if self.look_at(first - 1).is_none() || self.look_at(last + 1).is_none() {
             return Err(NoFix::NoNeighbour);
         }
-        // First exactly. Then with the slack that a drawing rounded to three decimals needs: its fillets kink a little at
-        // their ends, and what is replaced may stick out by as much.
-        // A neighbour of which a crumb would be left is swallowed.
+        // First exactly. Then with the slack that a drawing rounded to three decimals needs: its fillets kink a little
+        // at their ends, and the replaced segments may stick out by as much. A neighbour is swallowed if only a crumb
+        // of it would be left.
         self.leaves_crumbs = false;
         let exact = self.search_outward(first, last, count);
         self.slack = self.limits.tolerances.arc_fit;
@@ -218,7 +219,7 @@ impl<'a> Search<'a> {
                     first - 1 - left as isize,
                     last + 1 + (swallowed - left) as isize,
                 );
-                // Both neighbours may be one and the same segment, but no further round.
+                // Both neighbours may be one and the same segment, but may not pass each other.
                 if other - one > count {
                     continue;
                 }
@@ -230,8 +231,8 @@ impl<'a> Search<'a> {
         None
     }
 
-    /// How many segments from `position` on may be swallowed in the direction `step`: their length is bounded by what a
-    /// detour round the disc can have.
+    /// How many segments from `position` on may be swallowed in the direction `step`: their length is bounded by that
+    /// of a detour round the disc.
     fn reach(&mut self, position: isize, step: isize) -> usize {
         let most = 4.0 * (self.limits.fix_radius + self.limits.correction);
         let mut length = 0.0;
@@ -248,7 +249,7 @@ impl<'a> Search<'a> {
         MOST_SWALLOWED
     }
 
-    /// The segment at a position, entered into the region that the answer depends on.
+    /// The segment at a position, which also enters the region that the answer depends on.
     fn look_at(&mut self, position: isize) -> Option<Segment> {
         let segment = self.travel.segment(position)?.geometry;
         self.region.merge(&segment.bounds());
@@ -282,7 +283,7 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        // Of solutions that are the same within rounding, the tangent one: a fillet with noise at its ends is no notch.
+        // Of solutions that agree within rounding the tangent one wins: a fillet with noise at its ends is no notch.
         let noise = self.limits.tolerances.arc_fit;
         candidates.sort_by(|a, b| {
             if (a.0 - b.0).abs() <= noise {
@@ -327,7 +328,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The arc about `center` from its foot on the one neighbour to that on the other, if the feet lie on them and it turns
+    /// The arc about `center` from its foot on one neighbour to that on the other, if the feet lie on them and it turns
     /// to the left by at most a half turn.
     fn arc_about(
         &self,
@@ -360,8 +361,8 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// The point of a neighbour that is nearest to `center`, if it lies on it. At the end towards the run it may lie
-    /// beyond by rounding noise: the neighbour is then lengthened by as much.
+    /// The point of a neighbour nearest to `center`, if it lies on it. At the end towards the run it may lie beyond by
+    /// rounding noise: the neighbour is then lengthened by as much.
     fn foot(&self, center: Point, neighbour: &Segment, run_behind: bool) -> Option<Point> {
         let share = neighbour.share_of(center);
         let length = neighbour.length();
@@ -381,7 +382,7 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// True when the new arc leaves less of a neighbour than is worth cutting, of one that was.
+    /// True when the new arc leaves a neighbour too short to cut that was long enough.
     fn is_crumb(&self, arc: &Arc, one: &Segment, other: &Segment) -> bool {
         let short = self.limits.tolerances.short;
         let left = |segment: &Segment, share: f64| {
@@ -405,7 +406,8 @@ impl<'a> Search<'a> {
             .sum()
     }
 
-    /// True when the disc of the new arc keeps clear of the contour. What is replaced may come as near as rounding noise.
+    /// True when the disc of the new arc keeps clear of the contour. Replaced segments may come as near as rounding
+    /// noise.
     fn is_clear(&self, arc: &Arc, before: isize, after: isize) -> bool {
         let tolerances = &self.limits.tolerances;
         let count = self.travel.len() as isize;
@@ -422,7 +424,7 @@ impl<'a> Search<'a> {
         )
     }
 
-    /// Largest distance of what is replaced, the cut-off ends of the neighbours included, from the new arc.
+    /// Largest distance of the replaced part, with the cut-off ends of the neighbours, from the new arc.
     fn moved(&self, arc: &Arc, before: isize, after: isize) -> f64 {
         let mut moved: f64 = 0.0;
         for position in before..=after {
@@ -444,8 +446,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The points of a segment among which the farthest from the new arc is found: its ends, its middle and, on an arc, the
-/// place farthest from the new centre.
+/// Points of a segment that include the farthest from the new arc: its ends, its middle and, on an arc, the place
+/// farthest from the new centre.
 fn farthest(segment: &Segment, center: Point) -> Vec<Point> {
     let mut points = vec![
         segment.start(),

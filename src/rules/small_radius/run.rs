@@ -8,13 +8,13 @@ use std::ops::RangeInclusive;
 /// A corner that turns away from the wire by more than this (radians) is a corner of the part; less is rounding.
 const CONVEX_KINK: f64 = 1e-6;
 
-/// So much (radians) may be what rounding to three decimals makes of the joint of an arc that is drawn in two, and so far, as a share of
-/// the radius, it may move their centres apart.
+/// Rounding to three decimals may turn the joint of an arc that is drawn in two by up to this angle (radians), and move
+/// their centres apart by this share of the radius.
 const ROUNDED_KINK: f64 = 0.1;
 const ROUNDED_CENTER: f64 = 0.1;
 
-/// The run that holds the arc at `position`: the maximal chain of arcs concave to the wire with r ≤ R, split at every
-/// vertex that is convex to the wire. `None` when that segment is no such arc.
+/// The run that holds the arc at `position`: the longest chain of arcs concave to the wire with r ≤ R, split at every
+/// vertex convex to the wire. `None` when that segment is no such arc.
 pub(crate) fn run_of(
     travel: &Travel,
     position: isize,
@@ -23,7 +23,7 @@ pub(crate) fn run_of(
     run_within(travel, position, limits, false)
 }
 
-/// The same run where an arc that is drawn in two, and rounded, is one arc.
+/// The same run, with an arc that is drawn in two and rounded counted as one arc.
 pub(crate) fn rounded_run_of(
     travel: &Travel,
     position: isize,
@@ -61,7 +61,7 @@ fn member(travel: &Travel, position: isize, limits: &Limits) -> Option<Arc> {
     }
 }
 
-/// True when the segments at `position` and behind it are of one run.
+/// True when the segments at `position` and behind it are in one run.
 fn joins(travel: &Travel, position: isize, limits: &Limits, is_rounded: bool) -> bool {
     let (Some(one), Some(other)) = (
         member(travel, position, limits),

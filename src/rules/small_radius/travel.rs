@@ -6,7 +6,7 @@ use crate::geometry::{Bounds, Point};
 
 /// A contour seen in the direction that has the wire on its left: arcs concave to the wire turn left.
 ///
-/// Positions count segments in that direction. On a closed contour they go round and round, below zero too.
+/// Positions count segments in that direction. On a closed contour they wrap round, below zero too.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Travel<'a> {
     pub(crate) drawing: &'a Drawing,
@@ -58,8 +58,8 @@ impl Travel<'_> {
         })
     }
 
-    /// True when every segment keeps a distance of at least `radius` less a slack from `center`. Segments at the positions
-    /// for which `is_replaced` holds have `loose` as their slack, the others `strict`.
+    /// True when every segment keeps a distance of at least `radius` less a slack from `center`. The slack is `loose`
+    /// for segments at positions where `is_replaced` holds, else `strict`.
     pub(crate) fn keeps_clear(
         &self,
         center: Point,
