@@ -1,34 +1,34 @@
-//! Binary DXF to the text that says the same: the one reader reads both.
+//! Translates binary DXF to the equivalent text, so that one reader reads both.
 //!
 //! Source: DXF reference, "Binary DXF files" and "Group code value types".
 
-/// What a binary file begins with.
+/// The first bytes of a binary file.
 const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 
-/// The same behind a program that has made LF of each CR LF, as for a text. Where a number had these two bytes, one is gone, and the
-/// tags behind it are out of step.
+/// The same after a program has turned each CR LF into LF, as in a text file. A number that held these two bytes lost
+/// one, and the tags behind it are out of step.
 const AS_TEXT: &[u8] = b"AutoCAD Binary DXF\n\x1a\0";
 
-/// What the file begins with, where it is binary DXF.
+/// The first bytes of the file, where it is binary DXF.
 pub(super) fn sentinel(bytes: &[u8]) -> Option<&'static [u8]> {
     [SENTINEL, AS_TEXT]
         .into_iter()
         .find(|sentinel| bytes.starts_with(sentinel))
 }
 
-/// True where the file has been handled as a text on its way.
+/// True where the file has been treated as text on its way.
 pub(super) fn is_mangled(bytes: &[u8]) -> bool {
     bytes.starts_with(AS_TEXT)
 }
 
-/// The file as text, one tag on two lines; and what is wrong with it, where the tags break off.
+/// The file as text, one tag on two lines; and the fault, where the tags break off.
 pub(super) fn to_text(bytes: &[u8]) -> (Vec<u8>, Option<String>) {
     let mut tags = Tags {
         bytes,
         at: sentinel(bytes).map_or(0, <[u8]>::len),
         wide: false,
     };
-    // Since release 13 a code has two bytes. The first one is 0 (a record) or 999 (a comment).
+    // Since release 13 a code has two bytes. The first code is 0 (a record) or 999 (a comment).
     tags.wide = matches!(bytes.get(tags.at..tags.at + 2), Some([0, 0] | [0xe7, 0x03]));
     let mut text = Vec::with_capacity(bytes.len() * 2);
     loop {
@@ -73,7 +73,7 @@ impl<'a> Tags<'a> {
             return self.take().map(i16::from_le_bytes);
         }
         match self.take::<1>()? {
-            // A code of two bytes follows.
+            // A two-byte code follows.
             [255] => self.take().map(i16::from_le_bytes),
             [code] => Some(i16::from(code)),
         }

@@ -37,17 +37,17 @@ enum Content {
 
 #[derive(Clone, Debug)]
 struct Block {
-    /// As the text has it.
+    /// As it stands in the text.
     name: String,
     base: Vector3,
     is_file: bool,
-    /// The block of a layout or of the modelspace, which nothing refers to, and why what it holds is not cut.
+    /// Set for the block of a layout or of the modelspace, which nothing refers to: why its content is not cut.
     layout: Option<&'static str>,
     contents: Vec<Content>,
 }
 
-/// Why nothing is cut of the block of a layout; `None` for any other. Their names begin with $ before release 2000, with * since, and
-/// those of further layouts end in a number.
+/// Why nothing of a layout's block is cut; `None` for any other block. Their names begin with $ before release 2000,
+/// with * since, and those of further layouts end in a number.
 fn layout(name: &[u8]) -> Option<&'static str> {
     let (sign, rest) = name.split_first()?;
     let begins_with = |space: &[u8]| {
@@ -63,7 +63,7 @@ fn layout(name: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// What a block comes to: copies and segments, and blocks below it.
+/// The size of a block: copies and segments, and blocks below it.
 #[derive(Clone, Copy, Debug)]
 struct Size {
     segments: u64,
@@ -73,9 +73,9 @@ struct Size {
 /// One piece of what a reference draws, in the coordinates around it.
 pub(super) struct Part {
     pub(super) layer: Arc<str>,
-    /// Whether it is seen, and the layer that decides it.
+    /// Whether it is visible, and the layer that decides it.
     pub(super) visibility: (Visibility, Arc<str>),
-    /// A colour that is not that of its layer.
+    /// A colour other than that of its layer.
     pub(super) color: Option<Color>,
     pub(super) linetype: Option<Linetype>,
     pub(super) kind: Kind,
@@ -86,7 +86,7 @@ pub(super) struct Part {
 #[derive(Default)]
 pub(super) struct Drawn {
     pub(super) parts: Vec<Part>,
-    /// What is not cut, and why: how many of which kind.
+    /// What is not cut: why, which kind and how many.
     pub(super) left_out: BTreeMap<(Kind, &'static str), usize>,
 }
 
@@ -104,7 +104,7 @@ pub(super) struct Blocks {
     blocks: Vec<Block>,
     by_name: FxHashMap<String, usize>,
     sizes: Vec<Option<Size>>,
-    /// Why a reference to a block draws nothing, for blocks that were asked for.
+    /// Why a reference draws nothing, for each block that was asked for.
     refused: FxHashMap<usize, String>,
     /// Segments drawn by the references so far.
     drawn: u64,
@@ -113,7 +113,7 @@ pub(super) struct Blocks {
 }
 
 impl Blocks {
-    /// The same blocks, nothing drawn and nothing known of them: what was found out before they were whole may not hold.
+    /// The same blocks, but undrawn: results from before the blocks were complete may not hold.
     pub(super) fn unasked(self) -> Blocks {
         let sizes = vec![None; self.blocks.len()];
         let used = self
@@ -130,8 +130,8 @@ impl Blocks {
         }
     }
 
-    /// Begins the block whose record starts at `line` and ends before the lexer's place. A name that is taken stays with
-    /// the block that had it first: then the line of the name is given back.
+    /// Begins the block whose record starts at `line` and ends before the lexer's place. A taken name stays with the
+    /// block that had it first; the line of the name is then returned.
     pub(super) fn begin(&mut self, lexer: &Lexer, line: usize) -> Option<usize> {
         let mut block = Block {
             name: String::new(),
@@ -169,12 +169,12 @@ impl Blocks {
         is_doubled.then_some(name_line)
     }
 
-    /// While the block of a layout or of the modelspace is read, why what it holds is not cut.
+    /// Why the content is not cut, while the block of a layout or of the modelspace is read.
     pub(super) fn in_layout(&self) -> Option<&'static str> {
         self.blocks.last()?.layout
     }
 
-    /// Adds what was read to the block that was begun last.
+    /// Adds what was read to the last block begun.
     pub(super) fn add(&mut self, outcome: Outcome) {
         let Some(block) = self.blocks.last_mut() else {
             return;
@@ -281,7 +281,7 @@ impl Blocks {
             segments: 0,
             depth: 1,
         };
-        // The same block is asked for once, however often it is referred to.
+        // Each block is counted once, however often it is referred to.
         let mut below: FxHashMap<usize, u64> = FxHashMap::default();
         for content in &block.contents {
             match content {
@@ -417,7 +417,7 @@ impl Blocks {
     }
 }
 
-/// What draws the parts of a block.
+/// Draws the parts of a block.
 struct Pen<'a> {
     tolerance: f64,
     states: &'a mut LayerStates,

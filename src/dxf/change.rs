@@ -1,4 +1,4 @@
-//! A drawing's edit as replacements of numbers in the text; nothing else of the text moves.
+//! A drawing's edit as replacements of numbers in the text; the rest of the text stays.
 
 mod pen;
 mod vertices;
@@ -21,12 +21,12 @@ use std::ops::Range;
 /// What an edit asks of one entity.
 #[derive(Default)]
 struct Wanted<'a> {
-    /// The vertices to be set, and to be removed where there is none.
+    /// The vertices to set, and with `None` to remove.
     vertices: BTreeMap<usize, Option<Vertex>>,
     shape: Option<&'a Geometry>,
     removed: bool,
-    /// Index before the edit and the vertex that comes in there. Of several in one place, the last comes first: each goes in before
-    /// what stands there.
+    /// The index before the edit and the new vertex. Of several at one index the last comes first: each goes in before
+    /// the vertex at that index.
     inserted: Vec<(usize, Vertex)>,
     closed: Option<bool>,
     /// New entities behind it, the last first.
@@ -53,9 +53,9 @@ impl<'a> Wanted<'a> {
 }
 
 impl Document {
-    /// The edit as replacements of numbers in the text, sorted and disjoint. An error says why it cannot be made.
+    /// The edit as replacements of numbers in the text, sorted and disjoint. The error says why it cannot be made.
     ///
-    /// Lengths and degrees are written with up to 12 decimals, bulges with 15, a number that stays is not touched. An
+    /// Lengths and degrees are written with up to 12 decimals, bulges with 15; an unchanged number is not touched. An
     /// angle is written in [0°, 360°).
     pub fn text_edits(&self, edit: &DrawingEdit) -> Result<Vec<TextEdit>, String> {
         if self.is_binary {
@@ -82,8 +82,8 @@ impl Document {
         Ok(edits)
     }
 
-    /// The line of a fault of the text before an edit that adds or removes lines: how the text goes on there was told from the
-    /// lines behind it, and would perhaps be told otherwise.
+    /// The line of a text fault before an edit that adds or removes lines. The reader resumed there by looking at the
+    /// lines behind, and might decide differently after the edit.
     fn fault_decided_by(&self, edit: &TextEdit) -> Option<usize> {
         let ends = |bytes: &[u8]| SourceText::new(bytes.to_vec()).line_count();
         if ends(self.text.slice(edit.range.clone())?) == ends(edit.text.as_bytes()) {
@@ -151,7 +151,7 @@ impl Document {
         Ok(())
     }
 
-    /// New records behind an entity. A handle is given where that entity has one.
+    /// New records behind an entity. They get handles where that entity has one.
     fn add_entities(
         &self,
         after: EntityId,
@@ -197,7 +197,7 @@ impl Document {
     }
 }
 
-/// Writes the numbers of a line or an arc that becomes another one.
+/// Writes the numbers of a line or an arc that replaces another one.
 fn reshape(
     pen: &mut Pen,
     of_entity: Range<usize>,
@@ -239,13 +239,14 @@ fn reshape(
     Ok(())
 }
 
-/// True where the extrusion is (0, 0, -1): the only one but (0, 0, 1) that an entity with geometry can have.
+/// True where the extrusion is (0, 0, -1): an entity with geometry has this one or (0, 0, 1).
 fn is_mirrored(lines: Lines, tags: &[Tag]) -> bool {
     let z = last(tags, 230).map(|tag| number::number(lines.content(tag.value_line())));
     matches!(z, Some(Number::Exact(z) | Number::Blemished(z, _)) if z < 0.0)
 }
 
-/// The line behind the last tag of a record: empty lines at the end of the text are none of its tags, but one may be a value.
+/// The line behind the last tag of a record. Empty lines at the end of the text belong to no tag, but one may be a
+/// value.
 fn end_of_tags(lines: Lines, record: &Range<usize>) -> usize {
     if record.end < lines.count() {
         return record.end;

@@ -1,28 +1,28 @@
-//! The code page of a file on disk, which its header names (`$DWGCODEPAGE`), to Unicode.
+//! Decodes a file on disk by the code page that its header names (`$DWGCODEPAGE`).
 //!
-//! Text from an editor is Unicode already: there no code page holds.
+//! Text from an editor is Unicode already; no code page applies.
 
 use super::johab;
 use crate::text::head;
 use encoding_rs::Encoding;
 use memchr::memmem;
 
-/// The header stands at the beginning; its variables are looked for in this many bytes.
+/// The header is at the beginning: this many bytes are searched for its variables.
 const HEADER: usize = 1 << 16;
 
-/// Pages of DOS that the library of the web's encodings has not: the characters from 128 on.
-/// Source: Unicode, Mappings/VENDORS/MICSFT/PC.
+/// DOS pages that the `encoding_rs` library lacks: the characters from 128 on. Source: Unicode,
+/// Mappings/VENDORS/MICSFT/PC.
 const DOS_437: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜ¢£¥₧ƒáíóúñÑªº¿⌐¬½¼¡«»░▒▓│┤╡╢╖╕╣║╗╝╜╛┐└┴┬├─┼╞╟╚╔╩╦╠═╬╧╨╤╥╙╘╒╓╫╪┘┌█▄▌▐▀αßΓπΣσµτΦΘΩδ∞φε∩≡±≥≤⌠⌡÷≈°∙·√ⁿ²■\u{a0}";
 const DOS_850: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜø£Ø×ƒáíóúñÑªº¿®¬½¼¡«»░▒▓│┤ÁÂÀ©╣║╗╝¢¥┐└┴┬├─┼ãÃ╚╔╩╦╠═╬¤ðÐÊËÈıÍÎÏ┘┌█▄¦Ì▀ÓßÔÒõÕµþÞÚÛÙýÝ¯´\u{ad}±‗¾¶§÷¸°¨·¹³²■\u{a0}";
 const DOS_852: &str = "ÇüéâäůćçłëŐőîŹÄĆÉĹĺôöĽľŚśÖÜŤťŁ×čáíóúĄąŽžĘę¬źČş«»░▒▓│┤ÁÂĚŞ╣║╗╝Żż┐└┴┬├─┼Ăă╚╔╩╦╠═╬¤đĐĎËďŇÍÎě┘┌█▄ŢŮ▀ÓßÔŃńňŠšŔÚŕŰýÝţ´\u{ad}˝˛ˇ˘§÷¸°¨˙űŘř■\u{a0}";
 
-/// How texts of a file are to be read where they are no UTF-8, or, where `first` is set, before it is asked whether they are.
+/// How to decode a file that is not UTF-8, or, with `first`, before UTF-8 is tried.
 ///
-/// A file that names no page that is known is read as one of Western Europe, as other programs read it.
+/// A file that names no known page is read as Western European, as other programs do.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CodePage {
     encoding: Page,
-    /// Codes of several bytes may look like UTF-8 by chance.
+    /// Multi-byte codes may look like UTF-8 by chance.
     first: bool,
 }
 
@@ -34,8 +34,8 @@ enum Page {
 }
 
 impl CodePage {
-    /// The code page that the header names. Since release 2007 files are UTF-8; what is none there, some program has written in
-    /// the page that it names all the same.
+    /// The code page that the header names. Since release 2007 files are UTF-8; a file that is not was written in its
+    /// named page all the same.
     pub(super) fn of_file(bytes: &[u8]) -> CodePage {
         let head = head(bytes, HEADER);
         let version = variable(head, b"$ACADVER").unwrap_or_default();
@@ -117,7 +117,7 @@ fn of_the_web(number: &str) -> Option<&'static Encoding> {
     })
 }
 
-/// The value of a header variable: what stands two lines below its name, comments left out.
+/// The value of a header variable: two lines below its name, comments left out.
 fn variable<'a>(head: &'a [u8], name: &[u8]) -> Option<&'a [u8]> {
     let at = memmem::find(head, name)?;
     let mut lines = head
@@ -158,7 +158,7 @@ mod tests {
             ("AC1012", "ISO8859-2", b"\xf8", "ř"),
             ("AC1012", "macintosh", b"\x8a", "ä"),
             ("AC1012", "KOI8-R", b"\xed", "М"),
-            // UTF-8, whatever stands in the header; what is none is in the page of the header.
+            // UTF-8, whatever the header says; anything else is in the page of the header.
             ("AC1021", "ANSI_936", "模".as_bytes(), "模"),
             ("AC1021", "ANSI_1252", b"m\xe4rks", "märks"),
             ("AC1015", "ANSI_9999", b"m\xe4rks", "märks"),

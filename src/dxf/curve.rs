@@ -1,4 +1,4 @@
-//! ELLIPSE and SPLINE: their records to curves. Their points are world coordinates.
+//! Turns ELLIPSE and SPLINE records into curves. Their points are world coordinates.
 
 use super::entity::{Common, Outcome, Plane, tag_of_record};
 use super::fault;
@@ -39,7 +39,7 @@ pub(super) fn read_ellipse(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -
             Lies::Level(height),
         ),
         false => {
-            // Its own plane: the half axes are its coordinates.
+            // In its own plane: the half axes are its coordinates.
             let along = in_space(major, rise);
             let Some(normal) = common.normal().try_normalize(0.0) else {
                 return Outcome::Unsupported("ELLIPSE".into(), say!(its_plane_is_tilted));
@@ -71,7 +71,7 @@ pub(super) fn read_ellipse(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -
     )
 }
 
-/// Points in space as they come: x opens one.
+/// Points in space in the order of the text: x opens one.
 #[derive(Default)]
 struct Points {
     points: Vec<Point>,
@@ -135,7 +135,7 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) ->
         }
         match tag.code {
             10..=13 | 20..=23 | 30..=33 | 40 | 41 => {
-                // A number that is none has its finding.
+                // A value that is not a number has its finding.
                 let Some(value) = common.coordinate(lexer, tag) else {
                     continue;
                 };
@@ -224,7 +224,7 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) ->
     if lacks_knots && spline.is_ok() {
         lexer.oddity(start.value_line(), say!(spline_has_no_knots).to_owned());
     }
-    // Every release that knows splines writes the marks, and most programs ask for them.
+    // Every release with splines writes the marks, and most programs require them.
     if !common.is_marked && spline.is_ok() {
         let name = lexer.lines.trimmed_range(start.value_line());
         let sentence = say!(spline_has_no_subclass_mark).to_owned();
@@ -238,12 +238,12 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) ->
             (Shape::Spline(Box::new(spline)), lies),
             None,
         ),
-        // What is not cut anyway is told once.
+        // An entity that is not cut anyway is reported once.
         Err(_) if matches!(lies, Lies::Aslant(..)) => {
             Outcome::Unsupported("SPLINE".into(), say!(its_points_differ_in_z))
         }
         Err(why) => {
-            // One through less than two points has no length; of any other a part of the outline is missing.
+            // A curve through less than two points has no length; otherwise a part of the outline is missing.
             let say = if is_through {
                 Lexer::oddity
             } else {

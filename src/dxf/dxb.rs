@@ -1,21 +1,21 @@
-//! AutoCAD DXB, the small binary drawing format that plotters and digitisers write, to the DXF text that says the same.
+//! Translates AutoCAD DXB, the small binary drawing format of plotters and digitisers, to the equivalent DXF text.
 //!
-//! Source: DXF reference, release 12, "Binary Drawing Interchange (DXB) Files". It holds lines, arcs, circles, points, polylines and
-//! filled areas, layers and colours, no unit, no handles.
+//! Source: DXF reference, release 12, "Binary Drawing Interchange (DXB) Files". It holds lines, arcs, circles, points,
+//! polylines and filled areas, layers and colours, but no unit and no handles.
 
 use super::number::written;
 use std::io::Write as _;
 
-/// What a DXB file begins with.
+/// The first bytes of a DXB file.
 pub(super) const SENTINEL: &[u8] = b"AutoCAD DXB 1.0\r\n\x1a\0";
 
-/// Decimals of coordinates; those of the file are whole numbers times a scale, or of double precision.
+/// Decimals of coordinates; those of the file are integers times a scale, or double precision.
 const DECIMALS: usize = 12;
 /// Integer angles are millionths of a degree, integer bulges have 16 binary places.
 const ANGLE_STEPS: f64 = 1e6;
 const BULGE_STEPS: f64 = 65536.0;
 
-/// The file as text; and what is wrong with it, where it breaks off. What comes before that is kept.
+/// The file as text; and the fault, where it breaks off. The part before that is kept.
 pub(super) fn to_text(bytes: &[u8]) -> (Vec<u8>, Option<String>) {
     let at = SENTINEL.len().min(bytes.len());
     let mut reader = Reader {
@@ -53,11 +53,11 @@ struct Reader<'a> {
     at: usize,
     /// Numbers are of double precision, not integers.
     floats: bool,
-    /// What integer coordinates are multiplied by.
+    /// The scale of integer coordinates.
     scale: f64,
     layer: Vec<u8>,
     color: i16,
-    /// Where the last line ended, which an extension goes on from.
+    /// The end of the last line, where an extension goes on.
     last: [f64; 3],
     /// Within a polyline.
     open: bool,
@@ -96,7 +96,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A number that has `steps` to one where it is an integer, which is not scaled.
+    /// A number; an integer counts `steps` to one and is not scaled.
     fn fraction(&mut self, steps: f64) -> Result<f64, String> {
         if self.floats {
             self.float()
@@ -113,7 +113,7 @@ impl Reader<'_> {
         Ok(lengths)
     }
 
-    /// Writes the record of one item; false at the end of the file. An error says why the file cannot be read on.
+    /// Writes the record of one item; false at the end of the file. An error says why reading cannot go on.
     fn item(&mut self, text: &mut Vec<u8>) -> Result<bool, String> {
         let Ok([kind]) = self.take::<1>() else {
             return Err(say!(the_file_ends_without_its_end_mark).into());
@@ -193,7 +193,7 @@ impl Reader<'_> {
                 let [x, y, ..] = self.lengths::<4>()?;
                 self.record("TRACE", &[(10, x), (20, y)], text);
             }
-            // The base of the block that DXBIN would make: the drawing is read where it stands.
+            // The base of the block that DXBIN would make: the drawing is read in place.
             132 => drop(self.lengths::<2>()?),
             133 => {
                 let bulge = self.fraction(BULGE_STEPS)?;

@@ -1,7 +1,7 @@
-//! An edit of the text: what it touched is read again, and nothing else.
+//! An edit of the text: only what it touched is read again.
 //!
-//! A number within a vertex of a polyline costs that vertex; other edits cost the items around them. Where an edit
-//! reaches further (sections, doubled handles, ordinals as names), everything is read.
+//! An edit within a number of a polyline's vertex rereads that vertex; other edits reread the items around them. An
+//! edit that reaches further (sections, doubled handles, ordinals as names) rereads everything.
 
 use super::Document;
 use super::entities::mirror;
@@ -17,17 +17,17 @@ use crate::finding::{Finding, Place, Rule};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Reading begins at least this many lines before an edit: what was decided there may have looked at it.
+/// Reading begins at least this many lines before an edit: decisions there may have looked at the edited lines.
 const LOOKBACK: usize = LOOKAHEAD + 4;
 /// An edit in the first bytes may change what the text is taken for.
 const HEAD: usize = 1024;
-/// Each entity that comes or goes costs the length of the drawing; of more than these, all are read again.
+/// Each added or removed entity costs the length of the drawing; beyond this many, everything is read again.
 pub(super) const FEW: usize = 64;
 
-/// From so many bytes on an edit leaves the text in two pieces. Tests know no small text.
+/// From this many bytes on an edit leaves the text in two pieces. In tests every text is large.
 const LARGE: usize = if cfg!(test) { 1 } else { 64 * 1024 };
 
-/// A vertex that an edit lies in: its lines before the edit, and what must stay as it is.
+/// The vertex that holds an edit: its lines before the edit, and what must stay as it is.
 pub(super) struct VertexZone {
     pub(super) entity: EntityId,
     pub(super) item: usize,
@@ -36,10 +36,11 @@ pub(super) struct VertexZone {
     pub(super) others: Others,
 }
 
-/// What of a vertex's lines is no part of its vertex, but decides what it is: whether it is a record of its own, z, flags.
+/// The tags in a vertex's lines that are not its geometry but decide what it is: whether it is a record of its own, z,
+/// flags.
 pub(super) type Others = (bool, [Option<f64>; 2]);
 
-/// What was known before the edit, of all that it can have touched.
+/// What was known before the edit of everything that it can have touched.
 pub(super) struct ItemZone {
     pub(super) first: usize,
     /// The last line, before the edit, that the edit touches.
@@ -47,7 +48,7 @@ pub(super) struct ItemZone {
 }
 
 impl Document {
-    /// Replaces a range of bytes (clamped to the text) and reads again what it touched.
+    /// Replaces a range of bytes (clamped to the text) and rereads what it touched.
     ///
     /// Ids of entities that the edit did not touch stay, unless the delta says that everything may have changed.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> Delta {
@@ -87,15 +88,15 @@ impl Document {
         Delta::all()
     }
 
-    /// The beginning of the text, by which other kinds of file are known.
+    /// The beginning of the text, which tells other kinds of file.
     fn head(&self) -> &[u8] {
         self.text
             .slice(0..HEAD.min(self.text.len()))
             .unwrap_or_default()
     }
 
-    /// The vertex that the edit lies in, when it leaves the first and the last byte of the vertex alone.
-    /// The last vertex of a POLYLINE is none: SEQEND follows in the same lines.
+    /// The vertex that holds the edit, if its first and last byte stay. The last vertex of a POLYLINE does not count:
+    /// SEQEND follows in the same lines.
     fn vertex_zone(&self, range: &Range<usize>) -> Option<VertexZone> {
         let line = self.text.line_of(range.start);
         let item = self.table.item_at(line)?;
@@ -114,7 +115,7 @@ impl Document {
         let inside = range.start > self.text.line_start(zone.start)
             && range.end < self.text.line_start(zone.end)
             && zone.end < lines.count();
-        // A fault near by was judged by what follows it.
+        // A fault near by was judged by the lines behind it.
         let near = self.text.line_start(zone.start.saturating_sub(LOOKBACK));
         let behind = self
             .findings
@@ -188,7 +189,7 @@ impl Document {
     }
 
     fn item_zone(&self, range: &Range<usize>) -> Option<ItemZone> {
-        // The byte-order mark, and a text that was none.
+        // The byte-order mark, and a text that had none.
         if range.start < 4 || self.table.items.len() < 3 {
             return None;
         }
@@ -199,7 +200,7 @@ impl Document {
         })
     }
 
-    /// True where a text with a frame stands in a zone, or at its end: what it says holds for another entity.
+    /// True where a zone, or its end, holds a text with a frame: it decides about another entity.
     fn holds_frame(&self, zone: &ItemZone) -> bool {
         let lines = Lines::new(&self.text);
         let last = || self.table.item_at(zone.end_line).map_or(0, |item| item + 1);
@@ -211,7 +212,7 @@ impl Document {
     }
 }
 
-/// A vertex whose lines hold nothing but its own, sound tags: as it stands in the text, and what else is there.
+/// A vertex whose lines hold only its own, sound tags: as it stands in the text, and what else is there.
 ///
 /// It is a VERTEX record or a part of a LWPOLYLINE that begins with its x.
 pub(super) fn plain_vertex(lines: Lines, range: Range<usize>) -> Option<(Vertex, Others)> {

@@ -1,7 +1,7 @@
-//! What the records of all kinds of entities have in common: what is drawn, on which layer, under which handle.
+//! The common part of all kinds of records: what is drawn, on which layer, under which handle.
 //!
-//! Knows nothing of the records around it. A coordinate that is missing or is no number is never replaced:
-//! the entity has no geometry then.
+//! Knows nothing of the records around it. A coordinate that is missing or not a number is never replaced: the entity
+//! then has no geometry.
 
 use super::fault::{meaning, quoted};
 use super::layers::Layers;
@@ -15,7 +15,7 @@ use std::sync::Arc;
 /// What was read of one entity of the modelspace.
 #[derive(Debug)]
 pub(super) struct Read {
-    /// The handle, and the line it stands on.
+    /// The handle and its line.
     pub(super) handle: Option<(Handle, usize)>,
     pub(super) layer: Arc<str>,
     pub(super) appearance: Appearance,
@@ -23,11 +23,11 @@ pub(super) struct Read {
     pub(super) shape: Shape,
     pub(super) lies: Lies,
     pub(super) vertices: Option<VertexLines>,
-    /// Handles of the entities that are the frame of this text.
+    /// Handles of the entities that form the frame of this text.
     pub(super) frames: Vec<u64>,
 }
 
-/// What an entity says of how it looks.
+/// The appearance that the entity states.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Appearance {
     pub(super) paint: Paint,
@@ -37,7 +37,7 @@ pub(super) struct Appearance {
     pub(super) marks: Option<Marks>,
 }
 
-/// Whence an entity has its colour.
+/// The source of an entity's colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Paint {
     ByLayer,
@@ -46,7 +46,7 @@ pub(super) enum Paint {
     Own(Color),
 }
 
-/// Whence an entity has its linetype.
+/// The source of an entity's linetype.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Stroke {
     ByLayer,
@@ -85,7 +85,7 @@ pub(super) enum Outcome {
     Entity(Read),
     /// A reference to a block.
     Insert(Box<Insert>),
-    /// In the text, but not cut: what it is called, and why.
+    /// In the text, but not cut: its kind, and why.
     Unsupported(String, &'static str),
     /// A finding says what is wrong with it.
     Damaged,
@@ -94,7 +94,7 @@ pub(super) enum Outcome {
 /// A reference to a block, as it stands in the text.
 #[derive(Clone, Debug)]
 pub(super) struct Insert {
-    /// The handle, and the line it stands on.
+    /// The handle and its line.
     pub(super) handle: Option<(Handle, usize)>,
     pub(super) layer: Arc<str>,
     pub(super) appearance: Appearance,
@@ -102,7 +102,7 @@ pub(super) struct Insert {
     pub(super) block: String,
     /// The line of the block's name.
     pub(super) name_line: usize,
-    /// From the block's coordinates, its base point at the origin, to those around the reference.
+    /// From the block's coordinates, with its base point at the origin, to those around the reference.
     pub(super) map: Space,
     /// Columns and rows, at least 1, and the step from one to the next.
     pub(super) columns: (u64, Vector3),
@@ -119,12 +119,12 @@ impl Insert {
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Plane {
     Normal,
-    /// Seen from below: x runs the other way.
+    /// Seen from below: x is reversed.
     Mirrored,
     Tilted,
 }
 
-/// What all kinds of entities state alike.
+/// The fields that all kinds of entities share.
 #[derive(Default)]
 pub(super) struct Common {
     handle: Option<Tag>,
@@ -135,21 +135,21 @@ pub(super) struct Common {
     invisible: bool,
     pub(super) paper_space: bool,
     extrusion: [Option<f64>; 3],
-    /// A value was no number, a number was missing or the lines were out of step: there is a finding.
+    /// A value was not a number, a number was missing or the lines were out of step: there is a finding.
     pub(super) bad: bool,
     /// Tags of other programs follow, up to the end of the record.
     pub(super) foreign: bool,
-    /// Texts of the extended data of the application `WEDM`, and whether its data are read.
+    /// Texts of the extended data of the application `WEDM`, and whether its data are being read.
     marks: Vec<Tag>,
     is_own: bool,
     /// Within a group `{` … `}` of another program.
     pub(super) group: bool,
-    /// A mark says which part of the record is of which class.
+    /// A subclass marker names the class of the tags behind it.
     pub(super) is_marked: bool,
 }
 
 impl Common {
-    /// Takes the tags that all entities share, and those that belong to none of its fields. True when taken.
+    /// Takes the tags that all entities share, and those that belong to no field. True if taken.
     #[inline]
     pub(super) fn take(&mut self, lexer: &mut Lexer, tag: Tag) -> bool {
         if self.foreign {
@@ -198,7 +198,7 @@ impl Common {
         }
     }
 
-    /// Extended data: a name of an application, then what it keeps at the entity.
+    /// Extended data: the name of an application, then its data.
     fn take_extended(&mut self, lexer: &Lexer, tag: Tag) {
         match tag.code {
             1001 => {
@@ -210,7 +210,7 @@ impl Common {
         }
     }
 
-    /// The number behind a tag; `None` with a finding where it is none.
+    /// The number behind a tag; `None` with a finding where it is not a number.
     #[inline]
     pub(super) fn coordinate(&mut self, lexer: &mut Lexer, tag: Tag) -> Option<f64> {
         match number::number(lexer.lines.content(tag.value_line())) {
@@ -254,7 +254,7 @@ impl Common {
         None
     }
 
-    /// A whole number; `None` where it is none.
+    /// A whole number; `None` where it is not.
     pub(super) fn whole(lexer: &Lexer, tag: Tag) -> Option<i64> {
         std::str::from_utf8(lexer.lines.trimmed(tag.value_line()))
             .ok()?
@@ -262,7 +262,7 @@ impl Common {
             .ok()
     }
 
-    /// Flags; a value that is no whole number is a fault.
+    /// Flags; a value that is not a whole number is a fault.
     pub(super) fn flags(&mut self, lexer: &mut Lexer, tag: Tag) -> i64 {
         let Some(flags) = Self::whole(lexer, tag) else {
             self.bad = true;
@@ -284,8 +284,8 @@ impl Common {
         )
     }
 
-    /// Where an entity lies whose coordinates are those of its extrusion, at `height` over its plane. `None` where the extrusion is
-    /// no direction.
+    /// The plane of an entity whose coordinates are those of its extrusion, at `height` over its plane. `None` where
+    /// the extrusion has no direction.
     pub(super) fn lies(&self, height: f64) -> Option<Lies> {
         Some(match self.plane() {
             Plane::Normal => Lies::Level(height),
@@ -398,7 +398,7 @@ pub(super) fn tag_of_record(lexer: &mut Lexer) -> Option<Tag> {
     Some(tag)
 }
 
-/// Passes over the rest of the record. True when it says that it lies in paper space.
+/// Passes over the rest of the record. True when it lies in paper space.
 pub(super) fn pass_over(lexer: &mut Lexer) -> bool {
     let mut paper_space = false;
     while let Some(tag) = tag_of_record(lexer) {
@@ -407,7 +407,7 @@ pub(super) fn pass_over(lexer: &mut Lexer) -> bool {
     paper_space
 }
 
-/// Passes over the records behind a record that are a part of it, up to and with its SEQEND.
+/// Passes over the further records of a record, up to and with its SEQEND.
 pub(super) fn pass_over_followers(lexer: &mut Lexer, names: &[&[u8]]) {
     while let Some(tag) = lexer.peek_record() {
         let name = lexer.lines.trimmed(tag.value_line());

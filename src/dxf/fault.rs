@@ -1,4 +1,4 @@
-//! Findings of the reader, and how a value is quoted in their sentences.
+//! Findings of the reader, and how their sentences quote a value.
 
 use crate::finding::{Detail, Finding, NotJudged, Place, Rule, Severity};
 use crate::text::head;
@@ -14,12 +14,12 @@ pub(super) fn oddity(findings: &mut Vec<Finding>, range: Range<usize>, sentence:
     push(findings, range, Severity::Warning, sentence);
 }
 
-/// How something was read that may be read so.
+/// How something ambiguous was read.
 pub(super) fn remark(findings: &mut Vec<Finding>, range: Range<usize>, sentence: String) {
     push(findings, range, Severity::Information, sentence);
 }
 
-/// A part of the drawing that would take too much: a program of what is left would lack it.
+/// A part of the drawing that would take too much: a program would lack it.
 pub(super) fn left_out(findings: &mut Vec<Finding>, range: Range<usize>, what: NotJudged) {
     findings.push(Finding {
         rule: Rule::NotJudged,
@@ -45,7 +45,7 @@ pub(super) fn push(
     });
 }
 
-/// A value as it is quoted: at most 32 characters, nothing that a terminal would obey.
+/// A value as it is quoted: at most 32 characters, without control characters.
 pub(super) fn quoted(value: &[u8]) -> String {
     let text = String::from_utf8_lossy(head(value, 128));
     let mut quoted: String = text.chars().take(32).flat_map(char::escape_debug).collect();
@@ -55,7 +55,7 @@ pub(super) fn quoted(value: &[u8]) -> String {
     format!("\"{quoted}\"")
 }
 
-/// What a group code holds, for sentences: ` (bulge)`; empty where the number says enough.
+/// The meaning of a group code, for sentences: ` (bulge)`; empty where the number says enough.
 pub(super) fn meaning(code: i16) -> &'static str {
     match code {
         10 => " (x)",

@@ -1,8 +1,8 @@
-//! What is no DXF text although it is called so.
+//! Files that are called DXF but are not.
 
 use crate::text::head;
 
-/// Says what the bytes are, when they are not DXF text; looks at their first kilobyte.
+/// Names what the bytes are when they are not DXF text, from their first kilobyte.
 pub(super) fn recognise(bytes: &[u8]) -> Option<&'static str> {
     let head = head(bytes, 1024);
     let zeros = head.iter().filter(|&&byte| byte == 0).count();

@@ -6,11 +6,12 @@ use super::number::{self, Code};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
-/// What the extended data (group code 1000) begin and end the handles of the frame with, as AutoCAD and BricsCAD write them.
+/// The strings (group code 1000) that enclose the handles of the frame in extended data, as AutoCAD and BricsCAD write
+/// them.
 const BEGIN: &[u8] = b"ACAD_MTEXT_TEXT_BORDERS_BEGIN";
 const END: &[u8] = b"ACAD_MTEXT_TEXT_BORDERS_END";
 
-/// The handles of the entities that are the frame of the text whose record stands in `lines_of`.
+/// The handles of the entities that form the frame of the text whose record is `lines_of`.
 pub(super) fn handles(lines: Lines, lines_of: Range<usize>) -> Vec<u64> {
     let (mut handles, mut is_frame) = (Vec::new(), false);
     for line in lines_of.step_by(2).filter(|line| line + 1 < lines.count()) {
@@ -34,7 +35,7 @@ fn number_of(handle: &[u8]) -> Option<u64> {
     u64::from_str_radix(std::str::from_utf8(handle).ok()?, 16).ok()
 }
 
-/// What was read, but nothing to cut where it is the frame of a text.
+/// The entity, without geometry to cut where it is the frame of a text.
 pub(super) fn without_frames(outcome: Outcome, frames: &FxHashSet<u64>) -> Outcome {
     match outcome {
         Outcome::Entity(read)

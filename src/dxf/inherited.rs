@@ -1,4 +1,5 @@
-//! What a reference to a block hands on to what it draws: layer, colour, whether it is seen; and how a shape in it comes to lie.
+//! What a reference to a block passes on to its parts: layer, colour, linetype, visibility; and where a shape in it
+//! ends up.
 
 use super::entity::{Appearance, Insert, Paint, Stroke};
 use super::layer_table::LayerStates;
@@ -9,16 +10,16 @@ use crate::geometry::Point;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// What a reference hands on to what it draws.
+/// What a reference passes on to its parts.
 pub(super) struct Inherited {
-    /// The layer of what lies on layer 0.
+    /// The layer of parts on layer 0.
     pub(super) layer: Arc<str>,
-    /// The colour of what has that of its block.
+    /// The colour of parts that take their block's.
     color: Option<Color>,
-    /// The linetype of what has that of its block.
+    /// The linetype of parts that take their block's.
     linetype: Option<Linetype>,
-    /// Where nothing of it is seen: a frozen layer, or a reference that is invisible. One that is switched off hides only what lies on
-    /// it.
+    /// Set where none of it is visible: on a frozen layer, or for an invisible reference. A layer that is off hides
+    /// only what lies on it.
     hidden: Option<(Visibility, Arc<str>)>,
 }
 
@@ -49,7 +50,7 @@ impl Inherited {
         }
     }
 
-    /// Whether a part with its own appearance is seen, with the layer that decides it; its colour; its linetype.
+    /// Whether a part with its own appearance is visible, with the layer that decides it; its colour; its linetype.
     pub(super) fn hand_on(
         &self,
         appearance: &Appearance,
@@ -71,7 +72,7 @@ impl Inherited {
     }
 }
 
-/// The linetype in which something on a layer is drawn, within what hands on the one `around`; `None` is a continuous one.
+/// The linetype of something on a layer, inside what `around` passes on; `None` is a continuous one.
 pub(super) fn stroke(
     own: &Stroke,
     around: Option<&Linetype>,
@@ -89,7 +90,7 @@ pub(super) fn stroke(
     }
 }
 
-/// A shape in its plane, and the way from there to the drawing; `None` where it does not end level with it.
+/// A shape in its plane, and the way from there to the drawing; `None` where it does not end level with the drawing.
 pub(super) fn level<'a>(
     map: &Space,
     shape: &'a Shape,
@@ -108,7 +109,7 @@ pub(super) fn level<'a>(
                 start: ends[0].xy().into(),
                 end: ends[1].xy().into(),
             };
-            // As in the modelspace, a line is cut as it looks from above where the block itself is not tilted.
+            // As in the modelspace, a line is cut as seen from above where the block itself is not tilted.
             return (map.is_flat() || are_level(&ends))
                 .then_some((Cow::Owned(Shape::Plain(line)), Affine::IDENTITY));
         }

@@ -1,4 +1,4 @@
-//! INSERT: which block it draws, where, how often and how it is stretched.
+//! INSERT: which block it draws, where, how often, and how it is stretched.
 
 use super::entity::{Common, Insert, Outcome, Plane, pass_over_followers, value_line_of};
 use super::fault::quoted;
@@ -8,7 +8,7 @@ use super::numbers::{Numbers, missing};
 use super::space::{Space, Vector3, in_space};
 use crate::geometry::{Vector, direction, left_normal};
 
-/// Block names are the same in upper and in lower case.
+/// Block names ignore case.
 pub(super) fn block_key(name: &[u8]) -> String {
     match std::str::from_utf8(name) {
         Ok(name) => name.to_lowercase(),
@@ -90,7 +90,7 @@ pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcom
         height,
         z_scale,
     ] = numbers.values;
-    // A scale of 0 would flatten the block; programs write it where they mean that none is set.
+    // A scale of 0 would flatten the block; programs write it for an unset scale.
     for (code, axis, value) in [(41, 'x', x_scale), (42, 'y', y_scale), (43, 'z', z_scale)] {
         if value == Some(0.0) {
             let place = lexer.lines.trimmed_range(value_line_of(start, lexer, code));

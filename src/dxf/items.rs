@@ -1,4 +1,4 @@
-//! The items about an edit, read again up to the first that begins where an old one began, and put in the place of the old ones.
+//! Rereads the items around an edit, up to the first that begins where an old one began, and replaces the old ones.
 
 use super::Document;
 use super::edit::{FEW, ItemZone, shift, shift_place};
@@ -17,7 +17,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 impl Document {
-    /// Reads the items from the zone's first on until one begins where one began before.
+    /// Reads items from the start of the zone until one begins where one began before.
     pub(super) fn reread_items(
         &mut self,
         zone: &ItemZone,
@@ -88,7 +88,7 @@ impl Document {
         }
     }
 
-    /// Which entity of before each entity read is. `None` where the edit reaches beyond the zone.
+    /// The earlier entity of each entity read. `None` where the edit reaches beyond the zone.
     fn plan(&self, first: usize, next: usize, read: &[ReadItem]) -> Option<Plan> {
         let old = self.table.items.get(first..next)?;
         let structure =
@@ -105,7 +105,7 @@ impl Document {
             entities: true,
             unit: None,
         }) && self.table.sections > 1;
-        // What a layer says holds for all that lies on it.
+        // A layer entry affects everything on the layer.
         let layers_before = old.iter().filter_map(|item| match item.became {
             Became::Layer(index) => self.table.layers.get(index as usize),
             _ => None,
@@ -139,7 +139,7 @@ impl Document {
         if old.iter().any(|item| item.named == Named::Anew) {
             return None;
         }
-        // What a block holds, and what a reference draws, reaches beyond the zone.
+        // The content of a block, and what a reference draws, reach beyond the zone.
         let of_block = |item: &ReadItem| {
             item.context == Context::Blocks || matches!(item.said, Said::Entity(Outcome::Insert(_)))
         };
@@ -155,7 +155,7 @@ impl Document {
         {
             return None;
         }
-        // Which curves are drawn where all are too many hangs on all of them.
+        // Where all curves are too many, all together decide which are drawn.
         let arcs_before: u64 = old
             .iter()
             .filter_map(|item| self.drawing.get(item.entity()?))
@@ -204,7 +204,7 @@ impl Document {
                 |(handle, _)| handle.clone(),
             );
             let at = position.get(&*handle).copied();
-            // Taken by an entity elsewhere, doubled here, or moved past another one.
+            // The handle is taken by an entity elsewhere, doubled here, or moved past another one.
             let taken = at.is_none() && self.drawing.find(&handle).is_some();
             if taken || !handles.insert(handle.clone()) || (at.is_some() && at < last) {
                 return None;
@@ -214,7 +214,7 @@ impl Document {
             entities.push((handle, at.and_then(|at| ids.get(at).copied())));
         }
         let (gone, come) = (ids.len() - matched, entities.len() - matched);
-        // An entity that was named anew may get its own handle back, or another one lose it.
+        // An entity that was renamed may get its own handle back, or another one may lose it.
         if gone + come > FEW || (self.table.named_anew > 0 && gone + come > 0) {
             return None;
         }
@@ -226,7 +226,7 @@ impl Document {
         })
     }
 
-    /// Puts the findings of the items read in the place of those of the items before.
+    /// Replaces the findings of the old items by those of the new ones.
     fn replace_findings(
         &mut self,
         first: usize,
@@ -399,7 +399,7 @@ struct Plan {
     curve_arcs: u64,
 }
 
-/// Puts an entity into the drawing: in the place of what it was before, or at `position` of the machining order.
+/// Puts an entity into the drawing: in place of the old one, or at `position` of the machining order.
 fn put(
     drawing: &mut Drawing,
     id: Option<EntityId>,

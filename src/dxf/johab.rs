@@ -1,7 +1,7 @@
-//! Johab, the Korean code page 1361, to Unicode: the library of the web's encodings has not got it.
+//! Decodes Johab, the Korean code page 1361, which `encoding_rs` lacks.
 //!
-//! Source: KS X 1001, annex 3. A syllable is five bits each for its first consonant, its vowel and its last consonant; symbols and
-//! Chinese characters are those of Wansung (EUC-KR), two of its rows to a first byte.
+//! Source: KS X 1001, annex 3. A syllable is five bits each for its first consonant, its vowel and its last consonant;
+//! symbols and Chinese characters are those of Wansung (EUC-KR), two of its rows to a first byte.
 
 /// First consonants that stand alone, by their place in a syllable.
 const INITIALS: &str = "ㄱㄲㄴㄷㄸㄹㅁㅂㅃㅅㅆㅇㅈㅉㅊㅋㅌㅍㅎ";
@@ -11,10 +11,10 @@ const FINALS: &str = "ㄱㄲㄳㄴㄵㄶㄷㄹㄺㄻㄼㄽㄾㄿㅀㅁㅂㅄㅅ�
 const FIRST_VOWEL: u32 = 0x314f;
 const FIRST_SYLLABLE: u32 = 0xac00;
 const VOWELS: u32 = 21;
-/// Last consonants of a syllable, none of them counted too.
+/// The number of last consonants, none included.
 const ENDS: u32 = 28;
 
-/// The bytes as text; what is none becomes U+FFFD.
+/// The bytes as text; invalid codes become U+FFFD.
 pub(super) fn decoded(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len());
     let mut rest = bytes;
@@ -46,7 +46,7 @@ pub(super) fn character(first: u8, second: u8) -> Option<char> {
 
 fn syllable(code: u32) -> Option<char> {
     let (initial, vowel, end) = ((code >> 10) & 31, (code >> 5) & 31, code & 31);
-    // 1 and 2 stand for a part that is not there; of eight vowels two are left out, and of the ends the eighteenth.
+    // 1 and 2 mean a missing part; two of each eight vowel codes are unused, and so is the eighteenth last consonant.
     let initial = match initial {
         1 => None,
         2..=20 => Some(initial - 2),

@@ -1,4 +1,4 @@
-//! The table LAYER: which layers are seen, and in which colour they are drawn.
+//! The table LAYER: which layers are visible, and in which colour they are drawn.
 
 use super::lines::Lines;
 use super::number::{self, Number};
@@ -14,14 +14,14 @@ pub(crate) struct LayerEntry {
     pub(crate) name: Arc<str>,
     pub(super) visibility: Visibility,
     pub(super) color: Option<Color>,
-    /// Where it is not the continuous one.
+    /// Set where it is not the continuous one.
     pub(super) linetype: Option<Arc<str>>,
 }
 
-/// The layer on which AutoCAD keeps the points that dimensions hang on: it is never plotted.
+/// The layer on which AutoCAD keeps the points of dimensions: it is never plotted.
 const NEVER_PLOTTED: &str = "defpoints";
 
-/// The entry whose record stands in some lines; `name` makes its name of the bytes in the text. `None` for one without a name.
+/// The entry of the record in some lines; `name` decodes its name. `None` for an entry without a name.
 pub(super) fn read(
     lines: Lines,
     range: Range<usize>,
@@ -53,7 +53,7 @@ pub(super) fn read(
             }
             70 => frozen = whole(line).is_some_and(|flags| flags & FROZEN != 0),
             62 => {
-                // A colour below 0 is that of a layer that is switched off.
+                // A negative colour means that the layer is off.
                 let index = whole(line).unwrap_or(7);
                 off = index < 0;
                 entry.color = u8::try_from(index.unsigned_abs())
@@ -77,7 +77,7 @@ pub(super) fn read(
 }
 
 impl LayerEntry {
-    /// True where it is shown, and its lines are continuous: nobody need remember it.
+    /// True where it is shown with continuous lines: it need not be remembered.
     pub(super) fn is_plain(&self) -> bool {
         self.visibility == Visibility::Shown && self.linetype.is_none()
     }
@@ -86,11 +86,11 @@ impl LayerEntry {
 /// Whether a layer is shown, and its linetype.
 type LayerState = (Visibility, Option<Arc<str>>);
 
-/// What the table says of each layer that is not simply shown, or has a linetype. Names are the same in upper and in lower case.
+/// The table's entry of each layer that is hidden or has a linetype. Names ignore case.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LayerStates {
     unlike: FxHashMap<String, LayerState>,
-    /// The layer that was asked for last: neighbours lie on the same.
+    /// The last layer looked up: neighbours often share it.
     last: Option<(Arc<str>, LayerState)>,
 }
 
@@ -108,7 +108,7 @@ impl LayerStates {
             .map_or(Visibility::Shown, |(visibility, _)| *visibility)
     }
 
-    /// The linetype of what has that of its layer.
+    /// The linetype of entities that take their layer's.
     pub(super) fn linetype_of(&mut self, layer: &Arc<str>) -> Option<Linetype> {
         let name = self.state(layer)?.1.clone()?;
         Some(Linetype {

@@ -1,4 +1,4 @@
-//! Texts to Unicode, and layer names, each kept once.
+//! Decodes texts, and keeps each layer name once.
 
 use super::code_page::CodePage;
 use super::strings::decoded;

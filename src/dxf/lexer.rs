@@ -1,6 +1,6 @@
-//! Lines to tags: pairs of group code and value, brought back into step where a line is missing or extra.
+//! Turns lines into tags: pairs of group code and value, brought back into step where a line is missing or extra.
 //!
-//! Whether the text is out of step is decided by what follows: never by more than [`LOOKAHEAD`] lines of it.
+//! Whether the text is out of step depends on the lines that follow, at most [`LOOKAHEAD`] of them.
 
 use super::fault::{self, quoted};
 use super::lines::Lines;
@@ -10,9 +10,9 @@ use std::ops::Range;
 
 /// No decision of the lexer looks further ahead than this many lines.
 pub(crate) const LOOKAHEAD: usize = 2 * (WINDOW + SETTLING) + 4;
-/// Tags that are looked at to tell codes from values.
+/// The tags that are looked at to tell codes from values.
 const WINDOW: usize = 8;
-/// Tags that are passed over, once the text is in step, to reach a sound one.
+/// The tags that may be skipped, once the text is in step, to reach a sound one.
 const SETTLING: usize = 2;
 /// Empty lines in a row that may stand between two records.
 const EMPTY_LINES: usize = 16;
@@ -33,13 +33,13 @@ impl Tag {
 pub(crate) struct Lexer<'a> {
     pub(crate) lines: Lines<'a>,
     at: usize,
-    /// First line of what must not be taken for a code line any more.
+    /// The first line that may be a code line again.
     consumed: usize,
     /// The text was out of step since the last [`Lexer::begin_item`].
     pub(crate) out_of_step: bool,
-    /// A code line at the end of the text that has no value.
+    /// A code line at the end of the text without a value.
     pub(crate) dangling: Option<usize>,
-    /// What was wrong so far, here and with what was read of the tags.
+    /// The faults so far, here and in the tags read.
     pub(crate) findings: Vec<Finding>,
 }
 
@@ -73,7 +73,7 @@ impl<'a> Lexer<'a> {
         fault::oddity(&mut self.findings, range, sentence);
     }
 
-    /// How a line was read that may be read so.
+    /// How an ambiguous line was read.
     pub(super) fn remark(&mut self, line: usize, sentence: String) {
         let range = self.lines.trimmed_range(line);
         fault::remark(&mut self.findings, range, sentence);
@@ -88,7 +88,7 @@ impl<'a> Lexer<'a> {
         self.at >= self.lines.count()
     }
 
-    /// Goes on from `line` and forgets what was before it.
+    /// Goes on from `line` and forgets everything before it.
     pub(crate) fn begin_item(&mut self, line: usize) {
         self.at = line;
         self.consumed = line + 1;
@@ -96,7 +96,7 @@ impl<'a> Lexer<'a> {
         self.dangling = None;
     }
 
-    /// Leaves `tag`, which was just read, to be read again.
+    /// Puts back `tag`, which was just read.
     pub(crate) fn back_to(&mut self, tag: Tag) {
         self.at = tag.line;
         self.consumed = tag.line + 1;
@@ -116,7 +116,7 @@ impl<'a> Lexer<'a> {
         self.at = record.line + 2;
     }
 
-    /// The next tag; `None` at the end of the text. What is no tag is passed over with one finding.
+    /// The next tag; `None` at the end of the text. Lines that make no tag are skipped with one finding.
     pub(crate) fn next(&mut self) -> Option<Tag> {
         loop {
             let line = self.at;
@@ -149,7 +149,7 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// The line of the record that begins behind empty lines, which `line` is the first of.
+    /// The line of the record behind empty lines, of which `line` is the first.
     fn behind_empty_lines(&self, line: usize) -> Option<usize> {
         let is_empty =
             |line: &usize| *line < self.lines.count() && self.lines.trimmed(*line).is_empty();
@@ -172,8 +172,8 @@ impl<'a> Lexer<'a> {
         self.consumed = record;
     }
 
-    /// True when the value of `tag`, which does not fit its code, is the next code: a line is missing or extra.
-    /// The finding is made and the lexer goes on in step.
+    /// True when the value of `tag`, which does not fit its code, is the next code: a line is missing or extra. Adds
+    /// the finding and goes on in step.
     pub(crate) fn back_in_step(&mut self, tag: Tag) -> bool {
         let line = tag.value_line();
         let kept = self.score(line + 1);
@@ -256,7 +256,7 @@ impl<'a> Lexer<'a> {
         self.damage_in(self.lines.range(code_line), sentence);
     }
 
-    /// The first sound tag from `line` on, which is in step.
+    /// The first sound tag from `line` on that is in step.
     fn settled(&self, line: usize) -> usize {
         let sound = |at: usize| match number::code(self.lines.content(at)) {
             Code::Known(code) => fits(code, self.lines.content(at + 1)),
@@ -304,12 +304,12 @@ impl<'a> Lexer<'a> {
 
 const FULL: usize = 1000;
 
-/// True for what can be the name of a record.
+/// True for a possible record name.
 fn is_name(value: &[u8]) -> bool {
     value.first().is_some_and(u8::is_ascii_uppercase) || value.iter().any(u8::is_ascii_alphabetic)
 }
 
-/// True when `value` is of the kind that `code` asks for.
+/// True when `value` is of the type that `code` demands.
 fn fits(code: i16, value: &[u8]) -> bool {
     match code {
         0 => is_name(value),

@@ -1,4 +1,4 @@
-//! The lines of DXF text as the lexer sees them. Knows of line ends and the byte-order mark, not of tags.
+//! The lines of DXF text for the lexer. Knows of line ends and the byte-order mark, not of tags.
 
 use super::number::trimmed_range;
 use crate::text::{LineStarts, SourceText};
@@ -10,7 +10,7 @@ pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 #[derive(Clone, Copy)]
 pub(crate) struct Lines<'a> {
     text: &'a SourceText,
-    /// What of the text lies before its gap, if it has one.
+    /// The text before its gap, if it has one.
     head: &'a [u8],
     starts: &'a LineStarts,
     count: usize,
@@ -32,7 +32,7 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// As many of the bytes about a place as lie in one piece, and where they begin. They hold whole lines.
+    /// The largest contiguous run of bytes about a place, and where it begins. It holds whole lines.
     pub(crate) fn piece_at(&self, at: usize) -> (&'a [u8], usize) {
         match at < self.head.len() {
             true => (self.head, 0),
@@ -51,7 +51,7 @@ impl<'a> Lines<'a> {
         self.count
     }
 
-    /// True when the last line has no line end: it may be cut.
+    /// True when the last line has no line end: it may be truncated.
     pub(crate) fn last_is_open(&self) -> bool {
         self.count == self.starts.len()
     }
@@ -66,7 +66,7 @@ impl<'a> Lines<'a> {
         };
         let mut end = match self.starts.get(line + 1) {
             Some(next) => {
-                // A line that has a follower ends with LF, CR or CR LF.
+                // A line with a successor ends with LF, CR or CR LF.
                 let shortened = next.saturating_sub(1);
                 let crlf = shortened > start && self.slice(shortened - 1..shortened + 1) == b"\r\n";
                 shortened - usize::from(crlf)
@@ -84,7 +84,7 @@ impl<'a> Lines<'a> {
         self.slice(self.range(line))
     }
 
-    /// Where a line's content stands without padding.
+    /// Where a line's content stands, without padding.
     pub(crate) fn trimmed_range(&self, line: usize) -> Range<usize> {
         let range = self.range(line);
         let inner = trimmed_range(self.slice(range.clone()));

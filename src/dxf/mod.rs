@@ -1,10 +1,9 @@
 //! DXF text: read without loss, edited in place.
 //!
-//! The text is cut into items, one for each record (a POLYLINE with its vertices is one). Only where the items begin is
-//! kept of them, and where the vertices of a polyline stand; tags are read again when somebody asks for their place.
+//! The text is cut into items, one for each record (a POLYLINE with its vertices is one). Only the starts of the items
+//! and of the vertices are stored; tags are read again when somebody asks for their place.
 //!
-//! Invariant: after any sequence of edits a document equals a fresh reading of its text, the numbers of its
-//! entity ids aside.
+//! Invariant: after any sequence of edits a document equals a fresh reading of its text, except for its entity ids.
 
 mod binary;
 mod blocks;
@@ -70,15 +69,15 @@ pub struct Document {
     layers: Box<Layers>,
     suspended: Option<Box<suspended::Suspended>>,
     is_binary: bool,
-    /// How near arcs lie to the curves that they stand for, in mm; the default where none is set.
+    /// The largest distance of arcs from the curves that they replace, in mm; the default where unset.
     arc_fit: Option<f64>,
     /// The unit of a drawing that states none.
     assumed_unit: Option<Unit>,
 }
 
 impl Document {
-    /// Reads a file: DXF text in the code page that it names, or binary DXF or DXB, which become text that says the same
-    /// (see `Document::is_binary`). Never fails: what is damaged is in [`Document::findings`].
+    /// Reads a file: DXF text in the code page that it names, or binary DXF or DXB, which are turned into equivalent
+    /// text (see `Document::is_binary`). Never fails: damage is in [`Document::findings`].
     pub fn read_file(bytes: Vec<u8>) -> Document {
         let (is_dxf, is_dxb) = (
             binary::sentinel(&bytes).is_some(),
@@ -104,7 +103,7 @@ impl Document {
         }
         if let Some(sentence) = fault {
             let end = document.text.len();
-            // What the last record lacks is beyond the end: one fault, one finding.
+            // The missing part of the last record is beyond the end: one fault, one finding.
             let last = document
                 .table
                 .lines
@@ -118,7 +117,7 @@ impl Document {
         document
     }
 
-    /// Reads DXF text, which is UTF-8. Never fails: what is damaged is in [`Document::findings`].
+    /// Reads DXF text in UTF-8. Never fails: damage is in [`Document::findings`].
     pub fn read(bytes: Vec<u8>) -> Document {
         let mut document = Document::default();
         document.take(bytes);
@@ -134,7 +133,7 @@ impl Document {
         }
     }
 
-    /// What became of each record.
+    /// The fate of each record.
     pub(crate) fn table(&self) -> &Table {
         &self.table
     }
@@ -143,8 +142,8 @@ impl Document {
         &self.text
     }
 
-    /// Says how near the arcs must lie to the ellipses and splines that they stand for, in mm. Where there are some and it is
-    /// something new, the text is read again: ids of entities may change.
+    /// Sets the largest distance, in mm, of arcs from the ellipses and splines that they replace. If that changes
+    /// anything, the text is read again and ids of entities may change.
     pub(crate) fn set_arc_fit(&mut self, mm: f64) {
         if self.arc_fit.unwrap_or(Tolerances::default().arc_fit) == mm {
             return;
@@ -160,12 +159,12 @@ impl Document {
         self.table.fit_tolerance = fit_tolerance(self.arc_fit, self.drawing.unit);
     }
 
-    /// True where [`Document::text`] is not the file's own bytes, but what a binary DXF or DXB file says. It cannot be edited.
+    /// True where [`Document::text`] is the translation of a binary DXF or DXB file. It cannot be edited.
     pub(crate) fn is_binary(&self) -> bool {
         self.is_binary
     }
 
-    /// Says which unit the drawing has where it states none.
+    /// Sets the unit of a drawing that states none.
     pub(crate) fn assume_unit(&mut self, unit: Unit) {
         self.assumed_unit = Some(unit);
         if self.drawing.assumes_another(unit) {
@@ -206,7 +205,7 @@ impl Document {
             reading = self.read_again(None);
         }
         if reading.early {
-            // Blocks, or parts of them, that stand behind what refers to them.
+            // Blocks, or parts of them, may stand behind their references.
             reading = self.read_again(Some(reading.blocks.unasked()));
         }
         let Reading {
@@ -241,7 +240,7 @@ impl Document {
         self.name_unsupported();
     }
 
-    /// Reads all items once more, with what is known of frames and layers; of layers where blocks are `known`.
+    /// Reads all items once more with the known frames and layers, and with `known` blocks if given.
     fn read_again(&mut self, known: Option<Blocks>) -> Reading {
         let frames = std::mem::take(&mut self.table.frames);
         let states = match known {
@@ -256,7 +255,7 @@ impl Document {
         self.read_items(known)
     }
 
-    /// Makes the document one without a drawing and with one finding.
+    /// Empties the drawing and leaves one finding.
     fn is_no_dxf(&mut self, sentence: &str) {
         *self.table = Table::default();
         self.drawing = Arc::default();

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// What is left of `bytes` without padding (spaces and tabs) on either side, as a range within them.
+/// The range of `bytes` without padding (spaces and tabs) on either side.
 pub(super) fn trimmed_range(bytes: &[u8]) -> Range<usize> {
     let padding = |byte: &u8| matches!(byte, b' ' | b'\t');
     let start = bytes
@@ -20,11 +20,11 @@ pub(super) fn trimmed(bytes: &[u8]) -> &[u8] {
     bytes.get(trimmed_range(bytes)).unwrap_or_default()
 }
 
-/// What a line that should be a group code is.
+/// How a line was read that should be a group code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Code {
     Known(i16),
-    /// A whole number that no group code can be.
+    /// A whole number that is not a valid group code.
     OutOfRange,
     NotANumber,
 }
@@ -70,11 +70,11 @@ fn in_range(value: i32) -> Code {
     }
 }
 
-/// What a value that should be a number is.
+/// How a value was read that should be a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Number {
     Exact(f64),
-    /// A number with a blemish that a person should hear of.
+    /// A number with a blemish worth a finding.
     Blemished(f64, &'static str),
     Bad,
 }
@@ -112,8 +112,8 @@ pub(crate) fn number(line: &[u8]) -> Number {
     Number::Bad
 }
 
-/// The number `[-] digits [. digits]` that bytes begin with, and its length. `None` also where it is one, but too long to be read in
-/// one step.
+/// The number `[-] digits [. digits]` at the start of the bytes, and its length. `None` also where it is too long for a
+/// single step.
 #[inline]
 pub(crate) fn leading(bytes: &[u8]) -> Option<(f64, usize)> {
     let digit = |at: usize| {
@@ -151,13 +151,14 @@ pub(crate) fn leading(bytes: &[u8]) -> Option<(f64, usize)> {
     if !(1..=19).contains(&digits) || mantissa > 1 << 53 {
         return None;
     }
-    // Both factors are exact, so the one rounding is the right one (Clinger, "How to read floating point numbers accurately").
+    // Both factors are exact, so the only rounding is correct (Clinger, "How to read floating point numbers
+    // accurately").
     let value = mantissa as f64 / POWERS.get(decimals)?;
-    // A zero has no sign here.
+    // Zero has no sign here.
     Some((if negative { 0.0 - value } else { value }, at))
 }
 
-/// The number that eight digits are, pairs first, then pairs of pairs.
+/// The number that eight digits make, by pairs and then pairs of pairs.
 fn eight_digits(digits: [u8; 8]) -> Option<u64> {
     let word = u64::from_le_bytes(digits);
     let high = 0xf0f0_f0f0_f0f0_f0f0;
@@ -234,7 +235,8 @@ fn decimal(text: &[u8]) -> Option<f64> {
     if at != text.len() {
         return None;
     }
-    // Both factors are exact, so the one rounding is the right one (Clinger, "How to read floating point numbers accurately").
+    // Both factors are exact, so the only rounding is correct (Clinger, "How to read floating point numbers
+    // accurately").
     if digits <= 19
         && mantissa <= 1 << 53
         && let Some(power) = POWERS.get(scale.unsigned_abs() as usize)
@@ -244,7 +246,7 @@ fn decimal(text: &[u8]) -> Option<f64> {
         } else {
             mantissa as f64 * power
         };
-        // A zero has no sign here.
+        // Zero has no sign here.
         return Some(if negative { 0.0 - value } else { value });
     }
     std::str::from_utf8(text)

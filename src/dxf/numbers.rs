@@ -1,4 +1,4 @@
-//! The numbers that an entity has once each, and the finding that names those that are missing.
+//! The numbers that an entity has once each, and the finding that names the missing ones.
 
 use super::entity::{Common, tag_of_record};
 use super::fault::meaning;
@@ -33,7 +33,7 @@ impl<const N: usize> Numbers<N> {
         }
     }
 
-    /// Takes all tags of the record that it holds a place for.
+    /// Takes every tag of the record that has a place here.
     pub(super) fn gather(
         &mut self,
         lexer: &mut Lexer,
@@ -54,7 +54,7 @@ impl<const N: usize> Numbers<N> {
         common
     }
 
-    /// The first `M` numbers, which the entity must have; one finding names those that are missing.
+    /// The first `M` numbers, which the entity must have; one finding names the missing ones.
     pub(super) fn required<const M: usize>(
         &self,
         start: Tag,

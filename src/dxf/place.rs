@@ -1,4 +1,4 @@
-//! From entities and segments to the bytes that they are written in, and back.
+//! From entities and segments to their bytes in the text, and back.
 
 use super::Document;
 use super::lexer::Tag;
@@ -8,7 +8,7 @@ use crate::drawing::{EntityId, Geometry};
 use crate::finding::Place;
 use std::ops::Range;
 
-/// The tags between two lines that are in step, as all of an entity with geometry are.
+/// The tags between two lines that are in step, as in every entity with geometry.
 pub(crate) fn tags<'a>(lines: Lines<'a>, range: Range<usize>) -> impl Iterator<Item = Tag> + 'a {
     let end = range.end.min(lines.count());
     (range.start..end.saturating_sub(1))
@@ -19,7 +19,7 @@ pub(crate) fn tags<'a>(lines: Lines<'a>, range: Range<usize>) -> impl Iterator<I
         })
 }
 
-/// The tags of one record that are its own: not those of the next record, of other programs, or of an embedded object.
+/// The own tags of one record: not those of the next record, of other programs, or of an embedded object.
 pub(crate) fn own_tags<'a>(
     lines: Lines<'a>,
     range: Range<usize>,
@@ -37,9 +37,10 @@ pub(crate) fn own_tags<'a>(
 }
 
 impl Document {
-    /// The bytes that a place stands for: the number at fault (42 of the vertex, 40 of an ARC or CIRCLE), or the entity's name.
+    /// The bytes of a place: the number at fault (42 of the vertex, 40 of an ARC or CIRCLE), or the entity's name.
     ///
-    /// A segment without a bulge is its first x. The beginning of the text for what is not (or no longer) in it.
+    /// For a segment without a bulge its first x. For a place that is not (or no longer) in the text, the beginning of
+    /// the text.
     pub fn range_of(&self, place: &Place) -> Range<usize> {
         match *place {
             Place::Text { ref range } => range.clone(),
@@ -89,7 +90,7 @@ impl Document {
             .map(|tag| lines.trimmed_range(tag.value_line()))
     }
 
-    /// The lines of a vertex: from its first tag to that of the next vertex, for the last one to the end of the entity.
+    /// The lines of a vertex: from its first tag to that of the next vertex, or to the end of the entity.
     pub(crate) fn vertex_lines(&self, entity: EntityId, index: usize) -> Option<Range<usize>> {
         let vertices = self.table.vertices.get(&entity)?;
         let item = self
@@ -103,10 +104,10 @@ impl Document {
         Some(start..end)
     }
 
-    /// The segments any of whose tags overlap a range of bytes; a cursor (an empty range) touches the line it stands in.
+    /// The segments with a tag that overlaps a range of bytes; a cursor (an empty range) touches the line it stands in.
     ///
-    /// The tags of a vertex are those of the segment that begins in it; the last vertex of an open polyline stands for
-    /// the segment that ends there. The head of a polyline belongs to no segment.
+    /// The tags of a vertex belong to the segment that begins in it; the last vertex of an open polyline belongs to the
+    /// segment that ends there. The head of a polyline belongs to no segment.
     pub fn segments_at(&self, range: Range<usize>) -> Vec<(EntityId, usize)> {
         let lines = Lines::new(&self.text);
         let first = self.text.line_of(range.start);
@@ -133,7 +134,7 @@ impl Document {
         found
     }
 
-    /// The entity with geometry in whose record a byte lies, the first where a block's reference gives several.
+    /// The entity with geometry whose record holds a byte; the first where a block's reference gives several.
     pub(crate) fn entity_at(&self, offset: usize) -> Option<EntityId> {
         let item = self
             .table

@@ -1,6 +1,6 @@
-//! LINE, ARC and CIRCLE as nearly all of them stand in files: every tag sound and known, read in one pass over the bytes.
+//! LINE, ARC and CIRCLE in their common form: every tag sound and known, read in one pass over the bytes.
 //!
-//! What is found here is what [`super::entities::read`] would find; anything that it would say a word about is left to it.
+//! The result equals that of [`super::entities::read`]; anything that needs a finding is left to it.
 
 use super::entity::{Appearance, Paint, Read, Stroke};
 use super::layers::Layers;
@@ -14,7 +14,7 @@ use crate::geometry::{Point, radians};
 /// Numbers by their place in the record: x, y, z; the second x, y, z; radius; first and last angle.
 const CODES: [i16; 9] = [10, 20, 30, 11, 21, 31, 40, 50, 51];
 
-/// The entity whose record begins at `line`, and the line of the next record. `None` where it needs a closer appearance.
+/// The entity whose record begins at `line`, and the line of the next record. `None` where it needs the full reader.
 pub(super) fn read(lines: Lines, line: usize, layers: &mut Layers) -> Option<(Read, usize)> {
     let at = lines.range(line + 1).start;
     let (bytes, begin) = lines.piece_at(at);
@@ -64,7 +64,7 @@ pub(super) fn read(lines: Lines, line: usize, layers: &mut Layers) -> Option<(Re
     let center = Point::new(x?, y?);
     let height = z.unwrap_or(0.0);
     let geometry = match kind {
-        // What differs in z is told of.
+        // A differing z needs a finding.
         Kind::Line if height != end_z.unwrap_or(0.0) => return None,
         Kind::Line => Geometry::Line {
             start: center,
@@ -133,7 +133,7 @@ fn behind_line_end(bytes: &[u8], at: usize) -> Option<usize> {
     }
 }
 
-/// A value without padding, which has none.
+/// A value that has no padding.
 fn unpadded(value: &[u8]) -> Option<&[u8]> {
     let is_padding = |byte: Option<&u8>| matches!(byte, None | Some(b' ' | b'\t'));
     (!is_padding(value.first()) && !is_padding(value.last())).then_some(value)

@@ -1,4 +1,4 @@
-//! One item after another: sections, the entities of the modelspace, everything else passed over.
+//! Reads item by item: sections, the entities of the modelspace; everything else is skipped.
 
 use super::entities;
 use super::entity::{self, Outcome};
@@ -15,7 +15,7 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::Unfit;
 use crate::text::head;
 
-/// What one item of the text says.
+/// The content of one item of the text.
 #[derive(Debug)]
 #[expect(
     clippy::large_enum_variant,
@@ -180,7 +180,7 @@ pub(super) fn read_item(
     Some(read)
 }
 
-/// The entity with its geometry as it lies in the modelspace; a fault where its curve has none.
+/// The entity with its geometry in the modelspace; a fault where its curve has none.
 fn drawn(outcome: Outcome, start: Tag, lexer: &mut Lexer, tolerance: f64) -> Outcome {
     let Outcome::Entity(read) = outcome else {
         return outcome;
@@ -216,7 +216,7 @@ fn drawn(outcome: Outcome, start: Tag, lexer: &mut Lexer, tolerance: f64) -> Out
     }
 }
 
-/// Behind EOF nothing is read; what is there is named, but for the end mark of old systems (^Z).
+/// Behind EOF nothing is read. Anything there has a finding, except the end mark of old systems (^Z).
 fn pass_over_what_follows(lexer: &mut Lexer) {
     let blank = |line: &usize| {
         lexer
@@ -231,7 +231,7 @@ fn pass_over_what_follows(lexer: &mut Lexer) {
     lexer.begin_item(lexer.lines.count());
 }
 
-/// Where a finding of the text stands: the order of findings.
+/// The place of a finding of the text, by which findings are sorted.
 pub(super) fn range_key(finding: &Finding) -> (usize, usize) {
     match &finding.place {
         crate::finding::Place::Text { range } => (range.start, range.end),
@@ -239,7 +239,7 @@ pub(super) fn range_key(finding: &Finding) -> (usize, usize) {
     }
 }
 
-/// What is said when the text ends with this item. True when the entity in it is cut and must not be trusted.
+/// The finding when the text ends with this item. True when the entity in it is cut off and must not be trusted.
 fn close(
     read: Option<(Tag, &ReadItem)>,
     already: usize,
@@ -266,13 +266,13 @@ fn close(
     {
         let name = lexer.lines.trimmed_range(start.value_line());
         let is_of_name = |finding: &Finding| range_key(finding) == (name.start, name.end);
-        // Without a half of a tag, an entity that lacks something and has no other fault was cut between two of them.
+        // Here the text ends between two tags: an entity that lacks something and has no other fault was cut off there.
         let lacks = matches!(outcome, Outcome::Damaged)
             && lexer.findings.iter().skip(already).all(is_of_name);
         if !cut && !lacks {
             return end_of_section(already, lexer, after);
         }
-        // What the entity lacks is beyond the end: one fault, one finding.
+        // The missing part of the entity is beyond the end: one fault, one finding.
         lexer.findings.truncate(already);
         let kind = quoted(lexer.lines.trimmed(start.value_line()));
         lexer.damage_in(
@@ -296,7 +296,7 @@ fn close(
     }
 }
 
-/// Says that the text ends too early, unless that has been said of its last item. False: nothing in that is cut.
+/// Reports that the text ends too early, unless its last item has been reported so. False: nothing in it is cut off.
 fn end_of_section(already: usize, lexer: &mut Lexer, after: Context) -> bool {
     if lexer.findings.len() == already {
         let sentence = match after {

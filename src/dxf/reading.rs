@@ -1,4 +1,4 @@
-//! The whole text, read from its beginning: entities into the drawing, blocks drawn where they are referred to.
+//! Reads the whole text from its beginning: entities into the drawing, blocks drawn at their references.
 
 use super::blocks::{Blocks, Drawn, Part, Undrawn};
 use super::entity::{Appearance, Insert, Outcome, Paint, Read};
@@ -26,16 +26,16 @@ pub(super) struct Reading {
     pub(super) blocks: Blocks,
     /// The blocks of the file, when they are known from an earlier reading.
     pub(super) known: Option<Blocks>,
-    /// Handles of what is the frame of a text.
+    /// Handles of entities that are the frame of a text.
     pub(super) frames: FxHashSet<u64>,
-    /// Something in model space refers to a block.
+    /// Something in the modelspace refers to a block.
     refers: bool,
-    /// A block was asked for before all blocks were read: what it draws is not known yet.
+    /// A block was used before all blocks were read, so its content was not known yet.
     pub(super) early: bool,
 }
 
 impl Document {
-    /// Reads all items. Blocks are `known` from an earlier reading where what refers to them stands before them.
+    /// Reads all items. Blocks are `known` from an earlier reading where their references stand before them.
     pub(super) fn read_items(&mut self, known: Option<Blocks>) -> Reading {
         let lines = Lines::new(&self.text);
         self.table.fit_tolerance = fit_tolerance(self.arc_fit, None);
@@ -63,7 +63,7 @@ impl Document {
     }
 }
 
-/// One pass over the text, with all that takes note of what is read.
+/// One pass over the text that records everything read.
 struct Pass<'a> {
     lexer: Lexer<'a>,
     arc_fit: Option<f64>,
@@ -198,7 +198,7 @@ impl Pass<'_> {
         }
     }
 
-    /// Adds an entity under the handle that it has, or under its ordinal; a handle that is taken is reported.
+    /// Adds an entity under its handle, or under its ordinal; a taken handle is reported.
     fn push(
         &mut self,
         entity: Entity,
@@ -234,7 +234,7 @@ impl Pass<'_> {
         id
     }
 
-    /// Adds what a reference to a block draws; all of it has the handle of the reference.
+    /// Adds what a reference to a block draws; every part has the handle of the reference.
     fn reference(&mut self, insert: &Insert, line: usize, item: &mut Item) {
         self.reading.refers = true;
         if self.reading.early {
@@ -309,7 +309,7 @@ impl Pass<'_> {
     }
 }
 
-/// Takes note of how an entity looks. True where that differs from what was known.
+/// Records the appearance of an entity. True where it changed.
 pub(super) fn set_appearance(
     drawing: &mut Drawing,
     id: EntityId,

@@ -1,4 +1,4 @@
-//! New tags and records in the style of those around them: the padding of group codes, the line ends, the common tags.
+//! New tags and records in the style of their neighbours: the padding of group codes, the line ends, the common tags.
 
 use super::lexer::Tag;
 use super::lines::Lines;
@@ -12,13 +12,13 @@ use std::ops::Range;
 /// Decimals of lengths and of angles in degrees.
 pub(super) const DECIMALS: usize = 12;
 
-/// Tags that an entity hands on to one that is made after it: owner, layout, layer, line type, colour, line weight.
+/// Tags that a new entity copies from the one before it: owner, layout, layer, line type, colour, line weight.
 const HANDED_ON: [i16; 9] = [330, 410, 8, 6, 62, 420, 440, 370, 48];
 
 /// How tags are written in one place of a text.
 #[derive(Clone, Debug)]
 pub(super) struct Style {
-    /// Width to which group codes are filled up with spaces on the left.
+    /// Width to which group codes are padded with spaces on the left.
     width: usize,
     line_end: Vec<u8>,
 }
@@ -46,7 +46,7 @@ impl Style {
         self.tag(code, written(value, decimals).as_bytes(), into);
     }
 
-    /// `record` as it has to be inserted at `at`: behind a last line without a line end, that end comes first.
+    /// `record` as it must be inserted at `at`: behind a last line without a line end, that end comes first.
     pub(super) fn inserted(&self, text: &SourceText, at: usize, record: Vec<u8>) -> String {
         let is_cut = at >= text.len()
             && !matches!(text.byte(text.len().wrapping_sub(1)), Some(b'\n' | b'\r'));
@@ -55,8 +55,8 @@ impl Style {
     }
 }
 
-/// The record of a new LINE or ARC, modelled on the entity whose lines are `model`; `handle` where that one has a handle.
-/// An error for other geometry and for numbers that are not finite.
+/// The record of a new LINE or ARC, modelled on the entity whose lines are `model`; `handle` where that one has a
+/// handle. An error for other geometry and for numbers that are not finite.
 pub(super) fn new_entity(
     text: &SourceText,
     lines: Lines,
@@ -149,8 +149,8 @@ pub(super) fn degrees(angle: f64) -> f64 {
     }
 }
 
-/// One above the largest number that can be a handle in the text (group codes 5 and 105, `$HANDSEED` included); `None` where
-/// there is none left.
+/// One above the largest number that may be a handle in the text (group codes 5 and 105, `$HANDSEED` included); `None`
+/// where there is none left.
 pub(super) fn free_handle(lines: Lines) -> Option<u64> {
     let handle = |line: usize| {
         let is_code = matches!(lines.trimmed(line), b"5" | b"105");

@@ -1,4 +1,4 @@
-//! What an entity draws before it is placed: block references move, turn and stretch it, and curves are fitted last.
+//! The shape of an entity before it is placed: block references move, turn and stretch it, and curves are fitted last.
 
 use crate::drawing::{Geometry, Kind, Vertex};
 use crate::geometry::{
@@ -6,7 +6,7 @@ use crate::geometry::{
 };
 use std::f64::consts::TAU;
 
-/// What an entity draws, in the coordinates of its block or of the modelspace.
+/// The shape of an entity, in the coordinates of its block or of the modelspace.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Shape {
     Plain(Geometry),
@@ -14,7 +14,7 @@ pub(super) enum Shape {
     Spline(Box<Spline>),
 }
 
-/// Axes are told apart by less than this share of their length: below, they are alike.
+/// Axes whose lengths differ by less than this share count as equal.
 const ALIKE: f64 = 1e-9;
 
 /// `p ↦ x_axis · p.x + y_axis · p.y + origin`.
@@ -49,11 +49,12 @@ impl Affine {
     }
 }
 
-/// Arcs that each curve may take, and what all curves of a drawing may take beyond that: a line of text can ask for hundreds.
+/// The arcs that each curve may take, and those that all curves of a drawing may take beyond that: a line of text can
+/// ask for hundreds.
 const FREE_ARCS: usize = 50;
 pub(super) const MOST_CURVE_ARCS: u64 = if cfg!(test) { 8_000 } else { 400_000 };
 
-/// What a curve that has become arcs takes beyond what it has free.
+/// The arcs of a fitted curve beyond its free allowance.
 pub(super) fn curve_arcs(kind: Kind, geometry: &Geometry) -> u64 {
     if matches!(kind, Kind::Ellipse | Kind::Spline) {
         geometry.segment_count().saturating_sub(FREE_ARCS) as u64
@@ -62,7 +63,7 @@ pub(super) fn curve_arcs(kind: Kind, geometry: &Geometry) -> u64 {
     }
 }
 
-/// How much coarser a curve is drawn that takes too many arcs; each step saves half of them.
+/// How much coarser a curve with too many arcs is drawn; each step saves half of them.
 const COARSER: [f64; 4] = [1.0, 8.0, 64.0, 512.0];
 
 fn fitted(curve: &impl Curve, tolerance: f64) -> Result<(Geometry, f64), Unfit> {
@@ -82,7 +83,7 @@ fn fitted(curve: &impl Curve, tolerance: f64) -> Result<(Geometry, f64), Unfit> 
 }
 
 impl Shape {
-    /// An upper bound, or for a curve a guess, of the number of segments that it becomes.
+    /// The number of segments that it becomes: an upper bound, or for a curve an estimate.
     pub(super) fn cost(&self) -> u64 {
         match self {
             Shape::Plain(geometry) => geometry.segment_count().max(1) as u64,
@@ -91,9 +92,9 @@ impl Shape {
         }
     }
 
-    /// The shape as geometry of the drawing, curves as arcs within `tolerance`; where that takes arcs beyond all measure, as in a
-    /// drawing that says metres and means millimetres, within so many times of it. An error where nothing can be drawn: a curve
-    /// without length, numbers that overflow, or still too many arcs.
+    /// The shape as geometry of the drawing, curves as arcs within `tolerance`. A curve that would take far too many
+    /// arcs, as in a drawing in millimetres that states metres, is fitted within a multiple of it. An error where
+    /// nothing can be drawn: a curve without length, numbers that overflow, or still too many arcs.
     pub(super) fn drawn(self, tolerance: f64) -> Result<(Geometry, f64), Unfit> {
         match self {
             Shape::Plain(geometry) => Ok((geometry, 1.0)),
@@ -103,7 +104,7 @@ impl Shape {
         }
     }
 
-    /// What becomes of the shape under a transformation, each part with the name of what it is then.
+    /// The shape after a transformation: its parts, each with the name of its new kind.
     pub(super) fn placed(&self, map: &Affine, kind: Kind, put: &mut impl FnMut(Kind, Shape)) {
         match self {
             Shape::Ellipse(arc) => {
@@ -261,7 +262,8 @@ fn polyline(chain: Chain) -> Option<Geometry> {
         .then_some(Geometry::Polyline { closed, vertices })
 }
 
-/// An ellipse by its half axes: `major`, and `ratio` of it to the left of it (to the right where `mirrored`).
+/// An ellipse by its half axes: `major`, and the second one, `ratio` times as long, to the left of it (to the right
+/// where `mirrored`).
 pub(super) fn ellipse(
     center: Point,
     major: Vector,

@@ -1,7 +1,8 @@
-//! Planes in space: where what an entity or a block draws lies, seen from around it.
+//! Planes in space: where the plane of an entity or a block lies in the space around it.
 //!
-//! An extrusion gives the plane of an entity's own coordinates by the arbitrary axis algorithm (DXF reference, object coordinate
-//! systems). What ends in a plane parallel to that of the drawing is cut, however often it was tilted on the way.
+//! The extrusion gives the plane of an entity's own coordinates by the arbitrary axis algorithm (DXF reference, object
+//! coordinate systems). A shape whose plane ends parallel to that of the drawing is cut, however often it was tilted on
+//! the way.
 
 use super::shape::Affine;
 use crate::geometry::{Point, Vector};
@@ -47,8 +48,8 @@ impl Space {
         })
     }
 
-    /// The plane in which points lie, its origin in the first of them; `None` where they lie in none. Their greatest distance from
-    /// it is told by their spread.
+    /// The plane through points, with its origin in the first of them; `None` where they are not in one plane, measured
+    /// against their spread.
     pub(super) fn through(points: &[Vector3]) -> Option<Space> {
         let first = *points.first()?;
         let far = |from: &dyn Fn(&Vector3) -> f64| points.iter().map(from).fold(0.0, f64::max);
@@ -63,7 +64,7 @@ impl Space {
             .iter()
             .map(off_axis)
             .max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
-        // Points on one line lie in many planes: any that is level across will do.
+        // Points on one line lie in many planes: any level one will do.
         let level = Vector3::z()
             .cross(&x)
             .try_normalize(1e-9)
@@ -100,7 +101,7 @@ impl Space {
         }
     }
 
-    /// Where a point lies in the coordinates of a plane from [`Space::through`].
+    /// A point in the coordinates of a plane from [`Space::through`].
     pub(super) fn seen_from(&self, point: Vector3) -> Point {
         let from = point - self.origin;
         Point::new(self.x.dot(&from), self.y.dot(&from))
@@ -113,7 +114,7 @@ impl Space {
             .all(|axis| axis.z.abs() <= FLAT * axis.norm())
     }
 
-    /// What becomes of the plane of x and y, seen from above.
+    /// The plane of x and y after the transformation, seen from above.
     pub(super) fn seen_from_above(&self) -> Affine {
         Affine {
             x_axis: self.x.xy(),
@@ -123,14 +124,14 @@ impl Space {
     }
 }
 
-/// Where the plane of a shape lies.
+/// The plane of a shape.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Lies {
-    /// Level, so high.
+    /// Level, at this height.
     Level(f64),
     /// In a plane with coordinates of its own; with the reason why it is not cut as it is.
     Aslant(Box<Space>, &'static str),
-    /// The ends of a line that rises; its shape is what is seen of it from above.
+    /// The ends of a rising line; its shape is the view from above.
     Rising(Box<[Vector3; 2]>),
 }
 

@@ -3,7 +3,7 @@
 use super::johab;
 use encoding_rs::Encoding;
 
-/// The code pages of `\M+1` to `\M+5` (DXF reference, "MIF"); the fourth, without an encoding here, is Johab.
+/// The code pages of `\M+1` to `\M+5` (DXF reference, "MIF"); the fourth, which `encoding_rs` lacks, is Johab.
 const MULTIBYTE: [Option<&Encoding>; 5] = [
     Some(encoding_rs::SHIFT_JIS),
     Some(encoding_rs::BIG5),
@@ -12,8 +12,8 @@ const MULTIBYTE: [Option<&Encoding>; 5] = [
     Some(encoding_rs::GBK),
 ];
 
-/// A value as text: `\U+XXXX` is the character of that number, `\M+nXXXX` the one of that code in an East Asian code page; what is no
-/// UTF-8 becomes U+FFFD.
+/// A value as text: `\U+XXXX` is the character of that number, `\M+nXXXX` the one of that code in an East Asian code
+/// page; invalid UTF-8 becomes U+FFFD.
 pub(super) fn decoded(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes);
     let mut decoded = String::with_capacity(text.len());
@@ -36,7 +36,7 @@ fn unicode(text: &str) -> Option<(char, usize)> {
     const LENGTH: usize = "\\U+XXXX".len();
     let number = |text: &str| u16::from_str_radix(text.strip_prefix("\\U+")?.get(..4)?, 16).ok();
     let first = number(text)?;
-    // What is beyond the first 65,536 characters is written as two.
+    // A character beyond the first 65,536 is written as two.
     let second = text.get(LENGTH..).and_then(number);
     let mut characters = char::decode_utf16([first].into_iter().chain(second));
     let character = characters.next()?.ok()?;
@@ -52,7 +52,7 @@ fn multibyte(text: &str) -> Option<(char, usize)> {
     let Some(encoding) = *MULTIBYTE.get(page)? else {
         return Some((johab::character(code[0], code[1])?, 8));
     };
-    // A code of one byte is written with a first byte of 0.
+    // A one-byte code is written with a first byte of 0.
     let code = if code[0] == 0 { &code[1..] } else { &code };
     let (character, bad) = encoding.decode_without_bom_handling(code);
     let mut characters = character.chars();
@@ -62,7 +62,7 @@ fn multibyte(text: &str) -> Option<(char, usize)> {
     Some((only, 8))
 }
 
-/// The words of a TEXT: switches of underline, overline and strike-through (`%%u`, `%%o`, `%%k`) dropped.
+/// The words of a TEXT, without the switches of underline, overline and strike-through (`%%u`, `%%o`, `%%k`).
 pub(super) fn words_of_text(text: &str) -> String {
     let mut words = String::with_capacity(text.len());
     let mut rest = text;
@@ -82,7 +82,8 @@ pub(super) fn words_of_text(text: &str) -> String {
     words
 }
 
-/// The words of an MTEXT: groups, fonts, heights and colours dropped, `\P` a new line (DXF reference, MTEXT format codes).
+/// The words of an MTEXT, without groups, fonts, heights and colours; `\P` is a new line (DXF reference, MTEXT format
+/// codes).
 pub(super) fn words_of_mtext(text: &str) -> String {
     let mut words = String::with_capacity(text.len());
     let mut rest = text.chars();

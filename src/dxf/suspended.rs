@@ -1,7 +1,8 @@
-//! A polyline in one of whose numbers somebody is typing: it is damaged, and will soon be whole again.
+//! A polyline with one number being typed: it is damaged now, and will soon be whole again.
 //!
-//! As long as the edits keep within that vertex, all that was read of the polyline is kept aside, and nothing but the vertex is
-//! read. Holds for a LWPOLYLINE without any other fault: the finding is then the one about that number, as in a fresh reading.
+//! As long as the edits stay within that vertex, everything read of the polyline is kept aside and only the vertex is
+//! reread. This needs a LWPOLYLINE without any other fault: the finding is then the one about that number, as in a
+//! fresh reading.
 
 use super::Document;
 use super::edit::{Others, VertexZone, plain_vertex, shift};
@@ -25,13 +26,13 @@ pub(super) struct Suspended {
     appearance: Appearance,
     vertices: VertexLines,
     index: usize,
-    /// The vertex, as it stood when the number was one.
+    /// The vertex as it was when the number was valid.
     lines: Range<usize>,
     others: Others,
 }
 
 impl Document {
-    /// The polyline that is suspended, when the edit leaves the first and the last byte of its vertex alone.
+    /// The suspended polyline, when the edit leaves the first and the last byte of its vertex alone.
     pub(super) fn suspended_about(&mut self, range: &Range<usize>) -> Option<Suspended> {
         let suspended = self.suspended.take()?;
         let inside = range.start > self.text.line_start(suspended.lines.start)
@@ -39,7 +40,8 @@ impl Document {
         inside.then_some(*suspended)
     }
 
-    /// Puts the polyline aside in one of whose numbers the edit has left no number. `None` where more than that came of it.
+    /// Suspends the polyline when the edit has made one of its numbers invalid. `None` where the edit did more than
+    /// that.
     pub(super) fn suspend(
         &mut self,
         zone: &VertexZone,
@@ -98,8 +100,8 @@ impl Document {
         })
     }
 
-    /// Brings the polyline back when its number is one again, and leaves it suspended while it is none. `None` where the edit did
-    /// more than that.
+    /// Brings the polyline back when its number is valid again; until then it stays suspended. `None` where the edit
+    /// did more than that.
     pub(super) fn resume(
         &mut self,
         mut suspended: Suspended,
@@ -153,8 +155,8 @@ impl Document {
     }
 }
 
-/// The finding about the one number in a vertex's lines that is none; `None` where anything else is wrong there, or where the
-/// lines are out of step.
+/// The finding about the one invalid number in a vertex's lines; `None` where anything else is wrong there, or where
+/// the lines are out of step.
 fn fault_in(lines: Lines, range: Range<usize>) -> Option<Finding> {
     let mut fault = None;
     for line in range.clone().step_by(2) {

@@ -10,7 +10,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 pub(crate) enum Context {
     Outside,
     Entities,
-    /// What is drawn where a block is referred to.
+    /// The blocks that references draw.
     Blocks,
     /// Any other section: kept, not drawn.
     Other,
@@ -18,9 +18,9 @@ pub(crate) enum Context {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Became {
-    /// Text that is kept and says nothing about the drawing's modelspace.
+    /// Text that is kept and does not concern the modelspace.
     Nothing,
-    /// SECTION, ENDSEC or EOF: decides what the records after it are. A HEADER says the unit (`$INSUNITS`).
+    /// SECTION, ENDSEC or EOF: it decides what the records after it are. A HEADER gives the unit (`$INSUNITS`).
     Structure {
         /// The section ENTITIES begins.
         entities: bool,
@@ -42,7 +42,7 @@ pub(crate) enum Became {
     Damaged,
 }
 
-/// Whence an entity has its handle.
+/// The source of an entity's handle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Named {
     ByText,
@@ -54,7 +54,7 @@ pub(crate) enum Named {
 /// One record, or a POLYLINE or INSERT with the records that belong to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Item {
-    /// Where it stands, its own change of section not counted.
+    /// Its section, before any change of section that it makes.
     pub(crate) context: Context,
     pub(crate) became: Became,
     pub(crate) named: Named,
@@ -130,19 +130,20 @@ pub(crate) struct Table {
     pub(crate) left_out: FxHashMap<EntityId, Vec<(u32, usize)>>,
     pub(crate) layers: Vec<LayerEntry>,
     pub(super) states: LayerStates,
-    /// Entities that are named by their ordinal, and that were named anew.
+    /// Entities that are named by their ordinal, and those that were renamed.
     pub(crate) by_ordinal: usize,
     pub(crate) named_anew: usize,
     /// Blocks that are drawn somewhere, in the order of the text.
     pub(crate) used: Vec<bool>,
-    /// Arcs that the curves take beyond what each has free, and whether one was left out since all of them would take too many.
+    /// Arcs that the curves take beyond their free allowance, and whether a curve was left out since all would take too
+    /// many.
     pub(crate) curve_arcs: u64,
     pub(crate) lacks_curves: bool,
-    /// How near a fitted arc lies to its curve, in drawing units.
+    /// The largest distance of a fitted arc from its curve, in drawing units.
     pub(crate) fit_tolerance: f64,
     /// Sections ENTITIES.
     pub(crate) sections: usize,
-    /// Handles of what is the frame of a text.
+    /// Handles of entities that are the frame of a text.
     pub(crate) frames: FxHashSet<u64>,
 }
 
@@ -175,7 +176,7 @@ impl Table {
                 .map_or(line_count, |&line| line as usize)
     }
 
-    /// Gives back the room that was made ahead.
+    /// Frees the memory that was reserved ahead.
     pub(crate) fn shrink_to_fit(&mut self) {
         self.lines.shrink_to_fit();
         self.items.shrink_to_fit();

@@ -1,4 +1,4 @@
-//! What of a drawing is not cut, each kind and each layer with one finding.
+//! The parts of a drawing that are not cut: one finding for each kind and each layer.
 
 use super::lines::Lines;
 use super::reader::range_key;
@@ -15,12 +15,12 @@ impl Document {
     pub(super) fn name_unsupported(&mut self) {
         self.findings
             .retain(|finding| finding.rule != Rule::UnsupportedEntity);
-        // Of each kind how many there are, and the first.
+        // The number of each kind, and the first of it.
         let mut seen = vec![(0usize, NO_ITEM); self.table.kinds.len()];
-        // What a block holds counts where the block is drawn.
+        // The content of a block counts where the block is drawn.
         let mut used = self.table.used.iter();
         let mut is_drawn = false;
-        // Of most drawings everything is cut: then no item is looked at, however many there are.
+        // In most drawings everything is cut: then no item is looked at, however many there are.
         let items = if seen.is_empty() {
             &[][..]
         } else {
@@ -77,8 +77,8 @@ impl Document {
         self.findings.sort_by_key(range_key);
     }
 
-    /// One finding for each layer that is not simply shown and has something drawn on it, at its entry; one for all that is
-    /// invisible by itself, at the first of it.
+    /// One finding for each layer that is not simply shown and has something drawn on it, at its entry; one for all
+    /// entities that are invisible themselves, at the first of them.
     fn name_unseen(&mut self) {
         let mut by_reason: BTreeMap<(Visibility, Arc<str>), (usize, u64, EntityId)> =
             BTreeMap::new();

@@ -1,14 +1,14 @@
-//! The unit that a drawing states, and how near arcs lie to curves in it.
+//! The unit that a drawing states, and the tolerance of fitted arcs in it.
 
 use crate::drawing::Unit;
 use crate::geometry::Tolerances;
 
-/// The setting for fitted arcs in drawing units. A drawing that does not say its unit may be taken for inches.
+/// The setting for fitted arcs in drawing units. A drawing without a stated unit may be in inches.
 pub(super) fn fit_tolerance(arc_fit: Option<f64>, unit: Option<Unit>) -> f64 {
     arc_fit.unwrap_or(Tolerances::default().arc_fit) / unit.unwrap_or(Unit::INCH).mm
 }
 
-/// The unit that a value of `$INSUNITS` stands for (DXF reference, HEADER section); `None` where it is no length.
+/// The unit of a value of `$INSUNITS` (DXF reference, HEADER section); `None` where it is not a length.
 pub(crate) fn unit_of(insunits: i32) -> Option<Unit> {
     let mm = match insunits {
         1 => 25.4,

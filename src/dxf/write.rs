@@ -1,4 +1,4 @@
-//! New drawings as DXF text, by the `dxf` crate: a text that nobody wrote by hand needs no places.
+//! New drawings as DXF text, by the `dxf` crate: no places are needed in a text that nobody wrote by hand.
 
 use crate::drawing::{Drawing, Geometry, Unit};
 use crate::geometry::{Bounds, Point, positive_angle};
@@ -10,14 +10,14 @@ use crate_dxf::{LwPolylineVertex, Point as Point3};
 /// Height of texts, in millimetres: a start mark has no height of its own.
 const TEXT_HEIGHT_MM: f64 = 1.0;
 
-/// A4 on its long side.
+/// A4 landscape.
 const SHEET_MM: [f64; 2] = [297.0, 210.0];
 
 /// The drawing as an ASCII DXF file of release 2000: LWPOLYLINE, LINE, ARC, CIRCLE and TEXT on their layers.
 ///
-/// Numbers have 12 decimals, bulges too; angles are degrees in [0°, 360°). Handles are given anew, entities keep their
-/// order. The unit is written where it is millimetre, inch, centimetre or metre, else the file is without one.
-/// An error is the sentence of the crate that writes.
+/// Numbers have 12 decimals, bulges too; angles are degrees in [0°, 360°). Handles are new, entities keep their order.
+/// The unit is written where it is millimetre, inch, centimetre or metre, else the file has none. An error is the
+/// sentence of the crate that writes.
 pub fn write(drawing: &Drawing) -> Result<Vec<u8>, String> {
     let mut file = crate_dxf::Drawing::new();
     file.header.version = AcadVersion::R2000;
@@ -89,7 +89,8 @@ pub fn write(drawing: &Drawing) -> Result<Vec<u8>, String> {
     Ok(with_table_handles(bytes))
 }
 
-/// What the drawing covers, and a sheet of A4: the crate's own are those of a drawing in inches, and programs print as much of it.
+/// Sets the extents of the drawing and a sheet of A4: the crate's own are those of a drawing in inches, and programs
+/// print that area.
 fn set_extents(file: &mut crate_dxf::Drawing, drawing: &Drawing) {
     let mut bounds = Bounds::EMPTY;
     for (_, entity) in drawing.entities() {
@@ -110,9 +111,9 @@ fn set_extents(file: &mut crate_dxf::Drawing, drawing: &Drawing) {
     file.header.paperspace_maximum_drawing_limits = Point3::new(width, height, 0.0);
 }
 
-/// The same file with a handle for each symbol table, which the crate leaves out: readers that hold to the reference repair that.
+/// Adds a handle for each symbol table, which the crate leaves out: strict readers repair that.
 ///
-/// Lines come in pairs of group code and value. The handles go on where `$HANDSEED` says that free ones begin.
+/// Lines come in pairs of group code and value. The handles continue from `$HANDSEED`.
 fn with_table_handles(bytes: Vec<u8>) -> Vec<u8> {
     let lines: Vec<&[u8]> = bytes.split_inclusive(|byte| *byte == b'\n').collect();
     let pairs: Vec<(&[u8], &[u8])> = lines

@@ -1,4 +1,4 @@
-//! Numbers and lines of one entity in the text: set, put in, taken out.
+//! Numbers and lines of one entity in the text: set, inserted, removed.
 
 use super::super::lexer::Tag;
 use super::super::lines::Lines;
@@ -8,7 +8,7 @@ use crate::geometry::positive_angle;
 use crate::text::{SourceText, TextEdit};
 use std::ops::Range;
 
-/// Writes what becomes of one entity.
+/// Writes the edit of one entity.
 pub(super) struct Pen<'a> {
     pub(super) text: &'a SourceText,
     pub(super) lines: Lines<'a>,
@@ -66,14 +66,14 @@ impl Pen<'_> {
         self.edits.push(TextEdit::new(range, value));
     }
 
-    /// Puts tags in before a line.
+    /// Inserts tags before a line.
     pub(super) fn insert(&mut self, line: usize, style: &Style, tags: Vec<u8>) {
         let at = self.text.line_start(line);
         let text = style.inserted(self.text, at, tags);
         self.edits.push(TextEdit::new(at..at, text));
     }
 
-    /// Takes whole lines out; the byte-order mark stays.
+    /// Removes whole lines; the byte-order mark stays.
     pub(super) fn remove(&mut self, lines: Range<usize>) {
         let start = match lines.start {
             0 => self.lines.range(0).start,

@@ -1,4 +1,4 @@
-//! The vertices of a polyline: moved, put in, taken out; and whether it is closed.
+//! The vertices of a polyline: moved, inserted, removed; and whether it is closed.
 
 use super::super::Document;
 use super::super::entities::mirror;
@@ -14,11 +14,11 @@ use std::ops::Range;
 /// Decimals of bulges.
 const BULGE_DECIMALS: usize = 15;
 
-/// Bulges that differ by no more are one: by less than a millionth of a µm over a chord of a metre.
+/// Bulges that differ by no more count as equal: they differ by less than a millionth of a µm over a chord of a metre.
 const SAME_BULGE: f64 = 1e-12;
 
 impl Document {
-    /// Sets or clears the bit of group code 70 that says that a polyline is closed.
+    /// Sets or clears the closed bit of a polyline's group code 70.
     pub(super) fn set_closed(
         &self,
         pen: &mut Pen,
@@ -31,7 +31,7 @@ impl Document {
             return Err(say!(is_not_a_polyline, pen.name));
         };
         let end_of_head = of_entity.start + table.lines.first().map_or(2, |&line| line as usize);
-        // Of a LWPOLYLINE the flags may also stand behind the vertices.
+        // In a LWPOLYLINE the flags may also stand behind the vertices.
         let is_light = lines.trimmed(of_entity.start + 1) == b"LWPOLYLINE";
         let end = if is_light { of_entity.end } else { end_of_head };
         let flags = own_tags(lines, of_entity.start..end).filter(|tag| tag.code == 70);
@@ -134,7 +134,7 @@ fn set_vertex(pen: &mut Pen, range: Range<usize>, vertex: Vertex) -> Result<(), 
     pen.set_length(&tags, 10, vertex.point.x)?;
     pen.set_length(&tags, 20, vertex.point.y)?;
     if let Some(tag) = last(&tags, 42) {
-        // Digits that the writer of the file did not have are no other arc.
+        // More digits than the writer of the file had do not make another arc.
         let present = number::number(pen.lines.content(tag.value_line()));
         if matches!(present, Number::Exact(present) if (present - vertex.bulge).abs() <= SAME_BULGE)
         {
@@ -190,7 +190,7 @@ fn insert_vertex(
             style.tag(0, b"VERTEX", &mut text);
             for tag in &tags {
                 match tag.code {
-                    // A handle is one entity's own; the bulge comes behind the point.
+                    // A handle belongs to one entity; the bulge comes behind the point.
                     5 | 20 | 42 => {}
                     10 => coordinates(&mut text),
                     code => style.tag(code, lines.content(tag.value_line()), &mut text),
@@ -230,14 +230,14 @@ fn remove_vertex(pen: &mut Pen, range: Range<usize>) {
     spans.into_iter().for_each(|span| pen.remove(span));
 }
 
-/// Where the VERTEX record ends that begins in these lines; `None` for a vertex of a LWPOLYLINE, which is no record.
+/// The end of the VERTEX record that begins in these lines; `None` for a vertex of a LWPOLYLINE, which has no record.
 fn end_of_record(pen: &Pen, range: &Range<usize>) -> Option<usize> {
     let begins = |line: &usize| number::code(pen.lines.content(*line)) == Code::Known(0);
     let next = || (range.start + 2..range.end).step_by(2).find(begins);
     begins(&range.start).then(|| next().unwrap_or(range.end))
 }
 
-/// The point of a vertex and its widths: what a bulge stands behind.
+/// The point of a vertex and its widths; a bulge follows them.
 fn of_point(tag: &Tag) -> bool {
     matches!(tag.code, 10 | 20 | 30 | 40 | 41)
 }

@@ -9,7 +9,7 @@ use crate::dxf::numbers::Numbers;
 use crate::dxf::shape::Shape;
 use crate::geometry::{Point, radians};
 
-/// The radius, when it is positive; else a finding.
+/// The radius, if it is positive; else a finding.
 fn radius_of(value: f64, kind: &str, start: Tag, lexer: &mut Lexer) -> Option<f64> {
     if value > 0.0 {
         return Some(value);
@@ -27,7 +27,8 @@ pub(super) fn arc(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome
     let Some([x, y, radius, from, to]) = numbers.required(start, lexer, &common) else {
         return Outcome::Damaged;
     };
-    // A point begins and ends in the same direction: what a fillet of no radius leaves behind. Else the radius is damaged.
+    // A point begins and ends in the same direction: a fillet of no radius leaves it behind. Else the radius is
+    // damaged.
     let is_point = radius == 0.0 && (to - from) % 360.0 == 0.0;
     if is_point {
         let place = lexer.lines.trimmed_range(value_line_of(start, lexer, 40));
@@ -65,7 +66,7 @@ pub(super) fn arc(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome
     )
 }
 
-/// Start and end of an arc, counter-clockwise again, once x runs the other way. Its own inverse.
+/// Start and end of an arc, counter-clockwise again after x is reversed. Its own inverse.
 pub(in crate::dxf) fn mirrored_angles(start: f64, end: f64) -> (f64, f64) {
     (std::f64::consts::PI - end, std::f64::consts::PI - start)
 }

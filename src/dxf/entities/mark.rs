@@ -1,4 +1,4 @@
-//! TEXT, MTEXT and POINT: what may mark where a cut starts.
+//! TEXT, MTEXT and POINT: they may mark where a cut starts.
 
 use crate::drawing::{Geometry, Kind};
 use crate::dxf::entity::{Outcome, Plane, Read};
@@ -17,7 +17,7 @@ pub(super) fn text(kind: Kind, start: Tag, lexer: &mut Lexer, layers: &mut Layer
     let mut is_aligned = false;
     let common = numbers.gather(lexer, |lexer, tag| match tag.code {
         1 | 3 => content.extend_from_slice(lexer.lines.content(tag.value_line())),
-        // To the right, to the middle, above a line: then the point that somebody has set is the second one.
+        // Aligned right, middle or above a line: the user has set the second point.
         72 if kind == Kind::Text => {
             is_aligned |= matches!(lexer.lines.trimmed(tag.value_line()), b"1" | b"2" | b"4")
         }

@@ -1,4 +1,4 @@
-//! The kinds of entities, one file each, and which one reads a record.
+//! The kinds of entities, one file each, and the choice of the one that reads a record.
 
 mod circle;
 mod line;

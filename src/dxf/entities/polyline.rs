@@ -11,14 +11,14 @@ use crate::dxf::numbers::missing;
 use crate::dxf::shape::Shape;
 use crate::dxf::space::{Lies, Space, Vector3, in_space as at_height};
 
-/// Vertices as they come: x opens one, y closes it.
+/// Vertices in the order of the text: x opens one, y closes it.
 #[derive(Default)]
 struct Vertices {
     vertices: Vec<Vertex>,
     lines: Vec<u32>,
     /// The last vertex has no y yet.
     lacks_y: bool,
-    /// The first vertex that got none. Said at the end: lines that are out of step may be the cause.
+    /// The first vertex without y. Reported at the end: lines that are out of step may be the cause.
     without_y: Option<usize>,
 }
 
@@ -38,7 +38,7 @@ pub(super) fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers)
     while let Some(tag) = tag_of_record(lexer) {
         match tag.code {
             10 | 20 | 42 if !common.foreign && !common.group => {
-                // A number that is none has its finding; a stand-in keeps the vertices after it in step.
+                // A value that is not a number has its finding; a stand-in keeps the later vertices in step.
                 let value = common.coordinate(lexer, tag).unwrap_or_default();
                 match (tag.code, read.vertices.last_mut()) {
                     (10, _) => {
@@ -152,7 +152,7 @@ fn polyline_of(
     )
 }
 
-/// A vertex once x runs the other way. Its own inverse.
+/// A vertex after x is reversed. Its own inverse.
 pub(in crate::dxf) fn mirror(vertex: &mut Vertex) {
     vertex.point.x = 0.0 - vertex.point.x;
     vertex.bulge = 0.0 - vertex.bulge;
@@ -238,7 +238,7 @@ pub(super) fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Ou
         read.vertices.push(Vertex::new(x, y, bulge));
         read.lines.push((next.line - start.line) as u32);
     }
-    // The text ends within the name of the next record, which tells of it: that may have been a VERTEX.
+    // The text ends within the name of the next record, which has the finding: that may have been a VERTEX.
     let is_cut = !ended
         && lexer.lines.last_is_open()
         && lexer

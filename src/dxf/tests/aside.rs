@@ -1,4 +1,4 @@
-//! What is drawn to be read and not to be cut: linetypes, layers, lone lines.
+//! Entities drawn to be read and not cut: linetypes, layers, lone lines.
 
 use crate::document::{Document, Source};
 use crate::finding::{Severity, sentence};
@@ -31,7 +31,7 @@ fn opened(text: &str, settings: &str) -> Document {
     Document::new(source, Arc::new(Effective::of(&settings)))
 }
 
-/// Handles of what is cut, and what is found that is no hint.
+/// Handles of what is cut, and the findings above hint.
 fn told(document: &mut Document) -> (Vec<String>, Vec<String>) {
     let drawing = document.drawing().unwrap().clone();
     let cut = drawing
@@ -76,14 +76,14 @@ fn what_is_drawn_to_be_read_is_not_cut_and_said_once() {
     let none = &["A", "B"][..];
     for (more, settings, cut, said) in [
         (cross.clone(), "", none, vec![lone]),
-        // A role by handle is a word of somebody's.
+        // Somebody gave this role by handle.
         (
             cross.clone(),
             "[contours]\nC = \"both\"\nD = \"both\"",
             cut_cd,
             vec![format!("{open}24.000 mm apart"); 2],
         ),
-        // What is the wire's own path may be one line.
+        // Where the drawing is the wire's own path, one line may be enough.
         (
             cross,
             "[program]\ncompensation = \"none\"",
@@ -136,7 +136,7 @@ fn what_is_drawn_to_be_read_is_not_cut_and_said_once() {
             vec![aside("1 in linetype HIDDEN")],
         ),
         (marked, "[linetypes]\nhidden = \"ignore\"", none, vec![]),
-        // Outside of all, across nothing.
+        // Outside of everything, across nothing.
         (
             line("5 C 8 DIE", "200 0 240 0"),
             "",

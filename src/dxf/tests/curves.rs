@@ -1,4 +1,4 @@
-//! Ellipses and splines as arcs: how near they come, and that the setting for it holds.
+//! Ellipses and splines as arcs: how close they come, and that the setting is kept.
 
 use super::blocks::with_blocks;
 use super::reading::{dxf, entities, findings};
@@ -23,8 +23,9 @@ fn distance(segments: &[Segment], point: Point) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// A periodic spline has no clamped ends: it runs over the knots from number 3 on, and is closed because its first control points
-/// are its last ones. Where it passes is told by the weights of the cubic B-spline, 1 4 1 at a knot and 1 23 23 1 between two.
+/// A periodic spline has no clamped ends: it runs over the knots from number 3 on, and is closed because its first
+/// control points are its last ones. The weights of the cubic B-spline give the points it passes: 1 4 1 at a knot and 1
+/// 23 23 1 between two.
 #[test]
 fn a_periodic_spline_closes_without_running_through_its_control_points() {
     let corners = [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0]];
@@ -61,8 +62,8 @@ fn a_periodic_spline_closes_without_running_through_its_control_points() {
     assert!(distance(&drawn, Point::new(0.0, 0.0)) > 1.0);
 }
 
-/// Programs write splines without their knots; others draw them with even ones. What it is not drawn for is an error: a part of the
-/// outline is missing.
+/// Programs write splines without knots; others draw them with even ones. A spline that cannot be drawn is an error: a
+/// part of the outline is missing.
 #[test]
 fn a_spline_without_knots_is_drawn_and_one_with_too_few_is_an_error() {
     let points = "10 0 20 0 10 1 20 3 10 4 20 3 10 5 20 0";
@@ -87,7 +88,7 @@ fn a_spline_without_knots_is_drawn_and_one_with_too_few_is_an_error() {
     );
 }
 
-/// Its like is found in drawings that scripts wrote: read as any other, and other programs refuse it.
+/// Drawings written by scripts hold such splines: wedm reads them as any other, other programs refuse them.
 #[test]
 fn a_spline_without_the_mark_of_its_class_is_drawn_with_a_hint() {
     let document = Document::read(
@@ -126,7 +127,7 @@ fn the_setting_says_how_near_arcs_come_to_the_curve() {
                 "{fit}"
             );
         }
-        // An edit elsewhere keeps to it, as a reading of the whole text does.
+        // An edit elsewhere keeps the setting, as a reading of the whole text does.
         let at = document.text().len() - "0\nENDSEC\n0\nEOF\n".len();
         let circle = "0\nCIRCLE\n5\nD\n10\n0\n20\n0\n40\n1\n";
         document.edit(at..at, circle);
@@ -140,7 +141,7 @@ fn the_setting_says_how_near_arcs_come_to_the_curve() {
     );
 }
 
-/// What a block reference stretches is a curve before it is fitted: the setting is of the drawing, not of the block.
+/// A block reference stretches the curve before it is fitted: the setting applies in the drawing, not in the block.
 #[test]
 fn curves_out_of_blocks_are_fitted_where_they_come_to_lie() {
     let block = "0 BLOCK 2 B 10 0 20 0 0 CIRCLE 8 0 10 0 20 0 40 0.01 0 ENDBLK ";
@@ -155,7 +156,8 @@ fn curves_out_of_blocks_are_fitted_where_they_come_to_lie() {
     }
 }
 
-/// A line of text asks for hundreds of arcs: all curves of a drawing have one measure, and what is left out is said. Edits keep to it.
+/// A line of text asks for hundreds of arcs: all curves of a drawing share one limit, and a finding names what is left
+/// out. Edits keep to it.
 #[test]
 fn all_curves_of_a_drawing_take_no_more_than_so_many_arcs() {
     let ellipse = |handle: usize, major: u32| {
@@ -181,7 +183,7 @@ fn all_curves_of_a_drawing_take_no_more_than_so_many_arcs() {
         places
     };
     assert_eq!((drawn(&document), left_out(&document).len()), (fitting, 3));
-    // Where an early one takes fewer, a late one comes, and back.
+    // Where an early curve takes fewer arcs, a late one comes, and back.
     let majors = ["20000", "33", "20000", "200"];
     for pair in majors.windows(2) {
         let at = document

@@ -1,4 +1,4 @@
-//! Bytes that are no DXF text, or no sound one: one finding, no panic, no long wait.
+//! Bytes that are not DXF text, or not sound: one finding, no panic, no long wait.
 
 use super::reading::dxf;
 use crate::dxf::Document;

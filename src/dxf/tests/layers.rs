@@ -52,7 +52,7 @@ fn check(
     let document = Document::read(text.clone().into_bytes());
     assert_eq!(look(&document), expected, "{entities}");
     assert_eq!(findings(&document), expected_findings, "{entities}");
-    // The tables may stand behind what they are of.
+    // A table may stand behind the entities that use it.
     let (from, to) = (
         text.find("0\nSECTION\n2\nTABLES").unwrap(),
         text.find("0\nSECTION\n2\nBLOCKS").unwrap(),
@@ -174,7 +174,7 @@ fn colours_are_those_of_the_entity_its_block_or_its_layer() {
             })
             .collect::<String>()
     };
-    // A to E, then the four circles of the block, the second and the last of which are not seen.
+    // A to E, then the four circles of the block, the second and the last of which are invisible.
     assert_eq!(roles(""), "xxxxxx-x-");
     assert_eq!(roles("[colors]\nred = \"ignore\""), "-xxxxx-x-");
     assert_eq!(roles("[colors]\nblue = \"ignore\""), "x--xxx-x-");
@@ -187,7 +187,7 @@ fn colours_are_those_of_the_entity_its_block_or_its_layer() {
         "xxxxxx-x-"
     );
     assert_eq!(roles("[colors]\nwhite = \"punch\""), "xxxxxx-x-");
-    // A handle comes before layer and colour, and does not bring back what is not seen.
+    // A handle comes before layer and colour, and does not bring back an invisible entity.
     assert_eq!(
         roles("[contours]\nB = \"ignore\"\nF = \"punch\"\n[layers]\nLocked = \"punch\""),
         "x-xxxx-x-"

@@ -1,4 +1,4 @@
-//! What a drawing itself lets stand: extended data of an entity, and names of layers.
+//! Findings that the drawing itself suppresses: extended data of an entity, and names of layers.
 
 use super::layers::with_layers;
 use crate::document::{Document, Source};
@@ -11,7 +11,7 @@ fn opened(text: &str) -> Document {
     Document::new(source, Arc::new(Effective::of(&Settings::default())))
 }
 
-/// What is found but for hints and information, and what is suppressed, with the reasons.
+/// The findings above information, and the suppressed ones with the reasons.
 fn told(document: &mut Document) -> (Vec<String>, Vec<String>) {
     let (findings, _) = document.findings(usize::MAX);
     let found = findings
@@ -27,7 +27,7 @@ fn told(document: &mut Document) -> (Vec<String>, Vec<String>) {
     (found, reasons)
 }
 
-/// An outline whose ends are 0.005 mm apart, said at the first of its two entities.
+/// An outline whose ends are 0.005 mm apart, reported at the first of its two entities.
 fn outline(layer: &str, words: &str) -> String {
     let text = format!(
         "0 LINE 5 A 8 {layer} 10 0 20 0.005 11 10 21 0 {words} \

@@ -1,4 +1,4 @@
-//! Blocks that are tilted in space and what of them ends level with the drawing, against what ezdxf makes of the same files
+//! Blocks that are tilted in space and end level with the drawing, against the result of ezdxf for the same files
 //! (`tests/data/planes/make.py`).
 
 use super::blocks::with_blocks;
@@ -6,7 +6,7 @@ use super::reading::{entities, findings};
 use crate::dxf::Document;
 use crate::geometry::{Point, Segment};
 
-/// How far a point of a curve may lie from the arcs that stand for it, in drawing units.
+/// The largest distance of a point of a curve from the arcs that replace it, in drawing units.
 const FITTED: f64 = 1e-3;
 
 #[test]
@@ -79,7 +79,7 @@ fn what_ends_level_lies_where_ezdxf_says() {
             .filter(|finding| finding.contains("tilted"))
             .collect();
         assert_eq!(said, tilted, "{name}");
-        // Nothing is drawn that ezdxf does not draw: all of it is as long as the same shapes drawn level.
+        // Only what ezdxf draws is drawn: the total is as long as the same shapes drawn level.
         let length: f64 = segments.iter().map(Segment::length).sum();
         assert!((length - LENGTH).abs() < 1e-2, "{name}: {length}");
     }
