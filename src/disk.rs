@@ -1,11 +1,11 @@
-//! Files in and out: never more of them than can be held, and none replaced that is not the one that was read.
+//! Reads and writes files: never more than fits in memory, and never over a file that has changed since it was read.
 
 use std::fs::{File, Metadata};
 use std::hash::{DefaultHasher, Hasher};
 use std::io::{self, ErrorKind, Read, Write};
 use std::path::Path;
 
-/// What a file was when it was read.
+/// The identity of a file when it was read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Seen {
     identity: Option<[u64; 2]>,
@@ -16,7 +16,7 @@ pub(crate) struct Seen {
 /// The bytes of `file`, at most `cap` of them: a device or a pipe may have no end.
 ///
 /// # Errors
-/// A sentence: it cannot be read, or holds more.
+/// A sentence: it cannot be read, or is larger.
 pub(crate) fn read_at_most(file: &File, cap: u64) -> Result<Vec<u8>, String> {
     let metadata = file.metadata().map_err(|error| plain(&error))?;
     let mut bytes = Vec::new();
@@ -33,7 +33,7 @@ pub(crate) fn read_at_most(file: &File, cap: u64) -> Result<Vec<u8>, String> {
     read_stream_at_most(file, cap, bytes)
 }
 
-/// The same of a stream, behind what `bytes` holds.
+/// The same for a stream, appended to `bytes`.
 pub(crate) fn read_stream_at_most(
     stream: impl Read,
     cap: u64,
@@ -49,13 +49,13 @@ pub(crate) fn read_stream_at_most(
     Ok(bytes)
 }
 
-/// [`read_at_most`] of what stands at a path.
+/// [`read_at_most`] for a path.
 pub(crate) fn read_path_at_most(path: &Path, cap: u64) -> Result<Vec<u8>, String> {
     read_at_most(&File::open(path).map_err(|error| plain(&error))?, cap)
 }
 
 impl Seen {
-    /// What `file` is, whose bytes these are.
+    /// The identity of `file`, which has these bytes.
     pub(crate) fn of(file: &File, bytes: &[u8]) -> Result<Seen, String> {
         let metadata = file.metadata().map_err(|error| plain(&error))?;
         let mut hasher = DefaultHasher::new();
@@ -80,8 +80,8 @@ fn identity(_: &Metadata) -> Option<[u64; 2]> {
     None
 }
 
-/// Writes to whatever stands at `path`: a regular file is [replaced](replace), a device or a pipe written to. Returns the names that
-/// an old file has besides.
+/// Writes to `path`: a regular file is [replaced](replace), a device or a pipe written to. Returns the other names of
+/// an old file.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<u64, String> {
     match std::fs::metadata(path) {
         Ok(metadata) if !metadata.is_file() && !metadata.is_dir() => std::fs::write(path, bytes)
@@ -91,15 +91,15 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<u64, String> {
     }
 }
 
-/// Puts a new file in the place of the one at `path`, or where none is.
+/// Puts a new file in place of the one at `path`, or where there is none.
 ///
-/// The bytes are written beside it, to a file that nobody else may read, which then gets the owner and the permissions of the old one and
-/// its name: nobody ever sees half of it. A link stays a link to a new file. Returns the names that the old file has besides (hard links),
-/// which still lead to the old content.
+/// The bytes are first written beside it, to a file that nobody else may read. That file then gets the owner, the
+/// permissions and the name of the old one, so nobody ever sees half of it. A link stays a link to a new file. Returns
+/// the other names (hard links) of the old file, which keep the old content.
 ///
 /// # Errors
-/// A sentence, with nothing changed: there is no regular file or one that is read-only, it is not the one that was `read`, or the new one cannot
-/// have its owner.
+/// A sentence, with nothing changed: the path is not a regular file or is read-only, the file is not the one that was
+/// `read`, or the new one cannot have its owner.
 pub(crate) fn replace(path: &Path, read: Option<&Seen>, bytes: &[u8]) -> Result<u64, String> {
     replaced(path, read, bytes).map_err(|error| plain(&error))
 }
@@ -136,7 +136,7 @@ fn replaced(path: &Path, read: Option<&Seen>, bytes: &[u8]) -> io::Result<u64> {
         beside.as_file().set_permissions(old.permissions())?;
     }
     beside.as_file().sync_all()?;
-    // As late as can be: what somebody else wrote meanwhile is not lost.
+    // As late as possible, so as not to lose what somebody else wrote meanwhile.
     if let Some(read) = read
         && !is_still(&path, read)?
     {
@@ -160,8 +160,8 @@ fn is_still(path: &Path, read: &Seen) -> io::Result<bool> {
     Ok(Seen::of(&file, &bytes).map_err(io::Error::other)? == *read)
 }
 
-/// A temporary file. What stands for an old one is nobody else's to read until it has the old one's permissions; a new one gets those of
-/// any new file.
+/// A temporary file. Nobody else may read the replacement of an old file until it has the old permissions; a new file
+/// gets the usual ones.
 fn beside(folder: &Path, stands_for_old: bool) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".wedm-");
@@ -197,7 +197,7 @@ fn give_owner(new: &File, old: &Metadata) -> io::Result<()> {
     })
 }
 
-/// A new file belongs to whom its folder says.
+/// The folder decides the owner of a new file.
 #[cfg(not(unix))]
 fn give_owner(_: &File, _: &Metadata) -> io::Result<()> {
     Ok(())
@@ -214,7 +214,7 @@ fn other_names(_: &Metadata) -> u64 {
     0
 }
 
-/// Makes the new name last. The file is in its place by now: a system that cannot do this is no fault.
+/// Makes the new name durable. The file is in place by now, so a system that cannot do this is no error.
 fn sync(folder: &Path) {
     if cfg!(unix) {
         let _ = File::open(folder).and_then(|folder| folder.sync_all());

@@ -1,6 +1,6 @@
-//! What a rule or a reader has found, as data: the rule, the place, the numbers.
+//! The finding of a rule or a reader as data: the rule, the place, the numbers.
 //!
-//! [`sentence()`] makes of it what a person reads, the server its form in the protocol.
+//! [`sentence()`] turns it into text for people, the server into its form in the protocol.
 
 mod aside;
 mod fault;
@@ -48,7 +48,7 @@ impl From<&ContourSegment> for Place {
 }
 
 impl Place {
-    /// The entity that it lies at in a drawing, and the segment where it is one.
+    /// The entity at which it lies in a drawing, and the segment, if any.
     pub(crate) fn entity(&self) -> Option<(EntityId, Option<usize>)> {
         match *self {
             Place::Segment { entity, segment } => Some((entity, Some(segment))),
@@ -64,7 +64,8 @@ impl Place {
 }
 
 impl Finding {
-    /// True for what is said of one of the `entities`, of all where there are none named, and of the document as a whole or its text.
+    /// True if it concerns one of the `entities`; with an empty list, if it concerns any entity, the document as a
+    /// whole or its text.
     pub(crate) fn concerns(&self, entities: Option<&FxHashSet<EntityId>>) -> bool {
         let of_entities = |entities| {
             self.place.is_of(entities) || self.related.iter().any(|place| place.is_of(entities))
@@ -73,7 +74,7 @@ impl Finding {
     }
 }
 
-/// Where a finding lies.
+/// The place of a finding.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Place {
     /// A segment of an entity, by its index within the entity.
@@ -96,9 +97,9 @@ pub enum Place {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Detail {
     SmallRadius(Box<SmallRadius>),
-    /// A corner concave to the wire turns by `turn` (radians): it is left with `radius`, and `uncut` of it stands.
-    /// Where the wire side is not known, one finding stands for the `count` corners of its contour, and `uncut` holds for
-    /// those that the wire runs inside of; else `count` is `None`.
+    /// A corner concave to the wire turns by `turn` (radians): the wire leaves `radius` and does not cut `uncut`. Where
+    /// the wire side is not known, one finding stands for the `count` corners of its contour, and `uncut` is that of a
+    /// corner if the wire runs inside of it; else `count` is `None`.
     SharpCorner {
         turn: f64,
         radius: f64,
@@ -114,22 +115,23 @@ pub enum Detail {
     LostPocket {
         near: Point,
     },
-    /// The wire comes no further between two walls: what lies beyond stays uncut, `near` the farthest by so much.
+    /// The wire comes no further between two walls: the rest stays uncut, and `near` is farthest from the wire, by this
+    /// much.
     DeadEnd {
         near: Point,
         uncut: f64,
     },
-    /// Nothing is left of the outline at this correction.
+    /// The offset of the outline is empty at this correction.
     OffsetCollapse {
         required: f64,
         /// A point is left: the wire can stand there, and cuts nothing more.
         point: bool,
     },
-    /// The path that the wire would run does not hold its proof, near a point.
+    /// The planned path of the wire fails its proof, near a point.
     UnprovedPath {
         near: Point,
     },
-    /// There is a path, but not in the language that it is to be written in.
+    /// There is a path, but the language of the program cannot express it.
     Unwritable(Unwritable),
     /// The ends of a contour are `distance` apart.
     OpenContour {
@@ -139,11 +141,11 @@ pub enum Detail {
     Gap {
         distance: f64,
     },
-    /// So many entities of a contour lie there more than once.
+    /// This many entities of a contour lie there more than once.
     DuplicateEntity {
         count: usize,
     },
-    /// Two segments run on one another over `length`.
+    /// Two segments coincide over `length`.
     Overlap {
         length: f64,
     },
@@ -151,7 +153,7 @@ pub enum Detail {
     ShortSegment {
         length: f64,
     },
-    /// Two segments meet at `turn` radians: nearly tangent, not quite.
+    /// Two segments meet at `turn` radians: nearly tangent, but not quite.
     NearTangent {
         turn: f64,
     },
@@ -173,30 +175,30 @@ pub enum Detail {
     /// A contour of the workpiece `of` has no partner in another.
     NoPartner {
         of: Arc<str>,
-        /// Workpieces of which nothing is drawn.
+        /// Workpieces without any entity.
         missing: Vec<String>,
     },
-    /// A program and its drawing are not alike.
+    /// A program and its drawing differ.
     NotTheDrawing(Box<Unlike>),
-    /// `kind` of entity, and how many of it; the place is the first.
+    /// The `kind` of entity, and the number of them; the place is the first.
     UnsupportedEntity {
         kind: String,
         count: usize,
         why: &'static str,
     },
-    /// `count` entities are drawn on a layer that is not simply shown, or are invisible by themselves.
+    /// `count` entities are drawn on a layer that is not simply shown, or are invisible themselves.
     Unseen {
         layer: Arc<str>,
         visibility: Visibility,
         count: usize,
     },
-    /// What is drawn to be read and not to be cut.
+    /// Entities drawn to be read and not to be cut.
     SetAside(Vec<SetAside>),
-    /// The larger side of the largest contour, which speaks for another unit.
+    /// The larger side of the largest contour, which suggests another unit.
     Size {
         size: f64,
     },
-    /// What the sentence says and nothing else: what was found and what was expected, lower-case, no final dot.
+    /// Only what the sentence says: what was found and what was expected, lower-case, no final dot.
     Said(String),
     More {
         count: usize,
@@ -206,16 +208,16 @@ pub enum Detail {
 /// Two parts of a pair bind. Lengths in drawing units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Misfit {
-    /// On the outline that stands too far out.
+    /// On the outline that protrudes.
     pub at: Point,
-    /// What is left; below 0.
+    /// The remaining clearance; below 0.
     pub clearance: f64,
-    /// What there should be.
+    /// The required clearance.
     pub wanted: f64,
     /// The part at whose segment the finding stands, and its partner: `punch` and `plate`, or names of workpieces.
     pub of: Arc<str>,
     pub partner: Arc<str>,
-    /// That of the two which stands too far out in a corner; `None` where they bind along a wall, which no radius of a corner mends.
+    /// The part that protrudes in a corner; `None` where they bind along a wall, which no corner radius mends.
     pub corner_of: Option<Arc<str>>,
 }
 
@@ -236,7 +238,7 @@ impl Finding {
         Finding::in_text(rule, range, Detail::Program(Box::new(fault))).with(severity)
     }
 
-    /// What a rule says of some bytes of a text, as severe as the rule is by itself.
+    /// A finding of a rule at some bytes of a text, with the default severity of the rule.
     pub(crate) fn in_text(rule: Rule, range: Range<usize>, detail: Detail) -> Finding {
         Finding {
             rule,

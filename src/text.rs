@@ -1,4 +1,4 @@
-//! Text with its lines: bytes, where each line begins, and positions as editors count them.
+//! Text with its lines: bytes, the start of each line, and positions as editors count them.
 //!
 //! The bytes may be anything; nothing here knows what the text means. Offsets are bytes, lines count from 0.
 
@@ -24,7 +24,7 @@ pub(crate) enum Encoding {
     Utf16,
 }
 
-/// Padding that is wider than this is no column that somebody lined up: it is not kept. (`format!` takes no width above 65,535.)
+/// Padding wider than this does not line up a column and is dropped. (`format!` takes no width above 65,535.)
 pub(crate) const WIDEST_COLUMN: usize = 64;
 
 /// A replacement of a range of bytes.
@@ -47,7 +47,7 @@ impl From<TextEdit> for Vec<TextEdit> {
     }
 }
 
-/// The bytes with `edits` made, which are sorted and disjoint; `None` when they are not, or reach past the end.
+/// The bytes after `edits`, which must be sorted and disjoint; `None` when they are not, or reach past the end.
 pub fn edited(bytes: &[u8], edits: &[TextEdit]) -> Option<Vec<u8>> {
     let mut result = Vec::with_capacity(bytes.len());
     let mut at = 0;
@@ -60,7 +60,8 @@ pub fn edited(bytes: &[u8], edits: &[TextEdit]) -> Option<Vec<u8>> {
     Some(result)
 }
 
-/// The one edit from the first byte that differs to the last; `None` where none does, or what changes is not UTF-8.
+/// The one edit from the first byte that differs to the last; `None` where none does, or where the changed part is not
+/// UTF-8.
 pub(crate) fn difference(old: &[u8], new: &[u8]) -> Option<TextEdit> {
     let same = |(a, b): &(&u8, &u8)| a == b;
     let start = old.iter().zip(new).take_while(same).count();
@@ -74,8 +75,8 @@ pub(crate) fn difference(old: &[u8], new: &[u8]) -> Option<TextEdit> {
 
 /// The bytes of a document and the starts of its lines, which end with LF, CR LF or CR.
 ///
-/// A text has at least one line; a text that ends with a line end has an empty last line. Texts of 4 GiB and more
-/// cannot be held: what lies beyond is cut off. A clone shares the text until one of the two is edited.
+/// A text has at least one line; a text that ends with a line end has an empty last line. Texts of 4 GiB and more are
+/// cut off. A clone shares the text until one of the two is edited.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceText {
     bytes: Arc<Bytes>,
@@ -88,7 +89,7 @@ impl Default for SourceText {
     }
 }
 
-/// The first of a list, so many at most.
+/// The first items of a list, at most this many.
 pub(crate) fn head<T>(all: &[T], most: usize) -> &[T] {
     all.get(..most).unwrap_or(all)
 }
@@ -109,14 +110,14 @@ impl SourceText {
         }
     }
 
-    /// A copy of some bytes with room for what will be typed: the first edit need not move all of them elsewhere.
+    /// A copy of some bytes with room for typing, so that the first edit need not move them all.
     pub(crate) fn with_room(bytes: &[u8]) -> Vec<u8> {
         let mut copy = Vec::with_capacity(bytes.len() + gap::ROOM_FOR_THE_FIRST);
         copy.extend_from_slice(bytes);
         copy
     }
 
-    /// The whole text. Behind an edit that left a gap the first to ask has it copied: whoever wants a line asks for that.
+    /// The whole text. After an edit that left a gap, the first call copies it; use the line functions to read a line.
     pub fn bytes(&self) -> &[u8] {
         self.bytes.whole()
     }
@@ -136,7 +137,7 @@ impl SourceText {
         self.bytes.get(at).copied()
     }
 
-    /// The bytes from the beginning up to a line, and those from there to the end. Both hold whole lines.
+    /// The bytes before a line, and those from there on. Both hold whole lines.
     pub(crate) fn pieces(&self) -> (&[u8], &[u8]) {
         match self.bytes.pieces() {
             ([], whole) => (whole, &[]),
@@ -144,7 +145,7 @@ impl SourceText {
         }
     }
 
-    /// Makes the text one piece again, for whoever reads all of it.
+    /// Makes the text contiguous again, for whoever reads all of it.
     pub(crate) fn join(&mut self) {
         if !self.bytes.pieces().1.is_empty() && !self.bytes.pieces().0.is_empty() {
             Arc::make_mut(&mut self.bytes).join();
@@ -163,7 +164,7 @@ impl SourceText {
         Some(start..start + digits.count())
     }
 
-    /// The text with `U+FFFD` in the place of what is not UTF-8.
+    /// The text with `U+FFFD` for invalid UTF-8.
     pub fn as_str_lossy(&self) -> Cow<'_, str> {
         String::from_utf8_lossy(self.bytes())
     }
@@ -194,7 +195,7 @@ impl SourceText {
         self.line_starts.begun_by(offset).saturating_sub(1)
     }
 
-    /// The line end that the text uses before a place: that of the last line which ends there, LF where none does.
+    /// The line end in use before a place: that of the last line which ends there, LF where none does.
     pub(crate) fn line_end_before(&self, place: usize) -> &'static str {
         let (head, tail) = self.pieces();
         let in_tail = tail
@@ -256,7 +257,7 @@ impl SourceText {
         edits
     }
 
-    /// The edit that leaves a word out, with the space behind it in its line.
+    /// The edit that removes a word, with the space behind it in its line.
     pub(crate) fn without_word(&self, word: &Range<usize>) -> TextEdit {
         let behind = self.bytes().get(word.end..).unwrap_or_default();
         let is_space = |byte: &&u8| matches!(byte, b' ' | b'\t');
@@ -264,16 +265,16 @@ impl SourceText {
         TextEdit::new(word.start..word.end + space, "")
     }
 
-    /// Replaces a range of bytes, which is clamped to the text. Costs a move of the tail; where lines come or
-    /// go, also a step for each line behind it.
+    /// Replaces a range of bytes, which is clamped to the text. Costs a move of the tail; where the number of lines
+    /// changes, also a step for each line behind it.
     pub(crate) fn replace(&mut self, range: Range<usize>, replacement: &str) {
         self.replaced(range, replacement, |bytes, range, _| {
             bytes.replace(range, replacement.as_bytes());
         });
     }
 
-    /// As [`SourceText::replace`]; costs a move of what lies between this place and that of the edit before. The text is in two pieces
-    /// then: [`SourceText::bytes`] has a price.
+    /// As [`SourceText::replace`]; costs a move of the bytes between this edit and the one before. The text then has a
+    /// gap, and [`SourceText::bytes`] a price.
     pub(crate) fn replace_here(&mut self, range: Range<usize>, replacement: &str) {
         self.replaced(range, replacement, |bytes, range, next| {
             bytes.replace_beside_gap(range, replacement.as_bytes(), next);
@@ -289,8 +290,8 @@ impl SourceText {
     ) {
         let end = range.end.min(self.bytes.len());
         let start = range.start.min(end);
-        // The starts that the edit can make or unmake lie between its two ends, both included:
-        // a CR and a LF that meet there are one line end.
+        // The starts that the edit can make or unmake lie between its two ends, both included: a CR and a LF that meet
+        // there are one line end.
         let first = self.line_starts.begun_by(start.saturating_sub(1));
         let last = self.line_starts.begun_by(end).max(first);
         let next = self.line_start(self.line_starts.begun_by(end));
@@ -339,8 +340,8 @@ impl SourceText {
         (line, self.counted(start, offset.min(end), encoding).1)
     }
 
-    /// Characters from the byte `from` on to the byte `to` of the same line, and where the last of them ends: before `to` where that lies
-    /// within a character.
+    /// Characters from the byte `from` to the byte `to` of the same line, and the end of the last of them, which is
+    /// before `to` if `to` lies within a character.
     pub(crate) fn counted(&self, from: usize, to: usize, encoding: Encoding) -> (usize, usize) {
         let Some(bytes) = self.slice(from..to) else {
             return (from, 0);
@@ -350,7 +351,7 @@ impl SourceText {
         }
         let (mut at, mut characters) = (from, 0);
         while at < to {
-            // No character goes on behind the end of its line, and so of the piece that it lies in.
+            // No character crosses the end of its line, so none crosses the end of its piece.
             let end = match self.pieces().0.len() {
                 head if at < head => head,
                 _ => self.len(),
@@ -370,7 +371,7 @@ impl SourceText {
 /// Bytes of a character in UTF-8.
 const LONGEST_CHARACTER: usize = 4;
 
-/// Bytes and units of the first character; a byte that is no UTF-8 is a character of one unit.
+/// Bytes and units of the first character; an invalid byte is a character of one unit.
 fn measure(bytes: &[u8], encoding: Encoding) -> (usize, usize) {
     let length = match bytes.first() {
         None => return (0, 0),

@@ -1,14 +1,14 @@
-//! What a CAD program shows of an entity: its colour, and whether it is to be seen at all.
+//! How a CAD program shows an entity: its colour, linetype, and whether it is visible at all.
 
 use super::{Drawing, EntityId};
 use std::sync::Arc;
 
-/// Whether an entity is to be seen in the CAD program. What is not seen is not cut, unless somebody gives it a role.
+/// Why an entity is not simply shown in the CAD program. A hidden entity is not cut, unless somebody gives it a role.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Visibility {
     #[default]
     Shown,
-    /// Its layer is not plotted; it is seen on the screen, and cut.
+    /// Its layer is not plotted; it is visible on the screen, and cut.
     Unplotted,
     /// Its layer is switched off.
     Off,
@@ -24,7 +24,7 @@ impl Visibility {
     }
 }
 
-/// The linetype in which an entity is drawn, where it is not a continuous one.
+/// The linetype of an entity, where it is not a continuous one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Linetype {
     pub(crate) name: Arc<str>,
@@ -32,10 +32,10 @@ pub(crate) struct Linetype {
     pub(crate) of_layer: bool,
 }
 
-/// Words that the drawing itself has for one entity.
+/// Words that the drawing itself holds for one entity.
 pub(crate) type Marks = Arc<[Arc<str>]>;
 
-/// What the name of a layer says as a mark of all that is on it: `WEDM_SUPPRESS_gap_as the customer drew it`.
+/// The name of a layer that marks everything on it: `WEDM_SUPPRESS_gap_as the customer drew it`.
 pub(crate) fn mark_of_layer(layer: &str) -> Option<&str> {
     let (ours, mark) = (layer.get(..5)?, layer.get(5..)?);
     let is_mark = |mark: &&str| {
@@ -46,10 +46,10 @@ pub(crate) fn mark_of_layer(layer: &str) -> Option<&str> {
     is_ours.then_some(mark).filter(is_mark)
 }
 
-/// The word that a mark begins with which lets a finding stand.
+/// The word that begins a mark which suppresses a finding.
 pub(crate) const SUPPRESS: &str = "suppress";
 
-/// All that a drawing knows of how one entity looks, and what it has for it in words.
+/// Everything that a drawing knows of the appearance of its entities, and the words it holds for them.
 #[derive(Clone, Debug)]
 pub(crate) struct Appearance {
     pub(super) unseen: Option<(Visibility, Arc<str>)>,
@@ -67,7 +67,7 @@ pub enum Color {
     True(u32),
 }
 
-/// The colours that have a name, which are the first of the index, and what they are as red, green and blue.
+/// The named colours, which are the first of the index, as red, green and blue.
 const NAMED: [(&str, u32); 7] = [
     ("red", 0xFF_0000),
     ("yellow", 0xFF_FF00),
@@ -79,7 +79,7 @@ const NAMED: [(&str, u32); 7] = [
 ];
 
 impl Color {
-    /// A colour of 24 bits; one of those that have a name is that one.
+    /// A 24-bit colour; a named colour if it equals one.
     pub(crate) fn of_rgb(rgb: u32) -> Color {
         let named = NAMED.iter().zip(1..).find(|((_, named), _)| *named == rgb);
         named.map_or(Color::True(rgb & 0xFF_FFFF), |(_, index)| {
@@ -109,7 +109,7 @@ impl Color {
 }
 
 impl Drawing {
-    /// Says whether an entity is seen, and which layer decides it. True when that is something new.
+    /// Sets whether an entity is visible, and which layer decides it. True when that changes.
     pub(crate) fn set_visibility(
         &mut self,
         id: EntityId,
@@ -136,7 +136,7 @@ impl Drawing {
             .map(|(&id, (visibility, layer))| (id, *visibility, layer))
     }
 
-    /// Says in which linetype an entity is drawn; `None` is a continuous one. True when that is something new.
+    /// Sets the linetype of an entity; `None` is a continuous one. True when that changes.
     pub(crate) fn set_linetype(&mut self, id: EntityId, linetype: Option<Linetype>) -> bool {
         let before = self.linetypes.get(&id);
         let is_new = before != linetype.as_ref();
@@ -149,12 +149,12 @@ impl Drawing {
         is_new
     }
 
-    /// The linetype in which an entity is drawn, where it is not a continuous one.
+    /// The linetype of an entity, where it is not a continuous one.
     pub(crate) fn linetype(&self, id: EntityId) -> Option<&Linetype> {
         self.linetypes.get(&id)
     }
 
-    /// Says what the source has for an entity in words. True when that is something new.
+    /// Sets the words that the source holds for an entity. True when that changes.
     pub(crate) fn set_marks(&mut self, id: EntityId, marks: Option<Marks>) -> bool {
         let before = match marks.clone() {
             Some(marks) => self.marks.insert(id, marks),
@@ -163,12 +163,12 @@ impl Drawing {
         before != marks
     }
 
-    /// Whether there are words for any entity.
+    /// Whether any entity has words.
     pub(crate) fn has_marks(&self) -> bool {
         !self.marks.is_empty() || !self.on_marked_layers.is_empty()
     }
 
-    /// The entities that there are words for: of their own, or of their layer; in no order.
+    /// The entities with words, their own or their layer's; in no order.
     pub(crate) fn marked(&self) -> impl Iterator<Item = EntityId> + '_ {
         let by_layer = self.on_marked_layers.iter();
         let by_layer = by_layer.filter(|id| !self.marks.contains_key(id));
@@ -192,7 +192,7 @@ impl Drawing {
         }
     }
 
-    /// How an entity looks, for one that is removed and may come back.
+    /// The appearance of an entity, for one that is removed and may come back.
     pub(crate) fn appearance(&self, id: EntityId) -> Appearance {
         Appearance {
             unseen: self.unseen.get(&id).cloned(),
@@ -211,7 +211,7 @@ impl Drawing {
         self.set_color(id, appearance.color);
     }
 
-    /// Gives an entity a colour of its own, or leaves it that of its layer. True when that is something new.
+    /// Gives an entity a colour of its own, or that of its layer. True when that changes.
     pub(crate) fn set_color(&mut self, id: EntityId, color: Option<Color>) -> bool {
         let index = id.0 as usize;
         if color.is_some() && index >= self.colors.len() {
@@ -226,7 +226,7 @@ impl Drawing {
         self.layer_colors.insert(layer.to_lowercase(), color);
     }
 
-    /// The colour in which an entity is drawn: its own, else that of its layer; `None` where the source tells none.
+    /// The colour of an entity: its own, else that of its layer; `None` where the source gives none.
     pub fn color(&self, id: EntityId) -> Option<Color> {
         let own = self.colors.get(id.0 as usize).copied().flatten();
         own.or_else(|| {

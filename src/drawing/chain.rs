@@ -1,12 +1,13 @@
-//! Chaining entities to contours by their end points.
+//! Chains entities to contours by their end points.
 //!
 //! Closed entities are contours of their own. The others are joined end to end within the join tolerance, across kinds
-//! and layers. A *group* is what hangs together through ends that lie near each other: groups are chained independently of each
-//! other, so an edit chains again only the groups that it touches, and the result is that of a fresh start.
+//! and layers. A *group* is a set of contours connected through ends that lie near each other. Groups are chained
+//! independently, so an edit rechains only the groups that it touches, and the result equals a fresh start.
 //!
-//! Which entities form a contour does not depend on their order in the drawing. Where nothing else is near, ends are joined as they
-//! meet; the other places are for `knots`. Of entities in one place one is chained, see `doubles`. The order says where a contour
-//! begins and which way it runs: with its first entity, in that one's direction.
+//! Which entities form a contour does not depend on their order in the drawing. Where no other end is near, ends are
+//! joined as they meet; `knots` resolves the other places. Of entities in one place one is chained, see `doubles`. Only
+//! the start and direction of a contour depend on the order: it begins with its first entity, in that entity's
+//! direction.
 
 mod groups;
 
@@ -19,15 +20,15 @@ use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 
-/// Up to so many entities are put in order without a look at all others.
+/// Up to this many entities are sorted without a look at all others.
 const FEW: usize = 16;
-/// The ends of fewer than one in so many entities are moved one by one; of more, all are sorted into cells again.
+/// Up to one in this many entities have their ends moved one by one; beyond, all ends are sorted into cells again.
 const BULK: usize = 8;
 
 /// Entities, contours or lists of ends that one thread takes at a time.
 const SHARE: usize = 4096;
 
-/// Names a contour (or a group of several) of one [`Chains`]; not used again once it is gone.
+/// Names a contour (or a group of several) of one [`Chains`]; never reused.
 pub(crate) type Key = u32;
 
 /// Names nothing.
@@ -37,13 +38,13 @@ const NO_KEY: Key = 0;
 #[derive(Clone, Debug)]
 pub struct Chains {
     cells: Cells,
-    /// All free ends by cell, numbered by entity id; none until something is edited. All contours with an end in one cell are of one
-    /// group.
+    /// All free ends by cell, numbered by entity id; empty until the first edit. All contours with an end in one cell
+    /// are of one group.
     ends: Option<Buckets>,
-    /// Where the free ends of each open entity lie, by entity id; [`NO_ENDS`] for all others.
+    /// The free ends of each open entity, by entity id; [`NO_ENDS`] for all others.
     ends_of: Vec<Ends>,
     contours: FxHashMap<Key, Chain>,
-    /// The contour of each entity, by entity id; [`NO_KEY`] for those in none.
+    /// The contour of each entity, by entity id; [`NO_KEY`] for entities in none.
     contour_of: Vec<Key>,
     /// The place of each entity among the pieces of its contour, by entity id.
     piece_of: Vec<u32>,
@@ -58,11 +59,11 @@ struct Chain {
     contour: Contour,
     /// The first of its entities in machining order.
     first: EntityId,
-    /// It stands as long as the ends of its entities do, whatever lies between them.
+    /// It stands as long as the ends of its entities stay, whatever lies between them.
     by_ends: bool,
 }
 
-/// Contours that went away and came when a drawing was edited.
+/// Contours that an edit of the drawing removed and added.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rechained {
     pub gone: Vec<Key>,
@@ -75,7 +76,8 @@ impl Chains {
         Chains::of_parts(drawing, join, &|id| is_cut(id).then_some(0))
     }
 
-    /// The same where the entities are of several parts, which are not joined to each other: the number of its part for each that is cut.
+    /// The same for the entities of several workpieces, which are not joined to each other: the number of its workpiece
+    /// for each entity that is cut.
     pub(crate) fn of_parts(
         drawing: &Drawing,
         join: f64,
@@ -132,7 +134,7 @@ impl Chains {
             .filter(has_ends)
     }
 
-    /// The piece of a contour that an entity is.
+    /// The piece of a contour that an entity makes.
     pub fn piece_of(&self, entity: EntityId) -> Option<Piece> {
         let contour = self.get(self.contour_of(entity)?)?;
         let place = *self.piece_of.get(entity.0 as usize)?;
@@ -151,8 +153,8 @@ impl Chains {
         ))
     }
 
-    /// True when an entity's free ends have not moved, so that the contours stand as they are. Never for an entity whose own
-    /// ends touch, or that others meet: what lies between its ends counts there.
+    /// True when an entity's free ends have not moved, so that the contours stand. Never for an entity whose own ends
+    /// touch, or that meets others within its length: there the part between its ends counts.
     pub(crate) fn same_ends(&self, drawing: &Drawing, entity: EntityId, is_cut: bool) -> bool {
         let known = self.ends_of(entity);
         let now = if is_cut {
@@ -172,7 +174,7 @@ impl Chains {
         known == now && !touching && by_ends && contour.is_some() == is_chained
     }
 
-    /// The number of segments of an entity has changed: its contour counts them anew.
+    /// Tells that the number of segments of an entity has changed: its contour counts them again.
     pub(crate) fn recount(&mut self, drawing: &Drawing, entity: EntityId) {
         let Some(Chain { contour, .. }) = self
             .contour_of(entity)
@@ -191,7 +193,7 @@ impl Chains {
         };
     }
 
-    /// Chains again what the entities of `touched` (new, changed or removed) belonged to or belong to now.
+    /// Rechains the groups that the entities of `touched` (new, changed or removed) belonged to or belong to now.
     pub fn update(
         &mut self,
         drawing: &Drawing,
@@ -201,7 +203,7 @@ impl Chains {
         self.update_parts(drawing, touched, &|id| is_cut(id).then_some(0))
     }
 
-    /// The same of [`Chains::of_parts`].
+    /// The same as [`Chains::of_parts`] for an edit.
     pub(crate) fn update_parts(
         &mut self,
         drawing: &Drawing,
@@ -307,7 +309,7 @@ impl Chains {
         self.next_key
     }
 
-    /// One contour of each cell about a point in which there are any: the others there are of its group.
+    /// One contour for each occupied cell about a point: the others there are of its group.
     fn contours_about<'a>(
         &'a self,
         ends: &'a Buckets,
@@ -322,14 +324,15 @@ impl Chains {
         })
     }
 
-    /// Groups and chains entities, which come in machining order and hold whole groups, each with its part. Returns the new contours.
+    /// Groups and chains entities, which come in machining order and hold whole groups, each with its workpiece.
+    /// Returns the new contours.
     fn chain(
         &mut self,
         drawing: &Drawing,
         (entities, parts): (Vec<EntityId>, Vec<u16>),
     ) -> Vec<Key> {
         let is_of_one = parts.windows(2).all(|pair| pair[0] == pair[1]);
-        // What hangs together is chained again together, whatever it is of.
+        // A group is rechained as a whole, whatever workpiece its entities are of.
         let joints = Joints::new(drawing, self.cells, &entities, &self.ends_of);
         let new = if is_of_one {
             self.link(drawing, &entities, &joints)
@@ -383,7 +386,8 @@ impl Chains {
     }
 }
 
-/// Role that the entities of a contour state, or what they are drawn on or in: that of the first piece which has one.
+/// The role that the entities of a contour state, or that follows from the layer or block: that of the first piece
+/// which has one.
 pub(crate) fn stated_role(
     contour: &Contour,
     of_entity: &dyn Fn(EntityId) -> Option<Role>,

@@ -4,7 +4,7 @@ use super::{Drawing, EntityId, Geometry};
 use crate::geometry::{Bounds, Point, Segment};
 use std::ops::Range;
 
-/// One entity of a contour, as it is travelled.
+/// One entity of a contour, in its direction of travel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Piece {
     pub entity: EntityId,
@@ -25,7 +25,7 @@ impl Piece {
         self.count as usize
     }
 
-    /// The segments of the contour that the piece is.
+    /// The segments of the contour that belong to the piece.
     pub(crate) fn range(&self) -> Range<usize> {
         self.first()..self.first() + self.count()
     }
@@ -47,7 +47,7 @@ pub struct Contour {
     /// In order of travel.
     pub pieces: Vec<Piece>,
     pub closed: bool,
-    /// Set aside when the ends were joined, since this entity lies in the same place and is cut.
+    /// Left out when the ends were joined, since this entity lies in the same place and is cut.
     pub(crate) double_of: Option<EntityId>,
 }
 
@@ -147,9 +147,9 @@ impl Contour {
         })
     }
 
-    /// Twice the signed area with the arcs counted in, positive counter-clockwise; meaningful for a closed contour.
+    /// Twice the signed area, arcs included, positive counter-clockwise; meaningful for a closed contour.
     pub fn twice_area(&self, drawing: &Drawing) -> f64 {
-        // Seen from a point of the contour itself, so that coordinates far from the origin cost no digits.
+        // Relative to a point of the contour, so that coordinates far from the origin cost no digits.
         let origin = self
             .segment(drawing, 0)
             .map_or_else(Point::origin, |first| first.geometry.start());
@@ -165,7 +165,7 @@ impl Contour {
         bounds
     }
 
-    /// The same contour travelled the other way.
+    /// The same contour in the other direction.
     pub(crate) fn reversed(&self) -> Contour {
         let mut first = 0;
         let pieces = self.pieces.iter().rev().map(|piece| {

@@ -7,8 +7,8 @@ use std::cmp::Ordering;
 /// Two entities within this many join tolerances of each other lie in the same place, see `Tolerances::same_place`.
 pub(super) const SAME_PLACE: f64 = 0.5;
 
-/// True when each segment of one entity lies within `tolerance` on that of the other in its turn; with `turned` the other is
-/// travelled against its own direction. `flat`: what rises less above its chord is a line.
+/// True when each segment of one entity lies within `tolerance` of its counterpart in the other; with `turned` the
+/// other is travelled against its own direction. `flat`: a segment that rises less above its chord is a line.
 pub(crate) fn run_together(
     one: &Geometry,
     other: &Geometry,
@@ -55,8 +55,8 @@ pub(super) fn are_doubles(
     })
 }
 
-/// Orders entities by what they are and where they lie, not by when they were drawn: by their ends, by what lies between, at last by
-/// their handles.
+/// Orders entities by their kind and place, not by when they were drawn: by their ends, by what lies between, at last
+/// by their handles.
 pub(super) fn by_place(drawing: &Drawing, one: EntityId, other: EntityId) -> Ordering {
     if one == other {
         return Ordering::Equal;
@@ -78,7 +78,7 @@ pub(super) fn by_place(drawing: &Drawing, one: EntityId, other: EntityId) -> Ord
             [0.25, 0.5, 0.75]
         };
         let middle = shares.map(|share| {
-            // The segment that a share of all of them falls into, and the share of it.
+            // The segment at a share of the whole, and the share within it.
             let along = share * count as f64;
             let index = (along as usize).min(count.saturating_sub(1));
             geometry

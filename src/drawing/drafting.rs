@@ -1,13 +1,12 @@
-//! What a draughtsman draws to be read and not to be cut, by the names of its linetype and of its layer.
+//! Entities drawn to be read and not to be cut, recognised by the names of linetype and layer.
 //!
-//! A name counts only where every word of it is one of these: CENTER_HOLES is a layer of holes. Names are the same in upper and in
-//! lower case.
+//! A name counts only where every word of it is listed here: CENTER_HOLES is a layer of holes. Case does not matter.
 
 use std::cell::RefCell;
 use std::sync::Arc;
 
-/// What the names of broken lines begin with: ISO 128 as AutoCAD, LibreCAD, QCAD, JIS, ANSI and the DIN templates name them, and as
-/// their German, French, Italian, Spanish, Portuguese and Russian versions do.
+/// The first words of the names of broken lines: ISO 128 as AutoCAD, LibreCAD, QCAD, JIS, ANSI and the DIN templates
+/// name them, and as their German, French, Italian, Spanish, Portuguese and Russian versions do.
 const LINETYPES: &[&str] = &[
     "acad_iso",
     "achse",
@@ -42,15 +41,15 @@ const LINETYPES: &[&str] = &[
     "штрих",
 ];
 
-/// What stands in the Chinese and Japanese names of such lines.
+/// Parts of the Chinese and Japanese names of such lines.
 const LINETYPES_IN_HAN: &[&str] = &[
     "中心", "虚线", "虛線", "点划", "点画", "點劃", "點畫", "隐藏", "隱藏", "假想", "鎖線", "破線",
 ];
 
-/// The layer of the holes that the wire is threaded through: they are drilled.
+/// The layer of thread holes: they are drilled.
 pub(crate) const START_HOLES: &str = "START-HOLES";
 
-/// The layers on which the plugins for CAD programs draw marks about faults and the wire's path.
+/// The layers on which the CAD plugins draw marks about faults and the wire's path.
 const OF_PLUGINS: &[&str] = &["WEDM_MARKS", "WEDM_PATH"];
 
 /// Words of layers with centre marks, hatches, dimensions, texts and construction lines; sorted.
@@ -125,7 +124,7 @@ const LAYERS: &[&str] = &[
     "viewports",
 ];
 
-/// Words that say nothing of what lies on a layer; also behind one of the others in one word, as in CENTERLINES.
+/// Words that do not describe the content of a layer; also the second half of one word, as in CENTERLINES.
 const FILLERS: &[&str] = &[
     "geometrie",
     "geometry",
@@ -173,7 +172,7 @@ const OF_MECHANICAL: &[&str] = &["am_3", "am_5", "am_6", "am_7", "am_8"];
 
 /// True for the name of a linetype of centre lines, hidden edges or construction.
 pub(crate) fn is_drafting_linetype(name: &str) -> bool {
-    // A name that came with another drawing has that one's before it.
+    // A name that came with another drawing is prefixed with that drawing's name.
     let own = name.rsplit(['$', '|']).next().unwrap_or(name);
     let own = own.to_lowercase();
     LINETYPES.iter().any(|begin| own.starts_with(begin))
@@ -184,11 +183,11 @@ pub(crate) fn is_drafting_linetype(name: &str) -> bool {
 type Asked = Option<(Arc<str>, bool)>;
 
 thread_local! {
-    /// The layers that were asked about last: thousands of entities lie on one.
+    /// The layers looked up last: thousands of entities lie on one.
     static ASKED: RefCell<[Asked; 8]> = const { RefCell::new([const { None }; 8]) };
 }
 
-/// True for the name of a layer of what is drawn about the part: as ISO 13567 writes it, or in words.
+/// True for the name of a layer with annotation of the part: as ISO 13567 writes it, or in words.
 pub(crate) fn is_drafting_layer(name: &Arc<str>) -> bool {
     ASKED.with_borrow_mut(|asked| {
         let of_name = |it: &Asked| {
@@ -218,8 +217,8 @@ fn is_drafting_name(name: &str) -> bool {
     LAYERS_IN_HAN.iter().any(|part| own.contains(part)) || is_of_words(&own.to_lowercase())
 }
 
-/// Agent responsible (2), element (6), presentation (2), …: `A-B374--D-`. Presentations are of annotation, dimensions, texts, hatches,
-/// section marks, revision marks.
+/// Agent responsible (2), element (6), presentation (2), …: `A-B374--D-`. Presentations are annotation, dimensions,
+/// texts, hatches, section marks, revision marks.
 fn is_iso_13567(name: &str) -> bool {
     let bytes = name.as_bytes();
     let is_code = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'-' | b'_');

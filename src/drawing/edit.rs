@@ -1,10 +1,10 @@
-//! Edits to a drawing, as rules make them and as CAD programs send them, and what they touched.
+//! Edits to a drawing from rules and CAD programs, and what they touched.
 
 use super::{Drawing, Entity, EntityId, Geometry, Vertex};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 
-/// A vertex that comes in before the one at an index, or with `None` the one at that index, which goes.
+/// A new vertex before the one at an index, or with `None` the removal of the one at that index.
 type Moving = (usize, Option<Vertex>);
 
 /// One change to one entity, by id. Indices are those of the drawing before the *whole* edit.
@@ -59,23 +59,23 @@ impl Change {
     }
 }
 
-/// What a rule wants changed: the fix of one finding, or of all.
+/// The change that a rule asks for: the fix of one finding, or of all.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DrawingEdit {
     pub changes: Vec<Change>,
 }
 
-/// What an edit touched, so that only that is looked at again. Several of them hold one after another.
+/// What an edit touched, so that only that is checked again. Several deltas apply one after another.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Touched {
-    /// Vertices of one polyline: `removed` ones from `start` on gave way to `inserted` new ones.
+    /// Vertices of one polyline: `inserted` new ones replaced the `removed` ones from `start` on.
     Vertices {
         entity: EntityId,
         start: usize,
         removed: usize,
         inserted: usize,
     },
-    /// The entity is new, or another geometry stands in its place.
+    /// The entity is new, or has another geometry.
     Entity {
         entity: EntityId,
     },
@@ -86,7 +86,7 @@ pub enum Touched {
     All,
 }
 
-/// What has changed since the last look.
+/// The change since the last check.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Delta {
     pub touched: Vec<Touched>,
@@ -100,7 +100,7 @@ impl Delta {
     }
 }
 
-/// Why a change cannot apply. Nothing has been changed then.
+/// Why a change cannot apply. In that case nothing has been changed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ChangeError {
     UnknownEntity,
@@ -112,7 +112,7 @@ pub enum ChangeError {
     NotFinite,
     /// A part of a block, or fitted to a curve.
     NotEditable,
-    /// A bulge for a polyline that can have lines only.
+    /// A bulge for a polyline that can only have lines.
     OnlyLines,
 }
 
@@ -135,10 +135,11 @@ impl std::fmt::Display for ChangeError {
 }
 
 impl Drawing {
-    /// Replaces `delete_count` vertices of a polyline from `start` on by `insert`. Costs the edit when the count
-    /// stays, else the tail of the polyline.
+    /// Replaces `delete_count` vertices of a polyline from `start` on by `insert`. Costs the edit when the count stays,
+    /// else the tail of the polyline.
     ///
-    /// Errors: no such entity, not a polyline, a range past its end, a number that is not finite; nothing is changed then.
+    /// Errors: no such entity, not a polyline, a range past its end, a number that is not finite; nothing is changed
+    /// then.
     pub fn splice(
         &mut self,
         entity: EntityId,
@@ -179,7 +180,8 @@ impl Drawing {
         }
     }
 
-    /// Applies a whole edit: all of it, or nothing and the first error. What is not editable refuses every change.
+    /// Applies a whole edit: all of it, or nothing and the first error. An entity that is not editable refuses every
+    /// change.
     pub fn apply(&mut self, edit: &DrawingEdit) -> Result<Delta, ChangeError> {
         let mut result = self.clone();
         let mut delta = Delta::default();
@@ -250,8 +252,8 @@ impl Drawing {
         }
     }
 
-    /// Vertices of one polyline come and go, in one pass over it. A vertex comes in before the one at its index; of several
-    /// in one place the last stands first.
+    /// Inserts and removes vertices of one polyline in one pass over it. A vertex is inserted before the one at its
+    /// index; of several in one place the last stands first.
     fn move_vertices(
         &mut self,
         entity: EntityId,
@@ -290,7 +292,7 @@ impl Drawing {
             }
             fresh.extend(stays.then_some(old));
         }
-        // What comes in behind the last vertex that goes, or behind all.
+        // The vertices inserted behind the last removed one, or behind all.
         fresh.extend(moving.drain(at..).filter_map(|(_, vertex)| vertex));
         let inserted = fresh.len();
         vertices.splice(first..end, fresh);
@@ -302,8 +304,8 @@ impl Drawing {
         })
     }
 
-    /// Adds entities, each behind another in machining order (of several behind one the last comes first), on its layer and
-    /// with its role, under a handle made from its own.
+    /// Adds entities, each behind another in machining order (of several behind one the last comes first), on its layer
+    /// and with its role, under a handle made from its own.
     fn add_all_next_to(
         &mut self,
         added: Vec<(EntityId, &Geometry)>,

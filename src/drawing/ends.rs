@@ -1,15 +1,15 @@
-//! Free ends of open entities by cells of the plane: which lie near a place.
+//! Free ends of open entities by cells of the plane, to find those near a place.
 
 use crate::geometry::Point;
 
-/// Side of a cell in join tolerances: ends that meet lie in one cell, or in two to four where borders run between them.
+/// Side of a cell in join tolerances: ends that meet lie in one cell, or in two to four across borders.
 const CELL: f64 = 16.0;
-/// The same where so many ends lie that a look at all of a cell takes too long.
+/// The same where there are too many ends to look at all of a cell.
 const SMALL_CELL: f64 = 2.0;
-/// Ends nearer to each other than this share of the join tolerance lie in one point: what differs then is how they were computed.
+/// Ends nearer to each other than this share of the join tolerance lie in one point: the difference is rounding.
 pub(super) const ONE_POINT: f64 = 1e-6;
 
-/// Both ends of an entity, start first. Most drawings have them for most entities, so none is a point that is no number.
+/// Both ends of an entity, start first. Most entities of most drawings have them, so NaN stands for none.
 pub(super) type Ends = (Point, Point);
 
 pub(super) const NO_ENDS: Ends = (
@@ -21,7 +21,7 @@ pub(super) fn has_ends(ends: &Ends) -> bool {
     !ends.0.x.is_nan()
 }
 
-/// One end of an entity: the number of the entity, doubled; odd for its own end, even for its start.
+/// One end of an entity: twice the number of the entity; odd for its own end, even for its start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) struct End(u32);
 
@@ -30,7 +30,7 @@ impl End {
         [End(entity << 1), End(entity << 1 | 1)]
     }
 
-    /// The end that a table by end holds at an index.
+    /// The end at an index of a table by end.
     pub(super) fn at(index: usize) -> End {
         End(index as u32)
     }
@@ -95,7 +95,7 @@ impl Cells {
         )
     }
 
-    /// The cell of a point, and those beside it in which something may be within the join tolerance.
+    /// The cell of a point, and its neighbours that may hold something within the join tolerance.
     pub(super) fn about(&self, point: Point) -> impl Iterator<Item = Cell> + use<> {
         let near_border = self.near_border;
         let along = |coordinate: f64| {
@@ -169,7 +169,7 @@ impl Lists {
         std::iter::successors(Some(first).filter(|&end| end != NONE), follows).map(End)
     }
 
-    /// Takes an end out of a list; false where it is not in there.
+    /// Takes an end out of a list; false where the list lacks it.
     fn remove(&mut self, list: usize, end: End) -> bool {
         let next = self.next[end.0 as usize];
         if self.first[list] == end.0 {
@@ -185,7 +185,7 @@ impl Lists {
     }
 }
 
-/// A number for a cell below `lists`, which is a power of two; the same for some other cells.
+/// A number for a cell below `lists`, which is a power of two; some other cells share it.
 fn hash((column, row): Cell, lists: usize) -> usize {
     // Multiplied by 2⁶⁴ over the golden ratio, neighbours fall far apart: drawings on a grid fill all lists alike.
     const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
@@ -193,7 +193,7 @@ fn hash((column, row): Cell, lists: usize) -> usize {
     (hash.wrapping_mul(SPREAD) >> 32) as usize & (lists - 1)
 }
 
-/// Ends in lists, one for all cells of the same hash. Where an end lies, whoever asks knows.
+/// Ends in lists, one for all cells with the same hash. The caller knows where an end lies.
 #[derive(Clone, Debug)]
 pub(super) struct Buckets {
     lists: Lists,
@@ -212,7 +212,7 @@ impl Buckets {
         }
     }
 
-    /// True where lists have become long because ends came.
+    /// True where new ends have made the lists long.
     pub(super) fn is_crowded(&self) -> bool {
         self.count > 4 * self.lists.first.len()
     }
@@ -242,18 +242,19 @@ impl Buckets {
     }
 }
 
-/// Ends in lists as in [`Buckets`], the lists numbered as their first ends come. Along a drawing whose entities stand in their
-/// order in the plane, lists that are asked for one after another lie side by side in memory.
+/// Ends in lists as in [`Buckets`], the lists numbered as their first ends come. Where the entities of a drawing are
+/// ordered in the plane, lists that are read one after another lie side by side in memory.
 #[derive(Debug)]
 pub(super) struct Numbered {
     lists: Lists,
     /// By hash of a cell: the number of its list.
     by_hash: Vec<u32>,
-    /// By hash of a cell, a bit: there is a list. Most of the cells beside one are empty, and these bits are always at hand.
+    /// By hash of a cell, a bit: there is a list. Most cells beside one are empty, and these bits are always in the
+    /// cache.
     is_there: Vec<u64>,
     /// By end: the number of its list.
     of_end: Vec<u32>,
-    /// How many ends came into each list.
+    /// The number of ends in each list.
     lengths: Vec<u32>,
 }
 

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::sync::Arc as Shared;
 
-/// The place of an entity in its drawing: stays the same until the entity is removed, and is not used again.
+/// Identifies an entity in its drawing: stays the same until the entity is removed, and is not used again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct EntityId(pub u32);
 
@@ -34,7 +34,7 @@ impl Vertex {
     }
 }
 
-/// What an outline is of: decides on which side of it the wire runs.
+/// The kind of outline: it decides on which side the wire runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Role {
@@ -44,7 +44,8 @@ pub enum Role {
     Punch,
     /// Cut once as the punch and once as the plate: every arc must survive both sides.
     Both,
-    /// An open contour: the wire runs to the left of its direction, that in which the first drawn of its entities is drawn.
+    /// An open contour: the wire runs to the left of its direction, which is that of its first entity in machining
+    /// order.
     Left,
     /// The same to the right.
     Right,
@@ -53,7 +54,7 @@ pub enum Role {
 }
 
 impl Role {
-    /// As the settings have it.
+    /// As the settings say.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Role::Opening => "opening",
@@ -66,7 +67,7 @@ impl Role {
     }
 }
 
-/// What an entity is. Messages have it with angles in degrees.
+/// The geometry of an entity. Messages give its angles in degrees.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(
     tag = "type",
@@ -102,7 +103,7 @@ pub enum Geometry {
         center: Point,
         radius: f64,
     },
-    /// "O" marks a starting point; without a word it is a point that is not cut.
+    /// "O" marks a starting point; a point without a word is not cut.
     Text {
         #[serde(serialize_with = "Xy::serialize_point")]
         #[schemars(with = "Xy")]
@@ -112,7 +113,7 @@ pub enum Geometry {
 }
 
 impl Geometry {
-    /// What there is to see of an arc without a radius: nothing that is cut.
+    /// What remains of an arc without a radius: nothing that is cut.
     pub(crate) fn point(at: Point) -> Geometry {
         Geometry::Text {
             at,
@@ -120,7 +121,7 @@ impl Geometry {
         }
     }
 
-    /// A line, an arc or a circle as it lies in the drawing, which says of an arc not which way it goes.
+    /// A line, an arc or a circle as it lies in the drawing, without the direction of an arc.
     pub(crate) fn of_segment(segment: &Segment) -> Geometry {
         match segment {
             Segment::Line(line) => Geometry::Line {
@@ -170,13 +171,14 @@ impl Geometry {
         }
     }
 
-    /// Segment `index` as `Geometry::segment_of` tells it of a drawing in millimetres.
+    /// Segment `index` as `Geometry::segment_of` gives it for a drawing in millimetres.
     pub(crate) fn segment(&self, index: usize) -> Option<Segment> {
         self.segment_of(index, Tolerances::default().flat)
     }
 
     /// Segment `index` in the entity's own direction. An ARC whose angles coincide is a full turn, as a CIRCLE is,
-    /// which starts at its +X-most point. What rises less than `flat` (see [`Drawing::flat`]) above its chord is a line.
+    /// which starts at its +X-most point. A segment that rises less than `flat` (see [`Drawing::flat`]) above its chord
+    /// is a line.
     ///
     /// [`Drawing::flat`]: super::Drawing::flat
     pub(crate) fn segment_of(&self, index: usize, flat: f64) -> Option<Segment> {
@@ -210,7 +212,7 @@ impl Geometry {
         }
     }
 
-    /// All segments in the entity's own direction, as those of a drawing in millimetres.
+    /// All segments in the entity's own direction, as in a drawing in millimetres.
     pub fn segments(&self) -> impl Iterator<Item = Segment> + '_ {
         self.segments_of(Tolerances::default().flat)
     }
@@ -232,7 +234,7 @@ impl Geometry {
         }
     }
 
-    /// The two free ends, start first; `None` for closed geometry and for what has no segment.
+    /// The two free ends, start first; `None` for closed geometry and for geometry without segments.
     pub(crate) fn ends(&self) -> Option<(Point, Point)> {
         match self {
             Geometry::Line { start, end } => Some((*start, *end)),
@@ -288,7 +290,7 @@ impl Geometry {
     }
 }
 
-/// One entity: what it is called, where it belongs, what it is.
+/// One entity: its handle, layer, role, kind and geometry.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entity {
     pub handle: Handle,
@@ -300,7 +302,7 @@ pub struct Entity {
 }
 
 impl Entity {
-    /// An entity that states no role and is no more than its geometry.
+    /// An entity that states no role and is only its geometry.
     pub(crate) fn new(
         handle: impl Into<Handle>,
         layer: impl Into<Shared<str>>,

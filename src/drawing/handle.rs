@@ -1,13 +1,13 @@
-//! What an entity is called.
+//! The handle of an entity.
 
 use std::fmt;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// Bytes that are held in place: more than any hexadecimal handle of a CAD program has.
+/// Bytes that are stored inline: more than any hexadecimal handle of a CAD program has.
 const SHORT: usize = 14;
 
-/// The handle of an entity: text, as the source has it. Short ones, as nearly all are, take no memory of their own.
+/// The handle of an entity, as text from the source. Short ones, as nearly all are, take no memory of their own.
 #[derive(Clone)]
 pub struct Handle(Held);
 

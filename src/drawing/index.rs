@@ -1,15 +1,15 @@
-//! A contour cut into runs of consecutive segments, each with what is asked of it often: its box, its share of the
-//! area, its tight arcs. An edit that keeps the count touches one run, however long the contour is.
+//! A contour cut into runs of consecutive segments, each with its box, its share of the area and its tight arcs. An
+//! edit that keeps the count touches one run, however long the contour is.
 
 use super::{Contour, Drawing};
 use crate::geometry::{Bounds, Point};
 use std::ops::Range;
 
-/// Segments in one run. Short enough that one run is looked through in a microsecond, long enough that a million
-/// segments make only some thousand boxes.
+/// Segments in one run. Few enough to look through in a microsecond, many enough that a million segments make only some
+/// thousand boxes.
 pub(crate) const RUN: usize = 64;
 
-/// An area below this share of the square about a contour has no sign: it says nothing of which way the contour goes round.
+/// An area below this share of the square about a contour has no sign: it does not tell the direction of the contour.
 const ROUNDING: f64 = 1e-12;
 
 #[derive(Clone, Debug)]
@@ -25,13 +25,13 @@ pub(crate) struct ContourIndex {
     /// Indices within the contour of arcs with a radius below the threshold, rising.
     tight: Vec<u32>,
     segments: usize,
-    /// The area is summed as seen from here: a point near the contour, so that coordinates far out cost no digits.
+    /// The area is summed relative to a point near the contour, so that far-off coordinates cost no digits.
     origin: Point,
     threshold: f64,
 }
 
 impl ContourIndex {
-    /// Looks at every segment once; arcs with a radius below `threshold` are remembered as tight.
+    /// Reads every segment once; arcs with a radius below `threshold` count as tight.
     pub(crate) fn new(drawing: &Drawing, contour: &Contour, threshold: f64) -> ContourIndex {
         let segments = contour.len();
         let origin = contour
@@ -48,7 +48,7 @@ impl ContourIndex {
         index
     }
 
-    /// Looks again at the segments of `changed`; everything behind its start when the count has changed too.
+    /// Reads the segments of `changed` again; everything behind its start when the count has changed too.
     pub(crate) fn update(&mut self, drawing: &Drawing, contour: &Contour, changed: Range<usize>) {
         let first = changed.start / RUN;
         if contour.len() != self.segments {
@@ -66,7 +66,7 @@ impl ContourIndex {
         }
     }
 
-    /// How many tight arcs come before the segment at `index`.
+    /// The number of tight arcs before the segment at `index`.
     fn tight_before(&self, index: usize) -> usize {
         self.tight
             .partition_point(|&tight| (tight as usize) < index)
@@ -110,8 +110,8 @@ impl ContourIndex {
         run * RUN..((run + 1) * RUN).min(self.segments)
     }
 
-    /// Twice the signed area, positive counter-clockwise; meaningful for a closed contour. Zero for one that goes back on itself, whose
-    /// area is what rounding leaves of it.
+    /// Twice the signed area, positive counter-clockwise; meaningful for a closed contour. Zero for a contour that
+    /// retraces itself, whose area is only rounding.
     pub(crate) fn twice_area(&self) -> f64 {
         let twice_area: f64 = self.runs.iter().map(|run| run.twice_area).sum();
         let bounds = self.bounds();

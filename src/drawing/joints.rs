@@ -1,4 +1,4 @@
-//! Which free ends lie within the join tolerance of each other, and which of them nothing else can be joined to.
+//! Which free ends lie within the join tolerance of each other, and which of them can only be joined to each other.
 
 use super::doubles::{self, SAME_PLACE};
 use super::ends::{Cell, Cells, End, Ends, NO_ENDS, Numbered, ONE_POINT, has_ends};
@@ -8,35 +8,35 @@ use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::cmp::{Ordering, Reverse};
 
-/// Of cells with more ends than these, the ends are sorted into smaller ones.
+/// The ends of cells with more than these are sorted into smaller ones.
 const DENSE: usize = 64;
 
-/// More ends than these in one small cell are a crowd, in which no end is held against all others. A drawing to be cut has a few.
+/// More ends than these in one small cell are a crowd, where not all pairs are compared. A drawing to be cut has a few.
 pub(super) const CROWD: usize = 256;
 
-/// Fewer ends than these are looked at without help.
+/// Fewer ends than these are read on one thread.
 const FEW: usize = 16_384;
 
-/// What an end can be joined to, as a number: that of the one end, or one of these.
+/// The possible partner of an end, as a number: that of the one end, or one of these.
 const NOTHING: u32 = u32::MAX;
 const SEVERAL: u32 = u32::MAX - 1;
 
-/// The free ends of entities, numbered as the entities are handed over, by where they lie.
+/// The free ends of entities by place; the entities are numbered in the order given.
 pub(super) struct Joints<'a> {
     drawing: &'a Drawing,
     entities: &'a [EntityId],
     cells: Cells,
-    /// By end; no number where there is none, or where the entity is set aside.
+    /// By end; NaN where there is none, or where the entity is set aside.
     places: Vec<Point>,
     all: Numbered,
     /// Ends of dense cells in smaller ones.
     dense: Option<Dense>,
-    /// By end: what it can be joined to.
+    /// By end: its possible partner.
     met: Vec<u32>,
     pub(crate) doubles: Doubles,
 }
 
-/// What became of entities that lie on each other, by number.
+/// The outcome for entities that lie on each other, by number.
 #[derive(Debug, Default)]
 pub(super) struct Doubles {
     /// Not chained, with the one in the same place that is.
@@ -54,7 +54,7 @@ struct Dense {
 }
 
 impl<'a> Joints<'a> {
-    /// Of `entities` with the ends that `ends_of` holds by id. Doubles are set aside: they have no joints.
+    /// For `entities` with the ends that `ends_of` holds by id. Doubles are set aside: they have no joints.
     pub(crate) fn new(
         drawing: &'a Drawing,
         cells: Cells,
@@ -116,7 +116,7 @@ impl<'a> Joints<'a> {
         self.cells.join
     }
 
-    /// The one end that an end can be joined to, where that one can be joined to no other either.
+    /// The one end that an end can be joined to, if neither has another choice.
     pub(crate) fn partner(&self, end: End) -> Option<End> {
         let met = *self.met.get(end.index())?;
         let is_mutual = self
@@ -126,17 +126,18 @@ impl<'a> Joints<'a> {
         is_mutual.then(|| End::at(met as usize))
     }
 
-    /// True where there is nothing that an end can be joined to.
+    /// True where an end has no possible partner.
     pub(crate) fn is_lone(&self, end: End) -> bool {
         self.met.get(end.index()).is_none_or(|&met| met == NOTHING)
     }
 
-    /// Ends that lie in one small cell by the thousand, by cell.
+    /// The ends of small cells with thousands of them, by cell.
     pub(crate) fn crowds(&self) -> impl Iterator<Item = &Vec<End>> {
         self.dense.iter().flat_map(|dense| dense.crowded.values())
     }
 
-    /// How many lists there are of all ends, those of doubles too: of a cell all in one, with those of others.
+    /// The number of lists of all ends, doubles included: the ends of a cell are in one list, together with those of
+    /// others.
     pub(crate) fn list_count(&self) -> usize {
         self.all.len()
     }
@@ -164,7 +165,8 @@ impl<'a> Joints<'a> {
         )
     }
 
-    /// Number of ends of an entity that meet the end of another one in one point, for which `leaves_out` does not hold.
+    /// The number of ends of an entity that meet another one's end in one point, except those for which `leaves_out`
+    /// holds.
     pub(crate) fn count_met(&self, entity: u32, leaves_out: impl Fn(u32) -> bool) -> usize {
         let meets = |&end: &End| {
             let mut met = false;
@@ -176,8 +178,8 @@ impl<'a> Joints<'a> {
         End::both(entity).iter().filter(|end| meets(end)).count()
     }
 
-    /// Hands over every end within the join tolerance of one, with the distance, in no order. The other end of its own entity counts
-    /// where that leads round. In a crowd no end sees another, nor is it seen.
+    /// Hands over every end within the join tolerance of one, with the distance, in no order. The other end of its own
+    /// entity counts where that leads round. In a crowd no end sees another, nor is it seen.
     pub(crate) fn each_near(&self, end: End, mut look: impl FnMut(End, f64)) {
         let place = self.place(end);
         if place.x.is_nan() || self.is_crowded(end) {
@@ -187,7 +189,7 @@ impl<'a> Joints<'a> {
         let mut see = |other: End, cells: &Cells, cell: Cell| {
             let at = self.places[other.index()];
             let apart = at - place;
-            // Most ends of a list are far off, and those of other cells are seen there.
+            // Most ends of a list are far off, and those of other cells are seen from there.
             if apart.x.abs() > self.cells.join || apart.y.abs() > self.cells.join || other == end {
                 return;
             }
@@ -325,7 +327,7 @@ impl<'a> Joints<'a> {
         });
     }
 
-    /// Finds out what each end can be joined to; gives back pairs of entities that lie in one place.
+    /// Finds the possible partner of each end; returns pairs of entities that lie in one place.
     fn meet(&mut self) -> Vec<(u32, u32)> {
         const STEP: usize = 4096;
         let mut met = vec![NOTHING; self.places.len()];
@@ -383,7 +385,7 @@ impl<'a> Joints<'a> {
     }
 
     fn are_doubles(&self, one: u32, other: u32, tolerance: f64) -> bool {
-        // What lies just within the tolerance is rounded to one side of it: always the same.
+        // A distance just within the tolerance must always be rounded to the same side.
         let (one, other) = if self.by_place(one, other).is_gt() {
             (other, one)
         } else {
@@ -393,7 +395,7 @@ impl<'a> Joints<'a> {
         doubles::are_doubles(self.drawing, one, other, tolerance)
     }
 
-    /// Of each crowd of doubles one is kept: the one that meets most others in one point, else the first by place.
+    /// Keeps one of each crowd of doubles: the one that meets most others in one point, else the first by place.
     fn set_aside(&self, pairs: &[(u32, u32)]) -> Doubles {
         let mut partners: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
         for &(one, other) in pairs {
@@ -430,7 +432,7 @@ impl<'a> Joints<'a> {
         doubles
     }
 
-    /// Of a crowd only what comes next to each other by place is held against each other, and is a double where it lies in one place exactly.
+    /// In a crowd only neighbours by place are compared, and are doubles where they lie in one place exactly.
     fn doubles_in_crowd(&self, crowd: &[End], pairs: &mut Vec<(u32, u32)>) {
         let mut entities: Vec<u32> = crowd.iter().map(|end| end.entity()).collect();
         entities.sort_unstable_by(|&one, &other| self.by_place(one, other));
@@ -446,7 +448,7 @@ impl<'a> Joints<'a> {
         }
     }
 
-    /// In a crowd, two ends that lie in one point and with no third one are joined.
+    /// In a crowd, two ends that share a point with no third one are joined.
     fn join_in_crowds(&mut self) {
         let mut joined = Vec::new();
         for crowd in self.crowds() {

@@ -1,8 +1,8 @@
-//! What the source calls an entity.
+//! The source's name for an entity.
 
 use std::fmt;
 
-/// The name of an entity in DXF; a CAD program's entity has that of the DXF entity which says the same.
+/// The name of an entity in DXF; for a CAD program's entity that of the equivalent DXF entity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
     Line,

@@ -1,9 +1,9 @@
-//! Ends that several others lie near: which of them are joined, whatever the order of the entities.
+//! Places where several ends lie near each other: which of them are joined, whatever the order of the entities.
 //!
-//! What leads from one such place to another without a choice is a *strand*. Closing a loop wins over going on: first the strands that
-//! come back to where they began are closed, then those that lead nowhere are left aside, then the loops among the others are walked
-//! from the outside. What is left is joined to open contours, nearest ends and straightest ways first. Every choice is made by where
-//! the entities lie and what they are, never by when they were drawn.
+//! A *strand* leads from one such place to another without a choice. Closing a loop takes precedence over going on:
+//! first the strands that return to their start are closed, then those that lead nowhere are set aside, then the loops
+//! among the others are walked from the outside. The rest is joined to open contours, nearest ends and straightest ways
+//! first. Every choice depends on where the entities lie and what they are, never on when they were drawn.
 
 use super::doubles::by_coordinates;
 use super::ends::End;
@@ -11,7 +11,8 @@ use super::joints::Joints;
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Two ways to close a loop that differ by less than this share of the join tolerance are equally near: coordinates are rounded.
+/// Two ways to close a loop that differ by less than this share of the join tolerance are equally near: coordinates are
+/// rounded.
 const ROUNDING: f64 = 0.1;
 
 /// Entities that follow each other without a choice.
@@ -32,12 +33,12 @@ pub(super) struct Joined {
     pub(crate) closed: bool,
 }
 
-/// One end of a strand: the number of the strand, doubled; odd where it ends.
+/// One end of a strand: twice the number of the strand; odd at its end.
 type Tip = usize;
 
 const NOWHERE: usize = usize::MAX;
 
-/// Joins strands to contours; each comes in one of them.
+/// Joins strands to contours; each strand goes into one of them.
 pub(super) fn resolve(strands: &[Strand], joints: &Joints) -> Vec<Joined> {
     let mut tip_of = vec![
         u32::MAX;
@@ -75,7 +76,7 @@ struct Knots<'a> {
     tip_of: Vec<u32>,
     /// By strand: in no contour, on no path, and not left for the open contours.
     is_free: Vec<bool>,
-    /// By tip: the place on the path at hand that was entered there.
+    /// By tip: the place on the current path where it was entered.
     entered: Vec<usize>,
     /// Strands that are in no loop.
     left: Vec<usize>,
@@ -87,7 +88,7 @@ impl Knots<'_> {
         self.strands[tip / 2].ends[tip % 2]
     }
 
-    /// The tips that lie near one, with the distance. Both of a crumb lie near each other, which says nothing.
+    /// The tips near a tip, with the distance. The two tips of a crumb are always near each other and do not count.
     fn near(&self, tip: Tip) -> Vec<(Tip, f64)> {
         let mut near = Vec::new();
         self.joints.each_near(self.end(tip), |end, distance| {
@@ -106,14 +107,14 @@ impl Knots<'_> {
 
     fn by_place(&self, one: Tip, other: Tip) -> Ordering {
         let [a, b] = [one, other].map(|tip| self.end(tip));
-        // Of two ends of one entity, that with the lower coordinates.
+        // Of two ends of one entity, the one with the lower coordinates.
         self.joints
             .by_place(a.entity(), b.entity())
             .then_with(|| by_coordinates(&self.joints.place(a), &self.joints.place(b)))
             .then(a.cmp(&b))
     }
 
-    /// Closes the strands that come back to where they began, where nothing else is nearer.
+    /// Closes the strands that return to their start, unless another tip is nearer.
     fn close_alone(&mut self) {
         for (
             strand,
@@ -153,7 +154,7 @@ impl Knots<'_> {
         }
     }
 
-    /// Leaves strands that lead nowhere, and those that only lead to such.
+    /// Sets aside strands that lead nowhere, and those that only lead to such.
     fn leave_dead_ends(&mut self) {
         let free_near = |knots: &Knots, tip: Tip| {
             knots
@@ -193,7 +194,7 @@ impl Knots<'_> {
         }
     }
 
-    /// Finds the loops among the strands that are free, each walk from the lowest place that is left.
+    /// Finds the loops among the free strands, each walk from the lowest place that is left.
     fn walk_loops(&mut self) {
         let mut begins: Vec<Tip> = (0..2 * self.strands.len())
             .filter(|tip| self.is_free[tip / 2])
@@ -221,7 +222,7 @@ impl Knots<'_> {
         }
     }
 
-    /// Walks from a tip along the outside, cuts off every loop as it closes, and leaves what turns out to lead nowhere.
+    /// Walks from a tip along the outside, cuts off every loop as it closes, and leaves the ways that lead nowhere.
     fn walk(&mut self, begin: Tip) {
         let mut path: Vec<Tip> = Vec::new();
         // By place on the path: how many strands before it are no crumbs.
@@ -262,7 +263,7 @@ impl Knots<'_> {
             let arriving = self.heading(tip) + PI;
             let turned = |other: Tip| {
                 let turn = (self.heading(other) - arriving + PI).rem_euclid(TAU) - PI;
-                // Right back is as far to the left as can be, on whichever side rounding puts it.
+                // Straight back counts as the leftmost way, on whichever side rounding puts it.
                 if turn < -PI + 1e-6 { turn + TAU } else { turn }
             };
             let onward = near
@@ -378,7 +379,7 @@ impl Knots<'_> {
         }
     }
 
-    /// Joins two tips where both are free; not where that would close a loop of nothing.
+    /// Joins two tips where both are free, unless that would close an empty loop.
     fn link(&self, open: &mut Open, one: Tip, other: Tip, distance: f64) {
         if open.links[one] != NOWHERE || open.links[other] != NOWHERE {
             return;
@@ -427,10 +428,10 @@ impl Knots<'_> {
 
 /// Tips of strands that are joined to open contours.
 struct Open {
-    /// By tip: the one that it is joined to.
+    /// By tip: its partner.
     links: Vec<Tip>,
-    /// By tip that is free: the free tip at the other end of its contour.
+    /// By free tip: the free tip at the other end of its contour.
     far: Vec<Tip>,
-    /// By tip that is free: its contour is more than crumbs.
+    /// By free tip: its contour is more than crumbs.
     is_whole: Vec<bool>,
 }

@@ -1,4 +1,4 @@
-//! Entities with their joints to contours: what follows each other without a choice, and the rest as `knots` resolves it.
+//! Joins entities to contours: the chains without a choice, and the rest as `knots` resolves it.
 
 use super::ends::{End, Ends, has_ends};
 use super::joints::Joints;
@@ -17,7 +17,7 @@ pub(super) struct Way {
     pub(crate) double_of: Option<u32>,
 }
 
-/// What is joined to what: entities by number, in order of travel, and whether each is travelled against its own direction.
+/// The joints: entities by number, in order of travel, and whether each is travelled against its own direction.
 #[derive(Default)]
 pub(super) struct Linked {
     pub(crate) pieces: Vec<(u32, bool)>,
@@ -75,7 +75,7 @@ impl Linked {
                 End::both(last)[usize::from(!last_reversed)],
             ];
             if closed || joints.is_lone(start) && joints.is_lone(end) {
-                // Two that close a loop may come to lie on each other.
+                // Two entities that close a loop may lie on each other.
                 let by_ends = !(closed && pieces.len() == 2
                     || !is_special.is_empty()
                         && pieces.iter().any(|(at, _)| is_special[*at as usize]));
@@ -124,7 +124,8 @@ impl Linked {
         linked
     }
 
-    /// The entities through `first` that follow each other without a choice, in its direction. True where they lead round.
+    /// The entities through `first` that follow each other without a choice, in its direction. True where they lead
+    /// round.
     fn run(&mut self, joints: &Joints, first: u32, is_taken: &mut [bool]) -> bool {
         let begin = self.pieces.len();
         is_taken[first as usize] = true;
@@ -151,7 +152,8 @@ impl Linked {
         false
     }
 
-    /// Makes a contour of the pieces from `begin` on: in the direction of its first entity, and beginning with it where it is closed.
+    /// Makes a contour of the pieces from `begin` on: in the direction of its first entity, and starting with it if
+    /// closed.
     fn settle(&mut self, begin: usize, closed: bool) {
         let pieces = &mut self.pieces[begin..];
         let Some((place, &(first, reversed))) =

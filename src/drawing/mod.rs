@@ -1,7 +1,7 @@
-//! A drawing: entities by handle, in machining order, and the edits that a rule or a CAD program makes to it.
+//! A drawing: entities by handle, in machining order, and the edits that rules and CAD programs make to it.
 //!
-//! Every kind of document (DXF text, a drawing sent by a CAD program) is one of these to the rules.
-//! Coordinates are world coordinates in the drawing's own unit. Nothing here knows of text or protocols.
+//! To the rules every kind of document (DXF text, a drawing sent by a CAD program) is a drawing. Coordinates are world
+//! coordinates in the drawing's own unit. Nothing here knows of text or protocols.
 
 mod appearance;
 mod chain;
@@ -60,7 +60,7 @@ impl Unit {
     pub const INCH: Unit = Unit { mm: 25.4 };
 }
 
-/// How far apart entities are ranked that come one after another: so often an entity goes in between without work.
+/// The step between the ranks of neighbours: this many entities fit between two without renumbering.
 const RANK_STEP: u64 = 1 << 24;
 
 /// Entities by stable id, in machining order.
@@ -68,31 +68,32 @@ const RANK_STEP: u64 = 1 << 24;
 pub struct Drawing {
     /// The unit that the drawing states; `None` where it states none and the settings decide.
     pub unit: Option<Unit>,
-    /// What the settings say of a drawing that states no unit; `None` is millimetres.
+    /// The unit from the settings for a drawing that states none; `None` is millimetres.
     assumed_unit: Option<Unit>,
     slots: Slots,
     order: Vec<EntityId>,
-    /// By id: a number that rises in machining order, so that two entities are compared without a search. None while the
+    /// By id: a rank that rises in machining order, so that two entities are compared without a search. Empty while the
     /// order is that of the ids.
     ranks: Vec<u64>,
     by_handle: Names,
-    /// The number given last to a handle that was taken, while none has become free.
+    /// The last number given to a taken handle, while none has become free.
     last_number: FxHashMap<Handle, u64>,
     /// Entities that stand for something else in the source: parts of a block, arcs fitted to a curve.
     fixed: FxHashSet<EntityId>,
-    /// Those of them that are a whole entity of the source: it can go, or another one can come beside it.
+    /// Those of them that are a whole entity of the source: such an entity can be removed, or get a neighbour.
     whole: FxHashSet<EntityId>,
     /// Polylines whose vertices can have no bulge, as those of a 3D polyline.
     straight: FxHashSet<EntityId>,
-    /// Entities that are not simply shown, with the layer that says so; the entity's own where it says so itself.
+    /// Entities that are not simply shown, with the layer that decides it; with the entity's own layer where the entity
+    /// itself decides.
     unseen: FxHashMap<EntityId, (Visibility, Arc<str>)>,
     /// Linetypes that are not continuous.
     linetypes: FxHashMap<EntityId, Linetype>,
-    /// What the source has for an entity in words, as extended data of DXF.
+    /// Words that the source holds for an entity, as extended data of DXF.
     marks: FxHashMap<EntityId, Marks>,
     /// Entities on layers whose names are such words.
     on_marked_layers: FxHashSet<EntityId>,
-    /// By id: the colour that an entity has of its own. Shorter than the drawing where the last ones have none.
+    /// By id: an entity's own colour. Shorter than the drawing where the last ones have none.
     colors: Vec<Option<Color>>,
     /// By the name of the layer in lower case.
     layer_colors: FxHashMap<String, Color>,
@@ -106,17 +107,17 @@ impl Drawing {
         }
     }
 
-    /// Says which unit to take where the drawing states none; without a word, that is millimetres.
+    /// Sets the unit to assume where the drawing states none; `None` is millimetres.
     pub(crate) fn assume_unit(&mut self, unit: Unit) {
         self.assumed_unit = Some(unit);
     }
 
-    /// False where `Drawing::assume_unit` would say nothing new.
+    /// False where `Drawing::assume_unit` would change nothing.
     pub(crate) fn assumes_another(&self, unit: Unit) -> bool {
         self.assumed_unit.unwrap_or(Unit::MILLIMETRE) != unit
     }
 
-    /// [`Tolerances::flat`] in drawing units: what rises less than this above its chord is a line.
+    /// [`Tolerances::flat`] in drawing units: a segment that rises less than this above its chord is a line.
     ///
     /// [`Tolerances::flat`]: crate::geometry::Tolerances::flat
     pub(crate) fn flat(&self) -> f64 {
@@ -166,7 +167,7 @@ impl Drawing {
 
     /// Adds an entity at the end of the machining order.
     ///
-    /// A handle that is taken already becomes `<handle>#2`, `#3`, …; the caller reports it where that is a fault.
+    /// A taken handle becomes `<handle>#2`, `#3`, …; the caller reports it where that is a fault.
     pub fn push(&mut self, entity: Entity) -> EntityId {
         self.insert_at(self.order.len(), entity)
     }
@@ -192,7 +193,7 @@ impl Drawing {
         id
     }
 
-    /// Takes a handle for an id. False, with nothing done, where another entity has it.
+    /// Gives a handle to an id. False, with nothing done, where another entity has it.
     fn enter(&mut self, handle: &Handle, id: EntityId) -> bool {
         let Drawing {
             slots, by_handle, ..
@@ -200,7 +201,7 @@ impl Drawing {
         by_handle.insert(handle, id, |id| Some(&slots.get(id)?.handle))
     }
 
-    /// Ranks the newest entity between those that stand around `position` now.
+    /// Ranks the newest entity between its neighbours at `position`.
     fn rank_at(&mut self, position: usize) {
         if self.ranks.is_empty() {
             if position == self.order.len() {
@@ -219,7 +220,7 @@ impl Drawing {
         let behind = rank_of(Some(position)).unwrap_or(before + 2 * RANK_STEP);
         self.ranks.push(before + (behind - before) / 2);
         if behind - before < 2 {
-            // No number is left between the two: all entities are ranked anew, with room for the new one.
+            // No rank is left between the two: all entities are ranked again, with room for the new one.
             for (at, id) in self.order.iter().enumerate() {
                 let rank = (at as u64 + 1 + u64::from(at >= position)) * RANK_STEP;
                 self.ranks[id.0 as usize] = rank;
@@ -242,8 +243,8 @@ impl Drawing {
         }
     }
 
-    /// A number that is larger for what comes later in machining order. It may change with every edit; which of two
-    /// entities has the larger one does not while both stand.
+    /// The rank of an entity, larger for later ones in machining order. Ranks may change with every edit, but not the
+    /// order of two entities.
     pub fn rank(&self, id: EntityId) -> u64 {
         match self.ranks.is_empty() {
             true if (id.0 as usize) < self.slots.len() => (u64::from(id.0) + 1) * RANK_STEP,
@@ -251,8 +252,8 @@ impl Drawing {
         }
     }
 
-    /// Adds an entity at the end of the machining order that shares its handle with the entity that [`Drawing::find`]
-    /// gives for it, as the parts of a block do. It is not editable.
+    /// Adds an entity at the end of the machining order that shares its handle with the one that [`Drawing::find`]
+    /// returns for it, as the parts of a block do. It is not editable.
     pub(crate) fn push_part(&mut self, entity: Entity) -> EntityId {
         let id = EntityId(self.slots.len() as u32);
         self.enter(&entity.handle, id);
@@ -264,7 +265,7 @@ impl Drawing {
         id
     }
 
-    /// Says whether an entity is geometry of the source itself, which an edit can change.
+    /// Sets whether an entity is geometry of the source itself, which an edit can change.
     pub(crate) fn set_editable(&mut self, id: EntityId, editable: bool) {
         if editable {
             self.fixed.remove(&id);
@@ -273,7 +274,7 @@ impl Drawing {
         }
     }
 
-    /// Says whether an entity is a curve that arcs are fitted to: it has no numbers for them, but is one entity of the source.
+    /// Sets whether an entity is a curve with fitted arcs: the source has no numbers for them, but one entity.
     pub(crate) fn set_fitted(&mut self, id: EntityId, fitted: bool) {
         self.set_editable(id, !fitted);
         if fitted {
@@ -283,7 +284,7 @@ impl Drawing {
         }
     }
 
-    /// Whether an entity is one of the source, and no part of what a block reference draws.
+    /// Whether an entity is one of the source, and not part of what a block reference draws.
     pub(crate) fn is_whole(&self, id: EntityId) -> bool {
         self.is_editable(id) || self.whole.contains(&id)
     }
@@ -293,7 +294,7 @@ impl Drawing {
         !self.fixed.contains(&id)
     }
 
-    /// Says whether a polyline can have lines only.
+    /// Sets whether a polyline can only have lines.
     pub(crate) fn set_straight(&mut self, id: EntityId, straight: bool) {
         if straight {
             self.straight.insert(id);
@@ -307,7 +308,7 @@ impl Drawing {
         self.straight.contains(&id)
     }
 
-    /// Puts another entity in the place of `id`, keeping id, handle and machining order.
+    /// Replaces the entity of `id`, keeping id, handle and machining order.
     pub fn replace(&mut self, id: EntityId, entity: Entity) {
         if let Some(old) = self.slots.get(id) {
             let handle = old.handle.clone();
@@ -316,15 +317,15 @@ impl Drawing {
         }
     }
 
-    /// Removes the entity and gives it back. Costs the length of the machining order.
+    /// Removes the entity and returns it. Costs the length of the machining order.
     pub fn remove(&mut self, id: EntityId) -> Option<Arc<Entity>> {
         let entity = self.take(id)?;
         self.order.retain(|&other| other != id);
         Some(entity)
     }
 
-    /// Puts an entity that was removed back under its id and at its place in the machining order. False, with nothing done,
-    /// where its handle is taken or the id is that of another.
+    /// Restores a removed entity under its id and at its place in the machining order. False, with nothing done, where
+    /// its handle is taken or the id is in use.
     pub(crate) fn put_back(&mut self, id: EntityId, entity: Arc<Entity>) -> bool {
         if id.0 as usize >= self.slots.len()
             || self.get(id).is_some()
@@ -340,7 +341,7 @@ impl Drawing {
         true
     }
 
-    /// Gives back the room that was made ahead.
+    /// Frees the memory that was reserved ahead.
     pub(crate) fn shrink_to_fit(&mut self) {
         self.slots.shrink_to_fit();
         self.order.shrink_to_fit();
@@ -370,7 +371,7 @@ impl Drawing {
         Some(entity)
     }
 
-    /// The vertices of a polyline, to be changed in place; copies them first when a snapshot still holds them.
+    /// The vertices of a polyline, for changes in place; copies them first when a snapshot still holds them.
     pub(crate) fn vertices_mut(&mut self, id: EntityId) -> Option<&mut Vec<Vertex>> {
         match &mut self.slots.get_mut(id)?.geometry {
             Geometry::Polyline { vertices, .. } => Some(vertices),

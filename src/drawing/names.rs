@@ -1,12 +1,12 @@
-//! Which entity has a handle.
+//! Finds the entity of a handle.
 
 use super::{EntityId, Handle};
 use rustc_hash::{FxHashMap, FxHasher};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hash, Hasher};
 
-/// Entities by handle. Kept by a part of the handle's hash, which takes a third of the memory of the handles themselves;
-/// whoever asks holds the entities, and says which handle one has.
+/// Entities by handle. Keyed by a part of the handle's hash, which takes a third of the memory of the handles
+/// themselves; the caller holds the entities and gives their handles.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Names {
     first: HashMap<u32, EntityId, BuildHasherDefault<Neighbours>>,
@@ -14,7 +14,7 @@ pub(super) struct Names {
     others: FxHashMap<Handle, EntityId>,
 }
 
-/// Handles are hexadecimal numbers that mostly count up: these are their own hash.
+/// Handles are hexadecimal numbers that mostly count up: the number is the hash.
 fn hash(handle: &str) -> u32 {
     u32::from_str_radix(handle, 16).unwrap_or_else(|_| {
         let mut hasher = FxHasher::default();
@@ -24,14 +24,14 @@ fn hash(handle: &str) -> u32 {
     })
 }
 
-/// Puts numbers that count up side by side in memory, so that a file's handles are entered without a jump for each.
+/// Puts consecutive numbers side by side in memory, so that a file's handles are entered without jumps.
 #[derive(Clone, Debug, Default)]
 struct Neighbours(u64);
 
 impl Hasher for Neighbours {
     fn write_u32(&mut self, number: u32) {
-        // The table takes its place from the low bits and tells entries in one place apart by the highest. Folded, so that numbers
-        // in steps of a power of two do not fall into one place.
+        // The table takes its place from the low bits and tells entries in one place apart by the highest. Folded, so
+        // that numbers in steps of a power of two do not fall into one place.
         let place = number ^ number >> 11 ^ number >> 22;
         self.0 = u64::from(place)
             | u64::from(number).wrapping_mul(0x9e37_79b9_7f4a_7c15) & 0xfe00_0000_0000_0000;
@@ -62,7 +62,7 @@ impl Names {
         }
     }
 
-    /// Enters a handle. Where it is there, nothing is changed, and the answer is false.
+    /// Enters a handle. False, with nothing changed, where it is taken.
     pub(super) fn insert<'a>(
         &mut self,
         handle: &Handle,
@@ -83,7 +83,7 @@ impl Names {
         is_new
     }
 
-    /// Takes out a handle of an entity.
+    /// Removes the handle of an entity.
     pub(super) fn remove(&mut self, handle: &Handle, id: EntityId) {
         let hash = hash(handle);
         if self.first.get(&hash) == Some(&id) {

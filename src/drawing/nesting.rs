@@ -4,10 +4,11 @@ use super::{Contour, ContourIndex, Drawing};
 use crate::geometry::{Bounds, Grid, Point, Segment, cross, turn};
 use std::f64::consts::TAU;
 
-/// For each closed contour, how many of the others hold it: 0 for the outermost. Open contours have depth 0 and hold nothing.
+/// For each closed contour, the number of others that hold it: 0 for the outermost. Open contours have depth 0 and hold
+/// nothing.
 ///
-/// A contour lies within another when its first point does; where the two touch in just that point either answer may come.
-/// Costs what the boxes about each first point hold, and the segments of those contours.
+/// A contour lies within another when its first point does; where the two touch in just that point, either answer is
+/// possible. Costs the boxes about each first point, and the segments of those contours.
 pub(crate) fn nesting_depths(
     drawing: &Drawing,
     contours: &[(&Contour, &ContourIndex)],
@@ -44,7 +45,7 @@ pub(crate) fn nesting_depths(
     (0..contours.len()).map(depth).collect()
 }
 
-/// How often a closed contour goes round `point`, positive counter-clockwise; undefined on the contour itself.
+/// The winding number of a closed contour about `point`, positive counter-clockwise; undefined on the contour itself.
 pub(crate) fn winding(drawing: &Drawing, contour: &Contour, point: Point) -> i64 {
     winding_of(
         contour.segments(drawing).map(|segment| segment.geometry),
@@ -52,13 +53,13 @@ pub(crate) fn winding(drawing: &Drawing, contour: &Contour, point: Point) -> i64
     )
 }
 
-/// The same of closed segments.
+/// The same for closed segments.
 pub(crate) fn winding_of(segments: impl Iterator<Item = Segment>, point: Point) -> i64 {
     let (angle, caps) = turns_about(segments, point);
     (angle / TAU).round() as i64 + caps
 }
 
-/// The angle by which the chords of segments go round `point`, and how many turns their arcs add to that.
+/// The angle that the chords of segments sweep about `point`, and the turns that their arcs add.
 pub(crate) fn turns_about(segments: impl Iterator<Item = Segment>, point: Point) -> (f64, i64) {
     let mut angle = 0.0;
     let mut caps = 0;

@@ -1,4 +1,4 @@
-//! A contour with what it is an outline of, and so the side on which the wire runs.
+//! A contour with its role, and so the side on which the wire runs.
 
 use super::{Contour, Drawing, Role};
 use crate::geometry::Side;
@@ -7,14 +7,15 @@ use crate::geometry::Side;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
     pub contour: Contour,
-    /// Never [`Role::Ignore`]: such entities are in no contour. Of a closed contour neither [`Role::Left`] nor [`Role::Right`].
+    /// Never [`Role::Ignore`]: such entities are in no contour. For a closed contour neither [`Role::Left`] nor
+    /// [`Role::Right`].
     pub role: Role,
     /// Twice the signed area in square drawing units, positive counter-clockwise; 0 for an open contour.
     pub twice_area: f64,
 }
 
 impl Outline {
-    /// The handle of the contour's first entity, which names the contour to the user.
+    /// The handle of the contour's first entity, by which users know the contour.
     pub(crate) fn name<'a>(&self, drawing: &'a Drawing) -> &'a str {
         let first = self.contour.pieces.first();
         first
@@ -28,8 +29,9 @@ impl Outline {
     }
 }
 
-/// Side of the direction of travel on which the wire runs: inside an opening, outside a punch; that of an open contour is its role.
-/// `None` where every arc must survive both sides, for an open contour with another role and for a closed one without area.
+/// Side of the direction of travel on which the wire runs: inside an opening, outside a punch; that of an open contour
+/// is its role. `None` where every arc must survive both sides, for an open contour with another role and for a closed
+/// one without area.
 pub(crate) fn wire_side(role: Role, closed: bool, twice_area: f64) -> Option<Side> {
     let counter_clockwise = twice_area > 0.0;
     match role {

@@ -1,7 +1,6 @@
-//! The entities of a drawing by id: small ones side by side in pages, large ones each by itself.
+//! The entities of a drawing by id: small ones together in pages, large ones on their own.
 //!
-//! A copy of a drawing shares all pages with it; a page is copied when one of its entities changes while somebody holds
-//! the copy.
+//! A copy of a drawing shares all pages with it; a page is copied when one of its entities changes while a copy exists.
 
 use super::{Entity, EntityId, Geometry};
 use std::sync::Arc;
@@ -12,7 +11,7 @@ const PAGE: usize = 64;
 #[derive(Clone, Debug)]
 enum Slot {
     Empty,
-    /// Of a fixed size, so that a page is copied without more.
+    /// Of a fixed size, so that copying a page needs no second allocation.
     Here(Entity),
     /// With a list of its own, which may be long.
     Apart(Arc<Entity>),
@@ -44,7 +43,7 @@ pub(super) struct Slots {
 }
 
 impl Slots {
-    /// Number of ids that were given out.
+    /// The number of ids that were given out.
     pub(super) fn len(&self) -> usize {
         self.count
     }
@@ -70,7 +69,7 @@ impl Slots {
         Arc::make_mut(self.pages.get_mut(index / PAGE)?).get_mut(index % PAGE)
     }
 
-    /// Puts an entity in the place of the one that is there, or was. Nothing for an id that was never given out.
+    /// Replaces the entity of an id, present or removed. Does nothing for an id that was never given out.
     pub(super) fn set(&mut self, id: EntityId, entity: Entity) {
         if let Some(slot) = self.slot_mut(id) {
             *slot = Slot::of(entity);
@@ -95,7 +94,7 @@ impl Slots {
         }
     }
 
-    /// The entity, to be changed in place; copies it first when a copy of the drawing still holds it.
+    /// The entity, for changes; copies it first when a copy of the drawing still holds it.
     pub(super) fn get_mut(&mut self, id: EntityId) -> Option<&mut Entity> {
         match self.slot_mut(id)? {
             Slot::Empty => None,
@@ -104,7 +103,7 @@ impl Slots {
         }
     }
 
-    /// Gives back the room that was made ahead.
+    /// Frees the memory that was reserved ahead.
     pub(super) fn shrink_to_fit(&mut self) {
         self.pages.shrink_to_fit();
         if let Some(page) = self.pages.last_mut().and_then(Arc::get_mut) {

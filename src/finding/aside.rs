@@ -1,8 +1,8 @@
-//! What is drawn to be read and not to be cut, as data of a finding.
+//! Entities drawn to be read and not to be cut, as data of a finding.
 
 use std::sync::Arc;
 
-/// Why something that is seen is not cut.
+/// Why a visible entity is not cut.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Aside {
     Linetype(Arc<str>),
@@ -11,16 +11,16 @@ pub enum Aside {
     Lone,
 }
 
-/// What is not cut of one drawing for one reason.
+/// The entities of one drawing that are not cut for one reason.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SetAside {
     pub why: Aside,
     pub count: usize,
-    /// Handles of the first entities, where only these name them; empty for what a name stands for.
+    /// Handles of the first entities, if only handles name them; empty where a name covers them.
     pub handles: Vec<Arc<str>>,
-    /// Layers on which nothing is cut but what is set aside; of lone lines.
+    /// For lone lines: layers that hold only entities set aside.
     pub spare_layers: Vec<Arc<str>>,
 }
 
-/// Handles that a setting is written for at most.
+/// At most this many handles go into a setting.
 pub(crate) const MOST_HANDLES: usize = 50;

@@ -1,4 +1,4 @@
-//! What is wrong in a program of any language, as numbers.
+//! Faults in a program of any language, as numbers.
 
 use super::{Rule, Severity, Side};
 use crate::geometry::Vector;
@@ -29,17 +29,17 @@ impl Axis {
 /// The numbers of a fault in a program. Lengths in µm unless they say otherwise.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fault {
-    /// What a rule says in a sentence of its own, where nobody else wants its numbers.
+    /// A rule with a sentence of its own, where nobody else needs its numbers.
     Said {
         rule: Rule,
         sentence: String,
     },
-    /// One of a block's three `B` is not there.
+    /// One of a block's three `B` is missing.
     MissingB,
     BlockNumberAsB {
         number: u32,
     },
-    /// J is the length of the line, `projection` is what is counted.
+    /// J is the length of the line, but must be the `projection`.
     LengthInJ {
         j: i64,
         projection: i64,
@@ -51,11 +51,11 @@ pub enum Fault {
         projection: i64,
         axis: Axis,
     },
-    /// J is not what leads to the contour's end: with `meant` in its place it closes.
+    /// J does not lead to the contour's end: with `meant` it closes.
     JKeepsOpen {
         j: i64,
         meant: i64,
-        /// Something beside the closing speaks for it.
+        /// Other evidence than the closing supports it.
         is_sure: bool,
     },
     /// J is more than one turn counts.
@@ -72,7 +72,7 @@ pub enum Fault {
     /// With the other axis the contour closes.
     AxisKeepsOpen {
         axis: Axis,
-        /// Something beside the closing speaks for it.
+        /// Other evidence than the closing supports it.
         is_sure: bool,
     },
     /// `found` is not the quadrant of a line along an axis.
@@ -87,14 +87,14 @@ pub enum Fault {
         expected: [&'static str; 2],
         axis: Axis,
     },
-    /// With `meant` in the place of `found` the contour closes.
+    /// With `meant` instead of `found` the contour closes.
     QuadrantKeepsOpen {
         found: &'static str,
         meant: &'static str,
-        /// Something beside the closing speaks for it.
+        /// Other evidence than the closing supports it.
         is_sure: bool,
     },
-    /// With `meant` in the place of `value` the contour closes.
+    /// With `meant` instead of `value` the contour closes.
     NumberKeepsOpen {
         axis: Axis,
         value: i64,
@@ -104,7 +104,7 @@ pub enum Fault {
     ExchangedKeepsOpen,
     /// The block stands twice: without it the contour closes.
     TwinKeepsOpen,
-    /// An arc whose centre is one of its ends, or is not said.
+    /// An arc whose centre is one of its ends, or is missing.
     ArcWithoutRadius,
     /// `field` holds more than `digits` digits.
     TooManyDigits {
@@ -112,7 +112,7 @@ pub enum Fault {
         value: i64,
         digits: u32,
     },
-    /// A cut ends so far beside its beginning.
+    /// A cut ends this far beside its beginning.
     NotClosed {
         x: f64,
         y: f64,
@@ -126,7 +126,7 @@ pub enum Fault {
     DoubledNumber {
         number: u32,
     },
-    /// `expected` would follow, `number` does.
+    /// `expected` should follow, but `number` does.
     NumberOutOfOrder {
         expected: u32,
         number: u32,
@@ -134,12 +134,13 @@ pub enum Fault {
     Unnumbered {
         expected: u32,
     },
-    /// The coordinates behind the block are off from where it leads.
+    /// The coordinates behind the block differ from its end.
     PositionMismatch {
         x: f64,
         y: f64,
     },
-    /// The way meets the block on line `other` (from 0) at a point, mm from the contour's start, and from that of its own block.
+    /// The path meets the block on line `other` (from 0) at a point, mm from the contour's start, and from that of its
+    /// own block.
     PathCrossesItself {
         at: [f64; 2],
         from_block: Option<Vector>,
@@ -150,17 +151,17 @@ pub enum Fault {
         start: f64,
         end: f64,
     },
-    /// Compensation goes on or off with a move that is an arc, or else a rapid.
+    /// Compensation is switched with an arc, or with a rapid.
     Switch {
         on: bool,
         arc: bool,
     },
-    /// The wire runs on `side` of a contour, which makes it a punch (or an opening) where the settings say the other.
+    /// The wire runs on `side` of a contour, which makes it a punch (or an opening) against the settings.
     RoleSide {
         side: Side,
         punch: bool,
     },
-    /// The wire runs on `side` of a contour and comes to it from the other one.
+    /// The wire runs on `side` of a contour but approaches it from the other side.
     EntrySide {
         side: Side,
     },
@@ -178,7 +179,7 @@ pub enum Fault {
     ReversedArc {
         is_sure: bool,
     },
-    /// So far out and back.
+    /// Out and back by this much.
     Spur {
         length: f64,
     },
@@ -189,12 +190,12 @@ pub enum Fault {
     NoOffset {
         side: Side,
     },
-    /// The wire goes to `side` from the other one.
+    /// The wire changes to `side` from the other one.
     SideChange {
         side: Side,
     },
     StillOn,
-    /// Subprogram `number` goes on into what stands behind it.
+    /// Subprogram `number` runs on into the blocks behind it.
     NoReturn {
         number: u32,
     },
@@ -212,19 +213,19 @@ pub enum Fault {
         word: String,
         usual: u8,
     },
-    /// mm, of a program that does not say its unit.
+    /// mm, of a program that does not state its unit.
     LooksLikeInches {
         size: f64,
     },
-    /// mm: no wire cuts a part of such a size.
+    /// mm: no wire cuts a part of this size.
     AbsurdSize {
         size: f64,
     },
-    /// A place of the table that hangs on one which the program does not fill.
+    /// A place of the table that depends on one which the program does not fill.
     UnknownValue {
         word: String,
     },
-    /// With `meant` in the place of `found` the program is sound.
+    /// With `meant` instead of `found` the program is sound.
     Suspect {
         found: String,
         meant: String,
@@ -233,7 +234,7 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// The same where what it says is only unusual.
+    /// The same where its effect is only unusual.
     pub(crate) fn as_unusual(&self) -> Fault {
         match *self {
             Fault::AxisQuadrant {
@@ -300,7 +301,7 @@ impl Fault {
         }
     }
 
-    /// That of its rule, but where it is more or less than usual.
+    /// That of its rule, unless the case is more or less severe than usual.
     pub(crate) fn severity(&self) -> Severity {
         match self {
             Fault::DoubledBlock { arc: true } => Severity::Error,

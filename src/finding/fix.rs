@@ -5,7 +5,7 @@ use crate::drawing::{Change, DrawingEdit, Role};
 use crate::text::TextEdit;
 use std::sync::Arc;
 
-/// How the centre was found to which an arc's ends fit.
+/// How the centre that fits an arc's ends was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CenterFix {
     /// I and J as other controls take them.
@@ -14,35 +14,35 @@ pub enum CenterFix {
     Sign,
     /// I stands for J and J for I.
     Swap,
-    /// The nearest one that fits, `moved` mm from the one that stands.
+    /// The nearest one that fits, `moved` mm from the programmed one.
     Nearest { moved: f64 },
 }
 
-/// A repair that a user may choose. Rules on drawings make edits of the drawing, rules on programs edits of the text.
+/// A repair that a user may choose. Rules on drawings edit the drawing, rules on programs edit the text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fix<E = DrawingEdit> {
     pub kind: FixKind,
-    /// The one that a user most likely wants.
+    /// The most likely choice of the user.
     pub preferred: bool,
     /// False where "fix all" leaves it out.
     pub in_fix_all: bool,
     pub edit: E,
 }
 
-/// What a fix changes: a drawing, which each kind of document turns into its own edit, or the text itself.
+/// The change of a fix: to a drawing, which each kind of document turns into its own edit, or to the text itself.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edit {
     Drawing(DrawingEdit),
     /// Sorted and disjoint.
     Text(Vec<TextEdit>),
-    /// Lines of the `wedm.toml` that holds for the document.
+    /// Lines of the `wedm.toml` that applies to the document.
     Settings(Vec<Keep>),
 }
 
-/// A key of a table of the settings, and what it is to be.
+/// A key of a table of the settings, and its new value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Keep {
-    /// Dotted: what it is made of stands in it as TOML has it.
+    /// A dotted key; its value is written as TOML.
     pub table: String,
     pub key: String,
     pub value: String,
@@ -62,7 +62,7 @@ impl Keep {
 pub(crate) type TextFix = Fix<Vec<TextEdit>>;
 
 impl TextFix {
-    /// The repair that a user most likely wants.
+    /// The most likely choice of the user.
     pub(crate) fn text(kind: FixKind, in_fix_all: bool, edit: impl Into<Vec<TextEdit>>) -> TextFix {
         Fix {
             kind,
@@ -78,7 +78,7 @@ impl TextFix {
 }
 
 impl Fix {
-    /// The repair that a user most likely wants, and that "fix all" makes.
+    /// The most likely choice of the user, which "fix all" makes.
     pub(crate) fn new(kind: FixKind, changes: Vec<Change>) -> Fix {
         Fix {
             kind,
@@ -90,7 +90,7 @@ impl Fix {
 }
 
 impl Fix<Vec<Keep>> {
-    /// What is kept in the settings: never but by choice.
+    /// A repair in the settings: only made by choice.
     pub(crate) fn keeping(kind: FixKind, edit: Vec<Keep>) -> Fix<Vec<Keep>> {
         Fix {
             kind,
@@ -114,8 +114,7 @@ impl<E> Fix<E> {
 }
 
 impl SetAside {
-    /// What the settings can keep of it: that it is cut all the same, that its layer is ignored.
-    /// `role` is what it is cut as.
+    /// The repairs that the settings can hold: cut it all the same, as `role`; or ignore its layer.
     pub(crate) fn keeps(&self, role: Role) -> Vec<Fix<Vec<Keep>>> {
         let role = role.name();
         let what = FixKind::CutAllTheSame {
@@ -142,14 +141,14 @@ impl SetAside {
     }
 }
 
-/// What leaves a layer out.
+/// The repair that leaves a layer out.
 pub(crate) fn ignored(layer: &Arc<str>) -> (FixKind, Vec<Keep>) {
     let layer = layer.clone();
     let keep = Keep::new("layers", &layer, "ignore");
     (FixKind::IgnoreLayer { layer }, vec![keep])
 }
 
-/// What a fix does, as data for its title. Lengths in drawing units.
+/// The effect of a fix, as data for its title. Lengths in drawing units.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FixKind {
     /// One arc of `radius` replaces `arcs` arcs; the contour moves by at most `moved`.
@@ -172,7 +171,7 @@ pub enum FixKind {
         radius: f64,
         other: Option<f64>,
     },
-    /// The ends of an open contour are joined by a line of `length`, or become one where it is 0.
+    /// A line of `length` joins the ends of an open contour; with length 0 they become one point.
     Close {
         length: f64,
     },
@@ -190,7 +189,7 @@ pub enum FixKind {
     MakeTangent {
         moved: f64,
     },
-    /// One arc takes the place of `chords` lines.
+    /// One arc replaces `chords` lines.
     OneArc {
         chords: usize,
         radius: f64,
@@ -203,7 +202,7 @@ pub enum FixKind {
     PlainLetters,
     /// Decimal commas become points.
     DecimalPoints,
-    /// What stands behind the end of a program goes.
+    /// Everything behind the end of a program goes.
     DeleteBehindEnd,
     /// J of a block becomes `j`, µm.
     SetJ {
@@ -214,7 +213,7 @@ pub enum FixKind {
         axis: Axis,
         value: i64,
     },
-    /// G of a block becomes the other axis; J with it where it is there, µm.
+    /// G of a block becomes the other axis; J with it where it is given, µm.
     SetAxis {
         axis: Axis,
         j: Option<i64>,
@@ -223,7 +222,7 @@ pub enum FixKind {
     SetMotion {
         name: &'static str,
     },
-    /// The coordinates behind a block become those where it ends, mm.
+    /// The coordinates behind a block become its end, mm.
     SetCoordinates {
         at: [f64; 2],
     },
@@ -239,12 +238,12 @@ pub enum FixKind {
     DeleteTwin,
     /// Two blocks in a row change places.
     ExchangeBlocks,
-    /// A block that is lost is put back: its ends are `length` mm apart.
+    /// A lost block is put back: its ends are `length` mm apart.
     InsertBlock {
         length: f64,
         is_arc: bool,
     },
-    /// The `B` that is lost is put back.
+    /// The lost `B` is put back.
     InsertB,
     /// `B25` becomes `N25`.
     NumberWithN,
@@ -259,7 +258,7 @@ pub enum FixKind {
     SetNumber {
         number: u32,
     },
-    /// All blocks are numbered anew.
+    /// All blocks are renumbered.
     Renumber {
         first: u32,
         step: u32,
@@ -273,7 +272,7 @@ pub enum FixKind {
     },
     /// G41 becomes G42 or the other way round.
     SwapSide,
-    /// Words of a block as they are meant; `meant` is empty where they go, `found` where they come.
+    /// Words of a block become `meant`; `meant` is empty for a removal, `found` for an insertion.
     Rewrite {
         found: String,
         meant: String,
@@ -281,15 +280,15 @@ pub enum FixKind {
     InsertLine {
         block: String,
     },
-    /// What is drawn to be read is cut.
+    /// Entities drawn to be read are cut.
     CutAllTheSame {
         why: Aside,
     },
-    /// A finding is let stand, for a reason that is to be written.
+    /// A finding is suppressed, for a reason that the user writes.
     Suppress {
         rule: Rule,
     },
-    /// What lies on a layer is not cut.
+    /// A layer is not cut.
     IgnoreLayer {
         layer: Arc<str>,
     },

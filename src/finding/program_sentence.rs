@@ -1,9 +1,9 @@
-//! What is said of a fault in a program.
+//! The sentences about faults in a program.
 
 use super::lengths::{absurd, mm, told_apart};
 use super::{Fault, Side};
 
-/// A field that keeps a contour open, as far as can be known from the contour alone.
+/// A field that keeps a contour open, as far as the contour alone shows.
 fn keeps_open(found: &str, meant: &str, is_sure: bool) -> String {
     if is_sure {
         return say!(keeps_the_contour_open_with, found, meant);
@@ -11,7 +11,7 @@ fn keeps_open(found: &str, meant: &str, is_sure: bool) -> String {
     say!(may_keep_the_contour_open, found, meant)
 }
 
-/// What is wrong in a program, and what comes of it at the machine.
+/// The fault in a program, and its effect at the machine.
 pub(super) fn program(fault: &Fault) -> String {
     let side_word = |side: &Side| match side {
         Side::Left => say!(g41_lets_the_wire_run_on_the_left),

@@ -1,4 +1,4 @@
-//! What a finding says to a person: its numbers in the units that people read, handed to the sentences of [`crate::message`].
+//! The sentence of a finding: its numbers in the units that people read, in the words of [`crate::message`].
 
 use super::lengths::{absurd, mm, told_apart};
 use super::program_sentence::program;
@@ -8,7 +8,7 @@ use super::{
 use crate::drawing::Visibility;
 use crate::message::readable;
 
-/// Of what a finding speaks: a number alone is the unit of what a wire cuts.
+/// The subject of a finding: a plain number is the unit of a drawing for the wire.
 #[derive(Clone, Copy, Debug)]
 pub struct Telling {
     /// mm of the drawing's unit.
@@ -27,7 +27,7 @@ impl From<f64> for Telling {
 }
 
 impl Telling {
-    /// What cuts, within a sentence.
+    /// The cutting tool, within a sentence.
     fn tool(self) -> &'static str {
         match self.mills {
             true => say!(the_electrode_that_mills),
@@ -36,9 +36,9 @@ impl Telling {
     }
 }
 
-/// What a finding says, for a person: lower-case, no final dot.
+/// The sentence of a finding, for a person: lower-case, no final dot.
 ///
-/// Names out of the drawing that stand in it are `readable`.
+/// Names from the drawing in it are made `readable`.
 pub fn sentence(finding: &Finding, telling: impl Into<Telling>) -> String {
     readable(&said(finding, telling.into())).into_owned()
 }
@@ -297,7 +297,7 @@ fn unwritable(what: &Unwritable) -> String {
     }
 }
 
-/// Names that are listed at most.
+/// The most names in a list.
 const LISTED: usize = 8;
 
 fn set_aside(parts: &[SetAside]) -> String {
@@ -340,7 +340,7 @@ fn unseen(layer: &str, visibility: Visibility, count: usize) -> String {
     }
 }
 
-/// What the other place of a finding is, for a person.
+/// The other place of a finding, in words.
 pub(crate) fn related(
     finding: &Finding,
     handle: &str,

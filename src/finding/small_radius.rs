@@ -4,7 +4,7 @@ use crate::geometry::{Arc, Point, Side};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Why no fix is offered for an arc that is too tight.
+/// Why an arc that is too tight has no fix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum NoFix {
@@ -20,15 +20,15 @@ pub enum NoFix {
     ShortSegment,
     /// The arc that fits would bring another fault: it crosses another outline, or puts another arc at fault.
     Spoils,
-    /// It stands in a program: the drawing that it was made of has to change.
+    /// It stands in a program: its drawing has to change.
     Program,
 }
 
-/// An arc tighter than the correction, in drawing units. Lengths for people are made in mm by the message.
+/// An arc tighter than the correction, in drawing units. The message converts lengths to mm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SmallRadius {
     pub radius: f64,
-    /// The correction that the radius is held against.
+    /// The correction that the radius must reach.
     pub(crate) required: f64,
     pub center: Point,
     pub(crate) start: Point,
@@ -43,14 +43,14 @@ pub struct SmallRadius {
     pub(crate) stock_left: f64,
     /// The pass (1-based) whose correction is the largest, where several passes are set.
     pub(crate) pass: Option<usize>,
-    /// A later pass can follow the arc: what this one leaves of it is that pass's stock.
+    /// A later pass can follow the arc and takes what this one leaves.
     pub(crate) taken_by_skims: bool,
-    /// Why no fix is offered; `None` where one is.
+    /// Why there is no fix; `None` where there is one.
     pub no_fix: Option<NoFix>,
 }
 
 impl SmallRadius {
-    /// The numbers of an arc whose radius counts as `radius`; of a length in them there are `unit` in one of theirs.
+    /// The numbers of an arc whose radius counts as `radius`; `unit` converts their lengths.
     pub(crate) fn of(arc: &Arc, radius: f64, required: f64, unit: f64) -> SmallRadius {
         let (short, turn) = ((required - radius).max(0.0) / unit, arc.sweep.abs().min(PI));
         let stock_left = if turn < PI {

@@ -1,9 +1,9 @@
-//! What a fix is called.
+//! The titles of fixes.
 
 use super::lengths::mm;
 use super::{Aside, CenterFix, FixKind};
 
-/// What a fix does, as the title of its code action.
+/// The title of a fix, for its code action.
 pub(crate) fn title(kind: &FixKind, unit_mm: f64) -> String {
     match kind {
         FixKind::Refillet {

@@ -1,11 +1,11 @@
-//! A program that is not its drawing's, as numbers.
+//! Differences between a program and its drawing, as numbers.
 
 use std::sync::Arc;
 
-/// What is unlike between a program and its drawing. `other` is the name of the other document.
+/// A difference between a program and its drawing. `other` is the name of the other document.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unlike {
-    /// A block of the program does not lead to where a segment of the drawing does; `off` is in mm.
+    /// A block of the program does not lead to the end of a segment of the drawing; `off` is in mm.
     Block {
         other: Arc<str>,
         handle: String,
@@ -18,25 +18,26 @@ pub enum Unlike {
         handle: String,
         off: f64,
     },
-    /// The program leaves a contour before it is cut all round, where a segment of the drawing would be next.
+    /// The program leaves a contour before it is complete, where this segment of the drawing would be next.
     Unfinished {
         other: Arc<str>,
         handle: String,
         segment: usize,
     },
-    /// A contour, or a pass, of the program follows nothing of the drawing.
+    /// A contour, or a pass, of the program matches nothing in the drawing.
     Foreign { other: Arc<str> },
-    /// A way in or out, or between contours, does not lead where the drawing and its settings have it; `off` is in mm.
+    /// A way in or out, or between contours, does not lead where the drawing and its settings want it; `off` is in mm.
     Lead { other: Arc<str>, off: f64 },
-    /// The coordinates behind a block are not where the drawing has its end; `off` is in mm.
+    /// The coordinates behind a block differ from the end in the drawing; `off` is in mm.
     Stated { other: Arc<str>, off: f64 },
-    /// A block of the program, on a line from 1, does not follow this segment of the drawing; `off` is in the drawing's unit.
+    /// A block of the program, on a line from 1, does not follow this segment of the drawing; `off` is in the drawing's
+    /// unit.
     Segment {
         other: Arc<str>,
         line: usize,
         off: f64,
     },
-    /// The program, on a line from 1, begins this contour elsewhere, so far off in the drawing's unit.
+    /// The program, on a line from 1, begins this contour elsewhere, this far off in the drawing's unit.
     Begin {
         other: Arc<str>,
         line: usize,
@@ -44,18 +45,18 @@ pub enum Unlike {
     },
     /// The program leaves this contour behind a line, from 1, before it has cut this segment.
     Left { other: Arc<str>, line: usize },
-    /// Nothing of the one is like the other.
+    /// The two have nothing in common.
     Nothing { other: Arc<str> },
     /// An electrode mills it otherwise than the settings of the drawing say, so its blocks are not compared.
     Milled { other: Arc<str> },
-    /// The other cannot be read.
+    /// The other document cannot be read.
     Unreadable { other: Arc<str>, reason: String },
     /// The program may belong to `more` as well.
     Several { other: Arc<str>, more: String },
 }
 
 impl Unlike {
-    /// How far something is off, in the unit of its document.
+    /// The distance, in the unit of its document.
     pub fn off(&self) -> Option<f64> {
         match self {
             Unlike::Block { off, .. }
@@ -68,7 +69,7 @@ impl Unlike {
         }
     }
 
-    /// Said for the whole of both, which is no error of either.
+    /// Concerns both documents as a whole, which is no error of either.
     pub(crate) fn is_of_whole(&self) -> bool {
         matches!(
             self,

@@ -1,9 +1,10 @@
-//! What a language cannot hold of a contour, as numbers; the sentence is made in [`crate::message`].
+//! What a language cannot express of a contour, as numbers; [`crate::message`] has the sentence.
 
-/// Why 4B, whose controller changes the radius of each arc by its correction, cannot hold a contour. Lengths and coordinates in mm.
+/// Why 4B, whose controller changes the radius of each arc by its correction, cannot hold a contour. Lengths and
+/// coordinates in mm.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unwritable {
-    /// The wire runs inside of an arc of `radius`, which begins `at` and has to be larger than the `correction`.
+    /// The wire runs inside of an arc of `radius`, which begins `at` and must be larger than the `correction`.
     TightArc {
         at: [f64; 2],
         radius: f64,

@@ -1,22 +1,22 @@
-//! Bytes with a gap in them, so that one edit after another in the same place moves a line and not the rest of the text.
+//! Bytes with a gap, so that successive edits in one place move a line and not the rest of the text.
 
 use std::ops::Range;
 use std::sync::OnceLock;
 
-/// The bytes of a text. The gap lies where a line begins, or at the end: no line has it in its middle.
+/// The bytes of a text. The gap lies at the start of a line or at the end, never within a line.
 #[derive(Debug, Default)]
 pub(super) struct Bytes {
     buffer: Vec<u8>,
-    /// Bytes of the buffer that are none of the text.
+    /// The bytes of the buffer outside the text.
     gap: Range<usize>,
-    /// The text in one piece, once somebody has asked for it.
+    /// The contiguous text, once somebody has asked for it.
     whole: OnceLock<Vec<u8>>,
 }
 
 /// How much wider than needed the gap is made.
 const ROOM: usize = 64 * 1024;
 
-/// Room beyond the text within which the first gap can be made, unless much is inserted at once.
+/// Room beyond the text for the first gap, unless much is inserted at once.
 pub(super) const ROOM_FOR_THE_FIRST: usize = 2 * ROOM;
 
 impl Bytes {
@@ -31,14 +31,14 @@ impl Bytes {
         self.buffer.len() - self.gap.len()
     }
 
-    /// What lies before the gap, and what behind it.
+    /// The bytes before the gap, and those behind it.
     pub(crate) fn pieces(&self) -> (&[u8], &[u8]) {
         let before = self.buffer.get(..self.gap.start);
         let behind = self.buffer.get(self.gap.end..);
         (before.unwrap_or_default(), behind.unwrap_or_default())
     }
 
-    /// The text in one piece: a copy, kept until the next edit, where it has a gap.
+    /// The contiguous text: where it has a gap, a copy that is kept until the next edit.
     pub(crate) fn whole(&self) -> &[u8] {
         match self.pieces() {
             _ if self.gap.is_empty() => &self.buffer,
@@ -58,7 +58,7 @@ impl Bytes {
         self.buffer.get(at)
     }
 
-    /// A range of bytes; those of one line cost nothing.
+    /// A range of bytes; a range within one line costs nothing.
     #[inline]
     pub(crate) fn slice(&self, range: Range<usize>) -> Option<&[u8]> {
         if range.end <= self.gap.start {
@@ -91,7 +91,8 @@ impl Bytes {
         }
     }
 
-    /// Replaces a range and leaves the gap before the byte that was at `next`, which is not before the end of the range.
+    /// Replaces a range and leaves the gap before the byte that was at `next`, which is not before the end of the
+    /// range.
     pub(crate) fn replace_beside_gap(
         &mut self,
         range: Range<usize>,
@@ -126,7 +127,7 @@ impl Bytes {
 }
 
 impl Clone for Bytes {
-    /// In one piece.
+    /// Contiguous.
     fn clone(&self) -> Bytes {
         let (before, behind) = self.pieces();
         Bytes::new([before, behind].concat())

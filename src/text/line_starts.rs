@@ -1,4 +1,4 @@
-//! Where each line of a text begins, in little more than two bytes a line.
+//! The start of each line of a text, in little more than two bytes a line.
 
 use super::head;
 use std::ops::Range;
@@ -9,9 +9,9 @@ const BLOCK: usize = 64;
 /// The starts of the lines of a text, rising from 0. Moving all lines behind a place costs a step for each block of them.
 #[derive(Clone, Debug)]
 pub(crate) enum LineStarts {
-    /// Where the first line of each block begins, and of each line how far behind that.
+    /// The start of each block's first line, and the distance of each line from it.
     Near { blocks: Vec<u32>, offsets: Vec<u16> },
-    /// For a text with lines so long that a block of them does not fit.
+    /// For a text whose lines are too long for that.
     Far(Vec<u32>),
 }
 
@@ -61,7 +61,7 @@ impl LineStarts {
         }
     }
 
-    /// How many lines begin at `offset` or before it.
+    /// The number of lines that begin at `offset` or before it.
     pub(super) fn begun_by(&self, offset: usize) -> usize {
         match self {
             LineStarts::Near { blocks, offsets } => {
@@ -78,7 +78,7 @@ impl LineStarts {
         }
     }
 
-    /// Puts the starts `fresh` in the place of those of some lines, and moves all behind them by `shift` (modulo 2³²).
+    /// Replaces the starts of some lines by `fresh`, and moves all behind them by `shift` (modulo 2³²).
     pub(super) fn replace(&mut self, lines: Range<usize>, fresh: &[u32], shift: u32) {
         let starts = match self {
             LineStarts::Near { blocks, offsets } => {
@@ -117,7 +117,7 @@ fn replace_near(
     shift: u32,
 ) -> bool {
     let first = lines.start / BLOCK;
-    // Where as many lines come as go, the blocks behind only move.
+    // Where the number of lines stays, the blocks behind only move.
     let end = match fresh.len() == lines.len() {
         true => offsets.len().min((lines.end / BLOCK + 1) * BLOCK),
         false => offsets.len(),
@@ -167,8 +167,8 @@ impl PartialEq for LineStarts {
 
 impl Eq for LineStarts {}
 
-/// The starts of all lines. Looks at eight bytes at a time: the lines of such texts are so short that a search for each
-/// line end costs more than looking at every byte.
+/// The starts of all lines. Reads eight bytes at a time: lines are so short that a search for each line end costs more
+/// than looking at every byte.
 fn each_line_start(bytes: &[u8], mut begins: impl FnMut(u32)) {
     const LOW: u64 = 0x7f7f_7f7f_7f7f_7f7f;
     let zero_bytes = |word: u64| !(((word & LOW) + LOW) | word | LOW);

@@ -1,12 +1,12 @@
-//! Edits that follow one another, as one edit of the text before the first of them.
+//! Combines successive edits into one edit of the original text.
 
 use super::TextEdit;
 use std::ops::Range;
 
-/// A text as what is left of another one, and what has come in between.
+/// A text as the remains of an older one, and the insertions between them.
 #[derive(Clone, Debug)]
 pub(crate) struct Patch {
-    /// In the order of the text. What is left of the old one rises.
+    /// In the order of the text. The remains of the old one rise.
     pieces: Vec<Piece>,
     old_length: usize,
 }
@@ -35,7 +35,7 @@ impl Piece {
 }
 
 impl Patch {
-    /// Of a text of this length, nothing changed yet.
+    /// A text of this length, unchanged.
     pub(crate) fn of(old_length: usize) -> Patch {
         Patch {
             pieces: vec![Piece::Old(0..old_length)],
@@ -43,13 +43,14 @@ impl Patch {
         }
     }
 
-    /// Adds edits of the text as it is with all edits so far; they are sorted and disjoint. `None` when they are not, or reach past the end.
+    /// Adds edits of the text as it is after all edits so far; they are sorted and disjoint. `None` when they are not,
+    /// or reach past the end.
     pub(crate) fn then(&self, edits: &[TextEdit]) -> Option<Patch> {
         let mut pieces = Vec::with_capacity(self.pieces.len() + 2 * edits.len());
         let mut rest = self.pieces.iter();
         let mut present = rest.next();
         let (mut begins, mut at) = (0, 0);
-        // Takes, or passes over, all up to `to`.
+        // Takes, or skips, everything up to `to`.
         let mut advance = |to: usize, pieces: Option<&mut Vec<Piece>>| {
             let mut taken = Vec::new();
             while at < to {

@@ -82,7 +82,7 @@ proptest! {
                 }
             }
             prop_assert_eq!(&apart, &text);
-            // Whoever holds the text as it was keeps it.
+            // A clone keeps the text as it was.
             shared.push((apart.clone(), text.clone()));
             if at % 5 == 0 {
                 apart.join();

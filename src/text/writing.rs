@@ -1,19 +1,19 @@
-//! How the characters of a program file are written: as UTF-8, or as GB 18030, in which editors of Chinese Windows keep it.
+//! The encoding of a program file: UTF-8, or GB 18030, which editors of Chinese Windows use.
 
 use encoding_rs::GB18030;
 use std::borrow::Cow;
 
-/// What the bytes of a file are made of.
+/// The encoding of a file's bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Writing {
-    /// UTF-8, or bytes that nothing is known of: they are taken as they stand.
+    /// UTF-8, or unknown bytes: they are taken as they are.
     Plain,
     Gb18030,
 }
 
 impl Writing {
-    /// The bytes of a file as UTF-8, and how it was written. What is neither UTF-8 nor GB 18030 stays as it is, and so does what would not
-    /// become the same bytes again.
+    /// The bytes of a file as UTF-8, and its encoding. Bytes that are neither UTF-8 nor GB 18030 stay as they are, and
+    /// so do bytes that would not encode back the same.
     pub(crate) fn read(bytes: Vec<u8>) -> (Vec<u8>, Writing) {
         if std::str::from_utf8(&bytes).is_ok_and(|text| !is_gb_18030_by_chance(text)) {
             return (bytes, Writing::Plain);
@@ -27,7 +27,7 @@ impl Writing {
         }
     }
 
-    /// UTF-8 as the bytes of such a file.
+    /// UTF-8 in the encoding of such a file.
     pub(crate) fn written(self, text: &[u8]) -> Cow<'_, [u8]> {
         match (self, std::str::from_utf8(text)) {
             (Writing::Gb18030, Ok(text)) => GB18030.encode(text).0,
@@ -36,8 +36,8 @@ impl Writing {
     }
 }
 
-/// True for a text that is UTF-8 as well, as 凸模 alone would be: all that is not ASCII is two bytes that are a common letter of GB 18030,
-/// and beside each other stand letters of scripts that no word mixes.
+/// True for a GB 18030 text that is valid UTF-8 too, as 凸模 alone would be: everything but ASCII is a two-byte common
+/// letter of GB 18030, and as UTF-8 it would mix scripts within a word.
 fn is_gb_18030_by_chance(text: &str) -> bool {
     let script = |letter: char| match letter {
         // Signs, which stand beside letters of any script.
@@ -79,7 +79,7 @@ mod tests {
         check("; 凸模 R 0.08".as_bytes(), None);
         check("\u{feff}; 凸模".as_bytes(), None);
         check(b"; \xb0\xbc\xc4\xa3\r\n", Some("; 凹模\r\n"));
-        // These bytes are UTF-8 as well, of letters that no word has beside each other.
+        // These bytes are UTF-8 as well, of letters that never stand together in a word.
         check(b"; \xcd\xb9\xc4\xa3\r\n", Some("; 凸模\r\n"));
         for text in [
             "; pi\u{e8}ce \u{f8} 5 \u{b5}m \u{b1}2\u{b0}",
@@ -104,7 +104,7 @@ mod tests {
         fn nothing_is_lost_on_the_way(bytes in prop::collection::vec(any::<u8>(), 0..60), text in "\\PC{0,30}") {
             let (read, writing) = Writing::read(bytes.clone());
             prop_assert_eq!(&*writing.written(&read), &bytes[..]);
-            // What is valid in both is UTF-8; U+E5E5 is the one letter that GB 18030 cannot write.
+            // Bytes valid in both are UTF-8; U+E5E5 is the one letter that GB 18030 cannot write.
             let encoded = GB18030.encode(&text).0.into_owned();
             let is_gb = std::str::from_utf8(&encoded).is_err() && !text.contains('\u{e5e5}');
             let (read, writing) = Writing::read(encoded.clone());

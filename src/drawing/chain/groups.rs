@@ -1,4 +1,4 @@
-//! Groups: contours that hang together through ends that lie near each other.
+//! Groups: contours connected through ends that lie near each other.
 
 use super::{Chains, Key, SHARE};
 use crate::drawing::EntityId;
@@ -15,7 +15,7 @@ impl Chains {
         }
     }
 
-    /// Contours with an end in one cell, or in cells beside each other near the border.
+    /// Contours with an end in one cell, or in adjacent cells near the border.
     fn neighbours(&self, entities: &[EntityId], joints: &Joints) -> Vec<(Key, Key)> {
         let count = joints.list_count();
         let of_share = |nth: usize| {
@@ -75,7 +75,7 @@ impl Chains {
         neighbours
     }
 
-    /// Makes one group of those of two contours: the larger takes in the smaller.
+    /// Merges the groups of two contours: the larger takes in the smaller.
     fn unite(&mut self, one: Key, other: Key) {
         let group = |contour: Key| self.group_of.get(&contour).copied();
         let (larger, smaller) = match (group(one), group(other)) {

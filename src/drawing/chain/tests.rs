@@ -1,4 +1,4 @@
-//! Contours of small drawings, whatever the order of their entities, and edit by edit as afresh.
+//! Contours of small drawings, whatever the order of their entities; after each edit they equal a fresh chaining.
 
 use super::*;
 use crate::drawing::joints::CROWD;
@@ -133,7 +133,7 @@ fn a_line_shorter_than_the_tolerance_is_not_skipped() {
 /// Handles of the entities of each contour, and whether it is closed.
 type Sets = BTreeSet<(BTreeSet<String>, bool)>;
 
-/// The contours of lines and, by bulge, arcs, drawn in an order; what is what, the handles say.
+/// The contours of lines and, by bulge, arcs, drawn in an order; the handles tell the entities apart.
 fn sets(shapes: &[(f64, f64, f64, f64, f64)], order: &[usize]) -> Sets {
     let mut drawing = Drawing::new(None);
     for &number in order {
@@ -240,7 +240,7 @@ fn a_double_does_not_spoil_an_outline_in_any_order() {
         &with(&[(0.0, 0.003, 10.0, 0.002, 0.0), (10.0, 10.0, 10.0, 0.0, 0.0)]),
         &["0 1 2 3"],
     );
-    // The one that lies off is not the one that is chained.
+    // The one that lies off is left out.
     check_in_every_order(
         &[
             (0.0, -0.004, 10.0, -0.004, 0.0),
@@ -251,7 +251,7 @@ fn a_double_does_not_spoil_an_outline_in_any_order() {
         ],
         &["1 2 3 4"],
     );
-    // Two lines in one place alone, and two arcs on one chord: a double, and a circle.
+    // Two lines in one place, and nothing else, are a double; two arcs on one chord are a circle.
     check_in_every_order(&[SQUARE[0], SQUARE[0]], &[]);
     check_in_every_order(
         &[
@@ -299,13 +299,13 @@ fn a_line_off_a_corner_does_not_spoil_an_outline_in_any_order() {
         ],
         &["0 1 2 3"],
     );
-    // Across: the outline is what closes.
+    // Across: the outline closes, not the line.
     check_in_every_order(&with(&[(0.0, 0.0, 10.0, 10.0, 0.0)]), &["0 1 2 3"]);
     check_in_every_order(
         &with(&[(0.0, 0.0, 10.0, 10.0, 0.2), (0.0, 10.0, -4.0, 14.0, 0.0)]),
         &["0 1 2 3"],
     );
-    // Two triangles in one point, and with a bridge between them.
+    // Two triangles that share a point, and with a bridge between them.
     let triangles = [
         (0.0, 0.0, 4.0, 2.0, 0.0),
         (4.0, 2.0, 4.0, -2.0, 0.0),
@@ -366,7 +366,7 @@ fn crumbs_and_notches_narrower_than_the_tolerance_stay_in_their_outline_in_any_o
     );
 }
 
-/// So many lines from nearly one point outward, and a triangle with a corner there.
+/// A number of lines that start near one point, and a triangle with a corner there.
 fn star(count: usize) -> Drawing {
     let line = |number: usize| {
         let angle = number as f64 * 0.003;
