@@ -1,4 +1,4 @@
-//! A document as the two faces hold it: its source, its drawing, what is known of it.
+//! A document as both faces hold it: its source, its drawing, its findings.
 //!
 //! DXF text, drawings sent by a CAD program and programs differ here and nowhere above.
 
@@ -13,13 +13,13 @@ use crate::{dxf, finding::Severity};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-/// Where a document's drawing comes from.
+/// The source of a document's drawing.
 #[derive(Clone, Debug)]
 pub enum Source {
     Dxf(dxf::Document),
     /// Sent by a CAD program; there is no text behind it.
     Cad(Arc<Drawing>),
-    /// A program, in whichever language.
+    /// A program, in any language.
     Program(program::Document),
 }
 
@@ -33,24 +33,24 @@ pub struct Document {
     asked: Asked,
 }
 
-/// What has been asked of the document as it stands: an editor asks for its actions at every step of the cursor.
+/// Answers for the present state of the document: an editor asks for actions at every step of the cursor.
 #[derive(Clone, Debug, Default)]
 struct Asked {
     taken: Taken,
-    /// Of what lies beside it.
+    /// Those that concern the document beside it.
     beside: OnceLock<Arc<[Finding]>>,
     findings: OnceLock<Arc<[Finding]>>,
     fix_all: OnceLock<Option<Edit>>,
 }
 
-/// What is taken of the document to compare it with others, whatever lies beside it.
+/// The data for comparing the document with others, whatever lies beside it.
 #[derive(Clone, Debug, Default)]
 struct Taken {
     drawn: OnceLock<Arc<Drawn>>,
     traced: OnceLock<Arc<Traced>>,
 }
 
-/// What long work looks at while the document goes on changing.
+/// The snapshot that long work reads while the document goes on changing.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
     pub drawing: Arc<Drawing>,
@@ -80,7 +80,7 @@ impl Document {
         &self.beside
     }
 
-    /// Lays another document beside it, with which it is compared; true where that is another one than before.
+    /// Sets the document beside it for comparing; true where that is another one than before.
     pub(crate) fn set_beside(&mut self, beside: Beside) -> bool {
         let is_new = self.beside != beside;
         if is_new {
@@ -94,7 +94,7 @@ impl Document {
         is_new
     }
 
-    /// What a program is compared with: the contours of a drawing.
+    /// The contours of a drawing, with which a program is compared.
     pub fn drawn(&self) -> Option<Arc<Drawn>> {
         let drawing = self.drawing()?;
         let drawn = || {
@@ -104,14 +104,14 @@ impl Document {
         Some(self.asked.taken.drawn.get_or_init(drawn).clone())
     }
 
-    /// What a drawing is compared with: the blocks of a program.
+    /// The blocks of a program, with which a drawing is compared.
     pub fn traced(&self) -> Option<Arc<Traced>> {
         let program = self.program()?;
         let traced = || Arc::new(Traced::of(program));
         Some(self.asked.taken.traced.get_or_init(traced).clone())
     }
 
-    /// What is unlike between it and what lies beside it.
+    /// The differences from the document beside it.
     fn unlike(&self) -> Arc<[Finding]> {
         let found = || {
             let settings = self.settings();
@@ -140,7 +140,7 @@ impl Document {
         self.analysis.settings()
     }
 
-    /// Looks at everything again under other settings.
+    /// Checks everything again under other settings.
     pub(crate) fn set_settings(&mut self, settings: Arc<Effective>) {
         if *self.analysis.settings() != settings {
             self.asked = Asked::default();
@@ -164,7 +164,7 @@ impl Document {
         }
     }
 
-    /// The drawing, where there is one: a program has none.
+    /// The drawing, if any: a program has none.
     pub fn drawing(&self) -> Option<&Arc<Drawing>> {
         match &self.source {
             Source::Dxf(document) => Some(document.drawing()),
@@ -173,13 +173,13 @@ impl Document {
         }
     }
 
-    /// mm of the unit in which findings have their lengths: the drawing's; a program's own are in mm.
+    /// mm of the unit of the findings' lengths: the drawing's; a program's findings are in mm.
     pub(crate) fn unit_mm(&self) -> f64 {
         self.drawing()
             .map_or(1.0, |drawing| self.settings().unit_of(drawing).mm)
     }
 
-    /// Of what its findings speak.
+    /// The subject of its findings.
     pub(crate) fn telling(&self) -> Telling {
         Telling {
             unit_mm: self.unit_mm(),
@@ -195,7 +195,7 @@ impl Document {
         }
     }
 
-    /// Where the machine stands at the findings of a program.
+    /// The machine's position at each finding of a program.
     pub(crate) fn whereabouts(&self) -> Option<program::Whereabouts<'_>> {
         self.program().map(program::Document::whereabouts)
     }
@@ -205,7 +205,7 @@ impl Document {
         self.analysis.cuts(id)
     }
 
-    /// What long work may look at; `None` for a program.
+    /// The snapshot for long work; `None` for a program.
     pub fn snapshot(&self) -> Option<Snapshot> {
         let drawing = self.drawing()?.clone();
         let outlines = self.analysis.outlines(&drawing).clone();
@@ -216,7 +216,7 @@ impl Document {
         })
     }
 
-    /// Replaces a range of bytes of the text. Nothing happens to a drawing that has none.
+    /// Replaces a range of bytes of the text. Does nothing for a drawing without text.
     pub fn edit_text(&mut self, range: Range<usize>, replacement: &str) {
         self.asked = Asked::default();
         match &mut self.source {
@@ -229,7 +229,7 @@ impl Document {
         }
     }
 
-    /// Lets `change` edit a drawing that a CAD program sent and looks again at what it touched.
+    /// Lets `change` edit a drawing that a CAD program sent, and checks the parts that it touched.
     ///
     /// When `change` fails, the drawing is as before. `None` for a document with text.
     pub fn edit_drawing<E>(
@@ -249,13 +249,13 @@ impl Document {
         findings(&self.source, &mut self.analysis, &unlike, limit)
     }
 
-    /// What is suppressed in a drawing, each with the reason.
+    /// The suppressed findings of a drawing, each with its reason.
     pub(crate) fn suppressed(&self) -> Vec<(Finding, String)> {
         let of_drawing = |drawing: &Arc<Drawing>| self.analysis.suppressed(drawing);
         self.drawing().map_or_else(Vec::new, of_drawing)
     }
 
-    /// All findings, for whoever shares the document and cannot keep what was found out on the way.
+    /// All findings, for callers that share the document and cannot store answers in it.
     pub fn all_findings(&self) -> Arc<[Finding]> {
         self.asked
             .findings
@@ -268,7 +268,7 @@ impl Document {
             .clone()
     }
 
-    /// True when an error stands in the document: programs are refused then.
+    /// True when the document has an error: programs are refused then.
     pub(crate) fn has_errors(&mut self) -> bool {
         let (findings, _) = self.findings(1);
         findings
@@ -296,7 +296,7 @@ impl Document {
         }
     }
 
-    /// What the settings can keep of a finding in a drawing.
+    /// The repairs of a finding in a drawing that the settings can hold.
     pub(crate) fn keeps(&self, finding: &Finding) -> impl Iterator<Item = Fix<Vec<Keep>>> {
         let role = self.settings().side.role().unwrap_or(Role::Both);
         let keeps = match &finding.detail {
@@ -312,7 +312,7 @@ impl Document {
         keeps.into_iter().chain(self.suppression(finding))
     }
 
-    /// What lets a finding stand, where it lies at an entity of a file: the reason is to be written yet.
+    /// The repair that suppresses a finding at an entity of a file; the user still writes the reason.
     fn suppression(&self, finding: &Finding) -> Option<Fix<Vec<Keep>>> {
         let (entity, _) = finding.place.entity()?;
         if matches!(finding.detail, Detail::SetAside(_)) {
@@ -328,7 +328,7 @@ impl Document {
         ))
     }
 
-    /// The layer of a finding's contour, where no closed contour lies on it.
+    /// The layer of a finding's contour, unless a closed contour lies on it.
     fn spare_layer(&self, finding: &Finding) -> Option<Arc<str>> {
         let drawing = self.drawing()?;
         let Place::Segment { entity, .. } = finding.place else {
@@ -350,7 +350,7 @@ impl Document {
             Source::Dxf(text) => {
                 let can = |edit: &DrawingEdit| text.text_edits(edit).is_ok();
                 let all = self.analysis.fix_all(text.drawing())?;
-                // A fix that the text refuses does not stand in the way of the others.
+                // A fix that the text refuses does not block the others.
                 let edit = if can(&all) {
                     Some(all)
                 } else {
@@ -364,8 +364,8 @@ impl Document {
         self.asked.fix_all.get_or_init(edit).clone()
     }
 
-    /// Whether there is anything for [`Document::fix_all`] to make; not worked out whole for it. `found` is all that there is to be said,
-    /// where that is at hand.
+    /// Whether [`Document::fix_all`] would change anything, without working it out completely. `found` are all
+    /// findings, if the caller has them.
     pub(crate) fn can_be_fixed(&mut self, found: Option<&[Finding]>) -> bool {
         match &self.source {
             Source::Dxf(text) => {
@@ -377,8 +377,8 @@ impl Document {
         }
     }
 
-    /// Other bytes in place of these, such as a repair has made them: a document of the same kind under the same settings. A drawing
-    /// without text is none.
+    /// A document of the same kind under the same settings with other bytes, such as a repair makes. `None` for a
+    /// drawing without text.
     pub(crate) fn reread(&self, bytes: Vec<u8>) -> Document {
         let settings = self.settings().clone();
         let source = match &self.source {
@@ -401,7 +401,7 @@ impl Document {
         Some(edits).filter(|edits| !edits.is_empty())
     }
 
-    /// Bytes that a place stands for; `None` where there is no text.
+    /// The bytes of a place; `None` where there is no text.
     pub fn range_of(&self, place: &Place) -> Option<Range<usize>> {
         match (&self.source, place) {
             (_, Place::Text { range }) => Some(range.clone()),
@@ -439,9 +439,8 @@ fn findings(
     findings.extend_from_slice(unlike);
     count += unlike.len();
     for finding in of_source {
-        // The reader knows no settings: severities are laid over its findings here.
-        // A layer that has a role is cut or not as that says.
-        // Where the settings say the unit, nobody asks the drawing.
+        // The reader knows no settings, so its findings get their severities here. A layer with a role is cut or not as
+        // the role says. Where the settings give the unit, the drawing need not.
         let is_answered = match &finding.detail {
             Detail::Unseen { layer, .. } => settings.layers.contains_key(&**layer),
             Detail::Said(_) if finding.rule == Rule::Units => settings.states_unit,
@@ -460,7 +459,7 @@ fn findings(
     (findings, count)
 }
 
-/// Lets a drawing know the unit that the settings give it, where it states none.
+/// Gives a drawing that states no unit the one of the settings.
 fn assume_unit(source: &mut Source, settings: &Effective) {
     match source {
         Source::Dxf(text) => text.assume_unit(settings.unit),

@@ -1,7 +1,7 @@
-//! What is made of a document: the repaired document, the program of a drawing, what a program becomes in another language.
+//! The products of a document: the repaired document, the program of a drawing, a program in another language.
 //!
-//! One pipeline for both faces, which bring a document under its settings and show what comes of it; why nothing is made is decided and worded
-//! here. Nothing here reads or writes a file, or knows who asked.
+//! One pipeline for both faces. The faces supply a document with its settings and present the result; refusals are
+//! decided and worded here. Nothing here reads or writes a file, or knows who asked.
 
 mod convert;
 pub(crate) mod drill;
@@ -26,37 +26,37 @@ use crate::toolpath::{
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Whoever waits: whether it still does, and what it is told on the way.
+/// The caller while it waits: whether it still wants the result, and the progress that it is shown.
 pub trait Watch {
     fn is_wanted(&self) -> bool {
         true
     }
 
-    /// A step of the work; how much of it is done of how much, where that is known.
+    /// A step of the work; how much is done of how much, where that is known.
     fn at(&self, _step: &'static str, _share: Option<(usize, usize)>) {}
 }
 
-/// Nobody who could change his mind.
+/// A caller that never cancels.
 impl Watch for () {}
 
-/// Why nothing is made.
+/// Why there is no result.
 #[derive(Debug)]
 pub enum Refusal {
     Sentence(String),
-    /// Errors stand in what would be cut.
+    /// There are errors in what would be cut.
     Errors(Vec<Finding>),
-    /// What the geometry refuses, at its places.
+    /// The refusals of the geometry, at their places.
     Findings(Vec<Finding>),
-    /// Nothing could be proved, which may come of the errors that were passed over.
+    /// No path passed its proof, perhaps because of the errors that were forced.
     Unproved(String, Vec<Finding>),
-    /// Nothing could be proved although nothing is wrong: a fault of ours.
+    /// No path passed its proof although the drawing has no error: a fault of wedm.
     Fault(String),
-    /// Nobody wants it any more.
+    /// The caller cancelled.
     Cancelled,
 }
 
 impl Refusal {
-    /// An error where the drawing stands against it, not where something is yet to be said.
+    /// An error where the drawing is at fault, not where something is still to be set.
     fn severity(&self) -> Severity {
         match self {
             Refusal::Sentence(_) | Refusal::Cancelled => Severity::Information,
@@ -86,7 +86,7 @@ impl Refusal {
         }
     }
 
-    /// What is wrong at its places.
+    /// The faults at their places.
     pub(crate) fn findings(&self) -> &[Finding] {
         match self {
             Refusal::Errors(findings)
@@ -96,7 +96,7 @@ impl Refusal {
         }
     }
 
-    /// What did not hold its proof. Where errors were passed over that is theirs.
+    /// The paths that failed their proof. Where errors were forced, those are the reason.
     fn of_proof(
         error: ProofError,
         errors: Option<Vec<Finding>>,
@@ -126,7 +126,7 @@ impl From<toolpath::Refusal> for Refusal {
     }
 }
 
-/// At most `limit` findings, errors first, then one that says how many more there are; and how many there are in all.
+/// At most `limit` findings, errors first, then one that counts the rest; and how many there are in all.
 pub(crate) fn check(document: &mut Document, limit: usize) -> (Vec<Finding>, usize) {
     let (mut findings, count) = document.findings(limit);
     let more = count - findings.len();
@@ -144,23 +144,23 @@ pub(crate) fn check(document: &mut Document, limit: usize) -> (Vec<Finding>, usi
     (findings, count)
 }
 
-/// Repairs that are made one after another, since one makes room for another.
+/// Repairs in several rounds, since one makes room for another.
 #[derive(Debug)]
 pub(crate) enum Repairs {
-    /// Of a text, as one edit of it as it stands; and the document behind them.
+    /// For a text, as one edit of its present state; and the document after them.
     OfText {
         edits: Vec<TextEdit>,
         rounds: usize,
         repaired: Box<Document>,
     },
-    /// Of a drawing without text, each with the drawing that it is made in.
+    /// For a drawing without text, each with the drawing that it applies to.
     OfDrawing(Vec<(Arc<Drawing>, DrawingEdit)>),
 }
 
-/// Past this many rounds nothing new comes of it.
+/// More rounds than this change nothing.
 pub const ROUNDS: usize = 12;
 
-/// Every safe fix, asked for again until none is left.
+/// Every safe fix, repeated until none is left.
 pub(crate) fn fix_all(document: &Document) -> Option<Repairs> {
     if let Source::Cad(_) = document.source() {
         let mut present = document.clone();
@@ -204,7 +204,7 @@ pub(crate) fn paths(
     Ok(planned(snapshot, settings, handles, false, watch)?.paths)
 }
 
-/// The wire's path of all contours, none where there can be none, and the picture with it, or with the reason.
+/// The wire's path of all contours, empty where there can be none, and the picture with it, or with the reason.
 pub(crate) fn picture(
     snapshot: &Snapshot,
     findings: &[Finding],
@@ -260,7 +260,7 @@ pub fn fit(snapshot: &Snapshot, watch: &dyn Watch) -> Result<Fit, Refusal> {
     Ok(fit::fit(drawing, outlines, &snapshot.settings, &goes_on)?)
 }
 
-/// The same with where the wire is threaded, and with what all passes leave where that is asked for.
+/// The same with the thread holes, and on request with the contours that all passes leave.
 pub fn planned(
     snapshot: &Snapshot,
     settings: &Effective,
@@ -274,21 +274,21 @@ pub fn planned(
     Ok(planned)
 }
 
-/// What a program is asked for.
+/// The options for a program.
 #[derive(Clone, Copy)]
 pub struct Wanted<'a> {
     pub format: Format,
     /// Only the contours that hold one of these entities.
     pub handles: Option<&'a [String]>,
-    /// Only the contours that have an entity on one of these layers; beside `handles` those of both.
+    /// Only the contours that have an entity on one of these layers; together with `handles` the contours of both.
     pub layers: Option<&'a [String]>,
-    /// Although errors stand in the drawing.
+    /// Even if there are errors in the drawing.
     pub force: bool,
 }
 
 impl Wanted<'_> {
-    /// The handles that choose what is cut, `None` for all: those that are named, then of each contour on one of the layers its first
-    /// entity, in the order of the drawing.
+    /// The handles that choose the contours, `None` for all: the named ones, then the first entity of each contour on
+    /// one of the layers, in the order of the drawing.
     fn chosen(&self, snapshot: &Snapshot) -> Result<Option<Vec<String>>, Refusal> {
         let mut chosen = self.handles.map(<[String]>::to_vec);
         let Some(layers) = self.layers else {
@@ -327,17 +327,17 @@ impl Wanted<'_> {
 pub struct Generated {
     pub program: ProvedProgram,
     pub contours: usize,
-    /// What all passes leave, in mm and the drawing's coordinates, where there are several.
+    /// The contours that all passes leave, in mm and the drawing's coordinates, if there are several passes.
     pub finished: Option<Finished>,
-    /// Where the wire is threaded, in the order of the cuts.
+    /// The thread holes, in the order of the cuts.
     pub holes: Vec<StartHole>,
-    /// What the program comes to on the machine.
+    /// The totals of the program at the machine.
     pub work: Work,
-    /// What is to be said beside it.
+    /// Additional findings.
     pub warnings: Vec<Finding>,
 }
 
-/// Writes and proves the program of a drawing, of which `findings` are all that there are.
+/// Writes and proves the program of a drawing; `findings` are all of the drawing.
 pub fn generate(
     snapshot: &Snapshot,
     findings: Vec<Finding>,
@@ -367,7 +367,7 @@ fn written(
 ) -> Result<Generated, Refusal> {
     let settings = &snapshot.settings;
     let is_error = |finding: &Finding| finding.severity == Severity::Error;
-    // A program that was written before is no fault of the drawing, and what stands against leads and steps the path says itself.
+    // An existing program is no fault of the drawing, and the path itself refuses leads and steps.
     findings.retain(|found| match found.rule {
         Rule::NotTheDrawing | Rule::LeadIn => false,
         Rule::Settings => !is_error(found),
@@ -421,7 +421,7 @@ fn written(
     warnings.extend(no_tab_kept(snapshot, &paths));
     let mut work = toolpath::work(&snapshot.drawing, &snapshot.outlines, settings, &paths);
     if let Some(milled) = &program.milled {
-        // With what the simulation says of the floor, in place of what was said before it.
+        // With the simulation's finding about the floor instead of the earlier one.
         let uneven = milling::uneven(snapshot, milled);
         let is_said = |one: &Finding| uneven.iter().any(|own| own.place == one.place);
         warnings.retain(|one| one.rule != Rule::Settings || !is_said(one));
@@ -442,7 +442,7 @@ fn written(
     })
 }
 
-/// What is said where a tab is asked for and no contour keeps one.
+/// The finding when a tab is requested and no contour keeps one.
 fn no_tab_kept(snapshot: &Snapshot, paths: &[WirePath]) -> Option<Finding> {
     let settings = &snapshot.settings;
     let is_asked = match &settings.tab {

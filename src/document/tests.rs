@@ -35,7 +35,7 @@ fn plate(toml: &str) -> Document {
     )
 }
 
-/// Sides, thread holes and order as they are said of single contours, by handle and by a point.
+/// Sides, thread holes and order of single contours, set by handle and by a point.
 #[test]
 fn what_is_said_of_one_contour_holds_for_it() {
     let of = |head: &str, keys: &str| format!("[drawings.\"plate.dxf\".contours.{head}]\n{keys}\n");
@@ -91,7 +91,7 @@ fn a_contour_that_is_not_there_is_a_warning() {
     );
 }
 
-/// A hole that is asked for at the command line is that of the one contour, whatever the file says of it.
+/// A hole given on the command line replaces the one that the file sets for the contour.
 #[test]
 fn a_later_thread_hole_takes_the_place_of_those_of_single_contours() {
     let (file, _) =

@@ -1,4 +1,4 @@
-//! How two segments lie to each other: where they meet, where they face each other, how far they run on one another.
+//! How two segments lie to each other: where they meet, where they face each other, how far they coincide.
 
 use super::intersection::Meetings;
 use super::{Arc, Few, Line, Point, Segment, Vector, circle_circle, cross, line_circle, line_line};
@@ -9,7 +9,7 @@ type Facing = Few<(Point, Point), 6>;
 /// Two directions closer than this (sine of their angle) count as parallel, two centres closer than this share of the radius as one.
 const PARALLEL: f64 = 1e-6;
 
-/// The points that two segments have in common, without those of a stretch that they share.
+/// The points that two segments have in common, except those of a stretch that they share.
 pub(crate) fn meetings(a: &Segment, b: &Segment) -> Meetings {
     let met = match (a, b) {
         (Segment::Line(a), Segment::Line(b)) => {
@@ -27,8 +27,8 @@ pub(crate) fn meetings(a: &Segment, b: &Segment) -> Meetings {
         .collect()
 }
 
-/// Pairs of points, one inside each segment, whose connection is perpendicular to both: every place where the distance of
-/// the two is at a minimum, a maximum or a saddle. Where it is the same all along, the middle of that stretch.
+/// Pairs of points, one inside each segment, whose connection is perpendicular to both: every place where their
+/// distance has a minimum, a maximum or a saddle. Where the distance is constant, the middle of that stretch.
 pub(crate) fn facing(a: &Segment, b: &Segment) -> Facing {
     match (a, b) {
         (Segment::Line(one), Segment::Line(other)) => {
@@ -43,9 +43,9 @@ pub(crate) fn facing(a: &Segment, b: &Segment) -> Facing {
     }
 }
 
-/// The length over which two segments of one kind run on one another within `tolerance`, measured along `a`.
+/// The length over which two segments of one kind coincide within `tolerance`, measured along `a`.
 ///
-/// What counts is the stretch between the feet of the ends; all of it must lie within the tolerance.
+/// The stretch lies between the feet of the ends; all of it must lie within the tolerance.
 pub(crate) fn shared_length(a: &Segment, b: &Segment, tolerance: f64) -> f64 {
     if std::mem::discriminant(a) != std::mem::discriminant(b) {
         return 0.0;

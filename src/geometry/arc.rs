@@ -1,12 +1,12 @@
-//! A circular arc, made from a bulge or from a centre, and what can be asked of it.
+//! A circular arc, made from a bulge or from a centre, and its properties.
 
 use super::{Bounds, Point, Vector, cross, direction, left_normal, positive_angle};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// A circular arc that is travelled from `start` to `end`.
+/// A circular arc from `start` to `end`.
 ///
-/// `sweep` is positive counter-clockwise and at most a full turn; `start` and `end` are kept beside the
-/// angles because they are what the neighbours share, exact to the last bit.
+/// `sweep` is positive counter-clockwise and at most a full turn; `start` and `end` are stored beside the angles
+/// because the neighbours share them exactly, to the last bit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
     pub center: Point,
@@ -19,8 +19,8 @@ pub struct Arc {
     pub end: Point,
 }
 
-/// Below this sweep (radians) the centre is so far away that rounding in its coordinates, and in angles about it, would show: places
-/// on such an arc are told from its start.
+/// Below this sweep (radians) the centre is so far away that rounding in its coordinates, and in angles about it, would
+/// show: places on such an arc are measured from its start.
 const SHALLOW: f64 = 1e-5;
 
 impl Arc {
@@ -110,12 +110,12 @@ impl Arc {
         2.0 * self.radius * (self.sweep / 4.0).sin().powi(2)
     }
 
-    /// Nearly straight: its centre lies too far away to be known well.
+    /// Nearly straight: its centre is too far away to be known well.
     pub(crate) fn is_shallow(&self) -> bool {
         self.sweep.abs() < SHALLOW
     }
 
-    /// The same arc travelled the other way.
+    /// The same arc in the other direction.
     pub fn reversed(&self) -> Arc {
         Arc {
             start_angle: self.start_angle + self.sweep,
@@ -160,7 +160,7 @@ impl Arc {
         }
         let angle = (point.y - self.center.y).atan2(point.x - self.center.x);
         let travelled = positive_angle((angle - self.start_angle) * self.sweep.signum());
-        // What lies past the end is counted from the nearer end.
+        // Past the end, the share counts from the nearer end.
         let past_middle = extent + (TAU - extent) / 2.0;
         if travelled > past_middle {
             (travelled - TAU) / extent
@@ -181,7 +181,7 @@ impl Arc {
             .sqrt()
     }
 
-    /// True where the arc goes through the direction in which `point` lies from the centre.
+    /// True where the arc passes through the direction of `point` from the centre.
     pub(crate) fn spans(&self, point: Point) -> bool {
         if self.is_shallow() {
             return (0.0..=1.0).contains(&self.share_of(point));
@@ -235,10 +235,11 @@ impl Arc {
         bounds
     }
 
-    /// Twice the signed area between the chord and the arc, `r² (sweep − sin sweep)`: what the arc adds to the shoelace sum.
+    /// Twice the signed area between the chord and the arc, `r² (sweep − sin sweep)`: the arc's share of the shoelace
+    /// sum.
     pub(crate) fn twice_cap_area(&self) -> f64 {
         let sweep = self.sweep;
-        // sin is better conditioned from its series where the sweep is small.
+        // The series of sin is more accurate where the sweep is small.
         let difference = if sweep.abs() < 1e-3 {
             sweep.powi(3) / 6.0 * (1.0 - sweep * sweep / 20.0)
         } else {

@@ -13,11 +13,11 @@ pub(crate) trait Curve {
     /// The point and the derivative at parameter `t` of piece `piece`; at the ends of the piece the limits from within.
     fn at(&self, piece: usize, t: f64) -> (Point, Vector);
 
-    /// A length that no two points of the curve are much further apart than.
+    /// An upper bound, more or less, of the distance between any two points of the curve.
     fn extent(&self) -> f64;
 }
 
-/// A fitted chain: where each segment starts and its bulge. The last point has the bulge 0.
+/// A fitted chain: the start of each segment and its bulge. The last point has the bulge 0.
 pub(crate) type Chain = Vec<(Point, f64)>;
 
 /// Why a curve has no chain of arcs.
@@ -25,32 +25,33 @@ pub(crate) type Chain = Vec<(Point, f64)>;
 pub(crate) enum Unfit {
     /// It has no length, or numbers that are not finite.
     NoCurve,
-    /// It would take more than so many arcs.
+    /// It would take more than this many arcs.
     TooManyArcs(usize),
 }
 
-/// Arcs that a curve may become, and beside that for each of its pieces up to the one at hand. A curve of a die takes some dozens; one
-/// whose coordinates leave no digits for the tolerance, or whose points lie at random over metres, would take a million from a line of text.
+/// The arcs that a curve may become, and in addition those for each of its pieces so far. A curve of a die takes some
+/// dozens; a line of text could ask for a million, by coordinates without digits left for the tolerance or random
+/// points over metres.
 const MOST_ARCS: usize = 500;
 const MOST_ARCS_OF_A_PIECE: usize = 48;
-/// The tolerance for which these hold; a finer one takes more, by the cube root.
+/// The tolerance for these limits; a finer one takes more, by the cube root.
 const USUAL: f64 = 1e-3;
 
 /// A piece is halved at most this often.
 const HALVINGS: u32 = 14;
 /// Places of each piece at which its distance from the arcs is measured.
 const SAMPLES: usize = 12;
-/// Share of the tolerance that the measured places may use: the curve may lie a little further off between them.
+/// Share of the tolerance for the measured places: the curve may lie a little further off between them.
 const MEASURED: f64 = 0.9;
 /// Two arcs are parts of one circle when their circles agree within this share of the tolerance.
 const SAME_CIRCLE: f64 = 1e-3;
 /// The fit is not finer than this share of the curve's extent: beyond it numbers have no digits left.
 const FINEST: f64 = 1e-9;
 
-/// A chain of arcs and lines that the curve lies within `tolerance` of (or within a billionth of its extent, where that
-/// is more). Parts that are exactly lines or circular arcs become one segment of at most a half turn.
+/// A chain of arcs and lines within `tolerance` of the curve (or within a billionth of its extent, where that is more).
+/// Parts that are exactly lines or circular arcs become one segment of at most a half turn.
 ///
-/// Errors: a curve without length or with numbers that are not finite, and one that would take arcs beyond all measure.
+/// Errors: a curve without length or with numbers that are not finite, and one that would take far too many arcs.
 pub(crate) fn fit(curve: &impl Curve, tolerance: f64) -> Result<Chain, Unfit> {
     let extent = curve.extent();
     if !extent.is_finite() || extent <= 0.0 {
@@ -65,7 +66,7 @@ pub(crate) fn fit(curve: &impl Curve, tolerance: f64) -> Result<Chain, Unfit> {
         let mut open = vec![(from, to, 0)];
         while let Some((from, to, depth)) = open.pop() {
             halves += 1;
-            // Where the curve stands still, halves of it come to nothing.
+            // Where the curve stands still, its halves become nothing.
             if chain.len() > most || halves > 2 * most {
                 return Err(Unfit::TooManyArcs(most));
             }
@@ -78,7 +79,7 @@ pub(crate) fn fit(curve: &impl Curve, tolerance: f64) -> Result<Chain, Unfit> {
             }
             match biarc(curve, piece, from, to, tolerance) {
                 Some(arcs) => chain.extend(arcs),
-                // Where the curve stands still, halves of it do so, too.
+                // Where the curve stands still, so do its halves.
                 None if depth < HALVINGS
                     && !is_tiny(curve, piece, (from, to), tolerance * SAME_CIRCLE) =>
                 {
@@ -100,7 +101,7 @@ pub(crate) fn fit(curve: &impl Curve, tolerance: f64) -> Result<Chain, Unfit> {
     Ok(merged(chain, tolerance * SAME_CIRCLE))
 }
 
-/// True where a part of a piece stays within `least` of where it begins.
+/// True where a part of a piece stays within `least` of its start.
 fn is_tiny(curve: &impl Curve, piece: usize, (from, to): (f64, f64), least: f64) -> bool {
     let start = curve.at(piece, from).0;
     (1..=SAMPLES).all(|sample| {
@@ -139,7 +140,7 @@ fn biarc(
     let joint = Point::from((start.coords + end.coords + (leaving - arriving) * length) * 0.5);
     let first = (turn(leaving, joint - start) / 2.0).tan();
     let second = (turn(end - joint, arriving) / 2.0).tan();
-    // A bend that cannot be told from a line is one.
+    // A bend too slight to differ from a line is a line.
     let straight =
         |bulge: f64, from: Point, to: Point| (bulge * (to - from).norm()).abs() < tolerance * 1e-6;
     let first = if straight(first, start, joint) {
@@ -207,7 +208,7 @@ fn merged(chain: Chain, same: f64) -> Chain {
     result
 }
 
-/// The bulge of one segment from `start` to `end` in the place of two, when they are one.
+/// The bulge of one segment from `start` to `end` that replaces two, when they are one.
 fn joined(
     (start, before): (Point, f64),
     (middle, after): (Point, f64),

@@ -61,7 +61,7 @@ impl Bounds {
             && other.min.y <= self.max.y
     }
 
-    /// The box elsewhere.
+    /// The box, moved.
     pub(crate) fn moved(&self, by: Vector) -> Bounds {
         Bounds {
             min: self.min + by,

@@ -1,4 +1,4 @@
-//! An arc of an ellipse, by two conjugate half diameters: any plane transformation of it is one again.
+//! An arc of an ellipse, by two conjugate half diameters: any plane transformation of it is again such an arc.
 
 use super::biarc::Curve;
 use super::{Point, Vector};
@@ -13,7 +13,7 @@ pub(crate) struct EllipticArc {
     /// From the centre to the point at parameter π / 2.
     pub(crate) v: Vector,
     pub(crate) start: f64,
-    /// Parameter that is travelled, |sweep| ≤ 2π.
+    /// The parameter range, |sweep| ≤ 2π.
     pub(crate) sweep: f64,
 }
 

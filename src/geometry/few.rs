@@ -1,8 +1,8 @@
-//! A few things in a row that take no place on the heap.
+//! A short list that takes no place on the heap.
 
 use std::ops::Deref;
 
-/// Up to `N` things; what is pushed beyond them is left out.
+/// Up to `N` items; further ones are dropped.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Few<T, const N: usize> {
     all: [T; N],

@@ -1,21 +1,21 @@
-//! A hierarchical grid: which boxes come near a box, with boxes coming and going.
+//! A hierarchical grid that finds the boxes near a box, while boxes come and go.
 
 use super::Bounds;
 use rustc_hash::FxHashMap;
 
-/// Boxes by key. Each lies in the level whose cells are just larger than it, in the cell that holds its lower left corner, so it
-/// reaches into the next column and row at most; a question looks into a few cells of each level in use. Adding, removing and
-/// asking cost what is found, whatever else the grid holds, as long as boxes of one size do not lie in heaps.
+/// Boxes by key. Each lies in the level whose cells are just larger than it, in the cell of its lower left corner, so
+/// it reaches into the next column and row at most; a query reads a few cells of each level in use. Adding, removing
+/// and finding cost what is found, whatever else the grid holds, as long as boxes of one size do not pile up.
 #[derive(Clone, Debug)]
 pub(crate) struct Grid<K> {
-    /// By level in use the first box of each cell that holds any.
+    /// By level in use the first box of each occupied cell.
     levels: FxHashMap<i16, FxHashMap<Cell, u32>>,
     boxes: Vec<Boxed<K>>,
-    /// The first of the places in `boxes` that hold none.
+    /// The first free place in `boxes`.
     free: u32,
 }
 
-/// Column and row. What lies beyond the last column or row lies in it.
+/// Column and row. Boxes beyond the last column or row count as in it.
 type Cell = (i32, i32);
 
 #[derive(Clone, Debug)]
@@ -105,7 +105,8 @@ impl<K: Copy + PartialEq> Grid<K> {
         }
     }
 
-    /// Calls `found` for each box that touches `area`, once each, in no order. Gives back how many boxes and cells were looked at.
+    /// Calls `found` for each box that touches `area`, once each, in no order. Returns how many boxes and cells were
+    /// read.
     pub(crate) fn near(&self, area: &Bounds, mut found: impl FnMut(K)) -> u64 {
         let mut work = 0;
         if area.is_empty() {
@@ -132,7 +133,7 @@ impl<K: Copy + PartialEq> Grid<K> {
             let (right, top) = (cell(area.max.x, size), cell(area.max.y, size));
             let columns = (i64::from(right) - i64::from(left) + 1) as u64;
             let rows = (i64::from(top) - i64::from(bottom) + 1) as u64;
-            // A few small boxes do not make large areas dear.
+            // A few small boxes do not make large areas expensive.
             if columns.saturating_mul(rows) > cells.len() as u64 {
                 work += cells.len() as u64;
                 let is_near = |&(&(x, y), _): &(&Cell, &u32)| {

@@ -10,8 +10,9 @@ pub(crate) enum Locus {
 }
 
 impl Locus {
-    /// Of discs of `radius` that touch what carries a segment, on its left where `side` is +1, on its right where it is −1. `None` for
-    /// a line no longer than `zero_length`, and inside an arc that is no larger than the disc.
+    /// The locus for discs of `radius` that touch the line or circle of a segment, on its left where `side` is +1, on
+    /// its right where it is −1. `None` for a line no longer than `zero_length`, and inside an arc that is no larger
+    /// than the disc.
     pub(crate) fn beside(
         segment: &Segment,
         side: f64,
@@ -37,7 +38,7 @@ impl Locus {
         }
     }
 
-    /// Of discs of `radius` with `point` on their edge.
+    /// The locus for discs of `radius` with `point` on their edge.
     pub(crate) fn about(point: Point, radius: f64) -> Locus {
         Locus::Circle {
             center: point,

@@ -1,7 +1,7 @@
 //! Plane geometry of a wire's contour: points, arcs by bulge, segments, distances, intersections.
 //!
-//! Pure and total: nothing here reads a document, allocates by a number from outside, or panics.
-//! Lengths are in the unit of the drawing that is looked at, angles in radians, counter-clockwise positive.
+//! Pure and total: nothing here reads a document, allocates by a number from outside, or panics. Lengths are in the
+//! unit of the drawing, angles in radians, counter-clockwise positive.
 
 mod approach;
 mod arc;
@@ -56,7 +56,7 @@ pub fn direction(angle: f64) -> Vector {
     Vector::new(cos, sin)
 }
 
-/// `degrees` in radians. What is beyond a turn is taken off first, which is exact: radians of a great number are not.
+/// `degrees` in radians. Whole turns are taken off first, which is exact in degrees and not in radians.
 pub(crate) fn radians(degrees: f64) -> f64 {
     if degrees.abs() > 360.0 {
         (degrees % 360.0).to_radians()

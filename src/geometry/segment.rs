@@ -2,7 +2,7 @@
 
 use super::{Arc, Bounds, Point, Vector};
 
-/// A straight line that is travelled from `start` to `end`.
+/// A straight line from `start` to `end`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
     pub start: Point,
@@ -58,9 +58,10 @@ impl Segment {
         }
     }
 
-    /// The same segment, a line where it is an arc that rises less than `flat` above its chord: see [`Tolerances::flat`].
+    /// The same segment, a line where it is an arc that rises less than `flat` above its chord: see
+    /// [`Tolerances::flat`].
     ///
-    /// What comes of a drawing's numbers goes through this, so that reader, rules, fixes and paths take it for the same. A full turn stays one.
+    /// All segments of a drawing go through this, so that reader, rules, fixes and paths agree. A full turn stays one.
     ///
     /// [`Tolerances::flat`]: super::Tolerances::flat
     pub(crate) fn straightened(self, flat: f64) -> Segment {
@@ -112,7 +113,7 @@ impl Segment {
         }
     }
 
-    /// The same segment elsewhere.
+    /// The same segment, moved.
     pub fn moved(&self, by: Vector) -> Segment {
         match self {
             Segment::Line(line) => Segment::line(line.start + by, line.end + by),
@@ -180,8 +181,8 @@ impl Segment {
         }
     }
 
-    /// What the segment adds to twice the signed area of a closed contour, seen from `origin`:
-    /// the shoelace term of its chord and, for an arc, the area between chord and arc.
+    /// The segment's share of twice the signed area of a closed contour, relative to `origin`: the shoelace term of its
+    /// chord and, for an arc, the area between chord and arc.
     pub fn twice_area(&self, origin: Point) -> f64 {
         let chord = super::cross(self.start() - origin, self.end() - origin);
         chord + self.as_arc().map_or(0.0, Arc::twice_cap_area)

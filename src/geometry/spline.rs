@@ -3,10 +3,10 @@
 use super::biarc::Curve;
 use super::{Bounds, Point, Vector};
 
-/// A higher degree is refused: no program draws it, and each point of it costs its square.
+/// A higher degree is refused: no program draws it, and each point costs its square.
 pub(crate) const MAX_DEGREE: usize = 24;
 
-/// A (rational) B-spline. Made by `Spline::new`, so that its numbers fit each other.
+/// A (rational) B-spline. Made by `Spline::new`, so that its numbers are consistent.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Spline {
     degree: usize,
@@ -17,10 +17,11 @@ pub(crate) struct Spline {
 }
 
 impl Spline {
-    /// Errors say what does not fit: the degree, the number of points, knots or weights, falling knots, weights of 0 or less.
+    /// Errors say what does not fit: the degree, the number of points, knots or weights, falling knots, weights of 0 or
+    /// less.
     ///
     /// The curve runs over the knots from number `degree` to number `points.len()`, as DXF has it, so unclamped and
-    /// periodic knots hold too.
+    /// periodic knots are valid too.
     pub(crate) fn new(
         degree: usize,
         knots: Vec<f64>,
@@ -99,7 +100,7 @@ impl Spline {
             .map(|pair| (pair[1] - pair[0]).norm())
             .collect();
         let last = lengths.len().checked_sub(1)?;
-        // The derivative at each point: a tridiagonal system, solved from the front and back.
+        // The derivative at each point: a tridiagonal system, solved forward and back.
         let count = through.len();
         let chord = |index: usize| (through[index + 1] - through[index]) / lengths[index];
         let mut upper = vec![0.0; count];
@@ -147,8 +148,8 @@ impl Spline {
         Spline::new(3, knots, controls, Vec::new()).ok()
     }
 
-    /// The closed cubic spline through `points`: as [`Spline::through`], but its curvature is continuous also where it begins.
-    /// The first point need not be repeated. `None` for less than three different points.
+    /// The closed cubic spline through `points`: as [`Spline::through`], but with continuous curvature at its start
+    /// too. The first point need not be repeated. `None` for less than three different points.
     pub(crate) fn round(points: &[Point]) -> Option<Spline> {
         let mut round: Vec<Point> = points.to_vec();
         round.dedup();
@@ -159,8 +160,8 @@ impl Spline {
         if count < 3 {
             return None;
         }
-        // What a point is bent by falls to a quarter with each point between: behind so many on both sides nothing is left of how
-        // the ends of the longer curve are bent.
+        // The bend of a point falls to a quarter with each point between: this many points on both sides make the ends
+        // of the longer curve irrelevant.
         const BEHIND: usize = 30;
         let longer: Vec<Point> = (0..count + 1 + 2 * BEHIND)
             .map(|at| round[(at + count * BEHIND - BEHIND) % count])
@@ -245,7 +246,7 @@ impl Spline {
     }
 }
 
-/// A spline with the spans that it is made of looked up.
+/// A spline with its spans looked up.
 pub(crate) struct SplineCurve<'a> {
     spline: &'a Spline,
     spans: Vec<usize>,

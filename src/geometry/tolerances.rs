@@ -7,15 +7,15 @@ pub struct Tolerances {
     pub join: f64,
     /// A radius this little below the correction is rounding, not a fault.
     pub(crate) report: f64,
-    /// What is smaller than this cannot be measured on the part, and warnings say nothing of it.
+    /// Smaller differences cannot be measured on the part, and warnings ignore them.
     pub(crate) resolution: f64,
-    /// How far a fitted arc may lie from the curve it stands for.
+    /// The largest distance of a fitted arc from its curve.
     pub(crate) arc_fit: f64,
     /// Two entities within this of each other lie in the same place.
     pub(crate) same_place: f64,
     /// Two outlines this near each other touch.
     pub(crate) touch: f64,
-    /// A segment shorter than this is one that controllers stumble over.
+    /// Controllers stumble over a segment shorter than this.
     pub(crate) short: f64,
     /// Chords whose corners lie this near to one circle stand for an arc.
     pub(crate) chords: f64,

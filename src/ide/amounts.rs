@@ -2,7 +2,7 @@
 
 use crate::geometry::Point;
 
-/// At most so many decimals, none that say nothing.
+/// At most this many decimals, without trailing zeros.
 pub(super) fn rounded(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let text = match text.contains('.') {
@@ -12,7 +12,7 @@ pub(super) fn rounded(value: f64, decimals: usize) -> String {
     if text == "-0" { "0" } else { text }.into()
 }
 
-/// µm as mm with three decimals: what a machine on a µm grid can stand on.
+/// µm as mm with three decimals: the grid of machines is 1 µm.
 pub(super) fn mm(micrometres: f64) -> String {
     let text = format!("{:.3}", micrometres / 1000.0);
     if text == "-0.000" {
@@ -27,12 +27,12 @@ pub(super) fn point(at: Point) -> String {
     format!("({}, {})", mm(at.x), mm(at.y))
 }
 
-/// At most three decimals, none that say nothing.
+/// At most three decimals, without trailing zeros.
 pub(super) fn degrees(radians: f64) -> String {
     format!("{}°", rounded(radians.to_degrees(), 3))
 }
 
-/// Which way an arc of this sweep, or a contour around this area, runs.
+/// The direction of an arc of this sweep, or of a contour around this area.
 pub(super) fn turn(amount: f64) -> &'static str {
     if amount > 0.0 {
         say!(counter_clockwise)

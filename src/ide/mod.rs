@@ -1,7 +1,7 @@
-//! What an editor asks about a document: functions without a protocol, whose places are bytes.
+//! Answers to an editor about a document: functions without a protocol, whose places are bytes.
 //!
-//! Answers have the same types whatever the document is. What can be asked of one place of any document with text is asked here, what
-//! looks at the whole of it of `Whole`; what one kind alone answers, in its own room.
+//! Answers have the same types whatever the document is. Questions about one place of any document with text are here,
+//! questions about the whole of it in `Whole`; the rooms below answer for their kind of document.
 
 mod amounts;
 pub mod dxf;
@@ -20,7 +20,7 @@ use crate::drawing::Unit;
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Lines of the text that one question for hints looks at; what lies behind them gets none.
+/// Lines of the text that one question for hints reads; the lines behind get none.
 pub(crate) const HINT_LINES: usize = 5_000;
 
 /// Sentences in Markdown, and the bytes that they are about.
@@ -47,13 +47,13 @@ pub struct Fold {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum FoldKind {
-    /// A record of a drawing, and what stands for it when it is folded.
+    /// A record of a drawing, and its text when it is folded.
     Record(String),
     Contour,
     Comment,
 }
 
-/// What a piece of a text is, as themes have colours for it.
+/// The kind of a piece of text, as themes colour it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TokenKind {
     Code,
@@ -94,7 +94,7 @@ pub struct Token {
     pub(crate) kind: TokenKind,
 }
 
-/// What is offered to be written.
+/// The kind of a completion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum CompletionKind {
     /// A group code.
@@ -105,7 +105,7 @@ pub(crate) enum CompletionKind {
     Name,
     /// Of a program.
     Word,
-    /// Words of a program with places to fill in, as editors' snippets have them.
+    /// Words of a program with places to fill in, as snippets of editors.
     Snippet,
 }
 
@@ -115,13 +115,13 @@ pub(crate) struct Completion {
     pub(crate) label: String,
     pub(crate) about: Cow<'static, str>,
     pub(crate) text: String,
-    /// What the text takes the place of.
+    /// The range that the text replaces.
     pub(crate) range: Range<usize>,
     pub(crate) kind: CompletionKind,
 }
 
 impl Completion {
-    /// What is listed as it is written.
+    /// A completion whose label is its text.
     fn new(
         text: impl Into<String>,
         about: impl Into<Cow<'static, str>>,
@@ -150,7 +150,7 @@ impl Completion {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Signature {
     pub(crate) label: &'static str,
-    /// Each part of the form, as it stands in the label, and what it means, in Markdown.
+    /// Each part of the form, as it stands in the label, and its meaning, in Markdown.
     pub(crate) parameters: Vec<(&'static str, &'static str)>,
     /// Index of the part that the cursor is in.
     pub(crate) active: usize,
@@ -173,12 +173,12 @@ fn unit_of(document: &Document) -> Unit {
     }
 }
 
-/// What stands at a byte; `None` where nothing does.
+/// The hover at a byte; `None` where there is nothing.
 pub(crate) fn hover(document: &Document, offset: usize) -> Option<Hover> {
     ask!(document, hover(offset), unit_of(document))
 }
 
-/// Hints for what stands in a range of bytes, in the order of the text.
+/// Hints for a range of bytes, in the order of the text.
 pub(crate) fn hints(document: &Document, range: Range<usize>) -> Vec<Hint> {
     ask!(document, hints(range), unit_of(document))
 }
@@ -188,7 +188,7 @@ pub(crate) fn selections(document: &Document, offset: usize) -> Vec<Range<usize>
     ask!(document, selections(offset))
 }
 
-/// What can stand at a byte, what is most likely first.
+/// What can stand at a byte, the most likely first.
 pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion> {
     ask!(document, completions(offset))
 }
@@ -198,12 +198,12 @@ pub(crate) fn tokens_in(document: &Document, lines: Range<usize>) -> Vec<Token> 
     ask!(document, tokens_in(lines))
 }
 
-/// The form of what is written at a byte; `None` where none is.
+/// The form of what is written at a byte; `None` where there is none.
 pub(crate) fn signature(document: &Document, offset: usize) -> Option<Signature> {
     program::signature(document.program()?, offset)
 }
 
-/// Adds a range where it holds the last one and is another; the first where it holds the byte.
+/// Adds a range if it holds the last one and differs from it; the first if it holds the byte.
 fn widen(found: &mut Vec<Range<usize>>, offset: usize, range: Range<usize>) {
     let grows = match found.last() {
         None => range.start <= offset && offset <= range.end,

@@ -1,4 +1,4 @@
-//! Where something stands elsewhere: what is asked about a place, and what is answered.
+//! Occurrences of something elsewhere in a text: the question and the answer.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ pub(crate) type Stop<'a> = &'a dyn Fn() -> bool;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Stopped;
 
-/// What is asked about a place.
+/// The question about a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Question {
     Definition,
@@ -17,7 +17,7 @@ pub(crate) enum Question {
     Highlights,
 }
 
-/// What an occurrence is to what is asked about.
+/// The relation of an occurrence to the place asked about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
     Defines,
@@ -33,7 +33,7 @@ pub(crate) struct Occurrence {
 }
 
 impl Question {
-    /// True where an occurrence of what is asked about is an answer.
+    /// True where an occurrence answers the question.
     pub(super) fn wants(self, role: Role) -> bool {
         match self {
             Question::Definition => role == Role::Defines,

@@ -15,9 +15,9 @@ pub(crate) enum SymbolKind {
     /// All contours of a drawing.
     Contours,
     Contour,
-    /// Neighbours that are too many to be listed one by one.
+    /// Neighbours that are too many to list.
     Run,
-    /// Of a program, what is cut between two stops.
+    /// In a program, a cut between two stops.
     Cut,
     /// The way into a cut or out of it.
     Lead,
@@ -28,13 +28,13 @@ pub(crate) enum SymbolKind {
     Stop,
 }
 
-/// A part of a text; ranges are bytes and lie within those of the part that holds it.
+/// A part of a text; ranges are bytes and lie within those of its parent.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Symbol {
     pub(crate) kind: SymbolKind,
-    /// Name of the record in DXF, as `LWPOLYLINE`; empty where it is none.
+    /// Name of the record in DXF, as `LWPOLYLINE`; empty where there is none.
     pub(crate) record: Box<str>,
-    /// Of a section, table, entry or block; the handle of an entity; what a part of a program is.
+    /// Of a section, table, entry or block; the handle of an entity; the kind of a part of a program.
     pub(crate) name: String,
     pub(crate) detail: String,
     /// Bytes of all of it.
@@ -47,7 +47,7 @@ pub struct Symbol {
 }
 
 impl Symbol {
-    /// As it is listed: never empty, which editors refuse.
+    /// As it is listed: never empty, since editors refuse that.
     pub(crate) fn title(&self) -> String {
         let title = match self.kind {
             SymbolKind::Section => self.name.clone(),

@@ -1,4 +1,5 @@
-//! What an editor asks about the whole of a text, after every edit: it runs beside the document, and stops when nobody waits any more.
+//! Questions about the whole of a text, asked after every edit: they run beside the document, and stop when nobody
+//! waits any more.
 
 use super::occurrence::{Occurrence, Question, Role, Stop, Stopped};
 use super::program::{highlights, match_of, pauses};
@@ -7,14 +8,14 @@ use crate::document::Snapshot;
 use crate::program::Document;
 use crate::text::SourceText;
 
-/// Places of one answer.
+/// The most places in one answer.
 const PLACES: usize = 10_000;
 
-/// A text, as far as such a question holds it.
+/// The text that such a question holds.
 #[derive(Clone, Copy)]
 pub(crate) enum Whole<'a> {
     Program(&'a Document),
-    /// Of DXF the text alone; what is named at the place that is asked about; drawing and contours, for those who list them.
+    /// For DXF only the text; the name at the place that is asked about; drawing and contours, for those who list them.
     Dxf {
         text: &'a SourceText,
         name: Option<&'a dxf::Name>,
@@ -30,7 +31,7 @@ impl<'a> Whole<'a> {
         }
     }
 
-    /// What can be folded, at most `limit`: where there is more, what holds others.
+    /// The folds, at most `limit`: beyond it the outermost.
     pub(crate) fn folds(&self, limit: usize, stop: Stop<'_>) -> Result<Vec<Fold>, Stopped> {
         match self {
             Whole::Program(program) => Ok(program::folds(program, limit)),
@@ -41,7 +42,7 @@ impl<'a> Whole<'a> {
         }
     }
 
-    /// The tree of what has a name.
+    /// The tree of everything with a name.
     pub(crate) fn symbols(&self, stop: Stop<'_>) -> Result<Vec<Symbol>, Stopped> {
         match self {
             Whole::Program(program) => Ok(program::symbols(program)),
@@ -53,7 +54,7 @@ impl<'a> Whole<'a> {
         }
     }
 
-    /// Takes the pieces of the text, at most `limit`.
+    /// The pieces of the text, at most `limit`.
     pub(crate) fn tokens(
         &self,
         limit: usize,
@@ -66,7 +67,7 @@ impl<'a> Whole<'a> {
         }
     }
 
-    /// Where what stands at a byte stands elsewhere; `None` where DXF names nothing there.
+    /// The other occurrences of what stands at a byte; `None` where DXF names nothing there.
     pub(crate) fn occurrences(
         &self,
         offset: usize,
@@ -94,7 +95,7 @@ impl<'a> Whole<'a> {
     }
 }
 
-/// In a program: of what is named, its places; else what belongs together.
+/// In a program: the places of a name; else what belongs together.
 fn places_in_program(
     program: &Document,
     offset: usize,
@@ -126,6 +127,6 @@ fn places_in_program(
             all.map(partner).collect()
         }
     };
-    // What nothing else speaks of, such as a line that nobody calls, is found where it stands.
+    // What has no other occurrence, such as a line that nobody calls, still has its own.
     Ok(if together.is_empty() { named } else { together })
 }

@@ -1,4 +1,4 @@
-//! What a program becomes in another language, or as a drawing.
+//! Converts a program to another language or to a drawing.
 
 use super::Refusal;
 use crate::document::Document;
@@ -8,7 +8,7 @@ use crate::program::Format;
 use crate::program::convert::{self, Cuts};
 use crate::rule::Rule;
 
-/// What a program becomes.
+/// The target of a conversion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Target {
     Drawing,
@@ -16,7 +16,7 @@ pub(crate) enum Target {
 }
 
 impl Target {
-    /// What a program can become; to mill a drawing takes more than the path of a wire.
+    /// The targets that a program can have; milling a drawing takes more than the path of a wire.
     const PROGRAMS: [Format; 3] = [Format::ThreeB, Format::FourB, Format::Iso];
 
     fn program(name: &str) -> Option<Target> {
@@ -26,7 +26,7 @@ impl Target {
         format.map(Target::Program)
     }
 
-    /// What a name, or the ending of a file's name, stands for. The error says which there are.
+    /// The target for a name, or for the ending of a file's name. The error lists them.
     pub(crate) fn of(name: &str) -> Result<Target, String> {
         match name.to_ascii_lowercase().as_str() {
             "dxf" => Ok(Target::Drawing),
@@ -42,12 +42,12 @@ impl Target {
 /// A program as a drawing, or in another language.
 pub(crate) struct Converted {
     pub(crate) bytes: Vec<u8>,
-    /// Blocks of the program that was written.
+    /// Blocks of the new program.
     pub(crate) blocks: Option<usize>,
     pub(crate) cuts: Cuts,
 }
 
-/// Turns a program into a drawing, or into one of another language, which is proved.
+/// Turns a program into a drawing, or into a program of another language, which is proved.
 pub(crate) fn convert(
     document: &Document,
     target: Target,
@@ -61,7 +61,7 @@ pub(crate) fn convert(
     let any_errors = errors
         .iter()
         .any(|finding| finding.rule != Rule::NotTheDrawing);
-    // A radius that the wire cannot follow does not change where it goes, nor does what the drawing is now.
+    // A radius that the wire cannot follow changes neither the program's path nor the drawing of it.
     errors.retain(|finding| !matches!(finding.rule, Rule::SmallRadius | Rule::NotTheDrawing));
     if !force && !errors.is_empty() {
         return Err(Refusal::Errors(errors));

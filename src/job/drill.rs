@@ -1,4 +1,4 @@
-//! Where the wire is threaded, as the drill wants it: rows of a list, and a drawing with the holes.
+//! The thread holes for the drill: rows of a list, and a drawing with the holes.
 
 use crate::document::Snapshot;
 use crate::drawing::{Drawing, Entity, Geometry, START_HOLES};
@@ -7,7 +7,7 @@ use crate::toolpath::StartHole;
 /// The names of the columns.
 pub(crate) const HEAD: &str = "drawing,x_mm,y_mm,diameter_mm,contour,hole\n";
 
-/// One row of CSV a hole, in mm; without a diameter where the settings do not say it.
+/// A row of CSV for each hole, in mm; without a diameter where the settings have none.
 pub(crate) fn rows(name: &str, snapshot: &Snapshot, holes: &[StartHole]) -> String {
     let unit_mm = snapshot.settings.unit_of(&snapshot.drawing).mm;
     let diameter = snapshot.settings.start_hole;
@@ -39,8 +39,8 @@ fn cell(text: &str) -> String {
     }
 }
 
-/// A new drawing of what is drawn, and of the holes: a circle where a diameter is set, and the mark that keeps the hole where it is when the
-/// drawing is read again.
+/// A new drawing of everything drawn and the holes: a circle where a diameter is set, and the mark that keeps the hole
+/// in place when the drawing is read again.
 pub(crate) fn drawn(snapshot: &Snapshot, holes: &[StartHole]) -> Drawing {
     let unit = snapshot.settings.unit_of(&snapshot.drawing);
     let mut drawing = Drawing::new(Some(unit));

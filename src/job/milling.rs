@@ -1,4 +1,4 @@
-//! A drawing as an electrode mills it: under other settings than a wire cuts it.
+//! A drawing as an electrode mills it: under other settings than for a wire.
 
 use super::Refusal;
 use crate::analysis::Analysis;
@@ -8,11 +8,12 @@ use crate::rule::Rule;
 use crate::toolpath::{Milled, WirePath, Work, short_layers};
 use std::sync::Arc;
 
-/// A contour whose ends lie nearer to each other, mm, was most likely meant to be closed, and milled beside its line, not along it.
+/// A contour whose ends are nearer than this, mm, was most likely meant to be closed, and milled beside its line, not
+/// along it.
 const MEANT_CLOSED: f64 = 1.0;
 
-/// The drawing under the settings of the electrode, and what is found in it then. Of `findings`, those of a wire, only what the reader said
-/// stays.
+/// The drawing under the settings of the electrode, and its findings there. Of `findings`, those for a wire, only the
+/// reader's stay.
 pub(super) fn judged(
     snapshot: &Snapshot,
     findings: &[Finding],
@@ -42,7 +43,7 @@ pub(super) fn judged(
     Ok((milled, findings))
 }
 
-/// The contours of which a layer is shorter than the step of linear compensation.
+/// The contours with a layer that is shorter than the step of linear compensation.
 pub(super) fn too_short(snapshot: &Snapshot, paths: &[WirePath]) -> Result<(), Refusal> {
     let Snapshot {
         drawing,
@@ -72,7 +73,7 @@ pub(super) fn uneven(snapshot: &Snapshot, milled: &Milled) -> Vec<Finding> {
         .collect()
 }
 
-/// What the job comes to in all layers; what is said of a wire alone is left out.
+/// The totals of the job over all layers, without what only concerns a wire.
 pub(super) fn in_layers(work: Work, milled: &Milled) -> Work {
     let layers = milled.electrode.layers() as f64;
     let mut cuts = work.cuts;

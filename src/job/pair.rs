@@ -17,7 +17,7 @@ pub struct PartProgram {
     pub part: String,
     /// Of each pass, mm.
     pub corrections: Vec<f64>,
-    /// The wire runs on the other side of what is drawn.
+    /// The wire runs on the other side of the drawn outline.
     pub is_other_side: bool,
     pub made: Generated,
 }
@@ -27,11 +27,11 @@ struct Planned {
     part: String,
     settings: Effective,
     is_other_side: bool,
-    /// Contours that state a role are of what is drawn alone.
+    /// Contours that state a role belong to the drawn part alone.
     with_stated: bool,
 }
 
-/// Writes and proves the program of each part of a pair, of whose drawing `findings` are all that there are.
+/// Writes and proves the program of each part of a pair; `findings` are all of its drawing.
 pub fn pair(
     snapshot: &Snapshot,
     findings: &[Finding],
@@ -48,7 +48,7 @@ pub fn pair(
     if let Some(sentence) = settings.pass_error() {
         return Err(Refusal::Sentence(sentence));
     }
-    // What is wrong with one of the parts is found out under its own settings.
+    // Each part is checked under its own settings.
     let of_all = |finding: &&Finding| {
         finding.severity == Severity::Error
             && matches!(finding.rule, Rule::DoesNotFit | Rule::Syntax)
@@ -126,15 +126,15 @@ fn one(
     } = planned;
     let drawing = snapshot.drawing.clone();
     let corrections = settings.each_correction();
-    // Its passes have been held against the wire; a correction that is smaller by the clearance may be below its radius, and leaves what is
-    // meant.
+    // Its passes have been checked against the wire; a correction reduced by the clearance may be below the wire's
+    // radius, which is meant.
     let settings = Arc::new(Effective {
         wire_diameter: None,
         ..settings
     });
     let mut analysis = Analysis::new(&drawing, settings.clone());
     let (mut findings, _) = analysis.findings(&drawing, usize::MAX);
-    // Whether what the wire leaves in a tight arc is too much says the fit.
+    // The fit decides whether the wire leaves too much in a tight arc.
     if settings.compensation == Compensation::Path {
         findings.retain(|finding| finding.rule != Rule::SmallRadius);
     }

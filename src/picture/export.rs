@@ -1,8 +1,9 @@
 //! A picture as a file of another kind: PNG to paste, PDF to print.
 //!
-//! What is written in it is turned into outlines. `font/wedm.ttf` (WenQuanYi Micro Hei under the Apache License 2.0, cut down to the
-//! characters of all sentences in every language, of western texts and the most used of Chinese by `font/make`) is there on every machine, so that the same picture comes of
-//! the same drawing; what it does not have, such as the name of a file, is taken from the fonts of the machine.
+//! Its texts are turned into outlines. The program carries `font/wedm.ttf`, so that the same drawing gives the same
+//! picture on every machine: WenQuanYi Micro Hei under the Apache License 2.0, cut down by `font/make` to the
+//! characters of all sentences in every language, of western texts and the most used of Chinese. Characters that it
+//! lacks, such as those of a file name, come from the fonts of the machine.
 
 use super::style::without_dark;
 use resvg::tiny_skia::{Pixmap, Transform};
@@ -13,12 +14,12 @@ const FONT: &[u8] = include_bytes!("font/wedm.ttf");
 /// The characters that the font has.
 const CHARACTERS: &str = include_str!("font/characters.txt");
 const FAMILY: &str = "WenQuanYi Micro Hei";
-/// Pixels of a PNG in a unit of the sheet: sharp on paper at 200 dpi, and on dense screens.
+/// Pixels of a PNG for each unit of the sheet: sharp on paper at 200 dpi, and on dense screens.
 const PIXELS: f32 = 2.0;
-/// Units of the sheet in an inch, as CSS has pixels.
+/// Units of the sheet in an inch, as many as CSS has pixels.
 const DPI: f32 = 96.0;
 
-/// What a picture may be written as.
+/// The formats of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Image {
     Svg,
@@ -37,10 +38,10 @@ impl Image {
         }
     }
 
-    /// The bytes of a file that holds a picture of this room; light, whatever the machine is.
+    /// The bytes of a file with this picture, in light colours, whatever the machine uses.
     ///
     /// # Errors
-    /// A sentence: it is no picture, or larger than can be drawn.
+    /// A sentence: it is not a picture, or larger than can be drawn.
     pub(crate) fn of_svg(self, svg: &str) -> Result<Vec<u8>, String> {
         let failed = |error: String| say!(the_picture_cannot_be_written, error);
         match self {
@@ -94,7 +95,7 @@ fn has(character: char) -> bool {
 mod tests {
     use super::*;
 
-    /// Every sentence, in every language; `font/make` makes the font anew.
+    /// Every sentence, in every language; `font/make` makes the font again.
     #[test]
     fn the_font_has_every_character_that_is_said() {
         for entry in walkdir::WalkDir::new(concat!(env!("CARGO_MANIFEST_DIR"), "/src/message")) {

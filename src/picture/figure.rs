@@ -1,4 +1,4 @@
-//! The drawing itself: areas, contours, what is not cut, the wire's path and the faults on it.
+//! The drawing itself: areas, contours, entities that are not cut, the wire's path and the faults on it.
 
 use super::marks;
 use super::sheet::{Frame, Sheet, escaped, named, number, path_data};
@@ -58,8 +58,8 @@ fn data_of(frame: &Frame, subject: &Subject, entity: &Entity) -> String {
     path_data(frame, segments, geometry.is_closed())
 }
 
-/// The insides of closed contours, the largest first, so that openings lie upon the part that holds them; with each what the wire cuts along it,
-/// and what it leaves of what it should cut.
+/// The insides of closed contours, the largest first, so that openings lie upon the part that holds them; each with
+/// what the wire cuts along it, and what it leaves standing.
 fn areas(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     let drawing = subject.drawing;
     // By size: whether it is an opening, its contour, and its place among the outlines.
@@ -120,8 +120,8 @@ fn areas(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     }
 }
 
-/// What the first pass of an outline goes round, where the wire has a kerf that is known: between that and the contour all that no kerf
-/// covers stays.
+/// The loop of the first pass around an outline, where the kerf of the wire is known: everything between that and the
+/// contour that no kerf covers stays.
 fn round_of(frame: &Frame, paths: &[(&WirePath, f64)]) -> Option<String> {
     let own = |cut_off: bool| {
         let is_it = |path: &WirePath| path.pass == 1 && path.cut_off == cut_off;
@@ -133,7 +133,7 @@ fn round_of(frame: &Frame, paths: &[(&WirePath, f64)]) -> Option<String> {
     };
     let mut round = own(false)?;
     let end = round.last()?.end();
-    // The tab closes it, whichever way that is cut.
+    // The tab closes it, whichever way the tab is cut.
     let tab = own(true).unwrap_or_default();
     let is_end = |at: Option<Point>| at.is_some_and(|at| (at - end).norm() * frame.scale < 1.0);
     if is_end(tab.first().map(Segment::start)) {
@@ -144,7 +144,7 @@ fn round_of(frame: &Frame, paths: &[(&WirePath, f64)]) -> Option<String> {
     Some(path_data(frame, round, true))
 }
 
-/// What the wire cuts along an outline in all its passes, leads and tab included, to scale.
+/// The kerf along an outline in all its passes, leads and tab included, to scale.
 fn kerfs(sheet: &mut Sheet, frame: &Frame, paths: &[(&WirePath, f64)]) {
     for (path, half) in paths {
         let pieces = path.segments.iter().map(|piece| piece.geometry);
@@ -160,7 +160,7 @@ fn kerfs(sheet: &mut Sheet, frame: &Frame, paths: &[(&WirePath, f64)]) {
     }
 }
 
-/// What is drawn and not cut.
+/// Entities that are drawn and not cut.
 fn asides(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     let entities = subject.drawing.entities();
     for (_, entity) in entities.filter(|(id, _)| !subject.cut.contains(id)) {
@@ -231,7 +231,7 @@ fn jump(sheet: &mut Sheet, frame: &Frame, subject: &Subject, from: Point, to: Po
     }
 }
 
-/// The paths and the ways between them, in the order in which they are travelled.
+/// The paths and the ways between them, in the order of travel.
 fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     let is_lead = |source: &Source| matches!(source, Source::LeadIn | Source::LeadOut);
     let mut before = None;
@@ -268,7 +268,7 @@ fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     }
 }
 
-/// Errors and warnings that have no picture of their own: a dot where they are of a point, else the segment is marked.
+/// Errors and warnings without a picture of their own: a dot at a point, else a marked segment.
 fn other_faults(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     let pieces = subject
         .outlines
@@ -305,14 +305,14 @@ fn other_fault(
         | Detail::LostPocket { near: at }
         | Detail::UnprovedPath { near: at }
         | Detail::DeadEnd { near: at, .. } => Some(at),
-        // Seen where the segment begins in the direction of travel.
+        // Shown at the start of the segment in the direction of travel.
         Detail::SharpCorner { .. } | Detail::NearTangent { .. } | Detail::Gap { .. } => {
             Some(match is_reversed {
                 true => geometry.end(),
                 false => geometry.start(),
             })
         }
-        // Too short to be seen.
+        // Too short to be visible.
         _ if geometry.length() * frame.scale < DOT => Some(geometry.point_at(0.5)),
         _ => None,
     };
@@ -324,7 +324,7 @@ fn other_fault(
         sheet.circle(&attributes, frame.local(point), DOT, &label);
         return;
     }
-    // Chords are shown in full where they are of one entity.
+    // Chords are drawn in full where they belong to one entity.
     let count = match finding.detail {
         Detail::ArcAsChords { chords, .. } => chords,
         _ => 1,

@@ -1,4 +1,4 @@
-//! A punch in its plate, as the wire leaves them: the places where clearance is missing, marked and enlarged.
+//! A punch in its plate, as the wire leaves them: places without clearance are marked and enlarged.
 
 use super::marks;
 use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped, named, number, path_data};
@@ -9,17 +9,17 @@ use crate::fit::{Fit, Spot};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::text::head;
 
-/// Places that are enlarged, the worst first.
+/// The most places that are enlarged, the worst first.
 const MOST: usize = 6;
 const COLUMNS: usize = 3;
 const GAP: f64 = 16.0;
 const WIDTH: f64 = (SHEET_WIDTH - 2.0 * MARGIN - GAP * (COLUMNS as f64 - 1.0)) / COLUMNS as f64;
 const WINDOW: f64 = 200.0;
 const CAPTION: f64 = 56.0;
-/// More places than this are dots without a number.
+/// Beyond this many, places are dots without a number.
 const NUMBERED: usize = 24;
 
-/// One outline in the other as one SVG, in mm; places are named by the segment of the drawing that stands too far out there.
+/// One outline in the other as one SVG, in mm; the segment of the drawing that protrudes names a place.
 pub(crate) fn fit_svg(drawing: &Drawing, fit: &Fit, unit_mm: f64) -> String {
     let mut bounds = Bounds::EMPTY;
     for pair in &fit.pairs {
@@ -104,7 +104,7 @@ pub(crate) fn fit_svg(drawing: &Drawing, fit: &Fit, unit_mm: f64) -> String {
     sheet.0
 }
 
-/// The plate as ground with its opening, the punch in it.
+/// The plate as background with its opening, the punch in it.
 fn outlines(sheet: &mut Sheet, fit: &Fit, frame: &Frame) {
     for pair in &fit.pairs {
         for (attributes, outline) in [
@@ -132,7 +132,7 @@ fn number_of(sheet: &mut Sheet, at: (f64, f64), index: usize) {
     ));
 }
 
-/// One place as large as its clearance asks for, with what is left of it.
+/// One place enlarged to suit its clearance, with the remaining distance.
 fn lens(
     sheet: &mut Sheet,
     fit: &Fit,
@@ -198,7 +198,7 @@ fn lens(
     );
 }
 
-/// What of a segment lies near a point, for viewers that lose digits on what is enlarged thousands of times.
+/// The part of a segment near a point, for viewers that lose digits when enlarging thousands of times.
 fn flat(segment: Segment, at: Point, seen: f64) -> Vec<Segment> {
     let length = segment.length();
     let near = segment.share_of(at);

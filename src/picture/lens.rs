@@ -11,7 +11,7 @@ const GAP: f64 = 16.0;
 const WIDTH: f64 = (SHEET_WIDTH - 2.0 * MARGIN - GAP * (COLUMNS as f64 - 1.0)) / COLUMNS as f64;
 const WINDOW: f64 = 168.0;
 const CAPTION: f64 = 52.0;
-/// More than this many faults are marked in the figure, and not enlarged.
+/// Beyond this many, faults are marked in the figure and not enlarged.
 const MOST: usize = 8;
 /// A contour of more segments than this is not shaded within a lens.
 const SHADED_SEGMENTS: usize = 1000;
@@ -47,7 +47,7 @@ fn lens(sheet: &mut Sheet, subject: &Subject, fault: &Fault, index: usize, left:
     if !scale.is_finite() || scale <= 0.0 {
         return;
     }
-    // The middle of what is shown lies in the middle of the window, and coordinates are counted from it.
+    // The subject is centred in the window, and coordinates are relative to its centre.
     let middle = Point::from((seen.min.coords + seen.max.coords) * 0.5);
     let frame = Frame {
         origin: middle,

@@ -7,9 +7,9 @@ use crate::geometry::{Point, Vector, direction};
 use crate::toolpath::Source;
 use std::f64::consts::FRAC_PI_4;
 
-/// More faults than this are only coloured: numbers would cover the drawing.
+/// Beyond this many, faults are only coloured: numbers would cover the drawing.
 const MOST: usize = 24;
-/// Up to this many faults the number carries the radius beside it.
+/// Up to this many faults the number has the radius beside it.
 const WITH_RADIUS: usize = 16;
 
 /// More contours than this are not numbered.
@@ -32,7 +32,8 @@ pub(super) fn faults(sheet: &mut Sheet, frame: &Frame, faults: &[Fault], unit_mm
     }
 }
 
-/// A number beside a place of the sheet, joined to it by a thin line, the `outward` side tried first; with a text beside the number.
+/// A number beside a place of the sheet, joined to it by a thin line, on the `outward` side if possible; with a text
+/// beside the number.
 #[expect(clippy::too_many_arguments, reason = "all of it is one mark")]
 pub(super) fn mark(
     sheet: &mut Sheet,
@@ -74,7 +75,7 @@ pub(super) fn mark(
     label
 }
 
-/// Where a number stands: its disc, the box of disc and text, and to which side the text runs.
+/// The place of a number: its disc, the box of disc and text, and the side to which the text runs.
 pub(super) struct Label {
     badge: (f64, f64),
     from: (f64, f64),
@@ -108,7 +109,7 @@ impl Label {
     }
 }
 
-/// The nearest place that covers no earlier label, tried outward from the part first.
+/// The nearest place that covers no earlier label, outward from the part first.
 fn free_place(at: (f64, f64), outward: f64, with_text: bool, taken: &[Label], top: f64) -> Label {
     let turns = [0.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0, 4.0];
     let candidates = [26.0, 44.0, 66.0, 96.0].into_iter().flat_map(|distance| {
@@ -132,8 +133,8 @@ fn free_place(at: (f64, f64), outward: f64, with_text: bool, taken: &[Label], to
     first.unwrap_or_else(|| Label::new(at, with_text, false))
 }
 
-/// Thread hole, as large as it is drilled where that is set, its number in the order of the cuts where there are several, where the cut
-/// begins on the path, and which way it goes.
+/// A thread hole, as large as its drill where that is set, with its number in the order of the cuts if there are
+/// several, the start of the cut on the path, and its direction.
 pub(super) fn thread_holes(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     // The passes of a contour share it.
     let first = || subject.paths.iter().filter(|path| path.is_first());
@@ -165,7 +166,7 @@ pub(super) fn thread_holes(sheet: &mut Sheet, frame: &Frame, subject: &Subject) 
     }
 }
 
-/// The place of a contour among all, beside its thread hole.
+/// The number of a contour among all, beside its thread hole.
 pub(super) fn order(sheet: &mut Sheet, (x, y): (f64, f64), number_of: usize) {
     let [x, y] = [x, y].map(number);
     sheet.line(format_args!(
@@ -173,7 +174,7 @@ pub(super) fn order(sheet: &mut Sheet, (x, y): (f64, f64), number_of: usize) {
     ));
 }
 
-/// A head that points along `along` and begins in `point`.
+/// An arrow head that points along `along` and begins in `point`.
 fn arrow(sheet: &mut Sheet, frame: &Frame, point: Point, along: Vector) {
     let from = Vector::from(<[f64; 2]>::from(frame.local(point)));
     let side = Vector::new(-along.y, along.x) * 4.5;
@@ -183,7 +184,7 @@ fn arrow(sheet: &mut Sheet, frame: &Frame, point: Point, along: Vector) {
     sheet.path(r#"class="arrow""#, &data, say!(the_cut_begins_here));
 }
 
-/// A text of the drawing; "O", the mark of a starting point, stands upon its point, other texts begin in it.
+/// A text of the drawing. "O", the mark of a starting point, is centred on its point; other texts begin in it.
 pub(super) fn text(sheet: &mut Sheet, frame: &Frame, at: Point, text: &str) {
     let (x, y) = frame.local(at);
     let [x, y] = [x, y].map(number);
@@ -192,7 +193,7 @@ pub(super) fn text(sheet: &mut Sheet, frame: &Frame, at: Point, text: &str) {
         true => ("start", "middle", 4),
         false => ("annotation", "start", 0),
     };
-    // Text is turned back, or it would be read in a mirror.
+    // Text is turned back, or it would be mirrored.
     sheet.line(format_args!(
         r#"<text class="{class}" text-anchor="{anchor}" transform="matrix(1 0 0 -1 {x} {y})" y="{down}">{}</text>"#,
         escaped(&shown)

@@ -1,11 +1,11 @@
 //! A picture of contours, faults and wire path as SVG, for people: one file that needs nothing beside it.
 //!
-//! It shows what others have found and planned and decides nothing. It knows drawings, findings and paths,
-//! and nothing of files or protocols. The same input gives the same bytes.
+//! It shows the findings and plans of others and decides nothing. It knows drawings, findings and paths, and nothing of
+//! files or protocols. The same input gives the same bytes.
 //!
-//! Whoever shows it to somebody who may point at it finds parts by their class: `figure` is the drawing, `lens` an enlarged
-//! fault, `mark` the number beside one (with `data-at`, the point on the sheet that it belongs to), `chrome` what is
-//! written about it, `fine` what is too small to be seen at this size. What stands for a segment says so in `data-handle` and `data-segment`.
+//! Interactive viewers find the parts by their class: `figure` is the drawing, `lens` an enlarged fault, `mark` the
+//! number beside one (with `data-at`, the point on the sheet that it belongs to), `chrome` the text around it, `fine`
+//! details that are too small to see at this size. An element for a segment has `data-handle` and `data-segment`.
 
 mod export;
 mod figure;
@@ -29,27 +29,27 @@ use crate::toolpath::{WirePath, lengths};
 use sheet::{FIGURE_TOP, Frame, MARGIN, SHEET_WIDTH};
 use subject::{Subject, is_other};
 
-/// What a picture of a drawing shows.
+/// The contents of a picture.
 pub struct View<'a> {
     /// The name of its file, where it has one.
     pub name: Option<&'a str>,
     pub drawing: &'a Drawing,
-    /// What is cut; entities in none of them are drawn faintly.
+    /// The outlines that are cut; entities in none of them are drawn faintly.
     pub outlines: &'a [Outline],
     pub findings: &'a [Finding],
     /// In the order in which they are cut.
     pub paths: &'a [WirePath],
-    /// Why there are none, and how bad that is.
+    /// Why there are none, and how severe that is.
     pub why: Option<(Severity, &'a str)>,
     pub settings: &'a Effective,
 }
 
 /// The drawing with its faults and the paths of the wire as one SVG.
 ///
-/// Every arc that is too tight is marked, and the first ones are shown enlarged with the circle of the correction. What the wire cuts, and
-/// what it leaves of an area that it should cut, are shown to scale: half as wide as the wire's radius and the spark gap, else the last
-/// correction. All figures that a reader sees are in mm. The y axis points up, as in the drawing. A drawing without geometry gives a sheet
-/// that says so.
+/// Every arc that is too tight is marked, and the first ones are enlarged with the circle of the correction. The kerf,
+/// and what the wire leaves of an area that it should cut, are to scale: the half width is the wire's radius and the
+/// spark gap, else the last correction. All figures in texts are in mm. The y axis points up, as in the drawing. A
+/// drawing without geometry gives a sheet that says so.
 pub fn svg(view: &View) -> String {
     let View {
         findings,
@@ -115,7 +115,7 @@ fn leaves_some(finding: &Finding) -> bool {
     )
 }
 
-/// The name of a file and what its picture shows.
+/// The name of a file and the content of its picture.
 fn titled(name: Option<&str>, what: &str) -> String {
     match name {
         Some(name) => format!("{name} · {what}"),
@@ -123,7 +123,7 @@ fn titled(name: Option<&str>, what: &str) -> String {
     }
 }
 
-/// What is wrong, and why there is no path.
+/// The faults, and why there is no path.
 fn alert(view: &View, faults: &[subject::Fault]) -> (Severity, String) {
     let mut parts = Vec::new();
     match faults.len() {

@@ -1,7 +1,7 @@
-//! A program as a picture: the way of the wire in its order, with its faults.
+//! A program as a picture: the wire's way in its order, with its faults.
 //!
-//! Every block is a path of its own whose `data-line` is its line in the text, from 0, in the order in which the machine runs them;
-//! beyond [`MOST_BLOCKS`] consecutive blocks share a path with the line of the first.
+//! Every block is a path whose `data-line` is its line in the text, from 0, in the order in which the machine runs
+//! them; beyond [`MOST_BLOCKS`] consecutive blocks share a path with the line of the first.
 
 use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, number, path_data};
 use super::style::{self, JUMP, THREAD, WIRE, class_of};
@@ -16,7 +16,7 @@ use std::fmt::Write;
 /// Blocks up to this number have a path each.
 const MOST_BLOCKS: usize = 20_000;
 
-/// The picture of a program in the file of a name. `faults` are the lines (from 0) with what is wrong there, worst first.
+/// The picture of a program, with the name of its file. `faults` are lines (from 0) with their faults, worst first.
 pub(crate) fn program_svg(
     trace: &Trace,
     faults: &[(usize, Severity, String)],
@@ -93,7 +93,7 @@ fn mm(point: Point) -> Point {
 
 const UPPER: &str = r#"<path class="upper" d="M0 0h24"/>"#;
 
-/// A move with where the wire's upper end goes.
+/// A move, and the end of the wire's upper end.
 type Leaning<'a> = (&'a &'a Step, &'a Vec<Segment>);
 
 /// Both lean, in one contour.
@@ -101,7 +101,7 @@ fn leans_on(a: &Leaning, b: &Leaning) -> bool {
     !a.1.is_empty() && !b.1.is_empty() && a.0.contour == b.0.contour
 }
 
-/// The way of the wire's upper end along some moves that follow each other.
+/// The way of the wire's upper end along consecutive moves.
 fn upper_path(sheet: &mut Sheet, frame: &Frame, run: &[Leaning]) {
     let pieces = run.iter().flat_map(|(_, pieces)| pieces.iter());
     let data = path_data(frame, pieces.map(|piece| scaled(*piece)), false);
@@ -134,7 +134,7 @@ fn joins(a: &Step, b: &Step) -> bool {
     a.contour == b.contour && (a.kind == Kind::Rapid) == (b.kind == Kind::Rapid)
 }
 
-/// How many errors and warnings there are, with the class of the worst.
+/// The number of errors and warnings, with the class of the worst.
 fn alert(
     faults: &[(usize, Severity, String)],
     unknown: Option<&str>,
@@ -200,7 +200,7 @@ fn label(step: &Step) -> String {
     say!(step_in_line, number, step.line + 1, what, end.x, end.y)
 }
 
-/// Where each contour begins, once each place.
+/// The start of each contour; coinciding starts once.
 fn thread_holes(sheet: &mut Sheet, frame: &Frame, moving: &[&Step]) {
     let begins = moving.iter().enumerate().filter(|(index, step)| {
         let before = index.checked_sub(1).and_then(|before| moving.get(before));

@@ -1,4 +1,4 @@
-//! The sheet as SVG: where things lie on it, geometry as path data, and how elements, numbers and texts are written.
+//! The sheet as SVG: the layout, geometry as path data, and how elements, numbers and texts are written.
 
 use crate::geometry::{Bounds, Point, Segment};
 use crate::message::columns;
@@ -8,14 +8,14 @@ use std::fmt::{Arguments, Write};
 /// Width of the sheet and of the margin round it, in the picture's own units.
 pub(super) const SHEET_WIDTH: f64 = 960.0;
 pub(super) const MARGIN: f64 = 40.0;
-/// The drawing keeps room at its sides for the numbers beside its faults.
+/// Room at the sides of the drawing for the numbers beside its faults.
 const FIGURE_WIDTH: f64 = SHEET_WIDTH - 5.5 * MARGIN;
 const FIGURE_HEIGHT: f64 = 560.0;
 pub(super) const FIGURE_TOP: f64 = 112.0;
 /// Columns of text in the width of the sheet.
 const COLUMNS: usize = 132;
 
-/// The SVG as far as it is written.
+/// The SVG written so far.
 #[derive(Default)]
 pub(super) struct Sheet(pub String);
 
@@ -55,7 +55,7 @@ impl Sheet {
         }
     }
 
-    /// What stands at the head of the picture; `alert` is what is wrong, with the class of its severity.
+    /// The head of the picture; `alert` is the fault, with the class of its severity.
     pub(crate) fn heading(&mut self, title: &str, facts: &str, alert: Option<(&str, &str)>) {
         self.line(format_args!(
             r#"<g class="chrome"><text class="heading" x="{MARGIN}" y="34">{}</text>"#,
@@ -91,7 +91,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// What lies in `bounds` in the middle of the sheet, as large as there is room for.
+    /// Centres `bounds` in the window, as large as possible.
     pub(crate) fn fitting(bounds: &Bounds) -> Frame {
         let scale = (FIGURE_WIDTH / bounds.width()).min(FIGURE_HEIGHT / bounds.height());
         // A single point has no extent to fit.
@@ -108,15 +108,15 @@ impl Frame {
         }
     }
 
-    /// Opens the group in which y points up and [`Frame::local`] coordinates hold.
+    /// Opens the group with y up and [`Frame::local`] coordinates.
     pub(crate) fn opening(&self) -> String {
         let [left, bottom] = [self.left, self.bottom].map(number);
         format!(r#"<g transform="matrix(1 0 0 -1 {left} {bottom})">"#)
     }
 
-    /// The same for the drawing itself, with what turns coordinates within the group into the drawing's:
-    /// `data-origin` + local / `data-scale`, of which one is `data-unit-mm` millimetres; and with what is cut, mm, where the wire's path
-    /// is in it.
+    /// The same for the drawing itself, with the data that turn coordinates within the group into the drawing's:
+    /// `data-origin` + local / `data-scale`, in units of `data-unit-mm` millimetres; and with the length of cut, mm, if
+    /// the wire's path is in it.
     pub(crate) fn opening_of_drawing(&self, unit_mm: f64, cut: Option<f64>) -> String {
         let [left, bottom] = [self.left, self.bottom].map(number);
         let (origin, scale) = (self.origin, self.scale);
@@ -142,8 +142,8 @@ impl Frame {
 
 /// The segments as one path, in the frame's local coordinates; `close` joins its end to its start.
 ///
-/// An arc is split into pieces of less than a half turn, so that a full circle is drawn, and so that no viewer has
-/// to guess which of two arcs is meant.
+/// An arc is split into pieces of less than a half turn, so that a full circle is drawn, and so that no viewer has to
+/// guess which of two arcs is meant.
 pub(super) fn path_data(
     frame: &Frame,
     segments: impl IntoIterator<Item = Segment>,
@@ -187,7 +187,7 @@ fn pair(frame: &Frame, point: Point) -> String {
     format!("{} {}", number(x), number(y))
 }
 
-/// As much of a text as stands in so many columns.
+/// As much of a text as fits in this many columns.
 fn shortened(text: &str, most: usize) -> String {
     if columns(text) <= most {
         return text.into();
@@ -202,7 +202,7 @@ fn shortened(text: &str, most: usize) -> String {
     short.trim_end().to_owned() + "…"
 }
 
-/// The attributes by which an element of a class is found that stands for a segment.
+/// The class and the attributes of an element for a segment.
 pub(super) fn named(class: &str, handle: &str, segment: usize) -> String {
     let handle = escaped(handle);
     format!(r#"class="{class}" data-handle="{handle}" data-segment="{segment}""#)

@@ -70,7 +70,7 @@ text{fill:#e6edf3}
 .badge,.dot{fill:#ff6b61}
 ";
 
-/// Where the colours of dark viewers begin and end in the style.
+/// The start and end of the dark colours in the style.
 const DARK_BEGINS: &str = "@media (prefers-color-scheme:dark){\n";
 const DARK_ENDS: &str = "}\n</style>";
 
@@ -82,7 +82,7 @@ const SEVERITIES: [(Severity, &str, &str, &str); 4] = [
     (Severity::Hint, "hint", "#8c959f", "#6e7681"),
 ];
 
-/// The class by which everything that stands for a finding of a severity has its colour.
+/// The class that colours everything about a finding of a severity.
 pub(super) fn class_of(severity: Severity) -> &'static str {
     let of = |it: &&(Severity, &'static str, _, _)| it.0 == severity;
     SEVERITIES.iter().find(of).map_or("hint", |it| it.1)
@@ -105,7 +105,7 @@ fn style() -> String {
     format!("{STYLE}{light}{DARK_BEGINS}{DARK}{dark}")
 }
 
-/// A picture without the colours of dark viewers, for programs that would not know when they hold.
+/// The picture without the dark colours, for programs that cannot tell when to use them.
 pub(super) fn without_dark(svg: &str) -> String {
     let dark = svg.split_once(DARK_BEGINS);
     match dark.and_then(|(before, rest)| Some((before, rest.split_once(DARK_ENDS)?.1))) {
@@ -114,7 +114,7 @@ pub(super) fn without_dark(svg: &str) -> String {
     }
 }
 
-/// The head of the file: size, title, colours and the ground.
+/// The head of the file: size, title, colours and the background.
 pub(super) fn opening(height: f64, title: &str) -> Sheet {
     let [width, height] = [SHEET_WIDTH, height.ceil()].map(number);
     let (title, style) = (escaped(title), style());
@@ -124,7 +124,7 @@ pub(super) fn opening(height: f64, title: &str) -> Sheet {
     ))
 }
 
-/// What is shown where there is nothing to draw, and `why`.
+/// The picture where there is nothing to draw, and `why`.
 pub(super) fn empty(why: &str) -> String {
     let mut sheet = opening(120.0, say!(nothing_to_draw));
     sheet.line(format_args!(
@@ -133,14 +133,14 @@ pub(super) fn empty(why: &str) -> String {
     sheet.0
 }
 
-/// What occurs in a picture.
+/// The kinds of marks in a picture.
 #[derive(Default)]
 pub(super) struct Shown {
     pub(crate) part: bool,
     pub(crate) faults: bool,
     pub(crate) severities: BTreeSet<Severity>,
     pub(crate) paths: bool,
-    /// The paths are those of an electrode, which is threaded nowhere.
+    /// The paths are those of an electrode, which needs no thread hole.
     pub(crate) mills: bool,
     pub(crate) kerf: bool,
     pub(crate) lost: bool,
@@ -148,7 +148,7 @@ pub(super) struct Shown {
     pub(crate) tabs: bool,
 }
 
-/// A sample of what is drawn, and what it means.
+/// A sample of a mark, and its meaning.
 pub(super) type Entry = (&'static str, &'static str);
 
 pub(super) const WIRE: &str = r#"<path class="wire" d="M0 0h24"/>"#;
@@ -158,7 +158,7 @@ pub(super) const THREAD: &str =
 
 pub(super) const JUMP: &str = r#"<path class="jump" d="M0 0h24"/>"#;
 
-/// What the lines of a drawing mean, as far as they occur.
+/// The legend for the kinds of lines in the drawing.
 pub(super) fn entries(shown: &Shown) -> Vec<Entry> {
     let mut entries = vec![(r#"<path class="contour" d="M0 0h24"/>"#, say!(a_contour))];
     if shown.part {
@@ -205,7 +205,7 @@ pub(super) fn entries(shown: &Shown) -> Vec<Entry> {
     entries
 }
 
-/// How what is found of a severity looks.
+/// The appearance of a severity's findings.
 pub(super) fn of_severity(severity: Severity) -> Entry {
     match severity {
         Severity::Error => (r#"<path class="fault error" d="M0 0h24"/>"#, say!(error)),
@@ -223,10 +223,10 @@ pub(super) fn of_severity(severity: Severity) -> Entry {
 
 /// Height of a row of the legend.
 const ROW: f64 = 22.0;
-/// What the scale bar leaves of the width.
+/// The width without the scale bar.
 const LEGEND_WIDTH: f64 = SHEET_WIDTH - MARGIN - 180.0;
 
-/// Where each entry stands: from the left, and in which row.
+/// The place of each entry: from the left, and in which row.
 fn places(entries: &[Entry]) -> Vec<(f64, usize)> {
     let (mut x, mut row) = (MARGIN, 0);
     let place = |(_, text): &Entry| {

@@ -1,4 +1,4 @@
-//! What a picture is of: the drawing with its contours, its faults and the paths of the wire.
+//! The subject of a picture: the drawing with its contours, its faults and the paths of the wire.
 
 use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Place, Severity, SmallRadius};
@@ -7,7 +7,7 @@ use crate::settings::Effective;
 use crate::toolpath::WirePath;
 use rustc_hash::FxHashSet;
 
-/// All that is shown.
+/// Everything shown.
 pub(super) struct Subject<'a> {
     pub(crate) drawing: &'a Drawing,
     /// The box of all of it, drawing units.
@@ -18,7 +18,7 @@ pub(super) struct Subject<'a> {
     pub(crate) findings: &'a [Finding],
     pub(crate) faults: Vec<Fault<'a>>,
     pub(crate) paths: &'a [WirePath],
-    /// Of each path, how far beside it the wire cuts, drawing units; `None` where the control moves it.
+    /// For each path the half width of its kerf, drawing units; `None` where the control offsets it.
     pub(crate) half_kerfs: Vec<Option<f64>>,
     /// Radius of the start holes, drawing units, where one is set.
     pub(crate) hole: Option<f64>,
@@ -27,7 +27,7 @@ pub(super) struct Subject<'a> {
     pub(crate) unit_mm: f64,
 }
 
-/// An arc that is too tight, and what its segment is called.
+/// An arc that is too tight, and the name of its segment.
 pub(super) struct Fault<'a> {
     pub(crate) detail: &'a SmallRadius,
     pub(crate) handle: String,
@@ -69,7 +69,7 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// The box of what is cut; of all where nothing is.
+    /// The box of everything cut; of the whole drawing where nothing is.
     pub(crate) fn extents(&self) -> Bounds {
         let mut bounds = Bounds::EMPTY;
         for outline in self.outlines {
@@ -101,7 +101,7 @@ impl Fault<'_> {
         }
     }
 
-    /// Centre of the circle of the correction as it would have to lie: touching both neighbours of a fillet.
+    /// Centre of the circle of the correction where it touches both neighbours of a fillet.
     ///
     /// From a half turn on no circle touches both; it is then shown about the arc's own centre.
     pub(crate) fn correction_disc(&self) -> Point {
@@ -141,7 +141,7 @@ fn tight_arcs<'a>(drawing: &Drawing, findings: &'a [Finding]) -> Vec<Fault<'a>> 
     faults.collect()
 }
 
-/// The box of all that is drawn; `None` where nothing finite is.
+/// The box of the whole drawing; `None` where nothing finite is drawn.
 fn extents(drawing: &Drawing, paths: &[WirePath]) -> Option<Bounds> {
     let mut bounds = Bounds::EMPTY;
     for (_, entity) in drawing.entities() {
@@ -153,7 +153,7 @@ fn extents(drawing: &Drawing, paths: &[WirePath]) -> Option<Bounds> {
             .iter()
             .for_each(|segment| bounds.merge(&segment.geometry.bounds()));
     }
-    // Nothing gives an endless box, and so do coordinates whose difference is beyond all numbers.
+    // An empty drawing gives an infinite box, and so do coordinates whose difference overflows.
     let lengths = [
         bounds.min.x,
         bounds.min.y,
@@ -166,7 +166,7 @@ fn extents(drawing: &Drawing, paths: &[WirePath]) -> Option<Bounds> {
         .then_some(bounds)
 }
 
-/// An error or a warning on a segment, of any rule but `small-radius`; and the hints that are of one place.
+/// An error or a warning on a segment, of any rule but `small-radius`; and the hints with a place.
 pub(super) fn is_other(finding: &Finding) -> bool {
     let is_of_segment = matches!(finding.place, Place::Segment { .. });
     let is_of_one_place = matches!(

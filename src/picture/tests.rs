@@ -304,7 +304,7 @@ fn what_the_wire_cuts_and_leaves_is_shown_to_scale() {
             .lines()
             .any(|line| line.contains(r#"class="hole""#) && line.contains(&hole))
     );
-    // What the wire goes round lies upon what it leaves.
+    // The enclosed core lies upon what the wire leaves.
     let at = |text: &str, from: usize| from + known[from..].find(text).expect(text);
     let lost = at(r#"class="lost""#, 0);
     assert!(at(r#"class="kerf""#, at(r#"class="void""#, lost)) > lost);
@@ -318,14 +318,14 @@ fn what_the_wire_cuts_and_leaves_is_shown_to_scale() {
         ..findings[0].clone()
     });
     assert!(shown(&paths, &findings, &settings()).contains("stays uncut"));
-    // A control that moves the path cuts beside it.
+    // A control that offsets the path cuts beside it.
     let controlled = [WirePath {
         side: Some(Side::Left),
         correction: 0.0,
         ..paths[0].clone()
     }];
     assert!(!shown(&controlled, &findings, &settings()).contains(r#"class="kerf""#));
-    // Beside an open contour, which has no inside, it cuts all the same.
+    // Beside an open contour, which has no inside, the kerf is drawn all the same.
     let mut open = outlines.clone();
     open[0].contour.closed = false;
     (open[0].role, open[0].twice_area) = (Role::Left, 0.0);

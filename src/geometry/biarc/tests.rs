@@ -9,7 +9,8 @@ fn segments(chain: &Chain) -> Vec<Segment> {
         .collect()
 }
 
-/// Dense samples of the curve lie within the tolerance of the chain, and of the chain within it of the samples' lines.
+/// Dense samples of the curve lie within the tolerance of the chain, and the chain within the tolerance of the lines
+/// between samples.
 fn check(curve: &impl Curve, tolerance: f64) -> Result<Vec<Segment>, TestCaseError> {
     let chain = fit(curve, tolerance).unwrap_or_default();
     let fitted = segments(&chain);

@@ -1,9 +1,9 @@
-//! What group codes mean, record by record, and in which section a record stands. Facts of the public DXF reference.
+//! The meanings of group codes, record by record, and the section of each record. Facts of the public DXF reference.
 
 use crate::message::said;
 use std::borrow::Cow;
 
-/// What a value is, as far as more can be said of it than its digits.
+/// The kind of a value, if that says more than its digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Value {
     Plain,
@@ -17,7 +17,7 @@ pub(super) enum Value {
     Bulge,
 }
 
-/// What stands behind a code in the tables: a value, or the first coordinate of several, whose codes are ten apart.
+/// An entry of the tables: a value, or the first coordinate of several, whose codes are ten apart.
 #[derive(Clone, Copy)]
 enum Holds {
     One(Value),
@@ -34,9 +34,9 @@ const POINT: Holds = Holds::Coordinates(3, Value::Length);
 const POINT_IN_PLANE: Holds = Holds::Coordinates(2, Value::Length);
 const DIRECTION: Holds = Holds::Coordinates(3, Value::Plain);
 
-/// What is said of a code, in the language that is spoken.
+/// The meaning of a code, in the language in force.
 pub(super) type About = fn() -> &'static str;
-/// A group code, what is said of it, and what its value is.
+/// A group code, its meaning, and the kind of its value.
 pub(super) type Code = (i16, Cow<'static, str>, Value);
 type Row = (i16, About, Holds);
 type Codes = &'static [Row];
@@ -72,7 +72,7 @@ const ENTITY: Codes = &[
     (210, said::extrusion_direction, DIRECTION),
 ];
 
-/// Codes of one kind of record; they go before the common ones.
+/// Codes of one kind of record; they take precedence over the common ones.
 const OF_RECORD: &[(&[&str], Codes)] = &[
     (
         &["SECTION"],
@@ -312,7 +312,7 @@ const OF_RECORD: &[(&[&str], Codes)] = &[
     ),
 ];
 
-/// Records that are no entities: what entities have in common is not theirs.
+/// Records that are not entities: they lack the common codes of entities.
 const NO_ENTITY: [&str; 22] = [
     "SECTION",
     "ENDSEC",
@@ -358,7 +358,7 @@ fn codes_in((code, about, holds): &Row) -> impl Iterator<Item = Code> + use<> {
         })
 }
 
-/// What `code` means in a record of this name, and what its value is.
+/// The meaning of `code` in a record of this name, and the kind of its value.
 pub(super) fn meaning(record: &str, code: i16) -> (Cow<'static, str>, Value) {
     let own = codes_of(record)
         .into_iter()
@@ -372,7 +372,7 @@ pub(super) fn meaning(record: &str, code: i16) -> (Cow<'static, str>, Value) {
     )
 }
 
-/// The codes that make sense in a record of this name, those of its own kind first; each once.
+/// The codes of a record of this name, those of its own kind first; each once.
 pub(super) fn codes_of(record: &str) -> Vec<Code> {
     let own = OF_RECORD.iter().find(|(names, _)| names.contains(&record));
     let own: Codes = own.map_or(&[], |(_, codes)| codes);
@@ -396,12 +396,12 @@ pub(super) fn codes_of(record: &str) -> Vec<Code> {
     found
 }
 
-/// What the value of a code is wherever nothing more is known of it.
+/// The kind of a code's value in any other record.
 pub(super) fn value_of(code: i16) -> Value {
     by_range(code).1
 }
 
-/// What a code holds wherever nothing more is known of it.
+/// The meaning of a code in any other record.
 fn by_range(code: i16) -> (About, Value) {
     match code {
         5 | 105 => (said::a_handle, Value::OwnHandle),

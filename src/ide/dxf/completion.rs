@@ -1,4 +1,4 @@
-//! What can be written at a place: group codes of this record, names of records, layers, sections.
+//! Completion: group codes of this record, names of records, layers, sections.
 
 use super::codes::codes_of;
 use super::records::{self, Named, SECTIONS, TABLES};
@@ -12,15 +12,15 @@ use crate::message::said;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
-/// Names of layers and blocks that are listed at most.
+/// The most names of layers and blocks that are listed.
 const NAMES: usize = 500;
 
 type Offer = (String, Cow<'static, str>, CompletionKind);
 
-/// What can stand at a byte, what belongs there most first.
+/// What can stand at a byte, the most likely first.
 pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion> {
     let line = document.text().line_of(offset);
-    // Behind the last line end there is a line for an editor, and none for the reader.
+    // Behind the last line end an editor has a line and the reader has none.
     let spot = spot(document, line).or_else(|| spot(document, line.checked_sub(1)?));
     let Some(spot) = spot else { return Vec::new() };
     let is_own = spot.line == line;
@@ -33,7 +33,7 @@ pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion>
     let list: Vec<Offer> = match code.map(|tag| (tag.code, record.as_str())) {
         // The place of a group code, or of one that is not written yet.
         None => codes_after(&spot, &record, &section_at(spot.item)),
-        // The record that is being written may have ended the section in the eyes of the reader.
+        // To the reader, the unfinished record may have ended the section.
         Some((0, _)) => {
             let section = spot
                 .item
@@ -88,7 +88,7 @@ fn codes_after(spot: &Spot<'_>, record: &str, section: &str) -> Vec<Offer> {
         .collect()
 }
 
-/// Names of blocks that somebody may mean: not those of layouts and of what programs make for themselves.
+/// Names of blocks that a user may mean: not those of layouts and those that programs generate.
 fn blocks(document: &Document) -> BTreeSet<String> {
     let lines = Lines::new(document.text());
     let items = document.table().items.iter().enumerate();

@@ -1,8 +1,8 @@
-//! What can be folded: sections, tables, blocks, entities, polylines with their vertices.
+//! Folding: sections, tables, blocks, entities, polylines with their vertices.
 
 use crate::ide::{Fold, FoldKind, Symbol, SymbolKind};
 
-/// The folds of a tree, in the order of the text. When there are more than `limit`, what holds others goes first.
+/// The folds of a tree, in the order of the text. Beyond `limit` the outermost go first.
 pub fn folds(tree: &[Symbol], limit: usize) -> Vec<Fold> {
     let mut found = Vec::new();
     collect(tree, 0, &mut found);
@@ -16,7 +16,7 @@ pub fn folds(tree: &[Symbol], limit: usize) -> Vec<Fold> {
 
 fn collect(nodes: &[Symbol], depth: usize, found: &mut Vec<(usize, Fold)>) {
     for node in nodes {
-        // The name of the record stays in sight, not its group code 0.
+        // The name of the record stays visible, not its group code 0.
         let (first, last) = (node.lines.start + 1, node.lines.end.saturating_sub(1));
         if last > first {
             let of_entity = if node.kind == SymbolKind::Entity {

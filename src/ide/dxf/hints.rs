@@ -8,7 +8,7 @@ use crate::ide::amounts::rounded;
 use crate::ide::{HINT_LINES, Hint};
 use std::ops::Range;
 
-/// Hints for what stands in a range of bytes, in the order of the text.
+/// Hints for a range of bytes, in the order of the text.
 pub(crate) fn hints(document: &Document, range: Range<usize>, unit: Unit) -> Vec<Hint> {
     let text = document.text();
     let end = text

@@ -1,4 +1,4 @@
-//! What a group code or value means, and what it comes to in millimetres.
+//! The meaning of a group code or value, and its length in millimetres.
 
 use super::codes::{self, About, Value};
 use super::records;
@@ -11,7 +11,7 @@ use crate::ide::Hover;
 use crate::ide::amounts::{rounded as rounded_to, turn};
 use crate::message::said;
 
-/// What stands at a byte; `None` where no tag is.
+/// The hover at a byte; `None` where there is no tag.
 pub(crate) fn hover(document: &Document, offset: usize, unit: Unit) -> Option<Hover> {
     let spot = spot(document, document.text().line_of(offset))?;
     let tag = spot.tag?;
@@ -127,7 +127,7 @@ fn about_bulge(
     }
 }
 
-/// A radius in drawing units, and in millimetres where those are others.
+/// A radius in drawing units, and in millimetres if the unit is another.
 fn radius_in(radius: f64, unit: Unit) -> String {
     match unit.mm {
         1.0 => format!("{} mm", rounded(radius)),

@@ -1,8 +1,8 @@
-//! What an editor asks about DXF text: what a code means, what stands where, what names what.
+//! Answers to an editor about DXF text: what a code means, what stands where, what names what.
 //!
-//! Functions of a document or of its text, without a protocol: places are bytes. What looks at the neighbourhood of a place
-//! reads the text from the beginning of its record; what looks at everything takes a text only, so that it can run beside
-//! the document, and stops when it is told to.
+//! Functions of a document or of its text, without a protocol: places are bytes. A function about one place reads the
+//! text from the beginning of its record; a function about the whole takes only a text, so that it can run beside the
+//! document, and stops when told to.
 
 mod codes;
 mod completion;

@@ -1,4 +1,4 @@
-//! What names what: handles, layers, blocks, linetypes, text styles; where each is defined and where it is used.
+//! Names: handles, layers, blocks, linetypes, text styles; where each is defined and where it is used.
 
 use super::codes::{Value, value_of};
 use super::outline::walk;
@@ -23,11 +23,11 @@ pub(crate) enum Names {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Name {
     pub(crate) names: Names,
-    /// As it stands in the text; compared without regard to case, handles without regard to leading zeros as well.
+    /// As it stands in the text; compared without regard to case, handles also without regard to leading zeros.
     pub(crate) text: String,
 }
 
-/// What is named at a byte, on either line of a tag; and the bytes of the value.
+/// The name at a byte, on either line of a tag; and the bytes of the value.
 pub(crate) fn name_at(document: &Document, offset: usize) -> Option<(Name, Range<usize>)> {
     let spot = spot(document, document.text().line_of(offset))?;
     let tag = spot.tag?;
@@ -93,7 +93,7 @@ pub(crate) fn occurrences(
     whole.then_some(found)
 }
 
-/// What is compared: a handle without its leading zeros.
+/// The form for comparing: a handle without its leading zeros.
 fn key(names: Names, value: &[u8]) -> &[u8] {
     let zeros = if names == Names::Record {
         value.iter().take_while(|&&digit| digit == b'0').count()
@@ -103,10 +103,10 @@ fn key(names: Names, value: &[u8]) -> &[u8] {
     &value[zeros..]
 }
 
-/// What a code of a record names, and whether it defines it.
+/// The kind of name that a code of a record holds, and whether it defines it.
 fn named_by(record: &[u8], in_header: bool, code: i16) -> Option<(Names, bool)> {
     if in_header {
-        // Header variables say their names with the codes of what they name.
+        // Header variables use the codes of what they name.
         return match code {
             8 => Some((Names::Layer, false)),
             6 => Some((Names::Linetype, false)),

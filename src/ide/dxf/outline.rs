@@ -1,4 +1,4 @@
-//! The whole text as a tree: sections, tables and their entries, blocks, entities. Folding and symbols are made of it.
+//! The whole text as a tree: sections, tables and their entries, blocks, entities. Folding and symbols use it.
 
 use super::spot::text_of;
 use crate::dxf::lexer::{Lexer, Tag};
@@ -58,7 +58,7 @@ struct Builder<'a> {
     /// Section, table or block, POLYLINE: each holds the next.
     open: Vec<Symbol>,
     done: Vec<Symbol>,
-    /// The record that is being read, when it is none of those that hold others.
+    /// The record being read, when it is not one that holds others.
     record: Option<Symbol>,
     /// Vertices of the record or of the open POLYLINE.
     vertices: usize,
@@ -141,7 +141,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A tag that begins no record.
+    /// A tag that does not begin a record.
     fn take(&mut self, tag: Tag) {
         let in_holder = self.record.is_none();
         let Some(node) = self.record.as_mut().or(self.open.last_mut()) else {
@@ -195,7 +195,7 @@ impl Builder<'_> {
         }
     }
 
-    /// What belongs to the innermost holder reaches to `line`.
+    /// Extends the innermost holder to `line`.
     fn hold_to(&mut self, line: usize) {
         if let Some(holder) = self.open.last_mut() {
             holder.lines.end = line;

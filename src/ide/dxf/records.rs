@@ -1,9 +1,9 @@
-//! Which records and header variables there are, in which section they stand, and what they are.
+//! Records and header variables: their sections and meanings.
 
 use super::codes::About;
 use crate::message::said;
 
-/// A name that DXF knows, and what is said of it.
+/// A name that DXF knows, and its meaning.
 pub(super) type Named = (&'static str, About);
 
 pub(super) const SECTIONS: [&str; 7] = [
@@ -27,7 +27,7 @@ pub(super) const TABLES: [&str; 9] = [
     "BLOCK_RECORD",
 ];
 
-/// Names of records that can stand in a section, with what they are.
+/// Names of records that can stand in a section, with their meanings.
 pub(super) fn records_of(section: &str) -> &'static [Named] {
     match section {
         "TABLES" => &[
@@ -74,7 +74,7 @@ pub(super) fn records_of(section: &str) -> &'static [Named] {
     }
 }
 
-/// Header variables that bear on a cut, with what they say.
+/// Header variables that matter for a cut, with their meanings.
 pub(super) const VARIABLES: &[Named] = &[
     ("$ACADVER", said::version_of_the_file),
     (

@@ -1,4 +1,4 @@
-//! What an editor selects step by step: the value, its tag, the vertex, the record, the entity, the section, everything.
+//! The steps of a growing selection: the value, its tag, the vertex, the record, the entity, the section, everything.
 
 use super::spot::{section_of, spot, vertex_at};
 use crate::dxf::Document;

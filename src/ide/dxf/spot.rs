@@ -1,4 +1,5 @@
-//! Where a line stands: its tag, the record that holds it, the section around that. Reads no more than the record.
+//! The surroundings of a line: its tag, the record that holds it, the section around that. Reads no more than the
+//! record.
 
 use crate::dxf::Document;
 use crate::dxf::lexer::{Lexer, Tag};
@@ -15,7 +16,7 @@ pub(super) struct Spot<'a> {
     pub(crate) record: Option<usize>,
     /// Name of the record; empty where there is none.
     pub(crate) name: &'a [u8],
-    /// The tag that holds the line, whichever of its two lines it is.
+    /// The tag that holds the line, on either of its two lines.
     pub(crate) tag: Option<Tag>,
     /// The tag before that.
     pub(crate) before: Option<Tag>,
@@ -123,7 +124,7 @@ pub(super) fn section_of(document: &Document, item: usize) -> Option<(String, Ra
         end.saturating_sub(1)
     };
     let line = *document.table().lines.get(start)? as usize;
-    // The name is the first tag of code 2; it stands right behind the beginning, but for comments.
+    // The name is the first tag of code 2; it follows the beginning, except for comments.
     let name = (line + 2..line + 12)
         .step_by(2)
         .find(|&at| lines.trimmed(at) == b"2")

@@ -1,4 +1,4 @@
-//! The tree as an editor lists it: with contours, and with runs in the place of very many entities.
+//! The tree for an editor's list: with contours, and with runs instead of very many entities.
 
 use crate::document::Snapshot;
 use crate::drawing::{Handle, Outline, Piece};
@@ -6,11 +6,11 @@ use crate::ide::amounts::closing;
 use crate::ide::{Symbol, SymbolKind};
 use std::collections::HashMap;
 
-/// With more entities than this in one text, or more contours, runs of them are listed and not each by itself.
+/// With more entities than this in one text, or more contours, runs of them are listed instead.
 pub(crate) const GROUPED_ABOVE: usize = 20_000;
 /// Runs that stand for many.
 const RUNS: usize = 1000;
-/// Entities of a contour that are listed under it.
+/// The most entities of a contour that are listed under it.
 const LISTED_OF_CONTOUR: usize = 200;
 
 /// A contour of the drawing, as the tree names it: its entities' handles in order of travel.
@@ -32,7 +32,7 @@ pub(crate) fn notes(snapshot: &Snapshot) -> Vec<ContourNote> {
     snapshot.outlines.iter().map(note).collect()
 }
 
-/// Adds the contours to a tree and shortens it where it would be too long to list.
+/// Adds the contours to a tree and shortens it where the list would be too long.
 pub(crate) fn symbols(mut tree: Vec<Symbol>, contours: &[ContourNote]) -> Vec<Symbol> {
     let listed = contours_of(&tree, contours);
     shorten(&mut tree);
@@ -41,7 +41,7 @@ pub(crate) fn symbols(mut tree: Vec<Symbol>, contours: &[ContourNote]) -> Vec<Sy
             .iter_mut()
             .find(|node| node.kind == SymbolKind::Section && &*node.name == "ENTITIES")
     {
-        // Symbols lie within the one that holds them: the contours are a part of their section.
+        // A symbol must lie within its parent: the contours go into their section.
         let mut node = Symbol {
             kind: SymbolKind::Contours,
             record: "".into(),
@@ -71,7 +71,7 @@ fn count(node: &Symbol) -> usize {
     node.children.iter().map(|child| 1 + count(child)).sum()
 }
 
-/// Puts runs in the place of more children than can be listed.
+/// Puts runs in place of more children than can be listed.
 fn shorten_children(children: &mut Vec<Symbol>) {
     if children.len() <= RUNS {
         return;
@@ -118,7 +118,7 @@ fn contours_of(tree: &[Symbol], contours: &[ContourNote]) -> Vec<Symbol> {
     };
     let mut by_handle: HashMap<String, &Symbol> = HashMap::with_capacity(section.children.len());
     for (ordinal, node) in section.children.iter().enumerate() {
-        // Entities without a handle are known by their number.
+        // Entities without a handle go by their number.
         let handle = if node.name.is_empty() {
             format!("#{}", ordinal + 1)
         } else {

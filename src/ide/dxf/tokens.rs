@@ -1,4 +1,4 @@
-//! Each line of the text with what it is, for colouring.
+//! Each line of the text with its kind, for colouring.
 
 use super::codes::{Value, value_of};
 use super::spot::spot;
@@ -10,7 +10,7 @@ use crate::ide::{Stop, Token, TokenKind};
 use crate::text::SourceText;
 use std::ops::Range;
 
-/// Takes the tokens of the whole text, at most `limit`; `None` when it was stopped.
+/// The tokens of the whole text, at most `limit`; `None` when it was stopped.
 pub fn tokens(
     text: &SourceText,
     limit: usize,
@@ -35,7 +35,7 @@ pub fn tokens(
 /// The tokens of some lines.
 pub fn tokens_in(document: &Document, lines: Range<usize>) -> Vec<Token> {
     let mut found = Vec::new();
-    // A text that is no DXF has no spots; it is looked at from its beginning.
+    // A text that is not DXF has no spots; it is read from its beginning.
     let (begin, name) = spot(document, lines.start).map_or((0, &b""[..]), |spot| {
         (spot.tag.map_or(spot.in_step, |tag| tag.line), spot.name)
     });
@@ -68,7 +68,7 @@ fn collect(
     let lines = Lines::new(text);
     let mut lexer = Lexer::new(lines, from);
     let mut is_style = record == b"DIMSTYLE";
-    // Where a line is missing the lexer takes a value for the next code: it has been told of by then.
+    // Where a line is missing the lexer takes a value for the next code, whose token has been given by then.
     let mut told = from;
     while let Some(tag) = lexer.next() {
         lexer.findings.clear();
@@ -119,7 +119,7 @@ fn value_kind(tag: Tag, value: &[u8], is_style: bool) -> TokenKind {
         1 | 3 | 4 | 6 | 7 | 102 | 300..=309 | 410..=419 | 430..=439 | 470..=479 | 1000..=1002 => {
             TokenKind::Text
         }
-        // Points and numbers are nearly all that there is: no look into the table for them.
+        // Nearly all codes are points and numbers: they need no look into the table.
         10..=59 => number_or_text(value),
         code => match value_of(code) {
             Value::Handle | Value::OwnHandle => TokenKind::Handle,

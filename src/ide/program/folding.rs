@@ -1,4 +1,4 @@
-//! What can be folded: contours, and comments of several lines.
+//! Folding: contours, and comments of several lines.
 
 use super::words::{WordKind, words_of};
 use crate::ide::{Fold, FoldKind};
@@ -29,7 +29,7 @@ pub(crate) fn folds(document: &Document, limit: usize) -> Vec<Fold> {
     found
 }
 
-/// Runs of at least two lines that hold nothing but comments.
+/// Runs of at least two lines that hold only comments.
 fn comments(document: &Document) -> Vec<Fold> {
     let text = document.text();
     let bytes = text.bytes();

@@ -1,4 +1,4 @@
-//! What stands at a place: the block in words, and what the word under the cursor means in it.
+//! The hover at a place: the block in words, and the meaning of the word under the cursor.
 
 use super::of;
 use super::words::words_of;
@@ -11,7 +11,7 @@ use crate::program::path::{Kind, Step};
 /// A deviation below this is rounding, µm.
 const SHOWN_DEVIATION: f64 = 0.05;
 
-/// What stands at a byte; `None` where nothing does.
+/// The hover at a byte; `None` where there is nothing.
 pub(crate) fn hover(document: &Document, offset: usize) -> Option<Hover> {
     let text = document.text();
     let line = text.line_of(offset);
@@ -19,13 +19,13 @@ pub(crate) fn hover(document: &Document, offset: usize) -> Option<Hover> {
     let part = parts
         .iter()
         .find(|part| part.range.start <= offset && offset < part.range.end);
-    // Behind the last letter the cursor still means it.
+    // Behind its last letter the cursor still means the word.
     let part = part.or_else(|| parts.iter().rev().find(|part| part.range.end == offset))?;
     let steps = document.steps_in(text.line_range(line));
     let step = steps
         .iter()
         .find(|step| step.range.start <= part.range.start && part.range.end <= step.range.end);
-    // A block number and the end point stand outside of their block.
+    // A block number and the end point are outside their block.
     let step = step
         .or_else(|| {
             steps

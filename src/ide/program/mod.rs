@@ -1,7 +1,7 @@
-//! What an editor asks about a program: the machine's way in words, contours, numbers, layouts.
+//! Answers to an editor about a program: the machine's way in words, contours, numbers, layouts.
 //!
-//! Functions of a document, without a protocol: places are bytes. What hangs on the machine's way is asked of its trace and is the
-//! same for every language; what the pieces of a line are and mean is told by the language itself.
+//! Functions of a document, without a protocol: places are bytes. Answers about the machine's way come from its trace
+//! and are the same for every language; the language itself tells the pieces of a line and their meanings.
 
 mod folding;
 mod hints;
@@ -34,31 +34,32 @@ use crate::text::TextEdit;
 use std::ops::Range;
 use words::{Part, WordKind};
 
-/// What a language of programs says of its own text.
+/// What a language of programs knows of its own text.
 trait Language {
-    /// What can stand at a byte, what is most likely first.
+    /// What can stand at a byte, the most likely first.
     fn completions(&self, offset: usize) -> Vec<Completion>;
 
-    /// The form of the block that is written at a byte; `None` where none is.
+    /// The form of the block that is written at a byte; `None` where there is none.
     fn signature(&self, offset: usize) -> Option<Signature>;
 
-    /// What the word at a range of bytes says in its block, in Markdown; `None` for what means nothing.
+    /// The meaning of the word at a range of bytes in its block, in Markdown; `None` for a word without one.
     fn meaning(&self, word: Range<usize>) -> Option<String>;
 
-    /// The pieces of a line that begins at a byte; damaged lines are cut as far as that goes.
+    /// The pieces of a line that begins at a byte; damaged lines are cut as far as possible.
     fn words(&self, line: &[u8], offset: usize) -> Vec<Part>;
 
-    /// The word at a byte and the one that belongs to it, where that is not a matter of the machine's way.
+    /// The word at a byte and its counterpart, unless that depends on the machine's way.
     fn partner(&self, _: usize) -> Option<(Range<usize>, Range<usize>)> {
         None
     }
 
-    /// Every place of what is named at a byte, in the order of the text, at most `limit`: lines that are called, rows of tables.
+    /// Every place of the name at a byte, in the order of the text, at most `limit`: lines that are called, rows of
+    /// tables.
     fn named(&self, _: usize, _: usize, _: Stop<'_>) -> Result<Vec<Occurrence>, Stopped> {
         Ok(Vec::new())
     }
 
-    /// What may lead a block number.
+    /// The letters that may lead a block number.
     fn letters_of_numbers(&self) -> &'static [char] {
         &['N', 'n']
     }
@@ -80,12 +81,12 @@ fn of(document: &Document) -> &dyn Language {
     }
 }
 
-/// What can stand at a byte, what is most likely first.
+/// What can stand at a byte, the most likely first.
 pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion> {
     of(document).completions(offset)
 }
 
-/// Every place of what is named at a byte.
+/// Every place of the name at a byte.
 pub(crate) fn named(
     document: &Document,
     offset: usize,
@@ -95,7 +96,7 @@ pub(crate) fn named(
     of(document).named(offset, limit, stop)
 }
 
-/// The form of the block that is written at a byte; `None` where none is.
+/// The form of the block that is written at a byte; `None` where there is none.
 pub(crate) fn signature(document: &Document, offset: usize) -> Option<Signature> {
     of(document).signature(offset)
 }

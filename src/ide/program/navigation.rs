@@ -1,19 +1,19 @@
-//! From one end of something to the other: pause to pause, way in to way out, first block of a contour to its last.
+//! Jumps between counterparts: pause to pause, way in to way out, first block of a contour to its last.
 
 use super::of;
 use crate::program::Document;
 use crate::program::path::Kind;
 use std::ops::Range;
 
-/// The place that belongs to the one at a byte.
+/// The counterpart of the place at a byte.
 ///
-/// Of a pause, the next pause or the end; of the end word, where the program begins; of a way in the way out and back; of any other
-/// block the last one of its contour, and of that one the first.
+/// For a pause, the next pause or the end; for the end word, the program's beginning; for a way in the way out and
+/// back; for any other block the last one of its contour, and for that one the first.
 pub(crate) fn match_of(document: &Document, offset: usize) -> Option<Range<usize>> {
     pair(document, offset).map(|(_, other)| other)
 }
 
-/// The place at a byte and the one that belongs to it.
+/// The place at a byte and its counterpart.
 pub(crate) fn highlights(document: &Document, offset: usize) -> Vec<Range<usize>> {
     pair(document, offset).map_or_else(Vec::new, |(own, other)| {
         if own == other {
@@ -52,7 +52,7 @@ fn pair(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize
             let contour = cut.contour_steps();
             let lead_out = contour.end..cut.steps.end;
             let target = if index < contour.start {
-                // The n-th block of the way in has the n-th from the end of the way out.
+                // The n-th block of the way in corresponds to the n-th from the end of the way out.
                 if lead_out.is_empty() {
                     contour.start
                 } else {

@@ -6,7 +6,7 @@ use crate::program::Document;
 use crate::text::TextEdit;
 use std::ops::Range;
 
-/// The block number at a byte: its bytes, and what it is.
+/// The block number at a byte: its bytes, and its value.
 pub(crate) fn number_at(document: &Document, offset: usize) -> Option<(Range<usize>, u32)> {
     let line = document.text().line_of(offset);
     let part = words_of(document, line).into_iter().find(|part| {
@@ -17,7 +17,7 @@ pub(crate) fn number_at(document: &Document, offset: usize) -> Option<(Range<usi
     Some((digits, text.parse().ok()?))
 }
 
-/// The edits that give the block at a byte another number, `20` or `N20`, and the calls of it.
+/// The edits that give the block at a byte another number, `20` or `N20`, and change the calls of it.
 ///
 /// Errors: no number there, a name that is no number, or one that another block has.
 pub(crate) fn renamed(

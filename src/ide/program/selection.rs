@@ -1,4 +1,5 @@
-//! What an editor selects step by step: the word, the block, its line, the contour, everything between two pauses, everything.
+//! The steps of a growing selection: the word, the block, its line, the contour, everything between two pauses,
+//! everything.
 
 use super::words::words_of;
 use crate::ide::widen;

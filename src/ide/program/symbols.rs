@@ -8,11 +8,11 @@ use crate::program::Document;
 use crate::program::path::{Cut, Kind, Step, Trace, cuts, lie_beside};
 use crate::text::SourceText;
 
-/// With more blocks than this in one contour, runs of them are listed and not each by itself.
+/// With more blocks than this in one contour, runs of them are listed instead.
 const LISTED: usize = 2_000;
 /// Runs that stand for many.
 const RUNS: usize = 500;
-/// Contours, pauses and ways that are listed each by itself.
+/// The most contours, pauses and ways that are listed individually.
 const LISTED_CUTS: usize = 5_000;
 
 /// The tree of a program, in the order of the text.
@@ -45,12 +45,13 @@ pub(crate) fn symbols(document: &Document) -> Vec<Symbol> {
             }
         }
     }
-    // A subprogram stands elsewhere than it runs.
+    // A subprogram runs elsewhere than where it stands.
     found.sort_by_key(|symbol| (symbol.range.start, std::cmp::Reverse(symbol.range.end)));
     found
 }
 
-/// The number of the contour that each cut is of, and which pass of it the cut is. A way in between belongs to what comes before it.
+/// For each cut the number of its contour, and which pass of it the cut is. A way in between belongs to what comes
+/// before it.
 fn numbers(trace: &Trace, cuts: &[Cut]) -> Vec<(usize, usize)> {
     let mut numbers = Vec::new();
     let (mut now, mut before) = ((0, 1), None);
@@ -155,7 +156,7 @@ impl Tree<'_> {
     }
 }
 
-/// Closed or open, how many blocks, how much is cut, its leads included, and which way round a closed contour is cut.
+/// Closed or open, the number of blocks, the length of cut with its leads, and the direction of a closed contour.
 fn detail(cut: &Cut, steps: &[Step], contour: &[Step]) -> String {
     let ideals = || contour.iter().filter_map(|step| step.ideal.as_ref());
     let length = |steps: &[Step]| -> f64 {

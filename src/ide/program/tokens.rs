@@ -7,10 +7,10 @@ use crate::program::Document;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Lines that are looked at in one go.
+/// Lines that are read in one go.
 const CHUNK: usize = 4_096;
 
-/// The colours that DXF has, for the words of programs.
+/// The token kinds of DXF, for the words of programs.
 fn kind_of(kind: WordKind) -> Option<TokenKind> {
     Some(match kind {
         WordKind::Number => TokenKind::Handle,
@@ -44,7 +44,7 @@ pub(crate) fn tokens_in(document: &Document, lines: Range<usize>) -> Vec<Token> 
     found
 }
 
-/// Takes the tokens of the whole text, at most `limit`; what a line says hangs on no other line.
+/// The tokens of the whole text, at most `limit`; each line stands for itself.
 pub(crate) fn tokens(
     document: &Document,
     limit: usize,
@@ -53,7 +53,7 @@ pub(crate) fn tokens(
 ) -> Result<(), Stopped> {
     let firsts: Vec<usize> = (0..document.text().line_count()).step_by(CHUNK).collect();
     let (mut left, mut take) = (limit, take);
-    // As many at once as there may be need for.
+    // As many at once as may be needed.
     for some in firsts.chunks(16) {
         let tokens = |&first: &usize| tokens_in(document, first..first + CHUNK);
         let chunks: Vec<Vec<Token>> = match some {

@@ -1,25 +1,25 @@
-//! The pieces of a line in every language's own terms, brought to one list of kinds.
+//! The pieces of a line in every language, mapped to one list of kinds.
 
 use super::of;
 use crate::program::Document;
 use std::ops::Range;
 
-/// What a piece of a line is, whatever the language.
+/// The kind of a piece of a line, in any language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum WordKind {
     /// `N12`.
     Number,
-    /// What leads a number: `B` of 3B.
+    /// The letter before a number: `B` of 3B.
     Lead,
     /// A length or coordinate: X, Y, J of 3B; `X1.5` of ISO.
     Length,
     /// The counting axis of 3B; values for the control's table and words of settings in ISO.
     Setting,
-    /// What kind of motion: Z of 3B, G words of ISO.
+    /// The kind of motion: Z of 3B, G words of ISO.
     Motion,
     /// Pauses, ends and the like.
     Stop,
-    /// Coordinates that only say where a block ends or a program begins.
+    /// Coordinates that only state the end of a block or the start of a program.
     Stated,
     Comment,
     Strange,
@@ -32,7 +32,7 @@ pub(crate) struct Part {
     pub(crate) range: Range<usize>,
 }
 
-/// The pieces of a line, one behind the other; damaged lines are cut as far as that goes.
+/// The pieces of a line, one behind the other; damaged lines are cut as far as possible.
 pub(crate) fn words_of(document: &Document, line: usize) -> Vec<Part> {
     let text = document.text();
     let range = text.line_range(line);

@@ -1,4 +1,4 @@
-//! Everything is asked of damaged texts.
+//! Asks everything of damaged texts.
 
 use super::{ALL, MM, all_tokens, lines};
 use crate::dxf::Document;

@@ -1,4 +1,4 @@
-//! What is said of the tag under the cursor.
+//! The hover of the tag under the cursor.
 
 use super::{ALL, INCH, MM, in_entities, with_cursor};
 use crate::drawing::Unit;

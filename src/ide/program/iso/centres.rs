@@ -8,11 +8,11 @@ use crate::program::iso::moves::{CenterRule, Course, Move, Place, Reading, added
 use crate::program::iso::steps::BegunCut;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// A chord that runs this nearly along the way before it makes no arc that leaves it tangent: the sine of the angle between them.
+/// A chord this nearly parallel to the way before it gives no tangent arc: the sine of the angle between them.
 const ALONG: f64 = 1e-4;
 
 impl Offer<'_> {
-    /// I and J of the arcs that lead from here to the end that stands in the line.
+    /// I and J of the arcs that lead from here to the end given in the line.
     pub(super) fn centers(&mut self) {
         if !matches!(self.motion(), Motion::Clockwise | Motion::CounterClockwise) {
             return;
@@ -41,7 +41,7 @@ impl Offer<'_> {
         let given = [block.i, block.j]
             .map(|number| number.map(|number| reading.length(number, self.machine.inch)));
         if let Some(axis) = given.iter().position(Option::is_some) {
-            // One of them stands: the other follows from it.
+            // One of them is given: the other follows from it.
             let place = given[axis].map(|length| match rule {
                 CenterRule::StartToCenter => made.from[axis].wrapping_add(length),
                 CenterRule::CenterToStart => made.from[axis].wrapping_sub(length),
@@ -63,7 +63,7 @@ impl Offer<'_> {
                 [_, Some(_)] => format!("I{i}"),
                 _ => format!("I{i} J{j}"),
             };
-            // R, which the cursor stands at, gives way to I and J.
+            // I and J replace R, at which the cursor is.
             if let Some(Course::Arc(arc)) = self.run(&text).map(|made| made.course(&reading)) {
                 let turn = arc.sweep.abs().to_degrees();
                 let about = say!(radius_and_turn_of_the_arc, arc.radius / 1e3, turn, about);
@@ -72,7 +72,7 @@ impl Offer<'_> {
         }
     }
 
-    /// The centre that can be written, as far from both ends as that goes.
+    /// The centre that can be written, as equally far from both ends as possible.
     fn on_grid(&self, made: &Move, center: Point) -> Option<Place> {
         let step = self.style.step();
         let scale = 1e3 / step as f64;
@@ -88,8 +88,7 @@ impl Offer<'_> {
     }
 }
 
-/// Centres in µm, each with what is said about it: the arc that leaves the cut before without a corner, that of R, a quarter and a half
-/// turn.
+/// Centres in µm, each with its description: the arc tangent to the cut before, that of R, a quarter and a half turn.
 fn candidates(
     made: &Move,
     begun: Option<&BegunCut>,
@@ -130,7 +129,7 @@ fn candidates(
     found
 }
 
-/// The centre as far from both ends of an arc as from each other, one coordinate of which is given, nm.
+/// The centre equally far from both ends of an arc, with one coordinate given, nm.
 fn equidistant(made: &Move, axis: usize, place: i64) -> Option<(Point, &'static str)> {
     let other = 1 - axis;
     let origin = made.from;

@@ -1,5 +1,5 @@
-//! What can follow where a line is being written: words with what they mean, the centre of an arc from its end, the way back to where
-//! the cut began, places of the control's table, the lines of the profile.
+//! Completion of a line: words with their meanings, the centre of an arc from its end, the way back to the start of the
+//! cut, places of the control's table, the lines of the profile.
 
 use super::holds;
 use super::vocabulary::known;
@@ -15,17 +15,17 @@ use crate::program::iso::word::{Number, Token, WordFault};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// G and M words that are offered by themselves.
+/// The most G and M words that are offered unasked.
 const G_WORDS: [u8; 15] = [0, 1, 2, 3, 4, 17, 20, 21, 40, 41, 42, 90, 91, 92, 70];
 const M_WORDS: [u8; 6] = [0, 1, 2, 30, 98, 99];
 
-/// Subprograms that are offered.
+/// The most subprograms that are offered.
 const MOST_SUBPROGRAMS: usize = 100;
 
 /// Places of the control's table that are offered where the program names none.
 const FIRST_PLACES: u32 = 4;
 
-/// What can stand at a byte, what is most likely first.
+/// What can stand at a byte, the most likely first.
 pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion> {
     let text = document.text();
     let line = text.line_of(offset);
@@ -54,16 +54,16 @@ pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion>
     offer.found
 }
 
-/// What stands in a line before the cursor.
+/// The words of a line before the cursor.
 pub(super) struct Typed {
-    /// The words that are whole.
+    /// The complete words.
     pub(crate) block: Block,
-    /// The bytes of the line up to the word that has been begun.
+    /// The bytes of the line up to the unfinished word.
     head: Vec<u8>,
     /// The letter of the word at the cursor, and its number where it has one.
     pub(crate) letter: Option<u8>,
     pub(crate) number: Option<Number>,
-    /// What is replaced: that word, or nothing at the cursor.
+    /// The range to replace: that word, or the empty range at the cursor.
     range: Range<usize>,
 }
 
@@ -109,7 +109,7 @@ impl Typed {
 pub(super) struct Offer<'a> {
     pub(crate) document: &'a Document,
     pub(crate) line: usize,
-    /// Before the line.
+    /// The state before the line.
     pub(crate) machine: Machine,
     pub(crate) style: Style,
     pub(crate) typed: Typed,
@@ -244,7 +244,7 @@ impl Offer<'_> {
         self.typed.block.motion.unwrap_or(self.machine.motion)
     }
 
-    /// What can begin a line.
+    /// The ways to begin a line.
     fn beginnings(&mut self) {
         self.ways_back("G01 ");
         if self.typed.block.number.is_none() {
@@ -311,7 +311,8 @@ impl Offer<'_> {
         }
     }
 
-    /// The straight ways back to where the cut began and to the end of its way in, behind the word that cuts where it is missing.
+    /// The straight ways back to the start of the cut and to the end of its way in, behind the word that cuts where it
+    /// is missing.
     fn ways_back(&mut self, motion: &str) {
         let Some(BegunCut { from, to, .. }) = self.document.begun_cut(self.line) else {
             return;
@@ -342,7 +343,7 @@ impl Offer<'_> {
         }
     }
 
-    /// What the control makes of the line with `tail` behind what is there.
+    /// What the control makes of the line with `tail` appended.
     pub(super) fn run(&self, tail: &str) -> Option<Move> {
         let mut line = self.typed.head.clone();
         line.push(b' ');

@@ -6,10 +6,10 @@ use crate::program::iso::plain::words;
 use crate::program::iso::word::Token;
 use std::ops::Range;
 
-/// The word at a byte and the one that belongs to it; `None` where none does.
+/// The word at a byte and its counterpart; `None` where there is none.
 ///
-/// Of G41 and G42, the G40 that ends it; of G40, the word that it ends; of a call, the line that it calls; of M99, where its
-/// subprogram begins; of `%`, the other one.
+/// For G41 and G42, the G40 that ends it; for G40, the word that it ends; for a call, the line that it calls; for M99,
+/// the start of its subprogram; for `%`, the other one.
 pub(super) fn partner(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize>)> {
     let text = document.text();
     let line = text.line_of(offset);
@@ -76,7 +76,7 @@ pub(super) fn partner(document: &Document, offset: usize) -> Option<(Range<usize
     }
 }
 
-/// The word of the first of some lines that switches the correction as wanted.
+/// The first word of some lines that switches the correction as wanted.
 fn switched(
     document: &Document,
     lines: impl Iterator<Item = usize>,

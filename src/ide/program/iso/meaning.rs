@@ -1,4 +1,4 @@
-//! What a word of a line says to the machine: what every control takes alike, and what is a matter of the machine said to be so.
+//! The meaning of a word to the machine: what every control takes alike, with a note where it depends on the machine.
 
 use super::names;
 use super::vocabulary::{known, usual};
@@ -10,7 +10,7 @@ use crate::program::iso::plain::words;
 use crate::program::iso::word::{Number, Token};
 use std::ops::Range;
 
-/// What the word at a range of bytes says in its line, in Markdown; `None` for what means nothing.
+/// The meaning of the word at a range of bytes, in Markdown; `None` for a word without one.
 pub(crate) fn meaning(document: &Document, word: Range<usize>) -> Option<String> {
     let text = document.text();
     let line = text.line_of(word.start);
@@ -81,7 +81,7 @@ fn offset(letter: u8, index: Number) -> Option<Offset> {
     Some(Offset { letter, index })
 }
 
-/// nm as mm, with as many decimals as say something, at least three.
+/// nm as mm, with as many decimals as needed, at least three.
 fn mm(length: i64) -> String {
     let text = format!("{:.6}", length as f64 / 1e6);
     let kept = text.find('.').map_or(text.len(), |point| point + 4);
@@ -98,14 +98,14 @@ struct About<'a> {
     document: &'a Document,
     /// The whole line.
     block: Block,
-    /// What is in force before the line.
+    /// The state before the line.
     before: Machine,
     /// The word as it stands.
     shown: &'a str,
 }
 
 impl About<'_> {
-    /// Where the program itself gives the row of a table that a word chooses, and what it says there.
+    /// The row of a table that a word chooses and the program itself sets, and its content.
     fn row_of(&self, letter: u8, number: Number) -> Option<String> {
         if !matches!(letter, b'C' | b'E') {
             return None;
@@ -147,7 +147,7 @@ impl About<'_> {
         mm(self.document.reading().length(number, inch))
     }
 
-    /// Under what is in force behind the line's own words.
+    /// Under the state after the line's own words.
     fn length(&self, number: Number) -> String {
         self.length_in(number, self.block.inch.unwrap_or(self.before.inch))
     }

@@ -1,6 +1,6 @@
-//! What an editor asks about ISO text alone: what its words mean, what can follow, which words belong together.
+//! Answers to an editor about ISO text alone: what its words mean, what can follow, which words belong together.
 //!
-//! What hangs on the machine's way, whatever the language, is in [`crate::ide::program`].
+//! Answers about the machine's way, in any language, are in [`crate::ide::program`].
 
 mod centres;
 mod completion;

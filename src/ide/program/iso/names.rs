@@ -1,4 +1,5 @@
-//! What a program names: lines by their number, and rows of the control's tables. Where a name is given, and where it is used.
+//! Names in a program: lines by their number, and rows of the control's tables. Where a name is defined, and where it
+//! is used.
 
 use crate::ide::occurrence::{Occurrence, Role};
 use crate::program::iso::block::read_line;
@@ -7,20 +8,21 @@ use crate::program::iso::plain::words;
 use crate::program::iso::word::{Number, Token};
 use std::ops::Range;
 
-/// Rows of a program's own tables are looked for in so many lines when somebody points at a word: they stand at its head.
+/// This many lines are searched for rows of a program's own tables when somebody points at a word: they stand at its
+/// head.
 const HEAD: usize = 10_000;
 
 /// A name that something in a program has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Name {
-    /// Of a line, `N12` or `O12`, which `M98 P12` calls.
+    /// A line, `N12` or `O12`, which `M98 P12` calls.
     Line(u32),
-    /// Of a row of a table: `H1 = .0085`, `C001 = ON 8 …`, `E1 = …`; `H1`, `C001` and `E1` choose it.
+    /// A row of a table: `H1 = .0085`, `C001 = ON 8 …`, `E1 = …`; `H1`, `C001` and `E1` choose it.
     Row { letter: u8, index: u32 },
 }
 
 impl Name {
-    /// The letter that each place begins with; a line without it need not be read.
+    /// The letter that begins each place; a line without it need not be read.
     fn is_in(self, line: &[u8]) -> bool {
         let has = |letters: &[u8]| {
             line.iter()
@@ -42,7 +44,7 @@ pub(super) fn name_at(document: &Document, offset: usize) -> Option<Name> {
         text.bytes().get(text.line_range(line))?,
         text.line_start(line),
         |name, range, _| {
-            // Between two words that touch it is the one that begins.
+            // Between two words that touch, the one that begins there.
             if range.start <= offset
                 && offset <= range.end
                 && (found.is_none() || offset < range.end)
@@ -79,7 +81,7 @@ pub(super) fn places(
     Some(found)
 }
 
-/// The line in which a row of a table is given, from 0.
+/// The line that defines a row of a table, from 0.
 pub(super) fn line_of_row(document: &Document, letter: u8, index: u32) -> Option<usize> {
     let text = document.text();
     let wanted = Name::Row { letter, index };

@@ -9,7 +9,7 @@ use crate::program::iso::moves::CenterRule;
 use crate::program::iso::plain::words;
 use crate::program::iso::word::{Token, WordFault};
 
-/// The form of the block that is written at a byte; `None` where none is.
+/// The form of the block that is written at a byte; `None` where there is none.
 pub(crate) fn signature(document: &Document, offset: usize) -> Option<Signature> {
     let text = document.text();
     let line = text.line_of(offset);
@@ -24,7 +24,7 @@ pub(crate) fn signature(document: &Document, offset: usize) -> Option<Signature>
     let rule = document.reading().rule(incremental);
     let about = |name: &'static str| (name, about(label, name, incremental, rule));
     let parameters: Vec<_> = label.split(' ').skip(1).map(about).collect();
-    // Behind a word and a space the next one is meant; before the first of them, that.
+    // Behind a word and a space the next one is meant; before the first word, that one.
     let letter = if letter == b'H' { b'D' } else { letter };
     let is_behind = !inside && bytes.get(cursor.wrapping_sub(1)) == Some(&b' ');
     let at = parameters
@@ -38,8 +38,8 @@ pub(crate) fn signature(document: &Document, offset: usize) -> Option<Signature>
     })
 }
 
-/// The letter of the last word that begins before the cursor, and whether the cursor is within it; `None` where nothing has been written
-/// yet, and in a comment.
+/// The letter of the last word that begins before the cursor, and whether the cursor is within it; `None` where nothing
+/// has been written yet, and in a comment.
 fn word_before(bytes: &[u8], cursor: usize) -> Option<(u8, bool)> {
     let (mut last, mut is_comment) = (None, false);
     // Counted from 1 so that no byte order mark is looked for.
@@ -59,7 +59,7 @@ fn word_before(bytes: &[u8], cursor: usize) -> Option<(u8, bool)> {
     last.filter(|_| !is_comment)
 }
 
-/// The word that says what the block is, and the letters that belong to it.
+/// The word that decides the kind of the block, and the letters that belong to it.
 fn label(bytes: &[u8], block: &Block, before: &Machine, letter: u8) -> Option<&'static str> {
     let motion = block.motion.unwrap_or(before.motion);
     let is_of_motion = match letter {

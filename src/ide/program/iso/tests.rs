@@ -91,7 +91,7 @@ fn offers(text: &str, settings: &Effective, expected: &[(&str, &str)]) -> Vec<St
         .iter()
         .filter(|completion| completion.kind != CompletionKind::Snippet)
     {
-        // Each makes a line that can be read, and brings no arc that is off its radius.
+        // Each makes a line that can be read, with no arc off its radius.
         let mut whole = text.replacen('|', "", 1);
         whole.replace_range(completion.range.clone(), &completion.text);
         let bad = |text: &str| {
@@ -133,25 +133,25 @@ fn the_centre_of_an_arc_is_offered_from_its_end() {
         &any,
         &[("I0. J5.", "90.0°")],
     );
-    // The letter that has been begun is replaced; of a centre that stands in half the other half follows.
+    // The unfinished letter is replaced; of a half-given centre the other half follows.
     offers(
         "G91\nG01 X10. Y0.\nG03 X5. Y5. I0. J|",
         &any,
         &[("J5.", "R 5.000")],
     );
-    // The arc that R means, in the place of R.
+    // The arc that R means, instead of R.
     offers(
         "G91\nG01 X10. Y0.\nG03 X6. Y2. R10.|",
         &any,
         &[("I0. J10.", "the arc that R means")],
     );
-    // As the arcs of this program have it, and in its numbers.
+    // As this program writes its arcs, and in its number format.
     let text = "G90\nG03 X5000 Y5000 I0 J5000\nX0 Y10000 I0 J5000\nX-5000 Y5000 I0 J5000\nG01 X-5000 Y0\nG03 X0 Y-5000 |";
     offers(text, &any, &[("I0 J0", "R 5.000, 90.0°, leaves")]);
     let text =
         "G91\nG03 X5000 Y5000 I0 J-5000\nX-5000 Y5000 I5000 J0\nG01 X0 Y5\nG02 X5000 Y5000 |";
     offers(text, &any, &[("I-5000 J0", "R 5.000, 90.0°, leaves")]);
-    // Nothing is offered for a circle of which nobody knows the middle, nor in a comment.
+    // Nothing is offered for a circle with an unknown middle, nor in a comment.
     assert_eq!(offers("G03 X0. Y0. |", &any, &[]), Vec::<String>::new());
     assert_eq!(offers("G03 X5. Y5. (|", &any, &[]), Vec::<String>::new());
 }

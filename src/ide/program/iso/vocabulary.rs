@@ -1,8 +1,8 @@
-//! What G and M words mean: to every control alike, or as a matter of the machine mostly on machines that cut with a wire.
+//! The meanings of G and M words: common to every control, or dependent on the machine but usual on wire cutters.
 
 use crate::program::iso::word::Number;
 
-/// What a word says to every control alike.
+/// The meaning of a word common to every control.
 pub(super) fn known(letter: u8, number: Number) -> Option<&'static str> {
     match letter {
         b'G' => known_g(number),
@@ -11,7 +11,7 @@ pub(super) fn known(letter: u8, number: Number) -> Option<&'static str> {
     }
 }
 
-/// What a word that is a matter of the machine mostly means.
+/// The usual meaning of a word that depends on the machine.
 pub(super) fn usual(letter: u8, number: Number) -> Option<&'static str> {
     Some(match letter {
         b'G' => return usual_g(number),

@@ -1,5 +1,4 @@
-//! What can follow where a block is being written: G, J and Z from X and Y, the way back to where the contour began, the words between
-//! blocks.
+//! Completion of a block: G, J and Z from X and Y, the way back to the start of the contour, the words between blocks.
 
 use crate::geometry::{Arc, Point, Segment};
 use crate::ide::amounts::{mm, point, turn};
@@ -15,10 +14,10 @@ use crate::program::three_b::pieces::{Field, pieces};
 use crate::settings::Layout;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Lines before the cursor that are looked through for where the machine stands.
+/// How many lines before the cursor are read to find the machine's position.
 const LOOKED_BACK: usize = 500;
 
-/// What can stand at a byte, what is most likely first.
+/// What can stand at a byte, the most likely first.
 pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion> {
     let text = document.text();
     let line = text.line_range(text.line_of(offset));
@@ -30,7 +29,7 @@ pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion>
     match typed {
         Some(typed) => typed.tails(document, line.start, offset),
         None => {
-            // A word that has been begun is replaced.
+            // An unfinished word is replaced.
             let letters = before
                 .iter()
                 .rev()
@@ -48,11 +47,11 @@ pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion>
     }
 }
 
-/// The block under way at the end of some text.
+/// The unfinished block at the end of some text.
 struct Typed {
     numbers: Vec<Option<i64>>,
     axis: Option<CountingAxis>,
-    /// Byte of the line at which a letter stands that has been begun: `G`, `N`, `S`.
+    /// Byte of the line where an unfinished letter stands: `G`, `N`, `S`.
     begun: Option<usize>,
 }
 
@@ -89,7 +88,7 @@ impl Typed {
         typed.filter(|typed| typed.numbers.len() == 3)
     }
 
-    /// What can stand behind the numbers that are there, each with where it leads.
+    /// What can follow the given numbers, each with its end.
     fn tails(&self, document: &Document, line_start: usize, offset: usize) -> Vec<Completion> {
         let (x, y) = (self.numbers[0].unwrap_or(0), self.numbers[1].unwrap_or(0));
         let start = stand(document, line_start);
@@ -105,7 +104,7 @@ impl Typed {
         };
         let completion = |block: Block| {
             let whole = written(&block)?;
-            // What stands there already is left out.
+            // The part that is already there is left out.
             let skipped = match (self.numbers[2], self.axis) {
                 (None, _) => whole.rfind('B')? + 1,
                 (Some(_), None) => whole.rfind('G')?,
@@ -197,7 +196,7 @@ fn motions(x: i64, y: i64, j: i64, axis: CountingAxis) -> Vec<Block> {
     blocks
 }
 
-/// Where a piece leads, in words.
+/// The end of a piece, in words.
 fn about(piece: &Segment) -> String {
     match piece {
         Segment::Line(line) => say!(line_to, point(line.end)),
@@ -222,7 +221,7 @@ fn about(piece: &Segment) -> String {
     }
 }
 
-/// Where the machine stands at a byte.
+/// The machine's position at a byte.
 fn stand(document: &Document, offset: usize) -> Point {
     let text = document.text();
     let line = text.line_of(offset);
@@ -234,7 +233,7 @@ fn stand(document: &Document, offset: usize) -> Point {
         .map_or_else(|| document.begin().0, |step| step.end)
 }
 
-/// What can begin a line.
+/// The ways to begin a line.
 fn beginnings(document: &Document, start: usize, offset: usize) -> Vec<Completion> {
     let range = start..offset;
     let word = |text: &str, about| Completion::new(text, about, &range, CompletionKind::Word);
@@ -244,7 +243,7 @@ fn beginnings(document: &Document, start: usize, offset: usize) -> Vec<Completio
         && let Some(first) = chain.step(0)
     {
         targets.push((say!(line_back_to_the_start_of_the_contour), first.start));
-        // Where the contour is closed what is left is the way out.
+        // Where the contour is closed, the way out is left.
         if chain.count() == 1 || !cut_of(&chain).is_some_and(|cut| cut.closed) {
             targets.push((say!(line_to_the_end_of_the_lead_in), first.end));
         }

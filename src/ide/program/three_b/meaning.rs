@@ -1,4 +1,4 @@
-//! What a word of a block means: X and Y of a line and of an arc, the counting length, the axis, the quadrant.
+//! The meaning of a word of a block: X and Y of a line and of an arc, the counting length, the axis, the quadrant.
 
 use crate::program::three_b::Document;
 use crate::program::three_b::block::{Block, CountingAxis, Motion, Quadrant};
@@ -6,7 +6,7 @@ use crate::program::three_b::parse::{Item, read_line};
 use crate::program::three_b::pieces::{Field, pieces};
 use std::ops::Range;
 
-/// What the word at a range of bytes says in its block, in Markdown; `None` for what means nothing.
+/// The meaning of the word at a range of bytes in its block, in Markdown; `None` for a word without one.
 pub(crate) fn meaning(document: &Document, word: Range<usize>) -> Option<String> {
     let text = document.text();
     let line = text.line_range(text.line_of(word.start));

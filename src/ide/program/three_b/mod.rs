@@ -1,6 +1,6 @@
-//! What an editor asks about 3B text alone: its pieces, what they mean, what can follow, its layouts.
+//! Answers to an editor about 3B text alone: its pieces, what they mean, what can follow, its layouts.
 //!
-//! What hangs on the machine's way, whatever the language, is in [`crate::ide::program`].
+//! Answers about the machine's way, in any language, are in [`crate::ide::program`].
 
 mod completion;
 mod meaning;

@@ -4,7 +4,7 @@ use crate::ide::Signature;
 use crate::program::three_b::Document;
 use crate::program::three_b::pieces::{Field, pieces};
 
-/// The form of the block that is written at a byte; `None` where none is.
+/// The form of the block that is written at a byte; `None` where there is none.
 pub(crate) fn signature(document: &Document, offset: usize) -> Option<Signature> {
     let text = document.text();
     let line = text.line_range(text.line_of(offset));
