@@ -1,5 +1,5 @@
-//! Which documents lie beside each other: a program and its drawing. What the client holds open is taken before what is on disk; a change
-//! of the one has the other judged anew.
+//! Which documents lie beside each other: a program and its drawing. An open document takes precedence over the file on
+//! disk; a change of the one has the other judged again.
 
 use super::config;
 use super::content::Content;
@@ -17,7 +17,7 @@ fn file_of(uri: &str) -> Option<PathBuf> {
 }
 
 impl State {
-    /// A document is open now: it may be the drawing of programs that are.
+    /// Called when a document is opened: it may be the drawing of open programs.
     pub(crate) fn note_path(&mut self, uri: &Arc<str>) {
         let Some(path) = file_of(uri) else { return };
         self.links.paths.insert(path, uri.clone());
@@ -39,7 +39,7 @@ impl State {
         }
     }
 
-    /// What lies beside a document that is to be judged.
+    /// The documents beside one that is to be judged.
     pub(crate) fn wanted_beside(&mut self, uri: &Arc<str>) -> Option<Wanted> {
         let open = self.documents.get(uri)?;
         let link = open.link.clone();
@@ -56,7 +56,7 @@ impl State {
             Link::Programs(mut programs) => {
                 let path = file_of(uri)?;
                 let open = self.links.programs.get(&path).into_iter().flatten();
-                // What is open says itself whether it belongs here.
+                // An open document says itself whether it belongs here.
                 programs.retain(|path| !self.links.paths.contains_key(path));
                 programs.extend(open.filter_map(|uri| file_of(uri)));
                 programs.sort();
@@ -93,7 +93,7 @@ impl State {
         }
     }
 
-    /// Takes what was read for a document, and has its partners look at what it is now.
+    /// Stores the files read for a document, and notifies its partners of its new state.
     pub(crate) fn judged_beside(
         &mut self,
         uri: &Arc<str>,
@@ -114,7 +114,7 @@ impl State {
         }
     }
 
-    /// Has the documents that lie beside an open one judged anew.
+    /// Has the documents beside an open one judged again.
     fn poke_partners(&mut self, uri: &Arc<str>) {
         let Some(path) = file_of(uri) else { return };
         let mut partners: BTreeSet<Arc<str>> =
@@ -128,7 +128,7 @@ impl State {
         }
     }
 
-    /// Finds out what a document belongs to now; a drawing is asked again only where files have changed.
+    /// Finds the partners of a document; a drawing is only asked again when files have changed.
     fn relink(&mut self, uri: &Arc<str>, files_changed: bool) {
         let Some(open) = self.documents.get(uri) else {
             return;
@@ -207,7 +207,7 @@ impl State {
         self.add_task(uri, Task::Beside);
     }
 
-    /// Has an open document compared anew.
+    /// Has an open document compared again.
     fn poke(&mut self, path: &Path) {
         let Some(uri) = self.links.paths.get(path).cloned() else {
             return;
@@ -223,7 +223,7 @@ impl State {
         self.add_task(&uri, Task::Beside);
     }
 
-    /// A document is no longer open: its partners take the file.
+    /// Called when a document is closed: its partners use the file.
     pub(crate) fn closed_beside(&mut self, uri: &Arc<str>, link: &Link) {
         let Some(path) = file_of(uri) else { return };
         self.links.paths.remove(&path);
@@ -243,7 +243,7 @@ impl State {
         }
     }
 
-    /// Files have changed on disk: what belongs to what is found out anew.
+    /// Called when files have changed on disk: all partners are found again.
     pub(crate) fn files_changed(&mut self) {
         let mut uris: Vec<Arc<str>> = self.links.paths.values().cloned().collect();
         uris.sort_unstable();
@@ -264,7 +264,7 @@ impl State {
         }
     }
 
-    /// Settings have changed, and with them what files come to.
+    /// Called when settings have changed, which files depend on.
     pub(crate) fn forget_files(&mut self) {
         self.links.files.clear();
     }

@@ -10,10 +10,10 @@ use std::time::{Duration, Instant};
 
 const TIME_OUT: Duration = Duration::from_secs(10);
 
-/// What happens with an answer; the error is a sentence.
+/// Acts on an answer; the error is a sentence.
 type Then<S> = Box<dyn FnOnce(&mut S, Result<Value, String>) + Send>;
 
-/// What is to be done now that an answer has come, or that none will.
+/// What to do once an answer has come, or none will.
 pub(super) type Answered<S> = Box<dyn FnOnce(&mut S) + Send>;
 
 struct Asked<S> {
@@ -22,7 +22,7 @@ struct Asked<S> {
     then: Then<S>,
 }
 
-/// What the client said it can do, as far as it matters here.
+/// The client's capabilities that matter here.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Abilities {
     pub(crate) apply_drawing_edit: bool,
@@ -45,13 +45,13 @@ pub(super) struct Abilities {
     pub(crate) snippets: bool,
     /// Symbols may be a tree.
     pub(crate) hierarchical_symbols: bool,
-    /// Asks for what has changed of the semantic tokens.
+    /// Asks for the difference of the semantic tokens.
     pub(crate) token_deltas: bool,
-    /// Folds that the client takes at most.
+    /// The most folds that the client takes.
     pub(crate) folding_limit: Option<usize>,
 }
 
-/// The other end of the wire, as the state thread sees it. `S` is the state on which answers act.
+/// The other end of the wire, as the state thread sees it. Answers act on the state `S`.
 pub(super) struct Client<S> {
     pub(crate) abilities: Arc<Abilities>,
     writer: Writer,
@@ -67,7 +67,7 @@ struct Request<'a, P> {
     params: P,
 }
 
-/// Weight of a line in the client's log.
+/// Level of a line in the client's log.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Weight {
     Warning = 2,
@@ -135,7 +135,7 @@ impl<S: 'static> Client<S> {
         self.asked.values().map(|asked| asked.deadline).min()
     }
 
-    /// The client answered: what its answer sets off.
+    /// The client answered: returns what to do.
     pub(crate) fn answered(
         &mut self,
         id: &str,
@@ -155,7 +155,7 @@ impl<S: 'static> Client<S> {
         Some(Box::new(move |state| then(state, result)))
     }
 
-    /// Gives up one request that has waited too long: what that sets off.
+    /// Gives up one request that has waited too long: returns what to do.
     pub(crate) fn expired(&mut self) -> Option<Answered<S>> {
         let now = Instant::now();
         let (id, _) = self.asked.iter().find(|(_, asked)| asked.deadline <= now)?;

@@ -65,7 +65,7 @@ impl Config {
         self.folders.extend(added);
     }
 
-    /// Takes one level anew. Returns the misfits that the user has not been told of yet, as sentences.
+    /// Replaces one level. Returns, as sentences, the misfits that the user has not seen yet.
     pub(crate) fn set_level(&mut self, level: Level, json: &Value) -> Vec<String> {
         let (settings, mut errors) = from_json(json);
         match level {
@@ -112,7 +112,7 @@ impl Config {
         Arc::new(Effective::of_document(&settings, name_of(uri)))
     }
 
-    /// The project's file that holds for a document: upwards from it, or from the workspace folder where it is no file.
+    /// The project's file for a document: upwards from it, or from the workspace folder where it is no file.
     pub(crate) fn file_for(
         &self,
         uri: &str,
@@ -127,7 +127,7 @@ impl Config {
         search.upwards(start, opened)
     }
 
-    /// What is wrong in a project's file whose text is `text`, by itself and beside what the client says.
+    /// The faults in a project's file whose text is `text`, by itself and together with the client's settings.
     pub(crate) fn errors_in(&self, text: &str) -> Vec<SettingsError> {
         let (settings, mut errors) = from_toml(text);
         errors.retain(|error| !error.of_levels);
@@ -141,7 +141,7 @@ impl Config {
     }
 }
 
-/// A search for project files at one moment: however many documents lie in a folder, the disk is asked about it once.
+/// A search for project files at one moment: the disk is asked once for each folder, however many documents lie in it.
 #[derive(Default)]
 pub(super) struct Search {
     /// By folder: the file in it or in the nearest one above.
@@ -176,7 +176,7 @@ impl Search {
     }
 }
 
-/// A project's file as it is now; `None` where there is none. `opened` are files whose text the client holds.
+/// A project's file in its present state; `None` where there is none. `opened` are files whose text the client holds.
 pub(super) fn read(
     file: &Path,
     opened: &dyn Fn(&Path) -> Option<SourceText>,

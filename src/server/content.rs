@@ -1,4 +1,4 @@
-//! What a document comes to: its source and what was made of it, and what is done to it. All of it may run on a worker.
+//! A document with everything derived from it, and the changes to it. All of it may run on a worker.
 
 use super::convert;
 use super::kind::Kind;
@@ -20,11 +20,12 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 pub(super) enum Content {
-    /// Shared with workers: an edit while one still looks at it costs a copy.
+    /// Shared with workers: an edit copies it while one still reads it.
     Read(Arc<Document>),
     Settings(SourceText),
     Foreign,
-    /// Not read yet, or reading or judging it panicked: the text or drawing is kept, and tried again with the next change.
+    /// Not read yet, or reading or judging it panicked: the text or drawing is kept, and tried again with the next
+    /// change.
     Unread(Remains),
     /// A worker has it.
     Away,
@@ -35,16 +36,17 @@ pub(super) enum Remains {
     Drawing(Arc<Drawing>),
 }
 
-/// Bytes of a text, or segments of a drawing, that are looked at on the state thread: handing them over costs as much.
+/// Up to this many bytes of a text, or segments of a drawing, the state thread does the work: handing it over costs as
+/// much.
 const SMALL_TEXT: usize = 16 * 1024;
 const SMALL_DRAWING: usize = 500;
 
-/// What a drawing or program may grow by beyond its own length.
+/// The most that a drawing or program may grow beyond its own length.
 const MULTIPLIERS_IN_DXF: [&[u8]; 4] = [b"INSERT", b"SPLINE", b"ELLIPSE", b"HATCH"];
 const MULTIPLIERS_IN_ISO: [&[u8]; 2] = [b"98", b"L"];
 
 impl Content {
-    /// True where it is little, whatever it says: it may be looked at without holding anybody up.
+    /// True where it is small, whatever it contains: reading it holds nobody up.
     pub(crate) fn is_small(&self) -> bool {
         match self {
             Content::Read(document) => match document.source() {
@@ -76,7 +78,7 @@ impl Content {
         }
     }
 
-    /// Replaces bytes of the text. One that has not been read is not read for it.
+    /// Replaces bytes of the text; does not read it first if it has not been read.
     pub(crate) fn edit_text(&mut self, range: std::ops::Range<usize>, replacement: &str) {
         match self {
             Content::Settings(text) | Content::Unread(Remains::Text { text, .. }) => {
@@ -91,7 +93,7 @@ impl Content {
                 if let Err(panic) = edited {
                     report(&*panic);
                     let (kind, mut text) = text_of(document);
-                    // The panic came before the text was touched, or behind that.
+                    // The panic came before the text was touched, or after.
                     let done = text.len() == before - range.len() + replacement.len()
                         && text
                             .bytes()
@@ -106,8 +108,8 @@ impl Content {
         }
     }
 
-    /// Makes changes of a drawing. An error says why nothing was changed, and whether it was a panic: then the drawing may hold half of
-    /// them, and only the client knows the whole.
+    /// Makes changes of a drawing. The error says why nothing was changed, and whether it was a panic: then the drawing
+    /// may hold half of them, and only the client knows the whole.
     pub(crate) fn change_drawing(&mut self, changes: Vec<DrawingChange>) -> Result<(), String> {
         let changed = catch_unwind(AssertUnwindSafe(|| match &mut *self {
             Content::Read(document) => Arc::make_mut(document)
@@ -137,7 +139,7 @@ impl Content {
         }
     }
 
-    /// Lays another document beside it; true where that is another one than before.
+    /// Sets the document beside it; true where that is another one than before.
     pub(crate) fn set_beside(&mut self, beside: Beside) -> bool {
         let Content::Read(document) = self else {
             return false;
@@ -145,7 +147,7 @@ impl Content {
         *document.beside() != beside && Arc::make_mut(document).set_beside(beside)
     }
 
-    /// What others are compared with.
+    /// The data for comparing others with it.
     pub fn form(&self) -> Option<Form> {
         let Content::Read(document) = self else {
             return None;
@@ -168,7 +170,7 @@ impl Content {
         }
     }
 
-    /// Reads what has not been read.
+    /// Reads it, if it has not been read.
     pub(crate) fn read(&mut self, settings: &Arc<Effective>) {
         let Content::Unread(remains) = self else {
             return;
@@ -196,7 +198,7 @@ impl Content {
         }
     }
 
-    /// What the client is shown now, and how many findings there are in all.
+    /// The findings for the client, and how many there are in all.
     pub(crate) fn diagnostics(
         &mut self,
         encoding: Encoding,

@@ -1,4 +1,4 @@
-//! A request about an open document: what it looks at, whether its answer is still wanted, and where it is answered.
+//! A request about an open document: the data it reads, whether its answer is still wanted, and where it is answered.
 
 use super::client::Abilities;
 use super::config;
@@ -27,33 +27,33 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Weak};
 use tower_lsp::jsonrpc::{Error, Result};
 
-/// What a request holds of its document while it is answered. An edit meanwhile costs a copy of that.
+/// The part of its document that a request holds while it is answered. An edit meanwhile copies that part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Reach {
-    /// The document, for a question about one place: it does not wait behind what takes long.
+    /// The document, for a question about one place: it does not wait behind long work.
     Place,
-    /// The document, for what may take long.
+    /// The document, for work that may be long.
     Document,
-    /// The document, for what takes long however small it is.
+    /// The document, for work that is long however small the document is.
     Long,
-    /// A program, or of DXF the text alone: editors ask about the whole of it after every edit.
+    /// A program, or for DXF only the text: editors ask about the whole of it after every edit.
     Text,
     /// The same, and the contours of the drawing.
     Outline,
 }
 
-/// What the params of a request say about its document.
+/// The common params of requests about a document.
 #[derive(Default)]
 pub(super) struct About {
     pub(crate) uri: Arc<str>,
     pub(crate) position: Option<Position>,
     /// Settings for this request alone.
     pub(crate) options: Option<Value>,
-    /// Where progress is told.
+    /// The token for progress.
     pub(crate) token: Option<Value>,
 }
 
-/// A request on its way: its name for the log, and for the user where progress is told.
+/// A request in progress: its name for the log, and for the user where progress is shown.
 pub(super) struct Asked {
     pub(crate) name: &'static str,
     pub(crate) title: &'static str,
@@ -63,10 +63,10 @@ pub(super) struct Asked {
     pub(crate) client: Weak<()>,
 }
 
-/// More findings than this are worth a worker.
+/// More findings than this go to a worker.
 const FEW_FINDINGS: usize = 2_000;
 
-/// What a handler is given: the document as it stood when the request's turn came.
+/// The argument of a handler: the document as it stood when the request's turn came.
 pub(super) struct RequestContext {
     pub(crate) uri: Arc<str>,
     pub(crate) version: i64,
@@ -78,13 +78,13 @@ pub(super) struct RequestContext {
     /// The semantic tokens that the client holds.
     pub(crate) tokens: Arc<TokenMemory>,
     held: Held,
-    /// Where the settings of the document are written; asked for with its actions alone.
+    /// The file with the settings of the document; only set for its actions.
     settings_file: Option<SettingsFile>,
     options: Result<Option<Arc<Effective>>>,
     wanted: Wanted,
 }
 
-/// The `wedm.toml` that holds for a document, or the one that would.
+/// The `wedm.toml` that applies to a document, or the one that would.
 pub(super) struct SettingsFile {
     uri: Uri,
     pub(crate) text: SourceText,
@@ -95,7 +95,7 @@ enum Held {
     Document(Arc<Document>),
     Text {
         text: SourceText,
-        /// What is named at the place that is asked about.
+        /// The name at the place that is asked about.
         name: Option<Name>,
         snapshot: Option<document::Snapshot>,
     },
@@ -103,7 +103,7 @@ enum Held {
     Nothing,
 }
 
-/// Whether an answer is still wanted: the client waits for it, and the document is as it was.
+/// Whether an answer is still wanted: the client waits for it, and the document is unchanged.
 #[derive(Clone)]
 struct Wanted {
     client: Weak<()>,
@@ -123,8 +123,8 @@ impl Wanted {
 }
 
 impl State {
-    /// Answers a request by `work`: at once where the document is small, else on a worker. An answer about a document that has
-    /// changed meanwhile is none.
+    /// Answers a request by `work`: at once where the document is small, else on a worker. An answer about a document
+    /// that has changed meanwhile is dropped.
     pub(crate) fn answer<T: Send + 'static>(
         &mut self,
         asked: Asked,
@@ -166,7 +166,7 @@ impl State {
 }
 
 impl RequestContext {
-    /// And whether the document is so small that the request is answered at once.
+    /// And whether the document is small enough to answer at once.
     fn new(state: &mut State, asked: Asked) -> Result<(RequestContext, bool)> {
         let Asked {
             name,
@@ -213,7 +213,7 @@ impl RequestContext {
         self.check().is_err()
     }
 
-    /// The error that says so.
+    /// The error for that.
     pub(crate) fn check(&self) -> Result<()> {
         self.wanted.check()
     }
@@ -243,7 +243,7 @@ impl RequestContext {
         }
     }
 
-    /// The text, as a question about the whole of it holds it.
+    /// The text, for a question about the whole of it.
     pub(crate) fn whole(&self) -> Option<Whole<'_>> {
         match &self.held {
             Held::Text {
@@ -271,7 +271,7 @@ impl RequestContext {
         }
     }
 
-    /// The settings of the document with the request's own over them, where it brings any.
+    /// The settings of the document with the request's own over them, if any.
     pub(crate) fn options(&self) -> Result<Option<Arc<Effective>>> {
         self.options.clone()
     }
@@ -298,7 +298,7 @@ impl RequestContext {
         self.settings_file.as_ref()
     }
 
-    /// Edits of the file with the settings, in the form that the client takes; `None` where it cannot make a new one.
+    /// Edits of the settings file in the form that the client accepts; `None` where it cannot make a new one.
     pub(crate) fn settings_edit(
         &self,
         file: &SettingsFile,
@@ -344,7 +344,7 @@ impl RequestContext {
         })
     }
 
-    /// Edits of the document's text in the form that the client takes.
+    /// Edits of the document's text in the form that the client accepts.
     pub(crate) fn workspace_edit(
         &self,
         text: &SourceText,
@@ -415,7 +415,7 @@ impl Held {
     }
 }
 
-/// The request's own settings over those of the document, where it brings any.
+/// The request's own settings over those of the document, if any.
 fn with_options(
     state: &mut State,
     uri: &str,
@@ -434,7 +434,7 @@ fn with_options(
     let of_document = state.config.settings_for(file.as_deref());
     let all = of_document.overlaid(&settings);
     let is_error = |error: &&SettingsError| error.severity == Severity::Error;
-    // What is wrong without the options is said elsewhere.
+    // Faults that do not come from the options are reported elsewhere.
     let is_wrong_already = || {
         of_document
             .contradictions(&|_| None)

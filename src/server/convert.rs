@@ -14,7 +14,7 @@ use crate::text::{Encoding, SourceText, TextEdit};
 use ls_types as lsp;
 use serde::Serialize;
 
-/// A publish holds at most this many findings.
+/// The most findings in a publish.
 pub(super) const PUBLISH_LIMIT: usize = 500;
 
 pub(super) fn diagnostics(
@@ -49,7 +49,7 @@ pub(super) fn diagnostic(
     }
 }
 
-/// The ranges of a finding's place and, where they are told, of its other places, in the order of [`diagnostic`].
+/// The ranges of a finding's place and, if sent, of its other places, in the order of [`diagnostic`].
 pub(super) fn ranges_of(
     document: &Document,
     finding: &Finding,
@@ -129,7 +129,7 @@ fn diagnostic_at(
     }
 }
 
-/// What is wrong in a `wedm.toml`.
+/// The faults in a `wedm.toml`.
 pub(super) fn settings_diagnostics(
     text: &SourceText,
     errors: &[SettingsError],
@@ -217,7 +217,7 @@ pub(super) fn lsp_edits(
     edits.into_iter().map(edit).collect()
 }
 
-/// The diagnostic as the framework's types have it, where it stands in a code action.
+/// The diagnostic in the framework's types, for a code action.
 pub(super) fn lsp_diagnostic(diagnostic: &Diagnostic) -> Option<lsp::Diagnostic> {
     serde_json::from_value(serde_json::to_value(diagnostic).ok()?).ok()
 }

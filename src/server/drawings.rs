@@ -1,4 +1,4 @@
-//! Drawings without text: opened, changed by splices, closed, and asked for anew when a change does not fit.
+//! Drawings without text: opened, changed by splices, closed, and requested again when a change does not fit.
 
 use super::client::Weight;
 use super::judge::Task;
@@ -9,7 +9,7 @@ use crate::protocol::{self, DrawingChange, ResendDrawing, Resent, method};
 use serde_json::Value;
 use std::sync::Arc;
 
-/// A drawing as it came, with the reason where it is not sound.
+/// A drawing as it came, or why it is not sound.
 pub(super) struct Sent {
     pub(crate) uri: Arc<str>,
     pub(crate) drawing: Result<(i64, Drawing), String>,
@@ -57,7 +57,7 @@ fn insert(state: &mut State, uri: Arc<str>, version: i64, drawing: Drawing) {
     ));
 }
 
-/// Changes as they came, with the reason where they cannot be read.
+/// Changes as they came, or why they cannot be read.
 pub(super) struct SentChanges {
     pub(crate) uri: Arc<str>,
     pub(crate) changes: Result<(i64, Vec<DrawingChange>), String>,
@@ -94,7 +94,7 @@ pub(super) fn change(state: &mut State, sent: SentChanges) {
     }
 }
 
-/// A change of a drawing was not made.
+/// A change of a drawing that failed.
 pub(super) fn does_not_apply(state: &mut State, uri: &Arc<str>, reason: &str) {
     refuse(
         state,
@@ -114,7 +114,7 @@ pub(super) fn close(state: &mut State, uri: &Arc<str>) {
     }
 }
 
-/// Says why nothing was changed, and asks for the whole drawing, once at a time.
+/// Reports why nothing was changed, and requests the whole drawing, once at a time.
 pub(super) fn refuse(state: &mut State, uri: &Arc<str>, reason: &str) {
     state.client.log(Weight::Warning, reason);
     if !state.client.abilities.resend_drawing || !state.resending.insert(uri.clone()) {

@@ -1,4 +1,4 @@
-//! What a request is answered where it is not answered.
+//! Error answers to requests.
 
 use super::convert;
 use crate::document::Document;
@@ -9,7 +9,7 @@ use crate::protocol::{Diagnostic, Refused};
 use crate::text::Encoding;
 use tower_lsp::jsonrpc::{Error, ErrorCode};
 
-/// −32803: refused for what the document is.
+/// −32803: refused because of the document's state.
 pub(super) fn refused(message: impl Into<String>) -> Error {
     Error {
         code: ErrorCode::ServerError(-32803),
@@ -47,7 +47,7 @@ impl From<Stopped> for Error {
     }
 }
 
-/// Why nothing is made; `document` is the one in which findings have their places.
+/// Why there is no result; the findings' places are in `document`.
 pub(super) fn refusal(document: &Document, refusal: &Refusal, encoding: Encoding) -> Error {
     match refusal {
         Refusal::Cancelled => Error::request_cancelled(),

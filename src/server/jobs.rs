@@ -1,4 +1,4 @@
-//! Long work beside the state thread: a few threads that take jobs in order, over snapshots that nobody changes.
+//! Long work beside the state thread: a few threads that take jobs in order, over immutable snapshots.
 
 use super::transport::Writer;
 use serde_json::{Value, json};
@@ -7,7 +7,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Reports on one request, where the client gave a token for it. Ends when it is dropped.
+/// Progress of one request, where the client gave a token for it. Ends when it is dropped.
 pub(super) struct Progress {
     to: Option<(Writer, Value)>,
 }
@@ -47,7 +47,7 @@ impl Drop for Progress {
 
 type Job = Box<dyn FnOnce() + Send>;
 
-/// Threads that take jobs in their order: as many as there are jobs, up to a number.
+/// Threads that take jobs in their order: as many as there are jobs, up to a limit.
 #[derive(Clone)]
 struct Pool {
     shared: Arc<(Mutex<Bench>, Condvar)>,
@@ -61,11 +61,11 @@ struct Bench {
     threads: usize,
     /// Threads that wait for a job.
     idle: usize,
-    /// Nobody hands in more: the threads end.
+    /// No more jobs come: the threads end.
     is_ended: bool,
 }
 
-/// A thread that has had nothing to do for this long ends.
+/// A thread without work for this long ends.
 const REST: Duration = Duration::from_secs(10);
 
 impl Pool {
@@ -107,13 +107,13 @@ impl Pool {
 #[derive(Clone)]
 pub(super) struct Workers {
     requests: Pool,
-    /// What is asked about one place waits for nothing that takes long.
+    /// Questions about one place wait for no long work.
     places: Pool,
     judges: Pool,
     writer: Writer,
 }
 
-/// Documents that are judged side by side: the system shares the processors out among them.
+/// The number of documents that are judged in parallel: the system shares the processors among them.
 const MOST_JUDGED: usize = 16;
 
 impl Workers {
@@ -158,7 +158,7 @@ impl Workers {
         }));
     }
 
-    /// Ends each thread behind the job that it is at.
+    /// Ends each thread after its current job.
     pub(crate) fn end(&self) {
         self.requests.end();
         self.places.end();

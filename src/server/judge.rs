@@ -1,5 +1,5 @@
-//! A document taken through what has come for it, and judged: at once where that is little, else on a worker, so that no document
-//! waits for another.
+//! Takes a document through its pending changes, and judges it: small work at once, the rest on a worker, so that no
+//! document waits for another.
 
 use super::content::{Content, Remains, is_small_drawing, is_small_text};
 use super::convert;
@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// What is to be done to a document.
+/// A pending change of a document.
 pub(super) enum Task {
     /// It is this text.
     Text { kind: Kind, text: String },
@@ -34,13 +34,13 @@ pub(super) enum Task {
     },
     /// Other settings hold for it.
     Settings,
-    /// What was derived from it is in doubt.
+    /// The derived data are in doubt.
     Rebuild,
-    /// What lies beside it may be another.
+    /// The document beside it may have changed.
     Beside,
 }
 
-/// A document on its way through what has come for it.
+/// A document on its way through its pending changes.
 pub(super) struct Job {
     pub(crate) uri: Arc<str>,
     pub(crate) version: i64,
@@ -50,9 +50,9 @@ pub(super) struct Job {
     pub(crate) encoding: Encoding,
     /// The client shows the other places of a finding.
     pub(crate) shows_related: bool,
-    /// The last look at it took long.
+    /// The last judging took long.
     pub(crate) is_slow: bool,
-    /// What the client has been shown.
+    /// The findings that the client has been shown.
     pub(crate) shown: Shown,
     pub(crate) beside: Option<Wanted>,
     /// Others are compared with it.
@@ -61,34 +61,34 @@ pub(super) struct Job {
     pub(crate) has_form: bool,
 }
 
-/// What came of it.
+/// The result.
 pub(super) struct Judged {
     pub(crate) uri: Arc<str>,
     pub(crate) version: i64,
     pub(crate) content: Content,
     pub(crate) shown: Shown,
-    /// What the client is told and how many findings there are in all; `None` where nothing has changed.
+    /// The findings for the client and how many there are in all; `None` where nothing has changed.
     pub(crate) told: Option<(Written, usize)>,
-    /// Looking took long.
+    /// Judging took long.
     pub(crate) is_slow: bool,
     /// Files that were read.
     pub(crate) read: Vec<(PathBuf, Kept)>,
-    /// What others are compared with, where that has changed.
+    /// The data for comparing others with it, where that has changed.
     pub(crate) form: Option<Form>,
     /// For the client's log.
     pub(crate) remarks: Vec<String>,
-    /// Why changes of a drawing were not made.
+    /// Why changes of a drawing failed.
     pub(crate) refused: Vec<String>,
 }
 
-/// Changes, of one message and in all, that are made at once.
+/// The most changes, of one message and in all, that are made at once.
 const FEW: usize = 16;
 
-/// A look that takes longer than this is long: several changes that wait are made in one then.
+/// Judging that takes longer than this is long: waiting changes are then made together.
 const LONG: Duration = Duration::from_millis(100);
 
 impl Job {
-    /// True where little is to be done, whatever the document says.
+    /// True where there is little to do, whatever the document contains.
     pub(crate) fn is_small(&self) -> bool {
         let kind = self.kind();
         let is_small_text = |text: &[u8]| is_small_text(kind, text);
@@ -142,10 +142,10 @@ impl Job {
             .filter(|task| matches!(task, Task::Change { .. } | Task::ChangeDrawing { .. }))
             .count();
         if is_slow && changes > 1 {
-            // All of them cost one look then, not one each.
+            // All of them are judged once, not one by one.
             content.forget();
         }
-        // Without a task it is only to be published.
+        // Without a change it is only published.
         let mut is_changed = tasks.is_empty();
         let mut is_other = false;
         for task in tasks {
@@ -190,7 +190,7 @@ impl Job {
             is_changed |= refused.len() == refusals;
             is_other |= wants_form;
         }
-        // What a panic has left is read again.
+        // Data in doubt after a panic are derived again.
         is_changed |= matches!(content, Content::Unread(_));
         is_other |= wants_form && matches!(content, Content::Unread(_));
         content.read(&settings);

@@ -1,21 +1,21 @@
-//! What an open text is: by the language that the client names, else by its name.
+//! The kind of an open text: by the client's language id, else by its name.
 
 use crate::program::Language;
 use crate::settings::FILE_NAME;
 
-/// What a text is.
+/// The kind of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Dxf,
     Program(Language),
     /// The project's `wedm.toml`.
     Settings,
-    /// Nothing that is read here.
+    /// A text that is not read here.
     Foreign,
 }
 
 impl Kind {
-    /// By the language that the client names, else by the file's name.
+    /// By the client's language id, else by the file's name.
     pub(crate) fn of(language: &str, uri: &str) -> Kind {
         let path = uri.split(['?', '#']).next().unwrap_or_default();
         let name = path.rsplit('/').next().unwrap_or_default();

@@ -1,5 +1,5 @@
-//! The table of methods, and the framework's face: every handler hands its message to the state thread before its first wait, and
-//! does nothing else.
+//! The table of methods, and the framework's face: every handler hands its message to the state thread before its first
+//! wait, and does nothing else.
 
 use super::client::Weight;
 use super::context::{About, Asked, Reach, RequestContext};
@@ -23,7 +23,7 @@ use tower_lsp::{LanguageServer, LspService, LspServiceBuilder};
 /// A request about an open document. Its result leaves as text, whatever its size.
 struct Method<P, R> {
     name: &'static str,
-    /// What the user is told where progress is reported.
+    /// The title of its progress.
     title: &'static str,
     reach: Reach,
     handler: fn(&RequestContext, P) -> Result<R>,
@@ -47,7 +47,8 @@ macro_rules! requests {
     )*};
 }
 
-/// Requests of the name space `wedm/`: name, type of the params, what progress is called, what the handler holds, handler.
+/// Requests of the name space `wedm/`: name, type of the params, title of the progress, what the handler holds,
+/// handler.
 macro_rules! own_requests {
     ($($name:ident: $method:path, $params:ty, $reach:ident, $title:ident => $handler:path;)*) => {
         impl Backend {$(
@@ -149,7 +150,7 @@ impl LanguageServer for Backend {
     }
 
     async fn did_save(&self, params: DidSaveTextDocumentParams) {
-        // A project's file may be new on disk, and so may what others are compared with; not every client watches files.
+        // A project's file may be new on disk, and so may partners of documents; not every client watches files.
         let uri = params.text_document.uri;
         let of_settings = uri.as_str().ends_with(crate::settings::FILE_NAME);
         self.tell("textDocument/didSave", None, move |state| {
@@ -230,7 +231,7 @@ impl LanguageServer for Backend {
 /// What the handlers share with the transport.
 #[derive(Default)]
 pub(super) struct Flags {
-    /// `shutdown` was answered: the end is a good one.
+    /// `shutdown` was answered: the exit code is 0.
     pub(crate) shut_down: AtomicBool,
     /// Notifications that reached their handler.
     pub(crate) taken: AtomicUsize,
@@ -304,8 +305,8 @@ impl Backend {
             .unwrap_or_else(|_| Err(internal(say!(internal_error_in, name))))
     }
 
-    /// Has a request about a document answered in its turn, and made into `finish` of it where that was done. It is cancelled with
-    /// this future.
+    /// Has a request about a document answered in its turn; `finish` makes the result. It is cancelled with this
+    /// future.
     async fn perform<P: Send + 'static, R: 'static, T: Send + 'static>(
         &self,
         method: Method<P, R>,
@@ -336,7 +337,7 @@ impl Backend {
         .await
     }
 
-    /// Answers with text, which takes the place of the framework's empty result.
+    /// Answers with text, which replaces the framework's empty result.
     async fn answer<P: Send + 'static, R: AsWritten + 'static, T: Default>(
         &self,
         method: Method<P, R>,
@@ -389,7 +390,7 @@ impl Backend {
         });
     }
 
-    /// What holds for a document does not hang on what it holds: nobody waits for its judging.
+    /// The settings in force do not depend on the document's content: this does not wait for judging.
     async fn settings(&self, params: Value) -> Result<Value> {
         let (params, _) = read::<protocol::DrawingName>(params)?;
         self.ask(method::SETTINGS, None, move |state, reply| {
@@ -425,12 +426,12 @@ impl Backend {
     }
 }
 
-/// Params of a request in `wedm/`, and what all of them may say.
+/// Params of a request in `wedm/`, with the ones that they all share.
 fn read<P: DeserializeOwned>(mut params: Value) -> Result<(P, About)> {
     let mut take = |key: &str| params.get_mut(key).map(Value::take);
     let about = About {
         token: take("workDoneToken").filter(|token| token.is_string() || token.is_number()),
-        // They are read by the settings' own reader, which names a misfit.
+        // The settings' own reader reads them, and names a misfit.
         options: take("options"),
         uri: params
             .get("uri")

@@ -1,7 +1,7 @@
 //! The language server: LSP and the `wedm/` name space over standard input and output.
 //!
-//! The transport reads and writes, the state thread owns every document, workers do what takes long. Nothing is decided
-//! here that the core could decide.
+//! The transport reads and writes, the state thread owns every document, workers do long work. Nothing is decided here
+//! that the core could decide.
 
 mod beside;
 mod client;
@@ -62,7 +62,8 @@ impl Default for Options {
 const GOOD_END: u8 = 0;
 const BAD_END: u8 = 1;
 
-/// How long the end waits for answers, and for the client to read them; together below the second that the protocol grants.
+/// How long the end waits for answers, and for the client to read them; together below the second that the protocol
+/// grants.
 const LAST_ANSWERS: Duration = Duration::from_millis(400);
 const LAST_WRITES: Duration = Duration::from_millis(400);
 
@@ -116,7 +117,7 @@ fn serve_between(
     transport.serve(input);
     transport.drain(last_answers);
     let (done, all_told) = std::sync::mpsc::channel();
-    // The queue may be full and its thread busy: whoever waits for it must not be the one that ends the process.
+    // The queue may be full and its thread busy: the thread that ends the process must not wait for it.
     std::thread::spawn(move || mailbox.tell("exit", None, move |state| state.stop(done)));
     let _ = all_told.recv_timeout(last_answers / 4);
     writer.end(last_writes);

@@ -1,4 +1,4 @@
-//! An open document: what the client sent, what was made of it, and what the client has been told.
+//! An open document: the client's text or drawing, the result of judging it, and what the client has been told.
 
 use super::content::Content;
 use super::judge::Task;
@@ -12,34 +12,34 @@ use crate::text::SourceText;
 use std::sync::{Arc, Weak};
 
 pub(super) struct Open {
-    /// The client's own spelling.
+    /// The URI in the client's own spelling.
     pub(crate) uri: Arc<str>,
     /// Of the content.
     pub(crate) version: i64,
     pub(crate) content: Content,
     /// A drawing of a CAD program, not a text.
     pub(crate) is_drawing: bool,
-    /// What holds for it.
+    /// Its settings.
     pub(crate) settings: Arc<Effective>,
-    /// What the content is yet to be taken through, in its order.
+    /// Pending changes, in their order.
     pub(crate) tasks: Vec<Task>,
     /// It is to be judged and published.
     pub(crate) is_dirty: bool,
-    /// Differs after every change: what was made for another stamp is out of date.
+    /// Differs after every change: results for another stamp are out of date.
     pub(crate) stamp: u64,
     /// Number of findings at the last publish.
     pub(crate) findings: usize,
     /// The client has been told something since the opening.
     pub(crate) published: bool,
-    /// The last look at it took long.
+    /// The last judging took long.
     pub(crate) is_slow: bool,
-    /// Gone with the next change: requests that look at what was there before see that it is.
+    /// Dropped by the next change: requests about the earlier state notice it.
     revision: Arc<()>,
-    /// What the client has been shown, as it was written.
+    /// The findings that the client has been shown, as they were written.
     pub(crate) shown: Shown,
-    /// What it belongs to.
+    /// The documents that it belongs to.
     pub(crate) link: Link,
-    /// What others are compared with, where anybody is.
+    /// The data for comparing others with it, if there are any.
     pub(crate) form: Option<Form>,
     pub(crate) wants_form: bool,
     /// The semantic tokens that the client holds.
@@ -91,7 +91,7 @@ impl Open {
         }
     }
 
-    /// Gives the document its next stamp: what was made for the one before is out of date.
+    /// Gives the document its next stamp: earlier results are out of date.
     pub(crate) fn set_stamp(&mut self, stamp: u64) {
         self.stamp = stamp;
         self.revision = Arc::default();

@@ -1,10 +1,10 @@
-//! Watching the process that started us: when it has died without closing our input, nobody needs us any more.
+//! Watches the process that started us: when it has died without closing our input, nobody needs us any more.
 
 use std::time::Duration;
 
 const INTERVAL: Duration = Duration::from_secs(2);
 
-/// Calls `gone` once the process `pid` has died. Nothing happens where that cannot be seen.
+/// Calls `gone` once the process `pid` has died. Does nothing where that cannot be observed.
 pub(super) fn watch(pid: u32, gone: impl FnOnce() + Send + 'static) {
     let watching = std::thread::Builder::new()
         .name("wedm-parent".into())
@@ -39,7 +39,7 @@ fn is_alive(pid: u32) -> bool {
 #[cfg(target_os = "linux")]
 fn is_zombie(pid: i32) -> bool {
     let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
-    // The name before it stands in parentheses and may hold anything.
+    // The name before it is in parentheses and may hold anything.
     stat.rsplit_once(')')
         .is_some_and(|(_, rest)| matches!(rest.trim_start().chars().next(), Some('Z' | 'X')))
 }
@@ -49,7 +49,7 @@ fn is_zombie(_pid: i32) -> bool {
     false
 }
 
-/// The end of standard input tells enough where processes cannot be asked without a library.
+/// Where processes cannot be asked without a library, the end of standard input has to do.
 #[cfg(not(unix))]
 fn is_alive(_pid: u32) -> bool {
     true

@@ -1,4 +1,4 @@
-//! What is laid beside a document that is judged: the drawing of a program, the programs of a drawing.
+//! The partners of a document that is judged: the drawing of a program, the programs of a drawing.
 
 use crate::beside::{Beside, Drawn, Named, Partner, Traced};
 use crate::disk;
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
 
-/// What a document is compared by.
+/// The data by which a document is compared.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Form {
     Drawn(Arc<Drawn>),
@@ -27,7 +27,7 @@ impl Form {
     }
 }
 
-/// What an open document belongs to.
+/// The partner of an open document.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) enum Link {
     #[default]
@@ -38,10 +38,10 @@ pub(super) enum Link {
     Programs(Vec<PathBuf>),
 }
 
-/// How a file was when it was read.
+/// The identity of a file when it was read.
 pub(super) type Stamp = Option<(SystemTime, u64)>;
 
-/// What is laid beside a document that is judged.
+/// The partner of a document that is judged.
 pub(super) struct Wanted {
     pub others: Vec<Arc<str>>,
     pub partners: Vec<(Arc<str>, From)>,
@@ -63,7 +63,7 @@ pub(super) struct Kept {
     pub form: Result<Form, String>,
 }
 
-/// A drawing that is larger is not read beside a program, bytes.
+/// A larger drawing is not read beside a program, bytes.
 const LARGEST: u64 = 256 * 1024 * 1024;
 
 #[derive(Default)]
@@ -77,13 +77,13 @@ pub(super) struct Links {
 }
 
 impl Wanted {
-    /// True where nothing has to be read for it.
+    /// True where no file has to be read for it.
     pub(crate) fn is_at_hand(&self) -> bool {
         let known = |(_, from): &(_, From)| matches!(from, From::Known(_));
         self.partners.iter().all(known)
     }
 
-    /// What is laid beside the document, and the files that were read for it.
+    /// The partner of the document, and the files that were read for it.
     pub fn read(self) -> (Beside, Vec<(PathBuf, Kept)>) {
         let mut read = Vec::new();
         let mut forms = Vec::with_capacity(self.partners.len());

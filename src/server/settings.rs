@@ -1,4 +1,4 @@
-//! What holds for each open document: the client's levels of settings, the projects' files, and what follows where they change.
+//! The settings of each open document: the client's levels, the projects' files, and what follows when they change.
 
 use super::client::Weight;
 use super::config::{self, Level, ProjectFile, Search};
@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 impl State {
-    /// The settings that hold for a document, its project's file read anew.
+    /// The settings of a document, with its project's file read again.
     pub(crate) fn settings_for(&mut self, uri: &str) -> Arc<Effective> {
         let file = self.file_for(uri);
         self.config.effective_for(uri, file.as_deref())
@@ -91,8 +91,8 @@ impl State {
         }
     }
 
-    /// Settings of any level may have changed: every open document is looked at under what holds for it now. Each folder is looked at
-    /// and each file read once, however many documents there are.
+    /// Called when settings of any level may have changed: every open document is judged under its new settings. Each
+    /// folder is searched and each file read once, however many documents there are.
     pub(crate) fn settings_changed(&mut self) {
         self.forget_files();
         for file in self.shown_files.iter().cloned().collect::<Vec<_>>() {
@@ -136,7 +136,7 @@ impl State {
         }
     }
 
-    /// Takes one level of the client's settings anew.
+    /// Replaces one level of the client's settings.
     pub(crate) fn set_level(&mut self, level: Level, json: &Value) {
         for misfit in self.config.set_level(level, json) {
             self.client.show(Weight::Warning, misfit);

@@ -1,5 +1,5 @@
-//! What a client is shown of a document, kept as JSON: a finding that says what it said before is copied with the range that it
-//! has now, and only what is new or has changed is rendered.
+//! The findings that a client is shown, kept as JSON: an unchanged finding is copied with its present range, and only
+//! new or changed ones are rendered.
 
 use super::convert::{PUBLISH_LIMIT, diagnostic, ranges_of, written};
 use super::transport::Written;
@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// The findings of one publish: at most [`PUBLISH_LIMIT`], errors first, then one that counts the others. And how many
 /// there are in all.
 ///
-/// With the document's `uri`, for a client that shows them, the other places of a finding are told, too.
+/// With the document's `uri`, for a client that shows them, the other places of a finding are included.
 pub(super) fn publish_of(
     document: &mut Document,
     encoding: Encoding,
@@ -32,19 +32,20 @@ pub(super) fn publish_of(
 /// The findings of the last publish.
 #[derive(Default)]
 pub(super) struct Shown {
-    /// What they were made under.
+    /// The conditions under which they were made.
     settings: Option<Arc<Effective>>,
-    /// Of each kept finding, by which it is sought.
+    /// The key of each kept finding.
     marks: Vec<u64>,
-    /// Behind those of the last publish the last ones that have gone: what a key has taken away, the next often brings back.
+    /// Behind those of the last publish the most recently removed ones: often a key removes a finding and the next
+    /// brings it back.
     kept: Vec<Option<Kept>>,
-    /// How many are of the last publish.
+    /// The number of findings of the last publish.
     count: usize,
 }
 
 /// A finding as it was rendered.
 struct Kept {
-    /// What the text was made of, beside the ranges.
+    /// The source of the text, except the ranges.
     finding: Finding,
     data: FindingData,
     /// With ranges in their places, and where these begin.
@@ -52,13 +53,13 @@ struct Kept {
     places: Box<[usize]>,
 }
 
-/// As a range is written in what is kept.
+/// A range as it is written in the kept text.
 const PLACE: &str = r#"{"start":{"line":0,"character":0},"end":{"line":0,"character":0}}"#;
 
-/// Findings with one mark that are looked at for the one that is sought: many of one rule may stand in one text.
+/// How many findings with one mark are compared: a text may hold many of one rule.
 const MOST_ALIKE: usize = 16;
 
-/// Findings that have gone and are kept.
+/// The most removed findings that are kept.
 const MOST_GONE: usize = 256;
 
 impl Shown {
@@ -129,7 +130,8 @@ impl Shown {
         Written::from(shown)
     }
 
-    /// Where a finding is kept: they come in about the order in which they came before, so it is sought from `next` on, then before it.
+    /// The index of a kept finding. They come in about their earlier order, so the search goes on from `next`, then
+    /// before it.
     fn find(&self, mark: u64, next: usize, is_it: impl Fn(&Kept) -> bool) -> Option<usize> {
         let behind = (next..self.marks.len()).chain(0..next.min(self.marks.len()));
         behind
@@ -170,7 +172,7 @@ fn says_the_same(one: &Finding, other: &Finding) -> bool {
         && one.detail == other.detail
 }
 
-/// Equal for findings that say the same.
+/// Equal for findings with the same content.
 fn mark(finding: &Finding) -> u64 {
     let mut hasher = FxHasher::default();
     finding.rule.hash(&mut hasher);
@@ -193,7 +195,7 @@ mod tests {
     use proptest::prelude::*;
     use std::fmt::Write as _;
 
-    /// What is kept from publish to publish is what a first publish says, whatever is edited between them.
+    /// After any edits the kept text equals that of a first publish.
     fn check(mut document: Document, edits: &[(usize, usize, &str)]) {
         let mut shown = Shown::default();
         let uri = Some("file:///a\"range\":b");

@@ -1,7 +1,7 @@
 //! The one thread that owns every document.
 //!
-//! Handlers and workers hand it closures, in the order in which they came; it drains them before it looks at what has
-//! changed, so that a burst of edits costs one publish. A closure that panics costs its own request, no document.
+//! Handlers and workers hand it closures in order. It drains them before it judges what has changed, so that a burst of
+//! edits costs one publish. A closure that panics costs its own request, no document.
 
 use super::client::{Client, Weight};
 use super::config::{self, Config};
@@ -22,23 +22,23 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::{Duration, Instant};
 use tower_lsp::jsonrpc;
 
-/// Messages that may wait; who sends more waits itself.
+/// The most messages that may wait; beyond it the sender waits.
 const QUEUE: usize = 1024;
-/// A flood of messages is interrupted after this long to publish what is known.
+/// A flood of messages is interrupted after this long to publish the present state.
 const TURN: Duration = Duration::from_millis(50);
 /// Documents are judged under other settings for as long as this between other messages.
 const SLICE: Duration = Duration::from_millis(10);
 /// A turn longer than this is logged.
 const LONG_TURN: Duration = Duration::from_millis(100);
 
-/// Where the answer to a request goes. Dropped unanswered, it becomes an internal error.
+/// The channel for the answer to a request. Dropped unanswered, it becomes an internal error.
 pub(super) type Reply<T> = tokio::sync::oneshot::Sender<jsonrpc::Result<T>>;
 
 struct Message {
     name: &'static str,
     /// The document that the message is about.
     about: Option<Arc<str>>,
-    /// It changes that document and looks at nothing in it.
+    /// It changes that document without reading it.
     changes: bool,
     act: Box<dyn FnOnce(&mut State) + Send>,
 }
@@ -50,7 +50,7 @@ pub(super) struct Mailbox {
 }
 
 impl Mailbox {
-    /// Hands `act` to the state thread. Nothing happens once that has ended.
+    /// Hands `act` to the state thread. Does nothing once that has ended.
     pub(crate) fn tell(
         &self,
         name: &'static str,
@@ -65,7 +65,7 @@ impl Mailbox {
         });
     }
 
-    /// The same for what changes a document and looks at nothing in it: several of these are judged together.
+    /// The same for changes that do not read the document: several of these are judged together.
     pub(crate) fn tell_change(
         &self,
         name: &'static str,
@@ -86,22 +86,22 @@ pub(super) struct State {
     pub(crate) config: Config,
     pub(crate) encoding: Encoding,
     pub(crate) workers: Workers,
-    /// Hands back what workers have judged.
+    /// Returns judged documents from workers.
     mailbox: Mailbox,
-    /// What is done where a change does not fit its drawing.
+    /// Acts when a change does not fit its drawing.
     refuse_change: RefuseChange,
     pub(crate) documents: FxHashMap<Arc<str>, Open>,
     /// Drawings that the client has been asked to send again.
     pub(crate) resending: FxHashSet<Arc<str>>,
-    /// Documents that have to be judged and published, in the order in which they changed.
+    /// Documents to be judged and published, in the order of their changes.
     dirty: Vec<Arc<str>>,
-    /// Documents for which other settings hold: they are judged when nothing else is to be done, a few at a time.
+    /// Documents with changed settings: they are judged when there is nothing else to do, a few at a time.
     pub(crate) unsettled: VecDeque<Arc<str>>,
     /// Open texts of project files, by their paths.
     pub(crate) settings_texts: FxHashMap<PathBuf, Arc<str>>,
     /// Which documents belong to each other.
     pub(crate) links: Links,
-    /// What came about documents that a worker has, in its order.
+    /// Messages about documents that a worker has, in their order.
     waiting: FxHashMap<Arc<str>, VecDeque<Message>>,
     /// Documents that a worker has.
     away: usize,
@@ -191,7 +191,8 @@ impl State {
         }
     }
 
-    /// Acts on a message, or lets it wait where a worker has its document: what comes about one document is done in its order.
+    /// Acts on a message, or lets it wait where a worker has its document: messages about one document keep their
+    /// order.
     fn handle(&mut self, message: Message) {
         match message
             .about
@@ -219,7 +220,7 @@ impl State {
         }
     }
 
-    /// Does `act` when what has come about a document before is done.
+    /// Does `act` after all earlier messages about a document.
     pub(crate) fn in_turn(
         &mut self,
         name: &'static str,
@@ -234,7 +235,7 @@ impl State {
         });
     }
 
-    /// True where a worker has a document. One that has changed is judged before anybody looks at it.
+    /// True where a worker has a document. A changed document is judged before anybody reads it.
     fn is_busy(&mut self, uri: &Arc<str>, changes: bool) -> bool {
         if !changes
             && self
@@ -257,7 +258,7 @@ impl State {
         self.stamp
     }
 
-    /// Drops what was derived from a document, never its text, and derives it again.
+    /// Drops everything derived from a document, never its text, and derives it again.
     pub(crate) fn rebuild(&mut self, uri: &Arc<str>) {
         if self.documents.get(uri).is_some_and(|open| {
             matches!(open.content, Content::Settings(_) | Content::Foreign) && open.tasks.is_empty()
@@ -268,7 +269,7 @@ impl State {
         }
     }
 
-    /// Has something done to a document, and has it judged.
+    /// Adds a change to a document, and has it judged.
     pub(crate) fn add_task(&mut self, uri: &Arc<str>, task: Task) {
         if let Some(open) = self.documents.get_mut(uri) {
             open.tasks.push(task);
@@ -276,7 +277,7 @@ impl State {
         }
     }
 
-    /// Something of a document has changed: what was made for it before is out of date.
+    /// Marks a document as changed: results for the earlier state are out of date.
     pub(crate) fn give_stamp(&mut self, uri: &Arc<str>) {
         let stamp = self.next_stamp();
         if let Some(open) = self.documents.get_mut(uri) {
@@ -284,13 +285,13 @@ impl State {
         }
     }
 
-    /// Something of a document has changed: it is published anew.
+    /// Marks a document as changed, and publishes it again.
     pub(crate) fn mark_dirty(&mut self, uri: &Arc<str>) {
         self.give_stamp(uri);
         if let Some(open) = self.documents.get_mut(uri)
             && !std::mem::replace(&mut open.is_dirty, true)
         {
-            // Ours is the document's own copy of the name: one allocation for each document.
+            // Uses the document's own copy of the name: one allocation for each document.
             self.dirty.push(open.uri.clone());
         }
     }
@@ -333,7 +334,7 @@ impl State {
     }
 
     fn judge_dirty(&mut self) {
-        // What lies beside a judged document may be judged anew for it.
+        // The partners of a judged document may be judged again for it.
         while !self.dirty.is_empty() {
             for uri in std::mem::take(&mut self.dirty) {
                 if self
@@ -347,7 +348,7 @@ impl State {
         }
     }
 
-    /// Judges some of the documents for which other settings hold; an edit or a request meanwhile is not held up by the others.
+    /// Judges some of the documents with changed settings; the others hold up no edit or request meanwhile.
     fn judge_unsettled(&mut self) {
         let began = Instant::now();
         while began.elapsed() < SLICE
@@ -363,7 +364,7 @@ impl State {
         }
     }
 
-    /// Takes a document through what has come for it: here where that is little, else on a worker.
+    /// Takes a document through its pending changes: small work here, the rest on a worker.
     fn judge(&mut self, uri: &Arc<str>) {
         let beside = self.wanted_beside(uri);
         let Some(open) = self.documents.get_mut(uri) else {
@@ -402,7 +403,7 @@ impl State {
         }
     }
 
-    /// Takes back a document and tells the client of it.
+    /// Takes back a document and publishes its findings.
     fn take_back(&mut self, judged: Judged) {
         let Judged {
             uri,
@@ -423,7 +424,7 @@ impl State {
         open.shown = shown;
         if let Some((diagnostics, findings)) = told {
             open.findings = findings;
-            // What is wrong in a project's file depends on what the client says as well.
+            // The faults in a project's file depend on the client's settings as well.
             let diagnostics = match &open.content {
                 Content::Settings(text) => written(&settings_diagnostics(
                     text,
@@ -440,7 +441,7 @@ impl State {
                 owed,
             });
         }
-        // What came while it was away.
+        // The messages that came while it was away.
         if open.is_dirty || !open.tasks.is_empty() {
             open.is_dirty = true;
             self.dirty.push(uri.clone());
@@ -454,7 +455,7 @@ impl State {
         }
     }
 
-    /// Acts on what has waited for a document, until a worker has it again.
+    /// Acts on the messages that waited for a document, until a worker has it again.
     fn go_on(&mut self, uri: &Arc<str>) {
         let Some(mut waiting) = self.waiting.remove(uri) else {
             return;

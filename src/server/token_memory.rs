@@ -1,12 +1,13 @@
-//! Semantic tokens as the client is sent them: packed, as JSON text, and what it holds of a document, so that after an edit only the
-//! difference is sent.
+//! Semantic tokens as they are sent: packed, as JSON text, and remembered for each document, so that after an edit only
+//! the difference is sent.
 //!
 //! Knows nothing of texts or of how tokens are found.
 
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// A token as the protocol counts it from the one before: lines forward, characters forward, length, type. It has no modifiers.
+/// A token relative to the one before, as in the protocol: lines forward, characters forward, length, type. It has no
+/// modifiers.
 pub(in crate::server) type Fields = [u32; 4];
 
 /// Bits of each field in a packed token.
@@ -22,7 +23,7 @@ const FIELDS: usize = 5;
 #[derive(Debug, Default)]
 pub(in crate::server) struct Packed {
     words: Vec<u64>,
-    /// Those that do not fit, in their order: a text of a single line of megabytes has them.
+    /// Those that do not fit, in their order, such as those of a text with a single line of megabytes.
     wide: Vec<Fields>,
 }
 
@@ -90,7 +91,7 @@ fn push_number(json: &mut Vec<u8>, number: u32) {
     }
 }
 
-/// What makes the tokens of one answer out of those of another: numbers to leave out, and the tokens that come in their place.
+/// Turns the tokens of one answer into those of another: numbers to remove, and tokens to insert.
 #[derive(Debug, PartialEq, Eq)]
 pub(in crate::server) struct Difference {
     pub(crate) start: usize,
@@ -103,7 +104,7 @@ struct Sent {
     tokens: Arc<Packed>,
 }
 
-/// What the client holds of one document. Shared with the workers that answer.
+/// The tokens of one document that the client holds. Shared with the workers that answer.
 #[derive(Default)]
 pub(in crate::server) struct TokenMemory {
     sent: Mutex<Option<Sent>>,
@@ -117,9 +118,8 @@ impl TokenMemory {
             .is_some_and(|sent| sent.stamp == stamp && previous == stamp.to_string())
     }
 
-    /// Takes note of the tokens that are sent for `stamp`. Where the client holds those that are named `previous`, the edit that
-    /// makes these of them; `None` where that is not known any more. The result id of the answer comes with it, if one can be given:
-    /// tokens that are wide are sent whole each time.
+    /// Remembers the tokens sent for `stamp`. Returns the edit from those named `previous`, or `None` where they are
+    /// not known any more; and the result id, if there can be one: wide tokens are sent whole each time.
     pub(crate) fn replace(
         &self,
         previous: Option<&str>,
@@ -143,8 +143,8 @@ impl TokenMemory {
     }
 }
 
-/// The one edit that makes `now` of `before`: what is alike at both ends stays. Positions are relative to the token before, so an edit
-/// of a text changes tokens in one place, wherever its lines move to.
+/// The one edit from `before` to `now`: equal tokens at both ends stay. Positions are relative to the token before, so
+/// an edit of a text changes tokens in one place, wherever its lines move to.
 fn difference(before: &[u64], now: &[u64]) -> Difference {
     let alike = |pair: &(&u64, &u64)| pair.0 == pair.1;
     let front = before.iter().zip(now).take_while(alike).count();

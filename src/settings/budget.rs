@@ -1,15 +1,15 @@
-//! How much may be done for one document.
+//! How much work may go into one document.
 
-/// The work that one document may take where it grows with more than the document's length, in counted steps: what is left out hangs
-/// on the document alone, not on the machine and not on the edits that led to it. Nothing that a user sets.
+/// The work that one document may take beyond its length, in counted steps: what is left out depends only on the
+/// document, not on the machine or on earlier edits. Not a user setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// Looks that comparing the segments of a drawing may take, and beside that for each segment: a segment held against another is one,
-    /// as are four boxes of the grid. Thousands of circles about one point come near each other everywhere without being seen, and would
-    /// be compared for ever.
+    /// The comparisons that the segments of a drawing may take, and in addition for each segment: one for a pair of
+    /// segments, one for four boxes of the grid. Thousands of circles about one point come near each other everywhere
+    /// without a finding, and would be compared for ever.
     pub looks: u64,
     pub looks_of_a_segment: u64,
-    /// More than this is not sought: a drawing in which so much lies on or across each other is no drawing to cut yet, and
+    /// The search stops at this many: a drawing where this much lies on or across each other is not ready to cut, and
     /// thousands of copies in one place would be compared for ever.
     pub most_seen: usize,
 }

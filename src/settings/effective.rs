@@ -10,88 +10,89 @@ use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::{Point, Tolerances};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// All levels laid over each other and the defaults below them. Lengths in mm.
+/// All levels merged, with the defaults below them. Lengths in mm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effective {
-    /// The largest correction of all passes: what a radius is held against.
+    /// The largest correction of all passes, against which radii are checked.
     pub correction: f64,
     /// 1-based number of the pass with the largest correction, where several are set.
     pub pass: Option<usize>,
     /// Correction of each pass; one where none are set.
     pub corrections: Vec<f64>,
-    /// Diameter of the wire and spark gap in mm, where somebody has set them.
+    /// Diameter of the wire and spark gap in mm, where set.
     pub wire_diameter: Option<f64>,
     pub gap: Option<f64>,
-    /// What is set of several passes.
+    /// The settings of several passes.
     pub passes: Passes,
     pub side: SideSetting,
     pub unit: Unit,
-    /// Somebody has set it.
+    /// Set by the user.
     pub states_unit: bool,
     pub margin: f64,
     pub layers: BTreeMap<String, Role>,
     /// Roles by linetype, in upper case.
     pub linetypes: BTreeMap<String, Role>,
-    /// The name of the file of the document that they hold for.
+    /// The name of the document's file.
     pub document: Option<String>,
-    /// Findings that are let stand in it, by handle and rule, with the reason.
+    /// Suppressed findings of the document, by handle and rule, with the reason.
     pub suppressed: BTreeMap<String, BTreeMap<Rule, String>>,
     /// Roles by handle.
     pub contours: BTreeMap<String, Role>,
-    /// What is said of single contours of it, by handle or point.
+    /// Settings of single contours of the document, by handle or point.
     pub own: BTreeMap<String, ContourSettings>,
-    /// The roles among that, of what runs through a point.
+    /// The roles among those of contours named by a point.
     pub points: Vec<(Point, Role)>,
     pub colors: BTreeMap<Color, Role>,
     pub severities: BTreeMap<Rule, Option<Severity>>,
-    /// The rules whose severity somebody has set.
+    /// The rules whose severity the user has set.
     pub stated: BTreeSet<Rule>,
     pub docs_url: Option<String>,
     pub layout: Layout,
-    /// The layout that somebody has set; without one, a program that is formatted stays in its own.
+    /// The layout that the user has set; without one, formatting keeps the program's own.
     pub stated_layout: Option<Layout>,
-    /// Programs of blocks begin with a comment that says where the wire is threaded.
+    /// Programs of blocks begin with a comment that gives the thread hole.
     pub header: bool,
     pub direction: Direction,
-    /// The direction that somebody has set.
+    /// The direction that the user has set.
     pub stated_direction: Option<Direction>,
     pub corner: Corner,
     pub thread: Option<PointSetting>,
     pub entry: Option<PointSetting>,
     pub lead_in: f64,
-    /// The length of the lead-in that somebody has set.
+    /// The length of the lead-in that the user has set.
     pub stated_lead_in: Option<f64>,
-    /// Diameter of the start holes, mm, where somebody has set one.
+    /// Diameter of the start holes, mm, where set.
     pub start_hole: Option<f64>,
     pub lead: Lead,
-    /// What stands of a punch until it is cut off, mm.
+    /// The length of the tab of a punch until it is cut off, mm.
     pub tab: LengthSetting,
-    /// The word before that, where somebody has set one.
+    /// The word before that, where set.
     pub tab_stop: Option<String>,
     /// mm past the start.
     pub closing_overlap: f64,
     pub job: JobSettings,
-    /// What is set of a pair.
+    /// The settings of a pair.
     pub pair: PairSettings,
     pub workpieces: Workpieces,
-    /// What is set of a milling electrode.
+    /// The settings of a milling electrode.
     pub milling: MillingSettings,
-    /// An electrode cuts, not a wire: it comes from above and leads nowhere, and it goes along the middle of contours that are open.
+    /// An electrode cuts, not a wire: it comes from above without leads, and runs along the middle of open contours.
     pub mills: bool,
-    /// Nothing but this workpiece is cut.
+    /// Only this workpiece is cut.
     pub only: Option<u16>,
     pub order: Order,
     pub jumps: Jumps,
-    /// The wire stays threaded on the way from one contour to the next: that way cuts, too. A format says so whose programs do not stop.
+    /// The wire stays threaded on the way between contours, so that way cuts, too. Set for a format whose programs do
+    /// not stop.
     pub stays_threaded: bool,
     pub compensation: Compensation,
     /// Digits of the controller's numbers in 3B.
     pub digits: u32,
-    /// In what the numbers of an ISO program are that does not say so, where somebody has set it; else mm.
+    /// The unit of an ISO program that states none, where set; else mm.
     pub program_units: Option<UnitSetting>,
-    /// The drawing that programs belong to, from their own folder on.
+    /// The drawing of programs, relative to their folder.
     pub drawing: Option<String>,
-    /// How ISO programs are written; the sentence that says which profiles there are, where the one that is named is not among them.
+    /// How ISO programs are written; for an unknown profile the sentence that lists the known ones.
     pub profile: Result<Profile, String>,
     pub end: String,
     pub pause: String,
@@ -100,17 +101,17 @@ pub struct Effective {
 }
 
 impl Effective {
-    /// Whether a contour is gone along as it is drawn, at no distance from it: an electrode mills the middle of what is open.
+    /// Whether the path is a contour itself, without offset: an electrode mills the middle of an open contour.
     pub(crate) fn goes_along_middle(&self, closed: bool) -> bool {
         self.mills && !closed
     }
 
-    /// Where the page of a rule is, if anywhere.
+    /// The page of a rule, if there is an address for it.
     pub(crate) fn page_of(&self, rule: Rule) -> Option<String> {
         Some(self.docs_url.as_ref()?.replace("{rule}", rule.name()))
     }
 
-    /// Fills the defaults in. Values that do not fit have been reported and left out before.
+    /// Fills in the defaults. Misfits have been reported and left out before.
     pub fn of(settings: &Settings) -> Effective {
         let milling = settings.milling.clone().unwrap_or_default();
         let says_a_wire = settings.correction.is_some()
@@ -255,12 +256,12 @@ impl Effective {
         }
     }
 
-    /// Which way the pass goes along the contour against the first one. They are counted from 0.
+    /// The direction of a pass along the contour relative to the first one. Passes count from 0.
     pub(crate) fn runs_back(&self, pass: usize) -> bool {
         pass % 2 == 1 && self.passes.sequence() == Sequence::Alternate
     }
 
-    /// Half the kerf of a pass in mm: the wire's radius and the spark gap, where both are known. They are counted from 0.
+    /// Half the kerf of a pass in mm: the wire's radius and the spark gap, where both are known. Passes count from 0.
     pub fn half_kerf(&self, pass: usize) -> Option<f64> {
         let gap = match &self.passes.gaps {
             Some(gaps) => gaps.get(pass).copied(),
@@ -279,21 +280,22 @@ impl Effective {
         }
     }
 
-    /// Mass of so many mm² of steel in g, where the height of the workpiece is known.
+    /// Mass in g of this many mm² of steel, where the height of the workpiece is known.
     pub(crate) fn mass_of(&self, area: f64) -> Option<f64> {
         /// g in a mm³ of steel.
         const STEEL: f64 = 7.85e-3;
         Some(STEEL * area * self.job.thickness?)
     }
 
-    /// True where the slug of so many mm² is too heavy to drop.
+    /// True where a slug of this many mm² is too heavy to drop.
     pub(crate) fn keeps_slug(&self, area: f64) -> bool {
         let mass = self.mass_of(area).zip(self.job.slug_limit);
         mass.is_some_and(|(mass, limit)| mass > limit)
     }
 
-    /// What the last pass leaves in a sharp corner that the wire runs inside of, mm: half its kerf, which is its correction where nothing
-    /// else is known; with skims of constant stock, that and all that lies between the first path and the last.
+    /// The radius that the last pass leaves in a sharp corner inside the path, mm: half its kerf, or its correction
+    /// where nothing else is known; with skims of constant stock, plus the distance between the first path and the
+    /// last.
     pub(crate) fn corner_radius(&self) -> f64 {
         let last = self.last_correction();
         let number = self.corrections.len().saturating_sub(1);
@@ -318,7 +320,7 @@ impl Effective {
         }
     }
 
-    /// Why no program is written: what is wrong with the corrections of the passes, where that is an error.
+    /// The fault in the corrections of the passes, if it is an error: no program is written then.
     pub(crate) fn pass_error(&self) -> Option<String> {
         let is_error = self.severity(Rule::PassOrder) == Some(Severity::Error);
         let faults = || super::pass_faults(&self.corrections, &self.passes, self.wire_diameter);
@@ -337,12 +339,12 @@ impl Effective {
             .unwrap_or(Some(rule.default_severity()))
     }
 
-    /// Severity of a reader's finding: what is set for its rule, else what the reader gave it. `None` when it is switched off.
+    /// Severity of a reader's finding: the one set for its rule, else the reader's own. `None` when it is switched off.
     pub(crate) fn severity_of(&self, finding: &Finding) -> Option<Severity> {
         self.severity_over(finding.rule, finding.severity)
     }
 
-    /// The same with what is said of one drawing, by the name of its file.
+    /// The same with the settings of one drawing, by the name of its file.
     pub(crate) fn of_document(settings: &Settings, name: Option<String>) -> Effective {
         let said = settings.drawings.as_ref().zip(name.as_ref());
         let said = said.and_then(|(drawings, name)| drawings.get(name));
@@ -376,7 +378,7 @@ impl Effective {
         }
     }
 
-    /// Severity of something whose rule has other severities than its default one: `own`, unless somebody has set the rule.
+    /// Severity of a finding whose rule has several: `own`, unless the user has set the rule.
     pub(crate) fn severity_over(&self, rule: Rule, own: Severity) -> Option<Severity> {
         if self.stated.contains(&rule) {
             self.severity(rule)
@@ -391,10 +393,10 @@ impl Effective {
     }
 }
 
-/// A point that names a contour lies this near to it, mm.
+/// The largest distance of a naming point from its contour, mm.
 pub(crate) const NEAR: f64 = 0.01;
 
-/// The point that a contour is named by, `x,y`; `None` where it is a handle.
+/// The point that names a contour, `x,y`; `None` where it is a handle.
 pub(crate) fn point_of(key: &str) -> Option<Point> {
     let (x, y) = key.split_once(',')?;
     let number = |text: &str| text.trim().parse().ok().filter(|it: &f64| it.is_finite());
@@ -411,7 +413,7 @@ impl Default for Effective {
 mod tests {
     use super::*;
 
-    /// Open documents are judged anew where what holds for them is another thing, and else not.
+    /// Open documents are judged again only when their settings differ.
     #[test]
     fn what_is_set_to_its_default_changes_nothing() {
         let set = Settings {

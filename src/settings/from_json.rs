@@ -1,12 +1,12 @@
-//! Settings out of JSON: `initializationOptions`, `workspace/configuration`, the `options` of a request.
+//! Reads settings from JSON: `initializationOptions`, `workspace/configuration`, the `options` of a request.
 
 use super::level;
 use super::value::{Entry, Node, Value};
 use super::{Settings, SettingsError};
 
-/// Reads one level of settings. A key that does not fit is left out and reported, the others hold; null is "not set".
+/// Reads one level of settings. A misfit is left out and reported, the other keys hold; null is "not set".
 ///
-/// An object that holds the section `wedm` stands for that section: editors send the one or the other.
+/// An object that holds the section `wedm` stands for that section: editors send either.
 pub(crate) fn from_json(json: &serde_json::Value) -> (Settings, Vec<SettingsError>) {
     let section = json
         .get("wedm")

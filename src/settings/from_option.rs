@@ -1,11 +1,11 @@
-//! Settings out of an option of the command line.
+//! Reads settings from an option of the command line.
 
 use super::reader::Reader;
 use super::value::{Entry, Node, Value};
 use super::{Row, Settings};
 
 impl Settings {
-    /// A level that sets one key: numbers of a list and of a point stand with commas between them.
+    /// A level that sets one key: commas separate the numbers of a list or a point.
     ///
     /// # Errors
     /// A sentence: what was expected.

@@ -1,4 +1,4 @@
-//! Settings out of the project's file `wedm.toml`.
+//! Reads settings from the project's file `wedm.toml`.
 
 use super::level;
 use super::toml_tree::tree;
@@ -10,19 +10,19 @@ use std::path::Path;
 /// Name of the project's file.
 pub(crate) const FILE_NAME: &str = "wedm.toml";
 
-/// Bytes that a settings file may have; nobody writes so many, and each costs hundreds in memory.
+/// The most bytes of a settings file; nobody writes that many, and each costs hundreds in memory.
 const LARGEST: usize = 1024 * 1024;
 
-/// The bytes of a settings file: no more than the reader refuses, of one that may have no end.
+/// The bytes of a settings file, bounded even where the file has no end.
 ///
 /// # Errors
-/// A sentence: it cannot be read, or is no settings file by its length.
+/// A sentence: it cannot be read, or is too long for a settings file.
 pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, String> {
     disk::read_path_at_most(path, 16 * LARGEST as u64)
 }
 
-/// Reads a `wedm.toml`. What does not fit is left out and reported with its bytes, everything else holds. Of one that is larger than
-/// a mebibyte nothing does.
+/// Reads a `wedm.toml`. Misfits are left out and reported with their bytes, everything else holds. A file larger than a
+/// mebibyte is left out as a whole.
 pub fn from_toml(text: &str) -> (Settings, Vec<SettingsError>) {
     if text.len() > LARGEST {
         let message = say!(the_file_has_too_many_bytes, text.len(), LARGEST);
@@ -42,7 +42,7 @@ pub fn from_toml(text: &str) -> (Settings, Vec<SettingsError>) {
             )
         })
         .collect();
-    // What follows a fault on its line is the parser's guess.
+    // After a fault the rest of the line is the parser's guess.
     let line_ends: Vec<usize> = memchr::memchr_iter(b'\n', text.as_bytes()).collect();
     errors.dedup_by_key(|error| {
         error.range.as_ref().map_or(0, |range| {
@@ -55,7 +55,7 @@ pub fn from_toml(text: &str) -> (Settings, Vec<SettingsError>) {
     (settings, errors)
 }
 
-/// Where a `wedm.toml` says what a fault of the passes speaks of; `None` where it says nothing of it.
+/// The place in a `wedm.toml` of a fault of the passes; `None` where the file does not set it.
 pub(crate) fn place_in(text: &str, fault: &PassFault) -> Option<Range<usize>> {
     if text.len() > LARGEST {
         return None;

@@ -1,4 +1,4 @@
-//! What contradicts itself of a program and its workpiece, or says nothing.
+//! Contradictory or ineffective settings of a program and its workpiece.
 
 use super::{PassFault, Settings};
 

@@ -1,9 +1,9 @@
-//! Lines that are put into the text of a `wedm.toml`, everything else in it staying as it is.
+//! Adds lines to the text of a `wedm.toml`; everything else in it stays.
 
 use crate::finding::Keep;
 use crate::text::TextEdit;
 
-/// The lines of a table that nothing stands in yet.
+/// The lines for a table that is empty so far.
 pub(crate) fn as_lines(keeps: &[Keep]) -> String {
     let mut lines = String::new();
     let mut table = None;
@@ -17,8 +17,8 @@ pub(crate) fn as_lines(keeps: &[Keep]) -> String {
     lines
 }
 
-/// The edit of `text` after which the settings hold what is to be kept: below the head of its table where that stands, else at the end.
-/// `None` where the text cannot take it, as where the table is written in another way.
+/// The edit of `text` that adds the settings: below the head of its table if there is one, else at the end. `None`
+/// where the text cannot take it, as where the table is written in another way.
 pub(crate) fn keep(text: &str, keeps: &[Keep]) -> Option<TextEdit> {
     let table = &keeps.first()?.table;
     let lines: String = keeps.iter().map(line).collect();
@@ -43,7 +43,7 @@ pub(crate) fn keep(text: &str, keeps: &[Keep]) -> Option<TextEdit> {
     };
     let mut changed = text.to_owned();
     changed.replace_range(edit.range.clone(), &edit.text);
-    // A value that somebody is to write yet is no fault of the text.
+    // A value that the user still has to write is no fault of the text.
     let is_toml = |text: &str| toml::from_str::<toml::Table>(text).is_ok();
     let is_one_table = keeps.iter().all(|keep| keep.table == *table);
     (is_one_table && is_toml(&changed)).then_some(edit)
@@ -54,7 +54,7 @@ fn line(keep: &Keep) -> String {
     format!("{} = {value}\n", key(&keep.key))
 }
 
-/// A key as TOML has it: bare where it can be.
+/// A key in TOML: bare where possible.
 fn key(name: &str) -> String {
     let is_bare = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'-' | b'_');
     match !name.is_empty() && name.bytes().all(is_bare) {
@@ -63,7 +63,7 @@ fn key(name: &str) -> String {
     }
 }
 
-/// The head of the table in which a finding at an entity of a drawing is let stand.
+/// The head of the table that suppresses a finding at an entity of a drawing.
 pub(crate) fn table_of_suppressions(drawing: &str, handle: &str) -> String {
     format!("drawings.{}.suppress.{}", key(drawing), key(handle))
 }

@@ -1,4 +1,4 @@
-//! One level of settings out of a tree of values, held against itself.
+//! Reads one level of settings from a tree of values, and checks it for itself.
 
 use super::reader::Reader;
 use super::spelling::snake_case;
@@ -42,15 +42,15 @@ fn refuse_unknown_profile(reader: &mut Reader, settings: &mut Settings, root: &N
     }
 }
 
-/// The value that a fault of the passes speaks of, else what else the tree says about the passes.
+/// The value that a fault of the passes concerns, else the table of the passes.
 pub(super) fn place_of(root: &Node, fault: &PassFault) -> Option<std::ops::Range<usize>> {
     let (table, named) = fault.key.split_once('.').unwrap_or(("passes", fault.key));
     let named = snake_case(named);
     let list = root.entry(table).and_then(|entry| match fault.pass {
-        // A key of its own, of which there is one value.
+        // A key of its own, with one value.
         usize::MAX if ["pair", "program", "job"].contains(&table) => entry.node.entry(&named),
         _ if table == "workpieces" => Some(entry),
-        // What it lacks is said of the table.
+        // A missing key is reported at the table.
         _ if table == "milling" => Some(entry.node.entry(&named).unwrap_or(entry)),
         _ => entry.node.entry(&named),
     });

@@ -1,11 +1,11 @@
-//! What is said of a milling electrode: all that it takes, what is missing or contradicts itself, and the settings under which it cuts.
+//! The settings of a milling electrode: complete, missing or contradictory, and the settings under which it cuts.
 
 use super::effective::Effective;
 use super::{
     Compensation, LengthSetting, MillingSettings, PassFault, Passes, Settings, WearCompensation,
 };
 
-/// More layers than these no program has.
+/// No program has more layers than this.
 const MOST_LAYERS: f64 = 100_000.0;
 
 /// A cylindrical electrode and how it mills. Lengths in mm.
@@ -20,14 +20,14 @@ pub struct Electrode {
     /// Volume that it loses of each volume that it erodes.
     pub wear: f64,
     pub compensation: WearCompensation,
-    /// Way after which `linear` feeds anew; 0 for the others.
+    /// Way after which `linear` feeds again; 0 for the others.
     pub step: f64,
-    /// The round ends of an open slot count among what a layer erodes.
+    /// The round ends of an open slot count among the volume that a layer erodes.
     pub slot_ends: bool,
 }
 
 impl MillingSettings {
-    /// How far the electrode's axis runs beside a contour: its radius and the spark gap, where both are set.
+    /// The distance of the electrode's axis from a contour: its radius and the spark gap, where both are set.
     pub(super) fn correction(&self) -> Option<f64> {
         Some(self.tool_diameter? / 2.0 + self.gap?)
     }
@@ -45,7 +45,7 @@ impl MillingSettings {
         numbers.iter().any(Option::is_some)
     }
 
-    /// The electrode, or what stands against it: the key of this table, and a sentence.
+    /// The electrode, or the fault: the key of this table, and a sentence.
     fn electrode(&self) -> Result<Electrode, (&'static str, String)> {
         let mut missing = Vec::new();
         let mut stated = |key: &'static str, value: Option<f64>| {
@@ -85,12 +85,12 @@ impl MillingSettings {
 }
 
 impl Effective {
-    /// The electrode that the settings say, or why none: a sentence.
+    /// The electrode of the settings, or the sentence why there is none.
     pub fn electrode(&self) -> Result<Electrode, String> {
         self.milling.electrode().map_err(|(_, sentence)| sentence)
     }
 
-    /// The settings under which it cuts: all that is said of a wire alone says nothing here.
+    /// The settings under which it cuts: those for a wire alone do not apply.
     pub(crate) fn milled(&self) -> Result<Effective, String> {
         let electrode = self.electrode()?;
         let correction = electrode.correction();
@@ -113,7 +113,7 @@ impl Effective {
     }
 }
 
-/// What is missing of an electrode of which something is said, or contradicts itself.
+/// Missing or contradictory settings of an electrode of which some are set.
 pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
     let milling = settings.milling.as_ref();
     let milling = milling.filter(|milling| milling.is_said());

@@ -1,4 +1,4 @@
-//! Settings: one type for every level, and what they mean once all levels are laid over each other.
+//! Settings: one type for every level, and the result of merging all levels.
 //!
 //! Each level holds only what somebody set. Keys are camelCase in JSON and kebab-case in `wedm.toml`.
 
@@ -80,15 +80,15 @@ plain! {
 }
 
 impl Settings {
-    /// What is set of `[program]`.
+    /// The settings of `[program]`.
     pub(crate) fn program(&self) -> ProgramSettings {
         self.program.clone().unwrap_or_default()
     }
 
-    /// Lays `later` over `self`: what `later` sets wins; tables are merged key by key.
+    /// Lays `later` over `self`: `later` wins; tables are merged key by key.
     ///
-    /// A wire diameter or a gap of a later level says the correction anew, where that level says none itself. So does one thread hole
-    /// or one entry for all that is said of single contours.
+    /// A later level with a wire diameter or a gap but no correction resets the correction. One thread hole or one
+    /// entry likewise resets those of single contours.
     pub(crate) fn overlaid(&self, later: &Settings) -> Settings {
         let mut laid = Overlay::overlaid(self, later);
         if later.wire_diameter.is_some() || later.gap.is_some() {
@@ -106,8 +106,8 @@ impl Settings {
         laid
     }
 
-    /// What contradicts itself once all levels are laid over each other: the corrections of the passes, what is said of a pair, of an
-    /// electrode and of the program. `place` says where a text speaks of it.
+    /// Contradictions after all levels are merged: in the corrections of the passes, the pair, the electrode and the
+    /// program. `place` finds the place in a text.
     pub(crate) fn contradictions(
         &self,
         place: &dyn Fn(&PassFault) -> Option<std::ops::Range<usize>>,
@@ -160,10 +160,10 @@ pub struct SettingsError {
     pub message: String,
     /// Bytes in the source text, where there is one.
     pub range: Option<std::ops::Range<usize>>,
-    /// What it is reported as: `settings`, or `pass-order`.
+    /// The rule that reports it: `settings`, or `pass-order`.
     pub(crate) rule: Rule,
     pub(crate) severity: Severity,
-    /// It shows only once all levels are laid over each other: of one level alone it says nothing.
+    /// It shows only after all levels are merged.
     pub(crate) of_levels: bool,
 }
 

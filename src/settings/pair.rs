@@ -1,4 +1,4 @@
-//! What is said of a pair of parts: the correction of each, who is held against whom, and what contradicts itself.
+//! The settings of a pair of parts: the correction of each, their partners, and contradictions.
 
 use super::effective::Effective;
 use super::{DrawnAs, PassFault, Settings, SideSetting};
@@ -48,16 +48,16 @@ impl From<DrawnAs> for Use {
     }
 }
 
-/// What is held against what.
+/// The partners of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Partners {
-    /// Each contour that the wire runs on both sides of, as punch and as plate.
+    /// Each contour with the wire on both sides, as punch and as plate.
     CutTwice(DrawnAs),
     /// Contours of different workpieces.
     Drawn,
 }
 
-/// Keys that are missing where a fit is asked for.
+/// The keys that a requested fit still needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MissingForFit(pub Vec<&'static str>);
 
@@ -72,7 +72,7 @@ impl MissingForFit {
 }
 
 impl Effective {
-    /// What is drawn of a pair; `None` where nothing says so.
+    /// The drawn part of a pair; `None` where the settings do not say.
     pub fn partners(&self) -> Option<Partners> {
         match self.pair.drawn_as {
             Some(drawn_as) => Some(Partners::CutTwice(drawn_as)),
@@ -81,7 +81,7 @@ impl Effective {
         }
     }
 
-    /// The partners and their clearance in mm, where a fit is asked for and all is known that it takes.
+    /// The partners and their clearance in mm, where a fit is requested and everything for it is set.
     pub fn fit(&self) -> Result<(Partners, f64), MissingForFit> {
         let mut missing = Vec::new();
         let partners = self.partners();
@@ -113,11 +113,11 @@ impl Effective {
         Use::ALL.into_iter().filter(is_cut).collect()
     }
 
-    /// By how much the correction of a part is above that of what is drawn, mm; `None` where the pair does not say.
+    /// The correction of a part minus that of the drawn one, mm; `None` where the pair does not say.
     fn shift_of(&self, of: Use) -> Option<f64> {
         let clearance = self.pair.clearance?;
         let drawn_as = self.pair.drawn_as?;
-        // The outline of the punch lies so far within what is drawn.
+        // The outline of the punch lies this far within the drawn one.
         let within = match drawn_as {
             DrawnAs::Punch => 0.0,
             DrawnAs::Plate => clearance,
@@ -130,9 +130,9 @@ impl Effective {
         })
     }
 
-    /// The settings under which one part of a pair is cut along what is drawn. Where its correction falls to 0 or below the wire runs on the
-    /// other side of the contour, so far from it: the flag says so. `None` where the pair does not say, and where some passes run on the one
-    /// side, some on the other.
+    /// The settings for one part of a pair, cut along the drawn contour. Where its correction falls to 0 or below, the
+    /// wire runs on the other side of the contour at that distance: the flag says so. `None` where the pair does not
+    /// say, and where the passes would run on both sides.
     pub(crate) fn of_use(&self, of: Use) -> Option<(Effective, bool)> {
         let shift = self.shift_of(of)?;
         let signed = |correction: f64| correction + shift;
@@ -164,7 +164,7 @@ impl Effective {
         Some((settings, is_other))
     }
 
-    /// The settings under which one of the drawn workpieces is cut, and nothing else.
+    /// The settings for one of the drawn workpieces alone.
     pub(crate) fn of_workpiece(&self, number: u16) -> Effective {
         let mut settings = Effective {
             only: Some(number),
@@ -175,7 +175,7 @@ impl Effective {
     }
 }
 
-/// What contradicts itself of a pair, or says nothing.
+/// Contradictory or ineffective settings of a pair.
 pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
     let pair = settings.pair.clone().unwrap_or_default();
     let workpieces = settings.workpieces.clone().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The corrections of the passes, held against each other and against the wire, and a table of them that is made.
+//! The corrections of the passes, checked against each other and the wire; and a computed table of them.
 
 use super::Passes;
 
@@ -16,9 +16,9 @@ pub(crate) struct PassFault {
     pub(crate) message: String,
 }
 
-/// What is wrong with the corrections of the passes from rough to finish, mm: one that is above that of the pass before it, and one
-/// that is below the wire's radius, where the diameter is known. They are those of `passes`, where it has
-/// any, else the single `correction`; each other list in `passes` is of as many.
+/// The faults in the corrections of the passes from rough to finish, mm: one above that of the pass before it, and one
+/// below the wire's radius, where the diameter is known. The corrections are those of `passes`, if any, else the single
+/// `correction`; each other list in `passes` must be as long.
 pub(crate) fn pass_faults(
     corrections: &[f64],
     passes: &Passes,
@@ -73,10 +73,11 @@ pub(crate) fn pass_faults(
     faults
 }
 
-/// The corrections of a rough pass and `skims` skims for a wire of radius `wire`, mm: the rough one leaves the `stock`, of which each skim
-/// takes its share, the last one the rest. `gaps` are the spark gaps of the rough pass and of the skims.
+/// The corrections of a rough pass and `skims` skims for a wire of radius `wire`, mm: the rough one leaves the `stock`,
+/// each skim takes its share and the last one the rest. `gaps` are the spark gaps of the rough pass and of the skims.
 ///
-/// Rough: ρ + δ rough + stock; skim i of n: ρ + δ skim + stock · (n − i) / n. Without skims nothing is left for them: ρ + δ rough.
+/// Rough: ρ + δ rough + stock; skim i of n: ρ + δ skim + stock · (n − i) / n. Without skims there is no stock: ρ + δ
+/// rough.
 pub(crate) fn passes_table(wire: f64, gaps: [f64; 2], stock: f64, skims: usize) -> Vec<f64> {
     let [rough, fine] = gaps;
     let left = |skim: usize| stock * (skims - skim) as f64 / skims as f64;

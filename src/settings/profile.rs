@@ -1,6 +1,7 @@
 //! Profiles: how an ISO program is written for one kind of machine, as data.
 //!
-//! Those that ship stand in `profiles.toml`, those of a user in the table `[profiles.NAME]` of `wedm.toml`; both are read alike.
+//! Shipped profiles are in `profiles.toml`, a user's in the table `[profiles.NAME]` of `wedm.toml`; both are read
+//! alike.
 
 use super::reader::Reader;
 use super::shipped::shipped;
@@ -27,7 +28,7 @@ impl Profile {
         self.pause.iter().any(stops)
     }
 
-    /// The profile of a name: a user's, laid over its base, or one that ships. The error says which there are.
+    /// The profile of a name: a user's, laid over its base, or a shipped one. The error lists them.
     pub(crate) fn of(
         name: &str,
         own: Option<&BTreeMap<String, ProfileSettings>>,

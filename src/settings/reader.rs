@@ -1,4 +1,4 @@
-//! Tables of settings out of a tree of values: each key is held against what it may be, a misfit is left out and named.
+//! Reads tables of settings from a tree of values: each key is checked, a misfit is left out and reported.
 
 use super::row::{Range, Row};
 use super::spelling::{listed, named, nearest, snake_case};
@@ -18,7 +18,8 @@ pub(super) trait Table: Default {
     fn read(&mut self, reader: &mut Reader, key: &str, dotted: &str, node: &Node) -> bool;
 }
 
-/// What was wrong so far. A method reads one kind of value: its dotted key, the value, and the range where numbers have one.
+/// The misfits so far. A method reads one kind of value: its dotted key, the value, and the range where numbers have
+/// one.
 #[derive(Default)]
 pub(super) struct Reader {
     pub(super) errors: Vec<SettingsError>,
@@ -36,7 +37,7 @@ impl Reader {
         .then_some(table)
     }
 
-    /// Tables with declared keys, by names of the user's.
+    /// Tables with declared keys, under names that the user gives.
     pub(crate) fn tables<T: Table>(
         &mut self,
         key: &str,
@@ -45,7 +46,7 @@ impl Reader {
         self.by_name(key, node, |_| None, Reader::table)
     }
 
-    /// Roles by a name that is taken as it stands.
+    /// Roles by a name that is taken literally.
     pub(crate) fn roles(&mut self, key: &str, node: &Node) -> Option<BTreeMap<String, Role>> {
         self.by_name(key, node, |_| None, Reader::name)
     }
@@ -68,7 +69,7 @@ impl Reader {
         self.by_name(key, node, misfit, Reader::name)
     }
 
-    /// By handle and by rule why something is let stand.
+    /// By handle and by rule the reason of a suppression.
     pub(crate) fn reasons(
         &mut self,
         key: &str,
@@ -108,7 +109,7 @@ impl Reader {
         })
     }
 
-    /// Values by name. `misfit` says which names are expected where one is not known.
+    /// Values by name. `misfit` lists the expected names where one is unknown.
     fn by_name<T>(
         &mut self,
         key: &str,
@@ -140,7 +141,7 @@ impl Reader {
                         _ => self.number(&key, item, range),
                     }
                 });
-                // A list of which one pass is wrong says nothing sure about the others.
+                // One wrong pass of a list makes the others doubtful.
                 let numbers: Vec<Option<f64>> = numbers.collect();
                 numbers.into_iter().collect()
             }
@@ -177,7 +178,7 @@ impl Reader {
         self.misfit(key, node, expected)
     }
 
-    /// The name of a profile that ships. The shipped profiles themselves are read by this reader and have no base.
+    /// The name of a shipped profile. The shipped profiles themselves are read by this reader and have no base.
     pub(crate) fn base(&mut self, key: &str, node: &Node) -> Option<String> {
         let name = self.profile_name(key, node)?;
         if shipped_profiles().any(|shipped| shipped == name) {
@@ -187,7 +188,7 @@ impl Reader {
         self.misfit(key, node, &names.join(", "))
     }
 
-    /// Lines of a program in which `{x}`, `{y}`, `{side}` and `{register}` stand for something.
+    /// Lines of a program in which `{x}`, `{y}`, `{side}` and `{register}` are placeholders.
     pub(crate) fn lines(&mut self, key: &str, node: &Node) -> Option<Vec<String>> {
         self.texts(key, node, say!(a_list_of_lines), Reader::line)
     }
@@ -311,7 +312,7 @@ impl Reader {
         false
     }
 
-    /// A word out of a closed set, which the type itself knows.
+    /// A word out of a closed set, which its type defines.
     pub(crate) fn name<T: DeserializeOwned>(&mut self, key: &str, node: &Node) -> Option<T> {
         let text = match &node.value {
             Value::Null => return None,

@@ -1,12 +1,12 @@
-//! What the row of a key says: its name, its default, the numbers that it takes, and what it means.
+//! The row of a key: its name, its default, its range, and its meaning.
 
 use super::shipped_profiles;
 
-/// The numbers that a key takes.
+/// The range of a key's numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
     pub least: f64,
-    /// The least number itself is taken.
+    /// The least number itself is allowed.
     pub is_least: bool,
     pub most: f64,
 }
@@ -18,7 +18,7 @@ impl Range {
     };
     pub(super) const FROM_ZERO: Range = Range::of(0.0, f64::INFINITY);
 
-    /// All numbers from `least` to `most`, both among them.
+    /// All numbers from `least` to `most`, both included.
     pub(super) const fn of(least: f64, most: f64) -> Range {
         Range {
             least,
@@ -53,9 +53,9 @@ pub struct Row {
     pub range: Option<Range>,
     /// The kind of its value, by the reader's method.
     pub(crate) read: &'static str,
-    /// The words that it may be, where they are a closed set.
+    /// Its possible words, where they are a closed set.
     pub(crate) words: Vec<String>,
-    /// What the key means. The first sentence stands for itself.
+    /// The meaning of the key. The first sentence can stand alone.
     pub meaning: String,
 }
 
@@ -67,7 +67,7 @@ impl Row {
         Some(naming_profiles(own, "、"))
     }
 
-    /// The meaning in the language that is spoken, without the targets of its links.
+    /// The meaning in the language in force, without the targets of its links.
     pub fn plain_meaning(&self) -> String {
         let mut plain = String::new();
         let spoken = crate::message::meaning(&self.key);
@@ -80,7 +80,7 @@ impl Row {
         plain + rest
     }
 
-    /// What the key means in short, without a final dot.
+    /// The meaning of the key in short, without a final dot.
     pub fn first_sentence(&self) -> String {
         let meaning = self.plain_meaning().replace('`', "");
         let first = meaning.split('。').next().unwrap_or_default();
@@ -89,7 +89,7 @@ impl Row {
     }
 }
 
-/// A meaning with the names of the profiles that ship where it says `{profiles}`.
+/// A meaning with the names of the shipped profiles in place of `{profiles}`.
 pub(super) fn naming_profiles(meaning: &str, between: &str) -> String {
     let names = || shipped_profiles().map(|name| format!("`{name}`"));
     meaning.replace("{profiles}", &names().collect::<Vec<_>>().join(between))

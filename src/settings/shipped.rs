@@ -1,4 +1,4 @@
-//! The profiles that ship, not read yet: a setting that names one is held against their names.
+//! The shipped profiles as text: a setting that names one is checked against their names.
 
 use super::toml_tree::tree;
 use super::value::{Entry, Node, Value};
@@ -10,7 +10,7 @@ pub(super) fn shipped() -> &'static Node {
     &SHIPPED
 }
 
-/// Names of the profiles that ship.
+/// Names of the shipped profiles.
 pub fn shipped_profiles() -> impl Iterator<Item = &'static str> {
     let profiles: &[Entry] = match SHIPPED.entry("profiles").map(|entry| &entry.node.value) {
         Some(Value::Table(profiles)) => profiles,

@@ -1,9 +1,9 @@
-//! Words of settings: those that a value may be, the one that was likely meant, keys in another spelling, lists of them in a sentence.
+//! Words of settings: the allowed ones, the one likely meant, keys in another spelling, lists in a sentence.
 
 use serde::de::value::{Error, StrDeserializer};
 use serde::de::{DeserializeOwned, IntoDeserializer};
 
-/// The one of some words in a list that somebody has most likely meant: a few letters differ, no more than a third of them.
+/// The word of a list that was most likely meant: a few letters differ, no more than a third of them.
 pub(crate) fn nearest<'a>(word: &str, words: &'a str) -> Option<&'a str> {
     let plain = |word: &str| snake_case(word).to_lowercase();
     let (word, most) = (plain(word), word.chars().count() / 3);
@@ -17,7 +17,7 @@ pub(crate) fn nearest<'a>(word: &str, words: &'a str) -> Option<&'a str> {
         .map(|(_, known)| known)
 }
 
-/// Letters that come, go, change or change places between two words.
+/// The number of letters added, removed, replaced or swapped between two words.
 fn distance(one: &str, other: &str) -> usize {
     let other: Vec<char> = other.chars().collect();
     let mut before: Vec<usize> = Vec::new();
@@ -43,7 +43,7 @@ fn distance(one: &str, other: &str) -> usize {
     row.last().copied().unwrap_or_default()
 }
 
-/// The words that a type out of a closed set has.
+/// The words of a closed set's type.
 pub(super) fn words_of<T: DeserializeOwned>() -> Vec<String> {
     let names = named::<T>("").err().unwrap_or_default();
     let names = names.trim_start_matches("one of ");
@@ -51,7 +51,7 @@ pub(super) fn words_of<T: DeserializeOwned>() -> Vec<String> {
     names.map(str::to_owned).collect()
 }
 
-/// A word out of a closed set; the error says which words there are.
+/// A word out of a closed set; the error lists the words.
 pub(super) fn named<T: DeserializeOwned>(word: &str) -> Result<T, String> {
     let deserializer: StrDeserializer<'_, Error> = word.into_deserializer();
     T::deserialize(deserializer).map_err(|error| {
@@ -61,14 +61,14 @@ pub(super) fn named<T: DeserializeOwned>(word: &str) -> Result<T, String> {
     })
 }
 
-/// `wireDiameter` and `wire-diameter` as `wire_diameter`; both spellings are taken everywhere.
+/// `wireDiameter` and `wire-diameter` as `wire_diameter`; both spellings are accepted everywhere.
 pub(super) fn snake_case(key: &str) -> String {
     let mut snake = String::with_capacity(key.len() + 2);
     for letter in key.chars() {
         match letter {
             '-' => snake.push('_'),
             'A'..='Z' => snake.extend(['_', letter.to_ascii_lowercase()]),
-            // The name of a field is no spelling of its key.
+            // The name of a field is not a spelling of its key.
             '_' => snake.push('-'),
             _ => snake.push(letter),
         }

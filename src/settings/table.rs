@@ -1,13 +1,13 @@
-//! What a table of settings is: rows that are declared once, and all that follows from them.
+//! Tables of settings: rows that are declared once, and everything that follows from them.
 
 use std::collections::BTreeMap;
 
-/// What becomes of a value that two levels set.
+/// How a value merges that two levels set.
 pub(super) trait Overlay: Clone {
     fn overlaid(&self, later: &Self) -> Self;
 }
 
-/// Types of values of which the later one wins as a whole.
+/// Types whose later value replaces the earlier one as a whole.
 macro_rules! plain {
     ($($type:ty),* $(,)?) => {
         $(impl table::Overlay for $type {
@@ -69,9 +69,10 @@ pub(super) fn as_toml(value: &impl serde::Serialize) -> Option<String> {
     serde_json::to_string(value).ok()
 }
 
-/// Declares tables of settings. Each row is a key: what it means (to people: docs, JSON Schema, editors), its type, its default, how it
-/// is read and in which range. From it come the field of a level, which holds only what somebody has set, the method of the same name with
-/// the default filled in, and the parts that `Table` and [`Overlay`] play. `(as NAME, …)` makes a second type, in which every default is filled in.
+/// Declares tables of settings. Each row is a key: its meaning (for people: docs, JSON Schema, editors), its type, its
+/// default, its reader and range. It gives the field of a level, which holds only what somebody has set; the method of
+/// the same name with the default filled in; and the parts that `Table` and [`Overlay`] need. `(as NAME, …)` makes a
+/// second type, in which every default is filled in.
 macro_rules! tables {
     ($($(#[doc = $about:literal])* $name:ident $filled:tt $rows:tt)*) => {$(
         table! { $(#[doc = $about])* $name $rows }
@@ -96,7 +97,7 @@ macro_rules! table {
         )*}
 
         impl $name {$($(
-            /// What is set, else the default.
+            /// The set value, else the default.
             pub fn $key(&self) -> $type {
                 self.$key.clone().unwrap_or_else(|| $default.into())
             }
@@ -135,7 +136,7 @@ macro_rules! table {
     };
 }
 
-/// The type in which every default of a table is filled in; what has none stays as it is set.
+/// The type in which every default of a table is filled in; keys without a default stay optional.
 macro_rules! filled {
     ($name:ident () $rows:tt) => {};
     ($name:ident (as $filled:ident, $($more:ident: $more_type:ty),*) {$(
@@ -175,7 +176,7 @@ macro_rules! filled_value {
     };
 }
 
-/// The words that a value may be, where its type is a closed set of them.
+/// The words of a value whose type is a closed set.
 macro_rules! words {
     (name $type:ty) => {
         words_of::<$type>()

@@ -4,7 +4,7 @@ use super::value::{Entry, Node, Value};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error};
 
-/// All of a text, and what is no TOML in it.
+/// The tree of a text, and its TOML errors.
 pub(super) fn tree(text: &str) -> (Node, Vec<Error>) {
     let (table, faults) = DeTable::parse_recoverable(text);
     let root = Node {
@@ -26,7 +26,7 @@ fn entries(table: &DeTable<'_>) -> Vec<Entry> {
 fn node(value: &Spanned<DeValue<'_>>) -> Node {
     let range = Some(value.span());
     let value = match value.get_ref() {
-        // The parser puts an empty stand-in where it found no value; the fault has been said.
+        // The parser puts an empty stand-in where it found no value; that fault has been reported.
         DeValue::Integer(_) | DeValue::Float(_) | DeValue::String(_) | DeValue::Boolean(_)
             if value.span().is_empty() =>
         {

@@ -1,4 +1,4 @@
-//! A tree of values with their places: what TOML and JSON have in common for the reader of settings.
+//! A tree of values with their places: the common form of TOML and JSON for the reader of settings.
 
 use super::spelling::snake_case;
 use std::ops::Range;

@@ -32,7 +32,7 @@ impl Workpieces {
         &self.names
     }
 
-    /// The number of the part that a layer is of, from 1; 0 for what is of none.
+    /// The number of the part that a layer belongs to, from 1; 0 for none.
     pub(crate) fn of_layer(&self, layer: &str) -> u16 {
         self.by_layer.get(layer).copied().unwrap_or(0)
     }

@@ -20,14 +20,14 @@ pub(in crate::server) const FIX_ALL: &str = "source.fixAll.wedm";
 /// More findings than this in one range get their fixes by "fix all" only: nobody picks from a longer list.
 const LISTED: usize = 100;
 
-/// Lines of a text, or entities of a drawing, beyond which it costs too much to try a repair behind each repair for no use.
+/// Lines of a text, or entities of a drawing, beyond which nested repairs are not tried: it costs too much.
 const LONG: usize = 50_000;
 
 pub(in crate::server) fn code_action(
     context: &RequestContext,
     params: CodeActionParams,
 ) -> Result<Option<CodeActionResponse>> {
-    // Nothing can be fixed in a text that is neither drawing nor program.
+    // A text that is neither drawing nor program has no fixes.
     let actions = context
         .document()
         .map(|document| actions(context, document, &params));
@@ -94,7 +94,7 @@ fn actions(
         .collect()
 }
 
-/// In a long document that is gone through once where the editor asks for whatever there is, at every step of the cursor.
+/// In a long document, found once where the editor asks for everything at every step of the cursor.
 fn fix_all(
     context: &RequestContext,
     document: &Document,
@@ -125,7 +125,7 @@ fn is_asked_for(context: &CodeActionContext) -> bool {
     context.only.is_some() || context.trigger_kind != Some(CodeActionTriggerKind::AUTOMATIC)
 }
 
-/// A refactoring, or the reason why it cannot be done for clients that show it.
+/// A refactoring, or why it is not possible for clients that show that.
 fn refactoring(
     context: &RequestContext,
     document: &Document,
@@ -160,7 +160,7 @@ fn wants(context: &CodeActionContext, kind: &str) -> bool {
     })
 }
 
-/// The findings that the client means: those of its diagnostics where they say which, else those in the range.
+/// The findings that the client means: those of its diagnostics, if given, else those in the range.
 fn chosen(
     context: &RequestContext,
     document: &Document,
@@ -169,7 +169,7 @@ fn chosen(
     let diagnostics = &params.context.diagnostics;
     let named: FxHashSet<(String, String, usize)> =
         diagnostics.iter().filter_map(name_of).collect();
-    // In a program, rule and line say which: its findings have no handle.
+    // In a program, rule and line identify a finding: it has no handle.
     let said: FxHashSet<(String, u32)> = diagnostics
         .iter()
         .filter_map(|diagnostic| Some((rule_of(diagnostic)?, diagnostic.range.start.line)))
@@ -200,7 +200,7 @@ fn chosen(
     chosen.take(LISTED).cloned().collect()
 }
 
-/// Rule, handle and segment that a client's diagnostic names.
+/// Rule, handle and segment in a client's diagnostic.
 fn name_of(diagnostic: &ls_types::Diagnostic) -> Option<(String, String, usize)> {
     let data: FindingData = serde_json::from_value(diagnostic.data.clone()?).ok()?;
     Some((rule_of(diagnostic)?, data.handle?, data.segment?))

@@ -1,4 +1,4 @@
-//! `workspace/executeCommand`: the client is asked to change its drawing, or its program's text.
+//! `workspace/executeCommand`: asks the client to change its drawing, or its program's text.
 
 use crate::program;
 use crate::protocol::{Applied, ApplyDrawingEdit, DrawingEdit, ScaleProgram, method};
@@ -10,7 +10,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use tower_lsp::jsonrpc::{Error, Result};
 
-/// The only argument of a command; `misfit` and `shape` say what is wrong with another, and what is expected.
+/// The only argument of a command; `misfit` and `shape` say what is wrong with it, and what is expected.
 fn argument<T: DeserializeOwned>(arguments: Vec<Value>, misfit: &str, shape: &str) -> Result<T> {
     let [argument] = <[Value; 1]>::try_from(arguments)
         .map_err(|_| Error::invalid_params(say!(the_command_takes_one_argument, shape)))?;
@@ -79,7 +79,7 @@ pub(in crate::server) fn scale_program(arguments: Vec<Value>) -> Result<ScalePro
     argument(arguments, say!(does_not_fit), "{ uri, factor }")
 }
 
-/// The edit that scales a program by a factor that the user has named.
+/// The edit that scales a program by the user's factor.
 pub(in crate::server) fn scaled(
     context: &RequestContext,
     params: ScaleProgram,

@@ -28,7 +28,7 @@ pub(in crate::server) fn completion(
                 CompletionKind::Snippet => CompletionItemKind::SNIPPET,
             }),
             detail: Some(found.about.into_owned()),
-            // Codes are not to be sorted as words.
+            // Codes must not be sorted as words.
             sort_text: Some(format!("{index:04}")),
             filter_text: match found.kind {
                 CompletionKind::Word | CompletionKind::Snippet if !typed.is_empty() => {

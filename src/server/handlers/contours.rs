@@ -1,4 +1,4 @@
-//! `wedm/contours`: what is chained to what.
+//! `wedm/contours`: the chained contours.
 
 use super::Task;
 use crate::protocol::{Contours, DrawingName};

@@ -5,7 +5,7 @@ use crate::server::context::RequestContext;
 use ls_types::{FoldingRange, FoldingRangeKind, FoldingRangeParams};
 use tower_lsp::jsonrpc::Result;
 
-/// Folds of one answer, where the client does not say how many it takes.
+/// Folds in one answer, where the client states no limit.
 const LIMIT: usize = 20_000;
 
 pub(in crate::server) fn folding_range(

@@ -30,7 +30,7 @@ pub(in crate::server) fn range(
     })
 }
 
-/// The line that was left with Enter; the cursor is on the one behind it.
+/// The line that Enter has left; the cursor is on the next one.
 pub(in crate::server) fn left_line(
     context: &RequestContext,
     params: DocumentOnTypeFormattingParams,

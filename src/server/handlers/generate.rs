@@ -22,7 +22,7 @@ pub(in crate::server) struct Params {
 }
 
 impl Params {
-    /// What is asked for of a drawing.
+    /// The requested part of a drawing.
     pub(super) fn wanted(&self, task: &Task) -> Result<Wanted<'_>> {
         for handle in self.handles.iter().flatten() {
             if task.snapshot.drawing.find(handle).is_none() {
@@ -39,7 +39,7 @@ impl Params {
 }
 
 pub(in crate::server) fn generate(context: &RequestContext, params: Params) -> Result<Program> {
-    // A format that is not known says so of any document.
+    // An unknown format is reported whatever the document is.
     Format::of(&params.format).map_err(Error::invalid_params)?;
     let task = Task::of(context)?;
     let wanted = params.wanted(&task)?;
@@ -57,7 +57,7 @@ pub(in crate::server) fn generate(context: &RequestContext, params: Params) -> R
     ))
 }
 
-/// What the reader of the text found, and what the rules say under the request's options.
+/// The findings of the reader, and those of the rules under the request's options.
 pub(super) fn findings(task: &Task) -> Vec<Finding> {
     let of_rules = task.findings();
     if Arc::ptr_eq(&task.document, &task.subject) {

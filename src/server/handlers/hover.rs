@@ -1,4 +1,4 @@
-//! `textDocument/hover`: what a group code or its value means; where a block goes.
+//! `textDocument/hover`: the meaning of a group code or its value; the end of a block.
 
 use crate::ide;
 use crate::server::context::RequestContext;

@@ -1,5 +1,5 @@
-//! `textDocument/codeLens`: what a client can do with a program, above its first block, and what the cuts of a drawing come to. For clients
-//! that have the commands.
+//! `textDocument/codeLens`: actions for a program above its first block, and the totals of a drawing's cuts. For
+//! clients that have the commands.
 
 use super::Task;
 use crate::ide::SymbolKind;
@@ -54,10 +54,10 @@ pub(in crate::server) fn code_lens(
     Ok(Some(of_program.chain(of_contours).collect()))
 }
 
-/// Segments of a drawing beyond which no path is laid for a lens.
+/// Segments of a drawing beyond which no path is planned for a lens.
 const LAID: usize = 5_000;
 
-/// What the cuts of a drawing come to, above its first line; nothing where there is no text, or nothing to say.
+/// The totals of a drawing's cuts, above its first line; none without a text, or without cuts.
 fn of_drawing(context: &RequestContext) -> Option<Vec<CodeLens>> {
     let (document, text) = context.document_and_text()?;
     document.drawing()?;

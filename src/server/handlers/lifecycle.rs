@@ -1,4 +1,4 @@
-//! `initialize` and `initialized`: what client and server can do.
+//! `initialize` and `initialized`: the capabilities of client and server.
 
 use super::code_action::FIX_ALL;
 use super::tokens;
@@ -43,7 +43,7 @@ pub(in crate::server) fn initialize(
     serde_json::from_value(result).map_err(unsound)
 }
 
-/// What the server can do.
+/// The server's capabilities.
 fn offers(encoding: Encoding, abilities: &Abilities) -> Value {
     json!({
         "positionEncoding": match encoding {
@@ -62,7 +62,7 @@ fn offers(encoding: Encoding, abilities: &Abilities) -> Value {
         "executeCommandProvider": {
             "commands": [method::APPLY_DRAWING_EDIT_COMMAND, method::SCALE_COMMAND],
         },
-        // A digit is no word: editors ask at these of their own accord.
+        // A digit is no word: editors ask at these unprompted.
         "completionProvider": { "triggerCharacters": ["B", "G", "M", "I", "J", "D", "H", "P"] },
         "signatureHelpProvider": {
             "triggerCharacters": ["B", "b", "X", "x", "I", "i", "D", "P"],

@@ -1,4 +1,4 @@
-//! `wedm/locate`: what is written at a position, and where a segment is written.
+//! `wedm/locate`: the segment at a position, and the position of a segment.
 
 use super::no_entity;
 use crate::drawing::EntityId;

@@ -1,4 +1,4 @@
-//! One file a request: params in, what the core says of the document out.
+//! The request handlers, a file each: from the params to the core's answer.
 
 pub(super) mod code_action;
 pub(super) mod commands;
@@ -37,7 +37,7 @@ use crate::toolpath::Planned;
 use std::sync::Arc;
 use tower_lsp::jsonrpc::{Error, Result};
 
-/// A drawing as one request looks at it: under its own options, where it brings any.
+/// A drawing for one request, under its own options, if any.
 struct Task {
     /// As it is open: findings have their places here.
     subject: Arc<Document>,
@@ -71,7 +71,8 @@ impl Task {
         self.document.unit_mm()
     }
 
-    /// All findings under the task's settings; of the rules alone where the options made a document without its text.
+    /// All findings under the task's settings; only those of the rules where the options made a document without its
+    /// text.
     fn findings(&self) -> Vec<Finding> {
         self.document.all_findings().to_vec()
     }

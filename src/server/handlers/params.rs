@@ -1,4 +1,4 @@
-//! Where the params of each request of LSP say which document it is about.
+//! Where the params of each LSP request name their document.
 
 use crate::server::context::About;
 use ls_types::*;

@@ -1,5 +1,5 @@
-//! `wedm/picture` and `wedm/export`: contours, faults and wire path of a drawing, or the path of a program, as SVG or as a file;
-//! `wedm/repairs`: what the repairs of a finding make of it.
+//! `wedm/picture` and `wedm/export`: contours, faults and wire path of a drawing, or the path of a program, as SVG or
+//! as a file; `wedm/repairs`: a finding's place after each of its repairs.
 
 use super::Task;
 use crate::drawing::{Drawing, DrawingEdit, Touched};
@@ -32,7 +32,7 @@ fn svg(context: &RequestContext) -> Result<String> {
         return Ok(job::picture_of_program(document, program));
     }
     let task = Task::of(context)?;
-    // Where no path can be made the picture shows the contours and says why.
+    // Without a path the picture shows the contours and says why.
     Ok(job::picture(&task.snapshot, &task.findings(), context).1)
 }
 
@@ -74,7 +74,7 @@ pub(in crate::server) fn repairs(context: &RequestContext, asked: RepairsOf) -> 
     })
 }
 
-/// The segments that an edit brings.
+/// The segments that an edit adds.
 fn ghost(drawing: &Drawing, edit: &DrawingEdit) -> Option<Vec<SegmentShape>> {
     let mut after = drawing.clone();
     let delta = after.apply(edit).ok()?;

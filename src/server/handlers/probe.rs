@@ -6,7 +6,7 @@ use crate::server::state::{Reply, State};
 use serde::Deserialize;
 use serde_json::Value;
 
-/// Where a panic is wanted.
+/// Where to panic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(in crate::server) enum Site {

@@ -5,7 +5,7 @@ use crate::server::context::RequestContext;
 use ls_types::{Position, Range, SelectionRange, SelectionRangeParams};
 use tower_lsp::jsonrpc::{Error, Result};
 
-/// Places of one question.
+/// The most places in one question.
 const PLACES: usize = 1000;
 
 pub(in crate::server) fn selection_range(

@@ -1,4 +1,4 @@
-//! `wedm/settings`: what holds for a document, open or not.
+//! `wedm/settings`: the settings in force for a document, open or not.
 
 use crate::protocol::{CorrectionSource, SettingsInForce};
 use crate::server::config::{name_of, uri_of};
@@ -20,7 +20,7 @@ pub(in crate::server) fn settings(state: &mut State, uri: &str) -> SettingsInFor
     }
 }
 
-/// Passes stand in place of a single correction, whichever level they come from.
+/// Passes replace a single correction, whichever level they come from.
 fn source(of_client: &Settings, of_file: Option<&Settings>) -> CorrectionSource {
     let has_passes = |settings: &Settings| {
         settings

@@ -1,4 +1,4 @@
-//! `wedm/simulate`: where the machine goes.
+//! `wedm/simulate`: the machine's way.
 
 use crate::protocol::{Simulate, Simulation};
 use crate::server::context::RequestContext;

@@ -1,5 +1,5 @@
-//! `textDocument/semanticTokens`: of the whole text, of what has changed in it, and of the lines in sight. The answers leave as JSON
-//! text: of a large text nothing holds its tokens but eight bytes each.
+//! `textDocument/semanticTokens`: of the whole text, of the changes in it, and of the visible lines. The answers leave
+//! as JSON text: the tokens of a large text take only eight bytes each.
 
 use crate::ide::{Token, TokenKind, tokens_in};
 use crate::server::context::RequestContext;
@@ -49,7 +49,7 @@ pub(in crate::server) fn full(
     Ok(whole(result_id, &tokens))
 }
 
-/// Answers with what has changed since the answer that the client names, where that is known, else with all tokens.
+/// Answers with the difference to the answer that the client names, if that is known, else with all tokens.
 pub(in crate::server) fn delta(
     context: &RequestContext,
     params: SemanticTokensDeltaParams,
@@ -67,7 +67,8 @@ pub(in crate::server) fn delta(
     })
 }
 
-/// Takes note of what the client is sent, where it asks for differences: the name of the answer, and the difference to `previous`.
+/// Remembers the tokens sent, where the client asks for differences; returns the name of the answer, and the difference
+/// to `previous`.
 fn kept(
     context: &RequestContext,
     previous: Option<&str>,
@@ -157,7 +158,7 @@ struct Encoder<'a> {
     begin: usize,
     /// Character of the last token.
     character: usize,
-    /// A byte of the line and its character: what has been counted is not counted again, a program may stand in one line.
+    /// A byte of the line and its character, so that nothing is counted twice: a program may stand in one line.
     known: usize,
     counted: usize,
     tokens: Packed,

@@ -1,4 +1,4 @@
-//! `wedm/toolpath`: the path of the wire's centre; `wedm/holes`: where it is threaded, as a file for the drill.
+//! `wedm/toolpath`: the path of the wire's centre; `wedm/holes`: the thread holes as a file for the drill.
 
 use super::Task;
 use crate::dxf;

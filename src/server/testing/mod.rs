@@ -10,7 +10,7 @@ use std::io::{Read, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Longer than anything in a test takes: what has no answer by then never gets one.
+/// Longer than anything in a test takes: an answer that has not come by then never will.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Bytes that come at most `at_once` at a time, as from a pipe.
@@ -28,8 +28,8 @@ impl Read for Trickle<'_> {
     }
 }
 
-/// The bodies of a stream that comes `at_once` bytes at a time; those that `is_broken` says are given back, as the server does with
-/// what is no JSON.
+/// The bodies of a stream that comes `at_once` bytes at a time; those for which `is_broken` holds are given back, as
+/// the server does with invalid JSON.
 ///
 /// # Panics
 /// Where a step uses up no bytes, or more than there are.
@@ -63,7 +63,7 @@ pub fn bodies(bytes: &[u8], at_once: usize, is_broken: impl Fn(&[u8]) -> bool) -
     }
 }
 
-/// What a whole server in this process writes when it reads `input` and then the end: bodies, in order.
+/// The output of a whole server in this process for `input` and then the end: bodies, in order.
 pub fn served(input: &[u8]) -> Vec<Vec<u8>> {
     let output = Output::default();
     let writer = Writer::start(output.clone(), || {}).expect("a thread can be started");

@@ -1,9 +1,9 @@
-//! Bytes as a session of a client: documents opened, changed and closed in any order, every request about any of them, and between
-//! the messages what is none.
+//! Turns bytes into a session of a client: documents opened, changed and closed in any order, every request about any
+//! of them, and noise between the messages.
 
 use serde_json::{Value, json};
 
-/// What a client sends, and what it expects to be answered.
+/// The bytes that a client sends, and the answers that it expects.
 pub struct Sequence {
     pub stream: Vec<u8>,
     /// Requests in the stream; their ids count from 0.
@@ -53,7 +53,7 @@ const PHRASES: [&str; 30] = [
     "(",
 ];
 
-/// What stands between messages and is none; a whole message behind it is read all the same.
+/// Noise between messages; a whole message behind it is read all the same.
 const BROKEN: [&str; 16] = [
     "Content-Length: 5\r\nx\r\n",
     "Content-Length: 2\r\n{}",
@@ -180,7 +180,7 @@ impl<'a> Script<'a> {
     }
 }
 
-/// The session that `script` spells out. It begins with the handshake, and has no end of its own.
+/// The session for `script`. It begins with the handshake, and has no end of its own.
 pub fn sequence(script: &[u8]) -> Sequence {
     let mut script = Script(script);
     let mut sequence = Sequence {
@@ -358,10 +358,10 @@ impl Sequence {
     }
 }
 
-/// Holds what the server wrote against what was asked.
+/// Checks the server's output against the requests.
 ///
 /// # Panics
-/// Where a request is not answered just once, or with an internal error, or a message is no JSON-RPC.
+/// Where a request is not answered just once, or with an internal error, or a message is not JSON-RPC.
 pub fn check_answers(sequence: &Sequence, written: &[Vec<u8>]) {
     let mut answers = vec![0_usize; sequence.requests];
     for body in written {

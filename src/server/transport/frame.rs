@@ -1,7 +1,7 @@
-//! Frames of the base protocol out of a stream of bytes, and the way back into step after a broken one.
+//! Frames of the base protocol from a stream of bytes, and recovery after a broken one.
 //!
-//! Knows nothing of JSON. Never allocates by `Content-Length` alone: memory grows with the bytes that came. Every step uses up
-//! bytes: whatever came, there are fewer steps than bytes.
+//! Knows nothing of JSON. Never allocates by `Content-Length` alone: memory grows with the bytes that came. Every step
+//! consumes bytes: there are fewer steps than bytes.
 
 use crate::text::head;
 use memchr::memmem;
@@ -10,17 +10,17 @@ use std::ops::Range;
 
 /// A body longer than this is skipped.
 pub(super) const BODY_CAP: u64 = 256 * 1024 * 1024;
-/// A header block longer than this is none.
+/// A longer header block is invalid.
 const HEADER_CAP: usize = 8 * 1024;
 const CHUNK: usize = 64 * 1024;
-/// A `Content-Length: …` line that is longer is not looked for.
+/// A longer `Content-Length: …` line is not searched for.
 const MARKER_CAP: usize = 64;
 
-/// What came next in the stream.
+/// The next item of the stream.
 #[derive(Debug, PartialEq, Eq)]
 pub(in crate::server) enum Frame {
     Body(Vec<u8>),
-    /// A frame that is none, and why; the stream stands before the next one.
+    /// An invalid frame, and why; the stream stands before the next one.
     Broken(String),
     End,
 }
@@ -30,10 +30,10 @@ pub(in crate::server) struct Frames<R> {
     buffer: Vec<u8>,
     /// Bytes of `buffer` that are used up.
     start: usize,
-    /// Bytes that have been dropped from the front of `buffer`; less than none while the end of a broken body is looked at again.
+    /// Bytes that have been dropped from the front of `buffer`; negative while the end of a broken body is read again.
     dropped: i64,
     ended: bool,
-    /// The last body was broken: what follows it may be its rest.
+    /// The last body was broken: the following bytes may be its rest.
     out_of_step: bool,
 }
 
@@ -49,8 +49,8 @@ impl<R: Read> Frames<R> {
         }
     }
 
-    /// Bytes of the stream that are used up. It grows with every step; after [`Frames::was_broken`] it is less than before it, but
-    /// more than before the step.
+    /// Bytes of the stream that are used up. It grows with every step; after [`Frames::was_broken`] it is less than
+    /// before it, but more than before the step.
     pub(crate) fn position(&self) -> i64 {
         self.dropped + self.start as i64
     }
@@ -71,7 +71,7 @@ impl<R: Read> Frames<R> {
         }
     }
 
-    /// Says that a body was not what it should be: its end, and what follows, are searched for the next header.
+    /// Marks the last body as invalid: its end and the following bytes are searched for the next header.
     pub(crate) fn was_broken(&mut self, body: &[u8]) {
         let tail = body
             .get(body.len().saturating_sub(MARKER_CAP)..)
@@ -86,7 +86,7 @@ impl<R: Read> Frames<R> {
         self.buffer.get(self.start..).unwrap_or_default()
     }
 
-    /// A part of what is there and not used up.
+    /// A part of the unused bytes.
     fn ahead(&self, range: Range<usize>) -> &[u8] {
         self.rest().get(range).unwrap_or_default()
     }
@@ -116,16 +116,17 @@ impl<R: Read> Frames<R> {
         !self.ended
     }
 
-    /// Forgets the bytes that are used up.
+    /// Forgets the used bytes.
     fn drop_used(&mut self) {
         self.buffer.drain(..self.start);
         self.dropped += self.start as i64;
         self.start = 0;
     }
 
-    /// The length that the next header block states; `None` at the end of the stream.
+    /// The length in the next header block; `None` at the end of the stream.
     ///
-    /// A block at fault is used up to behind the first byte of the line at fault: what that line holds besides may be the next header.
+    /// A faulty block is used up to behind the first byte of the faulty line: the rest of that line may hold the next
+    /// header.
     fn header(&mut self) -> Result<Option<u64>, String> {
         let mut length = None;
         // Where the next line of the block begins.
@@ -155,7 +156,7 @@ impl<R: Read> Frames<R> {
                 let is_between_frames = at == 0;
                 self.start += end + 1;
                 match length {
-                    // Blank lines between frames harm nobody.
+                    // Blank lines between frames are harmless.
                     _ if is_between_frames => continue,
                     None => {
                         self.skip_to_header(0);
@@ -187,7 +188,7 @@ impl<R: Read> Frames<R> {
 
     fn body(&mut self, length: usize) -> Frame {
         if length > CHUNK {
-            // A long body is handed on as it lies in the buffer: it is held once, and not kept.
+            // A long body is handed on as it lies in the buffer, without a second copy.
             self.drop_used();
         }
         let mut searched: usize = 0;
@@ -248,7 +249,7 @@ impl<R: Read> Frames<R> {
         }
     }
 
-    /// Drops everything before the next header line, which is looked for from `from` bytes ahead on.
+    /// Drops everything before the next header line, which is searched for from `from` bytes ahead on.
     fn skip_to_header(&mut self, from: usize) {
         self.start = (self.start + from).min(self.buffer.len());
         loop {
@@ -265,7 +266,7 @@ impl<R: Read> Frames<R> {
     }
 }
 
-/// The begin of what stands in a header's place, for a message.
+/// The first bytes in a header's place, for a message.
 fn shown(bytes: &[u8]) -> String {
     String::from_utf8_lossy(head(bytes, MARKER_CAP)).into_owned()
 }

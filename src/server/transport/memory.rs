@@ -1,8 +1,8 @@
-//! Giving memory back to the system.
+//! Returns memory to the system.
 //!
-//! A message of many megabytes becomes millions of small pieces on its way; freed, they stay with the allocator of some
-//! systems for good. So does what thousands of small ones opened and closed again. What a large message, or as much in small ones,
-//! left behind is given back a moment after it.
+//! A message of many megabytes becomes millions of small pieces; some allocators keep them after they are freed. The
+//! same holds for thousands of small documents opened and closed again. The memory of a large message, or of as much in
+//! small ones, is returned a moment later.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -10,18 +10,18 @@ use std::time::Duration;
 
 /// Messages that come to less than this together leave little behind.
 const LARGE: usize = 1024 * 1024;
-/// Long enough for what the message set off to be done with.
+/// Long enough for the work that the message set off.
 const DELAY: Duration = Duration::from_millis(400);
 
 #[derive(Clone, Default)]
 pub(super) struct Memory {
     is_due: Arc<AtomicBool>,
-    /// Bytes of the messages since memory was given back last.
+    /// Bytes of the messages since memory was last returned.
     length: Arc<AtomicUsize>,
 }
 
 impl Memory {
-    /// Gives back what a message of `length` bytes leaves behind.
+    /// Returns the memory that a message of `length` bytes leaves behind.
     pub(crate) fn after_message(&self, length: usize, runtime: &tokio::runtime::Runtime) {
         if self
             .length
@@ -44,11 +44,11 @@ impl Memory {
 
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 pub(super) fn give_back() {
-    // SAFETY: the allocator locks what it trims; nothing that is in use is touched.
+    // SAFETY: the allocator locks what it trims; memory in use is not touched.
     unsafe { libc::malloc_trim(0) };
 }
 
-/// Other allocators give back by themselves.
+/// Other allocators return memory by themselves.
 #[cfg(not(all(target_os = "linux", target_env = "gnu")))]
 pub(super) fn give_back() {}
 

@@ -1,4 +1,4 @@
-//! A JSON-RPC message out of a body: request, notification, reply, or what is wrong with it.
+//! Reads a JSON-RPC message from a body: request, notification, reply, or an error.
 
 use super::weight::{LIMIT, is_too_heavy};
 use serde_json::Value;
@@ -15,11 +15,11 @@ pub(super) enum Incoming {
         id: String,
         result: Result<Value, Value>,
     },
-    /// Neither; the id is null where it cannot be known.
+    /// None of these; the id is null where it cannot be known.
     Invalid { id: Id, error: Error },
 }
 
-/// Reads a body. A body that is not JSON is `Err`; one whose values would fill the memory is not read, whatever it says.
+/// Reads a body. A body that is not JSON is `Err`; one whose values would fill the memory is not read.
 pub(super) fn parse(body: &[u8]) -> Result<Incoming, Error> {
     if is_too_heavy(body) {
         return Ok(invalid(
@@ -78,7 +78,7 @@ fn reply(id: Option<Id>, mut message: serde_json::Map<String, Value>) -> Incomin
             id,
             result: Ok(message.remove("result").unwrap_or_default()),
         },
-        // An id of the client's own could stand for a request that still waits: it is not echoed.
+        // The client's id could be that of a request that still waits: it is not echoed.
         _ => invalid(Id::Null, say!(a_message_without_a_method)),
     }
 }
@@ -104,8 +104,8 @@ fn parse_json(body: &[u8]) -> Result<Value, String> {
 
 /// The body with every number that no `f64` can hold (`1e999`) in quotes; `None` where there is none.
 ///
-/// Such a number is valid JSON. The parser would refuse the message without saying whose coordinate it was; as text it
-/// reaches the place that can.
+/// Such a number is valid JSON. The parser would refuse the message without naming the coordinate; as text it reaches
+/// the code that can.
 fn quote_overflowing_numbers(body: &[u8]) -> Option<Vec<u8>> {
     let mut quoted = Vec::new();
     let mut copied = 0;

@@ -1,8 +1,8 @@
 //! The wire: bytes in, messages to the service in order, replies out.
 //!
-//! One blocking thread reads; it polls each message's handler once, at once, so that what a handler does before its first
-//! wait happens in the order of the messages. A handler that waits is spawned: no number of them holds up the next
-//! message or a cancellation. Knows JSON-RPC, and of LSP only `initialize` and `exit`.
+//! One blocking thread reads. It polls each message's handler once, immediately, so that everything before a handler's
+//! first wait happens in the order of the messages. A handler that waits is spawned: any number of them holds up
+//! neither the next message nor a cancellation. Knows JSON-RPC, and of LSP only `initialize` and `exit`.
 
 mod frame;
 mod memory;
@@ -35,11 +35,11 @@ use written::{REPLY, Reply};
 
 pub(crate) use stdio::pipes;
 
-/// What the transport tells and asks the server beside the messages themselves.
+/// The server's part for the transport, beside the messages themselves.
 pub(crate) trait Inbox {
     /// The client answered a request of ours.
     fn reply(&self, id: String, result: Result<Value, Value>);
-    /// Something about the connection that the log should say.
+    /// A line about the connection for the log.
     fn note(&self, text: String);
     /// Number of notifications that a handler has taken so far.
     fn taken(&self) -> usize;
@@ -115,7 +115,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
         }
     }
 
-    /// Waits for the handlers that still wait, at most `limit`.
+    /// Waits at most `limit` for the waiting handlers.
     pub(crate) fn drain(&self, limit: Duration) {
         let deadline = Instant::now() + limit;
         while self.waiting.load(Ordering::Acquire) > 0 && Instant::now() < deadline {
@@ -138,7 +138,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
 
     fn dispatch(&mut self, request: Request) {
         let (id, method) = (request.id().cloned(), request.method().to_owned());
-        // None of the framework's own is a request, and it leaves such requests without an answer.
+        // None of the framework's own methods is a request, and it leaves such requests without an answer.
         if let Some(id) = id.clone().filter(|_| method.starts_with("$/")) {
             let message = say!(there_is_no_request, method).into();
             return self.send(Response::from_error(
@@ -225,7 +225,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
     }
 }
 
-/// What came of a handler: its answer, or the panic that ended it.
+/// The end of a handler: its answer, or its panic.
 type Outcome = Result<Result<Option<Response>, ExitedError>, Box<dyn Any + Send>>;
 
 fn finish(writer: &Writer, reply: &Reply, id: Option<Id>, outcome: Outcome) {
@@ -255,7 +255,7 @@ fn finish(writer: &Writer, reply: &Reply, id: Option<Id>, outcome: Outcome) {
     }
 }
 
-/// What a panic said.
+/// The text of a panic.
 pub(crate) fn panic_text(panic: &(dyn Any + Send)) -> &str {
     match (panic.downcast_ref::<&str>(), panic.downcast_ref::<String>()) {
         (Some(text), _) => text,
@@ -264,7 +264,7 @@ pub(crate) fn panic_text(panic: &(dyn Any + Send)) -> &str {
     }
 }
 
-/// Notifications that must not be lost without a word.
+/// Notifications whose loss must be reported.
 fn is_ours(method: &str) -> bool {
     method.starts_with("wedm/")
         || matches!(

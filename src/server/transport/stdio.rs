@@ -1,4 +1,4 @@
-//! The process's own pipes, without the line buffering that the standard library puts before them.
+//! The process's own pipes, without the line buffering of the standard library.
 
 use std::fs::File;
 use std::io;

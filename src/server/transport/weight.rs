@@ -1,18 +1,19 @@
-//! What a JSON text would take in memory as a tree of values, counted before the tree is built.
+//! The memory that a JSON text would take as a tree of values, counted before the tree is built.
 //!
-//! A short text can be a large tree: `[],[],…` takes 26 times its own length. Nothing here checks the text; what is no JSON is
-//! refused by the parser.
+//! A short text can be a large tree: `[],[],…` takes 26 times its own length. Nothing here checks the text; the parser
+//! refuses invalid JSON.
 
-/// Slots of a list that holds anything: its first allocation.
+/// Slots of a list that is not empty: its first allocation.
 const LIST: u64 = 4;
-/// The same of an object, whose entries have keys and a table beside them.
+/// The same for an object, whose entries have keys and a table beside them.
 const OBJECT: u64 = 8;
-/// A tree may weigh this many slots of some 72 bytes: a good gigabyte. A polyline of a million vertices with bulges weighs seven millions.
+/// A tree may take this many slots of some 72 bytes: a good gigabyte. A polyline of a million vertices with bulges
+/// takes seven millions.
 pub(super) const LIMIT: u64 = 16_000_000;
 
-/// True where the tree of `json` would weigh more than [`LIMIT`].
+/// True where the tree of `json` would take more than [`LIMIT`].
 pub(super) fn is_too_heavy(json: &[u8]) -> bool {
-    // No byte weighs more than an object.
+    // No byte takes more than an object.
     if (json.len() as u64).saturating_mul(OBJECT) <= LIMIT {
         return false;
     }
@@ -34,7 +35,7 @@ pub(super) fn is_too_heavy(json: &[u8]) -> bool {
     false
 }
 
-/// What stands behind the end of a string; nothing where it does not end.
+/// The text behind the end of a string; empty where it does not end.
 fn behind_string(mut rest: &[u8]) -> &[u8] {
     while let Some(at) = memchr::memchr2(b'"', b'\\', rest) {
         let behind = rest.get(at..).unwrap_or_default();

@@ -1,8 +1,7 @@
-//! The one thread that writes to the client, and what waits for it.
+//! The one thread that writes to the client, and the queue before it.
 //!
-//! Diagnostics wait in a slot for each document, where a newer one takes the place of an unwritten older one;
-//! everything else waits in order. Who reads from the client holds back while too much waits: a client that
-//! stops reading cannot make memory grow.
+//! Diagnostics wait in a slot for each document, where newer ones replace older ones; everything else waits in order.
+//! The reading thread pauses while too much waits: a client that stops reading cannot make memory grow.
 
 use super::Written;
 use rustc_hash::FxHashMap;
@@ -25,7 +24,7 @@ pub(crate) struct Publish {
     pub(crate) version: Option<i64>,
     /// An array.
     pub(crate) diagnostics: Written,
-    /// Not superseded: the one publish that an opening or a closing is owed.
+    /// Not superseded: the one publish that must follow an opening or a closing.
     pub(crate) owed: bool,
 }
 
@@ -47,7 +46,8 @@ struct Shared {
 #[derive(Default)]
 struct Queue {
     waiting: VecDeque<Waiting>,
-    /// The newest unwritten diagnostics of a document that may still be superseded, and the ticket of their place in line.
+    /// The newest unwritten diagnostics of a document that may still be superseded, and the ticket of their place in
+    /// line.
     slots: FxHashMap<Arc<str>, (u64, Publish)>,
     tickets: u64,
     bytes: usize,
@@ -137,13 +137,13 @@ impl Writer {
         });
     }
 
-    /// Queues diagnostics in the place of unwritten older ones of the same document, unless those are owed.
+    /// Queues diagnostics in place of unwritten older ones of the same document, unless those must be written.
     pub(crate) fn publish(&self, publish: Publish) {
         let mut queue = self.shared.queue();
         let uri = publish.uri.clone();
         queue.bytes += publish.size();
         if publish.owed {
-            // What was not written yet is out of date now, and must not come after this one.
+            // Unwritten ones are out of date now, and must not come after these.
             if let Some((_, old)) = queue.slots.remove(&uri) {
                 queue.bytes -= old.size();
             }
@@ -165,7 +165,7 @@ impl Writer {
         self.shared.queue().bytes > BACKLOG
     }
 
-    /// Waits until little enough waits, at most `limit`; true when it does.
+    /// Waits until little enough waits, at most `limit`; true if so.
     pub(crate) fn wait_for_room(&self, limit: Duration) -> bool {
         self.wait(limit, |queue| queue.bytes <= BACKLOG)
     }
@@ -218,7 +218,7 @@ fn write_all(shared: &Shared, mut output: impl Write) -> std::io::Result<()> {
                     queue.bytes -= publish.size();
                     break Next::Publish(publish);
                 }
-                // A place in line whose diagnostics were superseded by owed ones is empty.
+                // A place in line whose diagnostics were superseded is empty.
                 Some(Waiting::Slot(uri, ticket)) => {
                     if queue.slots.get(&uri).is_some_and(|(own, _)| *own == ticket)
                         && let Some((_, publish)) = queue.slots.remove(&uri)

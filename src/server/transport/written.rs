@@ -1,7 +1,8 @@
 //! Results that are JSON text already.
 //!
-//! A radius list of a million segments as a tree of JSON values takes gigabytes. Workers write results as text; a handler leaves its
-//! text with the reply and gives the framework an empty result, and the transport sends the text in its place.
+//! A radius list of a million segments as a tree of JSON values takes gigabytes. Workers write results as text; a
+//! handler leaves its text with the reply and returns an empty result to the framework, and the transport sends the
+//! text instead.
 
 use serde::Serialize;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -24,13 +25,13 @@ impl Default for Written {
 }
 
 impl From<Vec<u8>> for Written {
-    /// Takes JSON that somebody else has made.
+    /// Takes finished JSON.
     fn from(json: Vec<u8>) -> Written {
         Written(json)
     }
 }
 
-/// What a handler's result is as JSON text.
+/// The JSON text of a handler's result.
 pub(crate) trait AsWritten {
     fn written(self) -> serde_json::Result<Written>;
 }
@@ -71,7 +72,7 @@ impl Written {
     }
 }
 
-/// What a handler has left for its reply.
+/// The text that a handler has left for its reply.
 #[derive(Clone, Default)]
 pub(super) struct Reply(Arc<Mutex<Option<Written>>>);
 
@@ -80,7 +81,7 @@ impl Reply {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The body of a reply. An error takes the place of what was left.
+    /// The body of a reply. An error replaces the text that was left.
     pub(crate) fn body(&self, response: &Response) -> serde_json::Result<Vec<u8>> {
         match self.lock().take().filter(|_| response.is_ok()) {
             None => serde_json::to_vec(response),

@@ -20,7 +20,7 @@ fn a_body_over_the_limit_is_passed_over_and_said_by_its_length() {
     let mut frames = Frames::new(Trickle(input.as_bytes(), 7));
     let expected = say!(a_body_is_over_the_limit, BODY_CAP + 1, BODY_CAP);
     assert_eq!(frames.next(), Frame::Broken(expected));
-    // What is as long as the limit is only cut short here.
+    // A body as long as the limit is only cut short here.
     let input = header(BODY_CAP) + "{}";
     let next = Frames::new(Trickle(input.as_bytes(), 7)).next();
     let over = say!(a_body_is_over_the_limit, BODY_CAP, BODY_CAP);
@@ -140,7 +140,7 @@ fn a_broken_frame_costs_itself_alone() {
         &[],
         &["?", "{}"],
     );
-    // A blank line forgotten, something printed, a header that is none: between frames and within one.
+    // A blank line forgotten, something printed, an invalid header: between frames and within one.
     check("Content-Length: 5\r\nx\r\n", &[], &["?"]);
     check(
         &format!("Content-Length: 5\r\nx\r\n{good}"),
@@ -217,7 +217,7 @@ fn a_broken_frame_costs_itself_alone() {
 }
 
 proptest! {
-    /// The pieces that frames are made of, in any order: every step uses up bytes, however few come at a time.
+    /// The pieces of frames, in any order: every step uses up bytes, however few come at a time.
     #[test]
     fn every_step_uses_up_bytes(pieces in prop::collection::vec(0_usize..PIECES.len(), 0..40), broken in any::<bool>()) {
         let input: String = pieces.into_iter().map(|piece| PIECES[piece]).collect();
