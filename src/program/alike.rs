@@ -1,7 +1,7 @@
-//! Characters that look like those of a program and are others: full-width forms, wide spaces, dashes, Cyrillic and Greek letters; in
-//! UTF-8, and in GBK, which editors of Chinese Windows write.
+//! Characters that look like those of a program but differ: full-width forms, wide spaces, dashes, Cyrillic and Greek
+//! letters; in UTF-8, and in GBK, which editors of Chinese Windows write.
 
-/// What a character that is not ASCII looks like.
+/// The kind of a look-alike character.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::program) enum Likeness {
     FullWidth(u8),
@@ -32,7 +32,7 @@ pub(in crate::program) struct Alike {
     pub(crate) likeness: Likeness,
 }
 
-/// The characters of a line that look like others, in their order.
+/// The look-alike characters of a line, in their order.
 pub(in crate::program) fn alike(line: &[u8]) -> Vec<Alike> {
     let mut found = Vec::new();
     if line.is_ascii() {
@@ -86,7 +86,7 @@ fn in_utf_8(rest: &[u8]) -> (Option<Likeness>, usize) {
     (likeness, length)
 }
 
-/// Letters that are drawn as one of a program.
+/// Letters that look like one of a program.
 fn foreign(letter: char) -> Option<u8> {
     Some(match letter {
         'А' | 'Α' => b'A',
@@ -141,8 +141,8 @@ fn foreign_in_gbk(row: u8, low: u8) -> Option<u8> {
     })
 }
 
-/// The line with marks and spaces as a controller has them, each in the place of the other one; `None` where there is none. Letters and
-/// digits stay.
+/// The line with its marks and spaces as a controller needs them, each in place; `None` where nothing changes. Letters
+/// and digits stay.
 pub(in crate::program) fn with_plain_marks(line: &[u8]) -> Option<Vec<u8>> {
     let marks: Vec<Alike> = alike(line)
         .into_iter()
@@ -171,7 +171,7 @@ pub(in crate::program) fn in_plain_letters(line: &[u8], alike: &[Alike]) -> Vec<
     plain
 }
 
-/// How many bytes of space begin a text, wide ones among them.
+/// How many bytes of space begin a text, including wide spaces.
 pub(in crate::program) fn wide_space(text: &[u8]) -> usize {
     match text {
         [0xc2, 0xa0, ..] => 2,

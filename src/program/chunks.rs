@@ -1,7 +1,7 @@
-//! A program as a list of chunks: consecutive lines that were read, so that an edit reads again only those that it touched.
+//! A program as a list of chunks of consecutive lines, so that an edit rereads only those that it touched.
 //!
-//! What a line says may hang on what is in force before it. Each chunk knows what is in force before and behind itself: those behind
-//! an edit are read again for as long as something else is in force than was.
+//! The meaning of a line may depend on the state before it. Each chunk knows the state before and behind itself: the
+//! chunks behind an edit are reread until the state agrees with the earlier one.
 
 #![warn(clippy::indexing_slicing)]
 
@@ -9,24 +9,25 @@ use crate::text::SourceText;
 use rayon::prelude::*;
 use std::ops::{Deref, DerefMut, Range};
 
-/// Chunks that are read side by side.
+/// Chunks that are read in parallel.
 const AT_ONCE: usize = 256;
 
 /// How a language reads its lines.
 pub(in crate::program) trait ChunkReader: Sync {
-    /// What is in force between two lines; `()` where a line hangs on no other.
+    /// The state between two lines; `()` where lines are independent.
     type State: Copy + PartialEq;
-    /// Lines of which is done what has to be done one after another.
+    /// Lines after the part that must be done in sequence.
     type Begun: Send;
     type Chunk: Send;
 
-    /// Lines of a chunk: it holds so many to twice as many, so that lines inserted one by one do not leave ever shorter ones.
+    /// Lines of a chunk: it holds this many up to twice as many, so that inserting lines one by one does not leave ever
+    /// shorter chunks.
     const LINES: usize;
 
-    /// What is in force before the first line.
+    /// The state before the first line.
     fn begin(&self) -> Self::State;
 
-    /// Goes through lines; gives what is in force behind them.
+    /// Goes through lines; returns the state behind them.
     fn run(
         &self,
         text: &SourceText,
@@ -34,25 +35,25 @@ pub(in crate::program) trait ChunkReader: Sync {
         before: Self::State,
     ) -> (Self::Begun, Self::State);
 
-    /// What can be done side by side.
+    /// The part that can be done in parallel.
     fn finish(&self, text: &SourceText, begun: Self::Begun) -> Self::Chunk;
 
     fn before(chunk: &Self::Chunk) -> Self::State;
 
     fn after(chunk: &Self::Chunk) -> Self::State;
 
-    /// How its last lines run hangs on lines behind it.
+    /// The reading of its last lines depends on lines behind it.
     fn looks_ahead(_: &Self::Chunk) -> bool {
         false
     }
 
-    /// Takes a chunk on from another state; false where its lines have to be read again.
+    /// Takes a chunk on from another state; false where its lines must be reread.
     fn take_on(_: &mut Self::Chunk, _: Self::State) -> bool {
         false
     }
 }
 
-/// Where the lines of a chunk stand.
+/// The place of a chunk.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::program) struct Lines {
     /// Lines of the text, from 0.
@@ -111,7 +112,8 @@ impl<C: Send> Chunks<C> {
         Chunks { list, places }
     }
 
-    /// Reads lines in another order than that of the text, perhaps more than once: a chunk for each range. Such a list cannot be edited.
+    /// Reads lines in another order than that of the text, perhaps more than once: a chunk for each range. Such a list
+    /// cannot be edited.
     pub(crate) fn read_in_order<L: ChunkReader<Chunk = C>>(
         language: &L,
         text: &SourceText,
@@ -121,7 +123,7 @@ impl<C: Send> Chunks<C> {
         Chunks { list, places }
     }
 
-    /// Replaces a range of bytes of the text and reads again what that touched.
+    /// Replaces a range of bytes of the text and rereads what that touched.
     pub(crate) fn edit<L: ChunkReader<Chunk = C>>(
         &mut self,
         language: &L,
@@ -181,7 +183,7 @@ impl<C: Send> Chunks<C> {
 }
 
 impl<C> Chunks<C> {
-    /// Where a chunk stands; nowhere behind the last.
+    /// The place of a chunk; empty behind the last.
     pub(crate) fn place(&self, chunk: usize) -> Lines {
         self.places.get(chunk).cloned().unwrap_or_default()
     }
@@ -191,14 +193,14 @@ impl<C> Chunks<C> {
         self.places.get(chunk).map_or(0, |place| place.byte)
     }
 
-    /// The chunk that holds a byte of a text that runs as it stands; the last one for bytes past the end.
+    /// The chunk that holds a byte of a text that runs in its own order; the last one for bytes past the end.
     pub(crate) fn at(&self, byte: usize) -> usize {
         self.places
             .partition_point(|place| place.byte <= byte)
             .saturating_sub(1)
     }
 
-    /// The chunks and where they stand.
+    /// The chunks and their places.
     pub(crate) fn placed(
         &self,
     ) -> impl DoubleEndedIterator<Item = (&C, &Lines)> + ExactSizeIterator {
@@ -206,7 +208,7 @@ impl<C> Chunks<C> {
     }
 }
 
-/// Lines in ranges of as many as a chunk holds.
+/// Lines in ranges of chunk size.
 fn pieces<L: ChunkReader>(lines: Range<usize>) -> impl Iterator<Item = Range<usize>> {
     let pieces = (lines.len() / L::LINES).max(1);
     let at = move |piece: usize| lines.start + lines.len() * piece / pieces;

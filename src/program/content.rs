@@ -1,14 +1,14 @@
-//! Which language a text is in whose name does not say it: programs come as `.txt`, `.cnc`, `.cmd` and `.eia`, too.
+//! Guesses the language of a text whose name does not tell: programs come as `.txt`, `.cnc`, `.cmd` and `.eia`, too.
 
 use super::document::Language;
 
-/// Lines that are looked at: behind the header of a program there are blocks soon.
+/// Lines that are looked at: soon after its header a program has blocks.
 const LINES: usize = 400;
 /// Bytes of a line that are looked at.
 const WIDTH: usize = 160;
 
 impl Language {
-    /// The language in which most lines of a text are; `None` where it is none.
+    /// The language of most lines of a text; `None` where there is none.
     pub(crate) fn of_content(text: &[u8]) -> Option<Language> {
         let (mut blocks, mut words, mut others) = (0, 0, 0);
         for line in text.split(|byte| matches!(byte, b'\n' | b'\r')).take(LINES) {
@@ -43,7 +43,7 @@ impl Language {
     }
 }
 
-/// What stands behind `N12` or `N12:`.
+/// The text behind `N12` or `N12:`.
 fn without_number(line: &[u8]) -> &[u8] {
     let Some(rest) = line.strip_prefix(b"N") else {
         return line;
@@ -76,7 +76,7 @@ fn is_line_of_words(line: &[u8]) -> bool {
 mod tests {
     use super::*;
 
-    /// The extension of VS Code is held to the same cases.
+    /// The extension of VS Code has the same cases in its test.
     #[test]
     fn a_text_is_known_by_what_stands_in_it() {
         let table = include_str!("../../clients/languages.json");

@@ -1,4 +1,4 @@
-//! A program as its cuts: what the machine runs from one stop or rapid to the next, joined, to be drawn or written in another language.
+//! A program as its cuts, each from one stop or rapid to the next: joined, to be drawn or written in another language.
 
 mod rings;
 
@@ -15,12 +15,12 @@ use crate::toolpath::{PathSegment, Source, WirePath};
 use rustc_hash::FxHashMap;
 use std::f64::consts::{PI, TAU};
 
-/// Layers of a drawing that is made of a program.
+/// Layers of a drawing made from a program.
 const CUT: &str = "CUT";
 const LEAD: &str = "LEAD";
 const WAY: &str = "WAY";
 
-/// Arcs that turn by more, nearly full circles, are not held well by a bulge, rad.
+/// A bulge does not hold arcs well that turn by more than this, nearly full circles, rad.
 const MOST_BY_BULGE: f64 = TAU * 0.75;
 
 /// The way of one cut, µm.
@@ -57,31 +57,32 @@ impl CutPath {
     }
 }
 
-/// What a program comes to.
+/// The content of a program.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cuts {
     pub cuts: Vec<CutPath>,
     /// Moves without the wire, from and to, µm.
     pub ways: Vec<[Point; 2]>,
-    /// Lines of blocks that lead nowhere, from 0.
+    /// Lines of blocks without movement, from 0.
     pub lost: Vec<usize>,
-    /// The line of the first 4B block, from 0: the contours are those of the part, and the controller adds its correction.
+    /// The line of the first 4B block, from 0: the contours are those of the part, and the controller adds its
+    /// correction.
     pub(crate) four_b: Option<usize>,
     /// The corrections that the program itself states, by their names, mm.
     pub(crate) corrections: Vec<(String, f64)>,
-    /// What says that the upper guide goes another way.
+    /// The word by which the upper guide takes another path.
     pub(crate) taper: Option<String>,
-    /// It does so within the cuts: the wire leans, or nobody knows how far.
+    /// It does so within the cuts: the wire leans, perhaps by an unknown amount.
     pub(crate) leans: bool,
     /// Lines of the stops within contours, before their tabs, from 0: no cut holds them.
     pub(crate) stops: Vec<usize>,
-    /// By how much contours did not close before their ends were made one, the most of it, µm.
+    /// The largest distance of a contour's ends before they were joined, µm.
     pub(crate) closure: f64,
 }
 
 /// The cuts of a program, in the order of the machine, one for each of its contours.
 ///
-/// Where coordinates stand behind the blocks of a 3B program the nodes are those; else they are where the machine stops.
+/// Where a 3B program has coordinates behind its blocks, the nodes are those; else they are where the machine stops.
 pub fn cuts(document: &Document) -> Cuts {
     let trace = document.trace();
     let spans = path::cuts(&trace);
@@ -172,7 +173,7 @@ fn between(ideal: &Segment, step: &Step, from: Point, to: Point) -> Segment {
                 });
             }
             let made = Arc::about(center, from, to, arc.sweep > 0.0);
-            // Where both ends are nearly one place, rounding must not make a turn of nothing, or nothing of a turn.
+            // Where both ends nearly coincide, rounding must neither make a full turn of nothing nor the reverse.
             if (made.sweep - arc.sweep).abs() > PI {
                 Segment::Arc(Arc {
                     center,
@@ -217,7 +218,7 @@ impl Cuts {
         ))
     }
 
-    /// What a program of another language does not hold of this one, in sentences.
+    /// What the new program loses, in sentences.
     pub(crate) fn losses(&self) -> Vec<String> {
         let mut losses = Vec::new();
         if self.cuts.iter().any(|cut| cut.side.is_some()) && !self.corrections.is_empty() {
@@ -241,7 +242,7 @@ impl Cuts {
         losses
     }
 
-    /// Ends a cut: joins the ends of its contour, and those of its ways in and out, where they are one place.
+    /// Ends a cut: joins the ends of its contour, and those of its ways in and out, where they coincide.
     fn close(&mut self, mut cut: CutPath) {
         let count = cut.segments.len();
         let last = count.saturating_sub(cut.lead_out + 1);
@@ -260,7 +261,7 @@ impl Cuts {
         if cut.closed {
             let mut target = begin.start();
             if !near(target, end.end()) {
-                // It goes on past the place where it closes: what is cut twice is no part of the contour.
+                // It goes on past its closing point: a part that is cut twice does not belong to the contour.
                 if end.distance_to(target) <= 2.0 * tolerance(arcs) {
                     let share = end.share_of(target);
                     cut.segments[last] = end.part(0.0, share);
@@ -296,8 +297,8 @@ impl Cuts {
         segments[index] = match segments[index] {
             Segment::Line(line) => Segment::line(line.start, end),
             Segment::Arc(arc) if arc.is_full_turn() => Segment::Arc(arc),
-            // By its bulge, an arc runs through both its ends: about its old centre it would lie beside the new one, by all that
-            // the contour did not close.
+            // By its bulge, an arc runs through both its ends: about its old centre it would lie beside the new end, by
+            // the gap of the contour.
             Segment::Arc(arc) if arc.sweep.abs() <= MOST_BY_BULGE => {
                 Segment::from_bulge(arc.start, end, arc.bulge())
             }
@@ -313,8 +314,8 @@ impl Cuts {
         };
     }
 
-    /// The program as a drawing in mm: contours as polylines with bulges, the ways in and out and those without the wire as lines. Of
-    /// several passes the last is the contour; those before it lie on layers of their own.
+    /// The program as a drawing in mm: contours as polylines with bulges, ways in and out and moves without the wire as
+    /// lines. Of several passes the last is the contour; the earlier ones lie on layers of their own.
     pub fn drawing(&self) -> Drawing {
         let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
         let mut cuts = &self.cuts[..];
@@ -409,7 +410,7 @@ fn push_line(drawing: &mut Drawing, layer: &str, [start, end]: [Point; 2]) {
     drawing.push(Entity::new(layer, layer, geometry));
 }
 
-/// The segments as a polyline in mm; arcs near a full turn, which no bulge holds well, in two halves.
+/// The segments as a polyline in mm; arcs near a full turn, which a bulge does not hold well, in two halves.
 fn polyline(segments: &[Segment], closed: bool) -> Option<Geometry> {
     let last = segments.last()?;
     let mut vertices = Vec::with_capacity(segments.len() + 1);
@@ -435,7 +436,7 @@ fn polyline(segments: &[Segment], closed: bool) -> Option<Geometry> {
     (vertices.len() >= 2).then_some(Geometry::Polyline { closed, vertices })
 }
 
-/// The coordinates that stand behind the blocks of a 3B program, µm, by the byte at which the block begins.
+/// The coordinates behind the blocks of a 3B program, µm, by the byte at which the block begins.
 fn stated_ends(document: &Document) -> FxHashMap<usize, Point> {
     let Document::ThreeB(program) = document else {
         return FxHashMap::default();

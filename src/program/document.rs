@@ -1,4 +1,5 @@
-//! A program as an open document, whatever its language. A new language adds its variant here and is complete when this compiles.
+//! A program as an open document, in any language. A new language adds its variant here and is complete when this
+//! compiles.
 
 use super::path::{Chain, Cut, Step, Trace, cut_of};
 use super::repair::gate;
@@ -53,16 +54,16 @@ impl Language {
     }
 }
 
-/// A program's text, what was read from it, and what is wrong with it.
+/// A program's text, its reading, and its findings.
 #[derive(Clone, Debug)]
 pub enum Document {
     ThreeB(three_b::Document),
-    /// Larger than the other by far.
+    /// Far larger than the other.
     Iso(Box<iso::Document>),
 }
 
 impl Document {
-    /// Reads program text. Never fails: what is damaged is in [`Document::findings`].
+    /// Reads program text. Never fails: damage is in [`Document::findings`].
     pub fn read(language: Language, bytes: Vec<u8>, settings: &Effective) -> Document {
         match language {
             Language::ThreeB => Document::ThreeB(three_b::Document::read_with(bytes, settings)),
@@ -84,7 +85,7 @@ impl Document {
         }
     }
 
-    /// Replaces a range of bytes and reads again what it touched.
+    /// Replaces a range of bytes and rereads what it touched.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
         match self {
             Document::ThreeB(document) => document.edit(range, replacement),
@@ -92,7 +93,7 @@ impl Document {
         }
     }
 
-    /// Reads again where the settings change what a text means or what is a fault of it; costs nothing where they do not.
+    /// Rereads where the settings change the meaning of a text or its faults; costs nothing otherwise.
     pub(crate) fn set_settings(&mut self, settings: &Effective) {
         match self {
             Document::ThreeB(document) => document.set_settings(settings),
@@ -100,8 +101,8 @@ impl Document {
         }
     }
 
-    /// At most `limit` findings under the settings' severities, errors first, then in the order of the text; and how many there
-    /// are in all.
+    /// At most `limit` findings under the settings' severities, errors first, then in the order of the text; and how
+    /// many there are in all.
     pub fn findings(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
         match self {
             Document::ThreeB(document) => document.told(settings, limit),
@@ -109,8 +110,8 @@ impl Document {
         }
     }
 
-    /// The fixes of one finding as edits of the text, the preferred one first. What would spoil the program is neither preferred nor
-    /// made without asking.
+    /// The fixes of one finding as edits of the text, the preferred one first. A fix that might spoil the program is
+    /// neither preferred nor made unasked.
     pub(crate) fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
         let offered = self.offered(finding);
         match self {
@@ -119,7 +120,7 @@ impl Document {
         }
     }
 
-    /// What the language has to offer.
+    /// The features of the language.
     fn offered(&self, finding: &Finding) -> Vec<TextFix> {
         match self {
             Document::ThreeB(document) => document.fixes(finding),
@@ -127,7 +128,8 @@ impl Document {
         }
     }
 
-    /// The safe fixes of all findings that are not switched off, as one sorted list of disjoint edits; `None` where there is none.
+    /// The safe fixes of all findings that are not switched off, as one sorted list of disjoint edits; `None` where
+    /// there is none.
     pub(crate) fn fix_all(&self, settings: &Effective) -> Option<Vec<TextEdit>> {
         let (mut findings, _) = self.findings(settings, usize::MAX);
         findings.retain(|finding| finding.severity <= Severity::Information);
@@ -146,7 +148,7 @@ impl Document {
         (!edits.is_empty()).then_some(edits)
     }
 
-    /// Coordinates stand behind blocks.
+    /// True where coordinates stand behind blocks.
     pub(crate) fn states_ends(&self) -> bool {
         match self {
             Document::ThreeB(document) => document.stated_ends().next().is_some(),
@@ -154,7 +156,7 @@ impl Document {
         }
     }
 
-    /// An electrode mills it: no wire cuts it out.
+    /// True for a program for an electrode: no wire cuts it.
     pub(crate) fn mills(&self) -> bool {
         match self {
             Document::ThreeB(_) => false,
@@ -169,12 +171,12 @@ impl Document {
         }
     }
 
-    /// Where the machine stands at what is said of the text.
+    /// The machine's position at a finding.
     pub(crate) fn whereabouts(&self) -> Whereabouts<'_> {
         Whereabouts::within(self.program())
     }
 
-    /// Where the machine goes, block by block.
+    /// The machine's way, block by block.
     pub fn trace(&self) -> Trace {
         let trace = steps::trace(self.program());
         let taper = match self {
@@ -195,8 +197,8 @@ impl Document {
         }
     }
 
-    /// The moves between two stops of which one touches a byte, by their ends, and the number of that one among them. Of two that
-    /// touch it, the one that begins there.
+    /// The moves between two stops of which one touches a byte, by their ends, and the number of that one among them.
+    /// Of two that touch it, the one that begins there.
     pub(crate) fn chain_at(&self, offset: usize) -> Option<(Chain<'static>, usize)> {
         steps::chain_at(self.program(), offset, Chain::ENDS)
     }
@@ -206,7 +208,7 @@ impl Document {
         steps::chain_at(self.program(), offset, usize::MAX)
     }
 
-    /// The chain of moves that touches a byte, what it comes to, and the number of the touching one.
+    /// The chain of moves that touches a byte, its totals, and the number of the touching one.
     pub(crate) fn cut_at(&self, offset: usize) -> Option<(Chain<'static>, Cut, usize)> {
         let (mut chain, mut nth) = self.chain_at(offset)?;
         let cut = match cut_of(&chain) {

@@ -1,17 +1,17 @@
-//! Edits of a program's text, as an editor takes them best. What they say is not known here.
+//! Edits of a program's text in the form that suits an editor. Their meaning is not known here.
 
 use crate::text::{SourceText, TextEdit};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// So many edits of one text are many.
+/// This many edits of one text are many.
 const MANY: usize = 2_000;
 
-/// Bytes between two of many edits that are little.
+/// Many edits are merged across gaps of up to this many bytes.
 const LITTLE: usize = 64;
 
-/// Sorted and disjoint edits. Where nearly all of a long text changes, those become one that are parted by little: tens of thousands of
-/// edits cost an editor more than the text between them.
+/// Sorted and disjoint edits. Where nearly all of a long text changes, edits with small gaps become one: tens of
+/// thousands of edits cost an editor more than the text between them.
 fn joined(edits: Vec<TextEdit>, text: &SourceText) -> Vec<TextEdit> {
     if edits.len() <= MANY {
         return edits;
@@ -40,8 +40,8 @@ fn joined(edits: Vec<TextEdit>, text: &SourceText) -> Vec<TextEdit> {
 /// Lines that are written together.
 pub(in crate::program) const AT_ONCE: usize = 2048;
 
-/// Edits of lines in the making, each with the lines that it writes anew from their beginning to their end: those of lines that follow
-/// each other become one. What writes only a part of a line has none.
+/// Edits of lines in the making, each with the lines that it replaces completely: those of consecutive lines become
+/// one. An edit of a part of a line has none.
 #[derive(Default)]
 pub(in crate::program) struct LineEdits(Vec<(Range<usize>, TextEdit)>);
 

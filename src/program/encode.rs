@@ -1,19 +1,20 @@
-//! From a line or arc of the path to blocks between nodes of the grid: where it is cut into pieces is the same in every language.
+//! From a line or arc of the path to blocks between nodes of the grid: every language cuts it into pieces in the same
+//! way.
 
 use super::grid::{Node, chord_count, in_pieces, largest_distance, sagitta, snap};
 use crate::geometry::{Arc, Segment};
 use std::f64::consts::PI;
 
-/// How far a block may lie from its piece of the path, anywhere, µm: centres are on the grid, ends are snapped.
+/// The largest distance of a block from its piece of the path, anywhere, µm: centres are on the grid, ends are snapped.
 pub(super) const ASIDE_TOLERANCE: f64 = 2.5;
 
-/// The largest sagitta of a chord that stands for a piece of an arc too large for a language, µm.
+/// The largest sagitta of a chord that replaces a piece of an arc too large for a language, µm.
 const CHORD_SAGITTA: f64 = 0.5;
 
 /// How a language can write an arc.
 pub(super) enum Attempt<B> {
     Made(B),
-    /// Only in so many pieces of one length.
+    /// Only in this many pieces of one length.
     Pieces(i64),
     /// Only as straight cuts: its numbers do not fit.
     Chords,
@@ -21,19 +22,19 @@ pub(super) enum Attempt<B> {
     Misses,
 }
 
-/// What one language makes of a piece of the path. Nodes and pieces are in steps of its grid.
+/// The writer of one language for a piece of the path. Nodes and pieces are in steps of its grid.
 pub(super) trait Encoder {
     type Block;
 
     /// A step of the grid, µm.
     fn step(&self) -> f64;
-    /// The straight cuts that it takes for so many steps.
+    /// The straight cuts for this many steps.
     fn lines(&self, longest: i64) -> i64;
     fn line(&self, piece: Segment, from: Node, to: Node) -> Self::Block;
     fn arc(&self, arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt<Self::Block>;
 
-    /// Appends the blocks of `piece` between its snapped ends. A piece that has no length on the grid, an arc of radius zero among
-    /// them, appends nothing. `None` where no arc within tolerance can be written, or a number does not fit.
+    /// Appends the blocks of `piece` between its snapped ends; nothing for a piece without length on the grid, such as
+    /// an arc of radius zero. `None` where no arc within tolerance can be written, or a number does not fit.
     fn encode(
         &self,
         piece: &Segment,
@@ -111,7 +112,7 @@ fn straight<E: Encoder + ?Sized>(
     )
 }
 
-/// How far a written line or arc lies from its piece at most, its middle from that of the piece too; infinite where nobody knows.
+/// The largest distance of a written line or arc from its piece, and of the two middles; infinite where it is unknown.
 pub(super) fn aside(written: &Segment, piece: &Segment) -> f64 {
     let middles = (written.point_at(0.5) - piece.point_at(0.5)).norm();
     match middles.is_nan() {

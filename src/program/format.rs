@@ -29,7 +29,7 @@ impl Format {
         }
     }
 
-    /// The format of a name, in either letter case. The error names those that there are.
+    /// The format of a name, in either letter case. The error lists them.
     pub(crate) fn of(name: &str) -> Result<Format, String> {
         let found = Format::ALL
             .into_iter()
@@ -40,7 +40,7 @@ impl Format {
         })
     }
 
-    /// The settings under which paths for this format are laid: 4B holds the part's contour, whatever is set for the others.
+    /// The settings for planning paths in this format: 4B holds the part's contour, whatever is set for the others.
     pub(crate) fn settings<'a>(self, settings: &'a Effective) -> Cow<'a, Effective> {
         match (self, settings.compensation) {
             (Format::FourB, Compensation::Path) => Cow::Owned(Effective {
@@ -62,7 +62,7 @@ impl Format {
         }
     }
 
-    /// Writes the paths as one program and proves it; `go_on` hears how far it is, and ends the work with `false`.
+    /// Writes the paths as one program and proves it; `go_on` gets the progress, and ends the work with `false`.
     pub fn write(
         self,
         paths: &[WirePath],

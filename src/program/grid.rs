@@ -1,9 +1,9 @@
-//! The grid of a program: its nodes, and the centre on it about which an arc runs best.
+//! The grid of a program: its nodes, and the best centre on it for an arc.
 
 use crate::geometry::{Arc, Point, Segment, direction, left_normal};
 use std::f64::consts::PI;
 
-/// A node of a program on its grid, in absolute coordinates. A step is 1 µm but for ISO profiles with more decimals.
+/// A node of a program on its grid, in absolute coordinates. A step is 1 µm, except in ISO profiles with more decimals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Node {
     pub(crate) x: i64,
@@ -24,18 +24,19 @@ pub(crate) fn point_of(node: Node) -> Point {
     Point::new(node.x as f64, node.y as f64)
 }
 
-/// A grid point that may stand for an arc's centre.
+/// A grid point as a candidate for an arc's centre.
 #[derive(Clone, Copy)]
 pub(crate) struct GridCenter {
     pub(crate) node: Node,
-    /// How far the arc about it lies from the true one at most, or its end from where it is meant to; in hundredths of a step.
+    /// The largest distance of the arc about it from the true one, or of its end from the intended one; in hundredths
+    /// of a step.
     cost: i64,
-    /// From the true centre.
+    /// Distance from the true centre.
     away: f64,
 }
 
-/// The nine grid points around the true centre, the best first: the one about which the arc stays nearest to the true one over its whole
-/// length and ends nearest to its node. Of those that are equally good the one nearest to the true centre.
+/// The nine grid points around the true centre, the best first: its arc stays nearest to the true one over its whole
+/// length and ends nearest to its node. Of equally good ones, the nearest to the true centre.
 pub(crate) fn grid_centers(arc: &Arc, from: Node, to: Node) -> [GridCenter; 9] {
     let nearest = Node {
         x: arc.center.x.round() as i64,
@@ -62,7 +63,7 @@ pub(crate) fn best_center(arc: &Arc, from: Node, to: Node) -> Node {
     grid_centers(arc, from, to)[0].node
 }
 
-/// What an arc costs that is written about a grid point, in steps; infinite where it turns otherwise.
+/// The error of an arc about a grid point, in steps; infinite where it turns the other way.
 fn cost_of(arc: &Arc, center: Node, from: Node, to: Node) -> f64 {
     if center == from || center == to {
         return f64::INFINITY;
@@ -77,18 +78,18 @@ fn cost_of(arc: &Arc, center: Node, from: Node, to: Node) -> f64 {
         return f64::INFINITY;
     }
     let miss = (distance(from, center) - distance(to, center)).abs();
-    // A controller that is given the start turns about the centre at its distance.
+    // A controller that is given the start turns about the centre at the start's distance.
     largest_distance(&Segment::Arc(written), &Segment::Arc(*arc)).max(miss)
 }
 
-/// The largest distance of a written line or arc from the piece of the path that it stands for, over its whole length.
+/// The largest distance of a written line or arc from its piece of the path, over its whole length.
 pub(crate) fn largest_distance(written: &Segment, piece: &Segment) -> f64 {
     let look = |share: f64| {
         (0.0..=1.0)
             .contains(&share)
             .then(|| written.point_at(share))
     };
-    // Between its ends it is farthest where it runs along the piece.
+    // Between its ends it is farthest where it is parallel to the piece.
     let between = match (written, piece) {
         (Segment::Line(line), Segment::Arc(arc)) => [look(line.share_of(arc.center)), None, None],
         (Segment::Line(_), Segment::Line(_)) => [None; 3],
@@ -102,7 +103,7 @@ pub(crate) fn largest_distance(written: &Segment, piece: &Segment) -> f64 {
             } else {
                 along
             };
-            // It comes to its end at its own radius, which may miss that a little.
+            // It reaches its end at its own radius, which may miss that end a little.
             let end = own.center + direction(own.start_angle + own.sweep) * own.radius;
             [
                 look(own.share_of(own.center + by)),
@@ -149,12 +150,12 @@ pub(crate) fn in_pieces(
     Some(())
 }
 
-/// How far the middle of an arc lies from that of its chord.
+/// The distance of an arc's middle from that of its chord.
 pub(crate) fn sagitta(arc: &Arc) -> f64 {
     arc.radius * (1.0 - (arc.sweep.abs() / 2.0).min(PI).cos())
 }
 
-/// The number of chords of an arc that each stay within `sagitta` of it; `None` for more than a program can hold.
+/// The number of chords of an arc that each stay within `sagitta` of it; `None` beyond what a program can hold.
 pub(crate) fn chord_count(arc: &Arc, sagitta: f64) -> Option<i64> {
     let half_step = (1.0 - (sagitta / arc.radius).min(1.0)).acos();
     // Where the radius is so large that the step vanishes in rounding, s = l² / 8r gives it.

@@ -1,4 +1,4 @@
-//! A program brought into a layout.
+//! Brings a program into a layout.
 
 use crate::program::document::Document;
 use crate::program::{iso, three_b};
@@ -6,9 +6,9 @@ use crate::settings::Effective;
 use crate::text::TextEdit;
 use std::ops::Range;
 
-/// The edits that bring some lines of a program into the layout that is set, else into the one in which the program stands.
+/// The edits that bring some lines of a program into the layout that is set, else into that of most of its lines.
 ///
-/// They are sorted and disjoint, and change nothing that the machine does: each line is read again before it is taken.
+/// They are sorted and disjoint, and do not change the machine's way: each line is read back first.
 pub fn format(document: &Document, settings: &Effective, lines: Range<usize>) -> Vec<TextEdit> {
     match document {
         Document::ThreeB(program) => three_b::format::format(

@@ -1,7 +1,7 @@
 //! Programs for the machine: how each language is read, judged, followed by the machine and written.
 //!
-//! [`Document`] is a program as the faces hold it, whatever its language; [`path`] is what every language comes to: where the
-//! machine goes. What a language alone knows stands in its own folder.
+//! [`Document`] is a program as the faces hold it, in any language; [`path`] is common to all languages: the machine's
+//! way. Everything about one language is in its own folder.
 
 mod alike;
 mod chunks;

@@ -1,13 +1,13 @@
-//! Passes of one contour, each closed by the tab that it leaves and a later cut takes away.
+//! Passes of one contour, each closed by its tab, which a later cut removes.
 
 use super::CutPath;
 use crate::geometry::{Bounds, Point, Segment};
 use crate::program::path::{lie_beside, tolerance};
 
-/// Blocks of a way in or out at most.
+/// The most blocks of a way in or out.
 const LEAD: usize = 2;
 
-/// Blocks of a tab at most.
+/// The most blocks of a tab.
 const TAB: usize = 64;
 
 /// A pass as a closed contour, and the way to it from the thread hole.
@@ -16,8 +16,8 @@ pub(super) struct Ring {
     pub leads: Vec<Segment>,
 }
 
-/// The passes that some cuts begin with, rough to finish, and how many cuts they are; `None` where these are not several passes of one
-/// contour.
+/// The passes at the start of some cuts, rough to finish, and the number of those cuts; `None` where these are not
+/// several passes of one contour.
 pub(super) fn passes(cuts: &[CutPath]) -> Option<(Vec<Ring>, usize)> {
     let begin = cuts.first()?.segments.first()?.start();
     let arcs = |cut: &CutPath| {
@@ -39,7 +39,7 @@ pub(super) fn passes(cuts: &[CutPath]) -> Option<(Vec<Ring>, usize)> {
         let all = 0..runs.len();
         let with_tabs = all.filter_map(|run| with_tab(&runs, run, begin, near));
         let mut rings: Vec<Ring> = with_tabs.collect();
-        // What goes on past the start comes again in the next pass, and goes round nothing.
+        // An overlap past the start comes again in the next pass, and encloses nothing.
         let largest = rings.iter().map(Ring::bounds);
         let largest = largest.max_by(|one, other| one.width().total_cmp(&other.width()))?;
         rings.retain(|ring| lie_beside(&largest, &ring.bounds()));
@@ -62,7 +62,7 @@ impl Ring {
     }
 }
 
-/// What a cut does from stop to stop.
+/// The moves of a cut from stop to stop.
 fn runs(cut: &CutPath) -> impl Iterator<Item = &[Segment]> {
     let ends = cut.stops.iter().copied().chain([cut.segments.len()]);
     let mut from = 0;
@@ -77,7 +77,7 @@ fn runs(cut: &CutPath) -> impl Iterator<Item = &[Segment]> {
 fn whole(cut: &CutPath, near: f64) -> Option<Ring> {
     let all = &cut.segments[..];
     let known = cut.lead_in..all.len().saturating_sub(cut.lead_out);
-    // Ways in and out in an arc end in one place of the contour, and come there by two.
+    // Ways in and out along an arc end in one place of the contour, but reach it by two.
     let closes = |from: usize| {
         let begin = all.get(from)?.start();
         let ends = (from + 1..all.len()).rev().take(2 * LEAD + 1);
@@ -96,7 +96,7 @@ fn whole(cut: &CutPath, near: f64) -> Option<Ring> {
     })
 }
 
-/// A run from where a pass begins to its tab, or back, with the tab as it is cut in another run.
+/// A run from the start of a pass to its tab, or back, with the tab as another run cuts it.
 fn with_tab(runs: &[&[Segment]], run: usize, thread: Point, near: f64) -> Option<Ring> {
     let own = runs[run];
     let others = || {
@@ -131,7 +131,7 @@ fn with_tab(runs: &[&[Segment]], run: usize, thread: Point, near: f64) -> Option
     .next()
 }
 
-/// What of a run leads from one place to the other, turned round where it comes from there.
+/// The part of a run between two places, reversed where it runs from the second to the first.
 fn tab_in(
     run: &[Segment],
     [from, to]: [Point; 2],

@@ -1,4 +1,5 @@
-//! What one line says to the machine: its modal words, coordinates and marks, typed. Lengths stay as they are written.
+//! The meaning of one line for the machine: its modal words, coordinates and marks, typed. Lengths stay as they are
+//! written.
 
 #![warn(clippy::indexing_slicing)]
 
@@ -45,7 +46,7 @@ impl Motion {
         matches!(self, Motion::Clockwise | Motion::CounterClockwise)
     }
 
-    /// The arc that turns so, counter-clockwise or not.
+    /// The arc in this direction.
     pub(super) fn turning(left: bool) -> Motion {
         match left {
             true => Motion::CounterClockwise,
@@ -53,7 +54,7 @@ impl Motion {
         }
     }
 
-    /// An arc the other way round; a straight move as it is.
+    /// An arc in the other direction; a straight move unchanged.
     pub(super) fn reversed(self) -> Motion {
         match self {
             Motion::Clockwise => Motion::CounterClockwise,
@@ -79,7 +80,7 @@ pub(crate) enum Stop {
     End,
 }
 
-/// What a line says. Of a word that stands twice the last one holds, as in controls.
+/// The content of a line. Of a repeated word the last one holds, as in controls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Block {
     /// `N12`.
@@ -92,18 +93,18 @@ pub struct Block {
     pub(crate) compensation: Option<Compensation>,
     /// True for inches (G20, G70), false for millimetres (G21, G71).
     pub(crate) inch: Option<bool>,
-    /// G92: the coordinates are those of the place where the wire stands.
+    /// G92: the coordinates are the wire's present position.
     pub(crate) sets_position: bool,
     pub(crate) x: Option<Number>,
     pub(crate) y: Option<Number>,
-    /// The height of an electrode that mills; what else it moves is a matter of the machine.
+    /// The height of an electrode that mills; its other effects depend on the machine.
     pub(crate) z: Option<Number>,
     pub(crate) i: Option<Number>,
     pub(crate) j: Option<Number>,
     pub(crate) r: Option<Number>,
     /// `,R2.` or `,C1.`
     pub(crate) corner: Option<Corner>,
-    /// `D1` or `H1`: the place in the control's table that holds the correction.
+    /// `D1` or `H1`: the place of the correction in the control's table.
     pub(crate) offset: Option<Offset>,
     pub(crate) stop: Option<Stop>,
     /// `M98 P1`.
@@ -114,9 +115,9 @@ pub struct Block {
     pub(crate) returns: bool,
     /// A word that takes the coordinates for something else than a move, such as G04 or G28.
     pub(crate) takes_coordinates: bool,
-    /// A word of the line could not be read, so that its coordinates are not known.
+    /// A word of the line could not be read, so its coordinates are unknown.
     pub(crate) broken: bool,
-    /// Nothing but comments, marks and spaces stands in it.
+    /// Only comments, marks and spaces.
     pub(crate) empty: bool,
 }
 
@@ -125,7 +126,7 @@ pub struct Block {
 pub(crate) struct Corner {
     /// Rounded; else chamfered.
     pub(crate) round: bool,
-    /// Its radius, or how far from the corner the chamfer begins and ends.
+    /// Its radius, or the distance of a chamfer's ends from the corner.
     pub(crate) size: Number,
 }
 
@@ -139,7 +140,7 @@ pub struct Offset {
 /// Something besides the block that a line shows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Note {
-    /// A word that means on one machine what it does not on another.
+    /// A word whose meaning depends on the machine.
     Foreign { code: Code, range: Range<usize> },
     /// `H001=110`, or `H001=.0085+H175`.
     Definition {
@@ -149,7 +150,7 @@ pub enum Note {
     },
     /// A length that is not 0, with a decimal point or without.
     Length { pointed: bool, range: Range<usize> },
-    /// A word of which another stands in the line.
+    /// A word that the line repeats.
     Twice { letter: u8, range: Range<usize> },
     Fault {
         fault: WordFault,
@@ -179,14 +180,14 @@ impl Note {
     }
 }
 
-/// What a foreign word is told apart by: its letter, and its number times 10 where that is G's or M's.
+/// The key of a foreign word: its letter, and for G and M its number times 10.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Code(u32);
 
 impl Code {
     const NAME: Code = Code(0);
     const SKIP: Code = Code(1);
-    /// What stands behind a colon.
+    /// The text behind a colon.
     const SECOND: Code = Code(2);
     /// TP and TN.
     const PLANE: Code = Code(3);
@@ -200,12 +201,12 @@ impl Code {
         Code(u32::from(letter) << 16 | (tenths.unsigned_abs().min(0xffff) as u32))
     }
 
-    /// It is no matter of the machine in a program that mills.
+    /// It does not depend on the machine in a program that mills.
     pub(super) fn is_height(self) -> bool {
         self.0 == u32::from(b'Z') << 16
     }
 
-    /// It is followed where it is known how the wire leans. T says many things besides.
+    /// It is followed where the lean of the wire is known. T also has many other meanings.
     pub(super) fn is_of_taper(self) -> bool {
         let (letter, tenths) = ((self.0 >> 16) as u8, self.0 & 0xffff);
         self.tilts()
@@ -338,7 +339,7 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
         }
         Token::Foreign { range } => {
             block.empty = false;
-            // X#101 is a coordinate that is not known.
+            // X#101 is an unknown coordinate.
             block.broken |= range.len() > 1
                 && line
                     .get(range.start - offset)
@@ -391,10 +392,10 @@ fn index(number: Number) -> u32 {
 }
 
 impl Block {
-    /// Takes a G word; false where its meaning is a matter of the machine.
+    /// Takes a G word; false where its meaning depends on the machine.
     fn prepare(&mut self, number: Number) -> bool {
         if number.decimals > 0 {
-            // G90.1 and G91.1 tell how I and J are meant, which is found from the arcs themselves.
+            // G90.1 and G91.1 tell the meaning of I and J, which the arcs themselves show.
             return matches!((number.mantissa, number.decimals), (901 | 911, 1));
         }
         match number.mantissa {
@@ -418,7 +419,7 @@ impl Block {
         true
     }
 
-    /// What a line says, whatever is wrong in it.
+    /// The content of a line, without its faults.
     pub(crate) fn of(line: &[u8]) -> Block {
         read_line(line, 1, |_| {})
     }

@@ -1,4 +1,4 @@
-//! How ISO text is read by the engine that all languages share.
+//! How the engine of all languages reads ISO text.
 
 use super::machine::Machine;
 use super::moves::{Reading, apart};
@@ -7,9 +7,9 @@ use crate::program::chunks::ChunkReader;
 use crate::text::SourceText;
 use std::ops::Range;
 
-/// How ISO text is read: what a line does hangs on those before it.
+/// How ISO text is read: the effect of a line depends on those before it.
 pub(super) struct Control {
-    /// What is in force before the first line.
+    /// The state before the first line.
     pub(crate) begin: Machine,
     pub(crate) reading: Reading,
 }
@@ -37,7 +37,7 @@ impl ChunkReader for Control {
         (pathless, after)
     }
 
-    /// How the moves lie on themselves hangs on nothing else.
+    /// How the moves lie relative to themselves does not depend on anything else.
     fn finish(&self, _: &SourceText, pathless: Pathless) -> Stretch {
         pathless.with_paths()
     }

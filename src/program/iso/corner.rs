@@ -1,31 +1,31 @@
-//! Corners that the control makes: R on a straight cut, `,R` and `,C` behind any. The move ends early, the corner's own follows, and the
-//! next one begins where that ends.
+//! Corners that the control makes: R on a straight cut, `,R` and `,C` behind any. The move ends early, the corner's own
+//! follows, and the next one begins where that ends.
 
 use super::block::{Block, Corner, Motion};
 use super::machine::Machine;
 use super::moves::{Bend, Course, Move, Reading, added, apart, bend_about, micrometres};
 use crate::geometry::{Locus, Point, Segment, cross, turn};
 
-/// Lines behind a corner's in which the move that it leads to is looked for.
+/// The next move is searched for in this many lines behind a corner's.
 pub(crate) const REACH: usize = 64;
 
 /// Two cuts that turn by less than this have no corner, radians.
 const STRAIGHT: f64 = 1e-4;
 
-/// What a line with a corner's word does.
+/// The effect of a line with a corner's word.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Turned {
     /// The move up to where the corner begins; the whole move where there is no corner to make.
     pub(crate) made: Move,
     pub(crate) corner: Option<Move>,
-    /// How many lines behind it were looked at.
+    /// How many lines behind it were read.
     pub(crate) looked_at: usize,
-    /// What comes next lies where it lies, however far the wire has been moved before.
+    /// The next move keeps its place, however far the wire has been moved before.
     pub(crate) is_fixed: bool,
 }
 
-/// Makes the corner at the end of a move, towards the first one that `behind` makes; the machine, which has made the move, stands at the
-/// sharp corner as its coordinates say, and begins the next move where the corner ends.
+/// Makes the corner at the end of a move, towards the first one that `behind` makes. The machine, which has made the
+/// move, stands at the sharp corner as its coordinates say, and begins the next move where the corner ends.
 pub(crate) fn turned<'a>(
     made: Move,
     machine: &mut Machine,
@@ -53,7 +53,7 @@ pub(crate) fn turned<'a>(
     turned
 }
 
-/// The next cut, where nothing stands between; and how many lines were looked at.
+/// The next cut, if it follows directly; and how many lines were read.
 pub(crate) fn next_move<'a>(
     mut machine: Machine,
     behind: impl Iterator<Item = &'a [u8]>,
@@ -90,7 +90,7 @@ fn cut_off(
     if size <= 0 {
         return None;
     }
-    // Seen from the corner, so that it comes to the same wherever it lies.
+    // Relative to the corner, so that the result is the same anywhere.
     let (one, other) = (
         way(&made.seen_from(made.to), reading)?,
         way(&next.seen_from(made.to), reading)?,
@@ -158,7 +158,7 @@ fn chamfered(one: &Segment, other: &Segment, length: f64) -> Option<(Point, Poin
     (fits && turns).then(|| (one.end() - from * length, other.start() + to * length, None))
 }
 
-/// Where the arc of a radius that runs on from one way and into the other begins and ends, and its centre.
+/// The ends and the centre of an arc of a radius that is tangent to one way and runs into the other.
 fn rounded(one: &Segment, other: &Segment, radius: f64) -> Option<(Point, Point, Option<Point>)> {
     let (from, to) = (one.end_tangent(), other.start_tangent());
     let turn = turn(from, to);
@@ -178,9 +178,9 @@ fn rounded(one: &Segment, other: &Segment, radius: f64) -> Option<(Point, Point,
     Some((nearest.0, nearest.1, Some(nearest.2)))
 }
 
-/// The point of a way next to a centre, where it lies on it.
+/// The point of a way nearest to a centre, where it lies on it.
 fn foot(way: &Segment, center: Point) -> Option<Point> {
-    /// Ends that are met are on the way, µm.
+    /// A point this close to an end is on the way, µm.
     const MET: f64 = 1e-3;
     match way {
         Segment::Arc(arc) => {

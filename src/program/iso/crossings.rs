@@ -1,4 +1,4 @@
-//! Where the cuts of a program cross themselves, found anew for what an edit has touched.
+//! Where the cuts of a program cross themselves, worked out again for the parts that an edit has touched.
 
 use super::cut::JoinedCut;
 use super::cuts::way_of;
@@ -8,7 +8,7 @@ use crate::program::path::{Found, HasCuts};
 use std::sync::Arc;
 
 impl Crossings {
-    /// Looks through a program; what is known of pairs of its parts is taken as it is.
+    /// Checks a program; known results about pairs of its parts are reused.
     pub(crate) fn look(&mut self, document: &Document) {
         let Crossings { known, found } = self;
         found.clear();

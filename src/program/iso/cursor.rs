@@ -1,12 +1,13 @@
-//! One word after another: the way through a line.
+//! Reads a line word by word.
 
 use super::word::{Number, Term, Token, Value, WordFault};
 use std::ops::Range;
 
-/// The digits that a number may have before its decimal point, and those that are read behind it; more than any control takes.
+/// The digits that a number may have before its decimal point, and those that are read behind it; more than any control
+/// takes.
 const MOST_DIGITS: u32 = 9;
 
-/// Hands out the tokens of a line that is written in plain characters. A byte order mark may begin the first line.
+/// Hands out the tokens of a line in plain characters. A byte order mark may begin the first line.
 pub(super) fn scan(line: &[u8], offset: usize, is_first: bool, mut each: impl FnMut(Token)) {
     let mut cursor = Cursor {
         line,
@@ -29,7 +30,7 @@ struct Cursor<'a> {
     line: &'a [u8],
     at: usize,
     offset: usize,
-    /// Something is wrong in the token that was read all the same.
+    /// A fault in the token that was read all the same.
     fault: Option<Token>,
 }
 
@@ -104,7 +105,7 @@ impl Cursor<'_> {
         })
     }
 
-    /// What begins no word, up to the next space or letter.
+    /// Text that begins no word, up to the next space or letter.
     fn stray(&mut self, start: usize) -> Token {
         self.skip(|byte| {
             !byte.is_ascii_alphabetic() && !matches!(byte, b' ' | b'\t' | b'(' | b';' | b'%')
@@ -112,7 +113,7 @@ impl Cursor<'_> {
         self.fault(WordFault::NoWord, start)
     }
 
-    /// `: G01 X… Y…`: what the wire's upper end does meanwhile.
+    /// `: G01 X… Y…`: the move of the wire's upper end meanwhile.
     fn other_plane(&mut self, start: usize) -> Token {
         self.skip_space();
         if !self.peek().is_some_and(|byte| byte.is_ascii_alphabetic()) {
@@ -208,7 +209,7 @@ impl Cursor<'_> {
         }
     }
 
-    /// A letter that no number follows: the name of something, an expression, or a fault.
+    /// A letter without a number: the name of something, an expression, or a fault.
     fn without_number(&mut self, letter: u8, start: usize) -> Token {
         match self.peek() {
             Some(b'#' | b'[' | b'=') => {
@@ -290,7 +291,8 @@ impl Cursor<'_> {
         }
     }
 
-    /// Numbers and places of the table with signs between them; `None` where one number stands alone, or something else.
+    /// Numbers and places of the table with signs between them; `None` where one number stands alone, or something
+    /// else.
     fn sum(&mut self, letter: u8) -> Option<Vec<Term>> {
         let begun = self.at;
         let mut terms: Vec<Term> = Vec::new();
@@ -343,7 +345,8 @@ impl Cursor<'_> {
         is_sum.then_some(terms)
     }
 
-    /// The letter O at `at` stands for a zero of the number of `letter`, of which so many digits have been read.
+    /// Whether the letter O at `at` stands for a zero in the number of `letter`, of which this many digits have been
+    /// read.
     fn is_zero(&self, letter: u8, at: usize, digits: usize) -> bool {
         let behind = self.line.get(at + 1).copied();
         let is_number = |byte: Option<u8>| {
@@ -387,7 +390,7 @@ impl Cursor<'_> {
                         mantissa = mantissa * 10 + i64::from(digit);
                     }
                 } else if decimals < MOST_DIGITS {
-                    // Further ones lie far below what a control resolves.
+                    // Further digits lie far below the resolution of a control.
                     mantissa = mantissa * 10 + i64::from(digit);
                     decimals += 1;
                 }

@@ -1,14 +1,15 @@
-//! Consecutive moves of an ISO program without a rapid or a stop between, put together from the stretches that they run through.
+//! A cut: consecutive moves of an ISO program without a rapid or a stop between, put together from the parts of its
+//! stretches.
 
 use super::moves::Place;
 use super::part::{Part, SEVERAL, changes_side};
 use super::stretch::{Placed, StopAt};
 use std::ops::Range;
 
-/// Where a part of a cut is kept.
+/// The place of a part of a cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PartAt {
-    /// Indices of the stretch, and of the part in there.
+    /// Indices of the stretch, and of the part in it.
     pub(crate) stretch: usize,
     pub(crate) part: usize,
     /// Byte of the text from which the stretch's places count.
@@ -29,7 +30,7 @@ pub(crate) struct JoinedCut {
     stops: usize,
     /// Moves before the stop at its tab.
     pub(crate) before_tab: Option<u32>,
-    /// Where the wire was sent to the other side first, and the line that did so.
+    /// Where the wire was first sent to the other side, and the line that did so.
     pub(crate) flip: Option<(Place, Range<usize>)>,
 }
 
@@ -66,7 +67,7 @@ impl JoinedCut {
         }
     }
 
-    /// This cut and then the next, which goes on from where it ends: behind the stop at its tab, where there was one.
+    /// This cut followed by the next, which goes on from its end: behind the stop at its tab, if there was one.
     pub(crate) fn append(&mut self, next: JoinedCut) {
         if self.stops > 0 {
             self.before_tab.get_or_insert(self.sum.moves);
@@ -84,13 +85,13 @@ impl JoinedCut {
         self.stop.filter(|_| self.stops == 1)
     }
 
-    /// Indices of its stretches and of its parts in there.
+    /// Indices of its stretches and of its parts in them.
     pub(crate) fn places(&self) -> Vec<(usize, usize)> {
         let place = |at: &PartAt| (at.stretch, at.part);
         self.parts.iter().map(place).collect()
     }
 
-    /// The stretch that holds all of it, and its part in there.
+    /// The stretch that holds all of it, and its part in it.
     pub(crate) fn only_place(&self) -> Option<(usize, usize)> {
         let [at] = self.parts[..] else { return None };
         Some((at.stretch, at.part))

@@ -1,4 +1,5 @@
-//! The cuts of a program, put together from its stretches, whether they close, and which stops stand within a contour, before its tab.
+//! The cuts of a program, put together from its stretches: whether they close, and which stops stand within a contour,
+//! before its tab.
 
 use super::cut::{JoinedCut, PartAt};
 use super::document::Document;
@@ -58,12 +59,12 @@ impl HasCuts for Document {
 }
 
 impl Document {
-    /// How far a cut may end beside a place and still end in it, µm.
+    /// The tolerance of a cut's end at a place, µm.
     pub(super) fn tolerance(&self, cut: &JoinedCut) -> f64 {
         self.ends(cut).tolerance
     }
 
-    /// Where some moves begin and end, seen from where they begin.
+    /// The ends of some moves, relative to their start.
     fn ends_of(&self, sum: &Part) -> Ends {
         let ([first, second], [_, last]) = (&sum.first, &sum.last);
         let seen = |place: Place| Node::at(micrometres(apart(place, first.from)));
@@ -75,7 +76,7 @@ impl Document {
         }
     }
 
-    /// The cuts with which something may be wrong, each with what goes on behind the stop at its tab; and the stops before tabs.
+    /// The doubtful cuts, each with its continuation behind the stop at its tab; and the stops before tabs.
     pub(super) fn find_contours(&self) -> (Vec<JoinedCut>, Vec<StopAt>) {
         let cuts = cuts(self);
         let tabs = tabs(self, &cuts);
@@ -83,10 +84,10 @@ impl Document {
     }
 }
 
-/// The cuts in the order in which they run; `None` stands for cuts with which nothing is wrong, all in one stretch.
+/// The cuts in the order in which they run; `None` stands for sound cuts within one stretch.
 fn cuts(document: &Document) -> Vec<Option<JoinedCut>> {
     let mut cuts = Vec::new();
-    // The last one, while more may come to it.
+    // The last one, while it may still grow.
     let mut open: Option<JoinedCut> = None;
     for (index, placed) in document.placed().enumerate() {
         let stretch = placed.stretch;
@@ -128,7 +129,7 @@ fn cuts(document: &Document) -> Vec<Option<JoinedCut>> {
     cuts
 }
 
-/// The cuts with which something may be wrong, each with what goes on behind the stop at its tab.
+/// The doubtful cuts, each with its continuation behind the stop at its tab.
 fn contours(cuts: Vec<Option<JoinedCut>>, tabs: &[StopAt]) -> Vec<JoinedCut> {
     let mut contours: Vec<JoinedCut> = Vec::new();
     let mut goes_on = false;
@@ -177,19 +178,19 @@ fn tabs(document: &Document, cuts: &[Option<JoinedCut>]) -> Vec<StopAt> {
     found
 }
 
-/// A cut that does not go round for itself, and its moves, once they were asked for.
+/// A cut that does not close by itself, and its moves, once they were asked for.
 struct OpenCut<'a> {
     cut: &'a JoinedCut,
     pieces: OnceCell<Vec<Segment>>,
 }
 
-/// Open cuts that go on behind the stops of each other.
+/// Open cuts that continue each other behind stops.
 struct Behind<'a> {
     document: &'a Document,
-    /// From the first one on; `None` for what is not open.
+    /// From the first one on; `None` for one that is not open.
     cuts: &'a [Option<OpenCut<'a>>],
     taken: usize,
-    /// Of all that were taken.
+    /// Of all cuts so far.
     sum: Part,
 }
 
@@ -209,7 +210,7 @@ impl BehindStops for Behind<'_> {
         self.document.ends_of(&self.sum)
     }
 
-    /// From where the first of them begins.
+    /// Relative to the start of the first of them.
     fn way(&self, cuts: Range<usize>) -> impl Way {
         let open = || self.cuts[cuts.clone()].iter().flatten();
         let begin = open().next().map_or([0, 0], |open| open.cut.sum.start());
@@ -234,7 +235,7 @@ impl BehindStops for Behind<'_> {
     }
 }
 
-/// The way of some parts that go on one behind the other, stretches and their parts, from where the first begins.
+/// The way of some consecutive parts, stretches and their parts, relative to the start of the first.
 pub(super) fn way_of(
     document: &Document,
     places: Vec<(usize, usize)>,
@@ -266,7 +267,7 @@ struct Held<'a> {
 }
 
 impl Held<'_> {
-    /// Tells of the moves of a part; gives the byte from which their places count.
+    /// Hands over the moves of a part; returns the byte from which their places count.
     fn moves(&self, part: usize, each: &mut dyn FnMut(&Move, Range<usize>)) -> usize {
         let (stretch, nth) = self.places[part];
         let heard = &mut |index: usize, step: &Move, range: (u32, u32)| {

@@ -1,4 +1,4 @@
-//! ISO text as an open document: its lines run, what came of them, and what an edit leaves as it was.
+//! ISO text as an open document: its lines, their effects, and what an edit leaves unchanged.
 
 use super::block::{Block, Offset};
 use super::control::{Control, lines_from};
@@ -20,11 +20,11 @@ use rustc_hash::FxHashMap;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-/// An ISO program as text, and what its lines do.
+/// An ISO program as text, with the effects of its lines.
 ///
-/// What a line does hangs on those before it, so a program is kept as stretches with what is in force before and behind each. An edit
-/// runs the stretches that it touched, and those behind for which something else is in force; one that has only been moved is shifted.
-/// A program that calls subprograms is run anew with each edit.
+/// The effect of a line depends on those before it, so a program is kept as stretches with the state before and behind
+/// each. An edit runs the stretches that it touched, and those behind whose state changes; a stretch that only moved is
+/// shifted. A program that calls subprograms is run again with each edit.
 #[derive(Clone, Debug)]
 pub struct Document {
     text: SourceText,
@@ -33,28 +33,28 @@ pub struct Document {
     evidence: Evidence,
     /// The order of the lines, where it is not that of the text: then there is one stretch for each range in it.
     order: Option<Order>,
-    /// The cuts with which something may be wrong, each with what goes on behind the stop at its tab.
+    /// The doubtful cuts, each with its continuation behind the stop at its tab.
     contours: Vec<JoinedCut>,
     /// Where they cross themselves.
     crossings: Box<Crossings>,
     /// The stops within contours, before their tabs, in the order in which they run.
     tabs: Vec<StopAt>,
-    /// What settings a fault is held against.
+    /// The settings that faults depend on.
     pub(crate) limits: Box<Limits>,
-    /// What the program puts into the control's table.
+    /// The values that the program puts into the control's table.
     pub(crate) table: Box<Table>,
-    /// The slips that may be behind what is wrong, once somebody has asked for them.
+    /// The slips that may explain the findings, once somebody has asked for them.
     pub(super) repairs: OnceLock<Arc<Repairs>>,
 }
 
 /// The stretches of a cut, and its parts in there.
 type Places = Vec<(usize, usize)>;
 
-/// What was found in the cuts of a program.
+/// The findings in the cuts of a program.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Crossings {
     pub(crate) known: Known,
-    /// The cuts that cross themselves or lie on themselves, and where.
+    /// The cuts that cross themselves or coincide with themselves, and where.
     pub(crate) found: Vec<(Places, Arc<Found>)>,
 }
 
@@ -62,7 +62,7 @@ pub(super) struct Crossings {
 pub(super) type Table = FxHashMap<Offset, i64>;
 
 impl Document {
-    /// Reads program text. Never fails: what is damaged is in [`Document::findings`].
+    /// Reads program text. Never fails: damage is in [`Document::findings`].
     pub fn read(bytes: Vec<u8>) -> Document {
         Document::read_with(bytes, &Effective::default())
     }
@@ -91,12 +91,12 @@ impl Document {
         &self.text
     }
 
-    /// It feeds an electrode downwards.
+    /// True where it feeds an electrode downwards.
     pub(crate) fn mills(&self) -> bool {
         self.stretches().iter().any(|stretch| stretch.after.mills)
     }
 
-    /// How the numbers of the program were found to be meant.
+    /// The meaning found for the program's numbers.
     pub fn reading(&self) -> &Reading {
         &self.reading
     }
@@ -109,7 +109,7 @@ impl Document {
         self.order.as_ref()
     }
 
-    /// Looks again under other settings.
+    /// Checks again under other settings.
     pub(crate) fn set_settings(&mut self, settings: &Effective) {
         let limits = Limits::of(settings);
         if limits == *self.limits {
@@ -130,7 +130,7 @@ impl Document {
         self.look();
     }
 
-    /// Nothing is known any more to have nothing wrong with it.
+    /// Forgets which cuts are sound.
     fn look_at_all(&mut self) {
         self.stretches
             .iter_mut()
@@ -142,19 +142,19 @@ impl Document {
         self.text.line(line)
     }
 
-    /// From the first to the last byte of a line that is no space.
+    /// From the first to the last byte of a line that is not a space.
     pub(super) fn words_of(&self, line: usize) -> Range<usize> {
         let start = self.text.line_start(line);
         let (first, end) = words_of(self.line_bytes(line), start);
         first as usize..end as usize
     }
 
-    /// What a line says.
+    /// The content of a line.
     pub(super) fn block(&self, line: usize) -> Block {
         Block::of(self.line_bytes(line))
     }
 
-    /// How many decimals nearly all numbers have, and how many have others.
+    /// How many decimals nearly all numbers have, and how many numbers have others.
     pub(super) fn usual_places(&self) -> Option<(u8, u32)> {
         self.evidence.usual_places()
     }
@@ -181,7 +181,7 @@ impl Document {
         &self.crossings
     }
 
-    /// Runs a stretch once more and tells `each` of its moves; gives the byte from which their places count.
+    /// Runs a stretch once more and hands each of its moves to `each`; returns the byte from which their places count.
     pub(super) fn run_again(&self, index: usize, each: &mut Hears<'_>) -> usize {
         let Some(placed) = self.placed_at(index) else {
             return 0;
@@ -236,7 +236,7 @@ impl Document {
         self.settle();
     }
 
-    /// A first guess of how the numbers are meant, from the beginning of the text: it spares running everything twice.
+    /// A first guess of the meaning of numbers, from the beginning of the text: it saves running everything twice.
     fn guess_reading(&mut self) {
         let head = 0..self.text.line_count().min(16 * Control::LINES);
         self.reading = Evidence::default().reading(self.limits.center);
@@ -246,7 +246,7 @@ impl Document {
         }
     }
 
-    /// How the text is read now.
+    /// The present way of reading the text.
     pub(super) fn control(&self) -> Control {
         Control {
             begin: self.first_machine(),
@@ -288,17 +288,17 @@ impl Document {
         };
     }
 
-    /// Holds the reading against what the whole program shows, and runs it again where it shows another one: first the unit and the
-    /// finest step, then, measured with these, where I and J lead.
+    /// Compares the reading with the evidence of the whole program, and runs it again where it suggests another one:
+    /// first the unit and the finest step, then, measured with these, the meaning of I and J.
     fn settle(&mut self) {
         self.find_reading();
         self.look();
     }
 
-    /// Looks for what hangs on the program as a whole.
+    /// Checks what depends on the program as a whole.
     fn look(&mut self) {
-        // What a cut within one stretch comes to hangs on its own lines, on the settings and on the control's table: one with which nothing
-        // is wrong is not judged again.
+        // The findings of a cut within one stretch depend on its own lines, on the settings and on the control's table:
+        // a sound one is not judged again.
         let table = self.stated_table();
         if table != *self.table {
             *self.table = table;

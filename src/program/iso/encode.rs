@@ -6,13 +6,13 @@ use crate::program::encode::{ASIDE_TOLERANCE, Attempt, Encoder, aside};
 use crate::program::grid::{Node, grid_centers, point_of};
 use std::f64::consts::{PI, TAU};
 
-/// By how much the ends of a written arc may lie unlike far from its centre, µm: less than any reader takes for a fault.
+/// The distances of an arc's ends from its centre may differ by this much, µm: no reader takes less for a fault.
 const RADIUS_TOLERANCE: f64 = 1.5;
 
-/// A radius in steps above which an arc goes out as chords: its centre has more digits than controls take.
+/// An arc with a radius above this, in steps, is written as chords: its centre has more digits than controls take.
 const LARGEST_RADIUS: f64 = 4e8;
 
-/// A move to `to`, and the piece of the path that it stands for, in steps of the grid.
+/// A move to `to`, and its piece of the path, in steps of the grid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Encoded {
     pub(crate) motion: Motion,
@@ -22,7 +22,7 @@ pub(super) struct Encoded {
     pub(crate) piece: Segment,
 }
 
-/// How a profile has its moves.
+/// How a profile writes its moves.
 pub(super) struct Moves {
     /// A step of the grid, µm.
     pub step: f64,
@@ -81,7 +81,7 @@ fn radii_differ(center: Node, from: Node, to: Node) -> f64 {
     ((point_of(from) - point_of(center)).norm() - (point_of(to) - point_of(center)).norm()).abs()
 }
 
-/// How far the arc about a grid centre lies from the true one at most; infinite where it turns otherwise.
+/// The largest distance of the arc about a grid centre from the true one; infinite where it turns the other way.
 fn error_of(arc: &Arc, center: Node, from: Node, to: Node) -> f64 {
     if center == from || center == to {
         return f64::INFINITY;

@@ -1,27 +1,28 @@
-//! What the lines of a program show about how its numbers are meant: the unit of whole numbers, the finest step, and where I and J lead.
+//! Finds from the lines of a program what its numbers mean: the unit of whole numbers, the finest step, and the meaning
+//! of I and J.
 //!
-//! Nothing of it is assumed: the readings are held against the arcs, and the one that fits the most of them is taken.
+//! Nothing is assumed: each reading is tested on the arcs, and the one that fits the most of them wins.
 
 use super::block::{Block, Motion};
 use super::moves::{CenterRule, MICROMETRE, Move, Place, Reading, apart, distance};
 
-/// Ends of an arc lie no more unlike far from its centre than this many steps of the finest number: each of the three points may be
-/// off by half a step on both axes.
+/// The distances of an arc's ends from its centre differ by at most this many steps of the finest number: each of the
+/// three points may be off by half a step on both axes.
 const STEPS: i64 = 3;
 
 /// The coarsest tolerance, nm: a program of whole millimetres must fit better than its numbers are fine.
 const COARSEST: i64 = 20 * MICROMETRE;
 
-/// So many numbers with as many decimals tell that all are written so.
+/// This many numbers with the same decimals show the program's format.
 const ENOUGH: u32 = 12;
 
-/// So many may be written otherwise.
+/// This many may be written otherwise.
 const SLIPS: u32 = 2;
 
-/// No machine travels so far, mm.
+/// No machine travels this far, mm.
 const LONG: i64 = 1_000;
 
-/// Of more numbers without a point among others the first stands for all.
+/// Beyond this many numbers without a point among others, the first stands for all.
 pub(crate) const FEW_BARE: u32 = 20;
 
 /// Counts over some lines of a program. They add up in any order.
@@ -35,28 +36,29 @@ pub(crate) struct Evidence {
     /// Numbers that are not 0 without a point, and those of them that no machine travels in mm.
     pub(crate) bare: u32,
     pub(crate) long: u32,
-    /// Of the numbers with a point, how many have so many decimals.
+    /// By number of decimals: how many numbers with a point have that many.
     pub(crate) places: [u32; 8],
     /// Numbers that have four decimals or more.
     pub(crate) fine: u32,
     pub(crate) inch: bool,
-    /// It says whether it is in inches or mm.
+    /// Whether it states inches or mm.
     pub(crate) says_unit: bool,
     pub(crate) absolute: Arcs,
     pub(crate) incremental: Arcs,
 }
 
-/// Arcs with I and J: how many of them do not fit under each rule, and how many fit under two rules about unlike centres.
+/// Arcs with I and J: how many do not fit under each rule, and how many fit under two rules about different centres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Arcs {
     pub(crate) all: u32,
     pub(crate) off: [u32; 3],
     /// In the order of [`PAIRS`].
     pub(crate) unclear: [u32; 3],
-    /// How many turn by more than a half under each rule: between rules that the ends fit alike, the arcs that are meant turn less.
+    /// How many turn by more than a half under each rule: between rules that fit the ends equally well, the intended
+    /// one turns less.
     pub(crate) wide: [u32; 3],
-    /// How many of a few micrometres lie under each rule about a centre so far away that they would be lines: both ends of such an arc
-    /// fit nearly any centre.
+    /// How many arcs of a few micrometres have, under each rule, a centre so far away that they would be lines: both
+    /// ends of such an arc fit nearly any centre.
     pub(crate) far: [u32; 3],
 }
 
@@ -83,7 +85,7 @@ impl Arcs {
         }
     }
 
-    /// True where two rules fit equally many arcs, more than any other, and lead to unlike circles.
+    /// True where two rules fit equally many arcs, more than any other, and give different centres.
     fn is_open(&self, rules: usize) -> bool {
         let against = |rule: usize| (self.off[rule], self.far[rule]);
         let least = (0..rules).map(against).min().unwrap_or_default();
@@ -98,8 +100,8 @@ impl Arcs {
         self.all > 0 && !self.is_open(rules)
     }
 
-    /// The rule that the fewest arcs are off under, then the fewest lie far from their centre, then the fewest turn widely; `preferred`
-    /// where others are no better, then the first.
+    /// The rule with the fewest misfits, then the fewest arcs far from their centre, then the fewest wide turns; on a
+    /// tie `preferred`, then the first.
     fn rule(&self, preferred: CenterRule, rules: &[CenterRule]) -> CenterRule {
         let against = |rule: CenterRule| {
             let rule = rule as usize;
@@ -135,7 +137,7 @@ impl Evidence {
         self.incremental.add(&other.incremental);
     }
 
-    /// Takes note of a line's numbers.
+    /// Counts a line's numbers.
     pub(crate) fn numbers(&mut self, block: &Block) {
         for number in [block.x, block.y, block.i, block.j, block.r]
             .into_iter()
@@ -155,7 +157,7 @@ impl Evidence {
         self.inch |= block.inch == Some(true);
     }
 
-    /// Takes note of an arc.
+    /// Counts an arc.
     pub(crate) fn arc(&mut self, arc: &Move, tolerance: i64) {
         let arcs = if arc.incremental {
             &mut self.incremental
@@ -186,11 +188,11 @@ impl Evidence {
         }
     }
 
-    /// How the program is to be read. `preferred` is what holds where its arcs fit under several rules.
+    /// How the program is to be read. `preferred` holds where its arcs fit under several rules.
     pub(crate) fn reading(&self, preferred: CenterRule) -> Reading {
         let whole_numbers_are_fine = self.whole_numbers_are_fine();
         let absolute = self.absolute.rule(preferred, &RULES);
-        // What the arcs under G90 show, those under G91 of the same program need not show again.
+        // The arcs under G90 give evidence for those under G91 of the same program.
         let shown = if self.absolute.tells(3) {
             absolute
         } else {
@@ -218,13 +220,13 @@ impl Evidence {
         }
     }
 
-    /// Whole numbers are the finest steps where there are no others, or where one that is not whole stands among many that are too long
-    /// for anything else.
+    /// Whole numbers are the finest steps where there are only whole ones, or where a single other one stands among
+    /// many that are too long for anything else.
     fn whole_numbers_are_fine(&self) -> bool {
         self.with_point == 0 || self.with_point.saturating_mul(4) <= self.long
     }
 
-    /// How many decimals the numbers have, where all but one or two have as many; and how many those are.
+    /// How many decimals the numbers have, where all but one or two have as many; and how many those exceptions are.
     pub(crate) fn usual_places(&self) -> Option<(u8, u32)> {
         let all: u32 = self.places.iter().sum();
         let (places, count) = self

@@ -1,4 +1,4 @@
-//! Repairs of a program as edits of its text. Where it is not clear what was meant, none is offered.
+//! Repairs of a program as edits of its text. Where the meaning is unclear, there is none.
 
 mod centers;
 
@@ -21,19 +21,19 @@ use centers::center_fixes;
 use std::ops::Range;
 
 impl Document {
-    /// The fixes of one finding, the preferred one first: what its place says by itself, and the slip that may be behind it.
+    /// The fixes of one finding, the preferred one first: those of its own place, and the slip that may explain it.
     pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
         let (own, searched) = (of_place(self, finding), searched(self, finding));
         let speaks_for_itself = matches!(finding.rule, Rule::Syntax | Rule::DoubledBlock);
         match speaks_for_itself && !own.is_empty() {
             true => merged(own, searched, false),
-            // What the place says by itself names the slip better.
+            // The place itself names the slip better.
             false => merged(searched, own, true),
         }
     }
 }
 
-/// The slips that make the cut sound in which something is wrong.
+/// The slips that make the finding's cut sound.
 fn searched(document: &Document, finding: &Finding) -> Vec<TextFix> {
     if finding.rule != Rule::SuspectBlock && !is_trouble(finding) {
         return Vec::new();
@@ -54,7 +54,7 @@ fn searched(document: &Document, finding: &Finding) -> Vec<TextFix> {
     offered(found)
 }
 
-/// What a place says by itself.
+/// The fixes of the finding's own place.
 fn of_place(document: &Document, finding: &Finding) -> Vec<TextFix> {
     let Where::Text { range } = &finding.place else {
         return Vec::new();
@@ -74,7 +74,7 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<TextFix> {
     }
 }
 
-/// The fix of a fault that has but one.
+/// The fix of a fault that has only one.
 fn plain_fix(document: &Document, fault: &Fault, range: &Range<usize>) -> Option<TextFix> {
     let text = document.text();
     let line = text.line_of(range.start);
@@ -125,7 +125,7 @@ fn plain_fix(document: &Document, fault: &Fault, range: &Range<usize>) -> Option
             (FixKind::InsertLine { block }, true, behind("M99"))
         }
         Fault::MissingEnd { word } => (FixKind::AddEnd { word: word.clone() }, true, behind(word)),
-        // The rapid that the correction would go on with is cut instead.
+        // The rapid on which the correction would go on is cut instead.
         Fault::Switch {
             on: true,
             arc: false,
@@ -165,7 +165,7 @@ fn character_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
     vec![TextFix::text(kind, true, edit)]
 }
 
-/// G02 for G03 of a line, or the other way round: what stands, what is meant, and the edit.
+/// G02 for G03 of a line, or the other way round: the present word, the intended one, and the edit.
 fn exchanged_word(
     document: &Document,
     line: usize,
@@ -192,7 +192,7 @@ fn whole_line(document: &Document, line: usize) -> TextEdit {
     TextEdit::new(document.text().whole_line(line), "")
 }
 
-/// Out and back go, where they lead back to where they began.
+/// A way out and back goes, where it returns to its start.
 fn spur_fix(document: &Document, back: usize) -> Option<TextFix> {
     let moves = |line: usize| {
         let block = document.block(line);
@@ -234,7 +234,7 @@ pub(super) fn have_met(one: Place, other: Place) -> bool {
     distance(one, other) / 1e3 <= tolerance(0)
 }
 
-/// Lines before the way back of a spur in which its way out is looked for.
+/// The way out of a spur is searched for in this many lines before its way back.
 const SPUR_REACH: usize = 16;
 
 /// The line before which G40 belongs: the last straight cut before the end, where it leads back to where the cut began.
@@ -248,7 +248,7 @@ fn way_out(document: &Document, end: usize) -> Option<usize> {
     Some(if is_out { last } else { end })
 }
 
-/// A number without its point, as one of whole units and as one of the finest steps.
+/// A number without its point, read in whole units and in the finest steps.
 fn bare_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
     let bytes = document.text().bytes().get(range.clone());
     let found = String::from_utf8_lossy(bytes.unwrap_or_default()).into_owned();
@@ -308,7 +308,7 @@ fn closing_fix(document: &Document, range: &Range<usize>) -> Option<TextFix> {
     Some(TextFix::text(FixKind::Close { length }, false, edit))
 }
 
-/// True where the line behind `line` that moves next says itself how, or would cut straight anyway.
+/// True where the next moving line behind `line` has its own G word, or would cut straight anyway.
 fn goes_on_by_itself(document: &Document, line: usize, motion: Motion) -> bool {
     let mut behind = (line + 1..document.text().line_count()).map(|line| document.block(line));
     let next = behind.find(|block| {
@@ -322,7 +322,7 @@ fn goes_on_by_itself(document: &Document, line: usize, motion: Motion) -> bool {
         || next.is_none_or(|block| block.motion.is_some() || block.stop == Some(Stop::End))
 }
 
-/// The number of the block's turn where there is room for it; all blocks numbered anew.
+/// The number of the block's turn where there is room for it; all blocks renumbered.
 fn number_fixes(document: &Document, fault: &Fault, range: &Range<usize>) -> Vec<TextFix> {
     let text = document.text();
     let line = text.line_of(range.start);

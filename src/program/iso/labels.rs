@@ -1,4 +1,4 @@
-//! Block numbers about a line, and the subprograms that are called by them.
+//! Block numbers near a line, and the subprograms that are called by them.
 
 use super::block::Stop;
 use super::document::Document;
@@ -6,7 +6,7 @@ use super::stretch::Placed;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Lines that are looked back for block numbers.
+/// How many lines back block numbers are searched for.
 const LOOKED_BACK: usize = 50;
 
 impl Document {
@@ -21,8 +21,8 @@ impl Document {
         self.order()?.labels.get(&number).copied()
     }
 
-    /// The subprograms that a call may name, with their lines: those that are called, and what stands behind the end of a program
-    /// without calls, where it is run by nobody yet.
+    /// The subprograms that a call may name, with their lines: those that are called, and in a program without calls
+    /// the one behind its end, which nobody runs yet.
     pub(crate) fn subprograms(&self) -> BTreeMap<u32, usize> {
         if let Some(order) = self.order() {
             let called = order.called.iter();
@@ -49,7 +49,7 @@ impl Document {
             .find(|line| self.block(*line).stop == Some(Stop::End))
     }
 
-    /// The last block number before a line, and the step in which they count there.
+    /// The last block number before a line, and the step of the numbers there.
     pub(crate) fn numbers_before(&self, line: usize) -> Option<(u32, u32)> {
         let mut numbers = (line.saturating_sub(LOOKED_BACK)..line)
             .rev()
@@ -76,7 +76,7 @@ impl Document {
         line + 1..self.text().line_count().min(line + 1 + LOOKED_BACK)
     }
 
-    /// The numbers that the blocks of a stretch lack where the others skip one: each with its line.
+    /// The numbers that are missing from the sequence of a stretch's blocks: each with its line.
     pub(super) fn lacking_numbers(&self, placed: &Placed<'_>) -> Vec<(usize, u32)> {
         let mut found = Vec::new();
         for line in placed.lines.clone() {

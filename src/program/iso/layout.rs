@@ -1,6 +1,6 @@
-//! ISO text in an even form: words in upper case, with one space between them or none, and nothing that they say changed.
+//! ISO text in an even form: words in upper case, with one space between them or none; its meaning is unchanged.
 //!
-//! No number is rewritten: whether it has a decimal point, and how many digits, means something to a control.
+//! Numbers stay as they are: a decimal point and the number of digits mean something to a control.
 
 use super::plain::words_in;
 use super::word::Token;
@@ -9,13 +9,13 @@ use crate::settings::Layout;
 use crate::text::{SourceText, TextEdit};
 use std::ops::Range;
 
-/// Lines that are looked at to find out whether words are parted by spaces.
+/// Lines that are read to find whether spaces separate words.
 const LOOKED_AT: usize = 1000;
 
-/// The edits that bring `lines` into an even form, sorted and disjoint: words close up in the compact layout and are parted by one
-/// space in the others; without a layout, as most lines of the text have it.
+/// The edits that bring `lines` into an even form, sorted and disjoint: words close up in the compact layout and are
+/// separated by one space in the others; without a layout, as in most lines of the text.
 ///
-/// Lines with what cannot be read, with variables, and with comments in another code page stay byte for byte.
+/// Lines with unreadable text, with variables, and with comments in another code page stay byte for byte.
 pub(crate) fn format(
     text: &SourceText,
     layout: Option<Layout>,
@@ -39,7 +39,7 @@ pub(crate) fn format(
     })
 }
 
-/// True where words are parted by spaces in most lines.
+/// True where spaces separate words in most lines.
 pub(super) fn is_parted(text: &SourceText) -> bool {
     let (mut parted, mut closed) = (0, 0);
     for line in 0..text.line_count().min(LOOKED_AT) {
@@ -104,7 +104,7 @@ fn formed(line: &[u8], parted: bool) -> Option<String> {
                     .map(|character| character.to_ascii_uppercase()),
             );
         }
-        // Behind a comment in brackets the next word stands apart in every form.
+        // Behind a comment in brackets a space precedes the next word in every form.
         may_touch = matches!(token, Token::Skip { .. });
     }
     let is_blank = |rest: &[u8]| rest.iter().all(|byte| matches!(byte, b' ' | b'\t'));
@@ -125,7 +125,7 @@ fn tokens_of(line: &[u8]) -> Vec<Token> {
     tokens
 }
 
-/// A token without its place; what a comment, a definition or the machine's own words say is their text.
+/// A token without its place; comments, definitions and the machine's own words count as their text.
 fn meaning(mut token: Token, line: &[u8]) -> (Token, String) {
     let range = std::mem::take(token.range_mut());
     let said = match token {

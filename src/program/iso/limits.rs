@@ -1,4 +1,4 @@
-//! What of the settings decides what is a fault of an ISO program.
+//! The settings that decide what is a fault of an ISO program.
 
 use super::block::{Block, Code, Note, Stop, read_line};
 use super::moves::CenterRule;
@@ -9,7 +9,7 @@ use std::sync::{Arc, LazyLock};
 /// The settings that decide what is a fault.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Limits {
-    /// mm, where the program's own table does not say.
+    /// mm, where the program's own table has none.
     pub(crate) correction: f64,
     /// Height of the workpiece, mm.
     pub(crate) thickness: Option<f64>,
@@ -17,13 +17,13 @@ pub(crate) struct Limits {
     pub(crate) compensation: crate::settings::Compensation,
     /// The word that ends a program of the settings' profile.
     pub(crate) end: String,
-    /// Words that profiles write: whoever has a profile for a machine knows what they mean there.
+    /// Words that profiles write: a user with a profile for a machine knows their meaning there.
     pub(crate) known: BTreeSet<Code>,
-    /// A program that does not say otherwise is in inches.
+    /// A program without a stated unit is in inches.
     pub(crate) inch: bool,
-    /// Somebody has said in what the numbers of programs are.
+    /// The user has set the unit of programs.
     pub(crate) has_unit: bool,
-    /// Where full circles alone leave open how I and J are meant.
+    /// The meaning of I and J where full circles alone leave it open.
     pub(crate) center: CenterRule,
     pub(crate) profile: Option<Arc<Profile>>,
 }
@@ -51,7 +51,7 @@ impl Limits {
         }
     }
 
-    /// The lines that the settings' profile writes besides those that move the wire.
+    /// The lines of the settings' profile, except those that move the wire.
     pub(crate) fn lines(&self) -> impl Iterator<Item = &str> {
         self.profile
             .iter()
@@ -84,7 +84,7 @@ fn known_words(settings: &Effective) -> BTreeSet<Code> {
     SHIPPED_WORDS.iter().copied().chain(own).collect()
 }
 
-/// The words of a profile's lines that are a matter of the machine.
+/// The words of a profile's lines that depend on the machine.
 fn words_of_profile(profile: &Profile) -> Vec<Code> {
     let mut codes = Vec::new();
     for line in lines_of(profile) {
@@ -98,7 +98,7 @@ fn words_of_profile(profile: &Profile) -> Vec<Code> {
     codes
 }
 
-/// M02 or M30, as the settings' profile has it.
+/// M02 or M30, as in the settings' profile.
 fn end_word(settings: &Effective) -> String {
     let lines = settings.profile.iter().flat_map(|profile| &profile.end);
     let mut ends = lines.filter(|line| Block::of(line.as_bytes()).stop == Some(Stop::End));

@@ -1,4 +1,4 @@
-//! A line written anew, so that its move leads elsewhere; all other words stay.
+//! Rewrites a line so that its move leads elsewhere; all other words stay.
 
 use super::block::{Block, Motion};
 use super::document::Document;
@@ -13,10 +13,10 @@ use crate::geometry::Segment;
 use crate::text::{TextEdit, difference};
 use std::ops::Range;
 
-/// How far the middle of an arc may lie from where it is meant to, µm: its centre is written in the program's steps.
+/// The largest distance of an arc's middle from the intended one, µm: its centre is written in the program's steps.
 const MIDDLE_TOLERANCE: f64 = 2.5;
 
-/// Where a move leads.
+/// The target of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::program) struct Target {
     pub(crate) motion: Motion,
@@ -25,7 +25,7 @@ pub(in crate::program) struct Target {
     pub(crate) side: Option<Side>,
 }
 
-/// About what an arc runs.
+/// The centre of an arc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::program) enum Bent {
     Line,
@@ -34,7 +34,7 @@ pub(in crate::program) enum Bent {
 }
 
 impl Target {
-    /// What a move does.
+    /// The motion of a move.
     pub(crate) fn of(made: &Move, reading: &Reading) -> Target {
         let bend = match (made.is_arc(), made.bend) {
             (true, Bend::Radius(radius)) => Bent::Radius(radius),
@@ -51,7 +51,7 @@ impl Target {
         }
     }
 
-    /// Whether a move runs along the same arc, or like this one along none.
+    /// Whether two moves run along the same arc, or both straight.
     pub(crate) fn is_along(&self, made: &Move, reading: &Reading) -> bool {
         let bend = match self.bend {
             Bent::Line => return !made.is_arc(),
@@ -84,7 +84,7 @@ impl Target {
     }
 }
 
-/// The edit of one line that leads its move to `target`, from what is in force before it; `None` where that cannot be written.
+/// The edit of one line that leads its move to `target`, from the state before it; `None` where that cannot be written.
 pub(super) fn line_to(
     document: &Document,
     line: usize,
@@ -145,7 +145,7 @@ pub(super) fn prove(
     Ok(())
 }
 
-/// A line that is written anew.
+/// A rewritten line.
 pub(super) struct Line<'a> {
     pub(crate) bytes: &'a [u8],
     pub(crate) parted: bool,
@@ -154,7 +154,7 @@ pub(super) struct Line<'a> {
 }
 
 impl Line<'_> {
-    /// The line with the words that lead to `target` from where the machine stands before it. All other words stay.
+    /// The line with the words that lead to `target` from the machine's position before it. All other words stay.
     pub(crate) fn leading(&self, target: &Target, before: &Machine) -> Result<Vec<u8>, String> {
         let block = Block::of(self.bytes);
         let incremental = block.incremental.unwrap_or(before.incremental);
@@ -164,7 +164,7 @@ impl Line<'_> {
         let had = [block.x.is_some(), block.y.is_some()];
         for (axis, letter) in [(0, 'X'), (1, 'Y')] {
             let moves = target.to[axis] != before.at[axis];
-            // An arc without coordinates is a full circle; a line without any is none.
+            // An arc without coordinates is a full circle; a line without any does not move.
             let is_needed = target.to == before.at && target.bend == Bent::Line;
             if moves || had[axis] || is_needed {
                 cluster.push(format!(
@@ -217,7 +217,7 @@ impl Line<'_> {
                 b'X' | b'Y' | b'I' | b'J' | b'R' => {
                     let gap = &self.bytes[copied..range.start];
                     if is_placed {
-                        // The space before a word that goes, goes with it.
+                        // The space before a removed word goes too.
                         let kept = gap
                             .iter()
                             .rposition(|byte| !matches!(byte, b' ' | b'\t'))

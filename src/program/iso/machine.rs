@@ -1,4 +1,4 @@
-//! The control as far as geometry goes: what stays in force from line to line, where the wire stands, and the move that a line makes.
+//! The control, as far as geometry goes: the modal state, the wire's position, and the move of each line.
 
 use super::block::{Block, Compensation, Corner, Motion, Offset, Stop};
 use super::word::Number;
@@ -6,55 +6,55 @@ use crate::finding::Side;
 
 use super::moves::{Bend, Course, Move, Place, Reading, added, apart, bend_about};
 
-/// What is in force, and where the wire stands.
+/// The modal state, and the wire's position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Machine {
-    /// Where the wire stands, nm.
+    /// The wire's position, nm.
     pub(crate) at: Place,
-    /// Where the zero of the program's coordinates lies: G92 moves it.
+    /// The zero of the program's coordinates: G92 moves it.
     pub(crate) zero: Place,
-    /// Where the wire stands is not known, since a coordinate could not be read.
+    /// The position is unknown, since a coordinate could not be read.
     pub(crate) lost: [bool; 2],
-    /// It was not known at some time since the last rapid or stop.
+    /// It was unknown at some time since the last rapid or stop.
     pub(crate) torn: bool,
     pub(crate) motion: Motion,
     pub(crate) incremental: bool,
     pub(crate) inch: bool,
     pub(crate) side: Option<Side>,
     pub(crate) offset: Option<Offset>,
-    /// What G40, G41 or G42 last said has not been followed by a move yet.
+    /// The last G40, G41 or G42 has not been followed by a move yet.
     pub(crate) switches: Option<bool>,
     /// The wire has moved since the beginning or the last stop.
     pub(crate) moved: bool,
-    /// What came last.
+    /// The kind of the last action.
     pub(crate) behind: Behind,
-    /// G92 has said where the wire stands.
+    /// G92 has set the position.
     pub(crate) stated: bool,
     pub(crate) ended: bool,
-    /// An electrode has been fed downwards: what it goes along it mills, layer by layer, and no wire cuts it out.
+    /// An electrode has been fed downwards: it mills layer by layer, and no wire cuts.
     pub(crate) mills: bool,
-    /// The corner behind the last move was cut off: how far from its sharp point the next one begins.
+    /// The corner behind the last move was cut off: the distance of the next move's start from its sharp point.
     pub(crate) cut_short: Option<Place>,
     pub(crate) trail: Trail,
 }
 
-/// What a program did last of all that moves or stops.
+/// The last action of a program that moves or stops.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Behind {
     /// Nothing of the following.
     #[default]
     Rest,
     Cut,
-    /// A stop, and before it a cut.
+    /// A stop after a cut.
     Stop,
 }
 
-/// What was cut last without a stop or a rapid behind it.
+/// The last cut, without a stop or a rapid behind it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Trail {
-    /// The last cut and the one before, seen from where they end.
+    /// The last cut and the one before, relative to their end.
     pub(crate) last: [Option<Move>; 2],
-    /// Tells whether a line says what the last one with a move said.
+    /// Tells whether a line repeats the last one with a move.
     pub(crate) said: u64,
 }
 
@@ -66,7 +66,7 @@ impl Trail {
     }
 }
 
-/// The same wherever it lies: under G91 no centre is absolute.
+/// The same anywhere: under G91 no centre is absolute.
 fn loose(mut made: Move) -> Move {
     if let (true, Bend::Center { absolute, .. }) = (made.incremental, &mut made.bend) {
         *absolute = [0, 0];
@@ -99,7 +99,7 @@ impl Default for Machine {
 }
 
 impl Machine {
-    /// Does what a line says. The move it makes is given back; none where the wire stands still, or where it stands is not known.
+    /// Executes a line. Returns its move; none where the wire stands still, or its position is unknown.
     pub(crate) fn run(&mut self, block: &Block, reading: &Reading) -> Option<Move> {
         if let Some(inch) = block.inch {
             self.inch = inch;
@@ -150,8 +150,8 @@ impl Machine {
         moved
     }
 
-    /// G92. At the beginning, and where the wire has not moved since a stop, it tells where the wire stands: it was taken there
-    /// by hand. Else the wire stays where it is and the zero moves.
+    /// G92. At the beginning, and where the wire has not moved since a stop, it sets the wire's position: the wire was
+    /// taken there by hand. Else the wire stays where it is and the zero moves.
     fn set_position(&mut self, block: &Block, reading: &Reading) {
         for (axis, number) in [block.x, block.y].into_iter().enumerate() {
             if let Some(number) = number {
@@ -209,7 +209,7 @@ impl Machine {
         let bend = match (length(block.i), length(block.j), length(block.r)) {
             (None, None, Some(radius)) => Bend::Radius(radius),
             (None, None, None) => Bend::Nothing,
-            // Of an absolute centre, the coordinate that is left out is that of the start.
+            // An omitted coordinate of an absolute centre is that of the start.
             (i, j, _) => Bend::Center {
                 i: i.unwrap_or(0),
                 j: j.unwrap_or(0),

@@ -1,7 +1,8 @@
-//! Paths of an electrode to the text of one ISO program: layer by layer, each line read again while it is written.
+//! Writes paths of an electrode as one ISO program: layer by layer, each line read back at once.
 //!
-//! The electrode stands above the place where a contour is entered, is fed down, goes to and fro along the contour and comes up again. Heights
-//! count from the surface; way and feed never stand in one line. What is written steers a simulation of the wear beside it.
+//! The electrode stands above the entry of a contour, is fed down, goes to and fro along the contour and comes up
+//! again. Heights count from the surface; a line moves either along the way or in height. The writing follows a
+//! simulation of the wear.
 
 use super::block::{Block, Motion};
 use super::encode::Encoded;
@@ -15,11 +16,11 @@ use crate::settings::{Coordinates, Effective};
 use crate::toolpath::milling::{Floor, Layers, Step};
 use crate::toolpath::{Milled, MilledContour, Source, WirePath};
 
-/// So high above the surface the electrode goes from one contour to the next, mm.
+/// The height above the surface of the ways between contours, mm.
 const CLEARANCE: f64 = 1.0;
 
-/// Writes the electrode's paths as one program and proves it. `unit_mm` is the drawing's unit in mm; `go_on` hears how many contours are done and
-/// how many there are, and ends the work with `false`.
+/// Writes the electrode's paths as one program and proves it. `unit_mm` is the drawing's unit in mm; `go_on` gets the
+/// number of contours done and of all, and ends the work with `false`.
 pub(crate) fn write_milled(
     paths: &[WirePath],
     unit_mm: f64,
@@ -61,7 +62,7 @@ pub(crate) fn write_milled(
         };
         over.goes_over(first, clear, &mut lines)?;
         let mut floor = Floor::new(&electrode, layers.length, layers.is_closed, worn);
-        // The way since the last feed that comes to another place of the grid.
+        // The way since the last feed that leads to another place of the grid.
         let mut waiting: Option<(f64, f64)> = None;
         let mut last = 0.0;
         fed_before = layers.each(&mut |step| {
@@ -125,7 +126,7 @@ pub(crate) fn write_milled(
 
 /// The way along a contour.
 struct Way {
-    /// Each piece in steps of the grid, and how far from the begin of the way it begins, mm.
+    /// Each piece in steps of the grid, and the distance of its start along the way, mm.
     pieces: Vec<(f64, Segment, Source)>,
     /// mm, as many as pieces and one.
     ends: Vec<f64>,
@@ -149,9 +150,9 @@ impl Way {
         self.ends.last().copied().unwrap_or_default()
     }
 
-    /// The pieces between two places, in the direction from the one to the other.
+    /// The pieces between two places, in the direction from the first to the second.
     fn between(&self, from: f64, to: f64) -> Vec<(Segment, Source)> {
-        /// Share of a piece that is none.
+        /// A smaller share of a piece is none.
         const NOTHING: f64 = 1e-9;
         let (least, most) = (from.min(to), from.max(to));
         let first = self.ends.partition_point(|end| *end <= least).max(1) - 1;
@@ -182,7 +183,7 @@ impl Way {
     }
 }
 
-/// Where the electrode is, in steps of the grid.
+/// The electrode's position, in steps of the grid.
 struct Tool {
     at: Node,
     /// Above the surface.
@@ -190,7 +191,7 @@ struct Tool {
 }
 
 impl Tool {
-    /// Up, and over the place where a contour is entered.
+    /// Up, and over the entry of a contour.
     fn goes_over(
         &mut self,
         first: Node,
@@ -246,7 +247,7 @@ impl Tool {
 }
 
 impl Lines<'_> {
-    /// Writes a move up or down, and reads it again.
+    /// Writes a move up or down, and reads it back.
     fn height_out(&mut self, motion: Motion, from: i64, to: i64) -> Result<(), ProofError> {
         let start = self.out.len();
         let mut out = std::mem::take(&mut self.out);

@@ -1,6 +1,7 @@
-//! ISO programs for wire EDM: words of G code, read as a control runs them and written by profiles.
+//! ISO programs for wire EDM: G code, read as a control runs it and written by profiles.
 //!
-//! How numbers and arc centres are meant differs from machine to machine and is found from the program itself, never assumed.
+//! The meaning of numbers and arc centres differs from machine to machine and is found from the program itself, never
+//! assumed.
 
 pub(crate) mod block;
 mod control;

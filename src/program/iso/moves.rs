@@ -1,7 +1,7 @@
-//! A move of the control: where it leads, how it bends, and how its numbers are read.
+//! A move of the control: its end, its arc, and how its numbers are read.
 //!
-//! Places are whole nanometres, so that a micrometre, four decimals of an inch and six of a millimetre are all exact, and sums do not
-//! depend on the order in which they are made.
+//! Places are whole nanometres, so that a micrometre, four decimals of an inch and six of a millimetre are all exact,
+//! and sums do not depend on their order.
 
 use super::block::{Corner, Motion, Offset};
 use super::word::Number;
@@ -16,16 +16,17 @@ pub(crate) const MICROMETRE: i64 = 1_000;
 /// A place in nm.
 pub(crate) type Place = [i64; 2];
 
-/// How the numbers of a program are to be read: found from the program as a whole.
+/// How the numbers of a program are read: found from the program as a whole.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reading {
-    /// A number without decimal point is in µm (tenths of a thousandth of an inch); else it is in mm (inches) like the others.
+    /// A number without decimal point is in µm (tenths of a thousandth of an inch); else it is in mm (inches) like the
+    /// others.
     pub(crate) whole_numbers_are_fine: bool,
-    /// Of arcs under G90.
+    /// For arcs under G90.
     pub(crate) absolute: CenterRule,
-    /// Of arcs under G91; never [`CenterRule::Absolute`].
+    /// For arcs under G91; never [`CenterRule::Absolute`].
     pub(crate) incremental: CenterRule,
-    /// By how much the ends of an arc may lie unlike far from its centre, nm.
+    /// The largest difference of the distances of an arc's ends from its centre, nm.
     pub(crate) tolerance: i64,
 }
 
@@ -38,7 +39,7 @@ impl Reading {
         }
     }
 
-    /// How the program says where its moves lead.
+    /// How the program gives the end of its moves.
     pub(crate) fn writing(&self) -> Writing {
         Writing {
             names_places: true,
@@ -66,10 +67,10 @@ impl Reading {
     }
 }
 
-/// Where an arc says that its centre is.
+/// How an arc gives its centre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Bend {
-    /// I and J in nm, as written, and where they would lie as absolute coordinates.
+    /// I and J in nm, as written, and their place as absolute coordinates.
     Center { i: i64, j: i64, absolute: Place },
     /// R in nm; negative for more than a half turn.
     Radius(i64),
@@ -95,13 +96,13 @@ pub(crate) struct Move {
     pub(crate) corner: Option<Corner>,
 }
 
-/// Where an arc runs, or why it does not.
+/// The curve of an arc, or why there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Course {
     Line,
     /// µm.
     Arc(Arc),
-    /// The ends are unlike far from the centre, µm.
+    /// The ends' distances from the centre differ, µm.
     OffRadius {
         start: f64,
         end: f64,
@@ -119,7 +120,7 @@ impl Move {
         self.motion != Motion::Rapid
     }
 
-    /// The centre under a rule, nm; `None` where I and J do not stand.
+    /// The centre under a rule, nm; `None` without I and J.
     pub(crate) fn center(&self, rule: CenterRule) -> Option<Place> {
         let Bend::Center { i, j, absolute } = self.bend else {
             return None;
@@ -131,14 +132,14 @@ impl Move {
         })
     }
 
-    /// By how much further the start is from the centre than the end under a rule, nm. 0 where there is no centre.
+    /// The start's distance from the centre minus that of the end under a rule, nm. 0 where there is no centre.
     pub(crate) fn difference(&self, rule: CenterRule) -> f64 {
         self.center(rule).map_or(0.0, |center| {
             distance(self.from, center) - distance(self.to, center)
         })
     }
 
-    /// Where the move runs.
+    /// The curve of the move.
     pub(crate) fn course(&self, reading: &Reading) -> Course {
         if !self.is_arc() {
             return Course::Line;
@@ -207,7 +208,7 @@ impl Move {
         }
     }
 
-    /// The same move, started at the zero of the plane.
+    /// The same move from the zero of the plane.
     pub(crate) fn at_origin(self) -> Move {
         self.seen_from(self.from)
     }
@@ -222,7 +223,7 @@ impl Move {
         moved
     }
 
-    /// The same move, started elsewhere. A centre in absolute coordinates stays.
+    /// The same move from another start. A centre in absolute coordinates stays.
     pub(crate) fn shifted(mut self, by: Place) -> Move {
         self.from = added(self.from, by);
         self.to = added(self.to, by);
@@ -232,7 +233,7 @@ impl Move {
 
 /// I and J for a centre, as the program's arcs have them.
 pub(crate) fn bend_about(center: Place, from: Place, incremental: bool, reading: &Reading) -> Bend {
-    // An absolute centre counts from where the arc begins.
+    // An absolute centre counts from the start of the arc.
     let [i, j] = to_center(reading.rule(incremental), center, from, from);
     Bend::Center {
         i,

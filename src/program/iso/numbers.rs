@@ -1,4 +1,4 @@
-//! Block numbers: counted anew, left out, renamed; calls follow.
+//! Block numbers: renumbered, removed, renamed; calls follow.
 //!
 //! ```text
 //! M98 P7                     M98 P40
@@ -19,16 +19,16 @@ use std::ops::Range;
 /// Words of some controls that name a block and are not followed here.
 const UNKNOWN_CALLS: [&str; 5] = ["M97", "G25", "GOTO", "CALL", "M96"];
 
-/// Numbers in steps of `step`, for every line that says something to the machine.
+/// Numbers in steps of `step`, for every line with a word for the machine.
 pub(super) fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, String> {
     refuse_unknown_calls(document)?;
     let text = document.text();
     let parted = is_parted(text);
     let mut edits = Vec::new();
-    // Of the numbers before, those afterwards, by the line that a call of them leads to.
+    // From old to new numbers, by the line that a call of them leads to.
     let labels = labels(text);
     let mut renamed: FxHashMap<u32, u32> = FxHashMap::default();
-    // A block that got the number of a program which is called, or of one that stands elsewhere, would be called in its place.
+    // A block with the number of a called program, or of one that stands elsewhere, would be called in its place.
     let taken: Vec<u32> = called(text)
         .into_iter()
         .filter(|called| {
@@ -92,7 +92,7 @@ fn is_program(text: &SourceText, line: usize) -> bool {
     Block::of(text.line(line)).program.is_some()
 }
 
-/// No numbers but those that are called.
+/// Removes all numbers that are not called.
 pub(super) fn without_numbers(document: &Document) -> Result<Vec<TextEdit>, String> {
     refuse_unknown_calls(document)?;
     let text = document.text();

@@ -10,10 +10,10 @@ use std::ops::Range;
 /// Subprograms within each other; more than controls take.
 const DEEPEST: usize = 16;
 
-/// A program runs at most so many lines, and twice those it has.
+/// A program runs at most this many lines, and twice those it has.
 const MOST_LINES: usize = 100_000;
 
-/// A program calls subprograms at most so often.
+/// A program calls subprograms at most this often.
 pub(super) const MOST_CALLS: usize = 20_000;
 
 /// The lines of a program in the order in which they run.
@@ -26,11 +26,11 @@ pub(crate) struct Order {
     pub(crate) called: FxHashSet<u32>,
     /// Lines that call a subprogram which is not in the text, with its number.
     pub(crate) missing: Vec<(usize, u32)>,
-    /// Subprograms that go on into what stands behind them: the line behind which M99 is missing, with the number.
+    /// Subprograms that run on into the blocks behind them: the line behind which M99 is missing, with the number.
     pub(crate) unreturned: Vec<(usize, u32)>,
     /// The line at which the calls were no longer followed: they go too deep or never end.
     pub(crate) endless: Option<usize>,
-    /// The line at which nothing more was run, since it would have been too much.
+    /// The line at which running stopped at the limit.
     pub(crate) left_out: Option<usize>,
     /// How many lines may run in all.
     pub(crate) most_lines: usize,
@@ -96,7 +96,7 @@ impl Walk<'_> {
             }
             self.left -= 1;
             let block = Block::of(self.text.line(line));
-            // Another program begins: what runs into it has no end of its own.
+            // Another program begins: running into it is not its end.
             if let Some(own) = number.filter(|_| line > first)
                 && [
                     block.program,
@@ -150,7 +150,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Lines that run one after another, in stretches: where they lie on themselves is looked for stretch by stretch.
+    /// Lines that run one after another, in stretches: coinciding cuts are searched stretch by stretch.
     fn push(&mut self, lines: Range<usize>) {
         let stretches = lines
             .clone()

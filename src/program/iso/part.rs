@@ -1,38 +1,39 @@
-//! The part of a cut of an ISO program that lies in one stretch, how it lies on itself, and its arcs that may be too tight.
+//! The part of an ISO program's cut in one stretch, how it lies relative to itself, and its arcs that may be too tight.
 
 use super::moves::{Bend, Move, Place, Reading, added, apart};
 use crate::geometry::{Point, Side};
 use crate::program::path::{HeldWay, Lay, Node, mixed};
 
-/// Consecutive moves that cut, without a rapid or a stop between: those of a cut, or the ones of them that lie in one stretch.
+/// Consecutive moves that cut, without a rapid or a stop between: those of a cut, or those of them in one stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Part {
-    /// The first two and the last two moves that lead anywhere; the same one may be several of them.
+    /// The first two and the last two moves with a length; they may coincide.
     pub(crate) first: [Move; 2],
     pub(crate) last: [Move; 2],
     pub(crate) moves: u32,
     pub(crate) arcs: u32,
-    /// Twice the signed area in nm², about the place where the part begins.
+    /// Twice the signed area in nm², relative to the part's start.
     pub(crate) twice_area: i128,
     /// The line that begins it, bytes from the start of the stretch.
     pub(crate) range: (u32, u32),
     /// The line that ends it.
     pub(crate) last_range: (u32, u32),
-    /// Nothing of it was lost to lines that could not be read.
+    /// No line of it was unreadable.
     pub(crate) whole: bool,
-    /// In one of its lines, or between them, something is wrong.
+    /// One of its lines, or of those between, has a fault.
     pub(crate) faulty: bool,
     /// It goes on in the next stretch.
     pub(crate) open: bool,
-    /// It is the continuation of the one before.
+    /// It continues the one before.
     pub(crate) continues: bool,
-    /// The stop behind it, before anything else moves, bytes from the start of the stretch; [`SEVERAL`] for more than one.
+    /// The stop behind it, before any other move, bytes from the start of the stretch; [`SEVERAL`] for more than one.
     pub(crate) stop: Option<u32>,
-    /// Another stop follows the one behind it, and nothing moves between: what is open is meant to end there.
+    /// Another stop follows the one behind it without a move between: an open cut is meant to end there.
     pub(crate) ends_open: bool,
-    /// The side that the control let the wire run on, where that was one and the same from the second move to the one before the last.
+    /// The side on which the control let the wire run, where it is the same from the second move to the one before the
+    /// last.
     pub(crate) side: WireSide,
-    /// Where the wire was sent to the other side first, and the line that did so.
+    /// Where the wire was first sent to the other side, and the line that did so.
     pub(crate) flip: Option<(Place, (u32, u32))>,
 }
 
@@ -80,7 +81,7 @@ impl Part {
         self.first[0].from
     }
 
-    /// What a move adds to the area.
+    /// The area of a move.
     fn term(&self, step: &Move, cap: f64) -> i128 {
         let origin = self.start();
         let [from, to] = [step.from, step.to].map(|place| apart(place, origin));
@@ -104,7 +105,7 @@ impl Part {
 
     /// Appends the continuation of a part; the ranges stay those of the beginning.
     pub(crate) fn append(&mut self, next: &Part) {
-        // The area of the continuation was taken about its own beginning.
+        // The area of the continuation was relative to its own beginning.
         let (origin, its) = (self.start(), next.start());
         let between = cross(apart(its, origin), apart(next.last[1].to, its));
         self.twice_area = self
@@ -157,7 +158,7 @@ fn joined(a: WireSide, b: WireSide) -> WireSide {
     }
 }
 
-/// Hears of every move of a part: the part's index, the move, the place of its words.
+/// Called for every move of a part: the part's index, the move, the place of its words.
 pub(crate) type Hears<'a> = dyn FnMut(usize, &Move, (u32, u32)) + 'a;
 
 /// The moves of a part as they are made.
@@ -169,7 +170,7 @@ impl Ways {
         self.0.push(step);
     }
 
-    /// How the part lies on itself.
+    /// How the part lies relative to itself.
     pub(crate) fn lay(self, reading: &Reading) -> Lay {
         let start = self.0.first().map_or([0, 0], |step| step.from);
         let mut way = HeldWay::from(Node::at(Point::origin()), reading.writing());
@@ -211,7 +212,7 @@ impl Ways {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Tight {
     pub(crate) arc: Move,
-    /// µm, taken about its own start: the same wherever it lies.
+    /// µm, relative to its own start: the same anywhere.
     pub(crate) radius: f64,
     /// Bytes from the start of the stretch; the whole line's words.
     pub(crate) range: (u32, u32),
@@ -222,7 +223,7 @@ pub(crate) struct Tight {
 /// The smallest radii among some arcs, µm; infinite where there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Tightest {
-    /// Of those beside which the control lets the wire run on a side, and of the others.
+    /// By the side on which the control lets the wire run, and for the others.
     pub(crate) offset: f64,
     pub(crate) plain: f64,
 }

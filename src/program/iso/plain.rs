@@ -1,4 +1,4 @@
-//! The words of a line, whatever characters they are written in: those that look like others are read as what they look like.
+//! The words of a line in whatever characters: look-alikes are read as what they look like.
 
 #![warn(clippy::indexing_slicing)]
 
@@ -8,7 +8,7 @@ use crate::program::alike::{Alike, alike};
 use crate::text::SourceText;
 use std::ops::Range;
 
-/// Hands each token of a line, which is without its line end, to `each`. Ranges are counted from `offset`.
+/// Hands each token of a line, without its line end, to `each`. Ranges are counted from `offset`.
 pub(crate) fn words(line: &[u8], offset: usize, each: impl FnMut(Token)) {
     tokens(line, offset, offset == 0, each);
 }
@@ -67,24 +67,24 @@ fn tokens(line: &[u8], offset: usize, may_have_mark: bool, mut each: impl FnMut(
     scan(line, offset, may_have_mark, each);
 }
 
-/// A line in which characters stand as those that they look like, each with its place in the text.
+/// A line with its look-alikes replaced, and the place of each character in the text.
 struct Plain {
     bytes: Vec<u8>,
-    /// Of each byte, and of the end, where it stands in the line.
+    /// The place in the line of each byte, and of the end.
     places: Vec<usize>,
-    /// The first characters that are others.
+    /// The first look-alikes.
     first: Range<usize>,
 }
 
 impl Plain {
-    /// `None` where no word of the line is written in other characters.
+    /// `None` where the line's words have no look-alikes.
     fn of(line: &[u8]) -> Option<Plain> {
         let mut plain = Plain {
             bytes: Vec::with_capacity(line.len()),
             places: Vec::with_capacity(line.len() + 1),
             first: 0..0,
         };
-        // A byte order mark is none of them.
+        // A byte order mark is not one of them.
         let is_mark = |found: &Alike| {
             line.get(found.at..)
                 .unwrap_or_default()
@@ -132,7 +132,7 @@ impl Plain {
     }
 }
 
-/// A line with the characters of its words as those that they look like; `None` where none is another.
+/// A line with its look-alikes replaced; `None` where it has none.
 pub(crate) fn plain(line: &[u8]) -> Option<Vec<u8>> {
     Plain::of(line).map(|plain| plain.bytes)
 }

@@ -1,4 +1,4 @@
-//! Lines are run: what each says, what it leaves in force, and what is wrong in it.
+//! Runs lines: the meaning of each, the state behind it, and its faults.
 
 #![warn(clippy::indexing_slicing)]
 
@@ -14,15 +14,15 @@ use crate::geometry::Side;
 use crate::program::path::{joint, mixed};
 use std::ops::Range;
 
-/// Arcs of a larger radius than this are not kept: no correction comes near, nm.
+/// Arcs with a larger radius are not kept: no correction comes near, nm.
 const LARGEST_CORRECTION: f64 = 5e6;
 
-/// Of so many lengths of a stretch, with a point and without, their places are kept.
+/// A stretch keeps the places of this many lengths, with a point and without.
 const MOST_LENGTHS: usize = 4;
 
 impl Stretch {
-    /// Runs the first `count` of `lines`, each with the byte at which it begins, counted from `start`; those behind say how the last of
-    /// them run.
+    /// Runs the first `count` of `lines`, each with the byte at which it begins, counted from `start`; the lines behind
+    /// complete the last of them.
     pub(crate) fn run<'a>(
         lines: impl Lines<'a>,
         count: usize,
@@ -49,7 +49,7 @@ impl Stretch {
         Pathless { stretch, ways }
     }
 
-    /// The same without paths; `each` hears of every move of a part.
+    /// The same without paths; `each` gets every move of a part.
     pub(crate) fn run_with<'a>(
         mut lines: impl Lines<'a>,
         count: usize,
@@ -106,7 +106,7 @@ impl Stretch {
         let mut leans = false;
         let block = read_line(line, offset, |note| match note {
             Note::Fault { fault, range } => {
-                // One fault a line is enough: the others may come of it.
+                // One fault a line is enough: the others may follow from it.
                 if faults.len() == known_faults {
                     faults.push(fault.finding(line, range.start - offset, range));
                 }
@@ -231,7 +231,7 @@ impl Stretch {
         self.faults.push(Finding::of(fault, range));
     }
 
-    /// I or J in a line that makes no arc of them.
+    /// I or J in a line without an arc.
     fn has_stray_center(&self, block: &Block) -> bool {
         (block.i.is_some() || block.j.is_some())
             && !self.after.motion.is_arc()
@@ -265,7 +265,7 @@ impl Stretch {
         turned
     }
 
-    /// Whether a line says once more what the last one with a move said.
+    /// Whether a line repeats the last one with a move.
     fn said(&mut self, block: &Block, made: &Move, range: (u32, u32)) {
         let said = mark_of(block, made);
         let is_again = std::mem::replace(&mut self.after.trail.said, said) == said;
@@ -279,7 +279,7 @@ impl Stretch {
         }
     }
 
-    /// Notes that something is wrong in a line of the cut that is going on.
+    /// Marks a fault in a line of the present cut.
     fn mark_fault(&mut self) {
         match self.parts.last_mut() {
             Some(part) => part.faulty |= part.open,
@@ -287,7 +287,7 @@ impl Stretch {
         }
     }
 
-    /// What comes next is a cut of its own; `whole` is false where lines between cannot be read.
+    /// Begins a new cut; `whole` is false where lines between cannot be read.
     fn interrupt(&mut self, whole: bool) {
         self.after.trail = Trail::default();
         match self.parts.last_mut() {
@@ -311,7 +311,7 @@ impl Stretch {
         self.sum.rapids += usize::from(!made.is_cut());
         self.sum.travel = added(self.sum.travel, apart(made.to, made.from));
         if self.after.mills {
-            // Layers are no contours of a part, nor passes along one.
+            // Layers are neither contours of a part nor passes along one.
             return self.interrupt(true);
         }
         if made.switches == Some(true) && made.offset.is_none() {
@@ -331,7 +331,7 @@ impl Stretch {
         }
         let mut cap = 0.0;
         if made.is_arc() {
-            // About its own start, so that it comes to the same to the last bit wherever it lies.
+            // Relative to its own start, so that the result is the same to the last bit anywhere.
             match made.at_origin().course(&self.reading) {
                 Course::Arc(arc) => {
                     // µm² to nm².
@@ -403,15 +403,15 @@ impl Stretch {
     }
 }
 
-/// Lines, each with the byte at which it begins, that can be gone through more than once.
+/// Lines, each with the byte at which it begins, that can be read more than once.
 pub(crate) trait Lines<'a>: Iterator<Item = (usize, &'a [u8])> + Clone {}
 
 impl<'a, I: Iterator<Item = (usize, &'a [u8])> + Clone> Lines<'a> for I {}
 
-/// What stands behind a line.
+/// The lines behind a line.
 struct Ahead<'l, L> {
     lines: &'l L,
-    /// How many lines of the stretch.
+    /// The number of lines in the stretch.
     left: usize,
 }
 
@@ -420,13 +420,13 @@ impl<'a, L: Lines<'a>> Ahead<'_, L> {
         self.lines.clone().map(|(_, line)| line)
     }
 
-    /// How many of the lines looked at stand behind the stretch.
+    /// How many of the lines read are behind the stretch.
     fn beyond(&self, looked_at: usize) -> u32 {
         looked_at.saturating_sub(self.left) as u32
     }
 }
 
-/// Lines with a move that say the same have the same mark, whatever their number.
+/// Lines with an equal move have an equal mark, whatever their number.
 fn mark_of(block: &Block, made: &Move) -> u64 {
     let numbers = [
         block.x,
@@ -447,7 +447,7 @@ fn mark_of(block: &Block, made: &Move) -> u64 {
         })
 }
 
-/// From the first to the last byte of a line that is no space.
+/// From the first to the last byte of a line that is not a space.
 pub(crate) fn words_of(line: &[u8], offset: usize) -> (u32, u32) {
     let leading = line
         .iter()

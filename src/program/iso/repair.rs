@@ -1,7 +1,8 @@
-//! The one slip that would make a cut in trouble sound.
+//! Finds the one slip whose correction makes a faulty cut sound.
 //!
-//! A cut in trouble is taken as the lines between two stops. A change of one block is run from there on until the machine stands again as
-//! it did, so that most cost a few lines; all is bounded by counted lines, so that what is found hangs on the text alone.
+//! A faulty cut is taken as the lines between two stops. A change of one block is run until the machine is in the
+//! earlier state again, so that most cost a few lines; all is bounded by counted lines, so that the result depends on
+//! the text alone.
 
 pub(super) mod found;
 mod lost;
@@ -25,41 +26,42 @@ use std::ops::Range;
 use std::sync::Arc;
 use words::{Meant, Pool, Words, prior};
 
-/// Cuts of more lines are searched only near what is wrong.
+/// Longer cuts, in lines, are searched only near the fault.
 const MOST_LINES: usize = 160;
 
-/// Cuts of more lines are not searched.
+/// Longer cuts, in lines, are not searched.
 const LONGEST: usize = 4_000;
 
-/// Cuts with a longer line, in bytes, are not searched: no block is, and each change of one is as long as the line.
+/// Cuts with a line longer than this, in bytes, are not searched: no block is that long, and each change costs its
+/// line's length.
 const LONGEST_LINE: usize = 512;
 
-/// Lines on either side of what is wrong that are searched in a long cut.
+/// Lines on either side of the fault that are searched in a long cut.
 const NEAR: usize = 2;
 
 /// Cuts of a program that are searched.
 const MOST_CUTS: usize = 3;
 
-/// One slip has no more consequences.
+/// One slip has at most this many consequences.
 const MOST_TROUBLES: usize = 6;
 
 /// Lines that are run for all of them.
 const MOST_RUNS: usize = 40_000;
 
 impl Document {
-    /// The slips that may be behind what is wrong, by the lines of the cuts that they stand in.
+    /// The slips that may explain the faults, by the lines of the cuts that they stand in.
     pub(super) fn repairs(&self) -> &Repairs {
         self.repairs
             .get_or_init(|| Arc::new(repairs(self, &self.plain_findings())))
     }
 
-    /// The same where what is wrong by itself is at hand.
+    /// The same where the independent faults are at hand.
     pub(super) fn repairs_of(&self, plain: &[Finding]) -> &Repairs {
         self.repairs.get_or_init(|| Arc::new(repairs(self, plain)))
     }
 }
 
-/// Searches the cuts in which something is wrong.
+/// Searches the faulty cuts.
 fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
     let mut found: Repairs = Vec::new();
     let mut too_long: Vec<Range<usize>> = Vec::new();
@@ -91,7 +93,7 @@ fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
             .copied()
             .filter(|line| lines.contains(line))
             .collect();
-        // So much does not come of one slip.
+        // One slip does not cause so much.
         let is_long = |line: usize| document.line_bytes(line).len() > LONGEST_LINE;
         if own.len() > MOST_TROUBLES || lines.clone().any(is_long) {
             found.push((lines, Vec::new()));
@@ -108,7 +110,7 @@ fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
     found
 }
 
-/// What one slip may stand behind.
+/// The findings that one slip may explain.
 pub(crate) fn is_trouble(finding: &Finding) -> bool {
     match finding.rule {
         Rule::Syntax | Rule::NotClosed | Rule::MixedNumbers => {
@@ -137,8 +139,8 @@ pub(crate) fn line_of(document: &Document, finding: &Finding) -> Option<usize> {
     }
 }
 
-/// The lines between the stops around a line, or between the places where subprograms begin, end and are called; more than [`LONGEST`]
-/// where there are too many.
+/// The lines between the stops around a line, or between the places where subprograms begin, end and are called; more
+/// than [`LONGEST`] where there are too many.
 fn cut_around(document: &Document, line: usize) -> Range<usize> {
     let is_order_kept = document.order().is_none();
     let ends_with = |line: usize| {
@@ -162,8 +164,8 @@ fn cut_around(document: &Document, line: usize) -> Range<usize> {
     first..end
 }
 
-/// True where the lines of a cut hold all of it. The search does not make the corners that the control makes, and an arc begins where one
-/// of them ends; and what a subprogram goes on with is not known.
+/// True where the lines of a cut hold all of it. The search makes no corners of the control, and an arc begins where
+/// such a corner ends; and the way on from a subprogram is unknown.
 fn stands_alone(document: &Document, lines: &Range<usize>) -> bool {
     let (mut has_corner, mut has_arc) = (false, false);
     for block in lines.clone().map(|line| document.block(line)) {
@@ -178,7 +180,7 @@ fn stands_alone(document: &Document, lines: &Range<usize>) -> bool {
     !(has_corner && has_arc) && (document.order().is_none() || !is_begun())
 }
 
-/// A cut that something is wrong with.
+/// A faulty cut.
 struct Suspect<'a> {
     document: &'a Document,
     lines: Range<usize>,
@@ -255,7 +257,7 @@ impl Contour for Suspect<'_> {
         let cost = after.soft + cost;
         let is_sounder = self.total.hard == 0 && cost + Self::CLEARLY < self.total.soft;
         let is_better = after.hard < self.total.hard || (after.hard == 0 && is_sounder);
-        // What lays a new way, or takes away what stands but once, is never sure.
+        // A change that adds a way, or removes something that stands only once, is never sure.
         let is_a_slip = match change {
             Change::Delete { index } => self.is_twice(*index),
             Change::Insert { .. } => false,
@@ -283,7 +285,7 @@ impl Contour for Suspect<'_> {
 type Change = search::Change<Meant>;
 
 impl<'a> Suspect<'a> {
-    /// `places` are the lines at which something is said.
+    /// `places` are the lines of the findings.
     fn new(
         document: &'a Document,
         lines: Range<usize>,
@@ -345,7 +347,7 @@ impl<'a> Suspect<'a> {
         self.may_be_wrong(index) && (has_fault || self.made(index).is_some())
     }
 
-    /// True for a line that says what the one before says.
+    /// True for a line that repeats the one before.
     fn is_twice(&self, index: usize) -> bool {
         let said = |line: &Line| {
             let Block {
@@ -365,7 +367,7 @@ impl<'a> Suspect<'a> {
         })
     }
 
-    /// The lines that come of a change.
+    /// The lines after a change.
     fn texts_with(&self, change: &Change) -> Vec<Vec<u8>> {
         match change {
             Change::Replace { meant, .. } | Change::Insert { meant, .. } => {

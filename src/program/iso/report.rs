@@ -1,4 +1,4 @@
-//! What is wrong in a program, out of what its stretches have seen.
+//! The findings of a program, from those of its stretches.
 
 mod arcs;
 mod text;
@@ -24,17 +24,17 @@ use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
 
-/// How many lines before its cut the word that switches the correction is looked for.
+/// The word that switches the correction is searched for in this many lines before its cut.
 const SWITCH_REACH: usize = 1_000;
 
-/// Twice the area of what is more than a line there and back, nm².
+/// Twice the area of anything more than a line there and back, nm².
 const LEAST_TWICE_AREA: u128 = 2_000_000;
 
-/// Of more spurs it is not asked whether they are ways out and in again.
+/// Of further spurs it is not asked whether they are ways out and in again.
 const MOST_SPURS: usize = 32;
 
 impl Document {
-    /// What is wrong in the program, in the order of the text.
+    /// The findings of the program, in the order of the text.
     pub fn findings(&self) -> Vec<Finding> {
         let mut findings = self.plain_findings();
         let suspects = suspects(self, &findings);
@@ -45,7 +45,7 @@ impl Document {
         findings
     }
 
-    /// The same without the blocks that are only suspected: what is wrong by itself, without a search for what is behind it.
+    /// The same without merely suspected blocks, and without a search for the slip behind them.
     pub(crate) fn plain_findings(&self) -> Vec<Finding> {
         let mut report = Report::new(self);
         let mut last_words = None;
@@ -94,7 +94,7 @@ impl Document {
         report.finish()
     }
 
-    /// The stretches not known to be clean that are: with the cuts that begin and end in there nothing is wrong as a whole.
+    /// Further stretches whose cuts are sound: those that begin and end there have no fault as a whole.
     pub(super) fn clean(&self) -> Vec<usize> {
         let mut report = Report::new(self);
         let placed = self.placed().enumerate();
@@ -106,7 +106,7 @@ impl Document {
     }
 }
 
-/// The blocks of which one slip may be all that is wrong, where nothing is said at their place yet.
+/// The blocks that may explain the findings by one slip, unless they have a finding already.
 fn suspects(document: &Document, findings: &[Finding]) -> Vec<Finding> {
     let is_said = |line: usize| {
         findings
@@ -175,7 +175,7 @@ struct Report<'a> {
     findings: Vec<Finding>,
     foreign: FxHashMap<Code, (Range<usize>, usize)>,
     definitions: &'a Table,
-    /// µm; an arc of at least this radius is no tighter than any correction.
+    /// µm; an arc of at least this radius suits every correction.
     largest_correction: f64,
     moves: u32,
     is_behind_end_said: bool,
@@ -231,7 +231,7 @@ impl<'a> Report<'a> {
         }
     }
 
-    /// A way out and in again between two passes is no spur: its tip is where the cut begins.
+    /// A way out and in again between two passes is no spur: its tip is the start of the cut.
     fn spurs(&mut self) {
         let spurs =
             |findings: &[Finding]| findings.iter().filter(|one| one.rule == Rule::Spur).count();
@@ -247,7 +247,7 @@ impl<'a> Report<'a> {
         }
     }
 
-    /// Adds up what concerns the program as a whole.
+    /// Adds up the evidence for the program as a whole.
     fn note(&mut self, stretch: &Stretch, offset: usize) {
         self.moves = self.moves.saturating_add(stretch.moves);
         for word in &stretch.foreign {
@@ -259,16 +259,16 @@ impl<'a> Report<'a> {
         }
     }
 
-    /// False where a part of the program was not run, since it would have been too much.
+    /// False where a part of the program was not run because of the limit.
     fn is_whole(&self) -> bool {
         self.document
             .order()
             .is_none_or(|order| order.left_out.is_none())
     }
 
-    /// Whether nothing is wrong with the cuts that begin and end in a stretch, each as a whole.
+    /// Whether the cuts that begin and end in a stretch are sound, each as a whole.
     fn is_clean(&mut self, placed: &Placed<'_>, index: usize) -> bool {
-        // Passes to and fro are closed for themselves, and may belong to the next or to the one before.
+        // Passes to and fro close by themselves, and may belong to the next or to the one before.
         let may_be_tab = |part: usize| {
             let lay = placed.stretch.lays.get(part);
             lay.is_some_and(|lay| lay.closes && !lay.goes_round)
@@ -287,12 +287,12 @@ impl<'a> Report<'a> {
         is_clean
     }
 
-    /// A cut as a whole: does it close, does the wire run on the right side of it, is an arc too tight. `all` are those with which it may
-    /// belong together.
+    /// Checks a cut as a whole: does it close, does the wire run on the right side, is an arc too tight. `all` are
+    /// those with which it may belong together.
     fn judge(&mut self, cut: &JoinedCut, all: &[JoinedCut]) {
         let sum = &*cut.sum;
         if sum.open && !self.is_whole() {
-            // What is cut short says nothing of the whole.
+            // A cut that was not read completely tells nothing about the whole.
             return;
         }
         let closes = self.document.is_closed(cut);
@@ -348,7 +348,8 @@ impl<'a> Report<'a> {
         self.tight_arcs(cut, orientation);
     }
 
-    /// Twice the area of the contour of which a cut is the tab, or all but the tab, where both are cut from the thread hole and back there.
+    /// Twice the area of the contour of which a cut is the tab, or all but the tab, where both are cut from and to the
+    /// thread hole.
     fn area_with_tab(&self, cut: &JoinedCut, all: &[JoinedCut]) -> Option<i128> {
         let begins = |sum: &Part| sum.first.map(|step| step.to);
         let ends = |sum: &Part| sum.last.map(|step| step.from);
@@ -373,7 +374,7 @@ impl<'a> Report<'a> {
         all.iter().find_map(|other| area(&other.sum))
     }
 
-    /// G41 that becomes G42 within a cut, at the word that does so.
+    /// A G41 that becomes G42 within a cut, at the word that does so.
     fn side_change(&mut self, line: Range<usize>) {
         let range = self.switch_range(line.start);
         let side = if self
@@ -389,8 +390,8 @@ impl<'a> Report<'a> {
         self.add(range, Fault::SideChange { side });
     }
 
-    /// The side of the contour from which the way in comes, told by the contour's directions where it begins and ends; `None` where they
-    /// disagree, or the cut has no way in along which the correction goes on.
+    /// The side of the contour from which the way in comes, by the contour's directions at its start and end; `None`
+    /// where they disagree, or the cut has no way in with the correction on.
     fn side_of_entry(&self, sum: &Part) -> Option<Side> {
         let lead = &sum.first[0];
         if lead.switches != Some(true) || lead.is_arc() {
@@ -404,7 +405,7 @@ impl<'a> Report<'a> {
             .start_tangent();
         let behind = last.at_origin().segment(self.reading).end_tangent();
         let way = micrometres(apart(lead.from, lead.to)).coords;
-        // A way in along the contour says nothing.
+        // A way in along the contour tells nothing.
         let clear = way.norm() * 0.02;
         let sides = [cross(ahead, way), cross(behind, way)];
         if sides.iter().all(|&side| side > clear) {
@@ -416,7 +417,8 @@ impl<'a> Report<'a> {
         }
     }
 
-    /// The word that switched the correction on before the cut that begins at `start`; the cut's first line where it is not found.
+    /// The word that switched the correction on before the cut that begins at `start`; the cut's first line where it is
+    /// not found.
     fn switch_range(&self, start: usize) -> Range<usize> {
         let line = self.text.line_of(start);
         for line in (line.saturating_sub(SWITCH_REACH)..=line).rev() {
@@ -430,7 +432,7 @@ impl<'a> Report<'a> {
         start..self.text.line_range(line).end.max(start)
     }
 
-    /// Sorted by place; a line that a subprogram runs several times is said once.
+    /// Sorted by place; a line that a subprogram runs several times is reported once.
     fn finish(mut self) -> Vec<Finding> {
         sort(&mut self.findings);
         if self.document.order().is_some() {

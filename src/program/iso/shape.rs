@@ -1,11 +1,12 @@
-//! A move as its joints with others see it.
+//! A move as its joints see it.
 
 use super::block::Motion;
 use super::moves::{Bend, Course, Move, Reading, micrometres};
 use crate::geometry::{Segment, Vector};
 use crate::program::path::Heading;
 
-/// A move and how its numbers are read. It lies near the zero of the plane, so that it comes to the same wherever it is cut.
+/// A move and the reading of its numbers. It is moved to the zero of the plane, so that the result is the same
+/// anywhere.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shape<'a> {
     pub(crate) made: Move,
@@ -51,7 +52,7 @@ impl Heading for Shape<'_> {
     }
 }
 
-/// Where a move leads at its start and at its end, of any length; `None` where it leads nowhere.
+/// The directions of a move at its start and end, of any length; `None` for a move without length.
 pub(crate) fn directions(made: &Move, reading: &Reading) -> Option<(Vector, Vector)> {
     if !made.is_arc() {
         let along = micrometres(made.to) - micrometres(made.from);

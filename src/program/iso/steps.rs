@@ -1,4 +1,4 @@
-//! An ISO program run: the moves of its lines, what is in force at one of them, and the cut that is under way there.
+//! A running ISO program: the moves of its lines, the state at a line, and the cut in progress there.
 
 use super::block::{Block, Motion, Stop, read_line};
 use super::control::lines_from;
@@ -28,7 +28,7 @@ pub(crate) struct BegunCut {
     pub(crate) moves: u32,
 }
 
-/// A line that runs, and what it does.
+/// A line that runs, and its effect.
 pub(super) struct Ran<'a> {
     pub(super) line: usize,
     /// Its words, bytes of the text.
@@ -36,7 +36,7 @@ pub(super) struct Ran<'a> {
     block: &'a Block,
     /// Its move, and the corner that the control makes at its end.
     made: [Option<Move>; 2],
-    /// Behind it.
+    /// The state behind it.
     pub(super) machine: &'a Machine,
 }
 
@@ -52,7 +52,7 @@ impl Ran<'_> {
 }
 
 impl Document {
-    /// Where the machine goes, move by move.
+    /// The machine's way, move by move.
     pub fn trace(&self) -> Trace {
         steps::trace(self)
     }
@@ -91,7 +91,7 @@ impl Document {
         }
     }
 
-    /// Hands out the moves in the order in which they run, each with its line and what is in force behind it.
+    /// Hands out the moves in the order in which they run, each with its line and the state behind it.
     pub(crate) fn moves(&self, each: &mut dyn FnMut(usize, Move, &Machine)) {
         for stretch in 0..self.stretches().len() {
             self.run_lines(stretch, &mut |ran| {
@@ -126,10 +126,10 @@ impl Document {
         self.stretches().iter().any(|stretch| stretch.has_corners)
     }
 
-    // What is in force at a line.
+    // The state at a line.
 
-    /// The lines before `line`, and itself where `behind` says so, in the stretch in which it first runs, run; `None` for a line that
-    /// does not run.
+    /// Runs the lines before `line`, and itself where `behind` is set, in the stretch in which it first runs; `None`
+    /// for a line that does not run.
     fn run_up_to(&self, line: usize, behind: bool) -> Option<(usize, Stretch)> {
         let (index, placed) = self
             .placed()
@@ -142,29 +142,29 @@ impl Document {
         Some((index, self.control().finish(self.text(), begun)))
     }
 
-    /// What is in force, and where the wire stands, before a line; `None` for a line that does not run.
+    /// The state before a line, with the wire's position; `None` for a line that does not run.
     pub(crate) fn machine_before(&self, line: usize) -> Option<Machine> {
         self.run_up_to(line, false)
             .map(|(_, stretch)| stretch.after)
     }
 
-    /// What is in force behind a line.
+    /// The state behind a line.
     pub(crate) fn machine_behind(&self, line: usize) -> Option<Machine> {
         self.run_up_to(line, true).map(|(_, stretch)| stretch.after)
     }
 
-    /// The cut that is under way before a line.
+    /// The cut in progress before a line.
     pub(crate) fn begun_cut(&self, line: usize) -> Option<BegunCut> {
         self.begun(self.run_up_to(line, false)?)
     }
 
-    /// The cut that is under way behind a line.
+    /// The cut in progress behind a line.
     pub(crate) fn begun_cut_with(&self, line: usize) -> Option<BegunCut> {
         self.begun(self.run_up_to(line, true)?)
     }
 
     fn begun(&self, (index, own): (usize, Stretch)) -> Option<BegunCut> {
-        // What stands before the last stretch in which a cut begins does not matter.
+        // Only the last stretch with the start of a cut matters, and those behind.
         let before = &self.stretches()[..index];
         let from = before.iter().rposition(Stretch::bounds_cuts).unwrap_or(0);
         let mut begun: Option<BegunCut> = None;
@@ -180,7 +180,7 @@ impl Document {
     }
 }
 
-/// The cut that is under way behind a part, which goes on with what was under way before.
+/// The cut in progress behind a part, which goes on with the one before.
 fn begun_by(before: Option<BegunCut>, part: &Part) -> Option<BegunCut> {
     let last = part.last[1];
     let first = before.unwrap_or(BegunCut {

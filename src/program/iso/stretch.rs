@@ -1,7 +1,7 @@
-//! Some lines of a program, run: what they leave in force, what is wrong in them, and the cuts that they make.
+//! Some lines of a program, run: the state behind them, their findings, and their cuts.
 //!
-//! A program is kept as stretches of lines so that an edit runs again only the stretch that it touched, and those behind it for which
-//! something else is in force. One that has only been moved is shifted, not run.
+//! A program is kept as stretches of lines, so that an edit runs only the stretch that it touched, and those behind it
+//! whose state changes. A stretch that only moved is shifted, not run.
 
 use super::block::{Code, Offset};
 use super::evidence::Evidence;
@@ -15,19 +15,19 @@ use crate::program::path::Lay;
 use crate::program::steps::Sum;
 use std::ops::Range;
 
-/// Lines that have been run, whose paths are yet to be found.
+/// Lines that have been run, without their paths yet.
 pub(crate) struct Pathless {
     pub(crate) stretch: Stretch,
     pub(crate) ways: Vec<Ways>,
 }
 
 impl Pathless {
-    /// What is in force behind it.
+    /// The state behind it.
     pub(crate) fn after(&self) -> Machine {
         self.stretch.after
     }
 
-    /// How each part lies on itself: what takes time, and hangs on nothing but the moves.
+    /// How each part lies relative to itself: this takes time, and depends only on the moves.
     pub(crate) fn with_paths(self) -> Stretch {
         let Pathless { mut stretch, ways } = self;
         stretch.parts.shrink_to_fit();
@@ -42,7 +42,7 @@ impl Pathless {
     }
 }
 
-/// A word whose meaning is a matter of the machine, where it stands first, and how often.
+/// A word whose meaning depends on the machine, its first place, and how often it occurs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Foreign {
     pub(crate) code: Code,
@@ -67,25 +67,25 @@ pub(crate) struct Stretch {
     /// How the numbers were read.
     pub(crate) reading: Reading,
     pub(crate) evidence: Evidence,
-    /// What is wrong in single lines; places are bytes from the start of the stretch.
+    /// The faults of single lines; places are bytes from the start of the stretch.
     pub(crate) faults: Vec<Finding>,
-    /// In the order of their parts, where they lay before the stretch was moved, as `parts`.
+    /// In the order of their parts, at their places before the stretch was moved, as `parts`.
     pub(crate) tight: Vec<Tight>,
     pub(crate) tightest: Tightest,
     pub(crate) parts: Vec<Part>,
-    /// By how much it has been moved since its lines were run.
+    /// How far it has been moved since its lines were run.
     pub(crate) moved: Place,
-    /// Of each part, how it lies on itself.
+    /// For each part, how it lies relative to itself.
     pub(crate) lays: Vec<Lay>,
-    /// About all of them, µm, where they lay before the stretch was moved.
+    /// Around all of them, µm, at their places before the stretch was moved.
     pub(crate) bounds: Option<Bounds>,
-    /// The parts that begin and end here are known to have nothing wrong with them as a whole.
+    /// The parts that begin and end here are known to be sound as a whole.
     pub(crate) is_clean: bool,
     pub(crate) foreign: Vec<Foreign>,
     pub(crate) definitions: Vec<Definition>,
     /// The first lengths without a decimal point that are not 0, and the first with one.
     pub(crate) lengths: [Vec<(u32, u32)>; 2],
-    /// How many lines behind its own say how its last ones run.
+    /// How many lines behind its own decide how its last ones run.
     pub(crate) ahead: u32,
     /// A word of it has the control make a corner.
     pub(crate) has_corners: bool,
@@ -95,32 +95,33 @@ pub(crate) struct Stretch {
     pub(crate) numbers_rise: bool,
     /// Lines that may have an N word.
     pub(crate) blocks: u32,
-    /// Where a program or subprogram begins (`O`), whose numbers count for themselves: how many N words stand before it.
+    /// Where a program or subprogram begins (`O`), which has its own numbers: how many N words stand before it.
     pub(crate) programs: Vec<u32>,
-    /// A cut that was going on before these lines ends with none of them; true where all of it could be read.
+    /// A cut that was in progress before these lines does not end in them; true where all of it could be read.
     pub(crate) ends_cut_before: Option<bool>,
     /// The stop before the first cut of these lines, as [`Part::stop`].
     pub(crate) stop_before: Option<u32>,
     /// As [`Part::ends_open`] of the last cut before these lines.
     pub(crate) ends_open_before: bool,
-    /// Something is wrong in a line that belongs to that cut.
+    /// A line of that cut has a fault.
     pub(crate) faulty_before: bool,
     /// The first words behind the end.
     pub(crate) behind_end: Option<(u32, u32)>,
-    /// The last line that says anything.
+    /// The last line with any content.
     pub(crate) last_words: Option<(u32, u32)>,
     /// A subprogram is called.
     pub(crate) calls: bool,
     /// Blocks that move the wire, and stops on the way.
     pub(crate) moves: u32,
     pub(crate) pauses: u32,
-    /// What the steps of its lines come to, wherever the stops of contours are.
+    /// The totals of its lines' steps, wherever the stops of contours are.
     pub(crate) sum: Sum,
-    /// It holds coordinates under G90, or an absolute centre, or G92: what it does hangs on where the wire stands before.
+    /// It holds coordinates under G90, or an absolute centre, or G92: its effect depends on the wire's position before
+    /// it.
     pub(crate) fixed: bool,
 }
 
-/// A stretch and where it stands.
+/// A stretch and its place.
 pub(crate) struct Placed<'a> {
     pub stretch: &'a Stretch,
     pub lines: Range<usize>,
@@ -137,14 +138,14 @@ impl Stretch {
         !self.fixed
     }
 
-    /// Moves everything that these lines do by `by`.
+    /// Moves the effects of these lines by `by`.
     pub(crate) fn shift(&mut self, by: Place) {
         self.before.at = added(self.before.at, by);
         self.after.at = added(self.after.at, by);
         self.moved = added(self.moved, by);
     }
 
-    /// A cut begins or ends in here: what comes behind does not hang on those before.
+    /// A cut begins or ends in here: the lines behind do not depend on those before.
     pub(crate) fn bounds_cuts(&self) -> bool {
         self.ends_cut_before.is_some() || self.parts.iter().any(|part| !part.continues)
     }
@@ -153,7 +154,7 @@ impl Stretch {
         self.parts.len()
     }
 
-    /// A part, where it lies.
+    /// A part at its place.
     pub(crate) fn part_at(&self, index: usize) -> Option<Part> {
         let mut part = *self.parts.get(index)?;
         part.shift(self.moved);
@@ -164,7 +165,7 @@ impl Stretch {
         (0..self.parts.len()).filter_map(|index| self.part_at(index))
     }
 
-    /// Where a part begins, how many moves and arcs it has.
+    /// The start of a part, its number of moves and of arcs.
     pub(crate) fn extent(&self, index: usize) -> Option<(Place, u32, u32)> {
         self.parts
             .get(index)
@@ -178,7 +179,7 @@ impl Stretch {
         first..end.max(first)
     }
 
-    /// The arcs of a part that may be tighter than a correction, where they lie.
+    /// The arcs of a part that may be tighter than a correction, at their places.
     pub(crate) fn tight_of(&self, part: usize) -> impl Iterator<Item = Tight> + '_ {
         let first = self
             .tight

@@ -1,15 +1,15 @@
-//! How a program writes its lengths, found from those that stand in it: what is added to it is written alike.
+//! The number format of a program, found from its lengths: additions are written alike.
 
 use super::document::Document;
 use crate::settings::NumberUnit;
 
-/// Lines with coordinates that are looked at to find out whether zeros behind the last digit are written.
+/// Lines with coordinates that are read to find whether trailing zeros are written.
 const LOOKED_AT: usize = 200;
 
-/// Digits behind the point that are written where the program needs fewer, of mm and of inches: about a micrometre each.
+/// Decimals that are written where the program needs fewer, for mm and inches: about a micrometre each.
 const LEAST_DECIMALS: [u8; 2] = [3, 5];
 
-/// Digits behind the point for which a step is a whole number of nm, of mm and of inches.
+/// Decimals for which a step is a whole number of nm, for mm and inches.
 const MOST_DECIMALS: [u8; 2] = [6, 5];
 
 /// How lengths are written.
@@ -27,7 +27,7 @@ impl Style {
     /// The style of a program, for numbers in inches or millimetres.
     pub(crate) fn of(document: &Document, inch: bool) -> Style {
         let profile = document.limits.profile.as_ref();
-        // Where nothing has been written yet the profile says it.
+        // Where the program has no lengths yet, the profile decides.
         let fine = match document.evidence().numbers {
             0 => profile.is_some_and(|profile| profile.unit == NumberUnit::Um),
             _ => document.reading().whole_numbers_are_fine,

@@ -1,4 +1,4 @@
-//! The control's table of corrections, as far as a program says something of it.
+//! The control's table of corrections, as far as a program gives it.
 
 use super::block::Offset;
 use super::document::{Document, Table};
@@ -7,11 +7,11 @@ use super::stretch::Definition;
 use super::word::Value;
 use std::collections::BTreeMap;
 
-/// Lines that are looked through for the places of the table that a program uses.
+/// Lines that are searched for the places of the table that a program uses.
 const LOOKED_AT: usize = 2_000;
 
 impl Document {
-    /// What the program puts into the table.
+    /// The values that the program puts into the table.
     pub(super) fn stated_table(&self) -> Table {
         let mut table = Table::default();
         let stretches = self.stretches().iter();
@@ -95,7 +95,7 @@ impl Document {
     }
 }
 
-/// What is put into the table, nm; `None` where it hangs on a place that is not filled.
+/// The value for the table, nm; `None` where it depends on a place that is not filled.
 pub(super) fn value(table: &Table, definition: &Definition, reading: &Reading) -> Option<i64> {
     definition.terms.iter().try_fold(0_i64, |sum, term| {
         let value = match term.value {

@@ -1,13 +1,13 @@
-//! Words with which the upper guide goes another way than the lower one. What they say hangs on the order, the direction and the mode of
-//! the moves of X and Y: what changes those and would not keep it refuses a program that has them.
+//! Words that give the upper guide another path than the lower one. Their meaning depends on the order, the direction
+//! and the mode of the moves of X and Y: refactorings that would change it refuse such a program.
 
 use crate::program::iso::document::Document;
 use std::ops::Range;
 
-/// The words that matter.
+/// The kinds of such words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::program) enum Words {
-    /// Those that say where the upper guide goes: U, V, a second contour behind a colon.
+    /// Those that position the upper guide: U, V, a second contour behind a colon.
     Guide,
     /// Those and the ones that tilt the wire: G51, G52, G140 to G142, TP, TN.
     All,

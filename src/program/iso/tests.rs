@@ -1,4 +1,4 @@
-//! Reading ISO: what lines say, how centres are meant, what is wrong, and that an edited text is the one read afresh.
+//! Reading ISO: the meaning of lines and centres, the findings, and that an edited text equals a fresh reading.
 
 mod corners;
 mod numbers;
@@ -103,7 +103,7 @@ fn each_fault_is_named_at_its_line() {
         &with("G42 D1\nG00 X1000\nG01 Y1000\nG01 X1000\nG01 X-1000 Y-1000\nG40\nG00 X-1000"),
         &[(4, "compensation-switch")],
     );
-    // A whole turn fits whatever I and J mean.
+    // A full turn fits whatever I and J mean.
     check(
         &with("G01 X1000\nG03 X0 Y0 I-1000 J0\nG01 X-1000"),
         &[(4, "ambiguous-center")],
@@ -149,7 +149,7 @@ fn a_cut_that_goes_through_itself_is_told_at_both_places() {
         "G92 X0. Y0.\nG90\nG01 X5. Y0.\nY5.\nX0.\nY0.\nX5. Y0.\nY5.\nX0.\nY0.\nM02\n",
         &[],
     );
-    // Other cuts lie elsewhere, whatever lies between them in the text; a cut with a wrong arc is not told anything of.
+    // Other cuts lie elsewhere, whatever lies between them in the text; a cut with a wrong arc is not judged further.
     check(
         "G92 X0. Y0.\nG90\nG01 X9. Y9.\nX0.\nY0.\nM00\nG00 X0. Y5.\nG01 X9.\nY0.\nX0. Y5.\nM02\n",
         &[],
@@ -158,7 +158,7 @@ fn a_cut_that_goes_through_itself_is_told_at_both_places() {
         &bow("G40").replace("X20. Y0.\n", "X20. Y0.\nG02 X20. Y0. R0\nG01 "),
         &[(7, "arc-without-radius")],
     );
-    // Far apart in the text, and across the borders of what is run together.
+    // Far apart in the text, and across the borders of stretches.
     let mut long = String::from("G92 X0 Y0\nG91\nG01 X1000\n");
     (0..700).for_each(|step| long += if step % 2 == 0 { "X10\n" } else { "Y10\n" });
     long += "Y3000\nX-2000\nY-5000\nX700 Y-3000\nX1000 Y6000\nX-700\nM02\n";
@@ -194,7 +194,7 @@ fn the_wire_runs_where_the_role_and_its_way_in_say() {
     check(&hole("G41"), &opening, &[]);
     check(&hole("G41"), &punch, &[(3, "wrong-side")]);
     check(&hole("G42"), &opening, &[(3, "wrong-side")]);
-    // Nobody said what it is, but the wire comes from inside.
+    // The settings do not say what it is, but the wire comes from inside.
     check(&hole("G42"), &Effective::default(), &[(3, "wrong-side")]);
     let document = Document::read_with(hole("G42").into_bytes(), &opening);
     let finding = &document.findings()[0];
@@ -246,8 +246,8 @@ fn arcs_are_held_against_the_correction_under_compensation_only() {
     assert_eq!(faults(&program("G40", ""), &punch), []);
 }
 
-/// Programs in the forms that the machines of the field have, found in programs and manuals of theirs: nothing is said of them but which
-/// words are the machine's own.
+/// Programs in the forms of the field's machines, found in their programs and manuals: the only findings are the
+/// machine's own words.
 #[test]
 fn the_dialects_of_the_field_are_no_faults() {
     let square = "G01 X10.000 Y0.000\nG01 X10.000 Y10.000\nG01 X0.000 Y10.000\nG01 X0.000 Y0.000\n";
@@ -323,7 +323,7 @@ fn ways_that_come_back_are_no_faults() {
         "G92 X0. Y0.\nG90\nG41 D1\nG01 X5. Y0.\nY5.\nX-5.\nY-5.\nX5.\nY0.\nG42 D1\nY-5.\nX-5.\nY5.\nX5.\nY0.\nG40\nX0.\nM02\n",
         &[],
     );
-    // A lens: two arcs about two centres, that turn back on each other all but.
+    // A lens: two arcs about two centres that nearly turn back on each other.
     check(
         "G92 X99. Y-9.\nG90\nG01 X99. Y0.\nG03 X-99. Y0. I-99. J-4900.\nG03 X99. Y0. I99. J4900.\nG01 X108. Y9.\nM02\n",
         &[],
@@ -332,7 +332,7 @@ fn ways_that_come_back_are_no_faults() {
 
 #[test]
 fn lines_that_name_places_do_not_move_with_what_stands_before_them() {
-    // Steps move with what stands before them, places do not: where the one goes over into the other, all is read again.
+    // Steps move with the text before them, places do not: where one replaces the other, all is read again.
     for steps in (150..290).step_by(7) {
         let places = (0..100).map(|line| format!("G01 X{line} Y{}\n", line % 7));
         let text = format!(
@@ -349,7 +349,7 @@ fn lines_that_name_places_do_not_move_with_what_stands_before_them() {
     }
 }
 
-/// Lines that programs are made of, with some that are damaged.
+/// Lines of programs, some of them damaged.
 fn line() -> impl Strategy<Value = String> {
     prop_oneof![
         6 => (prop::sample::select(vec!["G01 ", "G00 ", "", "N5 G01 "]), -50_i32..50, -50_i32..50).prop_map(|(g, x, y)| format!("{g}X{x} Y{y}")),
@@ -364,7 +364,7 @@ fn line() -> impl Strategy<Value = String> {
     ]
 }
 
-/// A closed contour with what is right with it, or not: compensation, a rounded corner, a crossing, numbers.
+/// A closed contour with its good or bad details: compensation, a rounded corner, a crossing, numbers.
 fn contour() -> impl Strategy<Value = String> {
     let size = 300_i32..2000;
     (size, 20_i32..250, prop::sample::select(vec!["", "G41 D1\n", "G42 H1\n"]), any::<bool>(), prop::bool::weighted(0.1)).prop_map(

@@ -1,8 +1,9 @@
-//! Where the wire's upper end goes while a program tilts the wire.
+//! The way of the wire's upper end while a program tilts the wire.
 //!
-//! A program says so in one of three ways: by an angle (G51 to the left of the way, G52 to the right, with A or T; G50 ends it; G141, G142
-//! and G140 the same), by how far the upper guide is from the lower one (U, V), or by a second contour behind a colon. An angle needs the
-//! height between the plane that is programmed and the other one: TP and TN, else the workpiece's.
+//! A program can tilt it in three ways: by an angle (G51 to the left of the way, G52 to the right, with A or T; G50
+//! ends it; G141, G142 and G140 the same), by the distance of the upper guide from the lower one (U, V), or by a second
+//! contour behind a colon. An angle needs the height between the programmed plane and the other one: TP and TN, else
+//! the workpiece's.
 
 use super::block::{Offset, read_line};
 use super::document::Document;
@@ -17,27 +18,27 @@ use crate::geometry::{
 /// A joint that turns by less is tangent, radians.
 const TANGENT: f64 = 1e-3;
 
-/// Where the way turns back by more, radians, the upper end goes round on a chord: its two ways meet nowhere near.
+/// Where the way turns back by more, radians, the upper end follows a chord: its two ways meet nowhere near.
 const TURNS_BACK: f64 = 2.6;
 
-/// Radii and shifts that differ by less are one, µm.
+/// Radii and shifts that differ by less are equal, µm.
 const SAME: f64 = 2.0;
 
-/// An arc whose upper one is no arc is shown in so many chords.
+/// An arc whose upper curve is no arc is shown in this many chords.
 const CHORDS: u32 = 32;
 
-/// What a program says of the wire's upper end.
+/// The program's data about the wire's upper end.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Taper {
-    /// Of each move of the program in its order, where the upper end goes, µm; nothing where it goes where the lower one goes.
+    /// For each move of the program in its order, the way of the upper end, µm; nothing where it follows the lower one.
     pub(crate) upper: Vec<Vec<Segment>>,
     /// The arcs that are cut with a tilted wire.
     pub(crate) arcs: Vec<TiltedArc>,
-    /// Why some of it is not known.
+    /// Why some of it is unknown.
     pub(crate) unknown: Option<Unknown>,
 }
 
-/// Why it is not known where the upper end goes.
+/// Why the way of the upper end is unknown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Unknown {
     /// No angle stands with G51 or G52; the line, from 0.
@@ -51,7 +52,7 @@ pub(crate) enum Unknown {
 pub(crate) struct TiltedArc {
     /// Line of the text, from 0.
     pub(crate) line: usize,
-    /// µm, in the plane that is programmed.
+    /// µm, in the programmed plane.
     pub(crate) radius: f64,
     /// How much smaller it is in the other plane, µm; below 0 where it is larger there.
     pub(crate) narrows: f64,
@@ -64,8 +65,8 @@ pub(crate) struct TiltedArc {
 }
 
 impl TiltedArc {
-    /// The least radius with which the wire passes with a correction, µm both. `c / cos β` stand between the wire's axis and the part in a
-    /// plane, and on the side where the arc narrows it loses `H · tan β` more.
+    /// The least radius that the wire passes with a correction, µm both. In a plane the wire's axis is `c / cos β` from
+    /// the part, and on the side where the arc narrows it loses `H · tan β` more.
     pub(crate) fn least(&self, correction: f64) -> f64 {
         let own = if self.is_inside {
             correction / self.angle.cos()
@@ -80,12 +81,12 @@ impl TiltedArc {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Lean {
     Upright,
-    /// The upper end goes so far to the left of the lower one's way, µm, under the angle in radians.
+    /// The upper end is this far to the left of the lower one's way, µm, under the angle in radians.
     Beside {
         by: f64,
         angle: f64,
     },
-    /// The upper end is so far from the lower one at the end of the move.
+    /// The upper end is this far from the lower one at the end of the move.
     Apart(Vector),
     /// The upper end has a move of its own.
     Own(Segment),
@@ -102,8 +103,8 @@ struct Leaning {
 }
 
 impl Document {
-    /// Where the wire's upper end goes; `None` where no word tilts the wire. The height of the workpiece stands for the planes where the
-    /// program does not say them.
+    /// The way of the wire's upper end; `None` where no word tilts the wire. The height of the workpiece replaces
+    /// planes that the program does not give.
     pub(crate) fn taper(&self) -> Option<Taper> {
         let mut foreign = self.stretches().iter().flat_map(|own| &own.foreign);
         if !foreign.any(|word| word.code.tilts()) {
@@ -129,21 +130,21 @@ impl Document {
     }
 }
 
-/// What is in force of all that tilts the wire.
+/// The state of everything that tilts the wire.
 struct Reader<'a> {
     reading: &'a Reading,
     thickness: Option<f64>,
-    /// To which side the wire leans, and in which line that was said.
+    /// The side to which the wire leans, and the line that set it.
     side: Option<(Side, usize)>,
     /// Radians.
     angle: Option<f64>,
-    /// The plane that is programmed and the other one, nm.
+    /// The programmed plane and the other one, nm.
     planes: [Option<i64>; 2],
     /// From the lower end to the upper one, nm, by U and V.
     apart: Place,
-    /// The upper end by itself, once a second contour stands somewhere.
+    /// The upper end by itself, once a second contour has appeared.
     upper: Option<Machine>,
-    /// What this line says of it.
+    /// This line's words for it.
     own: Option<Segment>,
     unknown: Option<Unknown>,
 }
@@ -163,7 +164,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Takes what a line says; `machine` is what is in force behind it.
+    /// Executes a line; `machine` is the state behind it.
     fn read(&mut self, line: usize, bytes: &[u8], machine: &Machine) {
         self.own = None;
         let mut said = Words::default();
@@ -185,7 +186,7 @@ impl<'a> Reader<'a> {
                 *plane = Some(self.reading.length(number, machine.inch));
             }
         }
-        // Beside G51 they are no places of the guide.
+        // Beside G51 they are not positions of the guide.
         for (axis, number) in said.guide.into_iter().enumerate().filter(|_| !switches) {
             let Some(number) = number else { continue };
             let length = self.reading.length(number, machine.inch);
@@ -208,7 +209,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The move of the upper end behind the colon. What it does not say is as in the lower end's.
+    /// The move of the upper end behind the colon. Omitted words are those of the lower end.
     fn follow(&mut self, bytes: &[u8], machine: &Machine) {
         let block = read_line(bytes, 1, |_| {});
         let before = self.upper.unwrap_or(Machine {
@@ -332,7 +333,7 @@ impl Words {
     }
 }
 
-/// Where the upper end goes in each move.
+/// The way of the upper end in each move.
 fn upper_of(moves: &[Leaning]) -> Vec<Vec<Segment>> {
     let mut upper = Vec::with_capacity(moves.len());
     // From the lower end to the upper one, where the last move ended.
@@ -386,7 +387,7 @@ fn shifted(lower: &Segment, from: Vector, to: Vector) -> Vec<Segment> {
         .collect()
 }
 
-/// The upper end of a move beside which it runs `by` to the left, from where it stands.
+/// The upper end of a move that runs `by` to the left of it, from its present position.
 fn beside(
     one: &Leaning,
     by: f64,
@@ -432,7 +433,7 @@ fn beside(
     pieces
 }
 
-/// An arc that has no upper one: it narrows to nothing on the way up.
+/// An arc without an upper one: it narrows to nothing on the way up.
 fn collapses(arc: &Arc, by: f64) -> bool {
     arc.radius <= by * arc.sweep.signum()
 }

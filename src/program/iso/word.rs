@@ -1,6 +1,6 @@
-//! The words of a line: a letter and its number, each with its place; comments, marks and what cannot be read.
+//! The words of a line: a letter and its number, each with its place; comments, marks and unreadable text.
 //!
-//! Nothing here knows what a word means, and nothing that one line says hangs on another.
+//! Nothing here knows the meaning of a word, and lines are independent of each other.
 
 #![warn(clippy::indexing_slicing)]
 
@@ -8,7 +8,7 @@ use crate::finding::{Detail, Finding, Rule, Severity};
 use crate::text::shown;
 use std::ops::Range;
 
-/// A number as it is written: `mantissa · 10^−decimals`. Whether it had a decimal point tells millimetres from micrometres.
+/// A number as it is written: `mantissa · 10^−decimals`. Its decimal point distinguishes millimetres from micrometres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Number {
     pub(crate) mantissa: i64,
@@ -17,14 +17,14 @@ pub(crate) struct Number {
 }
 
 impl Number {
-    /// The number where it is a whole one, such as that of G01 or N10.
+    /// The number if it is whole, such as that of G01 or N10.
     pub(crate) fn whole(self) -> Option<i64> {
         let factor = 10_i64.checked_pow(u32::from(self.decimals))?;
         (self.mantissa % factor == 0).then_some(self.mantissa / factor)
     }
 }
 
-/// One thing that stands in a line.
+/// One item of a line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Token {
     /// `G01`, `X-1.5`: the letter in upper case.
@@ -33,14 +33,14 @@ pub(crate) enum Token {
         number: Number,
         range: Range<usize>,
     },
-    /// `H001=110`, a value for the control's table; what stands behind the sign may be a list.
+    /// `H001=110`, a value for the control's table, perhaps a list.
     Definition {
         letter: u8,
         index: Number,
         value: Option<Number>,
         range: Range<usize>,
     },
-    /// `H001=.0085+H175`: a value for the control's table that is reckoned from numbers and other places of it.
+    /// `H001=.0085+H175`: a value for the control's table, the sum of numbers and other places of it.
     Sum {
         letter: u8,
         index: Number,
@@ -53,13 +53,13 @@ pub(crate) enum Token {
         number: Number,
         range: Range<usize>,
     },
-    /// `STOP`, or a word with a variable or an expression in the place of its number: a matter of the machine.
+    /// `STOP`, or a word with a variable or an expression instead of its number: it depends on the machine.
     Foreign { range: Range<usize> },
     /// `( … )`, or `;` to the end of the line.
     Comment { range: Range<usize> },
     /// `%`: where a program begins and ends on tape.
     Tape { range: Range<usize> },
-    /// `/`: a block that the operator may have left out.
+    /// `/`: a block that the operator may skip.
     Skip { range: Range<usize> },
     /// Not readable; the rest of the line is read all the same.
     Fault {
@@ -102,14 +102,14 @@ pub struct Term {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Value {
     Number(Number),
-    /// What another place of the control's table holds.
+    /// The value of another place of the control's table.
     Place {
         letter: u8,
         index: u32,
     },
 }
 
-/// What is wrong with a place of a line.
+/// A fault at a place of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WordFault {
     /// A letter without its number.
@@ -124,7 +124,7 @@ pub enum WordFault {
     LetterO,
     /// `X1,5`: read as the point that is meant.
     DecimalComma,
-    /// Full-width characters, or letters and spaces of other scripts: read as those that they look like.
+    /// Full-width characters, or letters and spaces of other scripts: read as what they look like.
     Lookalike,
     TooManyDigits {
         digits: u32,
@@ -136,7 +136,7 @@ pub enum WordFault {
 }
 
 impl WordFault {
-    /// What is told of it: it stands at `start` of its line, and at `range` of the text.
+    /// The finding for it: it stands at `start` of its line, and at `range` of the text.
     pub(crate) fn finding(self, line: &[u8], start: usize, range: Range<usize>) -> Finding {
         let column = start + 1;
         let bytes = line.get(start..start + range.len()).unwrap_or_default();
@@ -169,7 +169,7 @@ impl WordFault {
 }
 
 impl WordFault {
-    /// What it means is read all the same.
+    /// It is read all the same.
     pub(crate) fn is_read(self) -> bool {
         matches!(
             self,

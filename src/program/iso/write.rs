@@ -1,4 +1,4 @@
-//! Paths to the text of one ISO program, as a profile says, each line of which is read again while it is written.
+//! Writes paths as one ISO program, by a profile; each line is read back at once.
 
 mod proof;
 
@@ -16,7 +16,7 @@ use crate::program::write::{
 use crate::settings::{Coordinates, Effective, LineEnd, NumberUnit, Profile, Zero};
 use crate::toolpath::{Source, WirePath};
 
-/// Writes the paths as one program and proves it. `unit_mm` is the drawing's unit in mm. The error of a profile that is not there, or
+/// Writes the paths as one program and proves it. `unit_mm` is the drawing's unit in mm. An unknown profile, or one
 /// whose lines do not do what they should, is a refusal.
 pub fn write(
     paths: &[WirePath],
@@ -26,7 +26,7 @@ pub fn write(
     write_with(paths, unit_mm, settings, &mut |_, _| true)
 }
 
-/// As [`write()`]; `go_on` hears every few thousand segments how many are done and how many there are, and ends the work with `false`.
+/// As [`write()`]; `go_on` gets the progress every few thousand segments, and ends the work with `false`.
 pub(crate) fn write_with(
     paths: &[WirePath],
     unit_mm: f64,
@@ -52,22 +52,22 @@ pub(super) struct Lines<'a> {
     /// nm in one step of the grid.
     pub(super) step: i64,
     pub(super) reading: Reading,
-    /// The control that runs every line once more.
+    /// The control that runs every line again.
     pub(super) machine: Machine,
     pub(super) out: Vec<u8>,
-    /// What absolute coordinates count from.
+    /// The origin of absolute coordinates.
     zero: Node,
     side: Option<Side>,
     is_switched_off: bool,
-    /// The path goes on where the last one ended, with all that is in force there.
+    /// The path goes on from the end of the last one, with the same modal state.
     goes_on: bool,
     number: u32,
-    /// What is in force for a profile that leaves it out.
+    /// The modal words that a terse profile leaves out.
     motion: Option<Motion>,
     pub(super) blocks: usize,
     /// Steps.
     length: f64,
-    /// Of the ways without a cut among it.
+    /// Without cuts, part of the above.
     pub(super) jumps: f64,
     /// Steps.
     deviation: f64,
@@ -198,7 +198,7 @@ impl Writer for Lines<'_> {
 }
 
 impl<'a> Lines<'a> {
-    /// No lines yet, in the profile of the settings; the error where it is not there.
+    /// No lines yet, in the profile of the settings; an error for an unknown profile.
     pub(super) fn of(settings: &'a Effective) -> Result<Lines<'a>, ProofError> {
         let profile = settings
             .profile
@@ -246,7 +246,7 @@ impl<'a> Lines<'a> {
         self.step as f64 / MICROMETRE as f64
     }
 
-    /// Where the control stands at a node.
+    /// The control's position at a node.
     fn place(&self, node: Node) -> Place {
         [
             (node.x - self.zero.x) * self.step,
@@ -258,7 +258,7 @@ impl<'a> Lines<'a> {
         ProofError::Refused(say!(of_profile, self.profile.name, why))
     }
 
-    /// What stands before the way out of a contour that the control offsets.
+    /// The lines before the way out of a contour that the control offsets.
     fn switch_off(&mut self, at: Node) -> Result<(), ProofError> {
         if self.side.is_none() || std::mem::replace(&mut self.is_switched_off, true) {
             return Ok(());
@@ -271,7 +271,7 @@ impl<'a> Lines<'a> {
         lines.any(|line| line.contains("{register}"))
     }
 
-    /// The word that says where the control finds the correction of the pass.
+    /// The word for the control's correction of the pass.
     fn register(&self) -> String {
         let stated = self.settings.passes.registers.as_ref();
         let stated = stated.and_then(|words| words.get(self.pass - 1));
@@ -330,7 +330,7 @@ impl<'a> Lines<'a> {
         });
     }
 
-    /// Writes one move, and reads it again.
+    /// Writes one move, and reads it back.
     pub(super) fn step_out(&mut self, step: &Encoded) -> Result<(), ProofError> {
         let start = self.out.len();
         self.push_move(step);
@@ -343,7 +343,7 @@ impl<'a> Lines<'a> {
         Ok(())
     }
 
-    /// What a line with a move begins with: its number, and G00 to G03.
+    /// The beginning of a line with a move: its number, and G00 to G03.
     pub(super) fn push_head(&mut self, out: &mut Vec<u8>, motion: Motion) -> Separator {
         let mut separate = Separator {
             wanted: self.profile.spaces,
@@ -406,7 +406,7 @@ impl<'a> Lines<'a> {
         push_places(out, magnitude % per_mm, self.profile.decimals.into());
     }
 
-    /// `cuts` tells that there is more to the paths than places where the wire is threaded.
+    /// `cuts` says that the paths hold more than thread holes.
     pub(super) fn finish(mut self, cuts: bool) -> Result<ProvedProgram, ProofError> {
         if self.blocks == 0 && cuts {
             return Err(nothing_to_write());
@@ -445,7 +445,7 @@ impl Separator {
     }
 }
 
-/// A word with the number at its end counted on.
+/// A word with the number at its end increased.
 fn counted_on(word: &str, by: usize) -> String {
     let name = word.trim_end_matches(|letter: char| letter.is_ascii_digit());
     let digits = &word[name.len()..];

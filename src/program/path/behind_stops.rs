@@ -1,4 +1,4 @@
-//! What goes on with an open cut behind a stop: the tab of its contour, or pieces that come back to the start together.
+//! The continuation of an open cut behind a stop: the tab of its contour, or pieces that return to the start together.
 
 use super::contour::{Ends, is_tab};
 use super::way::Way;
@@ -7,26 +7,26 @@ use std::ops::Range;
 /// Stops in one contour, to hold the part before its last piece is cut.
 const STOPS_WITHIN: usize = 16;
 
-/// Those of them behind which a tab is looked for.
+/// Those of them behind which a tab is searched for.
 const TABS_WITHIN: usize = 4;
 
-/// Cuts behind each other with a stop between each two, from an open one on, as a language puts them together.
+/// Consecutive cuts with a stop between each two, from an open one on, as a language provides them.
 pub(crate) trait BehindStops {
-    /// Takes the cut behind the next stop; `None` where nothing goes on there.
+    /// Takes the cut behind the next stop; `None` where none continues there.
     fn take_next(&mut self) -> Option<()>;
 
-    /// Those that were taken, the open one among them, as one.
+    /// The cuts taken so far, with the open one, as one.
     fn ends(&self) -> Ends;
 
     /// Some of them as one way.
     fn way(&self, cuts: Range<usize>) -> impl Way;
 
-    /// The last one is a contour of its own or the way to one: what leads to it is no tab.
+    /// The last one is a contour of its own or the way to one: its way in is no tab.
     fn last_stands_alone(&self) -> bool;
 }
 
-/// Takes what goes on with the open cut; true where the last of it is a tab, else they come back to the start together, in whatever
-/// order they are cut. `None` where there is nothing.
+/// Takes the continuation of the open cut; true where the last of it is a tab, else they return to the start together,
+/// in whatever order they are cut. `None` where there is none.
 pub(crate) fn goes_on(cuts: &mut impl BehindStops) -> Option<bool> {
     let mut may_be_tab = true;
     for last in 1..=STOPS_WITHIN {

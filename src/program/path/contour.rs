@@ -1,27 +1,28 @@
-//! Where a contour closes: the one answer that the rules, the outline, conversion and refactorings of every language go by.
+//! Where a contour closes: the one answer for the rules, the outline, conversion and refactorings of every language.
 //!
-//! A contour is closed where the way behind its way in comes back to the end of the way in, or to the start of all, however many blocks
-//! the way in has; a way out may follow. A stop while the contour is open, behind which a block goes on from that very point and comes
-//! to close or meet the contour, belongs to the contour: it holds the part while its tab is cut.
+//! A contour is closed where the way behind its way in returns to the end of the way in, or to the start, however many
+//! blocks the way in has; a way out may follow. A stop while the contour is open belongs to the contour if a block goes
+//! on from that very point and then closes or meets the contour: the stop holds the part while its tab is cut.
 
 use super::way::{Node, Way};
 use crate::finding::Fault;
 use crate::geometry::Vector;
 
-/// Blocks in the ways in and out together among which an answer is looked for before the whole way is gone through.
+/// An answer is first searched for with at most this many blocks in the ways in and out together, then in the whole
+/// way.
 const SHORT_LEADS: usize = 6;
 
-/// The most blocks of a way out that leads elsewhere than to the start.
+/// The most blocks of a way out that does not lead to the start.
 const LONGEST_WAY_OUT: usize = 12;
 
-/// Blocks behind a stop of which one has to meet the contour that is open.
+/// Within this many blocks behind a stop one must meet the open contour.
 const BEHIND_A_STOP: usize = 16;
 
-/// The ends of a way, which alone tell of nearly all ways that they close.
+/// The ends of a way, which show for nearly all ways that they close.
 pub(crate) struct Ends {
-    /// Where it begins, and where its first two blocks end.
+    /// Its start, and the ends of its first two blocks.
     pub(crate) begin: [Node; 3],
-    /// Where its last block begins and ends.
+    /// The start and the end of its last block.
     pub(crate) end: [Node; 2],
     pub(crate) blocks: usize,
     /// µm.
@@ -29,8 +30,8 @@ pub(crate) struct Ends {
 }
 
 impl Ends {
-    /// True where they come back to the start or to the end of a way in of one or two blocks; a way out that goes elsewhere counts as one
-    /// only where it runs neither back along the way in nor on in its direction.
+    /// True where they return to the start or to the end of a way in of one or two blocks. A way out that leads
+    /// elsewhere counts as one only where it runs neither back along the way in nor on in its direction.
     pub(crate) fn close(&self) -> bool {
         let ([start, first, second], [last, end]) = (self.begin, self.end);
         let is_near = |one: Node, other: Node| one.is_near(&other, self.tolerance);
@@ -44,12 +45,13 @@ impl Ends {
     }
 }
 
-/// True where the second move runs against the first, or on in its direction, through the contour; within a few degrees.
+/// True where the second move runs against the first, or on in its direction, through the contour; within a few
+/// degrees.
 fn runs_along(first: Vector, last: Vector) -> bool {
     first.dot(&last).abs() >= 0.99 * first.norm() * last.norm()
 }
 
-/// How a way falls into way in, contour and way out.
+/// A way's division into way in, contour and way out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Closing {
     pub(crate) closed: bool,
@@ -58,7 +60,7 @@ pub(crate) struct Closing {
     pub(crate) lead_out: usize,
 }
 
-/// Whether a way holds a closed contour, and where; `None` where that hangs on blocks that are not held.
+/// Whether and where a way holds a closed contour; `None` where that depends on blocks that are not held.
 pub(crate) fn closing(way: &dyn Way) -> Option<Closing> {
     let count = way.count();
     if count == 0 {
@@ -136,7 +138,8 @@ pub(crate) fn closing(way: &dyn Way) -> Option<Closing> {
     Some(meeting(way, tolerance)?.unwrap_or_default())
 }
 
-/// Blocks behind the place where a contour closes, where it goes on from there along its first blocks and then back to the thread hole.
+/// Blocks behind the closing point of a contour, where it goes on along its first blocks and then back to the thread
+/// hole.
 fn overlapping(way: &dyn Way, tolerance: f64) -> Option<Option<usize>> {
     let count = way.count();
     for lead_out in 2..=LONGEST_OVERLAP {
@@ -162,10 +165,10 @@ fn overlapping(way: &dyn Way, tolerance: f64) -> Option<Option<usize>> {
     Some(None)
 }
 
-/// The most blocks of a way on past the place where a contour closes and out from there.
+/// The most blocks of an overlap past the closing point, with the way out.
 const LONGEST_OVERLAP: usize = 4;
 
-/// A way whose tab comes to meet what was cut before its stop, elsewhere than where it stopped.
+/// A way whose tab meets the part cut before its stop elsewhere than at the stop.
 fn meeting(way: &dyn Way, tolerance: f64) -> Option<Option<Closing>> {
     let Some(before) = way
         .stop()
@@ -195,7 +198,7 @@ fn meeting(way: &dyn Way, tolerance: f64) -> Option<Option<Closing>> {
     Some(None)
 }
 
-/// Whether what is left between ways in and out of so many blocks can go round something: there and back does not.
+/// Whether the way between ways in and out of this many blocks can enclose anything: there and back does not.
 fn encloses(way: &dyn Way, lead_in: usize, lead_out: usize) -> Option<bool> {
     let is_arc = |index: usize| Some(way.piece(index)?.as_arc().is_some());
     let count = way.count().saturating_sub(lead_in + lead_out);
@@ -225,11 +228,11 @@ fn encloses(way: &dyn Way, lead_in: usize, lead_out: usize) -> Option<bool> {
     Some(false)
 }
 
-/// Blocks of which one has to lead away from where a contour begins.
+/// Within this many blocks one must lead away from the start of a contour.
 const LOOKED_THROUGH: usize = 16;
 
-/// Whether a way holds a closed contour that goes round something. Passes to and fro that leave the tab come back to where they begin,
-/// too, on the way on which they went.
+/// Whether a way holds a closed contour that encloses something. Passes to and fro that leave the tab also return to
+/// their start, but by the way they went.
 pub(crate) fn goes_round(way: &dyn Way) -> Option<bool> {
     let closing = closing(way)?;
     let pieces = closing.lead_in..way.count() - closing.lead_out;
@@ -243,7 +246,7 @@ pub(crate) fn goes_round(way: &dyn Way) -> Option<bool> {
     Some(closing.closed && !comes_back)
 }
 
-/// Whether the last block runs as far and in the same or the opposite direction as the first.
+/// Whether the last block is as long as the first, in the same or the opposite direction.
 fn is_mirrored(way: &dyn Way, tolerance: f64) -> Option<bool> {
     let count = way.count();
     let first = way.node(1)?.meant - way.node(0)?.meant;
@@ -251,8 +254,8 @@ fn is_mirrored(way: &dyn Way, tolerance: f64) -> Option<bool> {
     Some(count >= 3 && ((first - last).norm() <= tolerance || (first + last).norm() <= tolerance))
 }
 
-/// How far a way that does not close ends beside its start, or the end of a way in of one block, whichever is nearer; `None` where that
-/// hangs on blocks that are not held.
+/// The distance of an open way's end from its start, or from the end of a way in of one block, whichever is nearer;
+/// `None` where that depends on blocks that are not held.
 pub(crate) fn not_closed(way: &dyn Way) -> Option<Fault> {
     let count = way.count();
     let end = way.node(count)?.meant;
@@ -263,8 +266,8 @@ pub(crate) fn not_closed(way: &dyn Way) -> Option<Fault> {
     Some(Fault::NotClosed { x: by.x, y: by.y })
 }
 
-/// Whether a way that goes on behind a stop belongs to the contour before it, which is open: it closes the contour or comes to meet it.
-/// `before` are the blocks up to the stop, `whole` those and the ones behind it.
+/// Whether a way behind a stop belongs to the open contour before it: it closes the contour or meets it. `before` are
+/// the blocks up to the stop, `whole` those and the ones behind it.
 pub(crate) fn is_tab(before: &dyn Way, behind: &dyn Way, whole: &dyn Way) -> Option<bool> {
     if before.count() == 0 || behind.count() == 0 || goes_round(before)? || goes_round(behind)? {
         return Some(false);

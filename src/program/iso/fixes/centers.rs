@@ -1,4 +1,4 @@
-//! Centres that the ends of an arc fit.
+//! Centres that fit the ends of an arc.
 
 use super::super::document::Document;
 use super::super::line::{Bent, Target, line_to};
@@ -9,7 +9,7 @@ use crate::geometry::Arc;
 use crate::program::grid::{best_center, snap};
 use std::ops::Range;
 
-/// Centres that the ends of an arc fit: where another convention, a lost sign or a swap of I and J leads, else the nearest one.
+/// Centres that fit the ends of an arc: by another convention, a lost sign or a swap of I and J, else the nearest one.
 pub(super) fn center_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
     let line = document.text().line_of(range.start);
     let Some(before) = document.machine_before(line) else {
@@ -77,7 +77,7 @@ pub(super) fn center_fixes(document: &Document, range: &Range<usize>) -> Vec<Tex
     fixes
 }
 
-/// The centre that is as far from both ends and nearest to the one that stands, and how far from it, mm.
+/// The centre equally far from both ends and nearest to the programmed one, and its distance from that one, mm.
 fn nearest_center(
     document: &Document,
     made: &Move,

@@ -1,4 +1,4 @@
-//! I and J in another of the conventions that controls have.
+//! I and J in another convention of controls.
 //!
 //! ```text
 //! G03 X0. Y10. I-5. J0.      →     G03 X0. Y10. I5. J0.     (from the centre to the start)

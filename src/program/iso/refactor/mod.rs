@@ -1,4 +1,4 @@
-//! How ISO is refactored: how its moves are told and written, and the refactorings that it alone has.
+//! Refactorings of ISO: how its moves are read and written, and the refactorings that it alone has.
 
 mod centers;
 mod mode;
@@ -70,7 +70,7 @@ impl Notation for Iso {
     }
 
     fn kept(sheet: &Sheet<'_, Iso>, content: &Content<Iso>, row: usize, place: usize) -> Target {
-        // The side is that of the place in the program.
+        // The side depends on the place in the program.
         Target {
             side: content.rows[place].own.made.side,
             ..Target::of(&content.rows[row].own.made, sheet.document.reading())
@@ -183,7 +183,7 @@ impl Notation for Iso {
         own: Range<usize>,
         rewrite: &mut Rewrite<Iso>,
     ) -> Result<(), String> {
-        // The correction's word stands before the way in.
+        // The correction's word is before the way in.
         let before = contour.rows.start.checked_sub(1);
         let before = before.map_or(0, |row| content.rows[row].line + 1);
         let last = content.rows[own.end - 1].line;
@@ -266,7 +266,7 @@ fn place_of(node: Node) -> Place {
     [node.x, node.y]
 }
 
-/// True where a line says nothing but its number and where it leads, and can go.
+/// True where a line only has its number and target, and can be removed.
 fn says_only_where(document: &Document, line: usize) -> bool {
     let mut only = true;
     words_in(document.line_bytes(line), |token| {
@@ -280,7 +280,7 @@ fn says_only_where(document: &Document, line: usize) -> bool {
     only
 }
 
-/// The G41 and G42 of some lines, each as the other one.
+/// The G41 and G42 of some lines, each exchanged for the other.
 fn swapped_sides(document: &Document, lines: Range<usize>) -> Vec<TextEdit> {
     let text = document.text();
     let mut edits = Vec::new();
@@ -307,7 +307,7 @@ fn fitting(ends: [Place; 2], center: Place, factor: f64, style: &Style) -> Optio
     Some([node.x.checked_mul(step)?, node.y.checked_mul(step)?])
 }
 
-/// Where G92 says that the wire stands, scaled.
+/// The position set by G92, scaled.
 fn positions(document: &Document, factor: f64) -> Result<Vec<TextEdit>, String> {
     let text = document.text();
     let mut edits = Vec::new();

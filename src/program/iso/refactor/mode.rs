@@ -35,7 +35,7 @@ fn converted(sheet: &Sheet<'_, Iso>, incremental: bool) -> Result<Vec<TextEdit>,
     }
     refuse_anywhere(sheet.document, Words::Guide)?;
     let (text, old) = (sheet.document.text(), sheet.document.reading());
-    // An absolute centre says nothing under G91.
+    // An absolute centre is meaningless under G91.
     let rule = if incremental {
         old.absolute
     } else {
@@ -66,7 +66,7 @@ fn converted(sheet: &Sheet<'_, Iso>, incremental: bool) -> Result<Vec<TextEdit>,
         });
         stands |= line <= first && sheet.document.block(line).incremental == Some(incremental);
     }
-    // G90 holds where nothing is said.
+    // G90 holds by default.
     rewrite.extra.first_word = (!stands && incremental).then_some(word);
     rewrite.edits(sheet, content)
 }

@@ -1,5 +1,5 @@
-//! The planes of a taper, TP and TN, where a program is scaled: they are heights of the workpiece and of the guides, which change with the
-//! unit and with nothing else.
+//! The planes of a taper, TP and TN, when a program is scaled: they are heights of the workpiece and of the guides,
+//! which change only with the unit.
 
 use crate::program::iso::document::Document;
 use crate::program::iso::plain::words;
@@ -8,7 +8,7 @@ use crate::program::iso::word::Token;
 use crate::program::refactor::INCH;
 use crate::text::TextEdit;
 
-/// Adds the planes in another unit to `edits`. Refuses them where a factor is that of no unit.
+/// Adds the planes in another unit to `edits`. An error where the factor is not that of a unit.
 pub(super) fn scale(
     document: &Document,
     factor: f64,

@@ -11,11 +11,11 @@ use crate::program::refactor::Row;
 #[derive(Clone, Copy, Debug)]
 pub(in crate::program) struct Own {
     pub(crate) made: Move,
-    /// How lengths are written there, in inches or millimetres.
+    /// Whether lengths there are in inches or millimetres.
     pub(crate) style: Style,
 }
 
-/// Reads a program for refactoring. What cannot be read, or is run from somewhere else, is left alone.
+/// Reads a program for refactoring. Lines that cannot be read, or are run from somewhere else, are left alone.
 pub(super) fn rows(document: &Document) -> Result<Vec<Row<Iso>>, String> {
     if document.order().is_some() {
         return Err(say!(the_program_runs_subprograms).into());

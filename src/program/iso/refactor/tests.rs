@@ -1,4 +1,4 @@
-//! Each refactoring leads where it says. The cursor is `|` in the text.
+//! Each refactoring leads where it should. The cursor is `|` in the text.
 
 use super::Iso;
 use crate::geometry::{Point, Segment};
@@ -152,7 +152,7 @@ fn what_would_part_the_upper_guide_from_the_wire_is_refused() {
             refuses(&format!("refactor.rewrite.{id}"), &square(words), "a taper");
         }
     }
-    // In a comment they say nothing.
+    // In a comment they mean nothing.
     let harmless = square("(U1 G51) ");
     assert!(after(&harmless, "refactor.rewrite.reverse").is_ok());
     let sheet = |text: &str| scaled_by(&read(text), 2.0);
@@ -227,7 +227,7 @@ fn centres_are_written_in_every_convention() {
         "G91\nG03 X-5. Y5. I-5. J0.\nM02\n",
         "under G91",
     );
-    // A full circle alone tells nobody how it is meant.
+    // A full circle alone does not show its convention.
     refuses(
         "refactor.rewrite.centers.centerToStart",
         "G90\nG01 X5. Y0.\nG03 X5. Y0. I-5. J0.\nM02\n",
@@ -428,7 +428,7 @@ proptest! {
                 prop_assert!(apart(&way(&text), &before) < 1e-6, "{id}: {text}");
             }
         }
-        // There and back is the same text where nothing was left out.
+        // There and back gives the same text where nothing was left out.
         let turned = after(&text, "refactor.rewrite.rotate.left").unwrap();
         let quarter = |point: Point| Point::new(-point.y, point.x);
         let ends = |way: &[Segment]| way.iter().map(Segment::end).collect::<Vec<_>>();
@@ -442,8 +442,9 @@ proptest! {
         let own = &before[1..before.len() - 1];
         let back: Vec<Segment> = way(&reversed)[1..before.len() - 1].iter().rev().map(Segment::reversed).collect();
         prop_assert!(apart(own, &back) < 1e-6, "{reversed}");
-        // Where a random way lies on itself, how often it crosses itself there hangs on where it is looked at from. Whether one arc alone
-        // fits another reading by chance as well hangs on where it begins, and which slip is the likeliest on how it is written.
+        // Where a random way lies on itself, the number of crossings found there depends on the start. The start also
+        // decides whether one arc alone happens to fit another reading, and the writing decides which slip is the
+        // likeliest.
         let rules = |text: &str| {
             let names = read(text).findings().into_iter().map(|finding| finding.rule.name());
             names.filter(|name| !matches!(*name, "path-crosses-itself" | "ambiguous-center" | "suspect-block")).collect::<Vec<_>>()

@@ -28,7 +28,7 @@ pub(super) fn turn_words(
     Ok(())
 }
 
-/// Where a number stands with its letter, and what takes its place.
+/// The place of a number with its letter, and the replacement.
 type Turned = (Range<usize>, String);
 
 /// The words of a line that change.

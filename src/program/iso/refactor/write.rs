@@ -1,4 +1,4 @@
-//! From where the moves are to lead to edits of the text: every line is run again as the control does.
+//! Turns the targets of the moves into edits of the text: every line is run again as the control does.
 
 use super::Iso;
 use crate::program::iso::block::Block;
@@ -9,12 +9,12 @@ use crate::program::iso::style::Style;
 use crate::program::refactor::{Content, Rewrite, Sheet};
 use crate::text::{TextEdit, edited};
 
-/// What changes besides the moves.
+/// Changes besides the moves.
 #[derive(Clone, Debug, Default)]
 pub(in crate::program) struct Extra {
-    /// Words of the text that become others.
+    /// Words of the text that are replaced.
     pub(crate) words: Vec<TextEdit>,
-    /// How arcs are to be written; as they are, where it is `None`.
+    /// The convention for arcs; `None` keeps the present one.
     pub(crate) reading: Option<Reading>,
     /// A word to be put before the first move.
     pub(crate) first_word: Option<&'static str>,
@@ -74,7 +74,7 @@ pub(super) fn edits(
         {
             bytes = with_word(&bytes, word, parted);
         }
-        // A line that does what is meant stays as it is.
+        // A line that already does what is meant stays as it is.
         let mut as_it_is = machine;
         let made = as_it_is.run(&Block::of(&bytes), &reading);
         if made.is_some_and(|made| made.from == machine.at && Target::of(&made, &reading) == target)

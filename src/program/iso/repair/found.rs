@@ -1,4 +1,4 @@
-//! What a search through the cuts in trouble has found.
+//! The results of a search through the faulty cuts.
 
 use crate::finding::FixKind;
 use crate::text::TextEdit;
@@ -11,14 +11,14 @@ pub(crate) struct Repair {
     pub(crate) edits: Vec<TextEdit>,
     /// The line that it changes first.
     pub(crate) line: usize,
-    /// What is written, and what is meant.
+    /// The present text, and the intended one.
     pub(crate) found: String,
     pub(crate) meant: String,
     /// The cut does not close without it.
     pub(crate) closes: bool,
-    /// Nothing is wrong any more, and no other change does as well.
+    /// No fault is left, and no other change does as well.
     pub(crate) is_sure: bool,
-    /// What is wrong speaks for it: a cut that only crosses itself may be meant to run elsewhere altogether.
+    /// The faults themselves support it: a cut that only crosses itself may be meant to run elsewhere altogether.
     pub(crate) explains: bool,
 }
 

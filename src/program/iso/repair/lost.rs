@@ -1,4 +1,4 @@
-//! Blocks that may have been lost before a line: what closes the cut, and the line that leads to an arc on its tangent.
+//! Blocks that may have been lost before a line: one that closes the cut, and a line tangent to an arc.
 
 use super::Suspect;
 use super::words::{Meant, prior};
@@ -13,7 +13,7 @@ use crate::program::iso::shape::directions;
 use crate::program::repair::gap::is_one_line;
 
 impl Suspect<'_> {
-    /// From where the wire stands to where it should, as it can be written, µm.
+    /// From the wire's position to the intended one, as far as it can be written, µm.
     pub(super) fn gaps_before(&self, index: usize) -> Vec<Vector> {
         let before = self.way.machine_before(index);
         if before.lost != [false, false] {
@@ -101,8 +101,8 @@ fn free_number(document: &Document, line: usize) -> Option<u32> {
     next.is_none_or(|next| next > number).then_some(number)
 }
 
-/// From where an arc begins to where it would begin if the line were there that leads to it on its tangent: its end stays, and its centre
-/// goes along where I and J count from the start.
+/// From the start of an arc to its start after a lost tangent line: its end stays, and its centre moves along where I
+/// and J count from the start.
 fn tangent_gaps(arc: &Move, reading: &Reading) -> Vec<Place> {
     let (Bend::Center { .. }, false) = (arc.bend, arc.incremental) else {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! What speaks against a way, move by move: faults, and what is merely odd.
+//! Weighs the evidence against a way, move by move: faults and oddities.
 
 use crate::geometry::Vector;
 use crate::program::iso::block::{Block, Motion, Note, Stop, read_line};
@@ -50,20 +50,20 @@ struct CutUnderWay {
     moves: u32,
     arcs: u32,
     last: Move,
-    /// Where the last move leads at its end.
+    /// The direction of the last move at its end.
     heading: Option<Vector>,
     /// All of it could be read.
     whole: bool,
 }
 
-/// What speaks against a way.
+/// The evidence against a way.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Against {
     pub(crate) hard: u32,
     pub(crate) soft: f64,
     /// Cuts that do not close.
     pub(crate) open: u32,
-    /// Cuts that close, and do not come back to where the wire was threaded.
+    /// Cuts that close, but do not return to the thread hole.
     pub(crate) beside: u32,
 }
 
@@ -97,7 +97,7 @@ struct Scan {
     said: Option<Block>,
 }
 
-/// The last move of a cut that has ended, and what its closing costs.
+/// The last move of a cut that has ended, and the cost of its closing.
 #[derive(Clone, Copy, Debug)]
 struct End {
     from: Place,
@@ -105,15 +105,15 @@ struct End {
     cost: Against,
 }
 
-/// The lines of a cut with what has been found before each.
+/// The lines of a cut with the state and the evidence before each.
 pub(crate) struct Way<'a> {
     pub(crate) reading: &'a Reading,
     pub(crate) lines: Vec<Line>,
     /// Before each line, and behind the last.
     before: Vec<Scan>,
-    /// The end of the cut that is under way before each line.
+    /// The end of the present cut before each line.
     ends: Vec<Option<End>>,
-    /// From this line on nothing hangs on where the wire stands.
+    /// From this line on nothing depends on the wire's position.
     loose_from: usize,
 }
 
@@ -159,12 +159,12 @@ impl<'a> Way<'a> {
         }
     }
 
-    /// All that speaks against the way.
+    /// All evidence against the way.
     pub(crate) fn total(&self) -> Against {
         self.before[self.lines.len()].against
     }
 
-    /// Where the last move of the cut that is under way before a line leads at its end.
+    /// The direction at the end of the last move of the present cut before a line.
     pub(crate) fn heading_before(&self, index: usize) -> Option<Vector> {
         self.before[index].cut.and_then(|cut| cut.heading)
     }
@@ -173,7 +173,7 @@ impl<'a> Way<'a> {
         &self.before[index].machine
     }
 
-    /// What speaks against the way with other lines in the place of `count` ones, and how many lines were run to know it.
+    /// The evidence against the way with other lines in place of `count` ones, and how many lines were run for it.
     pub(crate) fn with(&self, index: usize, count: usize, lines: &[Line]) -> (Against, usize) {
         let mut scan = self.before[index];
         let mut runs = 0;
@@ -192,7 +192,7 @@ impl<'a> Way<'a> {
         (scan.against, runs)
     }
 
-    /// The whole of it, where from a line on everything is as it was, or only lies elsewhere.
+    /// The total, where from a line on everything is as before, or only moved.
     fn rest(&self, scan: &Scan, at: usize) -> Option<Against> {
         let known = &self.before[at];
         let by = apart(scan.machine.at, known.machine.at);
@@ -226,7 +226,8 @@ impl<'a> Way<'a> {
         }
     }
 
-    /// From where the cut of a line ends to where it would close: at its beginning, or at the end of its way in; none where it closes.
+    /// From the end of a line's cut to its closing point: its beginning, or the end of its way in; none where it
+    /// closes.
     pub(crate) fn gaps(&self, index: usize) -> Vec<Place> {
         let Some((end, cut)) =
             self.ends[index].zip(self.before[index].cut.or(self.before[index + 1].cut))
@@ -243,8 +244,8 @@ impl<'a> Way<'a> {
         ]
     }
 
-    /// All moves that lead anywhere, with other lines in the place of `count` ones, each about its centre or with its radius: ways that
-    /// lead alike have the same.
+    /// All moves with a length, with other lines in place of `count` ones, each relative to its centre or with its
+    /// radius: equal ways are equal here.
     pub(crate) fn moves_with(&self, index: usize, count: usize, lines: &[Line]) -> Vec<Move> {
         let mut machine = self.before[0].machine;
         let all = self.lines[..index]
@@ -273,7 +274,7 @@ impl<'a> Way<'a> {
 }
 
 impl Scan {
-    /// Runs a line; gives the end of the cut that ends with it.
+    /// Runs a line; returns the end of the cut that ends with it.
     fn step(&mut self, line: &Line, reading: &Reading) -> Option<End> {
         self.against.hard += line.faults;
         let block = &line.block;
@@ -376,7 +377,7 @@ impl Scan {
         }
     }
 
-    /// What speaks against how one move goes on from another.
+    /// The evidence against the joint of two moves.
     fn joint(
         &mut self,
         last: &Move,
@@ -418,7 +419,7 @@ impl Scan {
     }
 }
 
-/// What speaks against how a cut closes that ends with a move.
+/// The evidence against the closing of a cut that ends with a move.
 fn closing(cut: &CutUnderWay, from: Place, to: Place, reading: &Reading) -> Against {
     if !cut.whole {
         return Against::default();
@@ -444,7 +445,7 @@ fn closing(cut: &CutUnderWay, from: Place, to: Place, reading: &Reading) -> Agai
             beside: 0,
         };
     }
-    // A program is written so that it closes to the last digit, and comes back to where the wire was threaded.
+    // A program is written so that it closes to the last digit, and returns to the thread hole.
     let is_beside = distance(cut.start, to) > tolerance;
     let soft = if missed > 0.0 { 2.0 } else { 0.0 } + if is_beside { 2.0 } else { 0.0 };
     Against {

@@ -1,4 +1,4 @@
-//! What the words of a line may have been meant to say: the slips of a hand or of a bad line, each turned back.
+//! The possible intended words of a line: typing and transmission errors, each undone.
 
 use super::scan::{Line, Way};
 use crate::program::iso::block::Motion;
@@ -14,7 +14,7 @@ use crate::program::repair::keys::{self, Key};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
-/// How much a slip is less likely than none, by its kind.
+/// How much less likely than none a slip is, by its kind.
 pub(super) mod prior {
     pub(crate) const SIGN: f64 = 0.3;
     pub(crate) const SWAP: f64 = 0.3;
@@ -32,22 +32,22 @@ pub(super) mod prior {
     pub(crate) const BLOCK: f64 = 3.0;
     pub(crate) const LOST_BLOCK: f64 = 2.0;
     pub(crate) const TANGENT: f64 = 1.0;
-    /// A length that stands elsewhere in the cut, and one that stands nowhere else.
+    /// A length that also occurs elsewhere in the cut, and one that does not.
     pub(crate) const KNOWN: f64 = 1.0;
     pub(crate) const ALONE: f64 = 0.5;
 }
 
-/// The lengths of a cut, and how often each stands in it.
+/// The lengths of a cut, and how often each occurs.
 pub(crate) struct Pool {
     /// Along X and Y, from an arc to its centre: nm, without sign.
     counts: [FxHashMap<i64, u32>; 2],
-    /// What absolute coordinates along each axis are, as they are written.
+    /// Absolute coordinates along each axis, as they are written.
     coordinates: [Vec<Number>; 2],
     pub(crate) is_parted: bool,
     pub(crate) styles: [Style; 2],
 }
 
-/// Coordinates that are tried for one that is lost.
+/// Coordinates that are tried for a lost one.
 const MOST_COORDINATES: usize = 40;
 
 impl Pool {
@@ -77,7 +77,7 @@ impl Pool {
         pool
     }
 
-    /// What speaks for a number in the place of another.
+    /// How likely a number is in place of another.
     fn prior(&self, letter: u8, found: Option<i64>, meant: i64) -> f64 {
         let counts = &self.counts[usize::from(matches!(letter, b'I' | b'J'))];
         let count = |length: i64| counts.get(&length.abs()).copied().unwrap_or(0);
@@ -89,16 +89,16 @@ impl Pool {
     }
 }
 
-/// What a line may have been meant to be.
+/// A possible intended line.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Meant {
     pub(crate) line: Vec<u8>,
-    /// What is written, and what is meant.
+    /// The present text, and the intended one.
     pub(crate) found: String,
     pub(crate) meant: String,
 }
 
-/// A line whose words are changed.
+/// A line with changed words.
 pub(crate) struct Words<'a> {
     pub(crate) document: &'a Document,
     pub(crate) pool: &'a Pool,
@@ -108,7 +108,7 @@ pub(crate) struct Words<'a> {
     pub(crate) meant: Vec<(Meant, f64)>,
 }
 
-/// A letter stands for another axis where it stands for anything else.
+/// A changed letter usually stands for another axis.
 fn other_axis(letter: u8) -> u8 {
     match letter {
         b'X' => b'Y',
@@ -119,7 +119,7 @@ fn other_axis(letter: u8) -> u8 {
 }
 
 impl Words<'_> {
-    /// What each way to read the line asks for.
+    /// What each reading of the line needs.
     pub(crate) fn all(mut self, way: &Way<'_>) -> Vec<(Meant, f64)> {
         self.of_tokens();
         let line = &way.lines[self.index];
@@ -289,7 +289,7 @@ impl Words<'_> {
         self.document.reading().length(number, false)
     }
 
-    /// What cannot be read.
+    /// Slips in unreadable text.
     fn of_fault(&mut self, fault: WordFault, range: Range<usize>) {
         let text = self.text(&range);
         match fault {
@@ -321,7 +321,7 @@ impl Words<'_> {
         }
     }
 
-    /// I or J of an arc as the other one and its ends tell it.
+    /// I or J of an arc, computed from the other one and the ends.
     fn of_center(&mut self, made: &Move) {
         let Bend::Center { .. } = made.bend else {
             return;
@@ -339,7 +339,7 @@ impl Words<'_> {
         }
     }
 
-    /// A word of a length, in the place of the one that stands or behind the last one.
+    /// A word with a length, in place of the present one or behind the last one.
     fn set(&mut self, letter: u8, length: i64) {
         let style = self.pool.styles[usize::from(self.before.inch)];
         if length.abs() > 10_000_000_000 {
@@ -409,7 +409,8 @@ impl Words<'_> {
     }
 }
 
-/// Where along an axis the centre of an arc lies that has the other coordinate of `center`; `None` where its ends do not tell.
+/// The coordinate of an arc's centre along an axis, given the other one in `center`; `None` where the ends do not
+/// determine it.
 fn solved(made: &Move, center: Place, axis: usize) -> Option<i64> {
     let other = 1 - axis;
     let at = |place: Place, axis: usize| place[axis].wrapping_sub(made.from[axis]) as f64;

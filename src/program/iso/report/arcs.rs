@@ -42,7 +42,8 @@ impl Report<'_> {
         found
     }
 
-    /// Arcs that the wire cannot follow at its distance: those of a part's contour, where the control or nobody offsets it.
+    /// Arcs that the wire cannot follow at its distance: those of a part's contour, whether the control offsets it or
+    /// nobody does.
     pub(super) fn tight_arcs(&mut self, cut: &JoinedCut, orientation: i128) {
         for (
             Tight {
@@ -80,7 +81,7 @@ impl Report<'_> {
         }
     }
 
-    /// Arcs that have no room for a wire that leans, or none left in the other plane.
+    /// Arcs that have no room for a leaning wire, or vanish in the other plane.
     pub(super) fn taper(&mut self) {
         let Some(taper) = self.document.taper() else {
             return;
@@ -99,7 +100,7 @@ impl Report<'_> {
             } = *arc;
             let correction = self.correction(arc.offset);
             let least = arc.least(correction);
-            // That it is below the correction is said of it anyway.
+            // That it is below the correction has its own finding.
             if !is_tight(radius, least) || is_inside && is_tight(radius, correction) {
                 continue;
             }
@@ -123,7 +124,7 @@ impl Report<'_> {
         }
     }
 
-    /// The largest correction that a move may have, µm.
+    /// The largest correction of a move, µm.
     pub(super) fn largest_correction(&self) -> f64 {
         let stated = self
             .definitions
@@ -132,7 +133,7 @@ impl Report<'_> {
         stated.fold(self.limits.correction * 1e3, f64::max)
     }
 
-    /// The correction in a place of the control's table, µm: what the program's own table says, else the settings.
+    /// The correction in a place of the control's table, µm: from the program's own table, else the settings.
     fn correction(&self, offset: Option<Offset>) -> f64 {
         let stated = offset.and_then(|offset| self.definitions.get(&offset));
         stated.map_or(self.limits.correction * 1e3, |&value| {

@@ -1,4 +1,4 @@
-//! What is wrong with the words and numbers of a program as a whole.
+//! Findings about the words and numbers of a program as a whole.
 
 use super::super::block::Stop;
 use super::super::document::Table;
@@ -15,16 +15,16 @@ use crate::text::shown;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
-/// A part of less is no part in mm, mm.
+/// A smaller part is not plausible in mm, mm.
 const SMALLEST_PART: f64 = 2.0;
 
-/// A part of less, with numbers as fine as those in inches are, speaks for inches, mm.
+/// A smaller part, with numbers as fine as those in inches, suggests inches, mm.
 const SMALL_PART: f64 = 12.0;
 
-/// A part of more speaks against inches, whatever its corrections are, mm.
+/// A larger part rules out inches, whatever its corrections are, mm.
 const LARGE_PART: f64 = 40.0;
 
-/// The thinnest wire there is, with its spark gap, has a larger correction, nm.
+/// The correction of the thinnest wire there is, with its spark gap, is larger, nm.
 const THINNEST: i64 = 14_000;
 
 impl Report<'_> {
@@ -50,7 +50,7 @@ impl Report<'_> {
         shown(self.text.bytes().get(range.clone()).unwrap_or_default())
     }
 
-    /// Numbers that stand twice, and blocks that lack the one that the others skip.
+    /// Repeated block numbers, and missing ones of a sequence.
     pub(super) fn block_numbers(&mut self) {
         let (mut blocks, mut numbers) = (0_usize, 0_usize);
         let mut last = None;
@@ -70,7 +70,7 @@ impl Report<'_> {
         if numbers < blocks && numbers * 4 >= blocks * 3 {
             self.lacking_numbers();
         }
-        // Those of a text in rising order stand once.
+        // Those of a text in rising order are unique.
         if !rising {
             self.doubled_numbers();
         }
@@ -92,7 +92,7 @@ impl Report<'_> {
         for placed in self.document.placed() {
             let mut programs = placed.stretch.programs.iter().peekable();
             for (index, &(number, place)) in placed.stretch.numbers.iter().enumerate() {
-                // Another program counts for itself.
+                // Another program has its own numbers.
                 while programs
                     .next_if(|before| **before as usize <= index)
                     .is_some()
@@ -150,7 +150,7 @@ impl Report<'_> {
         word.map_or_else(|| self.limits.end.clone(), |word| self.shown(&word))
     }
 
-    /// Values for the table that hang on places which the program does not fill.
+    /// Values for the table that depend on places which the program does not fill.
     pub(super) fn definitions(&mut self) {
         let mut table = Table::default();
         for placed in self.document.placed() {
@@ -234,7 +234,7 @@ impl Report<'_> {
         }
     }
 
-    /// A program that does not say its unit, and whose size or numbers speak for inches; else a size that no wire cuts.
+    /// A program without a stated unit whose size or numbers suggest inches; else a size that no wire cuts.
     pub(super) fn unit(&mut self) {
         let placed = self.document.stretches().iter().filter_map(|stretch| {
             let by = micrometres(stretch.moved).coords;
@@ -266,13 +266,13 @@ impl Report<'_> {
     /// `size` in mm.
     fn speaks_for_inches(&self, size: f64) -> bool {
         let evidence = self.document.evidence();
-        // Every number to the thousandth is how millimetres are written; of inches that would be 25 µm.
+        // Millimetres are written to the thousandth; in inches that would be 25 µm.
         let has_micrometres = evidence.places[3] == evidence.with_point;
         let is_said = evidence.says_unit || self.limits.has_unit;
         if is_said || evidence.with_point == 0 || has_micrometres {
             return false;
         }
-        // No wire is as thin as the corrections that the program fills in, or its numbers are as fine as those in inches are.
+        // The corrections in the program are too small for any wire, or its numbers are as fine as those in inches.
         let has_thin_wire = self
             .definitions
             .values()

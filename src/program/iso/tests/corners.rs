@@ -1,4 +1,4 @@
-//! Words that have the control make a corner.
+//! Words for corners that the control makes.
 
 use super::*;
 
@@ -53,8 +53,8 @@ fn corner_words_are_followed() {
     );
 }
 
-/// Words of a corner between two cuts, each of which may be an arc, at places in mm: what comes of it keeps to both ways, leaves the one
-/// and enters the other without a corner where it is round, and lies at its distance where it is not.
+/// A corner between two cuts, each of which may be an arc, at places in mm: the result keeps to both ways, is tangent
+/// to both where it is round, and has its distance where it is not.
 #[test]
 fn corner_words_between_arcs_keep_to_both_ways() {
     // How the wire comes to (10, 0), and how it goes on from there.

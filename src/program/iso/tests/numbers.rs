@@ -176,11 +176,12 @@ fn units_follow_from_the_numbers() {
     check("G20 G01 X1. Y.5", 25_400.0, 12_700.0);
     check("G20 G01 X10000", 25_400.0, 0.0);
     check("G91 G01 X10 Y10\nX5\nG90 X1", 1.0, 10.0);
-    // G92 before the first move says where the wire stands, later it moves the zero, behind a stop it says where it was taken to.
+    // G92 before the first move sets the position, later it moves the zero, behind a stop it tells where the wire was
+    // taken.
     check("G92 X100 Y50\nG91 G01 X10", 110.0, 50.0);
     check("G90 G01 X100\nG92 X0 Y0\nG01 X10", 110.0, 0.0);
     check("G90 G01 X100\nM00\nG92 X1000 Y0\nG01 X1010", 1010.0, 0.0);
-    // Words that take the coordinates for themselves.
+    // Words that use the coordinates themselves.
     check("G01 X10\nG04 X500\nG28 X0 Y0\nG01 Y5", 10.0, 5.0);
 }
 
@@ -244,7 +245,7 @@ fn a_fault_in_a_word_is_told_by_its_column_and_the_others_of_its_line_are_read()
         finding::sentence(finding, 1.0),
         "column 11: Y has no number"
     );
-    // What is meant by these is plain, and the wire runs there.
+    // The meaning of these is clear, and the wire runs there.
     let meant = "G92 X0. Y0.\nG90\nG01 X10. Y0.\nX10. Y10.\nX0. Y10.\nX0. Y0.\nM02\n";
     for (plain, typed) in [("Y10.\nX0.", "Y1O.\nX0."), ("X10. Y10.", "X10,0 Y10.")] {
         let typed = meant.replace(plain, typed);
@@ -264,7 +265,7 @@ fn programs_and_subprograms_number_their_blocks_for_themselves() {
         &format!("G92 X0 Y0\n{body}N20 X1000\nN40 X0\nM02\n"),
         &[(5, "block-number")],
     );
-    // A number between those of its turn is no number that is lacking.
+    // A number between those of its turn is not a missing number.
     check(
         "N10 G92 X0 Y0\nN20 G01 X1000\nN25 G01 Y1000\nN40 G01 X500\nN50 G01 X0 Y0\nM02\n",
         &[],

@@ -1,8 +1,8 @@
-//! What can be repaired in a program, and the one slip behind what is wrong.
+//! Repairs of a program, and the one slip behind its findings.
 
 use super::*;
 
-/// The text after the fix with a title that begins so, of the finding of a rule.
+/// The text after the fix whose title begins like this, of the finding of a rule.
 #[track_caller]
 pub(super) fn fixed(text: &str, rule: &str, title: &str) -> String {
     let document = read(text);
@@ -118,7 +118,7 @@ fn what_can_be_repaired_is_repaired_and_the_finding_goes() {
         "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\n",
         "G92 X0 Y0\nG01 X1000\nY1000\nX0 Y0\nM02\n",
     );
-    // An arc that runs round the wrong way says so itself, in a block whose number could be taken for its word.
+    // The arc that runs the wrong way is named, although the number of its block could be taken for its word.
     let rounded = |arc: &str| {
         format!("N1 G92 X0. Y0.\nN2 {arc} X2. Y2. I0. J2.\nN3 G01 Y8.\nX-8.\nY0.\nX0.\nM02\n")
     };
@@ -171,8 +171,8 @@ fn no_line_is_offered_where_what_follows_would_be_cut_otherwise() {
     }
 }
 
-/// What stands in the place of a line of the plate (from 1) makes such findings at lines, and the first fix of the first finding that has
-/// one makes the plate again.
+/// Replaces a line of the plate (from 1): the findings at lines, and the first fix of the first finding that has one,
+/// which restores the plate.
 #[track_caller]
 fn slip(line: usize, with: &str, expected: &[(usize, &str)]) {
     let lines: Vec<&str> = PLATE.lines().collect();
@@ -264,7 +264,7 @@ fn one_slip_is_found_where_it_stands_and_turned_back() {
         ),
     ] {
         if with.contains("X2.000\nG01") || with.contains("Y9.000") {
-            // What goes leaves a node on a straight wall.
+            // The removed block leaves a node on a straight wall.
             let faulty = PLATE
                 .lines()
                 .enumerate()

@@ -1,4 +1,4 @@
-//! What profiles write, and that it is the path.
+//! Programs written by profiles equal the path.
 
 use crate::drawing::EntityId;
 use crate::finding::{Severity, Side};
@@ -254,11 +254,11 @@ proptest! {
         let program = write(&[path_of(&segments, side)], 1.0, &settings).unwrap();
         // Ends are snapped, and the arcs between them run about centres on the grid.
         prop_assert!(program.deviation <= 1.5, "{}", program.deviation);
-        // Read by who knows nothing of the profile.
+        // Read without knowing the profile.
         let document = Document::read(program.text.clone().into_bytes());
         let findings = document.findings();
         prop_assert!(findings.iter().all(|finding| !matches!(finding.rule.name(), "syntax" | "arc-off-radius" | "arc-without-radius" | "not-closed")), "{findings:?}\n{}", program.text);
-        // A random contour may come back on itself at both ends of an arc, which nobody draws: that is said.
+        // A random contour may return to itself at both ends of an arc, which nobody draws: that is reported.
         prop_assert!(findings.iter().all(|finding| finding.severity != Severity::Error || matches!(finding.rule.name(), "small-radius" | "reversed-arc")), "{findings:?}");
         let trace = document.trace();
         let moves: Vec<_> = trace.steps.iter().filter(|step| step.moves()).collect();

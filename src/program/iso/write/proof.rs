@@ -1,4 +1,4 @@
-//! The proof of a written line: what the control does with it is held against the piece of the path.
+//! The proof of a written line: the control's move is compared with the piece of the path.
 
 use super::Lines;
 use crate::geometry::Segment;
@@ -9,7 +9,8 @@ use crate::program::iso::moves::{Course, Move, micrometres};
 use crate::program::write::{ProofError, scaled};
 
 impl Lines<'_> {
-    /// Holds what the control does with the line against the node and the piece of the path; how far it lies from that at most, µm.
+    /// Compares the control's move for the line with the node and the piece of the path; returns the largest distance,
+    /// µm.
     pub(super) fn check(&self, step: &Encoded, made: Option<Move>) -> Result<f64, ProofError> {
         let Some(made) = made else {
             return Err(ProofError::Mismatch(say!(
@@ -19,7 +20,7 @@ impl Lines<'_> {
         };
         let (from, to) = (self.place(step.from), self.place(step.to));
         if made.from != from || made.to != to || made.motion != step.motion {
-            // Only the profile can have changed what coordinates count from, or in which unit.
+            // Only the profile can have changed the origin or the unit of coordinates.
             let profile = say!(
                 its_lines_lead_elsewhere,
                 format_args!("{to:?}"),

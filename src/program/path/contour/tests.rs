@@ -7,7 +7,7 @@ use crate::program::{Document, Language, convert};
 use crate::settings::Effective;
 use proptest::prelude::*;
 
-/// What every reader of a program says of its one contour: closed or not.
+/// The verdict of every reader of a program on its one contour: closed or not.
 #[track_caller]
 fn answers(language: Language, text: &str) -> bool {
     let document = Document::read(language, text.into(), &Effective::default());
@@ -34,7 +34,7 @@ fn answers(language: Language, text: &str) -> bool {
     );
     assert_eq!(converted.cuts.len(), contours.len(), "{text}");
     for (own, cut) in converted.cuts.iter().zip(&contours) {
-        // Where a cut meets itself within a segment, that is parted.
+        // Where a cut meets itself within a segment, that is split.
         assert!(
             own.lead_in - cut.lead_in <= 1 && own.lead_out - cut.lead_out <= 1,
             "{text}"
@@ -156,7 +156,7 @@ fn a_stop_before_the_tab_does_not_end_a_contour() {
         [4000, -3000],
     ];
     let with = |behind: &[Option<[i64; 2]>]| [&some(&main)[..], &[None], behind].concat();
-    // The tab closes the contour; with and without a way out; or comes to meet it past its entry; or stops twice.
+    // The tab closes the contour; with and without a way out; or meets it past its entry; or stops twice.
     check(&with(&some(&[entry])), true);
     check(&with(&some(&[entry, hole])), true);
     check(&with(&some(&[[4000, 300]])), true);
@@ -247,7 +247,7 @@ proptest! {
         ring in ring(), way_in in ways(), way_out in ways(),
         (back, stop, miss) in (any::<bool>(), 0_usize..40, prop_oneof![3 => Just(0), 1 => 40_i64..900]),
     ) {
-        // From the origin, which a ring lies about, or from outside.
+        // From the origin, inside the ring, or from outside.
         let mut way: Vec<Option<[i64; 2]>> = some(&way_in);
         way.extend(some(&ring));
         let begin = ring[0];
