@@ -1,4 +1,4 @@
-//! Write an ISO program anew as a profile has it.
+//! Rewrite an ISO program by a profile.
 
 use super::convert::cuts;
 use super::document::Document;
@@ -11,7 +11,7 @@ use crate::text::TextEdit;
 
 pub(super) const ID: &str = "refactor.rewrite.profile";
 
-/// One proposal for each profile that ships and for that of the settings.
+/// One proposal for each shipped profile and for that of the settings.
 pub(super) fn proposals(document: &Document, settings: &Effective) -> Vec<Proposal> {
     let own = settings
         .profile

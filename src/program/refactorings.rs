@@ -1,4 +1,4 @@
-//! Refactorings of a program, whatever its language.
+//! Refactorings of a program in any language.
 
 use crate::program::document::Document;
 use crate::program::iso::refactor::Iso;
@@ -9,7 +9,8 @@ use crate::settings::Effective;
 use crate::text::TextEdit;
 use std::ops::Range;
 
-/// What can be done with a program at a selection of bytes; what would change nothing is left out. `wanted` chooses by id.
+/// The possible refactorings of a program at a selection of bytes, except those that would change nothing. `wanted`
+/// chooses by id.
 pub fn refactorings(
     document: &Document,
     settings: &Effective,

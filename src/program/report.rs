@@ -1,21 +1,22 @@
-//! What is told of a program: what its reader found, under the settings' severities, errors first, then in the order of the text.
+//! The findings of a program: those of its reader, under the settings' severities, errors first, then in the order of
+//! the text.
 
 use crate::finding::{Finding, Place, Rule, Severity};
 use crate::settings::Effective;
 
-/// Something that was found, before it is worded.
+/// A finding before it is worded.
 pub(super) struct Found<K> {
     pub(super) rule: Rule,
-    /// As the rule sees it.
+    /// In the rule's terms.
     pub(super) severity: Severity,
     /// First and last byte that it is sorted by.
     pub(super) place: (usize, usize),
     pub(super) kept: K,
 }
 
-/// A program of which is known what is wrong with it.
+/// A program with known faults.
 pub(super) trait Report {
-    /// Where the wording of something that was found comes from: of many findings few are told.
+    /// The source for wording a finding: of many findings few are shown.
     type Kept;
 
     fn found(&self) -> Vec<Found<Self::Kept>>;
@@ -28,7 +29,7 @@ pub(super) trait Report {
         self.found().into_iter().filter_map(worded).collect()
     }
 
-    /// Those without the blocks that are only suspected: what is wrong by itself, without a search for what is behind it.
+    /// Those without merely suspected blocks, and without a search for the slip behind them.
     fn plain(&self) -> Vec<Finding> {
         self.all()
     }
@@ -48,7 +49,7 @@ pub(super) trait Report {
     }
 }
 
-/// First and last byte of what a finding is said of.
+/// First and last byte of a finding's place.
 pub(super) fn place_of(finding: &Finding) -> (usize, usize) {
     match &finding.place {
         Place::Text { range } => (range.start, range.end),

@@ -1,4 +1,4 @@
-//! What a block says, however it is spaced: its words, and their numbers by themselves.
+//! The content of a block, however it is spaced: its words, and their numbers separately.
 
 use super::Language;
 use super::iso::{self, Token};
@@ -7,16 +7,16 @@ use super::three_b::{self, Item};
 /// The words of one block and their numbers.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Said {
-    /// What is no length: letters, and the numbers of codes.
+    /// Everything but lengths: letters, and the numbers of codes.
     words: Vec<u8>,
-    /// Lengths, µm where they have a point or stand for µm by themselves.
+    /// Lengths, µm where they have a point or are in µm anyway.
     numbers: Vec<f64>,
     /// Coordinates that stand behind the block, µm.
     pub(crate) stated: Option<[f64; 2]>,
 }
 
 impl Said {
-    /// Of the first block of a line that begins with it.
+    /// For the first block of a line.
     pub(crate) fn of(language: Language, line: &[u8]) -> Said {
         match language {
             Language::ThreeB => Said::of_three_b(line),
@@ -75,7 +75,7 @@ impl Said {
         said
     }
 
-    /// It sets the place where an ISO program begins.
+    /// It sets the start of an ISO program.
     pub(crate) fn sets_place(&self) -> bool {
         self.words.starts_with(b"G92X")
     }
@@ -85,7 +85,7 @@ impl Said {
         self.words == other.words && self.numbers == other.numbers
     }
 
-    /// By how much a number is another one, where all else is the same.
+    /// By how much a number differs, where everything else is the same.
     pub(crate) fn apart(&self, other: &Said) -> Option<f64> {
         let is_same = self.words == other.words && self.numbers.len() == other.numbers.len();
         let pairs = self.numbers.iter().zip(&other.numbers);

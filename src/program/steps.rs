@@ -1,4 +1,4 @@
-//! Where the machine goes, asked of a part of a program: what an answer costs is the part, and a glance at each chunk.
+//! The machine's way in a part of a program: an answer costs the part, and a glance at each chunk.
 
 use super::path::{Chain, Kind, Step, Trace, Writing};
 use crate::geometry::{Point, Vector};
@@ -10,13 +10,13 @@ use std::ops::Range;
 pub(crate) trait Program {
     fn text(&self) -> &SourceText;
 
-    /// How it says where its blocks lead.
+    /// How its blocks give their ends.
     fn writing(&self) -> Writing;
 
-    /// Where the machine begins, µm: the origin where the program does not say; and whether it says.
+    /// The machine's start, µm, the origin by default; and whether the program gives it.
     fn begin(&self) -> (Point, bool);
 
-    /// The first line that could not be read: where the machine stands behind it hangs on what was meant.
+    /// The first unreadable line: the position behind it depends on what was meant.
     fn unread_line(&self) -> Option<usize>;
 
     fn chunk_count(&self) -> usize;
@@ -26,20 +26,20 @@ pub(crate) trait Program {
 
     fn sum_of(&self, chunk: usize) -> Sum;
 
-    /// Hands out the steps of a chunk; `contour` is that of the first, and behind it that of the next chunk's first.
+    /// Hands out the steps of a chunk; `contour` is that of the first, and afterwards that of the next chunk's first.
     fn walk(&self, chunk: usize, contour: &mut usize, each: &mut dyn FnMut(Step));
 }
 
-/// What the steps of a chunk come to.
+/// The totals of a chunk's steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Sum {
     pub(crate) moves: usize,
     pub(crate) arcs: usize,
-    /// Moves without the wire; told only where there are no stops.
+    /// Moves without the wire; only counted where there are no stops.
     pub(crate) rapids: usize,
     /// Pauses and ends.
     pub(crate) stops: usize,
-    /// Pauses but for those before a tab.
+    /// Pauses except those before a tab.
     pub(crate) contours: usize,
     /// From the beginning of its way to the end as its blocks mean it, nm.
     pub(crate) travel: [i64; 2],
@@ -50,7 +50,7 @@ impl Sum {
         self.moves + self.stops == 0
     }
 
-    /// Nothing but moves, all with the wire or all without.
+    /// Only moves, all with the wire or all without.
     fn is_all(&self, rapid: bool) -> bool {
         self.stops == 0 && self.moves > 0 && self.rapids == if rapid { self.moves } else { 0 }
     }
@@ -94,8 +94,8 @@ pub(crate) fn steps_in(program: &dyn Program, range: Range<usize>) -> Vec<Step> 
     steps
 }
 
-/// The moves between two stops of which one touches a byte, and the number of that one among them: of two that touch it, the one that
-/// begins there. At least `ends` of either end are held, where there are as many.
+/// The moves between two stops of which one touches a byte, and the number of that one among them: of two that touch
+/// it, the one that begins there. At least `ends` moves of either end are held, if there are as many.
 pub(crate) fn chain_at(
     program: &dyn Program,
     offset: usize,
@@ -169,7 +169,7 @@ struct At {
     step: usize,
 }
 
-/// Chunks that are walked through, each at most once.
+/// Chunks that are read, each at most once.
 struct Walk<'a> {
     program: &'a dyn Program,
     /// Contours that end before each chunk.
@@ -274,7 +274,7 @@ impl<'a> Walk<'a> {
         Some((chain(by_ends), nth))
     }
 
-    /// The first step of a chain, or the last one where it is looked for `ahead` of one of its steps.
+    /// The first step of a chain, or the last one where it is searched for `ahead` of one of its steps.
     fn end_of(&mut self, own: &Own, at: At, ahead: bool) -> At {
         let mut found = at;
         let chunks = match ahead {
@@ -318,7 +318,7 @@ fn towards(range: Range<usize>, ahead: bool) -> impl Iterator<Item = usize> {
     range.map(move |at| if ahead { at } else { first + end - 1 - at })
 }
 
-/// What the moves of a chain have in common.
+/// The common properties of the moves of a chain.
 struct Own {
     contour: usize,
     rapid: bool,

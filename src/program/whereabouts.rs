@@ -1,21 +1,21 @@
-//! Where the machine stands at what is said of a program's text.
+//! The machine's position at a finding of a program's text.
 
 use super::path::Step;
 use super::steps::Program;
 use crate::geometry::{Point, Vector};
 use std::ops::Range;
 
-/// Where the machine stands before a place of the text, and behind the block that is there, mm.
+/// The machine's position before a place of the text, and behind the block there, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Stand {
     pub(crate) start: Point,
     pub(crate) end: Option<Point>,
 }
 
-/// Asked of one place after another: the chunk that was walked last is kept.
+/// For several places: the last chunk read is kept.
 pub(crate) struct Whereabouts<'a> {
     program: &'a dyn Program,
-    /// Behind this line nobody knows; sought among all lines when a place is asked of.
+    /// Behind this line the position is unknown; it is only searched for when needed.
     lost: Option<usize>,
     chunk: Option<usize>,
     steps: Vec<Step>,
@@ -57,7 +57,7 @@ impl<'a> Whereabouts<'a> {
         })
     }
 
-    /// The first chunk that holds a line: where they stand as they run, it is not sought among all.
+    /// The first chunk that holds a line: chunks in running order, not sorted by line.
     fn chunk_of(&self, line: usize) -> Option<usize> {
         let count = self.program.chunk_count();
         let holds = |chunk: &usize| self.program.lines_of(*chunk).contains(&line);

@@ -1,7 +1,7 @@
-//! Paths to a program, whatever its language: the walk along the paths, and what a proved program is.
+//! Writes paths as a program in any language: the walk along the paths, and the proved program.
 //!
-//! A language gives a [`Writer`] that puts one piece after another into text and proves each; the walk snaps the ends to the
-//! language's grid, so that what a writer gets always joins, and comes back to where it began.
+//! A language supplies a [`Writer`] that writes one piece after another and proves each. The walk snaps the ends to the
+//! language's grid, so that a writer gets pieces that always join and return to their start.
 
 use super::grid::{Node, point_of, snap};
 use crate::finding::{Finding, sentence};
@@ -10,32 +10,32 @@ use crate::settings::{Effective, Jumps};
 use crate::toolpath::{Milled, Source, WirePath};
 use std::fmt;
 
-/// A program that has been decoded again and held against its path.
+/// A program that has been decoded again and compared with its path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProvedProgram {
     pub text: String,
     /// Number of blocks.
     pub blocks: usize,
-    /// Length of what is cut in mm; the ways between contours are none.
+    /// Length of the cuts in mm, without the ways between contours.
     pub length: f64,
     /// Length of the ways without a cut in mm.
     pub(crate) jumps: f64,
-    /// Drift in µm that a controller which only counts J accumulates on the way round; 0 where ends are written.
+    /// Drift in µm of a controller which only counts J on the way round; 0 where ends are written.
     pub(crate) closure: [f64; 2],
     /// Largest distance in µm of the decoded blocks from the path, over their whole length.
     pub(crate) deviation: f64,
-    /// What milling it comes to, where an electrode does.
+    /// The totals of milling, for an electrode.
     pub milled: Option<Milled>,
 }
 
-/// Why no program came out.
+/// Why there is no program.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ProofError {
-    /// The program would not have been the path: an internal error, never the drawing's fault.
+    /// The program would differ from the path: an internal error, never the drawing's fault.
     Mismatch(String),
-    /// The path, or what the settings say, cannot be written in this language: a plain sentence.
+    /// The path, or the settings, cannot be written in this language: a plain sentence.
     Refused(String),
-    /// The same of one place of the drawing.
+    /// The same for one place of the drawing.
     Unwritable(Box<Finding>),
     /// The program was not wanted any more.
     Cancelled,
@@ -67,12 +67,13 @@ pub(super) fn too_far_out(point: Point) -> ProofError {
     ))
 }
 
-/// How far apart two pieces of a path may be that belong together, µm.
+/// The largest gap between consecutive pieces of a path, µm.
 const GAP: f64 = 1.5;
 
 /// Puts pieces of a path into the text of one language and proves them. Nodes and pieces are in steps of the language's grid.
 pub(crate) trait Writer {
-    /// A path begins at `first`. `from` is where the program stands, `None` before the first path: the wire has to be taken there.
+    /// A path begins at `first`. `from` is the program's position, `None` before the first path: the wire must be taken
+    /// there.
     fn begin(&mut self, from: Option<Node>, first: Node, path: &WirePath)
     -> Result<(), ProofError>;
     /// One piece of the path between two nodes, which are its snapped ends.
@@ -83,8 +84,8 @@ pub(crate) trait Writer {
         to: Node,
         source: Source,
     ) -> Result<(), ProofError>;
-    /// The path ends at `last`; it is closed where both ends of it are one point. `goes_on`: after a stop the next one goes on from
-    /// here as if it were the same.
+    /// The path ends at `last`; it is closed where both its ends coincide. `goes_on`: after a stop the next one
+    /// continues it from here.
     fn end(
         &mut self,
         closed: bool,
@@ -92,11 +93,11 @@ pub(crate) trait Writer {
         last: Node,
         goes_on: bool,
     ) -> Result<(), ProofError>;
-    /// A path along an open contour ended at `last`. `for_good`: the contour is not cut any more, and the wire stays away from where it
-    /// was threaded. So many `stops` more, two with what stands before the next path, say that this is meant.
+    /// A path along an open contour ended at `last`. `for_good`: the contour is complete, and the wire does not return
+    /// to the thread hole. `stops` more stops, two with those before the next path, show that this is meant.
     fn end_open(&mut self, last: Node, for_good: bool, stops: usize) -> Result<(), ProofError>;
 
-    /// The machine stops, by a `word` of the settings where one is meant.
+    /// The machine stops, by a `word` of the settings if one is set.
     fn stop(&mut self, at: Node, word: Option<&str>) -> Result<(), ProofError>;
     /// The table moves without the wire.
     fn move_over(&mut self, from: Node, to: Node) -> Result<(), ProofError>;
@@ -127,8 +128,8 @@ pub(crate) trait Writer {
     }
 }
 
-/// Walks along the paths. `step_mm` is the drawing's unit in steps of the grid. `go_on` hears every few thousand segments how many are
-/// done and how many there are, and ends the work with `false`.
+/// Walks along the paths. `step_mm` is the drawing's unit in steps of the grid. `go_on` gets the progress every few
+/// thousand segments, and ends the work with `false`.
 pub(crate) fn walk(
     paths: &[WirePath],
     steps: f64,
@@ -163,7 +164,7 @@ pub(crate) fn walk(
             reached = piece.end();
             let to = node_of(piece.end())?;
             writer.piece(&piece, from, to, segment.source)?;
-            // A piece that is skipped leaves the node where it is, and both its ends are that node.
+            // A skipped piece leaves the node where it is, as both its ends.
             from = to;
         }
         let closed = (begin - end).norm() * step_um <= 1e-3;

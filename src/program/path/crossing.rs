@@ -1,9 +1,9 @@
 //! `path-crosses-itself`: the way of one contour goes through itself.
 //!
-//! A touch is no crossing: lead-in and lead-out may lie on each other and end on the contour, and a contour may touch itself. So where
-//! two pieces come together, the way is followed off that place on both sides, across the joints of its blocks, until the four ends lie
-//! apart; it crosses where they alternate round the place. What a counting machine drifts by makes no crossing: what happens within
-//! [`margin`] is no more than a touch.
+//! A touch is no crossing: lead-in and lead-out may coincide and end on the contour, and a contour may touch itself. So
+//! where two pieces meet, the way is followed from that place on both sides, across the joints of its blocks, until the
+//! four ends are apart; it crosses if they alternate round the place. The drift of a counting machine makes no
+//! crossing: anything within [`margin`] is only a touch.
 
 use crate::geometry::{Bounds, Point, Segment, Vector, meetings, positive_angle};
 use std::cell::Cell;
@@ -16,36 +16,37 @@ pub(in crate::program) struct Crossing {
     pub(crate) at: Point,
 }
 
-/// Crossings that are told of one contour; more tell nobody more.
+/// The most crossings that are reported for one contour.
 const MOST: usize = 50;
 
-/// Pairs of pieces of one contour that are looked at: where much lies on one place all of them are near each other.
+/// The most pairs of pieces of one contour that are compared: where much lies on one place all of them are near each
+/// other.
 pub(in crate::program) const MOST_PAIRS: usize = 1_000;
 
-/// Pieces of one contour that are gone through to follow the way off places where it comes together with itself: where it lies on itself
-/// for long, its branches never part.
+/// The most pieces of one contour that are read to follow the way from its meeting places: where it coincides with
+/// itself for long, its branches never part.
 const MOST_STEPS: usize = 1_000_000;
 
-/// Pieces in a row that lie along another one, for which its crossing is still that of the first.
+/// A crossing with this many consecutive pieces along another one is that of the first.
 const MOST_ALONG: usize = 8;
 
-/// How near a place of one piece lies to another that goes through it, µm: nodes are on whole µm or ends of arcs.
+/// The largest distance of a place from another piece through it, µm: nodes are on whole µm or ends of arcs.
 const ON: f64 = 0.01;
 
-/// The same for a first look from elsewhere, where places are rounded otherwise, µm.
+/// The same for a first look from elsewhere, where rounding differs, µm.
 const NEARLY_ON: f64 = 0.05;
 
-/// So many blocks may go on past the place where a way closes.
+/// This many blocks may follow the closing point of a way.
 const MOST_BEYOND: usize = 8;
 
-/// Cosine of the turn between an arc that leads to a contour and what it is tangent to, at the least.
+/// Cosine of the largest turn between the arc of a lead and its tangent.
 const SMOOTH: f64 = 0.999;
 
-/// How often the way is followed twice as far to see two of its branches part.
+/// How often the followed distance is doubled to see two branches part.
 const DOUBLINGS: usize = 10;
 
-/// How far a way of so many arcs may lie beside where it is meant, µm: each arc adds up to 1 µm to either side, by chance. The same for
-/// nearly as many, so that a block more or less leaves it as it is.
+/// The largest deviation of a way with this many arcs, µm: each arc adds up to 1 µm to either side, by chance. Counts
+/// that are nearly equal give the same, so that a block more or less does not matter.
 pub(in crate::program) fn margin(arcs: usize) -> f64 {
     2.0 + (arcs.next_power_of_two() as f64).sqrt()
 }
@@ -61,12 +62,12 @@ pub(in crate::program) struct Tangle<'a> {
     pub(crate) steps: Cell<usize>,
 }
 
-/// Where a way that is held as a whole crosses itself.
+/// The crossings of a way that is held as a whole.
 pub(in crate::program) fn crossings(pieces: &[Segment], arcs: usize) -> Vec<Crossing> {
     crossings_beside(pieces, arcs, 0.0)
 }
 
-/// The same of a way whose tab is cut so far beside it.
+/// The same for a way whose tab is cut this far beside it.
 pub(super) fn crossings_beside(pieces: &[Segment], arcs: usize, aside: f64) -> Vec<Crossing> {
     let way = Tangle {
         aside,
@@ -220,7 +221,7 @@ impl Tangle<'_> {
         distinct
     }
 
-    /// Whether the way that runs through `at` in one piece crosses what it does there in another.
+    /// Whether the way through `at` in one piece crosses the way there in another.
     fn crosses(&self, first: usize, second: usize, at: Point) -> bool {
         if self.is_where_leads_end(first, second, at)
             || self.goes_on_past_its_start(first, second, at)
@@ -234,7 +235,7 @@ impl Tangle<'_> {
         };
         let mut reach = 4.0 * self.margin;
         for _ in 0..DOUBLINGS {
-            // Further than a third of the loop between the two is elsewhere on it.
+            // Beyond a third of the loop between the two it is another part of the loop.
             if self.is_shorter(&one, &other, 3.0 * reach) {
                 return false;
             }
@@ -261,7 +262,7 @@ impl Tangle<'_> {
         })
     }
 
-    /// Lead-in and lead-out end on the contour, and may come to it from different sides.
+    /// Lead-in and lead-out end on the contour, and may reach it from different sides.
     fn is_where_leads_end(&self, first: usize, second: usize, at: Point) -> bool {
         let piece = |index: usize| self.at(index);
         let near = |end: Option<Point>| {
@@ -281,8 +282,8 @@ impl Tangle<'_> {
                 || near(back(1).map(|piece| piece.end())))
     }
 
-    /// Two pieces that run beside each other from one place to another. An arc that leads to a contour does so before it ends there: where
-    /// the two cross hangs on how they are rounded.
+    /// Two pieces side by side from one place to another. An arc that leads to a contour runs there before its end:
+    /// rounding decides where the two cross.
     fn run_beside(&self, first: usize, second: usize, from: Point, to: Point) -> bool {
         let is_on = |index: usize, point: Point| {
             let piece = self.at(index);
@@ -294,8 +295,8 @@ impl Tangle<'_> {
             .all(|point| is_on(first, point) && is_on(second, point))
     }
 
-    /// The way out, from where a tab begins, crosses the way in: both go through what drops. Each is a line or one and an arc that is
-    /// tangent to it and to the contour, and the wire turns back where it was threaded.
+    /// The way out, from the start of a tab, crosses the way in: both run through scrap. Each is a line, or a line and
+    /// an arc tangent to it and to the contour, and the wire turns back at the thread hole.
     fn are_ways_in_and_out(&self, first: usize, second: usize) -> bool {
         let Some(last) = self.count.checked_sub(1).filter(|last| *last > 4) else {
             return false;
@@ -330,8 +331,8 @@ impl Tangle<'_> {
         self.aside > 0.0 && first <= 1 && (first..=1).any(ends_beside)
     }
 
-    /// The way goes on along its first blocks past the place where it closes, and out from there: it cuts nothing but its own way in.
-    /// A way in or out is a block, or one and an arc.
+    /// The way goes on along its first blocks past its closing point, and out from there: it only cuts its own way in.
+    /// A way in or out is a block, or a block and an arc.
     fn goes_on_past_its_start(&self, first: usize, second: usize, at: Point) -> bool {
         let most = MOST_BEYOND + 2;
         if first > most || second + most + 1 < self.count {
@@ -388,7 +389,8 @@ impl Tangle<'_> {
         sum < length
     }
 
-    /// The way `reach` before and behind a place on one of its pieces, or where it begins or ends; `None` where that is at the place.
+    /// The way `reach` before and behind a place on one of its pieces, or its ends; `None` where an end is at the
+    /// place.
     fn ends(&self, stand: &Stand, reach: f64) -> Option<[Point; 2]> {
         Some([
             self.along(stand, reach, false)?,
@@ -452,7 +454,7 @@ struct Stand {
     length: f64,
 }
 
-/// Whether the ends of one branch and those of another alternate round a place; `None` where two lie too near each other to tell.
+/// Whether the ends of two branches alternate round a place; `None` where two are too near each other to tell.
 fn alternate(at: Point, one: [Point; 2], other: [Point; 2], margin: f64) -> Option<bool> {
     let one = one.map(|end| end - at);
     let other = other.map(|end| end - at);

@@ -1,8 +1,9 @@
-//! `path-crosses-itself`: the search for crossings in a cut, part by part: what an edit leaves as it was is not looked at again.
+//! `path-crosses-itself`: the search for crossings in a cut, part by part, which reuses the results of parts that an
+//! edit left alone.
 //!
-//! Two parts of a cut are held against each other where their boxes touch, and what came of it is kept by what they say and how they lie
-//! to each other: an edit changes the pairs of the part that it touched, and of what it moved away from the rest. Which pieces cross is
-//! then decided from the whole way, so that it does not hang on where parts begin.
+//! Two parts of a cut are compared where their boxes touch, and the result is kept by their content and relative place:
+//! an edit only changes the pairs of the part that it touched, and of parts that moved relative to it. The whole way
+//! then decides which pieces cross, so that the division into parts does not matter.
 
 use super::crossing::{Crossing, MOST_PAIRS, Tangle, come_near, crossings_beside, margin};
 use super::lay::keep_first;
@@ -18,32 +19,31 @@ use std::cell::Cell;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-/// Two parts, how the second lies to the first, nm, and whether it comes next.
+/// Two parts, the place of the second relative to the first, nm, and whether it comes next.
 type Pair = (u64, u64, [i64; 2], bool);
 
-/// Pieces of two parts that come near each other, by their indices in there, and what it cost to find that out.
+/// Pieces of two parts that come near each other, by their indices there, and the cost of finding them.
 type Near = (Box<[(u32, u32)]>, usize);
 
-/// What is known of pairs of parts.
+/// The known results for pairs of parts.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Known {
     pairs: FxHashMap<Pair, Near>,
-    /// What was found in cuts, by their marks.
+    /// The results for cuts, by their marks.
     found: FxHashMap<u64, Arc<Found>>,
-    /// The last cut of several passes that was looked through.
+    /// The last cut of several passes that was searched.
     passed: Option<Box<Passed>>,
-    /// What is in use since the last look began: pairs of parts, and cuts.
+    /// The results in use since the last search began: pairs of parts, and cuts.
     used: [usize; 2],
 }
 
 impl Known {
-    /// A look through the cuts of a program begins.
+    /// Begins the search through the cuts of a program.
     pub(crate) fn begin(&mut self) {
         self.used = [0, 0];
     }
 
-    /// Where a cut of so many parts crosses itself, by its mark: its way is asked for only where nothing is known of it. Cuts have one
-    /// mark where they run on one way and stop before one block of it.
+    /// The crossings of a cut with this many parts, by its mark: its way is only asked for where nothing is known yet.
     pub(crate) fn crossings<'a>(
         &mut self,
         mark: u64,
@@ -104,7 +104,7 @@ impl Known {
         }
     }
 
-    /// The look has ended: forgets all where much more is known than is in use.
+    /// Ends the search: forgets everything where much more is known than is in use.
     pub(crate) fn tidy(&mut self) {
         let [pairs, cuts] = self.used;
         if self.pairs.len() > 4 * pairs + 16_384 {
@@ -116,7 +116,7 @@ impl Known {
     }
 }
 
-/// A part by its way, its blocks and where it begins.
+/// A part by its way, its blocks and its start.
 type PartMark = (u64, usize, [i64; 2]);
 
 fn parts_of(way: &PartedWay<'_>) -> Vec<PartMark> {
@@ -124,18 +124,18 @@ fn parts_of(way: &PartedWay<'_>) -> Vec<PartMark> {
     way.parts.iter().map(mark).collect()
 }
 
-/// A cut of several passes: where an edit leaves most of it as it was, the others are not looked through again.
+/// A cut of several passes: an edit in one of them leaves the others known.
 #[derive(Clone, Debug)]
 struct Passed {
     parts: Vec<PartMark>,
     tolerance: f64,
     passes: Vec<Range<usize>>,
-    /// Where each of them crosses itself, counted from its begin.
+    /// The crossings of each, relative to its start.
     crossings: Vec<Vec<Crossing>>,
 }
 
 impl Passed {
-    /// What a way has in common with it.
+    /// Its agreement with a way.
     fn like(&self, way: &PartedWay<'_>) -> Option<Before<'_>> {
         let parts = parts_of(way);
         let is_one = |(own, other): &(&PartMark, &PartMark)| own == other;
@@ -152,13 +152,13 @@ impl Passed {
     }
 }
 
-/// What was found in a cut.
+/// The result for a cut.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Found {
     pub(crate) crossings: Vec<Crossing>,
-    /// So much lies on one place that not all of it was looked at.
+    /// Too much lies on one place to look at all of it.
     pub(crate) is_crowded: bool,
-    /// Pairs of parts that were held against each other.
+    /// Pairs of parts that were compared.
     pairs: usize,
 }
 
@@ -167,7 +167,7 @@ impl Found {
         self.crossings.is_empty() && !self.is_crowded
     }
 
-    /// What is told of them.
+    /// The crossings to report.
     pub(crate) fn findings(&self, way: &PartedWay<'_>, text: &SourceText) -> Vec<Finding> {
         let mut findings = Vec::new();
         for crossing in &self.crossings {
@@ -175,7 +175,7 @@ impl Found {
             else {
                 continue;
             };
-            // The corner that a control makes behind a block is of that block, too.
+            // The corner that a control makes behind a block belongs to that block.
             let before = crossing.second.checked_sub(1);
             let is_corner = before.and_then(|before| way.range(before)) == Some(own.clone());
             let piece = way.piece(crossing.second).filter(|_| !is_corner);
@@ -201,18 +201,19 @@ impl Found {
     }
 }
 
-/// Pairs of boxes that are held against each other in a cut of so many blocks. One that does not lie on itself takes a few for each
-/// block.
+/// The most pairs of boxes compared in a cut with this many blocks. A cut that does not coincide with itself takes a
+/// few for each block.
 fn most_looks(blocks: usize) -> usize {
     500_000 + 32 * blocks
 }
 
-/// Pairs of parts that touch, of so many parts: beyond them no more are held against each other.
+/// The most pairs of touching parts that are compared, for this many parts.
 fn most_touching(parts: usize) -> usize {
     1024 + 256 * parts
 }
 
-/// Pairs of parts that are held against each other at once: few at first, since a way that lies on itself has told all that counts then.
+/// Pairs of parts that are compared at once: few at first, since a way that coincides with itself shows what counts in
+/// those.
 const AT_ONCE: [usize; 2] = [32, 1024];
 
 /// Finds where a cut crosses itself.
@@ -254,7 +255,7 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
     // Pairs and parts that have been gone through.
     let (mut gone, mut behind, mut at_once) = (0, 0, AT_ONCE[0]);
     while behind < parts.len() && near.len() <= MOST_PAIRS {
-        // In the order of the later one: the pieces that count are the first ones along the way, so the search may end where these are
+        // In the order of the later one: the first pieces along the way count, so the search may end where these are
         // found.
         let (mut some, mut next) = (Vec::new(), behind);
         while next < parts.len() && some.len() < at_once && left > 0 {
@@ -287,7 +288,7 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
             );
         }
         for &(a, b) in &some {
-            // What was known before counts as well: how much of a cut is looked at must not hang on that.
+            // Earlier results count as well: they must not change how much of a cut is searched.
             let Some((found, cost)) = known.pairs.get(&key(a, b)).filter(|_| left > 0) else {
                 is_crowded = true;
                 break;
@@ -334,14 +335,15 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
     }
 }
 
-/// Where a pass of a cut crosses itself, counted from its begin: it may lie on another, and ways in and out cross others.
+/// The crossings of one pass of a cut, relative to its start: it may coincide with another, and ways in and out cross
+/// others.
 fn crossings_of_pass(way: &PartedWay<'_>, pass: &Range<usize>, aside: f64) -> Vec<Crossing> {
     let own: Vec<Segment> = pass.clone().filter_map(|index| way.piece(index)).collect();
     let arcs = own.iter().filter(|piece| piece.as_arc().is_some()).count();
     crossings_beside(&own, arcs, aside)
 }
 
-/// How far the wire goes across behind the stop, to cut the tab in another pass than the one before, µm; 0 where it goes on as it came.
+/// The step to the side behind the stop, to cut the tab in another pass than the one before, µm; 0 where there is none.
 fn aside_at_stop(way: &PartedWay<'_>) -> f64 {
     let across = || {
         let behind = way.stop()?;
@@ -408,7 +410,7 @@ impl Prepared {
     }
 }
 
-/// What boxes are grown by, µm: places are rounded to nm.
+/// The enlargement of boxes, µm: places are rounded to nm.
 const SLACK: f64 = 1.0;
 
 /// Boxes about pairs of boxes, and so on up to one.
@@ -427,7 +429,7 @@ fn levels_over(boxes: Vec<Bounds>) -> Vec<Vec<Bounds>> {
     levels
 }
 
-/// The parts before one whose boxes touch its own, each with it.
+/// The earlier parts whose boxes touch that of a later one, each with it.
 fn touching(levels: &[Vec<Bounds>], part: usize, found: &mut Vec<(usize, usize)>) {
     let Some(own) = levels.first().and_then(|boxes| boxes.get(part)) else {
         return;

@@ -1,4 +1,5 @@
-//! The contours of a program: what is cut between two pauses, with its way in and its way out; a pause before a tab is part of it.
+//! The contours of a program: everything cut between two pauses, with way in and way out; a pause before a tab belongs
+//! to the contour.
 
 use super::contour::closing;
 use super::trace::{Chain, Kind, Step, Trace};
@@ -9,7 +10,7 @@ use std::ops::Range;
 pub(crate) struct Cut {
     /// As the trace counts them.
     pub(crate) contour: usize,
-    /// Indices of the trace's steps; all of them move but the pauses before tabs.
+    /// Indices of the trace's steps; all of them move except the pauses before tabs.
     pub(crate) steps: Range<usize>,
     /// Steps at the beginning that lead to the contour.
     pub(crate) lead_in: usize,
@@ -79,7 +80,7 @@ fn cut_in(trace: &Trace, steps: Range<usize>) -> Cut {
         )
         .stopping(stop)
     };
-    // A chain of all its steps lacks none.
+    // A chain with all its steps lacks none.
     let cut = cut_of(&chain).unwrap_or_default();
     // Pauses count as steps here.
     let place = |nth: usize| places.get(nth).copied().unwrap_or(own.len());
@@ -93,7 +94,7 @@ fn cut_in(trace: &Trace, steps: Range<usize>) -> Cut {
     }
 }
 
-/// What a chain of steps comes to, its steps counted from 0; `None` where it hangs on steps that the chain does not hold.
+/// The division of a chain of steps, counted from 0; `None` where it depends on steps that the chain does not hold.
 pub(crate) fn cut_of(chain: &Chain<'_>) -> Option<Cut> {
     let first = chain.step(0);
     let contour = first.map_or(0, |step| step.contour);

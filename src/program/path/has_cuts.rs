@@ -1,4 +1,4 @@
-//! What is asked of the cuts of an open document, however its language puts them together.
+//! Questions about the cuts of an open document, in any language.
 
 use super::contour::{Ends, closing, goes_round, not_closed};
 use super::crossings::{Found, Known};
@@ -12,14 +12,14 @@ use std::sync::Arc;
 /// A cut of fewer blocks does not cross itself.
 pub(crate) const FEWEST_CROSSING: usize = 4;
 
-/// Up to this many blocks are a fragment: they may well be all that was meant.
+/// Up to this many blocks are a fragment, which may well be meant to be open.
 const FRAGMENT: usize = 2;
 
-/// Twice the area of which no way to and fro encloses as much, µm²: 1 mm².
+/// Twice an area that no way to and fro reaches by rounding, µm²: 1 mm².
 const LARGE: f64 = 2e6;
 
-/// A document that knows its cuts by their parts, a part being what lies within one stretch of lines: what an edit leaves as it was.
-/// Its ends tell of nearly every cut, else how it lies on itself where it is one part, else all its blocks.
+/// A document that knows its cuts by their parts. A part lies within one stretch of lines, which an edit elsewhere
+/// leaves alone. The ends of a cut answer for nearly every cut, else the lay of a single part, else all its blocks.
 pub(crate) trait HasCuts {
     type Cut;
 
@@ -28,12 +28,12 @@ pub(crate) trait HasCuts {
     /// Twice the area between a cut and its chord, µm²; above 0 where it runs to the left.
     fn twice_area(&self, cut: &Self::Cut) -> f64;
 
-    /// How a cut lies on itself that is one part.
+    /// The lay of a cut that is one part.
     fn only_lay(&self, cut: &Self::Cut) -> Option<&Lay>;
 
     fn way<'a>(&'a self, cut: &Self::Cut) -> PartedWay<'a>;
 
-    /// Cuts that run on one way, fall into parts alike and stop before one block of it have one mark.
+    /// Cuts with the same way, the same parts and the same stop have the same mark.
     fn mark(&self, cut: &Self::Cut) -> u64;
 
     /// Bytes of the last block of a cut.
@@ -41,7 +41,7 @@ pub(crate) trait HasCuts {
 
     fn part_count(&self, cut: &Self::Cut) -> usize;
 
-    /// Something is wrong in it, so the way behind is not the one that is meant; or it cuts nothing.
+    /// It has a fault, so the way behind is not the intended one; or it cuts nothing.
     fn is_doubtful(&self, cut: &Self::Cut) -> bool;
 
     fn is_closed(&self, cut: &Self::Cut) -> bool {
@@ -49,7 +49,7 @@ pub(crate) trait HasCuts {
         self.ends(cut).close() || self.only_lay(cut).map_or_else(by_way, |lay| lay.closes)
     }
 
-    /// Whether it goes round something: passes to and fro do not.
+    /// Whether it encloses something: passes to and fro do not.
     fn goes_round(&self, cut: &Self::Cut) -> bool {
         let by_way = || goes_round(&self.way(cut)) == Some(true);
         let is_large = self.twice_area(cut).abs() > LARGE;
@@ -66,13 +66,12 @@ pub(crate) trait HasCuts {
         })
     }
 
-    /// So short that it may well be all that was meant.
+    /// So short that it may well be meant to be open.
     fn is_fragment(&self, cut: &Self::Cut) -> bool {
         self.ends(cut).blocks <= FRAGMENT
     }
 
-    /// Looks through cuts for crossings; what is known of pairs of their parts is taken as it is. `each` hears of every cut that was
-    /// looked through.
+    /// Searches cuts for crossings, reusing known results. `each` gets every cut that was searched.
     fn look_through<C: Borrow<Self::Cut>>(
         &self,
         known: &mut Known,

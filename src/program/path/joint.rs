@@ -1,6 +1,7 @@
-//! How a way goes on from block to block: `spur`, where it goes out and back, and `reversed-arc`, where an arc runs the other way round.
+//! The joint of two blocks: `spur`, where the way goes out and back, and `reversed-arc`, where an arc runs the wrong
+//! way round.
 //!
-//! Four blocks tell a joint: the two before it, the one that begins at it, and what follows.
+//! Four blocks decide about a joint: the two before it, the one that begins at it, and the next.
 
 use crate::finding::Fault;
 use crate::geometry::{Point, Segment, Vector, cross, left_normal};
@@ -8,10 +9,10 @@ use crate::geometry::{Point, Segment, Vector, cross, left_normal};
 /// Two blocks that turn by less are tangent, radians; for a small arc rounding adds to it.
 const TANGENT: f64 = 0.0175;
 
-/// What rounding of a centre moves it by, µm.
+/// The shift of a centre by rounding, µm.
 const ROUNDING: f64 = 3.0;
 
-/// A turn of which nobody says that it is meant to be none, radians.
+/// A turn that nobody takes for a tangent joint, radians.
 const CLEAR: f64 = 0.35;
 
 /// From this turn on the way goes back on itself, radians.
@@ -23,20 +24,20 @@ const MET: f64 = 2.0;
 /// A way out and back of no more than this comes of rounding, µm.
 const SHORTEST: f64 = 4.0;
 
-/// Where a block leads, as far as its joints tell.
+/// The geometry of a block for its joints.
 pub(crate) trait Heading {
     fn is_arc(&self) -> bool;
-    /// Its directions at its start and at its end, of any length; `None` where it leads nowhere.
+    /// Its directions at its start and at its end, of any length; `None` for a block without length.
     fn directions(&self) -> Option<[Vector; 2]>;
-    /// Those of the arc that runs the other way round between its ends.
+    /// Those of the arc in the other direction between its ends.
     fn exchanged(&self) -> Option<[Vector; 2]>;
     /// From its start to its end, µm.
     fn chord(&self) -> Vector;
     /// From the start of an arc to its centre, µm.
     fn to_center(&self) -> Option<Vector>;
-    /// It says where its centre is; else the centre hangs on how it turns.
+    /// It gives its centre; else the centre depends on its direction.
     fn says_center(&self) -> bool;
-    /// It leads to a contour or away from it, and says so.
+    /// It is marked as a lead of a contour.
     fn is_lead(&self) -> bool;
 }
 
@@ -75,12 +76,12 @@ impl Heading for Segment {
     }
 }
 
-/// A joint that may be a fault: what comes next says so.
+/// A joint that may be a fault: the next block decides.
 #[derive(Debug)]
 pub(crate) enum Joint<H> {
-    /// An arc that would go on from the block before without a corner if it ran the other way round.
+    /// An arc that would continue the block before without a corner if it ran the other way round.
     Reversed { made: H, is_back: bool },
-    /// Out, and back on the same way; how the wire came to where that began, and how it went out.
+    /// Out, and back on the same way; the way before that, and the way out.
     Spur {
         made: H,
         came: Vector,
@@ -89,7 +90,7 @@ pub(crate) enum Joint<H> {
     },
 }
 
-/// How a block goes on from the two before it; `None` where nothing is odd about it.
+/// The joint of a block with the two before it; `None` where nothing is odd about it.
 pub(crate) fn joint<H: Heading>(came: Option<H>, before: &H, made: H) -> Option<Joint<H>> {
     let [out, heading] = before.directions()?;
     let [start, _] = made.directions()?;
@@ -122,7 +123,7 @@ pub(crate) fn joint<H: Heading>(came: Option<H>, before: &H, made: H) -> Option<
 }
 
 impl<H: Heading> Joint<H> {
-    /// What is wrong, seen with the next block of the same contour.
+    /// The fault, given the next block of the same contour.
     pub(crate) fn fault(&self, next: Option<&H>) -> Option<Fault> {
         let [ahead, _] = next?.directions()?;
         match self {
@@ -140,7 +141,7 @@ impl<H: Heading> Joint<H> {
                 length,
             } => {
                 let [_, end] = made.directions()?;
-                // A way that is gone back all along, as a second pass does, is no spur.
+                // A way that is retraced completely, as a second pass does, is no spur.
                 let goes_back = turn(-came, ahead) < TANGENT
                     || turn(end, ahead) < TANGENT
                     || turn(*came, *out) < TANGENT;
@@ -150,7 +151,7 @@ impl<H: Heading> Joint<H> {
     }
 }
 
-/// What is wrong at the joint at which `made` begins, in a language whose blocks say where their centres are.
+/// The fault at the joint at which `made` begins, in a language whose blocks give their centres.
 pub(crate) fn odd_joint(
     came: Option<Segment>,
     before: Segment,
@@ -177,7 +178,8 @@ fn has_one_center<H: Heading>(before: &H, made: &H) -> bool {
     matches!((of_before, made.to_center()), (Some(a), Some(b)) if (a - b).norm() <= MET)
 }
 
-/// What counts as no turn beside an arc, radians; `None` where it is so small that rounding tells its direction.
+/// The largest turn that counts as none beside an arc, radians; `None` where it is so small that rounding decides its
+/// direction.
 fn tangent<H: Heading>(made: &H) -> Option<f64> {
     let radius = made
         .to_center()

@@ -1,26 +1,27 @@
-//! How blocks that stand together lie on themselves: an edit elsewhere leaves that as it was.
+//! How consecutive blocks lie relative to themselves: an edit elsewhere does not change it.
 
 use super::contour::{closing, goes_round};
 use super::crossing::{MOST_PAIRS, near_each_other};
 use super::way::HeldWay;
 use crate::geometry::{Bounds, Segment};
 
-/// What a part of a cut comes to by itself.
+/// The properties of a part of a cut by itself.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Lay {
     /// Tells two parts apart: equal ways have equal marks.
     pub(crate) mark: u64,
-    /// µm, seen from its beginning.
+    /// µm, relative to its beginning.
     pub(crate) bounds: Bounds,
-    /// Blocks of it that come near each other, by their number in the part, neighbours left out: as many as [`keep_first`] keeps.
+    /// Blocks of it that come near each other, by their number in the part, except neighbours: as many as
+    /// [`keep_first`] keeps.
     pub(crate) near: Box<[(u32, u32)]>,
-    /// It holds a closed contour, and one that goes round something.
+    /// It holds a closed contour, and one that encloses something.
     pub(crate) closes: bool,
     pub(crate) goes_round: bool,
 }
 
 impl Lay {
-    /// Of a way that begins at the origin.
+    /// For a way that begins at the origin.
     pub(crate) fn of(way: &HeldWay, mark: u64) -> Lay {
         let boxes: Vec<Bounds> = way.pieces().iter().map(Segment::bounds).collect();
         let mut near = Vec::new();
@@ -40,8 +41,7 @@ impl Lay {
     }
 }
 
-/// Of pairs of blocks keeps those whose later block comes first along the way: one more than are looked at, so that it shows that there
-/// are more.
+/// Keeps the pairs whose later block comes first along the way: one more than are used, to show that there are more.
 pub(super) fn keep_first(near: &mut Vec<(u32, u32)>) {
     if near.len() > MOST_PAIRS + 1 {
         near.sort_unstable_by_key(|&(first, second)| (second, first));
@@ -49,7 +49,7 @@ pub(super) fn keep_first(near: &mut Vec<(u32, u32)>) {
     }
 }
 
-/// What the mark of a way becomes with one field more.
+/// The mark of a way with one more field.
 pub(crate) fn mixed(mark: u64, field: u64) -> u64 {
     (mark ^ field)
         .wrapping_mul(0x2545_f491_4f6c_dd1d)

@@ -1,4 +1,5 @@
-//! What the path of a program is, whatever its language: its steps, its cuts and contours, passes, crossings and arcs too tight to cut.
+//! The path of a program in any language: its steps, its cuts and contours, passes, crossings and arcs too tight to
+//! cut.
 //!
 //! Lengths are µm. Nothing here knows how a language is written.
 

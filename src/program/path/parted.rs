@@ -1,4 +1,4 @@
-//! Ways in parts: what an edit leaves as it was is not put together again.
+//! Ways in parts, so that the unchanged parts of an edited way are reused.
 
 use super::lay::Lay;
 use super::way::{Node, Way, Writing};
@@ -6,13 +6,13 @@ use crate::geometry::{Bounds, Point, Segment, Vector};
 use std::cell::OnceCell;
 use std::ops::Range;
 
-/// Blocks of a way that are held together: what an edit leaves as it was.
+/// Blocks of a way that are held together: an edit elsewhere leaves them alone.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Part<'a> {
     pub(crate) lay: &'a Lay,
     pub(crate) blocks: usize,
     pub(crate) arcs: usize,
-    /// Where it begins, seen from the beginning of the way, nm.
+    /// Its start relative to the beginning of the way, nm.
     pub(crate) start: [i64; 2],
 }
 
@@ -22,7 +22,7 @@ impl Part<'_> {
         micrometres(self.start)
     }
 
-    /// Its box where it lies.
+    /// Its box in place.
     pub(crate) fn placed(&self) -> Bounds {
         self.lay.bounds.moved(self.offset())
     }
@@ -33,12 +33,12 @@ pub(crate) fn micrometres(nm: [i64; 2]) -> Vector {
     Vector::new(nm[0] as f64 * 1e-3, nm[1] as f64 * 1e-3)
 }
 
-/// What hands out the blocks of parts.
+/// Hands out the blocks of parts.
 pub(crate) trait Blocks: Sync {
     /// Those of a part, from the origin on.
     fn pieces(&self, part: usize) -> Vec<Segment>;
 
-    /// Where a block of a part begins, or where the last one ends; `None` where that is told by the pieces.
+    /// Where a block of a part begins, or where the last one ends; `None` where the pieces show it.
     fn node(&self, _part: usize, _nth: usize) -> Option<Node> {
         None
     }
@@ -64,7 +64,7 @@ pub(crate) struct PartedWay<'a> {
     ends: Option<[[Node; 2]; 2]>,
 }
 
-/// What boxes are grown by, µm: places are rounded to nm.
+/// The enlargement of boxes, µm: places are rounded to nm.
 const SLACK: f64 = 1.0;
 
 impl<'a> PartedWay<'a> {

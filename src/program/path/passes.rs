@@ -1,27 +1,28 @@
-//! Passes: one contour that is cut several times over in one go, each time on the same way or a little beside it.
+//! Passes: one contour that is cut several times in one go, each time on the same way or a little beside it.
 
 use super::way::Way;
 use crate::geometry::{Bounds, Point, Segment};
 use std::ops::Range;
 
-/// Blocks that lead to the first pass, or from one to the next, at most.
+/// The most blocks before the first pass, or from one to the next.
 const BETWEEN: usize = 6;
 
-/// How far the boxes of two passes of one contour may lie apart on each side, µm: more than any two corrections differ.
+/// The largest distance between the boxes of two passes of one contour on each side, µm: more than any two corrections
+/// differ.
 pub(super) const BESIDE: f64 = 1_000.0;
 
-/// The passes of a way, the ways in and out with the first and the last of them; none where it goes round once.
+/// The passes of a way, the ways in and out with the first and the last of them; empty for a way with a single round.
 #[derive(Default)]
 pub(crate) struct Passes {
     pub(crate) all: Vec<Range<usize>>,
-    /// So many of the first and of the last were known.
+    /// This many of the first and of the last were known.
     pub(crate) known: [usize; 2],
 }
 
-/// The passes of a way that is like this one.
+/// The known passes of a similar way.
 pub(crate) struct Before<'a> {
     pub(crate) passes: &'a [Range<usize>],
-    /// So many of its first and of its last blocks are those of this one, where they are.
+    /// How many of its first and of its last blocks equal those of this one.
     pub(crate) same: [usize; 2],
 }
 
@@ -32,7 +33,7 @@ pub(crate) fn passes(way: &dyn Way, before: Option<Before<'_>>) -> Passes {
         .unwrap_or_default()
 }
 
-/// `None` where the way does not come back to one of its first nodes long before it ends. Costs what lies about them.
+/// `None` where the way does not return to one of its first nodes long before it ends. Costs the blocks near these.
 fn may_have_passes(way: &dyn Way) -> Option<()> {
     let (count, tolerance) = (way.count(), way.tolerance());
     (0..=BETWEEN.min(count)).find_map(|index| {
@@ -60,7 +61,7 @@ fn found(way: &dyn Way, before: Option<Before<'_>>) -> Passes {
     let mut first_box: Option<Bounds> = None;
     let mut from = 0;
     loop {
-        // The way in and out may come back to their own begin, behind all passes.
+        // The way in and out may return to their own start, behind all passes.
         let rounds = (from..=from + BETWEEN)
             .filter_map(|start| round_from(&mut pieces, start, tolerance, first_box.as_ref()));
         let Some((round, bounds)) = rounds.min_by_key(|(round, _)| round.end) else {
@@ -68,7 +69,7 @@ fn found(way: &dyn Way, before: Option<Before<'_>>) -> Passes {
         };
         first_box.get_or_insert(bounds);
         from = round.end;
-        // What lies between two passes leads to the next.
+        // The way between two passes belongs to the next.
         passes.push(passes.last().map_or(0, |before| before.end)..round.end);
         let Some(before) = &before else { continue };
         if passes.len() == 1 {
@@ -77,7 +78,7 @@ fn found(way: &dyn Way, before: Option<Before<'_>>) -> Passes {
             from = passes.last().map_or(0, |last| last.end);
             pieces.go_to(from);
         }
-        // What the others are hangs on the first, and on what is still to come.
+        // The other passes depend on the first, and on the rest of the way.
         if known[0] > 0
             && let Some(rest) = before.from(from, way.count())
         {
@@ -94,7 +95,8 @@ fn found(way: &dyn Way, before: Option<Before<'_>>) -> Passes {
 }
 
 impl Before<'_> {
-    /// How many of its passes lie in what both ways begin with, where its first is this one. Where the last round ends is not known.
+    /// How many of its passes lie in the common beginning of both ways, if its first is that of this one. The end of
+    /// the last round is unknown.
     fn at_the_begin(&self, first: &[Range<usize>]) -> usize {
         let whole = self.passes.split_last().map_or(&[][..], |(_, whole)| whole);
         match whole.first() == first.first() {
@@ -103,7 +105,7 @@ impl Before<'_> {
         }
     }
 
-    /// Its passes from a block of this way on, which has so many, where one begins there and both ways go on alike.
+    /// Its passes from a block of this way on, if one begins there and both ways go on alike.
     fn from(&self, from: usize, count: usize) -> Option<impl Iterator<Item = Range<usize>>> {
         let its_count = self.passes.last()?.end;
         let behind = count
@@ -119,7 +121,7 @@ impl Before<'_> {
     }
 }
 
-/// The pieces of a way from one on, asked for as far as somebody looks.
+/// The pieces of a way from one on, fetched as far as needed.
 struct Ahead<'a> {
     way: &'a dyn Way,
     first: usize,
@@ -136,7 +138,7 @@ impl Ahead<'_> {
         self.held.get(index).copied()
     }
 
-    /// What comes before a piece is not asked for any more.
+    /// Forgets the pieces before one.
     fn go_to(&mut self, first: usize) {
         self.held.drain(..(first - self.first).min(self.held.len()));
         self.first = first;
@@ -153,13 +155,13 @@ pub(crate) fn pieces_of(way: &dyn Way) -> Option<Vec<Segment>> {
     Some(pieces)
 }
 
-/// True where two ways round, each closed, may be passes of one contour by their boxes, µm.
+/// True where two closed ways may be passes of one contour by their boxes, µm.
 pub(crate) fn lie_beside(one: &Bounds, other: &Bounds) -> bool {
     let apart = |a: Point, b: Point| (a - b).amax();
     apart(one.min, other.min) <= BESIDE && apart(one.max, other.max) <= BESIDE
 }
 
-/// From a piece on the first way round that comes back to where it begins, and its box, which is that of the first pass.
+/// From a piece on, the first way round that returns to its start, and its box, which is that of the first pass.
 fn round_from(
     pieces: &mut Ahead<'_>,
     start: usize,
@@ -316,7 +318,7 @@ mod tests {
         assert!(crossings(&[&star(0.0)[..], &aside, &[[16.0, 9.0]]].concat()) > 0);
     }
 
-    /// A way with a stop behind so many of its places.
+    /// A way with a stop behind some of its places.
     fn stopping(way: &[[f64; 2]], before: usize) -> Vec<Option<[f64; 2]>> {
         let mut way: Vec<_> = way.iter().copied().map(Some).collect();
         way.insert(before, None);

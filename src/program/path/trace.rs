@@ -1,7 +1,7 @@
-//! Where the machine goes, block by block: what programs of every language come to.
+//! The machine's way, block by block, for programs of every language.
 //!
-//! Points are µm in the program's own frame, as `f64`: a machine that counts stands on whole µm, an ISO program may name parts of
-//! them. Nothing here knows how a language is written.
+//! Points are µm in the program's own frame, as `f64`: a counting machine is always on whole µm, an ISO program may
+//! have fractions. Nothing here knows how a language is written.
 
 use super::way::{Node, Way, Writing};
 use crate::finding::Side;
@@ -9,7 +9,7 @@ use crate::geometry::{Bounds, Point, Segment, Vector};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// What one step does.
+/// The kind of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Cuts along a straight line.
@@ -23,7 +23,7 @@ pub enum Kind {
     End,
 }
 
-/// One block or word of a program and what it makes the machine do.
+/// One block or word of a program and the machine's action.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
     /// Bytes of the block in the program's text, without number and comment.
@@ -36,14 +36,14 @@ pub struct Step {
     /// Where the machine stands before and after the step, µm.
     pub(crate) start: Point,
     pub end: Point,
-    /// The line or arc that the block means, from `start`, µm. `None` where nothing moves, and for a block that means none
+    /// The line or arc that the block means, from `start`, µm. `None` where nothing moves, and for a block without one
     /// (`arc-without-radius`, …): the machine stays there.
     pub ideal: Option<Segment>,
-    /// Index of the contour: pauses are between two of them, but for those before a tab.
+    /// Index of the contour: pauses separate contours, except those before a tab.
     pub contour: usize,
-    /// The side of travel on which the control lets the wire run, where the program says it.
+    /// The side of travel on which the control lets the wire run, where the program gives it.
     pub side: Option<Side>,
-    /// The block counts from where it begins, so its words do not say where it ends.
+    /// The block counts from its start, so its words do not give its end.
     pub(crate) is_relative: bool,
 }
 
@@ -75,16 +75,16 @@ impl Step {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trace {
     pub steps: Vec<Step>,
-    /// Where the program begins, µm: the origin where it does not say.
+    /// Start of the program, µm: the origin by default.
     pub(crate) start: Point,
     /// The program says where it begins.
     pub(crate) start_is_known: bool,
-    /// How it says where its blocks lead.
+    /// How its blocks give their ends.
     pub(crate) writing: Writing,
-    /// Of each step that moves, where the wire's upper end goes, µm; nothing where it goes where the lower one goes. Empty where the wire
-    /// stands upright in the whole program.
+    /// For each step that moves the way of the wire's upper end, µm; `None` where it follows the lower one. Empty where
+    /// the wire is upright in the whole program.
     pub upper: Vec<Vec<Segment>>,
-    /// Why it is not known where the upper end goes.
+    /// Why the way of the upper end is unknown.
     pub(crate) upper_unknown: Option<String>,
 }
 
@@ -94,8 +94,8 @@ impl Trace {
         self.steps.last().map_or(self.start, |step| step.end)
     }
 
-    /// The same program as its blocks mean it: every step begins where the one before means to end, not where a counting machine has
-    /// drifted to.
+    /// The same program as its blocks mean it: every step begins at the intended end of the one before, without the
+    /// drift of a counting machine.
     pub(crate) fn into_meant(mut self) -> Trace {
         let mut at = self.start;
         for step in &mut self.steps {
@@ -113,7 +113,8 @@ impl Trace {
         self.end() - self.start
     }
 
-    /// Lengths in µm along the ideal lines and arcs: of what is cut, leads and all passes included, and of the ways without a cut.
+    /// Lengths in µm along the ideal lines and arcs: of the cuts, with leads and all passes, and of the ways without a
+    /// cut.
     pub(crate) fn lengths(&self) -> (f64, f64) {
         let mut lengths = (0.0, 0.0);
         for step in &self.steps {
@@ -143,7 +144,7 @@ impl Trace {
     }
 }
 
-/// Consecutive steps that move, between two stops, of which only the first and the last are held where they are many.
+/// Consecutive steps that move, between two stops; of many only the first and the last are held.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Chain<'a> {
     /// The first steps; all of them where `tail` is empty.
@@ -156,12 +157,12 @@ pub(crate) struct Chain<'a> {
     stop: Option<usize>,
     /// From the chain's beginning to that of each step of the head, and behind the last, as the blocks mean it, µm.
     to_head: Vec<Vector>,
-    /// The same to the steps of the tail.
+    /// The same for the steps of the tail.
     to_tail: Vec<Vector>,
 }
 
 impl<'a> Chain<'a> {
-    /// Steps of either end that are held of a long chain.
+    /// The number of steps held at either end of a long chain.
     pub(crate) const ENDS: usize = 24;
 
     /// A chain that holds all its steps.
@@ -180,7 +181,8 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// A chain of `count` steps, `arcs` of them arcs, by its first and last ones; together the blocks mean to lead by `meant`, µm.
+    /// A chain of `count` steps, `arcs` of them arcs, by its first and last ones; together the blocks mean to lead by
+    /// `meant`, µm.
     pub(crate) fn by_ends(
         head: Vec<Step>,
         tail: Vec<Step>,
@@ -202,7 +204,7 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// The same with a stop behind so many steps, before its tab.
+    /// The same with a stop behind this many steps, before its tab.
     pub(crate) fn stopping(self, stop: Option<usize>) -> Chain<'a> {
         Chain { stop, ..self }
     }
@@ -228,7 +230,7 @@ impl<'a> Chain<'a> {
         self.step(index).map(|step| step.start)
     }
 
-    /// Where it would stand, did it not drift while it counts.
+    /// The position without the drift of counting.
     fn meant(&self, index: usize) -> Option<Point> {
         let in_tail = || {
             self.to_tail

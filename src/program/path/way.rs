@@ -1,18 +1,18 @@
-//! Ways: blocks that cut one after another, and where they lead.
+//! Ways: consecutive cutting blocks, and where they lead.
 
 use crate::geometry::{Point, Segment};
 
-/// How far a way of so many arcs may end beside a place and still end in it, µm: rounding adds up as a random walk.
+/// The tolerance for the end of a way with this many arcs at a place, µm: rounding adds up as a random walk.
 pub(crate) fn tolerance(arcs: usize) -> f64 {
     2.0 + (arcs as f64).sqrt()
 }
 
-/// Where a way stands between two of its blocks, µm.
+/// The position on a way between two of its blocks, µm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Node {
     /// Where the machine stands.
     pub(crate) stands: Point,
-    /// Where it would, did it not drift while it counts.
+    /// The position without the drift of counting.
     pub(crate) meant: Point,
 }
 
@@ -31,26 +31,25 @@ impl Node {
     }
 }
 
-/// How a program says where its blocks lead.
+/// How a program gives the ends of its blocks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Writing {
     /// Its places are named, not only the ways between them.
     pub(crate) names_places: bool,
-    /// How far ends that are meant as one may lie apart because numbers are written so coarsely, µm.
+    /// How far coinciding ends may be apart because numbers are written coarsely, µm.
     pub(crate) slack: f64,
 }
 
-/// Blocks that cut one after another. What is `None` is not held.
+/// Consecutive cutting blocks. `None` stands for one that is not held.
 pub(crate) trait Way {
     fn count(&self) -> usize;
     fn arcs(&self) -> usize;
     fn writing(&self) -> Writing;
-    /// Where it stands before a block, or behind the last.
+    /// The position before a block, or behind the last.
     fn node(&self, index: usize) -> Option<Node>;
-    /// What a block means, where it is meant to begin; a line without length where it leads nowhere.
+    /// The curve of a block at its intended start; a line without length where it leads nowhere.
     fn piece(&self, index: usize) -> Option<Segment>;
-    /// Hands out all pieces that come within `reach` µm of a place, and perhaps others, in their order, until `each` says that it has
-    /// seen enough.
+    /// Hands out all pieces within `reach` µm of a place, and perhaps others, in their order, until `each` stops it.
     fn pieces_about(
         &self,
         at: Point,
@@ -58,10 +57,10 @@ pub(crate) trait Way {
         each: &mut dyn FnMut(usize, &Segment) -> bool,
     ) -> Option<()>;
 
-    /// The blocks before its first stop, where it holds one: what comes behind is the tab.
+    /// The number of blocks before its first stop, if it holds one: the tab is behind.
     fn stop(&self) -> Option<usize>;
 
-    /// How far it may end beside a place and still end in it, µm.
+    /// The tolerance for its end at a place, µm.
     fn tolerance(&self) -> f64 {
         tolerance(self.arcs()).max(self.writing().slack)
     }
@@ -90,12 +89,12 @@ impl HeldWay {
         &self.pieces
     }
 
-    /// What comes next stands behind a stop.
+    /// Marks that the next block is behind a stop.
     pub(crate) fn stop_here(&mut self) {
         self.stop.get_or_insert(self.pieces.len());
     }
 
-    /// One block more: what it means, from where the way is meant to stand, and where the machine stands behind it.
+    /// Adds a block: its curve from the intended position, and the machine's position behind it.
     pub(crate) fn push(&mut self, piece: Segment, is_arc: bool, end: Node) {
         self.pieces.push(piece);
         self.nodes.push(end);

@@ -21,7 +21,8 @@ pub(super) fn merge<N: Notation>() -> Refactoring<N> {
     }
 }
 
-/// How far a node may lie from the line that takes its place, µm: half the diagonal of the grid, which is what snapping costs.
+/// The largest distance of a node from the line that replaces it, µm: half the diagonal of the grid, which is what
+/// snapping costs.
 const ASIDE: f64 = 0.75;
 
 fn merged<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String> {
@@ -56,7 +57,7 @@ fn merged<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String> {
     rewrite.edits(sheet, content)
 }
 
-/// The longest run of rows from the first one on that one line can stand for.
+/// The longest run of rows from the first one on that one line can replace.
 fn run<N: Notation>(
     sheet: &Sheet<'_, N>,
     content: &Content<N>,
@@ -77,7 +78,7 @@ fn run<N: Notation>(
         };
         let length = (to.x - from.x).abs().max((to.y - from.y).abs());
         let mut last = 0.0;
-        // Every node on the way lies beside the line, and none goes back.
+        // Every node on the way lies near the line, and none goes back.
         let is_straight = (start..end).all(|index| {
             let node = Content::<N>::point(content.rows[index].to);
             let share = whole.share_of(node);

@@ -1,8 +1,8 @@
 //! Refactorings of programs: the same part, written otherwise; or exactly mirrored, turned, scaled.
 //!
-//! One file a refactoring, the same for every language. Each says what stands in the place of which move; the language, which is a
-//! [`Notation`], writes that; [`proof`] reads the new program and holds each of its moves against the one that was meant. What fails
-//! that is not offered.
+//! One file a refactoring, the same for every language. Each says what replaces which move; the language, a
+//! [`Notation`], writes it; [`proof`] reads the new program and compares each of its moves with the intended one. A
+//! refactoring that fails there is not offered.
 
 mod merge;
 mod mirror;
@@ -53,7 +53,7 @@ fn all<N: Notation>() -> impl Iterator<Item = Refactoring<N>> {
         .chain(number::all())
 }
 
-/// What can be done with a program at a selection of bytes; refactorings that would change nothing are left out.
+/// The possible refactorings of a program at a selection of bytes, except those that would change nothing.
 ///
 /// `wanted` chooses by id.
 pub(in crate::program) fn proposals<N: Notation>(

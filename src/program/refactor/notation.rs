@@ -1,4 +1,4 @@
-//! A program as refactorings see it, what becomes of it, and what a language tells of its moves and writes in their place.
+//! A program as refactorings see it, and its new form; the interface by which a language reads and writes its moves.
 
 use super::Refactoring;
 use super::transform::Transform;
@@ -12,7 +12,7 @@ use crate::text::TextEdit;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// What is about to be done with moves.
+/// The kind of change to moves.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(in crate::program) enum Change {
     Reverse,
@@ -24,11 +24,11 @@ pub(in crate::program) enum Change {
 /// A language whose programs can be rewritten. Errors are lower-case and have no final dot.
 pub(in crate::program) trait Notation: Sized {
     type Document: Program;
-    /// What is known of a move besides where it leads.
+    /// Everything known of a move except where it leads.
     type Own;
-    /// What stands in the place of a move.
+    /// The replacement of a move.
     type New: Clone;
-    /// What changes besides the moves.
+    /// Changes besides the moves.
     type Extra: Default;
 
     /// A step of its nodes, µm.
@@ -47,23 +47,23 @@ pub(in crate::program) trait Notation: Sized {
         contours: &[Contour],
     ) -> Result<Vec<Row<Self>>, String>;
 
-    /// An error where words of the program say what such a change would make wrong.
+    /// An error where words of the program would become wrong by such a change.
     fn refuse(sheet: &Sheet<'_, Self>, change: Change) -> Result<(), String>;
 
-    /// The move of one row as it stands, in the place of another.
+    /// The move of one row, replacing another.
     fn kept(
         sheet: &Sheet<'_, Self>,
         content: &Content<Self>,
         row: usize,
         place: usize,
     ) -> Self::New;
-    /// The move of a row the other way.
+    /// The move of a row in the other direction.
     fn reversed(
         sheet: &Sheet<'_, Self>,
         content: &Content<Self>,
         row: usize,
     ) -> Result<Vec<Self::New>, String>;
-    /// A straight cut in the place of a row.
+    /// A straight cut that replaces a row.
     fn straight(
         sheet: &Sheet<'_, Self>,
         content: &Content<Self>,
@@ -76,7 +76,7 @@ pub(in crate::program) trait Notation: Sized {
         row: usize,
         transform: Transform,
     ) -> Self::New;
-    /// Where a place of a row lies once it is scaled.
+    /// A place of a row after scaling.
     fn scaled_node(
         sheet: &Sheet<'_, Self>,
         row: &Row<Self>,
@@ -91,16 +91,16 @@ pub(in crate::program) trait Notation: Sized {
         ends: [Node; 2],
         factor: f64,
     ) -> Result<Vec<Self::New>, String>;
-    /// Whether a row is a straight cut that can be made one with those before it, which begin with `first`.
+    /// Whether a row is a straight cut that can be merged with those before it, which begin with `first`.
     fn runs_on(sheet: &Sheet<'_, Self>, content: &Content<Self>, first: usize, row: usize) -> bool;
-    /// Lengths are written in inches, so that nothing has to be scaled for it.
+    /// Lengths are written in inches, so inches need no scaling.
     fn is_in_inches(_: &Content<Self>) -> bool {
         false
     }
     /// The longest straight cut, steps.
     fn longest(settings: &Effective) -> i64;
 
-    /// What changes besides the moves where a contour, the rows `own`, is turned round.
+    /// Further changes where a contour, the rows `own`, is reversed.
     fn turn_round(
         _: &Sheet<'_, Self>,
         _: &Content<Self>,
@@ -110,7 +110,7 @@ pub(in crate::program) trait Notation: Sized {
     ) -> Result<(), String> {
         Ok(())
     }
-    /// What changes besides the moves where a program is mirrored or turned.
+    /// Further changes where a program is mirrored or turned.
     fn transform_words(
         _: &Sheet<'_, Self>,
         _: Transform,
@@ -118,7 +118,7 @@ pub(in crate::program) trait Notation: Sized {
     ) -> Result<(), String> {
         Ok(())
     }
-    /// What changes besides the moves where a program is scaled.
+    /// Further changes where a program is scaled.
     fn scale_words(_: &Sheet<'_, Self>, _: f64, _: &mut Rewrite<Self>) -> Result<(), String> {
         Ok(())
     }
@@ -129,9 +129,9 @@ pub(in crate::program) trait Notation: Sized {
         content: &Content<Self>,
         rewrite: &Rewrite<Self>,
     ) -> Result<Vec<TextEdit>, String>;
-    /// An error where a move of the new program is not the one that was meant.
+    /// An error where a move of the new program is not the intended one.
     fn agree(after: &Self::Document, row: &Row<Self>, meant: &Self::New) -> Result<(), String>;
-    /// Further edits of the new program, by the path of the old one, with which the machine goes the same way.
+    /// Further edits of the new program, by the path of the old one, that keep the machine's way.
     fn finishing(_before: &Trace, _after: &Self::Document) -> Vec<TextEdit> {
         Vec::new()
     }
@@ -145,10 +145,10 @@ pub(in crate::program) trait Notation: Sized {
 /// A move in its line.
 pub(in crate::program) struct Row<N: Notation> {
     pub(crate) line: usize,
-    /// Where the machine stands before and after it, in the language's steps. Contours close exactly.
+    /// The machine's position before and after it, in the language's steps. Contours close exactly.
     pub(crate) from: Node,
     pub(crate) to: Node,
-    /// What it means, from `from`, µm.
+    /// Its curve, from `from`, µm.
     pub(crate) piece: Segment,
     pub(crate) own: N::Own,
 }
@@ -156,7 +156,7 @@ pub(in crate::program) struct Row<N: Notation> {
 /// A contour in rows.
 #[derive(Clone, Debug)]
 pub(in crate::program) struct Contour {
-    /// As a person counts them; ways between contours count as none.
+    /// The number that a person gives it; ways between contours are not counted.
     pub(crate) ordinal: usize,
     pub(crate) rows: Range<usize>,
     pub(crate) lead_in: usize,
@@ -180,7 +180,7 @@ pub(in crate::program) struct Sheet<'a, N: Notation> {
     selection: Range<usize>,
     /// As the blocks mean it.
     pub(crate) trace: Trace,
-    /// Its moves, or why they cannot be told.
+    /// Its moves, or why they cannot be read.
     content: Result<Content<N>, String>,
 }
 
@@ -189,7 +189,7 @@ pub(in crate::program) struct Content<N: Notation> {
     pub(crate) contours: Vec<Contour>,
     /// The rows before which the program pauses.
     pauses: Vec<usize>,
-    /// Moves say where they lead, not by how much: nothing drifts.
+    /// Moves name their ends, not displacements: nothing drifts.
     names_places: bool,
 }
 
@@ -222,7 +222,7 @@ impl<'a, N: Notation> Sheet<'a, N> {
         }
     }
 
-    /// The moves; the error says which line cannot be read.
+    /// The moves; the error names the line that cannot be read.
     pub(crate) fn content(&self) -> Result<&Content<N>, String> {
         self.content.as_ref().map_err(Clone::clone)
     }
@@ -235,7 +235,7 @@ impl<'a, N: Notation> Sheet<'a, N> {
         first..last.max(first) + 1
     }
 
-    /// The rows that are selected; all, where not more than one line is.
+    /// The selected rows; all, where at most one line is selected.
     pub(crate) fn selected_rows(&self, content: &Content<N>) -> Range<usize> {
         let lines = self.selected_lines();
         if lines.len() < 2 {
@@ -278,7 +278,7 @@ impl<N: Notation> Content<N> {
         self.pauses.binary_search(&row).is_ok()
     }
 
-    /// An error where the contour pauses before its tab: the pause stands where it stands.
+    /// An error where the contour pauses before its tab: that pause would be misplaced.
     pub(crate) fn refuse_pause(&self, contour: &Contour) -> Result<(), String> {
         let within = |row: &usize| contour.rows.start < *row && *row < contour.rows.end;
         match self.pauses.iter().copied().find(within) {
@@ -290,7 +290,7 @@ impl<N: Notation> Content<N> {
         }
     }
 
-    /// The rows of a closed contour whose ends are one place; the error says why there are none.
+    /// The rows of a closed contour whose ends coincide; the error says why there are none.
     pub(crate) fn closed(&self, contour: &Contour) -> Result<Range<usize>, String> {
         self.refuse_pause(contour)?;
         let (own, ordinal) = (contour.own_rows(), contour.ordinal);
@@ -303,7 +303,7 @@ impl<N: Notation> Content<N> {
         if !self.names_places {
             return Ok(own);
         }
-        // Leads that only nearly lie on each other are part of it.
+        // Leads that only nearly coincide belong to it.
         let mut wider =
             (0..=contour.lead_in.min(contour.lead_out)).map(|by| own.start - by..own.end + by);
         wider
@@ -312,13 +312,13 @@ impl<N: Notation> Content<N> {
     }
 }
 
-/// What a refactoring does to a program.
+/// The changes of a refactoring to a program.
 pub(in crate::program) struct Rewrite<N: Notation> {
-    /// By row, what stands in its place; rows that are not named stay.
+    /// The replacement by row; rows without one stay.
     pub(crate) rows: BTreeMap<usize, Vec<N::New>>,
-    /// Where the program begins afterwards, where that changes.
+    /// The new start of the program, if it changes.
     pub(crate) start: Option<Node>,
-    /// Where it ends afterwards, µm, where that changes.
+    /// The new end of the program, µm, if it changes.
     pub(crate) end: Option<Point>,
     pub(crate) extra: N::Extra,
 }
@@ -333,7 +333,7 @@ impl<N: Notation> Rewrite<N> {
         }
     }
 
-    /// The moves of the program as it is meant to be.
+    /// The intended moves of the program.
     pub(crate) fn meant(&self, sheet: &Sheet<'_, N>, content: &Content<N>) -> Vec<N::New> {
         let of_row = |row: usize| match self.rows.get(&row) {
             Some(news) => news.clone(),

@@ -1,4 +1,4 @@
-//! Number the blocks, or leave their numbers out.
+//! Number the blocks, or remove their numbers.
 //!
 //! ```text
 //! B9900B0B9900GXL1      →     N1 B9900B0B9900GXL1          M98 P7            M98 P40

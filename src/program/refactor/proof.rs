@@ -1,5 +1,5 @@
-//! The proof of a refactoring: the new program, read from its text alone, makes the moves that are meant, ends where it should, pauses
-//! as often as before, and has no kind of error that the old one has not.
+//! The proof of a refactoring: the new program, read from its text alone, makes the intended moves, ends where it
+//! should, pauses as often as before, and has no kind of error that the old one lacks.
 
 use super::{Content, Notation, Rewrite, Sheet};
 use crate::finding::{Rule, Severity};
@@ -8,7 +8,7 @@ use crate::program::path::{Kind, Trace};
 use crate::program::steps::{Program, trace};
 use crate::text::{TextEdit, difference, edited};
 
-/// How far the end of a program that counts may lie from where it is meant to, µm, beside 1 µm for each arc.
+/// The tolerance for the end of a counting program, µm, beside 1 µm for each arc.
 const END_TOLERANCE: f64 = 2.0;
 
 impl<N: Notation> Rewrite<N> {
@@ -74,7 +74,7 @@ fn prove<N: Notation>(
     refuse_new_errors::<N>(sheet.document, after)
 }
 
-/// An error where the new program has a kind of error that the old one has not, or more errors.
+/// An error where the new program has a kind of error that the old one lacks, or more errors.
 fn refuse_new_errors<N: Notation>(before: &N::Document, after: &N::Document) -> Result<(), String> {
     let errors = |document: &N::Document| -> Vec<Rule> {
         let mut findings = N::findings(document);

@@ -58,7 +58,7 @@ impl Transform {
         self.xx == 0
     }
 
-    /// The sign that the coordinate of an axis gets, by the axis on which it stood.
+    /// The new sign of a coordinate, by its old axis.
     pub(crate) fn sign(self, axis: usize) -> i64 {
         match (self.swaps(), axis) {
             (false, 0) => self.xx,

@@ -1,18 +1,18 @@
-//! What may fill a gap between two blocks.
+//! Pieces that may fill a gap between two blocks.
 
 use crate::geometry::{Vector, turn};
 
-/// Blocks that meet within this angle run smoothly into each other, radians: two degrees, what rounding to µm makes of a small arc.
+/// Blocks that meet within this angle are smooth, radians: two degrees, the rounding to µm of a small arc.
 pub(in crate::program) const SMOOTH: f64 = 0.035;
 
-/// No arc turns so far between two others, half of its turn in radians.
+/// No arc between two others turns by more, half of its turn in radians.
 const WIDEST: f64 = 2.9;
 
 /// Lines that end this far, µm, beside one line are parts of it.
 const COLLINEAR: f64 = 1.5;
 
-/// Half the turn of the arc that fills the gap smoothly between the direction before it and the one behind it, radians; `None` where
-/// none does, or a line would.
+/// Half the turn of the arc that smoothly fills the gap between the direction before it and the one behind it, radians;
+/// `None` where there is none, or it would be a line.
 pub(in crate::program) fn half_turn_between(
     before: Vector,
     behind: Vector,

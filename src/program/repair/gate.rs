@@ -1,8 +1,8 @@
-//! What a repair may make of a program: one test for every language.
+//! The gate for repairs of a program: one test for every language.
 //!
-//! A repair is made without asking, or offered as the one that is meant, only where the program is no worse for it: it brings no new
-//! finding, no full turn out of nothing, and what it leads to closes. Where only what is written changes and not where the machine
-//! goes, nothing can be spoilt. Where a contour stays open, the fault has to say by itself what was meant, and the gap may not grow.
+//! A repair is made unasked, or preferred, only where the program is no worse for it: no new finding, no full turn out
+//! of nothing, and a closed contour. A repair that only changes the writing and not the machine's way cannot spoil
+//! anything. Where a contour stays open, the fault itself must tell what was meant, and the gap may not grow.
 
 use super::keys::is_slip;
 use crate::finding::{Detail, Fault, Finding, FixKind, Rule, Severity, TextFix};
@@ -14,20 +14,20 @@ use crate::text::TextEdit;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Texts up to this length are tried with each repair for itself; longer ones with all that are to be made at once.
+/// In texts up to this length each repair is tried by itself; in longer ones all together.
 const TRIED: usize = 64 << 10;
 
-/// Repairs that are tried one by one where all of them together are refused; so many in a long text.
+/// How many repairs are tried one by one where all of them together are refused; and how many in a long text.
 const ONE_BY_ONE: usize = 32;
 const ONE_BY_ONE_OF_LONG: usize = 4;
 
 /// A program on which repairs can be tried.
 pub(in crate::program) trait Tried: Report + Program + Clone {
-    /// Replaces a range of bytes and reads again what it touched.
+    /// Replaces a range of bytes and rereads what it touched.
     fn edit(&mut self, range: Range<usize>, replacement: &str);
 }
 
-/// What a program comes to, as far as a repair must not make it worse.
+/// The properties of a program that a repair must not make worse.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Standing {
     findings: BTreeMap<&'static str, usize>,
@@ -86,10 +86,10 @@ impl Standing {
     }
 }
 
-/// What a program comes to, and how often a finding is said of it.
+/// The properties of a program, and how often it has a finding.
 struct Judged {
     standing: Standing,
-    /// How many findings say the same, and how many are of its rule.
+    /// How many findings have this content, and how many are of its rule.
     alike: [usize; 2],
 }
 
@@ -106,8 +106,8 @@ impl Judged {
         }
     }
 
-    /// True where it says as much as before of the finding. One that says the same elsewhere may stay. What cannot be read is not mended
-    /// by something else that cannot, nor a crossing by one beside it.
+    /// True where it has the finding as often as before. An equal one elsewhere may stay. A repair does not count if it
+    /// leaves something else unreadable, or another crossing close by.
     fn still_says(&self, before: &Judged, rule: Rule) -> bool {
         let needs_fewer = matches!(rule, Rule::Syntax | Rule::PathCrossesItself);
         before.alike[0] > 0
@@ -119,7 +119,7 @@ impl Judged {
 fn alike(findings: &[Finding], finding: &Finding) -> [usize; 2] {
     let of_rule = findings.iter().filter(|other| other.rule == finding.rule);
     let says_the_same = |other: &&Finding| match gap_of(finding) {
-        // What is as far apart as before to the micron is the same.
+        // Distances that agree to the micron are equal.
         Some(gap) => gap_of(other).is_some_and(|its| (its - gap).abs() < 1.0),
         None => other.detail == finding.detail,
     };
@@ -129,7 +129,7 @@ fn alike(findings: &[Finding], finding: &Finding) -> [usize; 2] {
     ]
 }
 
-/// How far a contour is open, µm.
+/// The gap of a contour, µm.
 fn gap_of(finding: &Finding) -> Option<f64> {
     match &finding.detail {
         Detail::Program(fault) => match **fault {
@@ -140,7 +140,7 @@ fn gap_of(finding: &Finding) -> Option<f64> {
     }
 }
 
-/// True for faults that say what was meant whether the contour closes or not.
+/// True for faults that tell what was meant whether the contour closes or not.
 fn speaks_for_itself(rule: Rule) -> bool {
     matches!(
         rule,
@@ -156,15 +156,15 @@ fn speaks_for_itself(rule: Rule) -> bool {
     )
 }
 
-/// True for a repair that draws what nobody wrote.
+/// True for a repair that adds geometry.
 fn invents(kind: &FixKind) -> bool {
     matches!(kind, FixKind::Close { .. } | FixKind::InsertBlock { .. })
 }
 
-/// Each of so many edits is made for itself; more are made as one, from the first to the last.
+/// Up to this many edits are made one by one; more are made as one, from the first to the last.
 const FEW: usize = 8;
 
-/// The program with edits made, which are sorted and disjoint.
+/// The program after the edits, which are sorted and disjoint.
 fn edited<P: Tried>(program: &P, edits: &[TextEdit]) -> P {
     let mut edited = program.clone();
     if let ([first, .., last], true) = (edits, edits.len() > FEW)
@@ -191,7 +191,8 @@ fn is_by_a_slip(program: &impl Tried, edits: &[TextEdit]) -> bool {
     matches!(edits, [edit] if is_slip(found(edit).unwrap_or_default(), edit.text.as_bytes()))
 }
 
-/// The repairs of a finding for which it goes, those that pass the gate before those that do not, which are neither preferred nor made without asking.
+/// The repairs of a finding that remove it: those that pass the gate first; the others are neither preferred nor made
+/// unasked.
 pub(in crate::program) fn gated(
     program: &impl Tried,
     finding: &Finding,
@@ -209,7 +210,7 @@ pub(in crate::program) fn gated(
     let (mut good, mut bad) = (Vec::new(), Vec::new());
     for mut fix in fixes {
         let after = Judged::of(&edited(program, &fix.edit), finding);
-        // What could not be read may have hidden something.
+        // Unreadable text may have hidden something.
         let spoils = before.standing.is_better_than(&after.standing)
             && (finding.rule != Rule::Syntax || invents(&fix.kind));
         if after.still_says(&before, finding.rule) || spoils {
@@ -235,8 +236,8 @@ fn refuse(fix: &mut TextFix) {
     (fix.preferred, fix.in_fix_all) = (false, false);
 }
 
-/// Those of the repairs that go together and leave the program no worse, as one sorted list of disjoint edits: all, or else one after
-/// another as far as they pass. At most one changes a line.
+/// The repairs that fit together and leave the program no worse, as one sorted list of disjoint edits: all, or else one
+/// after another as far as they pass. At most one changes a line.
 pub(in crate::program) fn together(
     program: &impl Tried,
     fixes: Vec<(Rule, TextFix)>,
@@ -275,7 +276,7 @@ pub(in crate::program) fn together(
     kept.edits()
 }
 
-/// Edits that are made together, by where they begin: an edit touches another one only if that is its neighbour.
+/// Edits that are made together, by their start: an edit can only touch its neighbours.
 #[derive(Clone, Default)]
 struct Taken {
     edits: BTreeMap<usize, TextEdit>,
@@ -284,7 +285,7 @@ struct Taken {
 }
 
 impl Taken {
-    /// Takes the edits of a repair where nothing else changes their lines; false where something does.
+    /// Takes the edits of a repair where nothing else changes their lines; false otherwise.
     fn take(&mut self, program: &impl Tried, edits: &[TextEdit]) -> bool {
         let text = program.text();
         let is_free = |edit: &TextEdit| {
@@ -292,7 +293,7 @@ impl Taken {
             before.is_none_or(|(_, other)| other.range.end < edit.range.start)
         };
         let lines = |edit: &TextEdit| {
-            // What is put behind a line is none of it.
+            // An insertion behind a line does not change it.
             let (first, last) = (text.line_of(edit.range.start), text.line_of(edit.range.end));
             let is_behind = edit.range.is_empty()
                 && edit.range.start == text.line_range(first).end

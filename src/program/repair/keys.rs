@@ -1,6 +1,6 @@
-//! What one wrong key makes of a number.
+//! Numbers that differ by one wrong key.
 
-/// What was done to a number that is turned back.
+/// The mistake in a number that is undone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::program) enum Key {
     /// Another digit.
@@ -14,12 +14,12 @@ pub(in crate::program) enum Key {
     /// Two digits stand for each other.
     Swapped,
     Sign,
-    /// A point was lost, or put in.
+    /// A point was lost, or inserted.
     Point,
 }
 
-/// What a number may have been meant to be, of which one key is wrong. `pointed` tells whether numbers have a point, where that is known.
-/// Nobody writes a number with a zero more in front of it.
+/// The numbers that may have been meant, by one key. `pointed` says whether numbers have a point, if known. Nobody
+/// writes an additional leading zero.
 pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(String, Key)> {
     let bytes = text.as_bytes();
     let digits: Vec<usize> = (0..bytes.len())
@@ -39,7 +39,7 @@ pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(Strin
             if digit != own {
                 put(at, at + 1, digit, Key::Digit);
             }
-            // Behind its like it is the same.
+            // Behind an equal digit it is the same.
             if !(is_behind && last == Some(digit)) {
                 put(at, at, digit, Key::Lost);
             }
@@ -86,7 +86,7 @@ pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(Strin
     meant
 }
 
-/// Zeros in front of a number that it could do without.
+/// Superfluous leading zeros of a number.
 fn zeros(text: &str) -> usize {
     let digits = text.trim_start_matches(['-', '+']);
     let rest = digits.trim_start_matches('0');
@@ -94,7 +94,7 @@ fn zeros(text: &str) -> usize {
     (digits.len() - rest.len()).saturating_sub(usize::from(is_needed))
 }
 
-/// True where one key more, less, another or two exchanged make one text of the other.
+/// True where one key added, removed, replaced or swapped makes one text of the other.
 pub(in crate::program) fn is_slip(found: &[u8], meant: &[u8]) -> bool {
     let head = found.iter().zip(meant).take_while(|(a, b)| a == b).count();
     let (a, b) = (&found[head..], &meant[head..]);

@@ -1,5 +1,5 @@
-//! Repairs of a program, whatever its language: what fills a gap, which slip explains what is wrong, how what is found is offered, and
-//! what of it may be made.
+//! Repairs of a program in any language: filling a gap, finding the slip that explains the faults, offering repairs,
+//! and choosing those to be made.
 
 pub(super) mod gap;
 pub(super) mod gate;
@@ -9,7 +9,7 @@ pub(super) mod search;
 use crate::finding::{FixKind, TextFix};
 use crate::text::TextEdit;
 
-/// Repairs that were found by trying, as they are offered: the best one first, which is preferred, and made by "fix all" where it is
+/// Turns repairs found by trying into offers: the best one first, which is preferred, and made by "fix all" where it is
 /// sure. Those that cannot be written are left out.
 pub(super) fn offered(
     found: impl Iterator<Item = Option<(FixKind, Vec<TextEdit>, bool)>>,
@@ -21,7 +21,8 @@ pub(super) fn offered(
     found.enumerate().filter_map(fix).collect()
 }
 
-/// Those that go before others for one finding. Of two that edit alike one stays, under the other's name where that `names` it better.
+/// Merges those that take precedence with the others of one finding. Of two equal edits one stays, under the other's
+/// name where that `names` it better.
 pub(super) fn merged(mut fixes: Vec<TextFix>, more: Vec<TextFix>, names: bool) -> Vec<TextFix> {
     if fixes.is_empty() {
         return more;

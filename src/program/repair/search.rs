@@ -1,21 +1,23 @@
-//! Which one slip explains what is wrong with a contour, and what undoes it: one search for every language.
+//! Finds the one slip that explains the faults of a contour, and undoes it: one search for every language.
 //!
-//! A slip is what a hand or a bad line makes of a program: a digit, X for Y, a lost word, a block twice, lost or exchanged with the
-//! next. Each that could have been is undone and the contour looked at again. What explains more, with less, stands before the rest.
+//! A slip is a typing or transmission error: a digit, X for Y, a lost word, a block that is doubled, lost or exchanged
+//! with the next. Each possible one is undone and the contour checked again. The change that explains more, with less,
+//! comes first.
 //!
-//! A language says what its blocks may have been meant to be and what the text holds against a change; what is tried, how much of it, and
-//! which of it is sure is decided here. All is bounded by what is counted, so that what is found hangs on the text alone.
+//! A language supplies the possible intended blocks and the evidence of the text against a change; the search decides
+//! what is tried, how much of it, and what is sure. All is bounded by counts, so that the result depends on the text
+//! alone.
 
 use super::gap::half_turn_between;
 use crate::geometry::{Point, Segment, Vector};
 
-/// Repairs that are handed out.
+/// The most repairs that are returned.
 const HANDED_OUT: usize = 4;
 
 /// Shorter blocks are not lost, but rounding, µm.
 const SHORTEST: f64 = 10.0;
 
-/// What is done to the blocks of a contour, by their index.
+/// A change of the blocks of a contour, by their index.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::program) enum Change<M> {
     Replace {
@@ -47,7 +49,7 @@ impl<M> Change<M> {
         }
     }
 
-    /// How many blocks it takes the place of.
+    /// The number of blocks that it replaces.
     pub(crate) fn replaced(&self) -> usize {
         match self {
             Change::Replace { .. } | Change::Delete { .. } => 1,
@@ -61,72 +63,72 @@ impl<M> Change<M> {
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::program) struct Repair<M> {
     pub(crate) change: Change<M>,
-    /// It leaves nothing to be said, and no other one is as likely.
+    /// No finding is left, and no other change is as likely.
     pub(crate) is_sure: bool,
-    /// Nothing is left to be said of the contour.
+    /// No finding of the contour is left.
     pub(crate) is_whole: bool,
 }
 
-/// What a change comes to.
+/// The result of a change.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::program) struct Verdict {
-    /// How much is left against the contour.
+    /// The remaining evidence against the contour.
     pub(crate) left: usize,
-    /// What it asks for: the less, the likelier.
+    /// Its cost: the lower, the likelier.
     pub(crate) cost: f64,
-    /// Nothing speaks against it but another one that is as likely.
+    /// Only an equally likely change speaks against it.
     pub(crate) may_be_sure: bool,
 }
 
-/// A contour that something is wrong with, as a language holds it.
+/// A faulty contour, as a language holds it.
 pub(in crate::program) trait Contour {
-    /// What a block may have been meant to be.
+    /// A possible intended block.
     type Meant;
 
     /// Where a change leads.
     type Lead;
 
-    /// How much more the second best repair has to ask for, for the best to be sure.
+    /// The second best repair must cost this much more for the best to be sure.
     const CLEARLY: f64;
 
-    /// How many of the best changes are held against each other: each is followed along the whole contour.
+    /// How many of the best changes are compared: each is followed along the whole contour.
     fn finalists(&self) -> usize;
 
-    /// The blocks that are searched, those nearest to what is wrong first.
+    /// The blocks that are searched, those nearest to the fault first.
     fn order(&self) -> Vec<usize>;
 
-    /// What the words of a block may have been meant to say, and what each asks for.
+    /// The possible intended words of a block, with their costs.
     fn meant(&self, index: usize) -> Vec<(Self::Meant, f64)>;
 
-    /// What it asks for that a block goes; `None` where it stays.
+    /// The cost of removing a block; `None` where it stays.
     fn deleted(&self, index: usize) -> Option<f64>;
 
-    /// What it asks for that a block and the next one change places; `None` where they do not.
+    /// The cost of exchanging a block and the next one; `None` where they stay.
     fn exchanged(&self, index: usize) -> Option<f64>;
 
-    /// How far a block that is lost before another one may have led, µm.
+    /// The possible displacement of a block lost before another one, µm.
     fn gaps(&self, index: usize) -> Vec<Vector>;
 
-    /// Where the way leads before and behind a gap; `None` where no arc fills it.
+    /// The directions before and behind a gap; `None` where no arc fills it.
     fn headings(&self, index: usize) -> Option<[Vector; 2]>;
 
-    /// The block that runs along a line or an arc from the origin, and what it asks for.
+    /// The block along a line or an arc from the origin, and its cost.
     fn filling(&self, index: usize, way: &Segment) -> Option<(Self::Meant, f64)>;
 
-    /// What a change comes to, `None` for what explains nothing; and how much was run to know it.
+    /// The result of a change, `None` if it explains nothing; and how much was run for it.
     fn judged(&self, change: &Change<Self::Meant>, cost: f64) -> (Option<Verdict>, usize);
 
     fn lead(&self, change: &Change<Self::Meant>) -> Self::Lead;
 
-    /// True for two changes that come to the same.
+    /// True for two changes with the same result.
     fn is_alike(one: &Self::Lead, other: &Self::Lead) -> bool;
 
-    /// True for two changes that come to the same, of which it is not known which is meant.
+    /// True for two changes with the same result, of which either may be meant.
     fn is_either(&self, _one: &Change<Self::Meant>, _other: &Change<Self::Meant>) -> bool {
         false
     }
 
-    /// Whether a change is handed out. All are looked for: a block that may be lost speaks against another one that may be wrong.
+    /// Whether a change is offered. All are searched: a possibly lost block counts against a possibly wrong one.
     fn holds(&self, _change: &Change<Self::Meant>) -> bool {
         true
     }
@@ -137,12 +139,12 @@ pub(in crate::program) trait Contour {
     }
 }
 
-/// The repairs of a contour, the most likely one first. `left` is how much may be run.
+/// The repairs of a contour, the most likely one first. `left` limits the work.
 pub(in crate::program) fn search<C: Contour>(
     contour: &C,
     left: &mut usize,
 ) -> Vec<Repair<C::Meant>> {
-    // Blocks that are lost are looked for everywhere, and must leave room for those that are wrong.
+    // Lost blocks are searched for everywhere, and must leave room for wrong ones.
     let reserve = *left / 4 * 3;
     let (mut lost, mut moved, mut found) = (Vec::new(), Vec::new(), Vec::new());
     let mut judge = |change: Change<C::Meant>, cost: f64, reserve: usize, into: &mut Vec<_>| {
@@ -181,7 +183,7 @@ pub(in crate::program) fn search<C: Contour>(
     ranked(contour, found)
 }
 
-/// The line over a gap, and the arc that runs smoothly between what is before it and behind it.
+/// The line over a gap, and the arc that fills it smoothly.
 fn fillings(gap: Vector, headings: Option<[Vector; 2]>) -> impl Iterator<Item = Segment> {
     let (start, end) = (Point::origin(), Point::from(gap));
     let half = headings.and_then(|[before, behind]| half_turn_between(before, behind, gap));
@@ -190,12 +192,12 @@ fn fillings(gap: Vector, headings: Option<[Vector; 2]>) -> impl Iterator<Item = 
     ways.filter(move |_| gap.norm() >= SHORTEST)
 }
 
-/// Those that lead somewhere of their own, best first.
+/// The changes with different results, best first.
 fn ranked<C: Contour>(contour: &C, mut judged: Vec<Judged<C>>) -> Vec<Repair<C::Meant>> {
     judged.sort_by(|(a, _), (b, _)| a.left.cmp(&b.left).then(a.cost.total_cmp(&b.cost)));
     judged.truncate(contour.finalists());
     let crosses_now = !judged.is_empty() && contour.crosses(None);
-    // Of those that lead the same way the first is the plainest; what crosses itself as before comes last.
+    // Of changes with the same way the plainest comes first; ways that still cross themselves come last.
     let (mut kept, mut leads, mut crossing) = (Vec::<Judged<C>>::new(), Vec::new(), Vec::new());
     let (mut is_either, mut outside) = (false, None);
     for (verdict, change) in judged {
@@ -243,13 +245,13 @@ fn ranked<C: Contour>(contour: &C, mut judged: Vec<Judged<C>>) -> Vec<Repair<C::
 
 type Judged<C> = (Verdict, Change<<C as Contour>::Meant>);
 
-/// True where the first of the repairs is the one that is meant: no other one, `outside` of those that are handed out neither, explains
-/// as much with as little.
+/// True where the first of the repairs is surely meant: no other one, nor any of `outside`, which are not offered,
+/// explains as much with as little.
 fn is_sure<C: Contour>(kept: &[Judged<C>], outside: Option<Verdict>) -> bool {
     let Some(((best, change), others)) = kept.split_first() else {
         return false;
     };
-    // A block that stands twice says more than one that could be lost.
+    // A doubled block is stronger evidence than a possibly lost one.
     let is_twin = matches!(change, Change::Delete { .. });
     let counts = |(_, other): &&Judged<C>| !is_twin || !matches!(other, Change::Insert { .. });
     let rival = others.iter().find(counts).map(|(rival, _)| *rival);
@@ -264,8 +266,8 @@ fn is_sure<C: Contour>(kept: &[Judged<C>], outside: Option<Verdict>) -> bool {
 mod tests {
     use super::*;
 
-    /// What may have been meant, by where it leads (its first letter), what it leaves and what it asks for; `?` is not handed out, and
-    /// `x` crosses itself.
+    /// Candidates by their result (first letter), the remaining evidence and their cost; `?` is not offered, and `x`
+    /// crosses itself.
     struct Toy {
         meant: Vec<(&'static str, usize, f64)>,
         twin: Option<f64>,
@@ -352,11 +354,11 @@ mod tests {
     fn the_least_that_leaves_the_least_is_sure_where_nothing_else_does_as_well() {
         check(&[("b", 0, 3.0), ("a", 0, 1.0), ("c", 1, 0.0)], None, "a! b");
         check(&[("b", 0, 1.5), ("a", 0, 1.0)], None, "a b");
-        // What leads the same way is no rival, and the plainest of it is kept.
+        // A change with the same way is no rival, and the plainest is kept.
         check(&[("a2", 0, 1.5), ("a", 0, 1.0)], None, "a!");
-        // What is not handed out speaks against it all the same.
+        // Changes that are not offered count as rivals all the same.
         check(&[("a", 0, 1.0), ("?", 0, 1.2)], None, "a");
-        // What crosses itself is offered where nothing else is, and never sure.
+        // A way that crosses itself is offered where there is nothing else, and never sure.
         check(&[("a", 0, 1.0), ("x", 0, 0.5)], None, "a!");
         check(&[("x", 0, 0.5)], None, "x");
     }

@@ -1,4 +1,4 @@
-//! What is asked of a part of a program is held against the whole trace, for programs of both languages under edits.
+//! Answers about a part of a program equal those of the whole trace, for programs of both languages under edits.
 
 use super::chain_before;
 use crate::program::path::{Chain, Cut, Kind, Step, Trace, cuts};
@@ -41,7 +41,7 @@ fn chain_by_trace(trace: &Trace, offset: usize) -> Option<(Vec<Step>, usize, Opt
     ))
 }
 
-/// Everything that is asked of parts of a program, at some of its bytes.
+/// All answers about parts of a program, at some of its bytes.
 fn assert_parts_are_of_the_whole(document: &Document) -> Result<(), TestCaseError> {
     let trace = document.trace();
     let (text, writing) = (document.text(), trace.writing);

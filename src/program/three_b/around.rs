@@ -1,4 +1,4 @@
-//! What stands about the blocks of a line: numbers of rows, names, coordinates, remarks.
+//! The text around the blocks of a line: numbers of rows, names, coordinates, remarks.
 
 #![warn(clippy::indexing_slicing)]
 
@@ -6,7 +6,7 @@ use super::scan::Scan;
 use super::words::{Words, word_of};
 use crate::text::head;
 
-/// A point that stands behind a block, mm.
+/// A point behind a block, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StatedPoint {
     pub(crate) at: [f64; 2],
@@ -14,7 +14,7 @@ pub struct StatedPoint {
     pub(crate) decimals: u8,
 }
 
-/// `N12`, `N 12`, `N12:`: the number, and how many bytes it takes.
+/// `N12`, `N 12`, `N12:`: the number, and its length in bytes.
 pub(super) fn n_word(text: &[u8]) -> Option<(u32, usize)> {
     let digits = 1 + spaces(text, 1);
     let (number, length) = digits_of(text.get(digits..)?)?;
@@ -32,7 +32,7 @@ fn spaces(text: &[u8], at: usize) -> usize {
     rest.take_while(|byte| matches!(byte, b' ' | b'\t')).count()
 }
 
-/// A number of a row that is marked as one: `(1)`, `1)`, `1.`, `1:`, `1、`.
+/// A marked row number: `(1)`, `1)`, `1.`, `1:`, `1、`.
 pub(super) fn row_number(text: &[u8]) -> Option<(u32, usize)> {
     let opens = text.first() == Some(&b'(');
     let open = if opens { 1 + spaces(text, 1) } else { 0 };
@@ -51,7 +51,7 @@ pub(super) fn row_number(text: &[u8]) -> Option<(u32, usize)> {
     Some((number, open + length + mark))
 }
 
-/// The bare number of a row in which a word stands.
+/// The bare number of a row with a word in it.
 pub(super) fn row_of_word(text: &[u8], words: &Words<'_>) -> Option<(u32, usize)> {
     let (number, length) = digits_of(text)?;
     let behind = text.get(length..)?;
@@ -69,7 +69,7 @@ fn digits_of(text: &[u8]) -> Option<(u32, usize)> {
     Some((digits.parse().unwrap_or(u32::MAX), length))
 }
 
-/// Two numbers with commas in the place of their points, as some languages write them.
+/// Two numbers with commas for points, as some languages write them.
 pub(super) fn has_decimal_commas(text: &[u8]) -> bool {
     let Ok(text) = std::str::from_utf8(text) else {
         return false;
@@ -91,9 +91,9 @@ pub(super) fn has_decimal_commas(text: &[u8]) -> bool {
     matches!(words[..], [x, y] if is_number(x.trim_end_matches(',')) && is_number(y))
 }
 
-/// The bytes before a sound block where they are a name for it: nothing of them belongs to a block, and they are no word.
+/// The bytes before a sound block where they name it: they are neither a word nor part of a block.
 pub(super) fn label(text: &[u8], words: &Words<'_>) -> Option<usize> {
-    // What opens a comment comments a block out.
+    // The mark of a comment comments a block out.
     let opens_comment = matches!(
         text.first(),
         Some(b';' | b'*' | b'#' | b'%' | b'\'' | b'"' | b'/')
@@ -120,7 +120,7 @@ pub(super) fn label(text: &[u8], words: &Words<'_>) -> Option<usize> {
     (at > 0 && !is_word && !is_number && !has_block_parts(name)).then_some(at)
 }
 
-/// Whether anything of a block stands in a text: `B` and a digit, `G` and an axis, a quadrant.
+/// Whether a text has anything of a block: `B` and a digit, `G` and an axis, a quadrant.
 fn has_block_parts(text: &[u8]) -> bool {
     let is_part = |pair: &[u8]| {
         matches!(
@@ -133,8 +133,8 @@ fn has_block_parts(text: &[u8]) -> bool {
     text.windows(2).any(is_part)
 }
 
-/// Words behind a block, without the mark of a comment: what the block is for, in the hand of who wrote it. At least two letters that
-/// nothing of a block begins with, and space before them.
+/// Words behind a block without the mark of a comment: a remark on the block. At least two letters that begin nothing
+/// of a block, after a space.
 pub(super) fn is_remark(line: &[u8], at: usize, words: &Words<'_>) -> bool {
     let rest = line.get(at..).unwrap_or_default();
     let is_letter = |byte: &&u8| byte.is_ascii_alphabetic();
@@ -151,7 +151,7 @@ pub(super) fn is_remark(line: &[u8], at: usize, words: &Words<'_>) -> bool {
         && Scan::of(rest).sound().is_none()
 }
 
-/// Whether text has enough of a block to be taken for a broken one.
+/// Whether text has enough of a block to be a broken one.
 pub(super) fn wants_to_be_a_block(text: &[u8]) -> bool {
     let code = before_comment(head(text, 160));
     // Letters B, and those with a digit behind them; axes; quadrants.
@@ -176,7 +176,7 @@ pub(super) fn wants_to_be_a_block(text: &[u8]) -> bool {
     kinds >= 2 || begins && (numbers >= 2 || kinds == 1 && letters >= 2)
 }
 
-/// Whether a text in other letters has what a block has: three numbers, an axis and a quadrant.
+/// Whether a text in look-alike letters has the parts of a block: three numbers, an axis and a quadrant.
 pub(super) fn looks_like_a_block(text: &[u8]) -> bool {
     let text = head(text, 160);
     let follows = |first: &[u8], second: fn(u8) -> bool| {
@@ -206,11 +206,11 @@ pub(super) fn start_point(text: &[u8]) -> Option<[f64; 2]> {
     two_numbers(before_comment(value))
 }
 
-/// Nothing that is looked for from one place of a line on is longer, names and coordinates among spaces included: a line of a megabyte is
-/// read as fast as one of its length may be.
+/// The most bytes that are searched from one place of a line, names and coordinates among spaces included: a line of a
+/// megabyte is read as fast for its length as any other.
 const FARTHEST: usize = 1024;
 
-/// What stands before a `;`, of a longer text its first [`FARTHEST`] bytes.
+/// The text before a `;`, at most its first [`FARTHEST`] bytes.
 pub(super) fn before_comment(text: &[u8]) -> &[u8] {
     let near = head(text, FARTHEST);
     head(near, memchr::memchr(b';', near).unwrap_or(near.len()))

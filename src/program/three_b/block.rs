@@ -1,4 +1,4 @@
-//! One block of 3B as typed numbers in micrometres; what it looks like as text is in `layout` and `parse`.
+//! One block of 3B as typed numbers in micrometres; its text is the matter of `layout` and `parse`.
 
 #![warn(clippy::indexing_slicing)]
 
@@ -24,7 +24,7 @@ impl Quadrant {
         Quadrant::Fourth,
     ];
 
-    /// The quadrant by its number, `None` but for 1 to 4.
+    /// The quadrant by its number, `None` except for 1 to 4.
     pub fn from_number(number: u8) -> Option<Quadrant> {
         let index = usize::from(number.checked_sub(1)?);
         Quadrant::ALL.get(index).copied()
@@ -65,7 +65,7 @@ impl Quadrant {
     }
 }
 
-/// Z: what kind of motion, and the quadrant of a line's direction or of an arc's start.
+/// Z: the kind of motion, and the quadrant of a line's direction or of an arc's start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
     /// `L1` to `L4`.
@@ -117,13 +117,13 @@ pub struct Block {
     /// µm, not negative: a line's end relative to its start, or an arc's start relative to its centre.
     pub x: i64,
     pub y: i64,
-    /// µm, not negative: what the controller counts on `axis` before it stops.
+    /// µm, not negative: how far the controller counts on `axis` before it stops.
     pub j: i64,
     pub axis: CountingAxis,
     pub motion: Motion,
 }
 
-/// What a 4B block says beside a 3B block: the controller changes each arc by its correction.
+/// The additional part of a 4B block: the controller changes each arc by its correction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PartArc {
     /// µm.

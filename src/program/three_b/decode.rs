@@ -4,7 +4,7 @@ use super::block::{Block, CountingAxis, Motion, Quadrant};
 use crate::geometry::{Arc, Point, Segment, Vector, direction, positive_angle};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Why a block leads nowhere; each is a diagnostic of its own to a reader.
+/// Why a block leads nowhere; each has its own diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DecodeFault {
     /// J is 0, or the block has no number at all.
@@ -15,11 +15,11 @@ pub enum DecodeFault {
     OverTurn,
     /// J fits neither X and Y nor a reduced ratio of them.
     WrongLength,
-    /// The line does not move on the axis that is counted.
+    /// The line does not move on the counted axis.
     WrongAxis,
 }
 
-/// How far J may lie from the exact projection, µm: published programs stay within it.
+/// The largest deviation of J from the exact projection, µm: published programs stay within it.
 const TOLERANCE: f64 = 2.0;
 
 /// The line or arc of `block` from `start`, in µm.
@@ -35,9 +35,10 @@ pub fn decode(block: &Block, start: Point) -> Result<Segment, DecodeFault> {
     }
 }
 
-/// The line or arc that a block means, also where its J contradicts its X and Y: the controller goes by J.
+/// The line or arc that a block means, even where its J contradicts its X and Y: the controller goes by J.
 ///
-/// `None` where it leads nowhere: no J, no radius, more than one turn, or a line that does not move on the axis it counts.
+/// `None` where it leads nowhere: no J, no radius, more than one turn, or a line that does not move on the counted
+/// axis.
 pub(super) fn meant(block: &Block, start: Point) -> Option<Segment> {
     match decode(block, start) {
         Ok(segment) => Some(segment),

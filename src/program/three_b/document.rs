@@ -1,7 +1,7 @@
-//! 3B text as an open document: what its lines say, where the machine goes, and what is wrong.
+//! 3B text as an open document: its lines, the machine's way, and its findings.
 //!
-//! The text is cut into stretches of lines. What a line says hangs on no other line, so an edit reads again the stretches that it touched;
-//! what hangs on the whole program (contours, numbers, the end) is made from a few sums of each stretch.
+//! The text is cut into stretches of lines. Lines are independent, so an edit rereads the stretches that it touched;
+//! everything about the whole program (contours, numbers, the end) comes from a few sums of each stretch.
 
 mod cuts;
 mod fixes;
@@ -25,7 +25,7 @@ use crate::settings::Effective;
 use crate::text::SourceText;
 use std::ops::Range;
 
-/// A 3B or 4B program as text, and what was read from it.
+/// A 3B or 4B program as text, and its reading.
 #[derive(Clone, Debug)]
 pub struct Document {
     text: SourceText,
@@ -33,7 +33,7 @@ pub struct Document {
     limits: Limits,
     stretches: Chunks<Stretch>,
     view: Box<View>,
-    /// What the search for crossings has seen.
+    /// The results of the search for crossings.
     known: Box<Known>,
 }
 
@@ -81,20 +81,20 @@ pub(crate) struct JoinedCut {
     stop: Option<usize>,
 }
 
-/// What hangs on the program as a whole.
+/// The properties of the program as a whole.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct View {
-    /// Where the machine stands before each stretch, µm.
+    /// The machine's position before each stretch, µm.
     begins: Vec<Point>,
     /// The cuts that reach over the end of a stretch, or begin or end the text, in their order. The others are parts of one stretch.
     outer: Vec<JoinedCut>,
-    /// Where the contours begin that do not close.
+    /// The starts of the contours that do not close.
     open: Vec<PartAt>,
-    /// The parts in which an odd joint about the end of a stretch is told.
+    /// The parts with an odd joint about the end of a stretch that is reported.
     odd: Vec<PartAt>,
-    /// Where cuts begin that go on with the contour before them, behind the stop at its tab.
+    /// The starts of cuts that continue the contour before them, behind the stop at its tab.
     tabs: Vec<PartAt>,
-    /// The contours that are held by a tab until that is cut off, while they are looked through for crossings.
+    /// The contours that a tab holds until it is cut off, while they are searched for crossings.
     held: Vec<JoinedCut>,
     /// The word that ends the program.
     end: Option<At>,
@@ -109,7 +109,7 @@ impl Document {
         Document::read_with(bytes, &Effective::default())
     }
 
-    /// Reads program text. Never fails: what is damaged is in [`Document::findings`].
+    /// Reads program text. Never fails: damage is in [`Document::findings`].
     pub fn read_with(bytes: Vec<u8>, settings: &Effective) -> Document {
         let text = SourceText::new(bytes);
         let (words, limits) = (OwnWords::of(settings), Limits::of(settings));
@@ -144,14 +144,14 @@ impl Document {
         &self.text
     }
 
-    /// Reads again where the settings change what the text means or what is a fault of it.
+    /// Rereads where the settings change the meaning of the text or its faults.
     pub(crate) fn set_settings(&mut self, settings: &Effective) {
         if self.words != OwnWords::of(settings) || self.limits != Limits::of(settings) {
             *self = Document::read_with(std::mem::take(&mut self.text).into_bytes(), settings);
         }
     }
 
-    /// Replaces a range of bytes and reads again what it touched.
+    /// Replaces a range of bytes and rereads what it touched.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
         let reader = Reader {
             words: self.words.words(),
@@ -179,7 +179,7 @@ impl Document {
         let mut clean = Vec::new();
         *self.view = self.judged(&mut known, &mut clean);
         self.known = known;
-        // What a contour within one stretch comes to hangs on nothing else: it is not asked again.
+        // The findings of a contour within one stretch depend on nothing else: it is not checked again.
         for of_stretch in clean.chunk_by(|a, b| a.0 == b.0) {
             let stretch = of_stretch
                 .first()
@@ -196,7 +196,7 @@ impl Document {
     }
 }
 
-/// How 3B text is read: no line hangs on another.
+/// How 3B text is read: lines are independent.
 struct Reader<'a> {
     words: Words<'a>,
     limits: &'a Limits,

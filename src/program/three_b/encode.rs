@@ -12,7 +12,7 @@ use std::f64::consts::{PI, TAU};
 /// How far a decoded block may end from its node, µm.
 pub(crate) const END_TOLERANCE: f64 = 1.5;
 
-/// A block, the nodes between which it runs, and the piece of the path that it stands for, in µm.
+/// A block, the nodes between which it runs, and its piece of the path, in µm.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Encoded {
     pub(crate) block: Block,
@@ -21,9 +21,9 @@ pub(crate) struct Encoded {
     pub(crate) piece: Segment,
 }
 
-/// Appends the blocks of `piece` (µm) from `from` to `to`, the snapped ends of it. None of their numbers is above `largest`.
+/// Appends the blocks of `piece` (µm) from `from` to `to`, its snapped ends. No number is above `largest`.
 ///
-/// A piece that has no length on the grid, an arc of radius zero among them, appends nothing. `None` when an arc cannot be
+/// A piece without length on the grid, such as an arc of radius zero, appends nothing. `None` when an arc cannot be
 /// written within tolerance, or a number does not fit.
 pub(crate) fn encode(
     piece: &Segment,
@@ -35,7 +35,7 @@ pub(crate) fn encode(
     Blocks { largest }.encode(piece, from, to, blocks)
 }
 
-/// Blocks none of whose numbers is above the largest.
+/// Blocks with no number above the largest.
 struct Blocks {
     largest: i64,
 }
@@ -72,7 +72,7 @@ impl Encoder for Blocks {
         match arc_block(arc, from, to, full_turn) {
             None => Attempt::Misses,
             Some(block) if block.x.max(block.y) > self.largest => Attempt::Chords,
-            // Pieces of one length differ in their J, which is split once more where that is too long.
+            // Pieces of one length differ in their J; one that is too long is split once more.
             Some(block) if block.j > self.largest => {
                 let count = block.j / (self.largest - self.largest / 1000).max(1) + 1;
                 Attempt::Pieces(count.max(2))
@@ -111,15 +111,15 @@ pub(crate) fn line_block(from: Node, to: Node) -> Block {
     }
 }
 
-/// The block about the best centre; where it leads too far from the arc, as a grid centre two µm off can past a half turn, about the
-/// next best one.
+/// The block about the best centre. Where it leads too far from the arc, as a grid centre two µm off can past a half
+/// turn, the block about the next best one.
 fn arc_block(arc: &Arc, from: Node, to: Node, full_turn: bool) -> Option<Block> {
     grid_centers(arc, from, to)
         .iter()
         .find_map(|center| block_about(center.node, arc, from, to, full_turn))
 }
 
-/// Other blocks that stand for the same arc within tolerance: about another centre, or counting 1 µm more or less.
+/// Other blocks for the same arc within tolerance: about another centre, or counting 1 µm more or less.
 pub(crate) fn alternatives(encoded: &Encoded, largest: i64) -> Vec<Block> {
     let Segment::Arc(arc) = &encoded.piece else {
         return Vec::new();
@@ -202,7 +202,7 @@ fn block_about(center: Node, arc: &Arc, from: Node, to: Node, full_turn: bool) -
     stands_for(&block, arc, from, to, full_turn).then_some(block)
 }
 
-/// What a controller counts on an axis along an arc.
+/// How far a controller counts on an axis along an arc.
 pub(crate) fn counted(arc: &Arc, axis: CountingAxis) -> f64 {
     let (first, last) = match axis {
         CountingAxis::X => (arc.start.x - arc.center.x, arc.end.x - arc.center.x),

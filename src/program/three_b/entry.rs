@@ -1,4 +1,4 @@
-//! What stands in a line of a 3B program, and where a block leads.
+//! The content of a line of a 3B program, and the end of a block.
 
 use super::around::StatedPoint;
 use super::block::{self, Block, Motion, PartArc};
@@ -9,7 +9,8 @@ use crate::geometry::Point;
 use crate::program::path::Node;
 use std::ops::Range;
 
-/// A displacement: what the integer machine does in µm, what the blocks mean in nm. Whole numbers, so that sums are exact in any order.
+/// A displacement: the integer machine's in µm, the blocks' own in nm. Whole numbers, so that sums are exact in any
+/// order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::program) struct Move {
     pub(crate) machine: [i64; 2],
@@ -34,14 +35,14 @@ impl Move {
         }
     }
 
-    /// True where machine or meaning come back within `tolerance` µm.
+    /// True where machine or meaning return within `tolerance` µm.
     pub(crate) fn is_within(&self, tolerance: f64) -> bool {
         let near =
             |[x, y]: [i64; 2], unit: f64| (x as f64 * unit).hypot(y as f64 * unit) <= tolerance;
         near(self.machine, 1.0) || near(self.meant, 1e-3)
     }
 
-    /// Where it leads from the origin.
+    /// Its end, from the origin.
     pub(crate) fn node(&self) -> Node {
         let ([x, y], [a, b]) = (self.meant_um(), self.machine);
         Node {
@@ -56,12 +57,12 @@ impl Move {
     }
 }
 
-/// A block as it stands in the text, and where it leads to.
+/// A block as it stands in the text, and its displacement.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct BlockEntry {
     pub(crate) block: Block,
     pub(crate) travel: Move,
-    /// What only some blocks have.
+    /// Parts that only some blocks have.
     pub(crate) extra: Option<Box<Extra>>,
 }
 
@@ -86,7 +87,7 @@ impl BlockEntry {
         }
     }
 
-    /// What a 4B block says beside a 3B block.
+    /// The additional part of a 4B block.
     pub(crate) fn part(&self) -> Option<PartArc> {
         self.extra.as_ref().and_then(|extra| extra.part)
     }
@@ -100,7 +101,7 @@ impl BlockEntry {
     }
 }
 
-/// Where a block leads to.
+/// The end of a block.
 pub(super) fn travel_of(block: &Block) -> Move {
     let machine = travel(block).map_or([0, 0], |block::Node { x, y }| [x, y]);
     let meant = match meant(block, Point::origin()) {
@@ -126,7 +127,7 @@ pub(super) enum What {
     CommentedBlock {
         column: usize,
     },
-    /// A block that cannot be read.
+    /// An unreadable block.
     Unread,
 }
 

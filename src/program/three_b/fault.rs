@@ -1,8 +1,8 @@
-//! What is wrong with a line of 3B or 4B as text, and the sentence that says so.
+//! The faults of a line of 3B or 4B as text, and their sentences.
 
 use std::ops::Range;
 
-/// What is wrong with a line as text.
+/// A fault of a line as text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Flaw {
     /// It cannot be read: the sentence says what was found and what was expected.
@@ -13,9 +13,9 @@ pub(crate) enum Flaw {
     BlockNumberAsB { number: u32 },
     /// The letter O stands for a zero.
     LetterO,
-    /// Letters or digits that only look like those of a block: the sentence says which.
+    /// Letters or digits that only look like those of a block: the sentence names them.
     NotPlain(String),
-    /// Coordinates with commas in the place of their decimal points: they are not read.
+    /// Coordinates with commas for decimal points: they are not read.
     DecimalCommas,
 }
 
@@ -24,7 +24,7 @@ pub(crate) enum Flaw {
 pub struct SyntaxFault {
     pub(crate) range: Range<usize>,
     pub(crate) flaw: Flaw,
-    /// Number that stands before a block that cannot be read.
+    /// The number before an unreadable block.
     pub(crate) number: Option<u32>,
 }
 
@@ -37,7 +37,7 @@ impl SyntaxFault {
         }
     }
 
-    /// The same in a text that has so many bytes more before it.
+    /// The same in a text with this many more bytes before it.
     pub(super) fn shifted(mut self, by: usize) -> SyntaxFault {
         self.range = self.range.start + by..self.range.end + by;
         if let Flaw::MissingB { at } = &mut self.flaw {
@@ -46,7 +46,7 @@ impl SyntaxFault {
         self
     }
 
-    /// What was found and what was expected.
+    /// The finding and the expectation.
     pub(crate) fn sentence(&self) -> String {
         match &self.flaw {
             Flaw::Unreadable(sentence) | Flaw::NotPlain(sentence) => sentence.clone(),

@@ -1,4 +1,4 @@
-//! The fields of one block: where each stands, and what was meant where one is damaged.
+//! The fields of one block: their places, and the intended ones where one is damaged.
 
 #![warn(clippy::indexing_slicing)]
 
@@ -8,8 +8,8 @@ use super::scan::{Expected, Number, Scan};
 use crate::text::TextEdit;
 use std::ops::Range;
 
-/// Where the fields of a block stand, in bytes of the text that it was read from. A number that is not there is an empty range
-/// where it would stand.
+/// The places of a block's fields, in bytes of the text that it was read from. A missing number is an empty range at
+/// its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fields {
     /// The first byte of the block.
@@ -30,7 +30,7 @@ pub struct Fields {
 }
 
 impl Fields {
-    /// The edits that make another block of the one that stands here, in its letter case.
+    /// The edits that turn the block here into another one, in its letter case.
     pub(super) fn changed(&self, text: &[u8], old: &Block, new: &Block) -> Vec<TextEdit> {
         let first = text.get(self.motion.start);
         let cased = |text: String| match first.is_some_and(u8::is_ascii_lowercase) {
@@ -81,7 +81,7 @@ pub fn fields_of(text: &[u8], range: Range<usize>) -> Option<Fields> {
     Some(found.fields.shifted(range.start))
 }
 
-/// A block in which what was meant is plain.
+/// A block with a clear meaning.
 pub(super) struct Found {
     pub(crate) block: Block,
     pub(crate) part: Option<PartArc>,
@@ -91,7 +91,7 @@ pub(super) struct Found {
     pub(crate) faults: Vec<SyntaxFault>,
 }
 
-/// A block with at most one number damaged; else the place where reading stopped, and what was expected there.
+/// A block with at most one damaged number; else the place where reading stopped, and the expectation there.
 pub(super) fn found_in(text: &[u8], scan: &Scan) -> Result<Found, Expected> {
     let axis_at = scan.axis_range.start;
     let (axis, motion) = match (scan.stopped, scan.axis.zip(scan.motion())) {
@@ -108,7 +108,7 @@ pub(super) fn found_in(text: &[u8], scan: &Scan) -> Result<Found, Expected> {
     }
     let with_b = numbers.iter().filter(|number| number.b.is_some()).count();
     let mut row = None;
-    // A bare number before all numbers of a block is that of a row, also where one of them has lost its B.
+    // A bare number before all numbers of a block is that of a row, even where one of them has lost its B.
     let own = if scan.side.is_some() { 4 } else { 3 };
     let first_has_b = numbers.first().is_some_and(|number| number.b.is_some());
     if !first_has_b && numbers.len() == own + 1 && with_b + 1 >= own {
@@ -137,7 +137,7 @@ pub(super) fn found_in(text: &[u8], scan: &Scan) -> Result<Found, Expected> {
         let at = numbers.get(3).map_or(axis_at, Number::start);
         return Err((at, say!(g_and_the_counting_axis)));
     };
-    // What was split has been said already.
+    // The split has been reported already.
     let is_said = |faults: &[SyntaxFault]| {
         let mut flaws = faults.iter().map(|fault| &fault.flaw);
         flaws.any(|flaw| matches!(flaw, Flaw::MissingB { .. }))
@@ -177,7 +177,8 @@ pub(super) fn found_in(text: &[u8], scan: &Scan) -> Result<Found, Expected> {
     })
 }
 
-/// Three numbers out of two, one of which lost its `B` and hangs on the other: the one way that makes a sound line.
+/// Three numbers out of two, one of which has lost its `B` and merged with the other: the one way that makes a sound
+/// line.
 fn split_numbers(
     text: &[u8],
     numbers: Vec<Number>,
@@ -197,7 +198,7 @@ fn split_numbers(
     for (index, number) in [first, second].into_iter().enumerate() {
         for cut in number.digits.start + 1..number.digits.end {
             let (left, right) = (number.digits.start..cut, cut..number.digits.end);
-            // Nobody writes a number with a zero in front of it but J.
+            // Nobody writes a leading zero except in J.
             if index == 0 && text.get(right.start) == Some(&b'0') && right.len() > 1 {
                 continue;
             }

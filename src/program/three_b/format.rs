@@ -1,7 +1,7 @@
-//! Text of a program in one of its layouts: the same blocks, words and comments, and nothing of what they do changed.
+//! Brings the text of a program into a layout: the same blocks, words and comments, with the same effect.
 //!
-//! A line is written anew from what the reader finds in it and read again before it counts. Damaged lines, headings and lines whose
-//! new form would say anything else stay byte for byte as they are.
+//! A line is rewritten from what the reader finds in it and read back before it counts. Damaged lines, headings and
+//! lines whose new form would differ in meaning stay byte for byte as they are.
 
 mod chunk;
 mod line;
@@ -19,14 +19,14 @@ use crate::text::{SourceText, TextEdit};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Blocks that are looked at to find out in which layout a text stands.
+/// Blocks that are read to find the layout of a text.
 const LOOKED_AT: usize = 1000;
 
-/// The edits that bring `lines` into a layout, sorted and disjoint; without a layout, into the one in which most blocks stand.
+/// The edits that bring `lines` into a layout, sorted and disjoint; without a layout, into that of most blocks.
 ///
-/// Blocks, words, block numbers, comments and the header with the start stay. Block numbers and end points of the checking layout
-/// are left out of the other two together; an end point that is not the block's own is a fault and stays in every layout. Each block
-/// gets a line of its own. Formatting twice is formatting once.
+/// Blocks, words, block numbers, comments and the header with the start stay. The other two layouts drop the block
+/// numbers and end points of the checking layout together; an end point that is not the block's own is a fault and
+/// stays in every layout. Each block gets a line of its own. Formatting twice equals formatting once.
 pub(crate) fn format(
     text: &SourceText,
     layout: Option<Layout>,
@@ -34,7 +34,7 @@ pub(crate) fn format(
     lines: Range<usize>,
 ) -> Vec<TextEdit> {
     let layout = layout.unwrap_or_else(|| layout_of(text, words));
-    // The numbers of the checking layout hang on all blocks, the rest on those before.
+    // The numbers of the checking layout depend on all blocks, everything else on those before.
     let end = if layout == Layout::Checking {
         text.line_count()
     } else {

@@ -1,4 +1,4 @@
-//! What blocks look like as text: compact, aligned, checking.
+//! The text of blocks: compact, aligned, checking.
 
 use super::block::{Block, Node, PartArc};
 use crate::program::write::{push_number, push_places};
@@ -6,7 +6,8 @@ use crate::settings::Layout;
 use crate::text::{TextEdit, WIDEST_COLUMN};
 use std::ops::Range;
 
-/// Appends one block with its line end; with `part` it is one of 4B. `number` (from 1) and the absolute end point stand in the checking layout only.
+/// Appends one block with its line end; with `part` it is one of 4B. `number` (from 1) and the absolute end point are
+/// only in the checking layout.
 pub(crate) fn push_block(
     out: &mut Vec<u8>,
     layout: Layout,
@@ -68,7 +69,7 @@ pub(crate) fn push_fields(
     out.extend_from_slice(block.motion.name().as_bytes());
 }
 
-/// Appends the spaces behind a block in columns, so that what follows lines and arcs stands in one column.
+/// Appends the spaces behind a block in columns, so that the text behind lines and arcs stands in one column.
 pub(crate) fn push_to_comment_column(out: &mut Vec<u8>, block: &Block) {
     out.extend_from_slice(if block.motion.is_line() { b"  " } else { b" " });
 }
@@ -104,8 +105,8 @@ fn push_millimetres(out: &mut Vec<u8>, micrometres: i64, width: usize) {
     out.extend_from_slice(&text);
 }
 
-/// The edit that writes another number of a block where its digits stand. One with zeros in front stays as wide; one that stands in a column
-/// keeps it, as far as spaces give room.
+/// The edit that replaces the digits of a block's number. A number with leading zeros keeps its width; one in a column
+/// keeps its column, as far as spaces give room.
 pub(super) fn number_edit(text: &[u8], digits: Range<usize>, number: u32) -> TextEdit {
     let width = digits.len().min(WIDEST_COLUMN);
     if text.get(digits.start) == Some(&b'0') {

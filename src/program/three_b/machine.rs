@@ -1,23 +1,23 @@
 //! The controller to the micron: point-by-point comparison, one µm at a time, J counted down on the counting axis.
 //!
-//! The machine compares where it stands with the line or circle: on it or on the far side it steps towards it, on the near side
-//! along it. A line in a quadrant is worked in that quadrant's own axes, the first of which is that of +X, +Y, −X, −Y for `L1` to
-//! `L4`; that is why a line at 45° counts Y in the quadrants I and III and X in II and IV: the last step counts. An arc steps
-//! towards the axis at the end of its quadrant when it stands on the circle or outside of it, and away from the axis that it comes
-//! from when it stands inside. (Point-by-point comparison is in every textbook on these controllers; makers differ in what a step
-//! exactly on the curve does, which is worth at most one µm.)
+//! The machine compares its position with the line or circle: on it or on the far side it steps towards it, on the near
+//! side along it. A line in a quadrant is worked in that quadrant's own axes, the first of which is that of +X, +Y, −X,
+//! −Y for `L1` to `L4`; that is why a line at 45° counts Y in the quadrants I and III and X in II and IV: the last step
+//! counts. An arc steps towards the axis at the end of its quadrant when the machine is on the circle or outside of it,
+//! and away from the axis that it comes from when it is inside. (Point-by-point comparison is in every textbook on
+//! these controllers; makers differ in the step exactly on the curve, which makes a difference of at most one µm.)
 //!
-//! [`travel`] gives the end in closed form. [`interpolate`] takes every step and is what tests hold it against.
+//! [`travel`] gives the end in closed form. [`interpolate`] takes every step; tests compare the two.
 
 use super::block::{Block, CountingAxis, Motion, Node, Quadrant};
 
 /// The largest number that is followed, µm: two kilometres. Squares of it and their sums fit into 64 bits.
 const FARTHEST: i64 = 2_000_000_000;
 
-/// Where the machine stands at the end of a block, seen from its start, µm.
+/// The machine's position at the end of a block, relative to its start, µm.
 ///
-/// `None` where it would not stop (a line that does not move on the axis it counts) or does not know where to go (an arc about
-/// its own start), and for numbers beyond two kilometres. A J of 0 moves nothing.
+/// `None` where it would not stop (a line that does not move on the counted axis) or has no direction (an arc about its
+/// own start), and for numbers beyond two kilometres. A J of 0 moves nothing.
 pub fn travel(block: &Block) -> Option<Node> {
     let Block { x, y, j, .. } = *block;
     if x > FARTHEST || y > FARTHEST || j > FARTHEST || x < 0 || y < 0 || j < 0 {
@@ -45,7 +45,8 @@ fn is_turned(quadrant: Quadrant) -> bool {
     matches!(quadrant, Quadrant::Second | Quadrant::Fourth)
 }
 
-/// A line as its controller works it: how far it reaches on the first and second axis of its quadrant, and whether the first counts.
+/// A line as its controller works it: its extent on the first and second axis of its quadrant, and whether the first
+/// counts.
 struct Ramp {
     first: i64,
     second: i64,
@@ -175,7 +176,7 @@ impl Round {
         signed(self.quadrant, x, y)
     }
 
-    /// How far the machine is from the axis at the quadrant's beginning when it takes the step that begins at `left`.
+    /// The machine's distance from the axis at the quadrant's beginning when it takes the step that begins at `left`.
     fn done_at(&self, left: i64) -> i64 {
         self.done.max(root_up(self.square - left * left))
     }
@@ -189,7 +190,7 @@ fn arc(block: &Block, quadrant: Quadrant, counter_clockwise: bool) -> Option<Nod
     loop {
         if round.is_at_axis() {
             round.turn();
-            // From the second axis on every quadrant is like the one before: whole turns are left out.
+            // From the second axis on all quadrants are alike: whole turns are left out.
             if round.done == 0 && reach == Some(round.left) {
                 count = (count - 1) % (4 * round.left) + 1;
             }
@@ -229,7 +230,7 @@ fn arc(block: &Block, quadrant: Quadrant, counter_clockwise: bool) -> Option<Nod
     })
 }
 
-/// The least whole number whose square is not below `square`; 0 for what is not above 0.
+/// The least whole number whose square is not below `square`; 0 for negative ones.
 fn root_up(square: i64) -> i64 {
     if square <= 0 {
         return 0;
@@ -245,9 +246,9 @@ fn root_up(square: i64) -> i64 {
     root
 }
 
-/// The same as [`travel`], step by step: `each` hears where the machine stands after every step, seen from the block's start.
+/// The same as [`travel`], step by step: `each` gets the position after every step, relative to the block's start.
 ///
-/// Takes as long as the wire's way has µm. Ends after `most` steps.
+/// Takes a step for each µm of the way. Ends after `most` steps.
 pub fn interpolate(block: &Block, most: usize, mut each: impl FnMut(Node)) -> Option<Node> {
     let mut left_to_count = block.j;
     let mut at = Node { x: 0, y: 0 };

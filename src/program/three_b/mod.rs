@@ -1,6 +1,6 @@
 //! The 3B block language of Chinese fast-wire controllers.
 //!
-//! Everything in here counts in micrometres on the program's grid; only [`write()`] knows of a drawing's unit.
+//! Everything here counts in micrometres on the program's grid; only [`write()`] knows of a drawing's unit.
 
 mod around;
 pub(crate) mod block;

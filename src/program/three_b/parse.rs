@@ -1,8 +1,9 @@
-//! Reading 3B and 4B text line by line: compact, spaced, aligned and checking layouts, with comments, block numbers and coordinates.
+//! Reads 3B and 4B text line by line: compact, spaced, aligned and checking layouts, with comments, block numbers and
+//! coordinates.
 //!
-//! What a line says hangs on no other line. A block that cannot be read gives one fault, and reading goes on behind it; where it is
-//! plain what was meant (a lost `B`, `B25` for `N25`), the block is read and the fault said beside it. Text that looks like no block
-//! is handed out as [`Item::Text`]: only its place among the blocks tells a heading from a fault.
+//! Lines are independent. An unreadable block gives one fault, and reading goes on behind it; where the meaning is
+//! plain (a lost `B`, `B25` for `N25`), the block is read and the fault reported beside it. Text that does not look
+//! like a block is handed out as [`Item::Text`]: only its place among the blocks distinguishes a heading from a fault.
 
 #![warn(clippy::indexing_slicing)]
 
@@ -15,7 +16,7 @@ use crate::program::alike::{Likeness, alike, in_plain_letters};
 use crate::text::{self, SourceText, head};
 use std::ops::Range;
 
-/// One thing that a line says.
+/// One item of a line.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Item {
     Block {
@@ -24,9 +25,9 @@ pub enum Item {
         range: Range<usize>,
         /// `N12`, or the number of a row.
         number: Option<u32>,
-        /// Absolute end point in mm that stands behind the block.
+        /// Absolute end point in mm behind the block.
         stated_end: Option<StatedPoint>,
-        /// What a 4B block says beside a 3B block.
+        /// The additional part of a 4B block.
         part: Option<PartArc>,
     },
     Word {
@@ -41,12 +42,12 @@ pub enum Item {
         at: [f64; 2],
         range: Range<usize>,
     },
-    /// Neither block, word nor comment, and nothing that wants to be a block.
+    /// Neither block, word nor comment, nor a damaged block.
     Text {
         range: Range<usize>,
         column: usize,
     },
-    /// A comment, from its mark on, in which a sound block stands: the controller skips it.
+    /// A comment, from its mark on, with a sound block in it: the controller skips it.
     CommentedBlock {
         range: Range<usize>,
         column: usize,
@@ -54,7 +55,7 @@ pub enum Item {
     Fault(SyntaxFault),
 }
 
-/// Reads a whole text; line ends are LF, CR LF and CR. Text that is no block, word or comment is a fault behind the first block.
+/// Reads a whole text; line ends are LF, CR LF and CR. Other text behind the first block is a fault.
 pub fn read(text: &[u8], words: &Words<'_>) -> (Vec<Item>, Vec<SyntaxFault>) {
     let (mut items, mut faults) = (Vec::new(), Vec::new());
     let mut has_block = false;
@@ -88,10 +89,10 @@ pub(super) fn unexpected(text: &[u8], range: Range<usize>, column: usize) -> Syn
     SyntaxFault::new(range, Flaw::Unreadable(sentence))
 }
 
-/// Reads one line, without its line end, and hands out what it says. Ranges are counted from `offset`.
+/// Reads one line, without its line end, and hands out its items. Ranges are counted from `offset`.
 ///
-/// Marks and spaces as wide as a Chinese character are read as the plain ones; letters and digits that only look like those of a block
-/// are a fault.
+/// Full-width marks and spaces are read as the plain ones; letters and digits that only look like those of a block are
+/// a fault.
 pub fn read_line(line: &[u8], offset: usize, words: &Words<'_>, mut each: impl FnMut(Item)) {
     if line.is_ascii() {
         return read_plain_line(line, offset, words, &mut each);
@@ -109,7 +110,7 @@ pub fn read_line(line: &[u8], offset: usize, words: &Words<'_>, mut each: impl F
     }
 }
 
-/// The fault of a line that only in plain letters and digits is a block or a word.
+/// The fault of a line that is a block or a word only in plain letters and digits.
 fn not_plain(line: &[u8], readable: &[u8], words: &Words<'_>) -> Option<SyntaxFault> {
     let alike = alike(line);
     let code = before_comment(readable).len();
@@ -215,8 +216,8 @@ fn read_plain_line(line: &[u8], offset: usize, words: &Words<'_>, each: &mut dyn
     waiting.into_iter().for_each(each);
 }
 
-/// The fault of a broken block; its range is what stands there up to the next space. There is nothing to underline behind the end, so
-/// the last byte stands for it.
+/// The fault of a broken block; its range is the text there up to the next space. Behind the end there is nothing to
+/// underline, so the last byte stands for it.
 fn broken(rest: &[u8], column: usize, at: usize, expected: &str) -> SyntaxFault {
     let length = rest.iter().position(u8::is_ascii_whitespace);
     let length = length

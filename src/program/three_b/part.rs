@@ -1,8 +1,9 @@
-//! The part's contour as 4B wants it: every corner a tangent arc that stays an arc when the controller adds its correction.
+//! The part's contour for 4B: every corner a tangent arc that stays an arc when the controller adds its correction.
 //!
-//! The controller changes the radius of each arc by its correction and runs lines as they are written. The wire's path therefore
-//! only joins where the contour turns nowhere but in arcs, each of which is larger than the correction where the wire runs inside of
-//! it. The ways in and out are lines: they lead to where the wire's path begins, beside the contour.
+//! The controller changes the radius of each arc by its correction and runs lines as they are written. The wire's path
+//! therefore only joins where the contour turns in arcs alone, each of which is larger than the correction where the
+//! wire runs inside of it. The ways in and out are lines: they lead to the start of the wire's path, beside the
+//! contour.
 
 use crate::finding::{Detail, Finding, Place, Rule, Severity, Side, Unwritable};
 use crate::geometry::{Arc, Locus, Point, Segment, left_normal, turn};
@@ -35,7 +36,7 @@ pub(super) fn rounded_with_tab(
         first.map_or_else(Point::origin, |piece| piece.geometry.start())
     };
     let begin = tab.begin() * scale + (first(&made) - first(path) * scale);
-    // The last piece that is there; in a corner that was rounded, the nearest.
+    // The last piece that is there; in a rounded corner, the nearest.
     let away = |index: &usize| made.segments[*index].geometry.distance_to(begin);
     let index = (0..made.segments.len())
         .rev()
@@ -153,8 +154,8 @@ pub(super) fn rounded(
     })
 }
 
-/// A lead along an arc as the wire goes: the controller changes none of it, since its blocks say no radius. `arc` is that of the part,
-/// larger by the correction.
+/// A lead along an arc as the wire runs: the controller does not change it, since its blocks have no radius. `arc` is
+/// that of the part, larger by the correction.
 fn along_wire(thread: Point, arc: &Arc, begin: Point, correction: f64) -> Vec<Segment> {
     let share = (arc.radius - correction) / arc.radius;
     let by = begin - (arc.center + (arc.end - arc.center) * share);
@@ -167,7 +168,7 @@ fn along_wire(thread: Point, arc: &Arc, begin: Point, correction: f64) -> Vec<Se
     vec![Segment::line(thread, touch), Segment::Arc(wire)]
 }
 
-/// Says of the contour's own piece what 4B cannot hold.
+/// Reports at the contour's own piece what 4B cannot hold.
 fn unwritable(piece: &PathSegment, fault: Unwritable) -> ProofError {
     ProofError::Unwritable(Box::new(Finding {
         rule: Rule::UnprovedPath,
@@ -188,10 +189,10 @@ pub(super) fn is_concave(arc: &Arc, side: Side) -> bool {
     (arc.sweep > 0.0) == (side == Side::Left)
 }
 
-/// How much of a piece has to be left between its transitions, µm.
+/// The least length of a piece between its transitions, µm.
 const LEAST_LEFT: f64 = 1.0;
 
-/// By how much a transition may become larger so that it is larger than the correction on the grid, too, µm.
+/// How much larger a transition may become so that it exceeds the correction on the grid, too, µm.
 const LARGER: i32 = 3;
 
 /// Transition arcs of `radius` at the corners, between lines and arcs alike.
@@ -256,17 +257,17 @@ fn on_grid(arc: &Arc) -> f64 {
     }
 }
 
-/// What becomes of a corner.
+/// The result for a corner.
 struct Transition {
     before: Segment,
     arc: Arc,
     behind: Segment,
 }
 
-/// The arc of `radius` tangent to both sides of a corner that turns by `angle`, and what is left of the sides.
+/// The arc of `radius` tangent to both sides of a corner that turns by `angle`, and the rest of the sides.
 ///
-/// Its centre lies `radius` beside both of them, on the side to which the corner turns. `None` where it meets one of them outside of
-/// it, or turns by more than a half.
+/// Its centre lies `radius` beside both of them, on the side to which the corner turns. `None` where it meets one of
+/// them outside of it, or turns by more than a half.
 fn transition(before: &Segment, behind: &Segment, angle: f64, radius: f64) -> Option<Transition> {
     let side = angle.signum();
     let corner = behind.start();

@@ -1,5 +1,5 @@
-//! Which byte of a line belongs to which field, in damaged lines too: an editor asks where the cursor stands while a block is still being
-//! written.
+//! The field of each byte of a line, in damaged lines too: an editor asks for the field at the cursor while a block is
+//! being written.
 
 #![warn(clippy::indexing_slicing)]
 
@@ -9,7 +9,7 @@ use super::tokens::{Token, Tokens, readable};
 use super::words::{Word, Words};
 use std::ops::Range;
 
-/// What a piece of a line is.
+/// The kind of a piece of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Field {
     /// `N12`, with the colon where one stands.
@@ -29,13 +29,13 @@ pub(crate) enum Field {
     Motion,
     Pause,
     End,
-    /// Absolute end point behind a block, with the `;` where one stands.
+    /// Absolute end point behind a block, with its `;` if any.
     Coordinates,
-    /// `Start Point = x , y`, with the `;` where one stands.
+    /// `Start Point = x , y`, with its `;` if any.
     StartPoint,
     /// From `;` or `*` on.
     Comment,
-    /// What no field is.
+    /// Not a field.
     Strange,
 }
 
@@ -106,7 +106,7 @@ pub(crate) fn pieces(line: &[u8], words: &Words<'_>) -> Vec<Piece> {
 
 struct Cutter<'a> {
     line: &'a [u8],
-    /// As it stands, with so many bytes before `line`.
+    /// As it stands, with this many bytes before `line`.
     raw: &'a [u8],
     from: usize,
     /// Numbers of a broken block so far.
@@ -115,7 +115,7 @@ struct Cutter<'a> {
 }
 
 impl Cutter<'_> {
-    /// A piece without the space at its end; of what stands before a block, without the bars of its table.
+    /// A piece without the space at its end; before a block, without the bars of its table.
     fn push(&mut self, field: Field, range: Range<usize>) {
         let is_before = matches!(field, Field::Number | Field::Strange);
         let is_space = |byte: u8| match byte {
@@ -150,7 +150,7 @@ impl Cutter<'_> {
         }
     }
 
-    /// The numbers of a block that lead with their `B`, and the rest of it where all of them do; where they end.
+    /// The numbers of a block that lead with their `B`, and the rest of it where all of them do; and their end.
     fn push_scan(&mut self, scan: &Scan, numbers: &[Number], start: usize) -> usize {
         const FIELDS: [Field; 4] = [Field::X, Field::Y, Field::J, Field::Radius];
         let place = |range: &Range<usize>| range.start + start..range.end + start;
@@ -198,8 +198,8 @@ impl Cutter<'_> {
         self.add(Field::Motion, fields.motion);
     }
 
-    /// The pieces of a block that is being written or cannot be read, and behind them one that is none, up to the next space or comment;
-    /// where they end.
+    /// The pieces of an unfinished or unreadable block, and behind them one that is none, up to the next space or
+    /// comment; and their end.
     fn push_broken(&mut self, start: usize) -> usize {
         let scan = Scan::of(self.line.get(start..).unwrap_or_default());
         let mut numbers = scan.numbers();

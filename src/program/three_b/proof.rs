@@ -1,4 +1,4 @@
-//! Decoding what was written and holding it against the path, block by block.
+//! Decodes the written text and compares it with the path, block by block.
 
 use super::block::{Block, Node, PartArc};
 use super::decode::decode;
@@ -9,10 +9,10 @@ use crate::geometry::Vector;
 use crate::program::grid::largest_distance;
 use crate::program::path::tolerance;
 
-/// What the blocks of one program have shown so far.
+/// The results for the blocks of one program so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Proof {
-    /// Sum of what each block ends beside its node: where a controller that only counts J has drifted to, µm.
+    /// Sum of the deviations of blocks from their nodes: the drift of a controller that only counts J, µm.
     pub(crate) drift: Vector,
     /// Largest distance of a block from its piece of the path, over its whole length, µm.
     pub(crate) deviation: f64,
@@ -22,7 +22,7 @@ pub(super) struct Proof {
 }
 
 impl Proof {
-    /// Reads `line` again, decodes it from its own node and compares it with its piece of the path.
+    /// Reads `line` back, decodes it from its own node and compares it with its piece of the path.
     pub(crate) fn check_line(
         &mut self,
         line: &[u8],
@@ -86,8 +86,8 @@ impl Proof {
         Ok(())
     }
 
-    /// The block, or another one that stands for the same arc where a controller that counts would else drift further and further: equal
-    /// arcs in a row miss their ends alike.
+    /// The block, or another one for the same arc where a counting controller would else drift further and further:
+    /// equal arcs in a row miss their ends alike.
     pub(crate) fn steadied(&self, encoded: &Encoded, largest: i64) -> Encoded {
         let drift = self.drift - self.drift_at_start;
         let drifted = |block: &Block| match decode(block, point_of(encoded.from)) {
@@ -107,9 +107,9 @@ impl Proof {
         }
     }
 
-    /// Ends one contour: what it drifted must stay within the tolerance of closing.
+    /// Ends one contour: its drift must stay within the tolerance of closing.
     ///
-    /// `first` and `last` are its nodes where the path is closed: they must be the same.
+    /// `first` and `last` are its nodes where the path is closed: they must be equal.
     pub(crate) fn finish_contour(
         &mut self,
         closed: bool,

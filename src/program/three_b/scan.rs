@@ -1,5 +1,5 @@
-//! One block read letter by letter, as far as it goes: the one reader of numbers, axis and motion. What a damaged block was meant to be
-//! is said in [`super::fields`] and [`super::repair`], from what is found here.
+//! Reads one block letter by letter, as far as possible: the one reader of numbers, axis and motion. [`super::fields`]
+//! and [`super::repair`] derive from it what a damaged block was meant to be.
 
 #![warn(clippy::indexing_slicing)]
 
@@ -7,14 +7,14 @@ use super::block::{Block, CountingAxis, Motion, PartArc, Quadrant};
 use crate::program::alike::wide_space;
 use std::ops::{Deref, DerefMut, Range};
 
-/// More digits than any controller takes are not read as a number.
+/// Longer digit strings than any controller takes are not numbers.
 const MOST_DIGITS: usize = 12;
 const LARGEST: i64 = 999_999_999_999;
 
 /// Four of a 4B block, and that of its row.
 const MOST_NUMBERS: usize = 5;
 
-/// Where reading stopped, and what was expected there.
+/// The place where reading stopped, and the expectation there.
 pub(super) type Expected = (usize, &'static str);
 
 /// A number of the block as it stands.
@@ -33,16 +33,16 @@ impl Number {
     }
 }
 
-/// What there is of one block. Places are bytes of the text.
+/// The parts of one block. Places are bytes of the text.
 #[derive(Default)]
 pub(super) struct Scan {
     all: [Number; MOST_NUMBERS],
-    /// So many of them are of this block.
+    /// The number of those that belong to this block.
     count: usize,
     found: Found,
 }
 
-/// What there is beside the numbers.
+/// The parts besides the numbers.
 #[derive(Default)]
 pub(super) struct Found {
     /// A number has no `B` before it.
@@ -60,17 +60,17 @@ pub(super) struct Found {
     /// `D` and `DD` of a 4B block: whether it is concave.
     pub(crate) side: Option<bool>,
     pub(crate) side_range: Range<usize>,
-    /// What the letters of the motion may mean.
+    /// The possible meanings of the motion's letters.
     pub(crate) kinds: &'static [fn(Quadrant) -> Motion],
     pub(crate) lacks_r: bool,
     pub(crate) quadrant: Option<Quadrant>,
     /// `NR1`.
     pub(crate) motion_range: Range<usize>,
-    /// Behind the last that was read.
+    /// Behind the last byte read.
     pub(crate) end: usize,
-    /// Where it is no sound block any more.
+    /// The place where it stops being a sound block.
     pub(crate) stopped: Option<Expected>,
-    /// Reading goes on behind what is damaged.
+    /// Reading goes on behind damage.
     goes_on: bool,
 }
 
@@ -95,21 +95,21 @@ const ARCS: &[fn(Quadrant) -> Motion] = &[Motion::CounterClockwise, Motion::Cloc
 const ALL: &[fn(Quadrant) -> Motion] = &[Motion::Line, Motion::CounterClockwise, Motion::Clockwise];
 
 impl Scan {
-    /// Reads up to what no block has.
+    /// Reads up to anything foreign to a block.
     pub(super) fn of(text: &[u8]) -> Scan {
         let mut scan = Scan::default();
         scan.read(text, false);
         scan
     }
 
-    /// Reads on behind what is damaged.
+    /// Reads on behind damage.
     pub(super) fn all_of(text: &[u8]) -> Scan {
         let mut scan = Scan::default();
         scan.read(text, true);
         scan
     }
 
-    /// Reads another block in the place of this one.
+    /// Reads another block in place of this one.
     pub(super) fn read(&mut self, text: &[u8], goes_on: bool) {
         self.count = 0;
         self.found = Found {
@@ -141,7 +141,7 @@ impl Scan {
         })
     }
 
-    /// The block where all of it is written as it should be, and how many bytes it takes. The way of nearly all of them.
+    /// The block if it is written as it should be, and its length in bytes. Nearly all blocks are read this way.
     #[inline]
     pub(super) fn sound(&self) -> Option<(Block, Option<PartArc>, usize)> {
         let (x, y, j, radius) = match self.numbers() {
@@ -163,7 +163,7 @@ impl Scan {
         Some((block, self.part(radius), self.end))
     }
 
-    /// Something else stands where a part of the block should; `None` where reading ends there.
+    /// Foreign text in place of a part of the block; `None` where reading ends there.
     fn stops(&mut self, at: usize, expected: &'static str) -> Option<()> {
         self.stopped = self.stopped.or(Some((at, expected)));
         self.goes_on.then_some(())
@@ -330,7 +330,7 @@ impl Reader<'_> {
     fn at_next(&mut self) -> usize {
         while let Some(byte) = self.text.get(self.at) {
             match byte {
-                // What stands there nearly always.
+                // The usual text.
                 b'!'..=b'{' => break,
                 b' ' | b'\t' | b'|' => self.at += 1,
                 0xc2.. => match self.text.get(self.at..).map_or(0, wide_space) {
@@ -343,7 +343,7 @@ impl Reader<'_> {
         self.at
     }
 
-    /// As many digits as overflow nothing.
+    /// As many digits as cannot overflow.
     #[inline]
     fn take_digits(&mut self) -> i64 {
         let (mut value, most) = (0, self.at + 18);

@@ -1,4 +1,5 @@
-//! A stretch of consecutive lines: what they say, what is wrong in each block for itself, and where their blocks lead to in sum.
+//! A stretch of consecutive lines: their content, the faults of each block by itself, and the sum of their blocks'
+//! ways.
 //!
 //! Places count from the stretch's first byte and line, so that an edit elsewhere changes nothing here.
 
@@ -19,7 +20,7 @@ use crate::program::path::{
 };
 use std::ops::Range;
 
-/// Something found at bytes of the stretch.
+/// A finding at bytes of the stretch.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Local {
     pub(crate) range: Range<usize>,
@@ -31,7 +32,7 @@ pub(super) struct Local {
     pub(crate) part: usize,
 }
 
-/// What blocks without a word between them come to.
+/// The totals of blocks without a word between them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Sum {
     pub(crate) blocks: usize,
@@ -41,7 +42,7 @@ pub(super) struct Sum {
     pub(crate) twice_area: f64,
     /// Faults that change where the way leads.
     pub(crate) errors: usize,
-    /// Blocks that could not be read: where the way leads is not known.
+    /// Unreadable blocks: the end of the way is unknown.
     pub(crate) unread: usize,
     /// Tells two of them apart: equal ways have equal marks.
     pub(crate) mark: u64,
@@ -150,7 +151,7 @@ pub(super) struct Part {
     pub(crate) lay: Lay,
 }
 
-/// What a block means, from the origin on; nowhere where nobody knows.
+/// The curve of a block from the origin; none where it is unknown.
 pub(super) fn shape(block: &Block) -> Segment {
     meant(block, Point::origin()).unwrap_or_else(nowhere)
 }
@@ -159,7 +160,7 @@ fn nowhere() -> Segment {
     Segment::line(Point::origin(), Point::origin())
 }
 
-/// How a stretch begins or ends, as far as the joint with the next one tells.
+/// The beginning or end of a stretch, as far as the joint with its neighbour needs it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Edge {
     /// The outermost block, from the origin on.
@@ -168,7 +169,7 @@ pub(super) struct Edge {
     pub(crate) is_odd: bool,
 }
 
-/// A part under way.
+/// An unfinished part.
 struct Open {
     /// Its first entry.
     first: usize,
@@ -206,7 +207,7 @@ impl Open {
         self.way.push(way, !entry.is_line(), self.sum.travel.node());
     }
 
-    /// Looks at the joint at which the last block begins, now that it is known what follows.
+    /// Checks the joint at which the last block begins, now that the next block is known.
     fn join(&mut self, next: Segment) {
         let [made, before, came] = self.trail;
         let is_odd = made.is_some_and(|made| may_be_odd(&made, &next));
@@ -227,7 +228,7 @@ impl Open {
         self.trail = [Some(next), made, before];
     }
 
-    /// The part up to an entry, with the word that stands there.
+    /// The part up to an entry, with the word there.
     fn closed(self, end: usize, word: Option<(Word, bool)>) -> Part {
         Part {
             entries: self.first..end,
@@ -253,32 +254,32 @@ pub(super) struct Stretch {
     pub(crate) numbering: Numbering,
     pub(crate) positions: Positions,
     pub(crate) travel: Move,
-    /// Of its way, µm from where it begins.
+    /// Around its way, µm from its start.
     pub(crate) bounds: Option<Bounds>,
     pub(crate) words: usize,
     /// Entries: the controller's own first end word, the last end word of any, the last word.
     pub(crate) own_end: Option<usize>,
     pub(crate) last_end: Option<usize>,
     pub(crate) last_word: Option<usize>,
-    /// Parts between two words of the stretch that hold no closed contour, and those that come near themselves, until it is known
-    /// that they do not cross.
+    /// Parts between two words of the stretch without a closed contour, and those that come near themselves, until they
+    /// are known not to cross.
     pub(crate) open: Vec<usize>,
     pub(crate) may_cross: Vec<usize>,
-    /// How its first part begins, and how its last one ends; `None` where there is no block in it.
+    /// The beginning of its first part, and the end of its last one; `None` where there is no block in it.
     pub(crate) edges: [Option<Edge>; 2],
 }
 
 /// A way of at most this many lines between two pauses leads from one contour to the next.
 const JUMP_BLOCKS: usize = 3;
 
-/// True for what is, between two pauses, the way from one contour to the next. What comes back to where it began is none: a tab is cut off
-/// so, from the thread hole and back to it.
+/// True for the way between two pauses from one contour to the next. A way that returns to its start is not one: that
+/// is how a tab is cut off, from and to the thread hole.
 pub(super) fn is_jump(sum: &Sum) -> bool {
     let is_way = (1..=JUMP_BLOCKS).contains(&sum.blocks) && sum.arcs == 0;
     is_way && sum.travel.machine != [0, 0]
 }
 
-/// True for what is asked whether it crosses itself: where a block is wrong the path behind it is not the one that is meant.
+/// True for a part that is searched for crossings: behind a faulty block the path is not the intended one.
 pub(super) fn may_cross_itself(sum: &Sum) -> bool {
     sum.blocks >= FEWEST_CROSSING && sum.errors == 0
 }
@@ -308,7 +309,7 @@ impl Stretch {
         stretch
     }
 
-    /// Ends a part: what is odd in it counts once its contour is known.
+    /// Ends a part: its oddities count once its contour is known.
     fn close(&mut self, mut open: Open, end: usize, word: Option<(Word, bool)>) {
         if self.parts.is_empty() {
             self.edges[0] = open.edges[0];
@@ -374,7 +375,7 @@ impl Stretch {
                 let range = local(range);
                 let part_index = self.parts.len();
                 for observation in rules::check(&block, part, limits) {
-                    // What is only unusual, or too tight, leads where it says.
+                    // An unusual block, or one too tight, leads where it says.
                     open.sum.errors += usize::from(
                         observation.counts == Counts::Always
                             && observation.rule != Rule::SmallRadius,
@@ -430,7 +431,7 @@ impl Stretch {
                 open.sum.errors += usize::from(fault.flaw != Flaw::DecimalCommas);
                 open.sum.unread += usize::from(is_unread);
                 if is_unread {
-                    // Its number has its turn, and where it ends nobody knows.
+                    // Its number has its turn, but its end is unknown.
                     self.positions.anchor = Some(None);
                     self.push(local(fault.range.clone()), line, fault.number, What::Unread);
                 }

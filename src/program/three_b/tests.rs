@@ -1,4 +1,4 @@
-//! Text, blocks and paths held against each other.
+//! Text, blocks and paths compared with each other.
 
 mod four_b;
 mod random;
@@ -296,7 +296,7 @@ fn a_program_that_is_not_wanted_any_more_ends() {
     assert_eq!(heard, [(0, 10_000), (4096, 10_000), (8192, 10_000)]);
 }
 
-/// Each arc misses its end by the same part of a micrometre: a controller that counts would drift on and on.
+/// Each arc misses its end by the same part of a micrometre: a counting controller would drift on and on.
 #[test]
 fn equal_arcs_in_a_row_do_not_drift() {
     for (pitch, bulge) in [

@@ -1,5 +1,5 @@
-//! A line of 3B or 4B cut into what stands in it, one behind the other: blocks, words, numbers of rows, coordinates, comments. Every line
-//! falls into tokens, damaged ones too; what they mean for a program is said in [`super::parse`], for an editor in [`super::pieces`].
+//! Cuts a line of 3B or 4B into tokens: blocks, words, numbers of rows, coordinates, comments. Every line falls into
+//! tokens, damaged ones too; [`super::parse`] gives their meaning for a program, [`super::pieces`] for an editor.
 
 #![warn(clippy::indexing_slicing)]
 
@@ -17,7 +17,7 @@ use crate::text::head;
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Places in a comment at which a block is looked for.
+/// Places in a comment at which a block is tried.
 const MOST_LOOKS: usize = 64;
 
 pub(super) enum Token {
@@ -27,11 +27,11 @@ pub(super) enum Token {
     Coordinates(StatedPoint),
     /// Coordinates with commas for points.
     DecimalCommas,
-    /// A block, with what is wrong in it where it is read all the same; its range goes from the first `B` to the quadrant.
+    /// A block, with any fault with which it is read all the same; its range goes from the first `B` to the quadrant.
     Block {
         block: Block,
         part: Option<PartArc>,
-        /// The number of the row, which stands before the first `B`.
+        /// The row number before the first `B`.
         row: Option<u32>,
         faults: Vec<SyntaxFault>,
     },
@@ -44,13 +44,13 @@ pub(super) enum Token {
     Comment {
         holds_block: bool,
     },
-    /// Neither block, word nor comment, and nothing that wants to be a block.
+    /// Neither block, word nor comment, nor a damaged block.
     Text,
-    /// A block that cannot be read: reading stopped at its place, and this was expected there.
+    /// An unreadable block: reading stopped at its place, with this expectation.
     Broken(&'static str),
 }
 
-/// A line as it is read: marks as wide as a Chinese character are plain ones, each at its place.
+/// A line as it is read: full-width marks become plain ones, each at its place.
 pub(super) fn readable(line: &[u8]) -> Cow<'_, [u8]> {
     if line.is_ascii() {
         return Cow::Borrowed(line);
@@ -58,7 +58,7 @@ pub(super) fn readable(line: &[u8]) -> Cow<'_, [u8]> {
     with_plain_marks(line).map_or(Cow::Borrowed(line), Cow::Owned)
 }
 
-/// The way through a line.
+/// The position in a line.
 pub(super) struct Tokens<'a> {
     line: &'a [u8],
     /// Behind the last token.
@@ -97,7 +97,7 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// The next token and where it stands. Behind coordinates nothing else of the line is looked at.
+    /// The next token and its place. Behind coordinates the rest of the line is ignored.
     pub(super) fn next(&mut self, words: &Words<'_>) -> Option<(Token, Range<usize>)> {
         self.skip_space();
         let start = self.at;
@@ -164,14 +164,14 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// A token of so many bytes.
+    /// A token of this many bytes.
     fn taken(&mut self, length: usize, token: Token) -> (Token, Range<usize>) {
         let start = self.at;
         self.at += length;
         (token, start..self.at)
     }
 
-    /// A token that stands in `code` without the space about it; the rest of the line is left out.
+    /// A token that stands in `code`, without the space about it; the rest of the line is ignored.
     fn within(&mut self, from: usize, code: &[u8], token: Token) -> (Token, Range<usize>) {
         self.at = self.line.len();
         let before = code.len() - code.trim_ascii_start().len();
@@ -258,7 +258,7 @@ impl<'a> Tokens<'a> {
         (Token::Broken(expected), at..at)
     }
 
-    /// Goes behind the quadrant that a broken block ends in, where more blocks may stand, or to the end.
+    /// Goes behind the quadrant at the end of a broken block, where more blocks may follow, or to the end.
     pub(super) fn skip_broken_block(&mut self) {
         let rest = self.from(self.at);
         let comment = memchr::memchr(b';', rest).unwrap_or(rest.len());

@@ -2,7 +2,7 @@
 
 #![warn(clippy::indexing_slicing)]
 
-/// What a word between the blocks does.
+/// The effect of a word between the blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Word {
     /// The machine stops until the wire is threaded.
@@ -27,7 +27,7 @@ impl Default for Words<'_> {
 }
 
 impl Words<'_> {
-    /// What a word does; `None` for what is no word of a program. Letter case does not matter.
+    /// The effect of a word; `None` for one unknown in programs. Letter case does not matter.
     pub(super) fn meaning(&self, word: &[u8]) -> Option<Word> {
         let is = |known: &str| word.eq_ignore_ascii_case(known.as_bytes());
         if is(self.end) {

@@ -1,4 +1,4 @@
-//! Paths to the text of one 3B program that is proved block by block while it is written.
+//! Writes paths as one 3B program, which is proved block by block while it is written.
 
 use super::block::Node;
 use super::block::PartArc;
@@ -27,7 +27,7 @@ pub fn write(
     write_with(paths, unit_mm, settings, &mut |_, _| true)
 }
 
-/// As [`write()`]; `go_on` hears every few thousand segments how many are done and how many there are, and ends the work with `false`.
+/// As [`write()`]; `go_on` gets the progress every few thousand segments, and ends the work with `false`.
 pub(crate) fn write_with(
     paths: &[WirePath],
     unit_mm: f64,
@@ -39,8 +39,8 @@ pub(crate) fn write_with(
     blocks.finish(cuts(paths))
 }
 
-/// The same for 4B: the part's contour, which the controller offsets by the correction of the settings. Corners between lines get
-/// transition arcs of the correction and the margin; what cannot be offset so is refused.
+/// The same for 4B: the part's contour, which the controller offsets by the correction of the settings. Corners between
+/// lines get transition arcs of the correction and the margin; a contour that cannot be offset this way is refused.
 pub(crate) fn write_four_b(
     paths: &[WirePath],
     unit_mm: f64,
@@ -82,7 +82,8 @@ pub(crate) fn write_four_b(
     blocks.finish(cuts(&paths))
 }
 
-/// A part's closed contour as 4B holds it, without leads, where it is drawn and in the drawing's unit; `None` where it cannot.
+/// A part's closed contour as 4B holds it, without leads, at its drawn place and in the drawing's unit; `None` where it
+/// cannot.
 pub(crate) fn of_part(
     segments: Vec<PathSegment>,
     side: Side,
@@ -103,7 +104,7 @@ pub(crate) fn of_part(
     let (correction, radius) = transitions(settings);
     let mut segments = rounded(&path, scale, correction, radius).ok()?.segments;
     segments.retain(|piece| !matches!(piece.source, Source::LeadIn | Source::LeadOut));
-    // Where it is drawn, not where the wire begins it.
+    // From the drawn start, not the wire's.
     let by = path.thread_hole * scale - segments.first()?.geometry.start();
     segments
         .iter_mut()
@@ -119,16 +120,16 @@ fn transitions(settings: &Effective) -> (f64, f64) {
     (correction, radius)
 }
 
-/// What a 4B program is proved with beside its blocks.
+/// The additional data for proving a 4B program.
 struct Part {
     /// µm.
     correction: f64,
     side: Side,
-    /// Where the last block of the contour led.
+    /// The end of the contour's last block.
     direction: Option<Vector>,
 }
 
-/// How far the wire's path may be apart where two blocks of a part's contour join, µm: their directions are those of a grid.
+/// The largest gap in the wire's path at a joint of a part's contour, µm: the blocks' directions are those of a grid.
 const WIRE_GAP: f64 = 3.0;
 
 struct Blocks<'a> {
@@ -139,7 +140,7 @@ struct Blocks<'a> {
     blocks: usize,
     /// µm.
     length: f64,
-    /// Of the ways without a cut among it.
+    /// Without cuts, part of the above.
     jumps: f64,
     proof: Proof,
     encoded: Vec<Encoded>,
@@ -224,7 +225,7 @@ impl Writer for Blocks<'_> {
             .map_err(ProofError::Mismatch)
     }
 
-    /// Some straight blocks between two pauses would be the way to the next contour.
+    /// Some straight blocks between two pauses would be read as the way to the next contour.
     fn end_open(&mut self, last: Node, _: bool, stops: usize) -> Result<(), ProofError> {
         (0..stops).try_for_each(|_| self.stop(last, None))
     }
@@ -241,7 +242,7 @@ impl Writer for Blocks<'_> {
         Ok(())
     }
 
-    /// Where the blocks count from is where the table stands.
+    /// The blocks count from the table's position.
     fn moved_by_hand(&mut self, _: Node) -> Result<(), ProofError> {
         Ok(())
     }
@@ -265,7 +266,8 @@ impl<'a> Blocks<'a> {
         }
     }
 
-    /// What 4B says beside the block of an arc, proved: the wire's arc has a radius, and the wire's path joins before it.
+    /// The additional part of an arc's 4B block, proved: the wire's arc has a radius, and the wire's path joins before
+    /// it.
     fn part_of(
         &mut self,
         encoded: &Encoded,
@@ -316,7 +318,7 @@ impl<'a> Blocks<'a> {
         }))
     }
 
-    /// Writes a word between blocks, and reads it again: it comes from the settings.
+    /// Writes a word between blocks, and reads it back: it comes from the settings.
     fn push_word(&mut self, word: &str) -> Result<(), ProofError> {
         let mut read = Vec::new();
         read_line(word.as_bytes(), 1, &self.words, |item| read.push(item));
@@ -337,7 +339,7 @@ impl<'a> Blocks<'a> {
         Ok(())
     }
 
-    /// `cuts` tells that there is more to the paths than places where the wire is threaded.
+    /// `cuts` says that the paths hold more than thread holes.
     fn finish(mut self, cuts: bool) -> Result<ProvedProgram, ProofError> {
         if self.blocks == 0 && cuts {
             return Err(nothing_to_write());

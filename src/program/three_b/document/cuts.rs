@@ -1,4 +1,4 @@
-//! Where a program falls into contours and the ways between them: the blocks from one word to the next.
+//! The division of a program into contours and the ways between them: the blocks from one word to the next.
 
 use super::super::entry::{BlockEntry, Entry};
 use super::super::stretch::{Stretch, Sum, is_jump};
@@ -6,8 +6,8 @@ use super::{At, Document, JoinedCut, PartAt, View};
 use std::ops::Range;
 
 impl Document {
-    /// The word that ends the program: the first of the controller's own, else the last that ends programs elsewhere, else a pause
-    /// with no block behind it.
+    /// The word that ends the program: the first of the controller's own, else the last that ends programs elsewhere,
+    /// else a pause with no block behind it.
     pub(super) fn end_word(&self) -> Option<At> {
         let place = |stretch: usize, entry: Option<usize>| entry.map(|entry| At { stretch, entry });
         let mut stretches = self.stretches.iter().enumerate();
@@ -23,12 +23,12 @@ impl Document {
         own.or_else(foreign).or_else(pause)
     }
 
-    /// What stands in a stretch.
+    /// The content of a stretch.
     pub(super) fn entries_in(&self, stretch: usize) -> &[Entry] {
         self.stretches.get(stretch).map_or(&[], |of| &of.entries)
     }
 
-    /// What stands in some stretches, in its order.
+    /// The content of some stretches, in order.
     pub(super) fn entries(
         &self,
         stretches: Range<usize>,
@@ -125,8 +125,8 @@ impl Document {
                 .any(|stretch| stretch.words > 0)
     }
 
-    /// Whether another word follows the one behind a part, with no block between: what is open before them is meant to end there. The
-    /// word that ends the program is none: a tab may be left standing.
+    /// Whether another word follows the one behind a part, with no block between: an open contour before them is meant
+    /// to end there. The word that ends the program does not count: a tab may be left standing.
     pub(super) fn stops_again(&self, part: PartAt, end: Option<At>) -> bool {
         let (mut stretch, mut index) = self.part_behind(part);
         while let Some(of) = self.stretches.get(stretch) {
@@ -223,7 +223,7 @@ impl Document {
             .is_some_and(|cut| cut.is_jump)
     }
 
-    /// Whether what begins with a part goes on with the contour before it.
+    /// Whether the cut that begins with a part continues the contour before it.
     pub(super) fn is_tab(&self, part: PartAt) -> bool {
         self.view.tabs.binary_search(&part).is_ok()
     }
@@ -232,7 +232,7 @@ impl Document {
         view.open.binary_search(&cut.parts[0]).is_err()
     }
 
-    /// Cuts within one stretch, of those that it names, up to the end of the program.
+    /// Of the cuts within one stretch that it names, those up to the end of the program.
     pub(super) fn inner_cuts<'a>(
         &'a self,
         end: Option<At>,

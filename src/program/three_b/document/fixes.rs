@@ -1,4 +1,4 @@
-//! What can be done about one finding.
+//! The fixes of one finding.
 
 use super::super::around::StatedPoint;
 use super::super::block::{Block, Node};
@@ -21,7 +21,8 @@ use crate::text::TextEdit;
 use std::ops::Range;
 
 impl Document {
-    /// The fixes of one finding, the preferred one first: what explains the whole contour before what the finding alone suggests.
+    /// The fixes of one finding, the preferred one first: explanations of the whole contour before those of the finding
+    /// alone.
     pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
         merged(self.contour_fixes(finding), self.fixes_of(finding), false)
     }
@@ -188,7 +189,7 @@ impl Document {
         vec![TextFix::text(FixKind::Close { length }, false, edit)]
     }
 
-    /// The number that a block behind another one has, where the two before it are numbered.
+    /// The number of a block behind another one, where the two before it are numbered.
     fn number_behind(&self, at: At) -> Option<u32> {
         let own = self.entry(at)?.number()?;
         let before = self
@@ -237,7 +238,7 @@ impl Document {
         fixes
     }
 
-    /// Writes the number of a block or word, in the place of the one that it has.
+    /// Replaces the number of a block or word.
     fn number_edit(&self, at: At, number: u32) -> TextEdit {
         let start = self.range_of(at).start;
         match self.digits_before(at) {

@@ -1,5 +1,5 @@
-//! `spur` and `reversed-arc`: what is odd at the joints of blocks. Within a part that is known since its lines were read; here are the
-//! joints between stretches of lines, and which of all of them count.
+//! `spur` and `reversed-arc`: odd joints of blocks. Those within a part are known since its lines were read; here are
+//! the joints between stretches, and the decision which of all joints count.
 
 use super::super::entry::{Entry, What};
 use super::super::rules::{Counts, TextFix};
@@ -11,7 +11,7 @@ use crate::program::path::{may_be_odd, odd_joint, tolerance};
 use crate::text::TextEdit;
 use std::ops::Range;
 
-/// Blocks on either side of the end of a stretch that tell its joints.
+/// Blocks on either side of the end of a stretch that decide about its joints.
 const REACH: usize = 3;
 
 impl Document {
@@ -69,7 +69,8 @@ impl Document {
         odd.collect()
     }
 
-    /// Whether an odd joint is told: nothing else is wrong with the contour, and a spur is no way out and in again between two passes.
+    /// Whether an odd joint is reported: the contour has no other fault, and a spur is no way out and in again between
+    /// two passes.
     pub(super) fn is_told(&self, view: &View, cut: &JoinedCut, at: At, fault: &Fault) -> bool {
         let tip = || self.stands_before(view, at);
         let begin = || Some(self.stands_before(view, self.blocks_of(cut).next()?));
@@ -78,7 +79,7 @@ impl Document {
         cut.sum.errors == 0 && !(matches!(fault, Fault::Spur { .. }) && is_lead())
     }
 
-    /// The same of what was seen within a stretch.
+    /// The same for one within a stretch.
     pub(super) fn is_local_told(&self, view: &View, stretch: usize, local: &Local) -> bool {
         let (Some(cut), Some(at)) = (
             self.cut_of_part(view, (stretch, local.part)),
@@ -95,7 +96,7 @@ impl Document {
         Some(At { stretch, entry })
     }
 
-    /// Where the machine stands before an entry, µm.
+    /// The machine's position before an entry, µm.
     fn stands_before(&self, view: &View, at: At) -> Point {
         let travels = self
             .entries_in(at.stretch)
@@ -107,7 +108,7 @@ impl Document {
         by.fold(begin, |at, [x, y]| at + Vector::new(x as f64, y as f64))
     }
 
-    /// Whether an odd joint of a cut is told.
+    /// Whether an odd joint of a cut is reported.
     pub(super) fn is_odd(&self, view: &View, cut: &JoinedCut) -> bool {
         let [(first_stretch, first), (last_stretch, last)] = cut.parts;
         let of_stretch = |stretch: usize| {
@@ -127,7 +128,7 @@ impl Document {
         is_between || (first_stretch..=last_stretch).any(of_stretch)
     }
 
-    /// Out and back go, where they lead back to where they began.
+    /// A way out and back goes, where it returns to its start.
     pub(super) fn spur_fixes(&self, range: &Range<usize>) -> Option<Vec<TextFix>> {
         let back = self.entry_at(range)?;
         let (out, before) = self
@@ -166,7 +167,7 @@ mod tests {
     const SPUR: &str = "B0B500B500GYL2\nB1000B0B1000GXL1\nB0B500B500GYL2\nB300B0B300GXL1\nB300B0B300GXL3\nB0B500B500GYL2\nB2000B0B2000GXL3\nB0B1000B1000GYL4\nB1000B0B1000GXL1\nB0B500B500GYL4\nDD\n";
     const REVERSED: &str = "B0B500B500GYL2\nB500B0B500GXL1\nB0B500B1000GXNR4\nB1000B0B1000GXL3\nB0B500B1000GXSR1\nB500B0B500GXL1\nB0B500B500GYL4\nDD\n";
 
-    /// Lines are read in stretches: a joint is found once wherever one of them ends, and where each block is a stretch away from the next.
+    /// A joint is found once, wherever a stretch ends, even where each block is a stretch away from the next.
     #[test]
     fn an_odd_joint_is_found_wherever_runs_end() {
         for (text, odd) in [(SPUR, "spur"), (REVERSED, "reversed-arc")] {

@@ -1,4 +1,5 @@
-//! What is wrong with a program as a whole: contours that do not close or cross themselves, its end, texts, numbers, places.
+//! The findings of a program as a whole: contours that do not close or cross themselves, its end, texts, numbers,
+//! places.
 
 use super::super::entry::{Move, What};
 use super::super::fields::fields_of;
@@ -17,7 +18,7 @@ use std::ops::Range;
 
 /// Cuts that belong to one contour.
 struct GoesOn {
-    /// Where those behind the first begin.
+    /// The starts of the cuts behind the first.
     begins: Vec<PartAt>,
     /// What comes behind them.
     behind: PartAt,
@@ -25,14 +26,14 @@ struct GoesOn {
     held: Option<JoinedCut>,
 }
 
-/// An open cut and what has been taken from behind its stops.
+/// An open cut and the cuts behind its stops.
 struct OpenCuts<'a> {
     document: &'a Document,
     end: Option<At>,
     cuts: Vec<JoinedCut>,
     /// All up to each of them as one.
     wholes: Vec<JoinedCut>,
-    /// Where those behind the first begin.
+    /// The starts of the cuts behind the first.
     begins: Vec<PartAt>,
 }
 
@@ -65,7 +66,7 @@ impl BehindStops for OpenCuts<'_> {
 }
 
 impl Document {
-    /// `clean` takes the contours within one stretch of which is known now that they do not cross themselves, in their order.
+    /// `clean` gets the contours within one stretch that are now known not to cross themselves, in order.
     pub(super) fn judged(&self, known: &mut Known, clean: &mut Vec<PartAt>) -> View {
         let mut view = View {
             begins: self.begins(),
@@ -87,7 +88,8 @@ impl Document {
 
     /// `units`: a whole program of a size that no wire cuts.
     fn judge_size(&self, view: &mut View) {
-        // Stretches are laid behind each other as their parts are, by what blocks mean: where a stretch ends tells nothing.
+        // Stretches are laid end to end as their parts are, by their blocks' meaning: the end of a stretch shows
+        // nothing.
         let (mut bounds, mut blocks, mut before) = (Bounds::EMPTY, 0, Move::default());
         for of in self.stretches.iter() {
             if let Some(own) = of.bounds {
@@ -110,7 +112,8 @@ impl Document {
         }
     }
 
-    /// `not-closed`, and the block that is to blame where it is plain. A contour that stops before its tab goes on behind the stop.
+    /// `not-closed`, and the block to blame where that is plain. A contour that stops before its tab goes on behind the
+    /// stop.
     fn judge_contours(&self, view: &mut View) {
         let is_open = |cut: &JoinedCut| !cut.is_jump && !self.goes_round(cut);
         let mut candidates: Vec<JoinedCut> = self
@@ -118,7 +121,7 @@ impl Document {
             .filter(is_open)
             .collect();
         candidates.extend(view.outer.iter().filter(|cut| is_open(cut)).cloned());
-        // What would be a way to the next contour between two pauses is none before the end.
+        // Between two pauses this would be a way to the next contour; before the end it is not.
         let last = view.end.and_then(|end| {
             Some((
                 end.stretch,
@@ -173,8 +176,8 @@ impl Document {
         word.is_some() && word != view.end && self.stops_again(last, view.end)
     }
 
-    /// What goes on with an open cut behind a stop: a tab, or blocks that come back to the start together, in whatever order they
-    /// are cut. `None` where there is nothing.
+    /// The continuation of an open cut behind a stop: a tab, or blocks that return to the start together, in whatever
+    /// order they are cut. `None` where there is none.
     fn goes_on(&self, view: &View, cut: &JoinedCut) -> Option<GoesOn> {
         let mut open = OpenCuts {
             document: self,
@@ -192,7 +195,7 @@ impl Document {
         })
     }
 
-    /// True for the way back to where the wire was threaded, behind a stop at the end of a closed contour.
+    /// True for the way back to the thread hole, behind a stop at the end of a closed contour.
     fn leads_out(&self, view: &View, cut: &JoinedCut) -> bool {
         let (stretch, part) = cut.parts[0];
         let before = part
@@ -235,7 +238,7 @@ impl Document {
         }
     }
 
-    /// Whether a number is left out among the numbers of a cut: a block is lost then.
+    /// Whether the numbers of a cut have a gap: a block is lost then.
     fn lacks_a_number(&self, cut: &JoinedCut) -> bool {
         let numbers: Vec<u32> = self
             .blocks_of(cut)
@@ -307,7 +310,7 @@ impl Document {
         }
     }
 
-    /// Text that is no block is a heading before the first block, a fault between blocks.
+    /// Text that is no block is a heading before the first block, and a fault between blocks.
     fn judge_texts(&self, view: &mut View) {
         let mut blocks = self.entries(0..self.stretches.len());
         let first_block = blocks.find(|(_, entry)| entry.block().is_some());

@@ -19,7 +19,7 @@ use crate::text::TextEdit;
 use std::ops::Range;
 
 impl Document {
-    /// The repairs of the contour in which a finding lies, the most likely one first.
+    /// The repairs of the contour with a finding, the most likely one first.
     pub(super) fn contour_fixes(&self, finding: &Finding) -> Vec<TextFix> {
         let Place::Text { range } = &finding.place else {
             return Vec::new();
@@ -148,7 +148,7 @@ impl Document {
         }
     }
 
-    /// The usual step of the numbers, as the first of them tell it.
+    /// The usual step of the numbers, by the first of them.
     fn number_step(&self) -> Option<u32> {
         let blocks = self.entries(0..self.stretches.len());
         let numbers = blocks
@@ -163,7 +163,7 @@ impl Document {
         self.before(at).find_map(|(_, entry)| entry.number())
     }
 
-    /// The blocks of a contour, those that cannot be read among them; `None` where there are too few or too many, or they are 4B.
+    /// The blocks of a contour, including unreadable ones; `None` where there are too few or too many, or they are 4B.
     fn pieces_of(&self, cut: &JoinedCut) -> Option<(Vec<At>, Vec<Piece>)> {
         if !BLOCKS.contains(&(cut.sum.blocks + cut.sum.unread)) {
             return None;
@@ -257,7 +257,7 @@ impl Document {
             }
             Change::Exchange { index } => {
                 let mut ranges = [own(*index)?, own(index + 1)?];
-                // With what stands behind and before them, where each has its line.
+                // With their neighbours, where each has its line.
                 if is_alone(*index)? && is_alone(index + 1)? {
                     ranges =
                         [line(*index)?, line(index + 1)?].map(|line| self.text.line_range(line));
@@ -283,7 +283,7 @@ impl Document {
         }
     }
 
-    /// A block in the place of what is left of it.
+    /// A block that replaces the remains of one.
     fn restoration(
         &self,
         own: Range<usize>,
@@ -306,7 +306,7 @@ impl Document {
         ))
     }
 
-    /// A line more, written as its neighbour is.
+    /// A new line in the style of its neighbour.
     fn insertion(
         &self,
         index: usize,
@@ -357,7 +357,7 @@ impl Document {
         let line_end = self.text.line_end(0);
         let edit = match index {
             0 => {
-                // What leads to the stop before a jump was cut.
+                // The way to the stop before a jump was cut.
                 let stop = places
                     .first()
                     .and_then(|first| self.before(*first).next())

@@ -1,4 +1,4 @@
-//! The findings of a program: those of its blocks, as far as they count where they stand, and those of the whole.
+//! The findings of a program: those of its blocks, where they count, and those of the whole.
 
 use super::super::fields::fields_of;
 use super::super::rules::{self, Counts};
@@ -10,7 +10,7 @@ use crate::program::report::{Found, Report, place_of};
 use crate::settings::SideSetting;
 use std::ops::Range;
 
-/// Where a finding is kept.
+/// The place where a finding is stored.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::program) enum Kept {
     InBlock { stretch: usize, index: usize },

@@ -1,4 +1,4 @@
-//! What hangs on one block following another: their numbers, and the places that they state.
+//! The sequence of blocks: their numbers, and their stated places.
 
 use super::super::entry::{Entry, What};
 use super::super::rules::block_number::{self, Numbered, Numbering, Sequence};
@@ -36,7 +36,7 @@ impl Document {
             return;
         };
         for stretch in stretches() {
-            // A stretch in which the numbers go on as before is not walked through.
+            // A stretch in which the numbers continue regularly is not read.
             let regular = match self.stretches[stretch].numbering {
                 Numbering::Regular { first, last, step }
                     if end.is_none_or(|end| stretch < end.stretch) =>
@@ -147,7 +147,7 @@ impl Document {
         }
         let mut before: Option<(usize, [f64; 2])> = None;
         for (ordinal, at, [x, y]) in off {
-            // One end point that is off on its own is off once there and once back.
+            // One wrong end point is off once on the way there and once on the way back.
             let goes_back = before.is_some_and(|(last, [a, b])| {
                 last + 1 == ordinal && (a + x).abs() <= 4.0 && (b + y).abs() <= 4.0
             });

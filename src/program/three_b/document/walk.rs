@@ -12,7 +12,7 @@ use crate::text::SourceText;
 use std::ops::Range;
 
 impl Document {
-    /// Where the machine goes, block by block, up to the end word.
+    /// The machine's way, block by block, up to the end word.
     pub fn trace(&self) -> Trace {
         steps::trace(self)
     }
@@ -45,13 +45,13 @@ impl Document {
         self.heading().map(|(at, _)| self.range_of(at))
     }
 
-    /// The end points that stand behind blocks, each with the byte at which its block begins.
+    /// The end points behind blocks, each with the byte at which its block begins.
     pub(in crate::program) fn stated_ends(&self) -> impl Iterator<Item = (usize, StatedPoint)> {
         let all = self.entries(0..self.stretches.len());
         all.filter_map(|(at, entry)| Some((self.range_of(at).start, entry.block()?.stated_end()?)))
     }
 
-    /// Where the machine stands before each stretch, µm.
+    /// The machine's position before each stretch, µm.
     pub(super) fn begins(&self) -> Vec<Point> {
         let (mut at, _) = self.begin();
         let begins = self.stretches.iter().map(|stretch| {

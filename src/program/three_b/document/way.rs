@@ -1,4 +1,4 @@
-//! What the cuts of a program come to, and their blocks as ways.
+//! The properties of a program's cuts, and their blocks as ways.
 
 use super::super::decode::meant;
 use super::super::entry::{BlockEntry, Entry, Move};

@@ -10,15 +10,15 @@ use crate::program::three_b::words::{Word, Words};
 use crate::text::SourceText;
 use std::ops::Range;
 
-/// Some lines as the reader finds them, and what comes of them on the way through the program.
+/// Some lines as the reader finds them, and what the way through the program adds.
 pub(super) struct Chunk {
     pub(crate) first_line: usize,
     pub(crate) lines: Vec<Line>,
     /// Blocks, words and headers of all lines, without faults and other text.
     pub(crate) items: Vec<Item>,
-    /// Where the blocks among them lead.
+    /// The ends of the blocks among them.
     pub(crate) ways: Vec<Option<Way>>,
-    /// What their stated end points are worth, one for each item.
+    /// The verdict on their stated end points, one for each item.
     pub(crate) stated: Vec<Stated>,
     /// Blocks before these lines.
     pub(crate) ordinal: u64,
@@ -39,7 +39,7 @@ pub(super) struct Way {
     pub(crate) is_arc: bool,
 }
 
-/// A stated end point, or where the block ends without one.
+/// A stated end point, or the end of a block without one.
 #[derive(Clone, Copy)]
 pub(super) enum Stated {
     /// It is the block's own.

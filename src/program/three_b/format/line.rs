@@ -12,9 +12,9 @@ use crate::settings::Layout;
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// A line in its new form: text, and the bytes of the old line that stand behind it as they are.
+/// A line in its new form: text, and the bytes of the old line that stay behind it.
 pub(super) struct Formed {
-    /// From here on the old line is replaced: behind a byte order mark.
+    /// The old line is replaced from here on: behind a byte order mark.
     pub(crate) from: usize,
     pub(crate) head: String,
     pub(crate) kept: Range<usize>,
@@ -81,7 +81,7 @@ impl Writer<'_> {
                 )
             })
             .count();
-        // A header stands alone; a number that no block has would be lost.
+        // A header stands alone; a number without a block would be lost.
         if self.items.is_empty()
             || has(Field::StartPoint) > 0
             || has(Field::Strange) > 0
@@ -159,7 +159,7 @@ impl Writer<'_> {
 
     fn push_number(&self, head: &mut Vec<u8>, number: u32) -> Option<()> {
         match self.layout {
-            // It stands for whatever was too large.
+            // It stands for a number that was too large.
             _ if number == u32::MAX => return None,
             Layout::Compact => head.extend_from_slice(format!("N{number} ").as_bytes()),
             Layout::Aligned | Layout::Checking => push_block_number(head, number.into()),
@@ -214,7 +214,7 @@ impl Writer<'_> {
             .unwrap_or_default()
     }
 
-    /// Reads the new form and compares: the same blocks, numbers that stand, words, in the same order, and no fault.
+    /// Reads the new form and compares: the same blocks, words and kept numbers in the same order, and no fault.
     fn reads_the_same(&self, line: &[u8], formed: &Formed) -> bool {
         let mut again: Vec<Item> = Vec::with_capacity(self.items.len());
         let text = match line.get(formed.kept.clone()) {

@@ -1,4 +1,4 @@
-//! The machine on its way through a program that is formatted, and what its stated end points are worth.
+//! The machine on its way through a program that is formatted, and the verdict on its stated end points.
 
 use super::chunk::{Chunk, Line, Stated, Way, count_blocks, has_end};
 use crate::geometry::Point;
@@ -9,7 +9,7 @@ use crate::program::three_b::parse::Item;
 use crate::program::three_b::words::Word;
 use crate::settings::Layout;
 
-/// How far a stated end point may lie from the block's own and still be it: 2 µm, and 1 µm for each arc since the last one.
+/// The tolerance for a stated end point, µm: 2, and 1 for each arc since the last one.
 const STATED_TOLERANCE: f64 = 2.0;
 
 /// The way through a program, line by line.
@@ -84,15 +84,15 @@ struct Stand {
     /// µm.
     at: Point,
     trust: Trust,
-    /// Arcs since a place that was told.
+    /// Arcs since the last stated place.
     arcs: f64,
 }
 
 impl Stand {
-    /// Moves on to a block's end, and tells what its stated end point is worth.
+    /// Moves on to a block's end, and judges its stated end point.
     ///
-    /// Where stated points stay in the text, what follows is held against them; where they go, against the blocks alone, so that
-    /// formatting again finds the same.
+    /// Where stated points stay in the text, later ones are compared with them; where they go, with the blocks alone,
+    /// so that formatting again finds the same.
     fn go_on(&mut self, stated: Option<StatedPoint>, way: Option<Way>, layout: Layout) -> Stated {
         let stated = stated
             .and_then(|StatedPoint { at: [x, y], .. }| node_of(Point::new(x * 1000.0, y * 1000.0)));
@@ -106,7 +106,7 @@ impl Stand {
                 self.arcs += f64::from(u8::from(is_arc));
                 self.at += by;
             }
-            // The block means nothing: from here on only a stated point says where the machine is.
+            // The block means nothing: from here on only a stated point gives the position.
             None => self.trust = Trust::Lost,
         }
         if let Some(node) = told
@@ -137,7 +137,7 @@ impl Stand {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Trust {
     Known,
-    /// The table may have been moved by hand while the wire was out: a stated point says where to.
+    /// The table may have been moved by hand while the wire was out: a stated point gives its place.
     UnlessStated,
     /// Behind something damaged.
     Lost,

@@ -203,7 +203,8 @@ proptest! {
     }
 }
 
-/// What is read and written in pieces is what is written in one: each line hangs on those before only by numbers and end points.
+/// Reading and writing in pieces equals doing it at once: a line depends on those before only by numbers and end
+/// points.
 #[test]
 fn a_long_program_is_written_like_a_short_one() {
     let lines = |from: usize, count: usize, expected: bool| -> String {

@@ -98,7 +98,8 @@ fn any_block() -> impl Strategy<Value = Block> {
         })
 }
 
-/// How many µm the counted axis moves from the ideal end to that of the machine along the arc, and for a line how far they are apart.
+/// How many µm the counted axis moves from the ideal end to that of the machine along the arc, and for a line their
+/// distance.
 fn counted_miss(ideal: &Segment, axis: CountingAxis, machine: Node) -> f64 {
     let machine = Point::new(machine.x as f64, machine.y as f64);
     let Some(arc) = ideal.as_arc() else {

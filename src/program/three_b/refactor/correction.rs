@@ -1,4 +1,4 @@
-//! Apply the correction to a program that holds the part's contour: the wire's path beside it, in its place.
+//! Apply the correction to a program that holds the part's contour: the wire's path replaces it.
 //!
 //! ```text
 //! B10000B0B10000GXL1          B9900B0B9900GXL1
@@ -6,8 +6,8 @@
 //! B10000B0B10000GXL3          B9900B0B9900GXL3
 //! ```
 //!
-//! The path is that of `wedm/generate` and proved as that is. It begins at the thread hole of the program and goes the same way round.
-//! Comments before the first block stay; others would stand at the wrong blocks and go.
+//! The path is that of `wedm/generate`, with its proof. It begins at the thread hole of the program and goes the same
+//! way round. Comments before the first block stay; others would stand at the wrong blocks and go.
 
 use super::{ThreeB, refuse_four_b};
 use crate::drawing::{self, Drawing, Entity, Geometry, Outline, Role, Unit, Vertex};
@@ -91,7 +91,7 @@ fn corrected(sheet: &Sheet<'_, ThreeB>, role: Role) -> Result<Vec<TextEdit>, Str
     replaced(sheet, content, &program.text)
 }
 
-/// The new program in the place of all blocks, words included.
+/// The new program, replacing all blocks and words.
 fn replaced(
     sheet: &Sheet<'_, ThreeB>,
     content: &Content<ThreeB>,
@@ -111,7 +111,7 @@ fn replaced(
         .unwrap_or(0);
     let end = text.line_range(last).end;
     let has_header = sheet.document.header().is_some();
-    // The header that stands there is right as well, and the start stays where it was.
+    // The present header is right as well, and the start stays where it was.
     let blocks = match program.strip_prefix("; Start Point") {
         Some(rest) if has_header || !sheet.trace.start_is_known => {
             rest.split_once('\n').map_or(rest, |(_, rest)| rest)

@@ -1,4 +1,4 @@
-//! How 3B and 4B are refactored: how its moves are told and written, and the refactorings that it alone has.
+//! Refactorings of 3B and 4B: how its moves are read and written, and the refactorings that it alone has.
 
 mod correction;
 mod layout;
@@ -31,7 +31,7 @@ use crate::text::TextEdit;
 /// 3B and 4B.
 pub(in crate::program) struct ThreeB;
 
-/// A block that stands in the place of another.
+/// A block that replaces another.
 #[derive(Clone, Debug)]
 pub(in crate::program) struct New {
     pub(crate) encoded: Encoded,
@@ -217,7 +217,7 @@ impl Notation for ThreeB {
         if runs_along { Ok(()) } else { Err(beside()) }
     }
 
-    /// A program whose numbers counted its blocks goes on doing so.
+    /// A program whose numbers counted its blocks keeps counting them.
     fn finishing(before: &Trace, after: &Document) -> Vec<TextEdit> {
         let counts = |trace: &Trace| {
             let mut blocks = trace.steps.iter().filter(|step| step.moves()).zip(1_u32..);
@@ -250,7 +250,7 @@ impl Notation for ThreeB {
     }
 }
 
-/// An error where a block carries 4B's radius: the program then holds the part's contour.
+/// An error where a block has 4B's radius: the program then holds the part's contour.
 fn refuse_four_b(content: &Content<ThreeB>) -> Result<(), String> {
     match content.rows.iter().find(|row| row.own.part.is_some()) {
         Some(row) => Err(say!(a_4b_block_cannot_be_calculated_anew, row.line + 1)),
@@ -258,7 +258,7 @@ fn refuse_four_b(content: &Content<ThreeB>) -> Result<(), String> {
     }
 }
 
-/// The blocks of a piece between two nodes, for the row `source`; none of their numbers is above the largest.
+/// The blocks of a piece between two nodes, for the row `source`; no number is above the largest.
 fn encoded(
     sheet: &Sheet<'_, ThreeB>,
     piece: &Segment,
@@ -283,8 +283,8 @@ fn encoded(
     Ok(blocks.into_iter().map(new).collect())
 }
 
-/// The piece between its nodes. An arc keeps its direction; its centre goes to the nearest place that is as far from both nodes,
-/// because nodes that were snapped, scaled or freed of drift lie beside it by as much.
+/// The piece between its nodes. An arc keeps its direction; its centre moves to the nearest place equally far from both
+/// nodes, because snapping, scaling or removing drift has moved the nodes by as much.
 fn fitted(piece: &Segment, from: Node, to: Node) -> Segment {
     let (start, end) = (point_of(from), point_of(to));
     match piece {

@@ -20,10 +20,10 @@ pub(in crate::program) struct Own {
     pub(crate) range: Range<usize>,
     pub(crate) block: Block,
     pub(crate) part: Option<PartArc>,
-    /// Its end point as the text states it.
+    /// Its end point, if the text states one.
     pub(crate) coordinates: Option<Range<usize>>,
     pub(crate) comment: Option<Range<usize>>,
-    /// Compact or aligned, as it stands.
+    /// Compact or aligned, as in the text.
     pub(crate) layout: Layout,
 }
 
@@ -128,7 +128,8 @@ pub(super) fn rows(
 /// Where blocks begin and end, and their pieces, µm.
 type Way = (Point, Point, Segment);
 
-/// The nodes of each row on the µm grid, from and to. Contours close exactly: what their arcs drift is taken back arc by arc.
+/// The nodes of each row on the µm grid, from and to. Contours close exactly: the drift of their arcs is taken back arc
+/// by arc.
 fn nodes(pieces: &[Way], contours: &[Contour]) -> Result<Vec<(Node, Node)>, String> {
     let node = |point: Point| {
         snap(point).ok_or_else(|| say!(the_path_runs_too_far_out_for_a_program).to_owned())

@@ -1,4 +1,4 @@
-//! What is written in the place of a block.
+//! The new text of a block.
 
 use super::{New, ThreeB};
 use crate::program::grid::Node;
@@ -30,7 +30,7 @@ fn new_header(text: &SourceText, header: &Range<usize>, start: Node) -> Result<T
     let mut line = Vec::new();
     push_start_point(&mut line, start);
     let line = String::from_utf8(line).map_err(|error| error.to_string())?;
-    // Only the header itself: what may stand before it in its line stays.
+    // Only the header itself: any text before it in its line stays.
     let old = text.bytes().get(header.clone()).unwrap_or_default();
     let line = line.trim_end();
     let new = if old.starts_with(b";") {
@@ -41,7 +41,7 @@ fn new_header(text: &SourceText, header: &Range<usize>, start: Node) -> Result<T
     Ok(TextEdit::new(header.clone(), new))
 }
 
-/// What stands in the place of one row: its number stays, its comment goes with its block.
+/// The replacement of one row: its number stays, its comment goes with its block.
 fn slot(
     text: &SourceText,
     content: &Content<ThreeB>,

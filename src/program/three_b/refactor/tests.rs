@@ -15,7 +15,7 @@ fn read(text: &str) -> Document {
     Document::read(text.as_bytes().to_vec())
 }
 
-/// The program behind a refactoring at the cursor `|`, or at line 0; the reason where it is refused.
+/// The program after a refactoring at the cursor `|`, or at line 0; the reason where it is refused.
 fn refactored(id: &str, text: &str) -> Result<String, String> {
     let offset = text.find('|').unwrap_or(0);
     let text = text.replacen('|', "", 1);
@@ -308,7 +308,7 @@ proptest! {
         let (area, length) = measure(&text);
         let run = |id: &str, text: &str| refactored(&format!("refactor.rewrite.{id}"), text);
         let again = |id: &str, times: usize| (0..times).try_fold(text.clone(), |text, _| run(id, &text));
-        // Area and length within what 2 µm at each node do to them.
+        // Area and length within the effect of 2 µm at each node.
         let blocks = text.lines().count() as f64;
         let near = |found: (f64, f64), sign: f64, scale: f64| {
             let room = 6.0 * blocks * scale.max(1.0);

@@ -3,7 +3,7 @@
 use crate::program::refactor::Transform;
 use crate::program::three_b::block::{Block, CountingAxis, Motion, Quadrant};
 
-/// The block that leads where this one leads, mirrored or turned.
+/// The block for the same move, mirrored or turned.
 pub(super) fn turned(block: &Block, transform: Transform) -> Block {
     let signed = |quadrant: Quadrant| {
         let (sign_x, sign_y) = quadrant.signs();

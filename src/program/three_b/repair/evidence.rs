@@ -1,4 +1,5 @@
-//! What the blocks of a contour hold for and against a change: coordinates, numbers, closing, and how the blocks meet.
+//! The evidence of a contour's blocks for and against a change: coordinates, numbers, closing, and the joints of the
+//! blocks.
 
 use super::super::entry::Move;
 use super::super::rules::position_mismatch::mismatch;
@@ -8,7 +9,7 @@ use crate::program::path::{HeldWay, Writing, closing, crossings_of};
 use crate::program::repair::gap::{SMOOTH, is_one_line};
 use crate::program::repair::search::Verdict;
 
-/// What speaks against a contour.
+/// The evidence against a contour.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Against {
     pub(crate) unread: usize,
@@ -24,7 +25,7 @@ impl Against {
     }
 }
 
-/// How the blocks of a contour meet.
+/// The joints of a contour's blocks.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Joints {
     smooth: i32,
@@ -32,7 +33,7 @@ pub(super) struct Joints {
     pub(crate) round: i32,
     /// Two lines that would have been written as one.
     split: i32,
-    /// Where the wire runs back on the way that it came.
+    /// Places where the wire runs back on the way that it came.
     doubled: i32,
     /// Sum of all turns, radians.
     turns: f64,
@@ -69,7 +70,7 @@ impl Suspect<'_> {
         against
     }
 
-    /// What a change comes to; `None` for what explains nothing.
+    /// The result of a change; `None` if it explains nothing.
     pub(super) fn verdict(&self, change: &Change, cost: f64) -> Option<Verdict> {
         let items = self.with(change);
         let after = self.against(&items);
@@ -90,7 +91,7 @@ impl Suspect<'_> {
             }
         );
         let is_better = match change {
-            // Where nothing else is wrong it has to run on better.
+            // Where there is no other fault it must make the joints better.
             Change::Exchange { .. } if was == 0 => left == 0 && gain >= 2 && joined.doubled <= 0,
             _ if restores => left < was || (left == was && after.is_open),
             Change::Insert { .. } => left == 0,
@@ -128,8 +129,8 @@ impl Suspect<'_> {
         })
     }
 
-    /// What lays a new way is never sure, what goes by the coordinates alone only where nothing else is wrong, and an arc for what is
-    /// written like a line only where coordinates say so.
+    /// A change that adds a way is never sure. One supported by the coordinates alone is sure only where there is no
+    /// other fault, and an arc for a block written like a line only where coordinates support it.
     fn may_be_sure(&self, change: &Change, left: usize) -> bool {
         match change {
             Change::Insert { .. } => false,
@@ -182,7 +183,7 @@ pub(super) fn joints(items: &[Item]) -> Joints {
     joints
 }
 
-/// What each block means where it is meant to begin, and where it leads to.
+/// The curve of each block at its intended start, and its end.
 fn ways(items: &[Item]) -> impl Iterator<Item = (Segment, Move)> {
     items.iter().scan(Move::default(), |at, item| {
         let [x, y] = at.meant_um();

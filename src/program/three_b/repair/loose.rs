@@ -1,4 +1,4 @@
-//! What is left of a block that cannot be read: its numbers, its axis and its motion, as far as they are there.
+//! The remains of an unreadable block: its numbers, its axis and its motion, as far as they are there.
 
 use super::super::around::n_word;
 use super::super::block::{Block, CountingAxis, Motion};
@@ -16,7 +16,7 @@ pub(in super::super) enum Number {
 /// A broken block.
 #[derive(Clone, Debug, PartialEq)]
 pub(in super::super) struct Loose {
-    /// From its first number to the last of it that is there.
+    /// From its first to its last number.
     pub(crate) range: Range<usize>,
     numbers: Vec<Vec<u8>>,
     axis: Option<CountingAxis>,
@@ -26,7 +26,7 @@ pub(in super::super) struct Loose {
     missing: usize,
 }
 
-/// One way to read it; `unknown` is the number that has to be found, 0 in the block.
+/// One way to read it; `unknown` is the missing number, 0 in the block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reading {
     pub(crate) block: Block,
@@ -34,7 +34,7 @@ pub(super) struct Reading {
     pub(crate) keys: usize,
 }
 
-/// What there is of one block in a text, which holds nothing else but a number before it and a comment behind it.
+/// The parts of one block in a text that holds nothing else but a number before it and a comment behind it.
 pub(in super::super) fn loose(text: &[u8]) -> Option<Loose> {
     let is_between = |byte: &u8| matches!(byte, b' ' | b'\t' | b'|');
     let skipped = |from: usize, skips: &dyn Fn(&u8) -> bool| {
@@ -144,7 +144,7 @@ impl Loose {
                 triples.push(([0, a, b], Some(Number::X), 2));
                 triples.push(([a, 0, b], Some(Number::Y), 2));
                 triples.push(([a, b, 0], Some(Number::J), 2));
-                // Nobody writes a number with a zero in front of it but J.
+                // Nobody writes a leading zero except in J.
                 let is_zero_led = |digits: &[u8]| digits.len() > 1 && digits[0] == b'0';
                 for cut in (1..one.len()).filter(|cut| !is_zero_led(&one[*cut..])) {
                     triples.push(([value(&one[..cut]), value(&one[cut..]), b], None, 1));

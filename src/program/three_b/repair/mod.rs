@@ -1,7 +1,7 @@
-//! A contour of 3B that something is wrong with: what its blocks may have been meant to be, and where they have to lead for all to be right.
+//! A faulty contour of 3B: the possible intended blocks, and their intended ends.
 //!
-//! What speaks against it is whether it closes, whether the coordinates and the numbers behind and before the blocks agree, and whether it
-//! runs on smoothly. Nothing is looked for in long contours.
+//! The evidence is whether it closes, whether the coordinates and numbers around the blocks agree, and whether it runs
+//! smoothly. Long contours are not searched.
 
 mod evidence;
 mod loose;
@@ -31,29 +31,29 @@ pub(super) type Repair = search::Repair<(Block, Slip)>;
 /// Contours of more blocks cost too long to try.
 pub(super) const BLOCKS: std::ops::RangeInclusive<usize> = 1..=1000;
 
-/// Contours of fewer blocks are open by too many changes to name one.
+/// Contours of fewer blocks could be closed by too many changes.
 pub(super) const FEWEST_BLAMED: usize = 4;
 
-/// How far coordinates of three decimals may lie from where a block ends, µm.
+/// The largest distance of coordinates with three decimals from a block's end, µm.
 const STATED: f64 = 4.0;
 
-/// Changes that are looked at.
+/// The most changes that are tried.
 const LOOKED_AT: usize = 400;
 
-/// Blocks that are gone through for them: in a long contour fewer changes are looked at.
+/// The most blocks that are run for them: in a long contour fewer changes are tried.
 const LOOKED_THROUGH: usize = 40_000;
 
 /// A block of a contour on its way, changed or not.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Item {
-    /// `None` where it cannot be read.
+    /// `None` for an unreadable one.
     pub(crate) block: Option<Block>,
     pub(crate) travel: Move,
     /// What it means, from the origin.
     pub(crate) way: Option<Segment>,
     pub(crate) stated: Option<StatedPoint>,
     pub(crate) number: Option<u32>,
-    /// A rule finds a fault in the block for itself.
+    /// A rule finds a fault in the block alone.
     pub(crate) is_faulty: bool,
 }
 
@@ -80,16 +80,16 @@ impl Item {
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
     pub(crate) item: Item,
-    /// What is left of it where it cannot be read.
+    /// Its remains, if it is unreadable.
     pub(crate) loose: Option<Loose>,
     /// X, Y and J as they are written.
     pub(crate) digits: [String; 3],
 }
 
-/// A contour that something is wrong with.
+/// A faulty contour.
 pub(super) struct Path<'a> {
     pub(crate) pieces: &'a [Piece],
-    /// What is stated before its first block, and the last number there.
+    /// The place stated before its first block, and the last number there.
     pub(crate) start: Option<StatedPoint>,
     pub(crate) number: Option<u32>,
     /// The usual step of the program's numbers, where its blocks have numbers.
@@ -97,16 +97,16 @@ pub(super) struct Path<'a> {
     pub(crate) limits: &'a Limits,
     /// It leads from one contour to the next.
     pub(crate) is_jump: bool,
-    /// Nothing is said of where it ends, for what it comes to with others.
+    /// Its end is unknown by itself, but it fits with others.
     pub(crate) is_closed: bool,
 }
 
 /// Which repairs are handed out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scope {
-    /// Of blocks that are wrong, and blocks twice.
+    /// Those of wrong blocks, and of doubled ones.
     Blocks,
-    /// Of blocks that are lost or exchanged, too.
+    /// Those of lost or exchanged blocks, too.
     All,
 }
 
@@ -126,17 +126,17 @@ struct Suspect<'a> {
     before: Against,
     joints: Joints,
     arcs: usize,
-    /// Where all of it leads.
+    /// The end of all of it.
     total: Move,
     /// The way out is the way in backwards.
     is_mirrored: bool,
-    /// It has to come back to where it began.
+    /// It must return to its start.
     closes: bool,
-    /// The blocks before which a number is left out.
+    /// The blocks before which a number is missing.
     lost: Vec<usize>,
 }
 
-/// Where a change leads: at which block, to what kind of block, on what radius, how far.
+/// The result of a change: at which block, what kind of block, what radius, how far.
 struct Lead {
     at: usize,
     kind: (Discriminant<Change>, Option<Discriminant<Motion>>),
@@ -244,7 +244,7 @@ impl Contour for Suspect<'_> {
                 by: [end.x, end.y],
                 near: STATED,
             })?;
-            // Coordinates between which a line along an axis is lacking speak for one that is lost.
+            // Coordinates without a line along an axis between them are evidence for a lost one.
             let is_plain = self.stated(index).is_some() && (line.x == 0 || line.y == 0);
             return Some(((line, Slip::Coordinates), if is_plain { 1.3 } else { 2.5 }));
         };
@@ -252,7 +252,8 @@ impl Contour for Suspect<'_> {
         let largest = self.path.limits.largest();
         encode(way, Node { x: 0, y: 0 }, node, largest, &mut blocks)?;
         let [one] = &blocks[..] else { return None };
-        // A half turn or more joins two sides of a slot, where all else runs smoothly, and is a corner's line elsewhere.
+        // A half turn or more joins two sides of a slot where everything else is smooth, and elsewhere replaces a
+        // corner's line.
         let is_likely =
             arc.sweep.abs() < 2.9 || 2 * self.joints.round > self.items.len() as i32 - 2;
         Some((
@@ -362,7 +363,7 @@ impl<'a> Suspect<'a> {
         self.items.get(index.checked_sub(1)?)
     }
 
-    /// What is stated before a block, or before the first one.
+    /// The place stated before a block, or before the first one.
     fn stated_before(&self, index: usize) -> Option<StatedPoint> {
         match index {
             0 => self.path.start,
@@ -382,7 +383,7 @@ impl<'a> Suspect<'a> {
         mismatch(from, &self.items[index].travel, to).map(|_| stated)
     }
 
-    /// Where a block has to lead for all to be right, and whether coordinates say so.
+    /// The end that a block must have for everything to be right, and whether coordinates say so.
     fn wanted(&self, index: usize) -> Vec<(Wanted, bool)> {
         let item = &self.items[index];
         if let Some([from, to]) = self.stated(index) {

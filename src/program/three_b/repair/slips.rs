@@ -1,4 +1,4 @@
-//! The blocks that one slip makes of a block, as far as they lead where the path wants.
+//! The blocks that differ from a block by one slip and lead to the intended end.
 
 use super::super::block::{Block, Motion, Quadrant};
 use super::super::decode::meant;
@@ -12,25 +12,25 @@ use crate::geometry::{Arc, Point, Segment};
 use crate::program::grid::Node;
 use crate::program::repair::keys::{self, Key};
 
-/// What each µm asks for by which a repair leads beside where it should.
+/// The cost of each µm between a repair's end and the intended one.
 const MISS: f64 = 0.2;
 
-/// What the other one of two quadrants asks for between which a start or a direction lies.
+/// The cost of the other one of two quadrants when a start or a direction lies between them.
 const UNUSUAL: f64 = 0.3;
 
-/// What a repair of a block changes in it.
+/// The part of a block that a repair changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in super::super) enum Slip {
     /// Z: the quadrant, the turn, or a line for an arc.
     Motion,
     Axis,
-    /// X and Y stand for each other.
+    /// X and Y exchanged.
     Exchanged,
     /// One digit of a number, or any other value of it.
     Number(Number, Digits),
-    /// All that leads to the coordinates behind the block.
+    /// Everything that leads to the coordinates behind the block.
     Coordinates,
-    /// A block that cannot be read; `keys` are put in or taken out.
+    /// An unreadable block; `keys` are inserted or removed.
     Unread {
         keys: usize,
     },
@@ -42,7 +42,7 @@ pub(in super::super) enum Digits {
     Any,
 }
 
-/// Where a block has to lead, µm, and how near.
+/// The intended end of a block, µm, and its tolerance.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wanted {
     pub(crate) by: [f64; 2],
@@ -78,7 +78,7 @@ pub(in super::super) fn is_sound(block: &Block, limits: &Limits) -> bool {
     !rules::check(block, None, limits).iter().any(is_fault)
 }
 
-/// True where the quadrant is the one that is written for a start or a direction on an axis.
+/// True where the quadrant is the customary one for a start or a direction on an axis.
 pub(super) fn is_usual(block: &Block) -> bool {
     let quadrant = block.motion.quadrant();
     let (sx, sy) = quadrant.signs();
@@ -90,7 +90,8 @@ pub(super) fn is_usual(block: &Block) -> bool {
     (x, y) == (0, 0) || quadrant == usual
 }
 
-/// The sound blocks that differ from one by a slip and lead where it is wanted. `digits` are its numbers as they are written.
+/// The sound blocks that differ from one by a slip and lead to the intended end. `digits` are its numbers as they are
+/// written.
 pub(super) fn blocks_to(
     block: &Block,
     digits: &[String; 3],
@@ -111,7 +112,7 @@ pub(super) fn blocks_to(
     for number in [Number::X, Number::Y, Number::J] {
         for (value, how) in values(block, number, digits, wanted) {
             let changed = with(block, number, value);
-            // A full turn, or a line in another scale, comes of no number that was not nearly written.
+            // A full turn, or a line in another scale, does not come from a number that was not nearly written.
             let is_scaled =
                 number == Number::J && block.motion.is_line() && value != block.x.max(block.y);
             if how == Digits::One || !(is_scaled || is_full_turn(&changed)) {
@@ -137,8 +138,8 @@ pub(super) fn with(block: &Block, number: Number, value: i64) -> Block {
     }
 }
 
-/// Values of a number with which a block may lead where it is wanted: those that are one digit from what is written first. A digit more
-/// is one that is doubled.
+/// Values of a number with which a block may lead to the intended end: those one digit from the written one first. A
+/// digit too many is a doubled one.
 fn values(
     block: &Block,
     number: Number,
@@ -161,10 +162,10 @@ fn values(
     slips.chain([(value, Digits::Any)]).collect()
 }
 
-/// How far round a solved value one is looked for that is nearly written, µm.
+/// How far from a solved value the nearly written one is searched for, µm.
 const ROUND: i64 = 40;
 
-/// The value of a number that leads where it is wanted, and how far it is uncertain, µm.
+/// The value of a number that leads to the intended end, and its uncertainty, µm.
 pub(super) fn solved(block: &Block, number: Number, wanted: &Wanted) -> Option<(i64, i64)> {
     let [dx, dy] = wanted.by;
     let whole = |value: f64| {
@@ -176,7 +177,7 @@ pub(super) fn solved(block: &Block, number: Number, wanted: &Wanted) -> Option<(
         (Motion::Line(_), Number::J) => {
             let along = wanted.by[block.axis as usize];
             let larger = block.x.max(block.y);
-            // The projection where it leads there, without what the others have added up to.
+            // The projection if it leads there, without the errors that the others have added up.
             let near = (along.abs() - larger as f64).abs() <= wanted.near;
             Some((if near { larger } else { whole(along.abs())? }, 0))
         }
@@ -224,7 +225,7 @@ pub(super) fn straight(wanted: &Wanted) -> Option<Block> {
 }
 
 impl Suspect<'_> {
-    /// What a block that can be read may have been meant to be.
+    /// The possible intended blocks for a readable one.
     pub(super) fn replaced(
         &self,
         block: &Block,
@@ -239,7 +240,7 @@ impl Suspect<'_> {
                 let is_other_kind = block.motion.is_line() != changed.motion.is_line();
                 let cost = match slip {
                     Slip::Number(Number::J, Digits::Any) => 1.6,
-                    // Along an axis nothing of a number stands there.
+                    // Along an axis the number has nothing to go by.
                     Slip::Number(_, Digits::Any) if block.x == 0 || block.y == 0 => 3.4,
                     Slip::Number(_, Digits::Any) => 2.6,
                     Slip::Motion if is_other_kind && is_like_line && changed.motion.is_line() => {
@@ -259,7 +260,7 @@ impl Suspect<'_> {
         found
     }
 
-    /// What a block that cannot be read may have been meant to be.
+    /// The possible intended blocks for an unreadable one.
     pub(super) fn restored(
         &self,
         loose: &Loose,
@@ -285,15 +286,15 @@ impl Suspect<'_> {
                 }
             }
         }
-        // What it says by itself, where nothing says where it leads.
+        // By its own content, where nothing tells its end.
         let whole = readings.iter().filter(|reading| reading.unknown.is_none());
         whole.for_each(|reading| take(reading.block, reading.keys, 1.0));
         found
     }
 }
 
-/// What a block asks for that is read with so many keys more or less: one that is written like a line is no arc, and a line is seldom
-/// a ratio.
+/// The cost of a block that is read with this many keys more or less: one written like a line is no arc, and a line is
+/// seldom a ratio.
 fn restored(block: &Block, keys: usize) -> f64 {
     let is_like_a_line = block.j == block.x.max(block.y) || (block.x, block.y) == (0, 0);
     let is_odd = is_like_a_line != block.motion.is_line();

@@ -14,7 +14,7 @@ fn check(outlook: &Outlook) -> Option<Observation> {
     has_none.then(|| Observation::at(Spot::Block, Fault::ArcWithoutRadius))
 }
 
-/// Without it the way is the same: safe where the contour closes then.
+/// Without it the way is the same: safe if the contour then closes.
 fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
     vec![site.delete(FixKind::DeleteBlock, (site.closes_with)(&[]))]
 }

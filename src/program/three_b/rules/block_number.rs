@@ -1,4 +1,4 @@
-//! `block-number`: a number stands twice, is out of its turn, or is missing where the others have one.
+//! `block-number`: a number is repeated, out of its turn, or missing where the others have one.
 
 use crate::finding::Fault;
 
@@ -8,7 +8,7 @@ pub(in super::super) struct Numbered {
     pub(crate) number: Option<u32>,
     /// The first block behind a pause: counting may begin anew.
     pub(crate) is_after_pause: bool,
-    /// It cannot be read: whether it has a number is not known.
+    /// Unreadable: whether it has a number is unknown.
     pub(crate) is_unread: bool,
 }
 
@@ -85,13 +85,13 @@ impl Numbering {
     }
 }
 
-/// Blocks whose numbers tell the step.
+/// The number of blocks that determine the step.
 pub(in super::super) const FIRST: usize = 16;
 
-/// What is wrong in the sequence: the index of each block concerned, and the number that it should have where that is plain.
+/// The faults in the sequence: the index of each block concerned, and its intended number where that is plain.
 ///
-/// The step is the one that most of the first numbers have. Where fewer than three of four blocks have a number, or more than half of
-/// them are out of turn, the numbers follow another rule, and nothing is said.
+/// The step is the one that most of the first numbers have. Where fewer than three of four blocks have a number, or
+/// more than half of them are out of turn, the numbers follow another rule, and there is no finding.
 pub(in super::super) fn check(blocks: &[Numbered]) -> Vec<(usize, Fault, Option<u32>)> {
     let first = blocks.iter().find_map(|block| block.number);
     let Some(mut sequence) = Sequence::of(&blocks[..blocks.len().min(FIRST)], first) else {
@@ -103,7 +103,7 @@ pub(in super::super) fn check(blocks: &[Numbered]) -> Vec<(usize, Fault, Option<
     sequence.found()
 }
 
-/// The numbers of a program as they come, and what is wrong with them; `P` is a block's place.
+/// The sequence of a program's numbers, and its faults; `P` is a block's place.
 pub(in super::super) struct Sequence<P> {
     step: u32,
     first: u32,
@@ -115,7 +115,8 @@ pub(in super::super) struct Sequence<P> {
 }
 
 impl<P> Sequence<P> {
-    /// `blocks` are up to [`FIRST`] of the first ones, `first` the first number of all; `None` where these tell no step.
+    /// `blocks` are up to [`FIRST`] of the first ones, `first` the first number of all; `None` where these give no
+    /// step.
     pub(crate) fn of(blocks: &[Numbered], first: Option<u32>) -> Option<Sequence<P>> {
         let numbers: Vec<Option<u32>> = blocks.iter().map(|block| block.number).collect();
         let step = usual_step(&numbers)?;
@@ -179,8 +180,8 @@ impl<P> Sequence<P> {
         }
     }
 
-    /// Takes `count` blocks at once that are numbered from `first` on to `last` by `step`, where they are in their turn; false where they
-    /// are not.
+    /// Takes `count` blocks at once that are numbered from `first` to `last` by `step`, if they are in their turn;
+    /// false otherwise.
     pub(crate) fn skip(&mut self, first: u32, last: u32, step: u32, count: usize) -> bool {
         let expected = self
             .before
@@ -211,7 +212,7 @@ impl<P> Sequence<P> {
     }
 }
 
-/// The difference that most of the numbers have to the one before; the smaller one of two that are as frequent.
+/// The most frequent difference between consecutive numbers; the smaller one of two that are equally frequent.
 pub(in super::super) fn usual_step(numbers: &[Option<u32>]) -> Option<u32> {
     let step = |pair: &[Option<u32>]| pair[1]?.checked_sub(pair[0]?);
     let steps: Vec<u32> = numbers

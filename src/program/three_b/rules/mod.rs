@@ -1,7 +1,7 @@
-//! The rules on 3B programs: one file each, its check and its fixes.
+//! The rules on 3B programs: one file each, with its check and its fixes.
 //!
-//! A rule on a single block sees that block alone ([`Outlook`]) and is asked when its line is read; a rule on the whole program sees the
-//! stretches of lines that have been read. Fixes are made when somebody asks for them, from the text as it stands then ([`Site`]).
+//! A rule on a single block sees that block alone ([`Outlook`]) and runs when its line is read; a rule on the whole
+//! program sees the stretches that have been read. Fixes are made on demand, from the present text ([`Site`]).
 
 mod arc_without_radius;
 mod block_number_as_b;
@@ -29,21 +29,21 @@ use crate::settings::{Compensation, Effective, SideSetting};
 use crate::text::TextEdit;
 use std::ops::Range;
 
-/// How far J may lie from the exact projection, µm: published programs stay within it.
+/// The largest deviation of J from the exact projection, µm: published programs stay within it.
 pub(super) const J_TOLERANCE: f64 = 2.0;
 
-/// How near to a tie of the two axes nothing is said about G, µm.
+/// This near to a tie of the two axes, µm, either G is accepted.
 pub(super) const TIE: i64 = 1;
 
-/// The same for the end of an arc: the end moves with what J is rounded by, twice where both coordinates change.
+/// The same for the end of an arc: the end moves with the rounding of J, twice where both coordinates change.
 pub(super) const ARC_TIE: f64 = 2.0 * J_TOLERANCE;
 
-/// What the settings make of the rules.
+/// The settings for the rules.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Limits {
     /// Digits of the controller's numbers.
     pub(crate) digits: u32,
-    /// What they hold, µm.
+    /// The largest number with these digits, µm.
     largest: i64,
     /// mm.
     pub(crate) correction: f64,
@@ -103,11 +103,11 @@ impl Spot {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Counts {
     Always,
-    /// Only where the contour does not close: else the block is what was meant.
+    /// Only where the contour does not close: else the block is meant as it is.
     IfOpen,
-    /// Where the contour closes, the block is what was meant in an unusual way: it is told as that.
+    /// Where the contour closes, the block is meant in an unusual way, and the finding says so.
     MildIfClosed,
-    /// Only where no block of the contour is wrong for itself.
+    /// Only where no block of the contour has a fault of its own.
     IfAlone,
     /// Only where the wire runs on the arc's centre side; the arc turns left or not.
     IfInside {
@@ -115,7 +115,7 @@ pub(super) enum Counts {
     },
 }
 
-/// What a rule sees in a block.
+/// The faults of a block for a rule.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Observation {
     pub(crate) rule: Rule,
@@ -160,7 +160,7 @@ struct BlockRule {
     fixes: fn(&Site, &Fault) -> Vec<TextFix>,
 }
 
-/// They are asked in this order. What the first [`ALONE`] of them find leaves nothing for others to see in a block.
+/// They run in this order. A finding of the first [`ALONE`] of them ends the search in a block.
 const RULES: [BlockRule; 12] = [
     zero_block::RULE,
     arc_without_radius::RULE,
@@ -177,7 +177,7 @@ const RULES: [BlockRule; 12] = [
 ];
 const ALONE: usize = 2;
 
-/// What is wrong with a block for itself.
+/// The faults of a block by itself.
 pub(super) fn check(block: &Block, part: Option<PartArc>, limits: &Limits) -> Vec<Observation> {
     let outlook = Outlook {
         block,
@@ -194,7 +194,7 @@ pub(super) fn check(block: &Block, part: Option<PartArc>, limits: &Limits) -> Ve
     }
 }
 
-/// A block in its text, for those who make fixes.
+/// A block in its text, for making fixes.
 pub(super) struct Site<'a> {
     pub(crate) text: &'a [u8],
     /// The block's bytes, and those of its line with its line end.
@@ -204,7 +204,7 @@ pub(super) struct Site<'a> {
     pub(crate) block: Block,
     /// The largest number that the controller takes, µm.
     pub(crate) largest: i64,
-    /// Whether a contour closes when other blocks stand in the place of this one.
+    /// Whether a contour closes with other blocks in place of this one.
     pub(crate) closes_with: &'a dyn Fn(&[Block]) -> bool,
 }
 
@@ -215,7 +215,7 @@ impl Site<'_> {
         TextEdit::new(range.clone(), text.into())
     }
 
-    /// Another block in its place.
+    /// Replaces the block.
     fn made(&self, new: &Block) -> Vec<TextEdit> {
         self.fields.changed(self.text, &self.block, new)
     }
@@ -248,7 +248,7 @@ pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     own.map_or_else(Vec::new, |own| (own.fixes)(site, fault))
 }
 
-/// A fix that changes one thing, to be made without asking only where the contour then closes.
+/// A fix that changes one thing, made unasked only where the contour then closes.
 fn one_edit(kind: FixKind, edit: Vec<TextEdit>, preferred: bool, in_fix_all: bool) -> TextFix {
     Fix::text(kind, in_fix_all, edit).preferred_if(preferred)
 }

@@ -1,6 +1,7 @@
-//! `position-mismatch`: the coordinates behind a block are not where it leads from those before.
+//! `position-mismatch`: the coordinates behind a block differ from its end, relative to those before.
 //!
-//! Each end point is held against the one before it and the block between them, so that one wrong block is one finding.
+//! Each end point is compared with the one before it and the block between them, so that one wrong block is one
+//! finding.
 
 use super::super::around::StatedPoint;
 use super::super::block::{Block, CountingAxis, Motion, Node};
@@ -14,10 +15,11 @@ use crate::program::three_b::fields::Fields;
 use crate::text::{TextEdit, WIDEST_COLUMN};
 use std::ops::Range;
 
-/// How far coordinates of three decimals may lie off, µm: both ends are rounded, and J of an arc moves its end by two µm on each axis.
+/// The tolerance for coordinates of three decimals, µm: both ends are rounded, and J of an arc moves its end by two µm
+/// on each axis.
 const TOLERANCE: f64 = 4.0;
 
-/// Where the stated end lies from where the block leads, µm, on an axis on which that is too far.
+/// The displacement of the stated end from the block's, µm, on an axis on which it is too large.
 pub(in super::super) fn mismatch(
     before: &StatedPoint,
     travel: &Move,
@@ -40,13 +42,13 @@ pub(in super::super) fn mismatch(
 /// The end points that stand behind the blocks of a stretch.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in super::super) struct Positions {
-    /// Pairs of end points in the stretch that were held against each other.
+    /// Pairs of end points in the stretch that were compared.
     pub compared: usize,
-    /// Those that are off, by the number of the block in the stretch, its entry, and by how much in µm.
+    /// The wrong ones, by the number of the block in the stretch, its entry, and the displacement in µm.
     pub off: Vec<(usize, usize, [f64; 2])>,
-    /// Entry, end point and displacement of the first block, where nothing in the stretch stands before it.
+    /// Entry, end point and displacement of the first block with an end point in the stretch.
     pub first: Option<(usize, StatedPoint, Move)>,
-    /// What the next stretch's first end point is held against: `None` where nothing in this stretch says.
+    /// The place for comparing the next stretch's first end point; `None` where this stretch gives none.
     pub anchor: Option<Option<StatedPoint>>,
 }
 
@@ -66,10 +68,10 @@ impl Positions {
     }
 }
 
-/// More of the end points than this share are off: the numbers are something else than end points.
+/// If a larger share of the end points is wrong, the numbers are not end points.
 pub(in super::super) const FOREIGN: f64 = 0.5;
 
-/// A block whose coordinates are off, for those who make its fixes.
+/// A block with wrong coordinates, for making its fixes.
 pub(in super::super) struct Mismatched<'a> {
     pub(crate) text: &'a [u8],
     pub(crate) block: Block,
@@ -78,15 +80,16 @@ pub(in super::super) struct Mismatched<'a> {
     pub(crate) coordinates: Range<usize>,
     pub(crate) before: StatedPoint,
     pub(crate) stated: StatedPoint,
-    /// Whether the next block leads on from these coordinates (`true`) or from where this block ends; `None` where nothing says.
+    /// Whether the next block leads on from these coordinates (`true`) or from the end of this block; `None` where that
+    /// is unknown.
     pub(crate) goes_on: Option<bool>,
-    /// The contour closes as its blocks stand, and with another block in the place of this one.
+    /// Whether the contour closes with its blocks as they are, and with another block in place of this one.
     pub(crate) closes: bool,
     pub(crate) closes_with: &'a dyn Fn(&[Block]) -> bool,
 }
 
-/// The coordinates become those of the block's end, or the block one that ends at them, as the coordinates behind allow. Made without
-/// asking only where the contour says which of the two is wrong.
+/// The coordinates become the block's end, or the block becomes one that ends at the coordinates. Made unasked only
+/// where the contour shows which of the two is wrong.
 pub(in super::super) fn fixes(site: &Mismatched<'_>) -> Vec<TextFix> {
     let coordinates = if site.goes_on == Some(true) {
         None
@@ -163,7 +166,7 @@ fn set_coordinates(site: &Mismatched<'_>) -> Option<(FixKind, Vec<TextEdit>)> {
     (!edit.is_empty()).then_some((FixKind::SetCoordinates { at }, edit))
 }
 
-/// The block with which the way goes from the coordinates before to those behind: a line, or the same circle as far as that.
+/// The block that leads from the coordinates before to those behind: a line, or the same circle up to there.
 fn set_block(site: &Mismatched<'_>) -> Option<(Block, Vec<TextEdit>)> {
     let by = [0, 1].map(|axis| (site.stated.at[axis] - site.before.at[axis]) * 1000.0);
     let block = match meant(&site.block, Point::origin()) {

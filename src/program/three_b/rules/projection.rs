@@ -1,9 +1,9 @@
-//! How the J of a line stands to its X and Y.
+//! The relation of a line's J to its X and Y.
 
 use super::{J_TOLERANCE, Outlook};
 use crate::program::three_b::block::{Block, CountingAxis, Motion};
 
-/// What J of a line says.
+/// The meaning of a line's J.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Length {
     /// The projection on the counted or on the larger axis, or X and Y are left out.
@@ -12,7 +12,8 @@ pub(super) enum Length {
     Ratio,
     /// The length of the line itself.
     Euclid,
-    /// Nothing of these. `is_certain` where it cannot be a ratio either: nobody takes out a factor of a line along an axis that is not whole.
+    /// None of these. `is_certain` where it cannot be a ratio either: nobody takes out a factor that is not whole from
+    /// a line along an axis.
     Misfit { is_certain: bool },
 }
 

@@ -1,5 +1,4 @@
-//! `reversed-arc`: what can be done about an arc that runs the wrong way round. That it does is told by its joints
-//! ([`crate::program::path`]).
+//! `reversed-arc`: the fixes for an arc that runs the wrong way round. Its joints reveal it ([`crate::program::path`]).
 
 use super::{BlockRule, Site, TextFix, one_edit};
 use crate::finding::{Fault, FixKind, Rule};

@@ -1,7 +1,7 @@
 //! `small-radius` in a program that holds the part's contour: the controller makes the arc smaller by its correction.
 //!
-//! A 4B block says on which side of the arc the wire runs (`DD` inside). A 3B program holds the part's contour only where the
-//! settings say so (`compensation = "controller"` or `"none"`); the wire's own path rightly has arcs down to nothing.
+//! A 4B block gives the wire's side of the arc (`DD` inside). A 3B program holds the part's contour only where the
+//! settings say so (`compensation = "controller"` or `"none"`); the wire's own path may have arcs down to nothing.
 
 use super::{BlockRule, Counts, Observation, Outlook, Spot};
 use crate::finding::{Detail, Rule, SmallRadius};

@@ -1,10 +1,10 @@
-//! `text-after-end`: something stands behind the word that ends the program. The controller never comes to it.
+//! `text-after-end`: text behind the word that ends the program. The controller never reaches it.
 
 use super::{TextFix, one_edit};
 use crate::finding::FixKind;
 use crate::text::{SourceText, TextEdit};
 
-/// Takes away all lines behind the one in which the program ends.
+/// Removes all lines behind the one in which the program ends.
 pub(in super::super) fn fixes(text: &SourceText, end: usize) -> Vec<TextFix> {
     let kept = text.line_range(text.line_of(end)).end;
     let edit = vec![TextEdit::new(kept..text.len(), "")];

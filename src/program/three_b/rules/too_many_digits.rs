@@ -1,4 +1,4 @@
-//! `too-many-digits`: a number that the controller has no digits for.
+//! `too-many-digits`: a number with more digits than the controller has.
 
 use super::projection::is_misfit;
 use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix, one_edit};
@@ -35,7 +35,7 @@ fn check(outlook: &Outlook) -> Option<Observation> {
     ))
 }
 
-/// The way in pieces that fit. More than this many are a fault of the number, not of its size.
+/// The way in pieces that fit. Beyond this many the number is wrong, not just large.
 const MOST_PIECES: usize = 64;
 
 fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {

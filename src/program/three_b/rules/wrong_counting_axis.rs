@@ -1,7 +1,8 @@
 //! `wrong-counting-axis`: G names the axis on which the block hardly moves at its end.
 //!
-//! A line counts its larger projection. An arc counts the axis along which it runs at its end: X where the end lies nearer to the Y
-//! axis of its centre, Y where it lies nearer to the X axis. Counted on the other axis, one µm of J is many µm of the way.
+//! A line counts its larger projection. An arc counts the axis along which it runs at its end: X where the end lies
+//! nearer to the Y axis of its centre, Y where it lies nearer to the X axis. On the other axis, one µm of J is many µm
+//! of the way.
 
 use super::{ARC_TIE, BlockRule, Observation, Outlook, Site, Spot, TIE, TextFix, one_edit};
 use crate::finding::{Axis, Fault, FixKind, Rule};
@@ -21,7 +22,7 @@ fn check(outlook: &Outlook) -> Option<Observation> {
     if outlook.is_line() {
         let Block { x, y, j, .. } = *outlook.block;
         let (counted, other) = if axis == Axis::X { (x, y) } else { (y, x) };
-        // A ratio is as near to a tie as the line that it stands for.
+        // A ratio is as near to a tie as its line.
         let scale = if other > 0 && j > other { j / other } else { 1 };
         let contradicts = other > 0 && (other - counted).saturating_mul(scale) > TIE;
         return contradicts.then(|| {
@@ -77,7 +78,7 @@ fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
         if (site.block.j - larger).abs() <= 2 || (is_ratio && (site.closes_with)(&[flipped])) {
             return vec![only_axis(true)];
         }
-        // J counted the smaller projection; of a ratio, the scale goes with it.
+        // J counted the smaller projection; the scale of a ratio changes with it.
         let smaller = site.block.x.min(site.block.y);
         let j = match (is_ratio, smaller) {
             (true, 1..) => (site.block.j as f64 * larger as f64 / smaller as f64).round() as i64,

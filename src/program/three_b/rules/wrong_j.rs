@@ -1,7 +1,7 @@
 //! `wrong-j`: J of a line is neither its projection nor the scale of a ratio.
 //!
-//! Where X or Y has one digit too many or too few it is the number that is wrong, and J is right: what makes the contour close
-//! tells which.
+//! Where X or Y has one digit too many or too few, that number is wrong and J is right: the change that makes the
+//! contour close decides.
 
 use super::projection::{Length, length};
 use super::{BlockRule, Counts, Observation, Outlook, Site, Spot, TextFix, one_edit};

@@ -1,7 +1,7 @@
-//! `wrong-quadrant`: Z contradicts a line along an axis, or it is what keeps the contour open.
+//! `wrong-quadrant`: Z contradicts a line along an axis, or keeps the contour open.
 //!
-//! +X is `L1`, +Y `L2`, −X `L3`, −Y `L4`. Since a zero has no sign, the other quadrant at the same half axis leads to the same place;
-//! it is an error only where nothing but Z tells the direction, or where the contour does not close.
+//! +X is `L1`, +Y `L2`, −X `L3`, −Y `L4`. Since a zero has no sign, the other quadrant at the same half axis leads to
+//! the same place; it is an error only where Z alone gives the direction, or where the contour does not close.
 
 use super::{BlockRule, Counts, Observation, Outlook, Site, Spot, TextFix, one_edit};
 use crate::finding::{Axis, Fault, FixKind, Rule};
@@ -82,7 +82,7 @@ fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
                 same
             };
             let mut names = vec![first];
-            // The other one leads the other way, which nobody has a reason to want where the contour closes.
+            // The other one leads the other way, which nobody wants where the contour closes.
             names.extend(
                 expected
                     .iter()

@@ -201,8 +201,8 @@ fn corners_beside_arcs_get_their_transition_in_four_b() {
     );
 }
 
-/// A part's contour as 4B holds the controller's correction; `none` says that it is the wire's own path, and its arcs are held against the
-/// correction all the same.
+/// A part's contour as 4B assumes the controller's correction; `none` makes it the wire's own path, and its arcs are
+/// checked against the correction all the same.
 #[test]
 fn tight_arcs_of_four_b_are_found_whatever_the_compensation() {
     let arc = |radius: i64, side: &str| {

@@ -1,4 +1,4 @@
-//! What is read of a text, damaged or not.
+//! The reading of a text, damaged or not.
 
 use super::blocks;
 use crate::geometry::Point;
