@@ -1,11 +1,12 @@
 //! wedm: a language server for wire EDM.
 //!
-//! The floors, from the top, each of which imports only floors below it: [`cli`]; [`server`]; [`ide`], [`job`], [`protocol`]; [`document`],
-//! [`picture`]; [`beside`]; [`analysis`], [`program`]; [`fit`]; `rules`, [`toolpath`]; [`dxf`], [`settings`]; [`finding`]; [`drawing`];
-//! [`rule`]; [`geometry`], [`text`], [`message`], `disk`. `docs/architecture.md` is the map and says what each is for.
+//! The floors, from the top, each of which imports only floors below it: [`cli`]; [`server`]; [`ide`], [`job`],
+//! [`protocol`]; [`document`], [`picture`]; [`beside`]; [`analysis`], [`program`]; [`fit`]; `rules`, [`toolpath`];
+//! [`dxf`], [`settings`]; [`finding`]; [`drawing`]; [`rule`]; [`geometry`], [`text`], [`message`], `disk`.
+//! `docs/architecture.md` is the map and describes each.
 //!
-//! Nothing here may panic. Rooms that read what others have written index nothing; where the others do, the index was counted from the
-//! same list a few lines before, and properties and fuzz targets run it.
+//! Nothing here may panic. Rooms that read foreign input do not index; elsewhere an index was counted from the same
+//! list a few lines before, and properties and fuzz targets run it.
 
 #![warn(
     clippy::unwrap_used,

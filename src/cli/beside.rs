@@ -14,7 +14,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Programs, each with its drawing.
 type Programs = Arc<Vec<(PathBuf, PathBuf)>>;
 
-/// What is known of folders: each is looked at once.
+/// The folders searched so far: each is searched once.
 #[derive(Default)]
 pub(crate) struct Folders {
     /// The programs in a folder, each with its drawing.
@@ -22,7 +22,7 @@ pub(crate) struct Folders {
 }
 
 impl Folders {
-    /// What lies beside a document that was read from `path`.
+    /// The partners of a document that was read from `path`.
     pub fn beside(
         &self,
         path: &Path,

@@ -1,4 +1,4 @@
-//! What a command changes in a file, shown as a diff.
+//! The changes of a command to a file, shown as a diff.
 
 use super::{Failure, output};
 use crate::message::readable;

@@ -1,4 +1,4 @@
-//! `wedm contours`: what is chained to what.
+//! `wedm contours`: the chained contours.
 
 use super::options::{Common, Form};
 use super::output::{self, styled};
@@ -82,7 +82,7 @@ fn list(contours: &Contours) -> String {
     text
 }
 
-/// What a contour is, or where the wire runs.
+/// The kind of a contour, or the wire's side.
 pub(super) fn role(role: Role) -> &'static str {
     match role {
         Role::Opening => say!(opening),

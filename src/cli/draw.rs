@@ -79,10 +79,10 @@ fn draw_program(arguments: &Arguments, document: &Document) -> Result<Verdict, F
     Ok(Verdict::Clean)
 }
 
-/// Layer of the wire's path in a drawing that is made; the passes after the first have their number behind it.
+/// Layer of the wire's path in a new drawing; the passes after the first have their number behind it.
 const WIRE: &str = "WIRE";
 
-/// A new drawing of the contours as they are, and of the wire's path as LINE, ARC and CIRCLE on layers of its own.
+/// A new drawing of the contours as they are, with the wire's path as LINE, ARC and CIRCLE on layers of its own.
 fn with_paths(snapshot: &Snapshot, paths: &[WirePath]) -> Drawing {
     let mut drawing = Drawing::new(Some(snapshot.settings.unit_of(&snapshot.drawing)));
     for (_, entity) in snapshot.drawing.entities() {
@@ -108,7 +108,7 @@ fn ending_of(path: &Path) -> Option<String> {
     Some(path.extension()?.to_string_lossy().to_ascii_lowercase())
 }
 
-/// What the picture is written as, SVG where nothing says it; `None` for a drawing.
+/// The format of the picture, SVG by default; `None` for a drawing.
 fn form_of(target: Option<&Path>) -> Option<Image> {
     match target.and_then(ending_of) {
         Some(ending) if ending == "dxf" => None,

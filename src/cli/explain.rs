@@ -20,7 +20,7 @@ pub(crate) struct Arguments {
     rule: Option<Rule>,
 }
 
-/// The name of a rule, which is mended where it is nearly one.
+/// The name of a rule, corrected if it is nearly one.
 pub(crate) fn rule_name() -> impl TypedValueParser<Value = Rule> {
     PossibleValuesParser::new(Rule::ALL.map(Rule::name))
         .try_map(|name| Rule::named(&name).ok_or(""))

@@ -1,4 +1,4 @@
-//! Files in: which there are, of which kind each is, and the settings that hold for it.
+//! Input files: which there are, the kind of each, and its settings.
 
 use super::options::{Common, FileLanguage};
 use super::report::Row;
@@ -17,18 +17,18 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Name endings that a folder is searched for.
+/// Name endings that a folder search accepts.
 pub(crate) const ENDINGS: [&str; 6] = ["dxf", "dxb", "3b", "4b", "iso", "nc"];
 
 /// A file that has been read.
 pub(crate) struct Opened {
     pub(crate) path: PathBuf,
     pub(crate) document: Document,
-    /// The file as it was: only over this one may be written.
+    /// The file as it was: only this one may be overwritten.
     pub(crate) seen: Seen,
-    /// How a program was written, and is again.
+    /// The encoding of a program, which is kept.
     pub(crate) writing: Writing,
-    /// Values in settings files that do not fit; the settings without them hold.
+    /// Misfits in settings files; the other settings apply.
     pub(crate) settings_rows: Vec<Row>,
 }
 
@@ -48,7 +48,7 @@ impl From<FileLanguage> for Kind {
     }
 }
 
-/// Reads one file with the settings that hold for it: `wedm.toml` upwards from it, `--config`, then the options.
+/// Reads one file with its settings: `wedm.toml` upwards from it, `--config`, then the options.
 pub(crate) fn open(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
     let kind = match kind_of(path, common) {
         Ok(kind) => kind,
@@ -68,8 +68,8 @@ pub(crate) fn open(path: &Path, common: &Common, last: &Settings) -> Result<Open
     })
 }
 
-/// What stands on stdin, read as if it were the file of the name that is given, and what is wrong with the settings that hold for it.
-/// Without one it is a drawing unless it reads as a program.
+/// The text from stdin, read as a file of the given name, and the misfits in its settings. Without a name it is a
+/// drawing unless it reads as a program.
 pub(crate) fn open_stdin(
     given: Option<&Path>,
     name: &Path,
@@ -85,9 +85,9 @@ pub(crate) fn open_stdin(
     Ok((document(&kind, bytes, Arc::new(settings)).0, rows))
 }
 
-/// A text that cannot be held whole is refused: what is written from it would lack its end.
+/// Refuses a text that is too large to hold: anything written from it would lack its end.
 const LARGEST: u64 = u32::MAX as u64 - 1;
-/// The same of a device or a pipe, which may have no end.
+/// The same for a device or a pipe, which may have no end.
 const LARGEST_STREAM: u64 = 256 * 1024 * 1024;
 
 fn read(path: &Path) -> Result<(Vec<u8>, Seen), String> {
@@ -98,7 +98,7 @@ fn read(path: &Path) -> Result<(Vec<u8>, Seen), String> {
     Ok((bytes, seen))
 }
 
-/// The same for a command that makes something of the file. Nothing is made with settings that may not be those that were meant.
+/// The same for a command that makes something of the file. It refuses doubtful settings.
 pub(crate) fn open_to_use(
     path: &Path,
     common: &Common,
@@ -114,7 +114,7 @@ pub(crate) fn open_to_use(
 }
 
 impl Opened {
-    /// What is drawn; an error where the file is a program.
+    /// The drawing; an error where the file is a program.
     pub(crate) fn snapshot(&self) -> Result<Snapshot, Failure> {
         let snapshot = self.document.snapshot();
         snapshot.ok_or_else(|| Failure::of(&self.path, say!(a_program_is_no_drawing)))
@@ -127,10 +127,10 @@ impl Opened {
     }
 }
 
-/// So much of a file is looked at to know what it is.
+/// How much of a file is read to find its kind.
 const HEAD: u64 = 64 * 1024;
 
-/// The begin of a file; of what is none, such as a pipe, nothing may be taken.
+/// The beginning of a regular file; nothing is taken from others, such as a pipe.
 fn head(path: &Path) -> Option<Vec<u8>> {
     let file = std::fs::File::open(path).ok()?;
     let mut head = Vec::new();
@@ -139,7 +139,7 @@ fn head(path: &Path) -> Option<Vec<u8>> {
     Some(head)
 }
 
-/// What a file is whose name does not say it.
+/// The kind of a file whose name does not tell.
 fn kind_of_content(path: &Path, bytes: &[u8]) -> Option<Kind> {
     if ending_of(path) == "dwg" {
         return None;
@@ -158,7 +158,7 @@ fn ending_of(path: &Path) -> String {
     ending.to_string_lossy().to_ascii_lowercase()
 }
 
-/// By what the command line says, else by the name of the file.
+/// By the command line, else by the name of the file.
 fn kind_of(path: &Path, common: &Common) -> Result<Kind, Failure> {
     if let Some(language) = common.language {
         return Ok(language.into());
@@ -168,7 +168,7 @@ fn kind_of(path: &Path, common: &Common) -> Result<Kind, Failure> {
         return Ok(Kind::Program(language));
     }
     let refusal: String = match ending.as_str() {
-        // What is in the file decides between text and binary DXF.
+        // The content decides between text and binary DXF.
         "dxf" | "dxb" | "dxfb" => return Ok(Kind::Dxf),
         "dwg" => say!(dwg_is_not_read).into(),
         "" => say!(its_name_has_no_ending, ".dxf, .3b, .iso", ".nc"),
@@ -177,7 +177,7 @@ fn kind_of(path: &Path, common: &Common) -> Result<Kind, Failure> {
     Err(Failure::of(path, refusal))
 }
 
-/// A drawing says itself in which code page its texts are.
+/// A drawing states the code page of its texts itself.
 fn document(kind: &Kind, bytes: Vec<u8>, settings: Arc<Effective>) -> (Document, Writing) {
     let (source, writing) = match kind {
         Kind::Dxf => (Source::Dxf(dxf::Document::read_file(bytes)), Writing::Plain),
@@ -190,7 +190,7 @@ fn document(kind: &Kind, bytes: Vec<u8>, settings: Arc<Effective>) -> (Document,
     (Document::new(source, settings), writing)
 }
 
-/// The text of a file, and how it was written; what is not usual is said once, of however many files.
+/// The text of a file, and its encoding; an unusual one is reported once, however many files there are.
 fn text_of(bytes: Vec<u8>) -> (Vec<u8>, Writing) {
     static SAID: AtomicBool = AtomicBool::new(false);
     let (text, writing) = Writing::read(bytes);
@@ -222,7 +222,7 @@ fn settings_for(
         sources.push((file, text, source));
     }
     let settings = settings.overlaid(last);
-    // What is wrong with the passes shows once all levels lie over each other: in the last file that speaks of them.
+    // Faults of the passes show once all levels are merged: in the last file that sets them.
     for error in settings.contradictions(&|_| None) {
         let place = |(file, text, source): &(&PathBuf, String, SourceText)| {
             let mut own = settings
@@ -268,7 +268,7 @@ fn settings_row(file: &Path, source: &SourceText, error: SettingsError) -> Row {
 
 /// The nearest `wedm.toml` in the input's folder or one that holds it.
 fn project_file(path: &Path) -> Option<PathBuf> {
-    // What comes on stdin has a name, and need not be there.
+    // Text from stdin has a name that need not exist.
     let folder = match path.canonicalize() {
         Ok(file) => file.parent()?.to_path_buf(),
         Err(_) => Path::new(".").join(path.parent()?).canonicalize().ok()?,
@@ -284,15 +284,15 @@ fn project_file(path: &Path) -> Option<PathBuf> {
     }
 }
 
-/// What a search for files came to.
+/// The result of a search for files.
 #[derive(Default)]
 pub(crate) struct Found {
     pub(crate) files: Vec<PathBuf>,
-    /// Folders that could not be read, and paths that are not there.
+    /// Unreadable folders, and missing paths.
     pub(crate) failures: Vec<Failure>,
 }
 
-/// What a search passes over.
+/// The exclusions of a search.
 #[derive(Default)]
 pub(crate) struct Search<'a> {
     /// Patterns as .gitignore has them.
@@ -301,7 +301,7 @@ pub(crate) struct Search<'a> {
     pub(crate) all: bool,
 }
 
-/// The files that `paths` name: files as they are, folders searched, in the order of their names. None stands twice. `-` is taken as it stands.
+/// The files that `paths` name: files as they are, folders searched, sorted by name, without duplicates. `-` is kept.
 pub(crate) fn search(paths: &[PathBuf], search: &Search) -> Found {
     let mut found = Found::default();
     let mut seen = std::collections::HashSet::new();
@@ -321,10 +321,10 @@ pub(crate) fn search(paths: &[PathBuf], search: &Search) -> Found {
             match entry {
                 Ok(entry) => {
                     let named = entry.depth() == 0 && !entry.path().is_dir();
-                    // A link to a file counts; a link to a folder may lead back to where it stands.
+                    // A link to a file counts; a link to a folder may be circular.
                     let found_inside = has_known_ending(entry.path()) && entry.path().is_file();
                     if (named || found_inside) && seen.insert(entry.path().to_path_buf()) {
-                        // What is found in the folder that one works in is named as one would name it.
+                        // Files in the working folder are named as a user would name them.
                         let here = entry.path().strip_prefix(".").ok();
                         let here = here.filter(|_| path == Path::new("."));
                         found.files.push(here.unwrap_or(entry.path()).to_path_buf());
@@ -358,7 +358,7 @@ fn walk(path: &Path, search: &Search) -> Result<ignore::Walk, ignore::Error> {
         .build())
 }
 
-/// What the system says, without the names that the search has put round it.
+/// The system's reason, without the names that the search has added.
 fn reason_of(error: &ignore::Error) -> Option<&std::io::Error> {
     let error = error.io_error()?;
     let inner = error.get_ref().and_then(|inner| inner.source());

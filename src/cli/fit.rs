@@ -108,7 +108,7 @@ fn table(fit: &Fit) -> String {
     text
 }
 
-/// How much is left, and whether that is more than there should be.
+/// The remaining clearance, and whether it is enough.
 pub(super) fn of_least(fit: &Fit, verdict: &str) -> String {
     let (least, wanted) = (fit.least * 1e3, fit.clearance * 1e3);
     let places = say!(places, fit.places.len());

@@ -49,10 +49,10 @@ struct Target {
     diff: bool,
 }
 
-/// So many of what was repaired.
+/// This many are shown of the repaired findings.
 type Counted = fn(&usize) -> String;
 
-/// The rules whose findings are repaired without asking, and what is said of how many there were.
+/// The rules whose findings are repaired unasked, with their counts.
 fn repaired_rules() -> [(Rule, Counted); 6] {
     [
         (Rule::SmallRadius, said::arcs),
@@ -64,10 +64,10 @@ fn repaired_rules() -> [(Rule, Counted); 6] {
     ]
 }
 
-/// Findings that are asked why they were not repaired: each answer costs a look at the drawing.
+/// The most findings that are asked why they were not repaired: each answer costs a look at the drawing.
 const LISTED: usize = 100;
 
-/// More findings that are left are counted by rule.
+/// Further findings are counted by rule.
 const LEFT: usize = 8;
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
@@ -98,7 +98,7 @@ struct Repair {
     before: Vec<Row>,
     document: Document,
     after: Vec<Row>,
-    /// What could be repaired and cannot be written, and why.
+    /// The repairs that cannot be written, and why.
     refused: Vec<(Row, String)>,
     rounds: usize,
 }
@@ -113,7 +113,7 @@ impl Repair {
     }
 }
 
-/// Fixes all, again and again until nothing is left to fix, and proves that the result is no worse.
+/// Applies all fixes until none is left, and proves that the result is no worse.
 fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
     if let Source::Dxf(text) = document.source()
         && text.is_binary()
@@ -207,7 +207,7 @@ fn deliver(
     }
 }
 
-/// What was repaired, and what is left and why, to stderr: stdout may be the drawing.
+/// Reports to stderr what was repaired, and what is left and why: stdout may be the drawing.
 fn summarise(path: &Path, repair: &Repair) {
     let of_rule = |rows: &[Row], rule: Rule| rows.iter().filter(|row| row.rule == rule).count();
     let repaired = repaired_rules().into_iter().filter_map(|(rule, counted)| {

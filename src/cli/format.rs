@@ -56,7 +56,7 @@ struct Target {
 }
 
 impl Target {
-    /// One program goes out as a whole.
+    /// A single program goes out as a whole.
     fn is_one(&self) -> bool {
         !(self.in_place || self.check || self.diff)
     }
@@ -68,7 +68,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         mut files,
         failures,
     } = files::search(&arguments.paths, &files::Search::default());
-    // Folders hold drawings, too; a drawing that is named itself is refused.
+    // Folders hold drawings, too; a drawing that is named explicitly is refused.
     files.retain(|path| arguments.paths.contains(path) || is_program(path));
     if target.is_one() && (files.len() != 1 || arguments.paths.len() != 1) {
         return Err(Failure(say!(
@@ -113,7 +113,7 @@ fn is_program(path: &Path) -> bool {
     })
 }
 
-/// Formats one program and delivers it; true where it was not in its layout.
+/// Formats one program and delivers it; true where it changed.
 fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
     let common = Common {
         config: arguments.config.clone(),
@@ -150,7 +150,7 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
         output::write_over(path, &opened.seen, &opened.writing.written(&after))?;
     }
     let findings = opened.document.all_findings();
-    // What was meant may be plain and the block read: its text is damaged all the same.
+    // Its meaning may be plain and the block read: its text is damaged all the same.
     let is_of_text =
         |rule: Rule| matches!(rule, Rule::Syntax | Rule::MissingB | Rule::BlockNumberAsB);
     let damaged = findings

@@ -71,7 +71,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         Err(refusal) => return report::refuse_programs(path, document, &refusal),
     };
     output::write(arguments.output.as_deref(), made.program.text.as_bytes())?;
-    // What is wrong with the drawing says `wedm check`; these are of the program.
+    // `wedm check` reports the drawing's findings; these are the program's.
     let of_program = |finding: &&Finding| {
         matches!(finding.rule, Rule::Settings | Rule::LeadIn)
             || matches!(
@@ -101,10 +101,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     Ok(Verdict::Clean)
 }
 
-/// So many cuts are told one by one.
+/// Up to this many cuts are listed one by one.
 const CUTS: usize = 24;
 
-/// What the program comes to on the machine, so far as the settings say.
+/// The program's totals at the machine, as far as the settings give them.
 fn told(snapshot: &Snapshot, work: &toolpath::Work) {
     let work = Work::new(&snapshot.drawing, &snapshot.outlines, work);
     if let Some(minutes) = work.minutes {

@@ -1,4 +1,4 @@
-//! `wedm holes`: where the start holes are to be drilled.
+//! `wedm holes`: the start holes for the drill.
 
 use super::options::{Common, Program};
 use super::output::{self, styled};

@@ -44,7 +44,7 @@ pub(crate) struct Arguments {
     force: bool,
 }
 
-/// As `wedm config schema` is kept beside a `wedm.toml`: editors by way of taplo read the line that names it.
+/// The schema beside a `wedm.toml`, as `wedm config schema` prints it: editors with taplo read the line that names it.
 const SCHEMA_NAME: &str = "wedm.schema.json";
 
 fn machines() -> clap::builder::PossibleValuesParser {
@@ -149,7 +149,7 @@ fn ask<T>(
     }
 }
 
-/// Every key with what it means; those that are set with their value, the others commented out with their default.
+/// Every key with its meaning; set keys with their value, the others commented out with their default.
 fn file(set: &[(&str, String)]) -> String {
     let mut text = format!("# {}\n", say!(settings_of_wedm));
     let mut section = "";

@@ -122,7 +122,7 @@ impl Measured {
     }
 }
 
-/// Handles of a contour that are named at most.
+/// The most handles of a contour that are named.
 const LISTED: usize = 12;
 
 impl Printed {
@@ -205,7 +205,7 @@ fn inspected(arguments: &Arguments, mut opened: Opened) -> Printed {
     printed
 }
 
-/// A table for each contour, then one for each entity that is in none.
+/// A table for each contour, then one for each entity outside all contours.
 fn table(printed: &Printed) -> String {
     let mut text = String::new();
     let unit = printed.inspection.units_to_mm;

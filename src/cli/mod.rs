@@ -1,7 +1,7 @@
-//! The command line: what each command takes, what it prints, and with which code it ends.
+//! The command line: the options of each command, its output, and its exit code.
 //!
-//! One file a command. Nothing is decided here: reading, rules, fixes and programs are those of the floors below,
-//! and what is printed as JSON has the types of [`crate::protocol`].
+//! One file a command. Nothing is decided here: reading, rules, fixes and programs are those of the floors below, and
+//! JSON output has the types of [`crate::protocol`].
 
 mod beside;
 mod changes;
@@ -56,7 +56,7 @@ struct CommandLine {
     lang: Option<String>,
 }
 
-/// The tag of a language, and what editors and environments call it besides.
+/// The tag of a language, and its other names in editors and environments.
 fn tag(language: Language) -> PossibleValue {
     PossibleValue::new(language.tag()).aliases(language.aliases())
 }
@@ -104,7 +104,7 @@ enum Verdict {
     Clean,
     /// The drawing has errors.
     Errors,
-    /// Something could not be read, or was asked for wrongly.
+    /// Something could not be read, or the usage was wrong.
     Failed,
 }
 
@@ -126,18 +126,18 @@ impl Verdict {
     }
 }
 
-/// Why a command could not do what it was asked: one sentence, lower-case, no final dot.
+/// Why a command failed: one sentence, lower-case, no final dot.
 #[derive(Debug, PartialEq)]
 struct Failure(String);
 
 impl Failure {
-    /// What is wrong with a file.
+    /// A fault of a file.
     fn of(path: &Path, reason: impl Display) -> Failure {
         Failure(say!(says, path.display(), reason.to_string()))
     }
 }
 
-/// What the process was called with, with a leading `--lang` behind the command, where it is taken.
+/// The words of the command line. A leading `--lang` is moved behind the command, where it is declared.
 fn words() -> Vec<OsString> {
     let mut words: Vec<OsString> = std::env::args_os().collect();
     let leading = match words.get(1).map(|word| word.to_string_lossy()) {
@@ -152,7 +152,8 @@ fn words() -> Vec<OsString> {
     words
 }
 
-/// The language of the environment, or that of `--lang`: before the options are read, which may be refused in it.
+/// Chooses the language of `--lang`, else of the environment, before the options are read, since a refusal is worded in
+/// it.
 fn choose_language(words: &[OsString]) {
     if let Some(language) = Language::of_environment(|name| std::env::var(name).ok()) {
         speak(language, Asker::Environment);
@@ -172,7 +173,7 @@ fn command() -> clap::Command {
     translated::translated(CommandLine::command())
 }
 
-/// Does what the process was called for.
+/// Runs the command of this process.
 pub fn run() -> ExitCode {
     let words = words();
     choose_language(&words);
@@ -185,7 +186,7 @@ pub fn run() -> ExitCode {
             std::process::exit(code.code().into());
         }
         let translated = translated::refusal(&error).filter(|_| error.use_stderr());
-        // Words that stand in the message may be names of files that a shell has put there.
+        // Words in the message may be file names that a shell has put there.
         let has_hidden = std::env::args_os().any(|word| word.to_string_lossy().contains(is_hidden));
         if translated.is_some() || (has_hidden && error.use_stderr()) {
             let text = translated.unwrap_or_else(|| error.to_string());

@@ -1,4 +1,4 @@
-//! Options that several commands share: those that stand for a key of the settings are declared there, here is only which ones there are.
+//! Options that several commands share. Those for keys of the settings are declared there; here is only the list.
 
 use crate::settings::{Row, Settings, rows};
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
@@ -29,7 +29,7 @@ pub(crate) enum Form {
     Json,
 }
 
-/// What every command that looks at a drawing takes.
+/// The options of every command that reads a drawing.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct Common {
     #[command(flatten)]
@@ -42,7 +42,7 @@ pub(crate) struct Common {
     pub(crate) language: Option<FileLanguage>,
 }
 
-/// What a file can be.
+/// The kinds of files.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 pub(crate) enum FileLanguage {
     Dxf,
@@ -57,7 +57,7 @@ pub(crate) type Program = Keys<1>;
 /// Words of a program.
 pub(crate) type Words = Keys<2>;
 
-/// What is said of a pair.
+/// The settings of a pair.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct Pairing {
     #[command(flatten)]
@@ -67,29 +67,29 @@ pub(crate) struct Pairing {
 }
 
 impl Pairing {
-    /// What the command line says with what it says of the pair: a correction that it states beside the wire holds.
+    /// The command line's settings, with those of the pair: a correction given beside the wire holds.
     pub(crate) fn beside(&self, settings: &Settings) -> Settings {
         self.wire.0.overlaid(&self.pair.0).overlaid(settings)
     }
 }
 
-/// What the options of a group set.
+/// The settings from the options of a group.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Keys<const GROUP: usize>(pub(crate) Settings);
 
 impl Common {
-    /// The last level of settings: what the command line says.
+    /// The last level of settings: the command line.
     pub(crate) fn settings(&self) -> Settings {
         self.keys.0.clone()
     }
 
-    /// The same with what the command line says of the program.
+    /// The same with the options for programs.
     pub(crate) fn settings_with(&self, program: &Program) -> Settings {
         self.keys.0.overlaid(&program.0)
     }
 }
 
-/// The options of a group and the rows that they stand for.
+/// The options of a group and their rows.
 fn options(group: usize) -> impl Iterator<Item = (&'static str, &'static Row)> {
     let (_, table, names) = GROUPS[group];
     names
@@ -155,7 +155,7 @@ fn help(row: &Row) -> String {
     row.first_sentence() + &shown_default(row)
 }
 
-/// The default of a key, behind what it means.
+/// The default of a key, behind its meaning.
 pub(super) fn shown_default(row: &Row) -> String {
     let default = row
         .default
@@ -174,7 +174,7 @@ pub(super) fn row_of_option(option: &str) -> Option<&'static Row> {
         .map(|(_, row)| row)
 }
 
-/// Reads the value of a key as the settings read it.
+/// Reads the value of a key as the settings do.
 pub(crate) fn parser(row: &'static Row) -> ValueParser {
     if row.words.is_empty() {
         return ValueParser::new(|text: &str| Settings::of_option(row, text));

@@ -1,4 +1,4 @@
-//! Where output goes: terminals with colours, pipes without, files. Nothing that a terminal obeys is printed but our own colours.
+//! Output: terminals with colours, pipes without, files. The only control sequences printed are our own colours.
 
 use super::Failure;
 use crate::disk;
@@ -17,17 +17,17 @@ pub(crate) const GOOD: Style = AnsiColor::Green.on_default();
 pub(crate) const FAINT: Style = Style::new().dimmed();
 pub(crate) const STRONG: Style = Style::new().bold();
 
-/// `text` in a style; the streams of this module leave the style out where no terminal reads it.
+/// `text` in a style; the streams of this module drop the style where no terminal reads it.
 pub(crate) fn styled(style: Style, text: impl std::fmt::Display) -> String {
     format!("{style}{text}{style:#}")
 }
 
-/// The name of a file as people may read it.
+/// The name of a file for people.
 pub(crate) fn name(path: &Path) -> String {
     readable(&path.to_string_lossy()).into_owned()
 }
 
-/// A path as a word of a command that one may copy.
+/// A path as a word of a command that can be copied.
 pub(crate) fn word(path: &Path) -> String {
     let name = name(path);
     let is_plain = |letter: char| letter.is_alphanumeric() || "/\\.-_+:,@%=".contains(letter);
@@ -38,7 +38,7 @@ pub(crate) fn word(path: &Path) -> String {
     }
 }
 
-/// Text to stdout. A reader that has gone away has seen enough: no error.
+/// Text to stdout. A reader that has gone away is no error.
 pub(crate) fn print(text: impl AsRef<str>) -> Result<(), Failure> {
     let mut stdout = anstream::stdout().lock();
     accepted(
@@ -49,7 +49,7 @@ pub(crate) fn print(text: impl AsRef<str>) -> Result<(), Failure> {
     )
 }
 
-/// JSON to stdout: what a terminal would obey is escaped, which changes nothing that is said.
+/// JSON to stdout: control characters are escaped, which does not change the content.
 pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
     let json = serde_json::to_string(value).map_err(|error| Failure(error.to_string()))?;
     print_json_text(&(json + "\n"))
@@ -65,7 +65,7 @@ pub(crate) fn target_name(target: Option<&Path>) -> String {
     target.map_or_else(|| "stdout".into(), name)
 }
 
-/// Bytes to stdout: to a pipe or a file as they are, to a terminal as a person may read them.
+/// Bytes to stdout: to a pipe or a file as they are, to a terminal made readable.
 pub(crate) fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
     if io::stdout().is_terminal() {
         return print(String::from_utf8_lossy(bytes));
@@ -88,7 +88,7 @@ pub(crate) fn say(text: &str) {
     let _ = writeln!(anstream::stderr().lock(), "{}", shown(text));
 }
 
-/// Where the wire is threaded first, to stderr; `unit_mm` is that of the holes.
+/// The first thread hole, to stderr; `unit_mm` is the unit of the holes.
 pub(crate) fn say_thread_hole(holes: &[StartHole], unit_mm: f64) {
     if let Some(hole) = holes.first() {
         let at = hole.at * unit_mm;
@@ -96,12 +96,13 @@ pub(crate) fn say_thread_hole(holes: &[StartHole], unit_mm: f64) {
     }
 }
 
-/// What went wrong, to stderr.
+/// The failure, to stderr.
 pub(crate) fn complain(sentence: &str) {
     say(&say!(says, styled(ERROR, say!(error)), readable(sentence)));
 }
 
-/// Text of several lines with our own colours, nothing else of which a terminal obeys: what was forgotten before is caught here.
+/// Text of several lines with our own colours and no other control characters, even where a caller forgot to remove
+/// them.
 fn shown(text: &str) -> Cow<'_, str> {
     if !text.contains(|character| is_hidden(character) && character != '\n') {
         return Cow::Borrowed(text);
@@ -143,7 +144,7 @@ fn style_length(text: &str) -> usize {
     }
 }
 
-/// JSON with every character that [`is_hidden`] as an escape. Outside of strings there is none but line ends.
+/// JSON with every [`is_hidden`] character escaped. Outside strings there are only line ends.
 fn escaped(json: &str) -> String {
     let mut out = String::with_capacity(json.len());
     for character in json.chars() {
@@ -168,8 +169,8 @@ fn accepted(written: io::Result<()>, target: &str) -> Result<(), Failure> {
     }
 }
 
-/// Bytes to a file, or to stdout for none and for `-`. A file is [replaced](disk::replace), what is no regular file (a device, a pipe)
-/// is written directly.
+/// Bytes to a file, or to stdout for none and for `-`. A regular file is [replaced](disk::replace), anything else (a
+/// device, a pipe) is written directly.
 pub(crate) fn write(target: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
     match target {
         None => print_bytes(bytes),
@@ -178,12 +179,12 @@ pub(crate) fn write(target: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> 
     }
 }
 
-/// Bytes over the file that was read; an error, and nothing written, where it is not that file any more.
+/// Overwrites the file that was read; an error, with nothing written, where the file has changed.
 pub(crate) fn write_over(path: &Path, read: &disk::Seen, bytes: &[u8]) -> Result<(), Failure> {
     said_of(path, disk::replace(path, Some(read), bytes))
 }
 
-/// How many names an old file has beside that which stands for the new one now.
+/// Warns of the other names of an old file.
 fn said_of(path: &Path, written: Result<u64, String>) -> Result<(), Failure> {
     match written {
         Ok(0) => {}
@@ -204,7 +205,7 @@ fn said_of(path: &Path, written: Result<u64, String>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// An error where `path` is no regular file: nothing else can be changed in its place.
+/// An error where `path` is no regular file: nothing else can be changed in place.
 pub(crate) fn refuse_irregular(path: &Path) -> Result<(), Failure> {
     match std::fs::metadata(path) {
         Ok(metadata) if !metadata.is_file() => Err(Failure(say!(
@@ -215,7 +216,7 @@ pub(crate) fn refuse_irregular(path: &Path) -> Result<(), Failure> {
     }
 }
 
-/// An error where `target` is the file that was read: an input changes only when `--in-place` says so.
+/// An error where `target` is the input: an input changes only with `--in-place`.
 pub(crate) fn refuse_input(target: &Path, input: &Path) -> Result<(), Failure> {
     let same = match (target.canonicalize(), input.canonicalize()) {
         (Ok(target), Ok(input)) => target == input,

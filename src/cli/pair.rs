@@ -109,7 +109,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     Ok(Verdict::Clean)
 }
 
-/// `washer-punch.3b`; what cannot stand in the name of a file becomes `_`.
+/// `washer-punch.3b`; characters that a file name cannot hold become `_`.
 fn file_name(drawing: &Path, part: &str, format: Format) -> String {
     let stem = drawing.file_stem().unwrap_or_default().to_string_lossy();
     let safe = |letter: char| match letter {

@@ -1,4 +1,4 @@
-//! Findings as rows: a file, a place in it, a rule, a sentence; and each row as text with its excerpt, or as JSON.
+//! Findings as rows: a file, a place in it, a rule, a sentence; each row as text with its excerpt, or as JSON.
 
 use super::output::complain;
 use super::{Failure, Verdict, output};
@@ -17,7 +17,7 @@ use serde::Serialize;
 use std::ops::Range;
 use std::path::Path;
 
-/// Other places that a text tells of one finding: an outline that lies there twice has many.
+/// The most other places shown in the text of one finding: a duplicated outline has many.
 const MOST_OTHERS: usize = 5;
 
 /// One finding of one file. Lines and columns count from 1, columns in characters.
@@ -37,13 +37,13 @@ pub(crate) struct Row {
     /// The other places that the finding concerns.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) related: Vec<RelatedRow>,
-    /// Why it is let stand.
+    /// The reason of a suppression.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) suppressed: Option<String>,
-    /// The drawing itself says so, not a `wedm.toml`.
+    /// The drawing itself suppresses it, not a `wedm.toml`.
     #[serde(skip)]
     pub(crate) is_marked: bool,
-    /// Lines of a `wedm.toml`, each with what it does.
+    /// Lines of a `wedm.toml`, each with its effect.
     #[serde(skip)]
     keeps: Vec<(String, String)>,
     #[serde(skip)]
@@ -61,7 +61,7 @@ pub(crate) struct RelatedRow {
     pub(crate) message: String,
 }
 
-/// The lines that a reader needs to see the fault in its place.
+/// The lines that show the fault in its context.
 #[derive(Clone, Debug)]
 struct Excerpt {
     first_line: usize,
@@ -70,17 +70,18 @@ struct Excerpt {
     span: Range<usize>,
 }
 
-/// Lines longer than this (100 MB of zeros have one) are shown from near the fault on.
+/// Longer lines (100 MB of zeros make one) are shown from near the fault on.
 const LONGEST_LINE: usize = 100;
 
 fn rule_name<S: serde::Serializer>(rule: &Rule, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(rule.name())
 }
 
-/// More findings of one file are counted: a drawing of millions of faults would take gigabytes to tell of, and nobody reads them.
+/// Further findings of one file are counted: those of a drawing with millions of faults would take gigabytes, and
+/// nobody reads them.
 pub(crate) const MOST: usize = 100_000;
 
-/// So many findings at least are worth another thread.
+/// At least this many findings are worth another thread.
 pub(crate) const SHARE: usize = 256;
 
 /// The findings of a document, errors first; behind [`MOST`] of them one that says how many more there are.
@@ -89,7 +90,7 @@ pub(crate) fn rows(path: &Path, document: &mut Document) -> Vec<Row> {
     rows_of(path, document, &findings)
 }
 
-/// The same of findings that are at hand.
+/// The same for given findings.
 pub(crate) fn rows_of(path: &Path, document: &Document, findings: &[Finding]) -> Vec<Row> {
     let rows = findings.par_iter().with_min_len(SHARE);
     let whereabouts = || document.whereabouts();
@@ -99,7 +100,7 @@ pub(crate) fn rows_of(path: &Path, document: &Document, findings: &[Finding]) ->
     .collect()
 }
 
-/// What is suppressed in a document, with the reasons.
+/// The suppressed findings of a document, with the reasons.
 pub(crate) fn suppressed(path: &Path, document: &Document) -> Vec<Row> {
     let of_settings = &document.settings().suppressed;
     let told = |(finding, reason): (Finding, String)| {
@@ -123,7 +124,8 @@ pub(crate) fn say(path: &Path, document: &Document, findings: &[Finding]) {
     }
 }
 
-/// Why nothing is made, to stderr, with what is wrong; `advice` says what can be done where that is errors, of which it gets the number.
+/// Reports to stderr why there is no result, with the faults; `advice` says what can be done about errors, given their
+/// number.
 pub(crate) fn refuse(
     path: &Path,
     document: &Document,
@@ -250,7 +252,7 @@ impl Row {
         }
     }
 
-    /// The row as a person reads it: rule, sentence, place, and the lines at fault; with colours, which a stream may strip.
+    /// The row for a person: rule, sentence, place, and the lines at fault; with colours, which a stream may strip.
     pub(crate) fn rendered(&self) -> String {
         let level = match self.severity {
             Severity::Error => Level::ERROR.with_name(say!(error)),
@@ -297,7 +299,7 @@ impl Row {
         }
     }
 
-    /// What else it concerns, the first few in the words of `told`, and how many there are besides.
+    /// The other places, the first few in the words of `told`, and how many more there are.
     pub(crate) fn others(
         &self,
         told: impl Fn(&RelatedRow) -> String,
@@ -307,7 +309,7 @@ impl Row {
         self.related.iter().take(MOST_OTHERS).map(told).chain(more)
     }
 
-    /// Which entity, which segment of it, and where that or the block of a program begins, in drawing units.
+    /// The entity, the segment of it, and the start of that or of a program's block, in drawing units.
     pub(crate) fn whereabouts(&self) -> Option<String> {
         let data = &self.data;
         let entity = data.handle.as_deref().map(readable).map(|handle| {
@@ -321,7 +323,7 @@ impl Row {
     }
 }
 
-/// Line and column from 1; the column counts characters, and a byte that is no UTF-8 as one.
+/// Line and column from 1; the column counts characters, and an invalid byte as one.
 fn place(text: &SourceText, offset: usize) -> (usize, usize) {
     let line = text.line_of(offset);
     let start = text.line_range(line).start;
@@ -387,7 +389,7 @@ fn is_group_code(line: &[u8]) -> bool {
             .all(|byte| byte.is_ascii_digit() || *byte == b'-')
 }
 
-/// Bytes as text that a terminal can show: what is no UTF-8 and what would move its cursor becomes U+FFFD.
+/// Bytes as text that a terminal can show: invalid UTF-8 and control characters become U+FFFD.
 fn push_readable(shown: &mut String, bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     shown.extend(text.chars().map(|character| {

@@ -17,7 +17,7 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// True where no client can be meant: a person sits at the terminal and has asked for nothing.
+    /// True where there is no client: a person sits at the terminal and gave no options.
     pub(crate) fn is_asked_by_nobody(&self) -> bool {
         let terminals = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
         terminals && !self.stdio && !self.no_parent_watch

@@ -1,4 +1,4 @@
-//! Which language is spoken, and who says so.
+//! The language of all sentences, and who chose it.
 
 use std::sync::atomic::{AtomicU16, Ordering};
 
@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU16, Ordering};
 pub(crate) enum Language {
     #[default]
     English,
-    /// Simplified, also for those who asked for Chinese of any other kind.
+    /// Simplified, also for requests for any other kind of Chinese.
     Chinese,
 }
 
@@ -24,7 +24,7 @@ impl Language {
         }
     }
 
-    /// What `--lang` takes beside its tag.
+    /// Other names that `--lang` accepts.
     pub(crate) fn aliases(self) -> &'static [&'static str] {
         match self {
             Language::English => &["en-US", "en_US", "en-GB", "en_GB"],
@@ -32,8 +32,8 @@ impl Language {
         }
     }
 
-    /// The language of a tag, whatever its region and encoding: `en`, `en-GB` of a client, `en_US.UTF-8` of an environment; `C` and
-    /// `POSIX` are English. `None` for one that is not spoken here.
+    /// The language of a tag, whatever its region and encoding: `en`, `en-GB` of a client, `en_US.UTF-8` of an
+    /// environment; `C` and `POSIX` are English. `None` for an unknown language.
     pub(crate) fn of(tag: &str) -> Option<Language> {
         let name = tag.split(['-', '_', '.', '@']).next().unwrap_or_default();
         if matches!(name, "C" | "POSIX") {
@@ -44,7 +44,7 @@ impl Language {
             .find(|language| language.tag().eq_ignore_ascii_case(name))
     }
 
-    /// The language of the environment, as POSIX orders its variables: the first that is there and not empty says it.
+    /// The language of the environment: the first of POSIX's variables that is set and not empty.
     pub(crate) fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Option<Language> {
         let tag = ["LC_ALL", "LC_MESSAGES", "LANG"]
             .into_iter()
@@ -53,7 +53,7 @@ impl Language {
     }
 }
 
-/// Who asks for a language: each is obeyed before those above it.
+/// Who chose a language; each overrides those above it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
 pub(crate) enum Asker {
@@ -64,10 +64,10 @@ pub(crate) enum Asker {
     CommandLine,
 }
 
-/// The language in the low byte, who asked for it in the high one.
+/// The language in the low byte, its chooser in the high one.
 static SPOKEN: AtomicU16 = AtomicU16::new(0);
 
-/// From now on sentences are made in this language, unless somebody has asked who is obeyed before.
+/// Sets the language, unless a chooser of higher rank has set it.
 pub(crate) fn speak(language: Language, asker: Asker) {
     let asked = u16::from(asker as u8) << 8 | u16::from(language as u8);
     let _ = SPOKEN.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |before| {

@@ -1,9 +1,10 @@
-//! Text of others, as people may read it: a name in a drawing, or of a file, moves no cursor, hides nothing and turns no line around.
+//! Makes foreign text safe to show: a name in a drawing, or of a file, moves no cursor, hides nothing and turns no line
+//! around.
 
 use std::borrow::Cow;
 
-/// True for what a terminal or a label would obey and not show: control characters (ESC, C0 but for the tab, C1, DEL), marks that turn
-/// the direction of what follows, and the separators of lines and paragraphs.
+/// True for characters that a terminal or a label would obey and not show: control characters (ESC, C0 except the tab,
+/// C1, DEL), marks that turn the direction of text, and the separators of lines and paragraphs.
 pub(crate) fn is_hidden(character: char) -> bool {
     (character.is_control() && character != '\t')
         || matches!(
@@ -12,7 +13,7 @@ pub(crate) fn is_hidden(character: char) -> bool {
         )
 }
 
-/// The text with `U+FFFD` in the place of every character that [`is_hidden`]. Line ends are among them: a name stands in one line.
+/// The text with `U+FFFD` for every [`is_hidden`] character. Line ends are among them: a name stands in one line.
 pub(crate) fn readable(text: &str) -> Cow<'_, str> {
     let is_plain = |byte: u8| (b' '..0x7f).contains(&byte);
     if text.bytes().all(is_plain) || !text.contains(is_hidden) {
@@ -36,7 +37,7 @@ pub(crate) fn columns(text: &str) -> usize {
     unicode_width::UnicodeWidthStr::width(text)
 }
 
-/// What is cut and what is jumped over, mm; where nothing is, of the cut alone.
+/// The length of the cuts and, if any, of the ways between them, mm.
 pub(crate) fn lengths(cut: f64, jumps: f64, apart: &str) -> String {
     let cut = say!(cut_length, cut);
     match jumps > 0.0 {

@@ -1,6 +1,6 @@
-//! How a language is written down: rows of name, what is spoken of, and wording.
+//! The form of a language: rows of name, parameters, and wording.
 
-/// A sentence in the language that is spoken: `say!(name)` is a `&'static str`, `say!(name, one, other)` a `String`.
+/// A sentence in the language in force: `say!(name)` is a `&'static str`, `say!(name, one, other)` a `String`.
 macro_rules! say {
     ($name:ident) => {
         $crate::message::said::$name()
@@ -27,12 +27,13 @@ macro_rules! translate {
     };
 }
 
-/// The rows of a room in the language that says which sentences there are, and for each its function in the language that is spoken.
+/// The rows of a room in the language that declares the sentences, each with the function that picks the language in
+/// force.
 macro_rules! declare {
     ($($name:ident $(($($arguments:tt)*))? => $wording:tt;)*) => {
         translate! { $($name $(($($arguments)*))? => $wording;)* }
 
-        /// The same in the language that is spoken.
+        /// The same in the language in force.
         pub(crate) mod said {
             $(call!($name, $(($($arguments)*))?);)*
         }

@@ -1,4 +1,4 @@
-//! The findings a line each: for people who want an overview, and for tools that read such lines.
+//! The findings, a line each: for people who want an overview, and for tools that read such lines.
 
 use super::Survey;
 use crate::cli::output::{self, styled};
@@ -40,7 +40,7 @@ fn told(row: &Row) -> String {
     format!("{}:{}: {head}: {}\n", row.line, row.column, said(row))
 }
 
-/// The sentence, where that is, what else it concerns, and why it is let stand.
+/// The sentence, its place, the other places, and the reason of a suppression.
 fn said(row: &Row) -> String {
     let others = row.others(|related| related.message.clone());
     let reason = row
@@ -54,7 +54,7 @@ fn said(row: &Row) -> String {
     }
 }
 
-/// How often each rule speaks, most often first.
+/// How often each rule occurs, most often first.
 pub(super) fn statistics(survey: &Survey) -> String {
     let mut counts: Vec<(usize, Rule, Severity)> = Vec::new();
     for row in &survey.rows {
@@ -85,7 +85,7 @@ fn name(severity: Severity) -> &'static str {
     }
 }
 
-/// Commands of a workflow of GitHub, which shows them beside the lines of a change.
+/// Commands of a GitHub workflow, which shows them beside the lines of a change.
 pub(super) fn github(survey: &Survey) -> String {
     let of_row = |row: &Row| {
         let level = match row.severity {
@@ -107,7 +107,7 @@ pub(super) fn github(survey: &Survey) -> String {
     survey.rows.iter().map(of_row).collect()
 }
 
-/// What would end a property or the command stands as its number.
+/// Characters that would end a property or the command are written as numbers.
 fn escaped(text: &str, is_property: bool) -> String {
     let mut out = text.replace('%', "%25");
     out = out.replace('\r', "%0D").replace('\n', "%0A");
@@ -154,7 +154,7 @@ pub(super) fn junit(survey: &Survey) -> String {
     text
 }
 
-/// Text as it may stand in an attribute; what XML has no place for is left as a mark.
+/// Text for an attribute; characters that XML forbids are replaced by a mark.
 fn xml(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for character in text.chars() {

@@ -80,12 +80,12 @@ impl Arguments {
         }
     }
 
-    /// True where some rules alone are asked about: `wedm fix` goes by all of them.
+    /// True where only some rules are selected: `wedm fix` uses all of them.
     fn is_choosy(&self) -> bool {
         !self.select.is_empty() || !self.ignore.is_empty()
     }
 
-    /// True for a rule that is asked about. That a file could not be judged is no answer to leave out unasked.
+    /// True for a selected rule. A file that could not be judged is always reported.
     fn wants(&self, rule: Rule) -> bool {
         let always = [Rule::Syntax, Rule::Settings, Rule::NotJudged, Rule::More];
         let selected =
@@ -114,22 +114,22 @@ enum Deny {
     Warning,
 }
 
-/// What became of one file.
+/// The result for one file.
 struct Checked {
     rows: Vec<Row>,
     suppressed: Vec<Row>,
-    /// Some of it is repaired by `wedm fix`.
+    /// `wedm fix` repairs some of it.
     fixable: bool,
     failure: Option<Failure>,
-    /// Where the pages of the rules are.
+    /// The address of the rules' pages.
     docs_url: Option<String>,
 }
 
-/// All that was looked at.
+/// Everything that was checked.
 struct Survey {
     files: usize,
     rows: Vec<Row>,
-    /// What is suppressed counts for nothing.
+    /// Suppressed findings do not count.
     suppressed: Vec<Row>,
     shows_suppressed: bool,
     fixable: Vec<PathBuf>,
@@ -222,7 +222,7 @@ fn survey(arguments: &Arguments) -> Survey {
             survey.fixable.push(path);
         }
     }
-    // Several drawings may share one faulty settings file: it is said once.
+    // Several drawings may share one faulty settings file: it is reported once.
     let mut said = std::collections::HashSet::new();
     let of_settings = [
         crate::finding::Rule::Settings,
@@ -237,7 +237,7 @@ fn survey(arguments: &Arguments) -> Survey {
     survey
 }
 
-/// What is said of a file; behind the last one the process ends.
+/// The findings of a file; behind the last file the process ends.
 fn check(
     path: &Path,
     arguments: &Arguments,
@@ -273,13 +273,13 @@ fn check(
             let checked = Checked {
                 rows,
                 suppressed: super::report::suppressed(name, &document),
-                // What came on stdin is in no file that could be repaired, and what is not asked about is not spoken of.
+                // Text from stdin is in no file that could be repaired, and deselected rules are not mentioned.
                 fixable: !stdin && !arguments.is_choosy() && document.can_be_fixed(all),
                 failure: None,
                 docs_url: document.settings().docs_url.clone(),
             };
             if is_last {
-                // To give back piece by piece what was known of it takes longer than to end.
+                // Freeing all memory piece by piece takes longer than ending.
                 std::mem::forget(document);
             }
             checked

@@ -99,7 +99,7 @@ fn level(severity: Severity) -> &'static str {
     }
 }
 
-/// A path as a URI reference: relative paths stay relative, what a URI cannot hold is escaped.
+/// A path as a URI reference: relative paths stay relative, other characters are escaped.
 fn uri(path: &str) -> String {
     let forward = if cfg!(windows) {
         path.replace('\\', "/")

@@ -1,4 +1,4 @@
-//! The findings as a person reads them, and what they come to.
+//! The findings for a person, and their totals.
 
 use super::Survey;
 use crate::cli::output::{self, styled};
@@ -23,7 +23,7 @@ pub(super) fn render(survey: &Survey) -> String {
     text + &summary(survey)
 }
 
-/// What it all comes to, and what can be done.
+/// The totals, and what can be done.
 pub(super) fn summary(survey: &Survey) -> String {
     let mut text = String::new();
     let count = |severity| {
@@ -57,7 +57,7 @@ pub(super) fn summary(survey: &Survey) -> String {
     let result = result + &suppressed;
     let files = say!(files, survey.files);
     let checked = match survey.files {
-        // Of nothing there is nothing good to say.
+        // Without any document there is nothing good to say.
         0 if survey.rows.is_empty() => say!(nothing_to_check, files),
         _ => say!(checked, files, result),
     };

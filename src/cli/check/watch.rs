@@ -1,5 +1,5 @@
-//! `wedm check --watch`: checks again whenever a file has changed. The files are asked, a few times a second: that holds on network drives,
-//! too, where no system tells of changes.
+//! `wedm check --watch`: checks again whenever a file has changed. The files are polled a few times a second, which
+//! also works on network drives, where no system reports changes.
 
 use super::{Arguments, report};
 use crate::cli::{Failure, files, output};

@@ -1,6 +1,6 @@
-//! A small language client: starts the server as a child, frames messages, keeps what arrives until it is asked for.
+//! A small language client: starts the server as a child, frames messages, keeps incoming ones until they are needed.
 //!
-//! It knows JSON-RPC and nothing of drawings, as a client of another program would be written.
+//! It knows JSON-RPC and nothing of drawings, as a client of another program would.
 
 use super::super::Failure;
 use serde_json::{Value, json};
@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 /// No answer of the demonstration takes this long.
 const PATIENCE: Duration = Duration::from_secs(20);
-/// A longer message than this is not one of the demonstration's.
+/// A longer message is not one of the demonstration's.
 const LONGEST_BODY: u64 = 64 << 20;
 
 /// A server that runs as a child of this process.
@@ -20,7 +20,7 @@ pub(crate) struct Client {
     child: Child,
     stdin: Option<ChildStdin>,
     incoming: Receiver<Value>,
-    /// Notifications and requests that nobody has asked for yet.
+    /// Notifications and requests that have not been read yet.
     waiting: VecDeque<Value>,
     last_id: u64,
 }
@@ -56,7 +56,7 @@ impl Client {
         self.send(&json!({ "jsonrpc": "2.0", "method": method, "params": params }))
     }
 
-    /// Sends a request and gives it time to be answered by `reply`: the server may ask something in between.
+    /// Sends a request, to be answered by `reply`: the server may ask something in between.
     pub(crate) fn ask(&mut self, method: &str, params: Value) -> Result<u64, Failure> {
         self.last_id += 1;
         self.send(
@@ -91,7 +91,7 @@ impl Client {
         self.reply(id)
     }
 
-    /// The diagnostics of `version` of a document, once they arrive. Those of older versions are passed over.
+    /// The diagnostics of `version` of a document, once they arrive. Those of older versions are skipped.
     pub(crate) fn diagnostics(&mut self, uri: &str, version: i64) -> Result<Vec<Value>, Failure> {
         let mut message = self.wait_for("diagnostics", |message| {
             let params = &message["params"];
@@ -119,7 +119,7 @@ impl Client {
         self.send(&json!({ "jsonrpc": "2.0", "id": id, "result": result }))
     }
 
-    /// Ends the session as the protocol says, and says whether the server ended as it should.
+    /// Ends the session as the protocol prescribes, and reports whether the server ended properly.
     pub(crate) fn end(mut self) -> Result<(), Failure> {
         self.request("shutdown", Value::Null)?;
         self.send(&json!({ "jsonrpc": "2.0", "method": "exit" }))?;
@@ -171,7 +171,7 @@ impl Client {
         }
     }
 
-    /// Keeps what may be asked for later; what a client must answer at once is answered.
+    /// Keeps a message for later; answers at once where a client must.
     fn keep(&mut self, message: Value) -> Result<(), Failure> {
         match message["method"].as_str() {
             Some("window/workDoneProgress/create" | "client/registerCapability") => {
@@ -196,7 +196,7 @@ impl Client {
 }
 
 impl Drop for Client {
-    /// No server is left behind, however the demonstration ends.
+    /// Leaves no server behind, however the demonstration ends.
     fn drop(&mut self) {
         self.stdin = None;
         if let Ok(None) = self.child.try_wait() {

@@ -1,4 +1,4 @@
-//! The client's own copy of the DXF text: where a vertex stands in it, and the changes that are made to it.
+//! The client's own copy of the DXF text: the place of a vertex in it, and changes to it.
 
 use super::super::Failure;
 use crate::drawing::{Change, DrawingEdit, Geometry, Vertex};
@@ -22,7 +22,7 @@ impl Copy {
         }
     }
 
-    /// Moves vertices of the polyline `handle` as a designer does and gives the params of `textDocument/didChange`.
+    /// Moves vertices of the polyline `handle` as a designer does; returns the params of `textDocument/didChange`.
     pub(crate) fn move_vertices(
         &mut self,
         handle: &str,
@@ -57,7 +57,7 @@ impl Copy {
         Ok(self.changed(changes))
     }
 
-    /// Applies the edits that a `WorkspaceEdit` has for this text, refusing those for another version; gives the params of
+    /// Applies the edits of a `WorkspaceEdit` for this text, refusing those for another version; returns the params of
     /// `textDocument/didChange`.
     pub(crate) fn apply(&mut self, workspace_edit: &Value) -> Result<Value, Failure> {
         let documents = workspace_edit["documentChanges"]

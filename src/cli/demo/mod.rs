@@ -1,7 +1,7 @@
-//! `wedm demo`: a whole session with a real server, played by a small client that checks all it says.
+//! `wedm demo`: a whole session with a real server, played by a small client that checks every answer.
 //!
-//! The client is one as anybody would write it: it knows JSON-RPC and keeps its own copy of the text. Only where it
-//! proves what came out does it use the library again.
+//! The client knows JSON-RPC and keeps its own copy of the text, as anybody's would. Only its proof of the result uses
+//! the library again.
 
 mod client;
 mod copy;
@@ -72,7 +72,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     pair::session(&mut narrator, &mut client, correction)?;
     client.end()?;
 
-    // The levels of the session that was played, so that commands in this folder see the drawing as it did.
+    // The levels of the session's settings, so that commands in this folder see the drawing as it did.
     let settings = format!(
         "correction = {correction}\n\n[layers]\nDIE = \"opening\"\nHOLES = \"opening\"\nPLATE = \"ignore\"\n"
     );
@@ -181,7 +181,7 @@ fn segment_of(diagnostic: &Value) -> (String, u64) {
     )
 }
 
-/// The preferred quick fix among `actions`; the titles of all are said.
+/// The preferred quick fix among `actions`; prints all titles.
 fn preferred(narrator: &mut Narrator, actions: &Value) -> Result<Value, Failure> {
     let actions = actions.as_array().map_or(&[][..], Vec::as_slice);
     for action in actions {

@@ -1,4 +1,4 @@
-//! What the demonstration says: numbered steps, in 80 columns, coloured on a terminal.
+//! The output of the demonstration: numbered steps, in 80 columns, coloured on a terminal.
 
 use super::super::output::{self, styled};
 use crate::message::columns;
@@ -9,7 +9,7 @@ use std::time::Duration;
 const COLUMNS: usize = 80;
 const INDENT: usize = 4;
 
-/// What stands behind a drawing: a diagnostic in text has a line.
+/// Set for a drawing with text: its diagnostics have lines.
 pub(crate) enum Behind {
     Text,
     Nothing,
@@ -73,8 +73,8 @@ impl Narrator {
         );
     }
 
-    /// Text in lines of at most 80 columns, the first behind `lead`, the others indented. A word is never broken; Chinese is, between
-    /// any two of its letters.
+    /// Text in lines of at most 80 columns, the first behind `lead`, the others indented. Words are not broken; Chinese
+    /// is, between any two of its letters.
     fn print(&mut self, style: Style, indent: usize, lead: &str, text: &str) {
         for (index, line) in wrapped(text, COLUMNS - indent).into_iter().enumerate() {
             let margin = if index == 0 {
@@ -112,7 +112,7 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// A word, cut where a line may end: beside each wide letter, but not before a mark that closes, nor behind one that opens.
+/// A word, cut where a line may end: beside each wide letter, but not before a closing mark or behind an opening one.
 fn pieces(word: &str) -> Vec<&str> {
     let is_wide = |letter: char| columns(letter.encode_utf8(&mut [0; 4])) > 1;
     let (mut found, mut from) = (Vec::new(), 0);

@@ -75,7 +75,7 @@ pub(crate) fn session(
     client.notify("wedm/didCloseDrawing", json!({ "drawing": { "uri": URI } }))
 }
 
-/// Asks whether punch and plate fit, holds the answer against what is claimed, and gives back what is left of the clearance, mm.
+/// Asks whether punch and plate fit, checks the answer, and returns the remaining clearance, mm.
 fn fit(narrator: &mut Narrator, client: &mut Client, fits: bool) -> Result<f64, Failure> {
     let fit: Value = client.request("wedm/fit", json!({ "uri": URI }))?;
     let number = |key: &str| fit[key].as_f64().unwrap_or(f64::NAN);

@@ -102,7 +102,8 @@ impl Session<'_> {
             .any(|diagnostic| segment_of(diagnostic) == (DIE.to_string(), segment))
     }
 
-    /// Tells the server of a change, waits for the diagnostics of the new version and says which came and which went.
+    /// Tells the server of a change, waits for the diagnostics of the new version, and prints which came and which
+    /// went.
     fn tell(&mut self, method: &str, params: Value) -> Result<(), Failure> {
         let begun = Instant::now();
         self.client.notify(method, params)?;
@@ -130,7 +131,7 @@ impl Session<'_> {
         Ok(())
     }
 
-    /// No program comes out of a drawing that the wire cannot follow.
+    /// A drawing that the wire cannot follow gives no program.
     fn ask_too_early(&mut self) -> Result<(), Failure> {
         self.narrator.step(say!(a_program_is_asked_for_too_early));
         let id = self
@@ -262,7 +263,7 @@ impl Session<'_> {
         Ok(program)
     }
 
-    /// Reads the files' contents as a stranger would and holds them against what was asked for.
+    /// Reads the files again and compares them with the request.
     fn prove(&mut self, faulty: &str, program: &str, correction: f64) -> Result<String, Failure> {
         self.narrator.step(say!(
             program_and_drawing_are_read_again_and_held_against_each

@@ -1,4 +1,4 @@
-//! The demonstration's own proof: drawing and program are read again, with nothing of the session but their text.
+//! The demonstration's own proof: reads drawing and program again, from their text alone.
 
 use super::super::Failure;
 use super::holds;
@@ -18,13 +18,13 @@ pub(crate) struct Proof {
     pub(crate) from_path_um: f64,
     /// Distance of the program's end from the last thread hole, each block decoded from the end of the one before, µm.
     pub(crate) open_um: f64,
-    /// Smallest and largest distance in mm from the contours to where the wire cuts along them.
+    /// Smallest and largest distance in mm from the contours to the wire's cuts along them.
     pub(crate) least_distance: f64,
     pub(crate) largest_distance: f64,
     pub(crate) picture: String,
 }
 
-/// Places on each block that are looked at.
+/// Places on each block that are checked.
 const SAMPLES: u32 = 16;
 
 /// `faulty` and `fixed` are DXF text; `path` is the reply of `wedm/toolpath` for the latter.
@@ -213,7 +213,7 @@ fn geometry(piece: &PathPiece) -> Option<Segment> {
     )))
 }
 
-/// Holds each block against the path, and where it cuts along a contour against the contours.
+/// Compares each block with the path, and its cuts along a contour with the contours.
 fn measured(motions: &[Motion], pieces: &[(PathSource, Segment)], contours: &[Segment]) -> Proof {
     let mut proof = Proof {
         blocks: motions.len(),
@@ -246,7 +246,7 @@ fn measured(motions: &[Motion], pieces: &[(PathSource, Segment)], contours: &[Se
             }
         }
     }
-    // The other way as well: no piece of the path may be left out.
+    // In the other direction as well: no piece of the path may be missing.
     for (_, piece) in pieces {
         for sample in 0..=SAMPLES {
             let point = piece.point_at(f64::from(sample) / f64::from(SAMPLES));

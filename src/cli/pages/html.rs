@@ -1,4 +1,4 @@
-//! The little HTML that a page is made of: what is put in is text, and shown as it is.
+//! The little HTML of a page: everything put in is text, and escaped.
 
 use crate::message::readable;
 use crate::picture::escaped;
@@ -22,7 +22,7 @@ a{color:inherit}tr,h2,h3{break-inside:avoid}h2,h3{break-after:avoid}
 @media print{body{max-width:none;padding:0;font-size:11px}details:not([open])>pre{display:none}}
 ";
 
-/// Text as HTML shows it; nothing in it is obeyed.
+/// Escapes text for HTML.
 pub(super) fn text(text: impl Display) -> String {
     escaped(&readable(&text.to_string()))
 }
@@ -37,7 +37,7 @@ pub(super) fn page(language: &str, title: &str, body: &str) -> String {
     )
 }
 
-/// A cell: its class, and what stands in it.
+/// A cell: its class, and its content.
 pub(super) type Cell = (&'static str, String);
 
 pub(super) fn cell(content: impl Display) -> Cell {
@@ -48,7 +48,7 @@ pub(super) fn number(content: impl Display) -> Cell {
     ("number", text(content))
 }
 
-/// A table with a heading over each column; nothing where there are no rows.
+/// A table with a heading over each column; empty without rows.
 pub(super) fn table(heads: &[&str], rows: impl IntoIterator<Item = Vec<Cell>>) -> String {
     let rows: Vec<Vec<Cell>> = rows.into_iter().collect();
     let Some(first) = rows.first() else {

@@ -1,4 +1,4 @@
-//! What the job comes to, on its page: the drill list, time and material, and whether the parts fit.
+//! The job on its page: the drill list, time and material, and whether the parts fit.
 
 use super::super::fit::of_least;
 use super::html::{cell, more, number, table, text};
@@ -8,10 +8,10 @@ use crate::message::readable;
 use crate::picture;
 use crate::protocol::{Fit, StartHole, Work};
 
-/// Start holes and slugs that a page shows: who wants all asks for them.
+/// The most start holes and slugs on a page; the commands list all.
 const MOST: usize = 500;
 
-/// Where the wire is threaded, in the order of the cuts.
+/// The thread holes, in the order of the cuts.
 pub(super) fn drill_list(holes: &[StartHole], unit_mm: f64) -> String {
     let heads = [
         say!(column_number),
@@ -45,7 +45,7 @@ pub(super) fn drill_list(holes: &[StartHole], unit_mm: f64) -> String {
     table(&heads, holes.iter().enumerate().take(MOST).map(row)) + &more(holes.len(), MOST)
 }
 
-/// Lengths, times, what they cost, the largest wire and what drops.
+/// Lengths, times, costs, the largest wire and the slugs.
 pub(super) fn time_and_material(work: &Work) -> String {
     let mut facts: Vec<String> = vec![match work.minutes {
         Some(minutes) => {

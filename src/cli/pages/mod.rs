@@ -87,7 +87,7 @@ fn is_drawing(path: &Path) -> bool {
     ["dxf", "dxb", "dxfb"].iter().any(|known| ending == *known)
 }
 
-/// A name for the page of a drawing that none has yet.
+/// A name for the page of a drawing that no other has yet.
 fn name_of(path: &Path, names: &mut HashSet<String>) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let plain = |letter: char| match letter {

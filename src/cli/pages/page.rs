@@ -1,4 +1,4 @@
-//! What stands on the page of a drawing, and on the index.
+//! The content of a drawing's page, and of the index.
 
 use super::super::contours;
 use super::super::files::Opened;
@@ -15,13 +15,13 @@ use crate::protocol::{Contours, Fit, Inspection, Milling, SegmentKind, StartHole
 use crate::toolpath::{self, WirePath};
 use std::collections::BTreeMap;
 
-/// Arcs of the radius list, and findings of one rule, that a page shows: who wants all asks for them.
+/// The most arcs of the radius list, and findings of one rule, on a page; the commands list all.
 const MOST_ARCS: usize = 100;
 const MOST_OF_A_RULE: usize = 50;
-/// The same of contours that are milled.
+/// The same for milled contours.
 const MOST_MILLED: usize = 500;
 
-/// All that a page tells.
+/// The content of a page.
 pub(super) struct Page {
     /// Its line of the index.
     pub(super) line: Line,
@@ -32,18 +32,17 @@ pub(super) struct Page {
     rows: Vec<Row>,
     paths: Vec<WirePath>,
     holes: Vec<StartHole>,
-    /// What the paths come to, where there are any.
+    /// The totals of the paths, if there are any.
     work: Option<Work>,
-    /// Where it is asked for, or why it is not known.
+    /// The fit, if it is set, or why it is unknown.
     fit: Option<Result<Fit, String>>,
-    /// The program, or why there is none.
-    /// The layers of an electrode, and what comes of them.
+    /// The program, or why there is none. The layers of an electrode, and their results.
     milling: Vec<String>,
     program: Result<Generated, String>,
     format: Format,
 }
 
-/// What the index says of a drawing.
+/// The row of a drawing in the index.
 pub(super) struct Line {
     name: String,
     contours: usize,
@@ -355,7 +354,7 @@ pub(super) fn index(lines: &[(String, Line)]) -> String {
         say!(column_blocks),
         say!(column_minutes),
     ];
-    // Nobody has said how long anything takes.
+    // No times are set.
     let columns = heads.len() - usize::from(lines.iter().all(|(_, line)| line.minutes.is_none()));
     let row = |(page, line): &(String, Line)| {
         let link = format!("<a href=\"{}\">{}</a>", text(page), text(&line.name));
@@ -388,7 +387,7 @@ pub(super) fn index(lines: &[(String, Line)]) -> String {
     html::page(spoken().tag(), &title, &body)
 }
 
-/// A part of the page under its heading; nothing where there is nothing in it.
+/// A part of the page under its heading; empty without content.
 fn section(title: &str, content: String) -> String {
     match content.is_empty() {
         true => content,
