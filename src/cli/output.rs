@@ -231,13 +231,12 @@ pub(crate) fn refuse_input(target: &Path, input: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// "1 error", "3 errors".
-/// The text at the left of so many columns of a terminal, where a Chinese character takes two.
+/// The text, left-aligned in this many columns of a terminal, where a Chinese character takes two.
 pub(crate) fn flush_left(text: &str, width: usize) -> String {
     format!("{text}{}", " ".repeat(width.saturating_sub(columns(text))))
 }
 
-/// The same at the right.
+/// The same, right-aligned.
 pub(crate) fn flush_right(text: &str, width: usize) -> String {
     format!("{}{text}", " ".repeat(width.saturating_sub(columns(text))))
 }
