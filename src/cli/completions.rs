@@ -4,7 +4,6 @@ use super::{Failure, Verdict, output};
 use clap::Args;
 use clap_complete::Shell;
 
-/// Print the completions for a shell
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:

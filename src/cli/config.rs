@@ -4,12 +4,7 @@ use super::{Failure, Verdict, output};
 use crate::protocol;
 use clap::{Args, Subcommand};
 
-/// Say what can be set
 #[derive(Args, Debug)]
-#[command(after_help = "\
-Examples:
-  wedm config schema > wedm.schema.json    completion and checks in editors that take a schema for TOML:
-                                           `#:schema ./wedm.schema.json` in the first line of wedm.toml")]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     what: What,
@@ -17,7 +12,6 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum What {
-    /// The JSON Schema of wedm.toml
     Schema,
 }
 

@@ -10,17 +10,14 @@ use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// List the contours: what is chained to what, closed or open, with role, area and length
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
   wedm contours plate.dxf
   wedm contours plate.dxf --side auto --output json")]
 pub(crate) struct Arguments {
-    /// The drawing
     #[arg(value_name = "PATH")]
     path: PathBuf,
-    /// Form of what is printed
     #[arg(long, value_enum, default_value_t = Form::Text)]
     output: Form,
     #[command(flatten)]

@@ -7,11 +7,6 @@ use crate::job::{self, Converted, Target};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Turn a program into a drawing, or into a program of another language
-///
-/// The contours become polylines with arcs on the layer CUT, the ways in and out lines on LEAD, ways without the wire lines on WAY.
-/// Where a 3B program holds coordinates (the checking layout) these are taken; else what the machine drifts on the way round is said.
-/// A program with errors is refused, unless --force says otherwise.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
@@ -19,16 +14,12 @@ Examples:
   wedm convert plate.3b -o plate.iso --profile fast-wire
   wedm convert plate.iso -o plate.3b --layout checking")]
 pub(crate) struct Arguments {
-    /// The program: .3b, .4b, .iso or .nc
     #[arg(value_name = "PROG")]
     path: PathBuf,
-    /// Write it there; its ending says what it becomes: .dxf, .3b, .4b, .iso or .nc
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
-    /// What it becomes, where no OUT says it: dxf, 3b, 4b, iso
     #[arg(long, value_parser = Target::of)]
     format: Option<Target>,
-    /// Convert it although it has errors; blocks that lead nowhere are left out
     #[arg(long)]
     force: bool,
     #[command(flatten)]

@@ -13,7 +13,6 @@ use crate::toolpath::WirePath;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Draw contours, faults and wire path of a drawing, or the path of a program, as SVG, PNG or PDF; contours and wire path also as DXF
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
@@ -23,10 +22,8 @@ Examples:
   wedm draw plate.dxf --side opening -o plate.svg      with the path of the wire
   wedm draw plate.dxf --side opening -o path.dxf       contours, and the path on the layer WIRE")]
 pub(crate) struct Arguments {
-    /// The drawing or program
     #[arg(value_name = "PATH")]
     path: PathBuf,
-    /// Write the picture there, as .svg, .png, .pdf or .dxf [default: SVG to stdout]
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     #[command(flatten)]

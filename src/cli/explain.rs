@@ -6,16 +6,12 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::fmt::Write;
 
-/// Say what a rule looks for, why it matters for the cut, and what can be done
-///
-/// Without a rule: the list of all.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
   wedm explain
   wedm explain small-radius")]
 pub(crate) struct Arguments {
-    /// Name of the rule, as it stands in brackets behind a finding's severity
     #[arg(value_name = "RULE", value_parser = rule_name(), hide_possible_values = true)]
     rule: Option<Rule>,
 }

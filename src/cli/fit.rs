@@ -12,22 +12,16 @@ use clap::Args;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// Hold punch and plate in each other, as the wire leaves them
-///
-/// Ends with 1 where they bind. The parts are a contour that is cut twice (pair.drawn-as), or two workpieces ([workpieces]).
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
   wedm fit washer.dxf --drawn-as punch --clearance 0.01 --wire-diameter 0.18 --gap 0.01
   wedm fit washer.dxf -o washer-fit.svg")]
 pub struct Arguments {
-    /// The drawing
     #[arg(value_name = "PATH")]
     path: PathBuf,
-    /// Write the picture there, as .svg, .png or .pdf
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
-    /// Form of what is printed
     #[arg(long, value_enum, default_value_t = Form::Text)]
     format: Form,
     #[command(flatten)]

@@ -14,11 +14,6 @@ use crate::text::Writing;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Repair what can be repaired safely
-///
-/// Only the numbers that change are written, every other byte stays: code page, line ends, what wedm does not know. What came out
-/// is read again and checked before it is written. A repair that the text cannot take (lines are damaged beside it) is named, the others
-/// are made. Ends with 1 when errors are left or a repair was not made.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
@@ -26,7 +21,6 @@ Examples:
   wedm fix plate.dxf -o fixed.dxf
   wedm fix plate.dxf --in-place --correction 0.12")]
 pub(crate) struct Arguments {
-    /// The drawing or program
     #[arg(value_name = "PATH")]
     path: PathBuf,
     #[command(flatten)]
@@ -38,13 +32,10 @@ pub(crate) struct Arguments {
 #[derive(Args, Debug)]
 #[group(required = true, multiple = false)]
 struct Target {
-    /// Write the repaired drawing there (`-` is stdout)
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
-    /// Write the repaired drawing over the input
     #[arg(long)]
     in_place: bool,
-    /// Print what would change, and write nothing
     #[arg(long)]
     diff: bool,
 }

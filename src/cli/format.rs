@@ -11,11 +11,6 @@ use crate::text::edited;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Bring programs into one layout
-///
-/// Blocks, words, comments and block numbers stay, and so does what the machine does: every line is read again before it is taken.
-/// Lines that cannot be read stay as they are. Without a layout, here or in the settings, a program keeps the one in which most of
-/// its blocks stand. Ends with 1 when `--check` or `--diff` find something to change.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
@@ -23,17 +18,14 @@ Examples:
   wedm format --check programs/            which ones are not in their layout
   wedm format --in-place --layout compact plate.3b")]
 pub(crate) struct Arguments {
-    /// Programs, and folders that are searched for them
     #[arg(value_name = "PATH", required = true)]
     paths: Vec<PathBuf>,
     #[command(flatten)]
     target: Target,
-    /// Form of the blocks [default: `program.layout` where it is set, else the program's own]
     #[arg(long, value_parser = parser(row("program.layout")))]
     layout: Option<Settings>,
     #[command(flatten)]
     words: Words,
-    /// Settings file, laid over the `wedm.toml` found upwards from the input
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
 }
@@ -41,16 +33,12 @@ pub(crate) struct Arguments {
 #[derive(Args, Debug)]
 #[group(multiple = false)]
 struct Target {
-    /// Write the formatted program there (`-` is stdout); one PATH
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
-    /// Write formatted programs over the inputs
     #[arg(long)]
     in_place: bool,
-    /// Name the programs that would change, and write nothing
     #[arg(long)]
     check: bool,
-    /// Print what would change, and write nothing
     #[arg(long)]
     diff: bool,
 }

@@ -13,10 +13,6 @@ use crate::toolpath;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Write the program of a drawing
-///
-/// Every block is decoded again and held against the path before anything is written. A drawing with errors is refused, unless
-/// --force says otherwise. The program goes to stdout, or to a file with -o; what it came to is said on stderr.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
@@ -26,22 +22,16 @@ Examples:
   wedm generate plate.dxf --side punch --correction 0.12 --corner intersection --direction cw
   wedm generate slot.dxf --format milling -o slot.iso")]
 pub(crate) struct Arguments {
-    /// The drawing
     #[arg(value_name = "PATH")]
     path: PathBuf,
-    /// Language of the program: 3b, 4b, iso; milling by an electrode
     #[arg(long, default_value = "3b", value_parser = Format::of)]
     format: Format,
-    /// Write the program there [default: stdout]
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
-    /// Only the contour that holds this entity; may be given several times, in the order of the cuts
     #[arg(long, value_name = "HANDLE")]
     handle: Vec<String>,
-    /// Only the contours that have an entity on this layer; may be given several times, and beside --handle
     #[arg(long, value_name = "LAYER")]
     layer: Vec<String>,
-    /// Write it although the drawing has errors
     #[arg(long)]
     force: bool,
     #[command(flatten)]

@@ -8,10 +8,6 @@ use crate::{dxf, job};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// List the start holes for the drill, as CSV or on a layer of a DXF
-///
-/// One row a hole: the drawing, x and y in mm, the diameter in mm where --start-hole or the settings say it, the contour that is cut from it,
-/// and whether the hole was given or found. A hole that has no room is said on stderr, and the command ends with 1.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
@@ -19,10 +15,8 @@ Examples:
   wedm holes plate.dxf punch.dxf --side auto -o holes.csv
   wedm holes plate.dxf --side opening --start-hole 2 -o holes.dxf      the drawing, with the holes on the layer START-HOLES")]
 pub struct Arguments {
-    /// The drawings
     #[arg(value_name = "PATH", required = true)]
     paths: Vec<PathBuf>,
-    /// Write the list there, as .csv or .dxf [default: CSV to stdout]
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     #[command(flatten)]

@@ -7,10 +7,6 @@ use std::fmt::Write;
 use std::io::{BufRead, IsTerminal};
 use std::path::PathBuf;
 
-/// Write a commented wedm.toml for a folder of drawings
-///
-/// On a terminal it asks for what no flag says. With several passes it works their corrections out: the rough pass runs at the wire's
-/// radius + gap + stock, skim i of n at the radius + fine gap + stock (n − i) / n.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
@@ -18,28 +14,20 @@ Examples:
   wedm init --wire 0.18 --gap 0.01 --machine 3b
   wedm init --wire 0.25 --gap 0.03 --passes 3 --machine robofil drawings")]
 pub(crate) struct Arguments {
-    /// Folder that the file is written to
     #[arg(value_name = "DIR", default_value = ".")]
     folder: PathBuf,
-    /// Diameter of the wire, mm
     #[arg(long, value_name = "MM", value_parser = super::options::positive)]
     wire: Option<f64>,
-    /// Spark gap, mm; with several passes that of the rough one
     #[arg(long, value_name = "MM", value_parser = super::options::positive)]
     gap: Option<f64>,
-    /// Spark gap of the skims, mm [default: half the gap]
     #[arg(long, value_name = "MM", value_parser = super::options::positive)]
     fine_gap: Option<f64>,
-    /// What the rough pass leaves for the skims, mm
     #[arg(long, value_name = "MM", value_parser = super::options::positive, default_value = "0.06")]
     stock: f64,
-    /// Passes along each contour
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=9))]
     passes: Option<u8>,
-    /// What the machine reads: 3b, or a profile of ISO programs
     #[arg(long, value_parser = machines())]
     machine: Option<String>,
-    /// Write over a wedm.toml that is there
     #[arg(long)]
     force: bool,
 }

@@ -20,9 +20,6 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// List every segment with its radius and its verdict
-///
-/// Ends with 1 when the drawing has errors; JSON is printed also then.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
@@ -30,13 +27,10 @@ Examples:
   wedm inspect plate.dxf --handle 2A --correction 0.12
   wedm inspect plate.dxf --output json | jq '.entities[].segments[] | select(.verdict != \"ok\")'")]
 pub(crate) struct Arguments {
-    /// The drawing
     #[arg(value_name = "PATH")]
     path: PathBuf,
-    /// Form of what is printed
     #[arg(long, value_enum, default_value_t = Form::Text)]
     output: Form,
-    /// Only this entity
     #[arg(long, value_name = "HANDLE")]
     handle: Option<String>,
     #[command(flatten)]

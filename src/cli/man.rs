@@ -5,13 +5,11 @@ use clap::Args;
 use clap_mangen::Man;
 use std::path::PathBuf;
 
-/// Write the manual pages, one for each command
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
   wedm man ~/.local/share/man/man1")]
 pub(crate) struct Arguments {
-    /// Folder that the pages are written to
     #[arg(value_name = "DIR")]
     folder: PathBuf,
 }

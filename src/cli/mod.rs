@@ -18,6 +18,7 @@ mod fit;
 mod fix;
 mod format;
 mod generate;
+mod help;
 mod holes;
 mod init;
 mod inspect;
@@ -29,7 +30,6 @@ mod pair;
 mod report;
 mod serve;
 mod simulate;
-mod translated;
 
 use crate::message::{Asker, Language, help_beside, is_hidden, readable, speak};
 use clap::builder::PossibleValue;
@@ -40,18 +40,18 @@ use std::fmt::Display;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// Language server and command line for wire EDM
-///
-/// Finds every arc that is tighter than the wire's correction, repairs it, and writes proved 3B, 4B and ISO programs.
-/// Without a command it is the language server on stdin and stdout; on a terminal, this help.
 #[derive(Debug, Parser)]
-#[command(name = "wedm", version, max_term_width = 100, after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
+#[command(
+    name = "wedm",
+    version,
+    max_term_width = 100,
+    args_conflicts_with_subcommands = true
+)]
 struct CommandLine {
     #[command(subcommand)]
     command: Option<Command>,
     #[command(flatten)]
     server: serve::Arguments,
-    /// Language of all that is said [default: that of LC_ALL, LC_MESSAGES or LANG, else en]
     #[arg(long, global = true, value_name = "LANGUAGE", value_parser = Language::ALL.map(tag))]
     lang: Option<String>,
 }
@@ -60,18 +60,6 @@ struct CommandLine {
 fn tag(language: Language) -> PossibleValue {
     PossibleValue::new(language.tag()).aliases(language.aliases())
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  wedm check plate.dxf                     every arc tighter than 0.10 mm, and its place
-  wedm check --correction 0.12 drawings/   a whole folder, with another correction
-  wedm fix plate.dxf -o fixed.dxf          repair what can be repaired
-  wedm generate fixed.dxf --side opening -o plate.3b
-  wedm format plate.3b --layout checking   with block numbers and end points
-  wedm convert plate.3b -o plate.dxf       a program back to a drawing, or to ISO
-  wedm demo                                a whole session, on a drawing that ships inside
-
-Exit codes: 0 no error found, 1 errors in the drawing, 2 could not read, or wrong usage.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -170,14 +158,16 @@ fn choose_language(words: &[OsString]) {
 
 /// All commands, with their help in the language that is spoken.
 fn command() -> clap::Command {
-    translated::translated(CommandLine::command())
+    help::explained(CommandLine::command())
 }
 
 /// Runs the command of this process.
 pub fn run() -> ExitCode {
     let words = words();
     choose_language(&words);
-    let parsed = command().try_get_matches_from(words);
+    // The help is only needed where this fails.
+    let parsed = CommandLine::command().try_get_matches_from(&words);
+    let parsed = parsed.or_else(|_| command().try_get_matches_from(&words));
     let parsed = parsed.and_then(|matches| CommandLine::from_arg_matches(&matches));
     let arguments = parsed.unwrap_or_else(|error| {
         if error.kind() == ErrorKind::DisplayHelp {
@@ -185,7 +175,7 @@ pub fn run() -> ExitCode {
             let code = output::print(shown).map_or(Verdict::Failed, |()| Verdict::Clean);
             std::process::exit(code.code().into());
         }
-        let translated = translated::refusal(&error).filter(|_| error.use_stderr());
+        let translated = help::refusal(&error).filter(|_| error.use_stderr());
         // Words in the message may be file names that a shell has put there.
         let has_hidden = std::env::args_os().any(|word| word.to_string_lossy().contains(is_hidden));
         if translated.is_some() || (has_hidden && error.use_stderr()) {

@@ -29,15 +29,13 @@ pub(crate) enum Form {
     Json,
 }
 
-/// The options of every command that reads a drawing.
+// The options of every command that reads a drawing. No doc comment: `clap` would take it for help.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct Common {
     #[command(flatten)]
     pub(super) keys: Keys<0>,
-    /// Settings file, laid over the `wedm.toml` found upwards from the input
     #[arg(long, value_name = "FILE", help_heading = "Settings")]
     pub(crate) config: Option<PathBuf>,
-    /// What the file is, whatever its name says [default: by its ending, else by what stands in it]
     #[arg(long, value_enum, value_name = "LANGUAGE")]
     pub(crate) language: Option<FileLanguage>,
 }
@@ -57,7 +55,7 @@ pub(crate) type Program = Keys<1>;
 /// Words of a program.
 pub(crate) type Words = Keys<2>;
 
-/// The settings of a pair.
+// The settings of a pair.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct Pairing {
     #[command(flatten)]
@@ -100,10 +98,7 @@ fn options(group: usize) -> impl Iterator<Item = (&'static str, &'static Row)> {
 impl<const GROUP: usize> Args for Keys<GROUP> {
     fn augment_args(command: Command) -> Command {
         command.args(options(GROUP).map(|(name, row)| {
-            let arg = Arg::new(name)
-                .long(name)
-                .help(help(row))
-                .value_parser(parser(row));
+            let arg = Arg::new(name).long(name).value_parser(parser(row));
             let arg = arg.help_heading(GROUPS[GROUP].0).allow_hyphen_values(true);
             let value = match row.read {
                 "number" | "length_setting" => "MM",
@@ -149,10 +144,6 @@ pub(crate) fn row(key: &str) -> &'static Row {
     let key = if key == "passes" { PASSES } else { key };
     let row = ROWS.iter().find(|row| row.key == key);
     row.expect("options are keys of the settings")
-}
-
-fn help(row: &Row) -> String {
-    row.first_sentence() + &shown_default(row)
 }
 
 /// The default of a key, behind its meaning.

@@ -10,32 +10,22 @@ use crate::program::Format;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Write the programs of punch, plate, stripper and holder
-///
-/// The corrections follow from the clearance. Each program is decoded again and held against its path before anything is written, and no
-/// file that is there already is written over, unless --overwrite says so.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
   wedm pair washer.dxf --drawn-as plate --clearance 0.09 --wire-diameter 0.18 --gap 0.01
   wedm pair washer.dxf --format iso -o programs        programs/washer-punch.iso and so on")]
 pub struct Arguments {
-    /// The drawing
     #[arg(value_name = "PATH")]
     path: PathBuf,
-    /// Language of the programs: 3b, 4b, iso
     #[arg(long, default_value = "3b", value_parser = Format::of)]
     format: Format,
-    /// Write the programs into that folder [default: that of the drawing]
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
-    /// Write over programs that are there already
     #[arg(long)]
     overwrite: bool,
-    /// Only the contour that holds this entity; may be given several times
     #[arg(long, value_name = "HANDLE")]
     handle: Vec<String>,
-    /// Write them although the drawing has errors
     #[arg(long)]
     force: bool,
     #[command(flatten)]

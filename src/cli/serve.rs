@@ -5,13 +5,10 @@ use clap::Args;
 use std::io::IsTerminal;
 use std::process::ExitCode;
 
-/// Speak the language server protocol on stdin and stdout (what happens without a command)
 #[derive(Args, Debug, Default)]
 pub(crate) struct Arguments {
-    /// Accepted for editors that pass it; there is no other way
     #[arg(long)]
     stdio: bool,
-    /// Go on when the process that the client names has died: in a container its number means nothing
     #[arg(long)]
     no_parent_watch: bool,
 }

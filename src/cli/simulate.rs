@@ -9,11 +9,6 @@ use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// Say where the machine really goes
-///
-/// A 3B controller counts micrometres on one axis and stops: every block is followed as it does that, one µm at a time, and where it
-/// ends beside the line or arc that was meant, both ends are shown. Points are mm from the program's start, or absolute where the
-/// program says where it begins. JSON is the result of `wedm/simulate`, in µm.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
@@ -21,13 +16,10 @@ Examples:
   wedm simulate plate.3b --feed 2.5            with the time at 2.5 mm/min
   wedm simulate plate.3b --output json | jq '.closure'")]
 pub(crate) struct Arguments {
-    /// The program
     #[arg(value_name = "PROG")]
     path: PathBuf,
-    /// Form of what is printed
     #[arg(long, value_enum, default_value_t = Form::Text)]
     output: Form,
-    /// Speed of the cut, for the time
     #[arg(long, value_name = "MM/MIN", value_parser = feed)]
     feed: Option<f64>,
     #[command(flatten)]

@@ -16,13 +16,13 @@
 //!   `translate!`, its line in `Language`, and its arm in `in_spoken!`; a row that it lacks does not compile.
 //! - A process speaks one language: an editor starts a server of its own, and a command is one person's. `speak` chooses it before
 //!   anything is read, since readers put their sentences into what they find.
-//! - Lines of the log, what a bug says before it stops (`expect`), and the English help of the command line, which `clap` takes from the
-//!   comments of its options, stand where they are; in Chinese it is a table of its own (`help.rs`), and so are the meanings of the settings (`meanings.rs`). `tests/messages.rs` finds other sentences that stand elsewhere.
+//! - Two tables are keyed by other names: the help of the command line (`help.rs` of each language), and the Chinese meanings of the
+//!   settings (`meanings.rs`), whose English is in their rows. Lines of the log, the reason of an `expect`, and the examples of a
+//!   command stay where they are; `tests/messages.rs` finds other sentences outside.
 
 #[macro_use]
 mod table;
 mod en;
-mod help;
 mod language;
 mod meanings;
 mod readable;
@@ -35,12 +35,22 @@ pub(crate) use readable::{columns, is_hidden, readable};
 
 use std::fmt::{Debug, Display};
 
-/// What a name of the command line's help says in the language that is spoken; `None` where it is English, or is not known.
-pub(crate) fn help(name: &str) -> Option<&'static str> {
-    match spoken() {
-        Language::English => None,
-        Language::Chinese => help::help(name),
+fn help_of(language: Language) -> &'static [(&'static str, &'static str)] {
+    match language {
+        Language::English => en::HELP,
+        Language::Chinese => zh::HELP,
     }
+}
+
+/// The help of the command line under a name, in the language in force.
+pub(crate) fn help(name: &str) -> Option<&'static str> {
+    let found = help_of(spoken()).iter().find(|(own, _)| *own == name);
+    found.map(|(_, text)| *text)
+}
+
+#[cfg(test)]
+pub(crate) fn help_names(language: Language) -> impl Iterator<Item = &'static str> {
+    help_of(language).iter().map(|(name, _)| *name)
 }
 
 /// What a key of the settings means in the language that is spoken; `None` where it is English.
@@ -60,7 +70,7 @@ pub(crate) fn meaning_in_chinese(name: &str) -> Option<&'static str> {
 pub(crate) fn help_beside(shown: String) -> String {
     match spoken() {
         Language::English => shown,
-        Language::Chinese => help::BESIDE
+        Language::Chinese => zh::BESIDE
             .iter()
             .fold(shown, |shown, (english, own)| shown.replace(english, own)),
     }

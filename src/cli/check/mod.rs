@@ -13,16 +13,13 @@ use super::report::{MOST, Row};
 use super::{Failure, Verdict, output, output::styled};
 use crate::finding::{Rule, Severity};
 use crate::job;
+use crate::message::help;
 use crate::settings::Settings;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
-/// Say what is wrong in drawings and programs
-///
-/// Folders are searched for .dxf, .dxb, .3b, .4b, .iso and .nc; what .gitignore, .ignore or .wedmignore name is passed over, and so are hidden
-/// files. Ends with 0 when no error was found, with 1 when one was, and with 2 when something could not be read.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
@@ -35,37 +32,26 @@ Examples:
   generate-plate | wedm check -
   generate-plate | wedm check - --stdin-name drawings/plate.dxf")]
 pub(crate) struct Arguments {
-    /// Files, and folders to search; `-` is stdin
     #[arg(value_name = "PATH", default_value = ".")]
     paths: Vec<PathBuf>,
-    /// Form of what is printed
     #[arg(long, value_enum, default_value_t = Format::Text)]
     output: Format,
-    /// How often each rule speaks, in place of the findings
     #[arg(long)]
     statistics: bool,
-    /// Only these rules, and what says that a file could not be judged
     #[arg(long, value_name = "RULE", value_delimiter = ',', value_parser = rule_name(), hide_possible_values = true)]
     select: Vec<Rule>,
-    /// All but these rules
     #[arg(long, value_name = "RULE", value_delimiter = ',', value_parser = rule_name(), hide_possible_values = true)]
     ignore: Vec<Rule>,
-    /// Pass over files and folders that fit a pattern, as .gitignore has them
     #[arg(long, value_name = "PATTERN")]
     exclude: Vec<String>,
-    /// Search hidden files, too, and what .gitignore and its like name
     #[arg(long)]
     no_ignore: bool,
-    /// Name of what comes on stdin: its ending says what it is, else its content; its folder which wedm.toml holds
     #[arg(long, value_name = "NAME")]
     stdin_name: Option<PathBuf>,
-    /// Check again whenever a file changes, until the process is ended
     #[arg(long)]
     watch: bool,
-    /// Print also what is suppressed, with the reason
     #[arg(long)]
     show_suppressed: bool,
-    /// End with 1 also for findings of this severity
     #[arg(long, value_enum, value_name = "SEVERITY")]
     deny: Option<Deny>,
     #[command(flatten)]
@@ -97,15 +83,15 @@ impl Arguments {
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Format {
     Text,
-    /// A line for each finding
+    #[value(help = help("check output concise"))]
     Concise,
-    /// The same, under a heading for each file
+    #[value(help = help("check output grouped"))]
     Grouped,
     Json,
     Sarif,
-    /// Annotations of a GitHub workflow
+    #[value(help = help("check output github"))]
     Github,
-    /// JUnit's XML
+    #[value(help = help("check output junit"))]
     Junit,
 }
 

@@ -19,18 +19,12 @@ use narrator::Narrator;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Play a whole session with a real server, on a drawing that ships inside
-///
-/// Opens the drawing of a cutting plate, edits it as a designer would, shows each diagnostic as it arrives, applies the fixes,
-/// asks for the 3B program, decodes it again, and writes demo.dxf, demo.3b and demo.svg. Ends with 0 only when all that it
-/// says was found to be true.
 #[derive(Args, Debug)]
 #[command(mut_arg("language", |language| language.hide(true)), after_help = "\
 Examples:
   wedm demo
   wedm demo --correction 0.12 plate")]
 pub(crate) struct Arguments {
-    /// Folder that the files are written to
     #[arg(value_name = "DIR", default_value = "wedm-demo")]
     folder: PathBuf,
     #[command(flatten)]

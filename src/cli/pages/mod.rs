@@ -13,10 +13,6 @@ use page::Page;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-/// Write a page for each drawing, and an index: picture, contours, radius list, findings, passes, times, drill list, fit, program
-///
-/// Each page is one HTML file that needs nothing beside it, light or dark as its viewer likes, and prints on A4.
-/// Ends with 1 when a drawing has errors; its page is written all the same.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
@@ -24,13 +20,10 @@ Examples:
   wedm report --side opening drawings/ -o report
   wedm report plate.dxf --side punch --format iso --profile robofil --compensation controller -o report")]
 pub(crate) struct Arguments {
-    /// Drawings, or folders of them
     #[arg(value_name = "PATH", default_value = ".")]
     paths: Vec<PathBuf>,
-    /// The folder for the pages; it is made where it is not there
     #[arg(short, long, value_name = "FOLDER", default_value = "report")]
     output: PathBuf,
-    /// Language of the programs: 3b, 4b, iso; milling by an electrode
     #[arg(long, default_value = "3b", value_parser = Format::of)]
     format: Format,
     #[command(flatten)]

@@ -6,6 +6,7 @@ mod codes;
 mod drawing;
 mod files;
 mod findings;
+mod help;
 mod ide;
 mod job;
 mod pages;
@@ -16,6 +17,6 @@ mod settings;
 mod toolpath;
 
 pub(super) use {
-    amounts::*, cli::*, codes::*, drawing::*, files::*, findings::*, ide::*, job::*, pages::*,
-    program::*, rules::*, server::*, settings::*, toolpath::*,
+    amounts::*, cli::*, codes::*, drawing::*, files::*, findings::*, help::*, ide::*, job::*,
+    pages::*, program::*, rules::*, server::*, settings::*, toolpath::*,
 };

@@ -1,28 +1,14 @@
-//! The help of the command line in Chinese: its commands and their options. The English texts are the comments that `clap` is declared with,
-//! so that they are asked for by name here: `check` for a command, `check/` for what its help says beyond that, `check output` for an option of it, `output` for the option of several commands.
+//! The help of the command line: the rows of English, and those for what `clap` says by itself.
 
-/// What a name of the help says.
-pub(super) fn help(name: &str) -> Option<&'static str> {
-    let found = HELP.iter().find(|(own, _)| *own == name);
-    found.map(|(_, text)| *text)
-}
-
-/// What `clap` puts into a help by itself, and what single words of an option mean.
-pub(super) const BESIDE: [(&str, &str); 8] = [
+/// What `clap` puts into a help by itself.
+pub(in crate::message) const BESIDE: [(&str, &str); 4] = [
     ("[default: ", "[默认："),
     ("[possible values: ", "[可选："),
     ("Possible values:", "可选："),
-    ("A line for each finding", "每个问题一行"),
-    (
-        "The same, under a heading for each file",
-        "同上，每个文件有标题",
-    ),
-    ("Annotations of a GitHub workflow", "GitHub 工作流的注释"),
-    ("JUnit's XML", "JUnit 的 XML"),
     ("[aliases: ", "[别名："),
 ];
 
-const HELP: &[(&str, &str)] = &[
+pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ("wedm", "线切割的语言服务器和命令行"),
     (
         "wedm/",
@@ -47,6 +33,10 @@ const HELP: &[(&str, &str)] = &[
         "文件夹中查找 .dxf、.dxb、.3b、.4b、.iso 和 .nc；.gitignore、.ignore、.wedmignore 所列的和隐藏文件不查。没有错误以 0 结束，有错误以 1 结束，有内容读不出以 2 结束。",
     ),
     ("check paths", "文件，以及要查找的文件夹；`-` 是标准输入"),
+    ("check output concise", "每个问题一行"),
+    ("check output grouped", "同上，每个文件有标题"),
+    ("check output github", "GitHub 工作流的注释"),
+    ("check output junit", "JUnit 的 XML"),
     ("check statistics", "不列出问题，只列出每条规则的次数"),
     ("check select", "只要这些规则，以及说明文件无法判断的规则"),
     ("check ignore", "不要这些规则"),
@@ -155,7 +145,6 @@ const HELP: &[(&str, &str)] = &[
         "convert/",
         "轮廓成为图层 CUT 上带圆弧的多段线，引线成为 LEAD 上的直线，空走成为 WAY 上的直线。3B 程序带有坐标（checking 排版）的用坐标；否则说明机床走一圈累计的偏差。有错误的程序会被拒绝，除非用 --force。",
     ),
-    ("convert program", "程序：.3b、.4b、.iso 或 .nc"),
     ("convert path", "程序：.3b、.4b、.iso 或 .nc"),
     (
         "convert output",
@@ -172,7 +161,6 @@ const HELP: &[(&str, &str)] = &[
         "3B 控制器在一个轴上数微米，数到就停：逐段照此走，每次 1 µm，终点与本意的直线、圆弧不同的，两个终点都列出。点以 mm 计，自程序起点；程序说明起点的，为绝对坐标。JSON 是 `wedm/simulate` 的结果，单位 µm。",
     ),
     ("simulate path", "程序"),
-    ("simulate program", "程序"),
     ("simulate feed", "切割速度，用来算时间"),
     (
         "report",
@@ -208,6 +196,12 @@ const HELP: &[(&str, &str)] = &[
     ("init machine", "机床读什么：3b，或一种 ISO profile"),
     ("init force", "覆盖已有的 wedm.toml"),
     ("config", "说明可以设置什么"),
+    (
+        "config-examples",
+        "示例：
+  wedm config schema > wedm.schema.json    供能给 TOML 指定 schema 的编辑器补全和检查：
+                                           在 wedm.toml 第一行写 `#:schema ./wedm.schema.json`",
+    ),
     ("schema", "wedm.toml 的 JSON Schema"),
     ("demo", "用自带的图形与真实的服务器演示全过程"),
     (
