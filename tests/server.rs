@@ -23,7 +23,7 @@ mod handshake;
 mod language;
 #[path = "server/locate.rs"]
 mod locate;
-#[path = "server/program_text.rs"]
+#[path = "server/program_text/mod.rs"]
 mod program_text;
 #[path = "server/programs.rs"]
 mod programs;

@@ -307,19 +307,10 @@ fn files_are_short() {
     // Tests that are still to be taken apart.
     let to_be_split = [
         "tests/beside.rs",
-        "tests/convert.rs",
         "tests/faults/inject.rs",
         "tests/fit.rs",
-        "tests/holes.rs",
-        "tests/incremental.rs",
-        "tests/milling.rs",
-        "tests/open.rs",
-        "tests/pairs/cases.rs",
-        "tests/pairs/dead_ends.rs",
         "tests/passes.rs",
         "tests/paths.rs",
-        "tests/server/program_text.rs",
-        "tests/settings.rs",
     ];
     assert_eq!(long, to_be_split);
 }

@@ -1,0 +1,211 @@
+//! What a conversion loses is said or refused.
+
+use super::*;
+
+#[test]
+fn the_correction_is_never_lost_without_a_word() {
+    let folder = tempfile::tempdir().unwrap();
+    let put = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    put(
+        "part.4b",
+        "B10000B0B10000GXL1\nB10000B0B40000B10000GYDDNR1\nB10000B0B10000GXL3\nDD\n",
+    );
+    let square = "G01 X5. Y0.\nY5.\nX-5.\nY-5.\nX5.\nY0.\n";
+    put(
+        "side.iso",
+        &format!("G92 X0 Y0\nG90\nG41 D1\n{square}G40\nG01 X0.\nM02\n"),
+    );
+    put(
+        "late.iso",
+        &format!("G92 X0 Y0\nG90\nG01 X1. Y0.\nG41 D1\n{square}G40\nG01 X1. Y0.\nX0.\nM02\n"),
+    );
+    put(
+        "own.iso",
+        &format!("H1=0.155\nG92 X0 Y0\nG90\nG41 H1\n{square}G40\nG01 X0.\nM02\n"),
+    );
+    put(
+        "mixed.iso",
+        "G92 X0 Y0\nG90\nG01 X5. Y0.\nY5.\nG41 D1\nG01 X-5.\nY-5.\nX5.\nG40\nG01 Y0.\nX0.\nM02\n",
+    );
+    for (from, to, said) in [
+        (
+            "part.4b",
+            "iso",
+            "line 2: a 4B program holds the part's contour",
+        ),
+        (
+            "part.4b",
+            "3b",
+            "line 2: a 4B program holds the part's contour",
+        ),
+        (
+            "side.iso",
+            "3b",
+            "the control adds the correction of this program (G41, G42)",
+        ),
+        (
+            "late.iso",
+            "3b",
+            "the control adds the correction of this program (G41, G42)",
+        ),
+        (
+            "mixed.iso",
+            "3b",
+            "the correction is switched within the contour",
+        ),
+        (
+            "mixed.iso",
+            "iso",
+            "the correction is switched within the contour",
+        ),
+        (
+            "own.iso",
+            "4b",
+            "the program's own correction H1 is 0.155 mm",
+        ),
+    ] {
+        let (code, out, errors) = wedm(
+            folder.path(),
+            &format!("convert {from} --force --format {to} -o out.{to}"),
+        );
+        assert_eq!(code, 1, "{from} to {to}: {out}{errors}");
+        assert!(errors.contains(said), "{from} to {to}: {errors}");
+        assert!(!folder.path().join(format!("out.{to}")).exists());
+    }
+    for (from, to, said) in [
+        ("part.4b", "dxf", "the correction is not in them"),
+        ("late.iso", "dxf", "the correction is not in them"),
+        ("own.iso", "iso --profile generic", "H1 = 0.155 mm"),
+    ] {
+        let (code, out, errors) = wedm(
+            folder.path(),
+            &format!("convert {from} --force --format {to} -o out.x"),
+        );
+        let all = format!("{out}{errors}");
+        assert_eq!(code, 0, "{from} to {to}: {all}");
+        assert!(all.contains(said), "{from} to {to}: {all}");
+    }
+}
+
+/// What tilts the wire is not in a conversion: nothing is made of it unless somebody forces it, and then it is said. Planes by which
+/// nothing leans lose nothing but their words.
+#[test]
+fn a_taper_is_dropped_only_where_it_is_forced() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, words, end, leans) in [
+        ("angle", "G51 A2.\n", "G50\n", true),
+        ("right", "G52 A0.5\n", "G50\n", true),
+        ("guides", "", "G01 X5. Y5. U0.3 V0.\n", true),
+        ("no-angle", "G51\n", "", true),
+        ("planes", "TP0.\nTN40.\n", "", false),
+    ] {
+        let text = format!(
+            "G92 X0 Y0\nG90\n{words}G01 X5. Y0.\nY5.\n{end}X-5.\nY-5.\nX5.\nY0.\nX0.\nM02\n"
+        );
+        std::fs::write(folder.path().join("in.iso"), text).unwrap();
+        std::fs::write(folder.path().join("wedm.toml"), "[job]\nthickness = 40\n").unwrap();
+        for to in ["iso", "3b", "dxf"] {
+            let (code, _, said) = wedm(folder.path(), &format!("convert in.iso -o {name}.{to}"));
+            assert_eq!(code, i32::from(leans), "{name} as {to}: {said}");
+            assert_eq!(folder.path().join(format!("{name}.{to}")).exists(), !leans);
+            assert_eq!(said.contains("--force"), leans, "{name} as {to}: {said}");
+            let (code, _, said) = wedm(
+                folder.path(),
+                &format!("convert in.iso --force -o {name}.{to}"),
+            );
+            assert_eq!(code, 0, "{name} as {to}: {said}");
+            assert!(said.contains("not written: the taper"), "{said}");
+        }
+    }
+}
+
+#[test]
+fn the_command_converts_and_refuses() {
+    let folder = tempfile::tempdir().unwrap();
+    let put = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    put(
+        "hole.3b",
+        "B9900B0B9900GXL1\nB9900B0B39600GYNR1\nB9900B0B9900GXL3\nDD\n",
+    );
+    put(
+        "off.iso",
+        "G92 X0 Y0\nG91\nG01 X1000\nG02 X1000 I400 J0\nG01 X-2000\nM02\n",
+    );
+    put("empty.3b", "DD\n");
+    put("part.dxf", "0\nEOF\n");
+    let check = |arguments: &str, code: i32, expected: &str| {
+        let (ended, stdout, stderr) = wedm(folder.path(), arguments);
+        assert!(
+            ended == code && (stdout.contains(expected) || stderr.contains(expected)),
+            "{arguments}: {ended}\n{stdout}\n{stderr}"
+        );
+    };
+    check(
+        "convert hole.3b -o hole.dxf",
+        0,
+        "written hole.dxf: 1 contour",
+    );
+    check(
+        "convert hole.3b -o hole.iso --profile fast-wire",
+        0,
+        "written hole.iso: 4 blocks, 1 contour",
+    );
+    check(
+        "convert hole.iso -o again.3b --layout checking",
+        0,
+        "written again.3b: 4 blocks",
+    );
+    check(
+        "convert hole.3b --format iso --profile robofil",
+        0,
+        "G03 X-9.900 Y0.000 I0.000 J0.000",
+    );
+    // A part's contour under G42, its corners rounded, becomes 4B; a path of the wire does not say where the part is.
+    put(
+        "part.iso",
+        "G92 X0. Y-5.\nG90\nG42 D1\nG01 X0. Y0.\nX9. Y0.\nG03 X10. Y1. I0. J1.\nG01 Y10.\nX-10. Y10.\nY0.\nX0.\nG40\nG01 Y-5.\nM02\n",
+    );
+    check(
+        "convert part.iso -o part.4b --correction 0.15",
+        0,
+        "written part.4b: 11 blocks, 1 contour",
+    );
+    let four_b = std::fs::read_to_string(folder.path().join("part.4b")).unwrap();
+    assert!(
+        four_b.contains("B0B1000B1000B1000GYDNR4\n") && four_b.contains("B151GYDNR"),
+        "{four_b}"
+    );
+    check("check part.4b", 0, "1 file checked");
+    check(
+        "convert part.4b -o again.dxf",
+        0,
+        "written again.dxf: 1 contour",
+    );
+    check(
+        "convert hole.3b -o hole.4b",
+        1,
+        "4B holds the part's contour",
+    );
+    check("convert hole.3b --format 4b", 1, "say opening or punch");
+    check("convert off.iso -o off.dxf", 1, "the program has 1 error");
+    check(
+        "convert off.iso -o off.dxf --force",
+        0,
+        "left out, since they lead nowhere: lines 4",
+    );
+    check("convert empty.3b -o empty.dxf", 1, "it cuts nothing");
+    check("convert part.dxf -o part.3b", 2, "it is a drawing");
+    check(
+        "convert hole.3b -o hole.step",
+        2,
+        "\"step\" is not written, expected dxf, ",
+    );
+    check("convert hole.3b -o hole", 2, "no ending");
+    check("convert hole.3b", 2, "expected -o OUT or --format");
+    let iso = std::fs::read_to_string(folder.path().join("hole.iso")).unwrap();
+    assert_eq!(
+        iso,
+        "G92 X0 Y0\nG91\nG01 X9900 Y0\nG03 X-19800 Y0 I-9900 J0\nG03 X19800 Y0 I9900 J0\nG01 X-9900 Y0\nM02\n"
+    );
+    check("check hole.iso again.3b", 0, "2 files checked");
+}

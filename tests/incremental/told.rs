@@ -1,0 +1,292 @@
+//! Findings of outlines that are edited.
+
+use super::*;
+
+/// A place on a circle of many chords: now and then a little off it, or where the next chord is a different one.
+fn on_circle(at: usize, off: f64) -> Vertex {
+    let angle = at as f64 * std::f64::consts::TAU / 40.0;
+    Vertex::new((5.0 + off) * angle.cos(), (5.0 + off) * angle.sin(), 0.0)
+}
+
+/// Chords in a row from a place on.
+fn chords(most: usize) -> impl Strategy<Value = Vec<Vertex>> {
+    let off = prop_oneof![12 => Just(0.0), 1 => Just(0.001), 1 => Just(0.3)];
+    (0..40usize, proptest::collection::vec(off, 0..most)).prop_map(|(from, offs)| {
+        offs.into_iter()
+            .enumerate()
+            .map(|(at, off)| on_circle(from + at, off))
+            .collect()
+    })
+}
+
+/// An outline of many short segments with a corner now and then; half of it is a polyline that is travelled as it is drawn, or
+/// backwards, half of it lines.
+fn mixed_outline(backwards: bool) -> (Drawing, EntityId) {
+    const SIDES: usize = 24;
+    const PARTS: usize = 12;
+    const ALL: usize = SIDES * PARTS;
+    let point = |at: usize| {
+        let corner = |side: usize| {
+            let angle = side as f64 * std::f64::consts::TAU / SIDES as f64;
+            Point::new(100.0 * angle.cos(), 100.0 * angle.sin())
+        };
+        let (from, to) = (corner(at / PARTS), corner(at / PARTS + 1));
+        from + (to - from) * ((at % PARTS) as f64 / PARTS as f64)
+    };
+    let mut drawing = Drawing::new(None);
+    let line = |at: usize| {
+        entity(
+            Geometry::Line {
+                start: point(at),
+                end: point(at + 1),
+            },
+            Some(Role::Opening),
+        )
+    };
+    // The first entity says which way the contour is travelled.
+    drawing.push(line(0));
+    let mut vertices: Vec<Vertex> = (1..=ALL / 2)
+        .map(|at| Vertex {
+            point: point(at),
+            bulge: 0.0,
+        })
+        .collect();
+    if backwards {
+        vertices.reverse();
+    }
+    let polyline = drawing.push(entity(
+        Geometry::Polyline {
+            closed: false,
+            vertices,
+        },
+        Some(Role::Opening),
+    ));
+    for at in ALL / 2..ALL {
+        drawing.push(line(at));
+    }
+    (drawing, polyline)
+}
+
+/// Two outlines of many runs that lie on each other and begin in different places, edited far from both beginnings.
+#[test]
+fn outlines_that_come_to_lie_on_each_other_are_told_as_if_afresh() {
+    const COUNT: usize = 300;
+    let vertex = |at: usize| {
+        let (angle, radius) = (
+            at as f64 * std::f64::consts::TAU / COUNT as f64,
+            if at.is_multiple_of(2) { 100.0 } else { 101.0 },
+        );
+        Vertex::new(radius * angle.cos(), radius * angle.sin(), 0.0)
+    };
+    let ring = |from: usize| {
+        (0..COUNT)
+            .map(|at| vertex((from + at) % COUNT))
+            .collect::<Vec<_>>()
+    };
+    let settings = Arc::new(Effective::of(&Settings::default()));
+    for edited in 0..2 {
+        let mut drawing = Drawing::new(None);
+        let ids = [0, 150].map(|from| {
+            drawing.push(entity(
+                Geometry::Polyline {
+                    closed: true,
+                    vertices: ring(from),
+                },
+                None,
+            ))
+        });
+        let mut analysis = Analysis::new(&drawing, settings.clone());
+        let home = ring([0, 150][edited])[230];
+        let away = Vertex {
+            point: home.point * 0.9,
+            bulge: 0.0,
+        };
+        for (to, doubles) in [(away, 0), (home, 1)] {
+            let touched = drawing.splice(ids[edited], 230, 1, &[to]).unwrap();
+            analysis.update(
+                &drawing,
+                &Delta {
+                    touched: vec![touched],
+                },
+            );
+            let told = analysis.findings(&drawing, usize::MAX).0;
+            let fresh = Analysis::new(&drawing, settings.clone())
+                .findings(&drawing, usize::MAX)
+                .0;
+            assert_eq!(told, fresh, "polyline {edited}");
+            assert_eq!(
+                told.iter()
+                    .filter(|finding| finding.rule == wedm::finding::Rule::DuplicateEntity)
+                    .count(),
+                doubles
+            );
+        }
+    }
+}
+
+/// What local rules saw behind a splice has other indices now: in the pieces behind, and in a piece that is travelled backwards in
+/// what lies before it in the entity.
+#[test]
+fn a_splice_that_changes_the_count_moves_what_was_seen_behind_it() {
+    for (backwards, start, removed, inserted) in [
+        (false, 20, 0, 1),
+        (true, 20, 0, 1),
+        (false, 90, 2, 0),
+        (true, 90, 2, 0),
+        (true, 140, 1, 3),
+        (false, 5, 1, 3),
+    ] {
+        let settings = Arc::new(Effective::of(&Settings::default()));
+        let (mut drawing, polyline) = mixed_outline(backwards);
+        let mut analysis = Analysis::new(&drawing, settings.clone());
+        let inserted: Vec<Vertex> = (0..inserted)
+            .map(|at| Vertex::new(at as f64, 3.0, 0.0))
+            .collect();
+        let touched = drawing.splice(polyline, start, removed, &inserted).unwrap();
+        analysis.update(
+            &drawing,
+            &Delta {
+                touched: vec![touched],
+            },
+        );
+        let mut fresh = Analysis::new(&drawing, settings.clone());
+        let case = (backwards, start, removed, inserted.len());
+        assert_eq!(
+            analysis.findings(&drawing, usize::MAX),
+            fresh.findings(&drawing, usize::MAX),
+            "{case:?}"
+        );
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: cases(400), failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn sequences_of_chords_are_seen_alike(
+        closed: bool,
+        role in role(),
+        start in chords(90),
+        loose in proptest::collection::vec((0..40usize, 0..40usize), 0..12),
+        edits in proptest::collection::vec((0..90usize, 0..8usize, chords(8), 0..4usize), 1..12),
+        by_point: bool,
+    ) {
+        let mut settings = Effective::of(&Settings { side: Some(SideSetting::Auto), ..Settings::default() });
+        if by_point {
+            // An edit moves the polyline off and onto the points.
+            settings.points = vec![(on_circle(0, 0.0).point, Role::Opening), (on_circle(45, 0.0).point, Role::Ignore)];
+        }
+        let settings = Arc::new(settings);
+        let mut drawing = Drawing::new(None);
+        let polyline = drawing.push(entity(Geometry::Polyline { closed, vertices: start }, role));
+        let line = |from: usize, to: usize| Geometry::Line { start: on_circle(from, 0.0).point, end: on_circle(to, 0.0).point };
+        for (from, step) in loose {
+            drawing.push(entity(line(from, from + 1 + step / 20), None));
+        }
+        let mut analysis = Analysis::new(&drawing, settings.clone());
+        for (from, count, insert, kind) in edits {
+            let touched = match kind {
+                0 => {
+                    let id = drawing.order()[from % drawing.len()];
+                    if id == polyline { continue };
+                    drawing.replace(id, entity(line(count * 5, count * 5 + 1), None));
+                    Touched::Entity { entity: id }
+                }
+                1 => Touched::Entity { entity: drawing.push(entity(line(from, from + 1), None)) },
+                _ => match drawing.splice(polyline, from, count, &insert) {
+                    Ok(touched) => touched,
+                    Err(_) => continue,
+                },
+            };
+            analysis.update(&drawing, &Delta { touched: vec![touched] });
+            let mut fresh = Analysis::new(&drawing, settings.clone());
+            prop_assert_eq!(analysis.findings(&drawing, usize::MAX), fresh.findings(&drawing, usize::MAX));
+        }
+    }
+}
+
+/// A vertex of a zigzag between whose teeth the wire does not come, and beside it.
+fn of_zigzag(at: usize, (x, y, bulge): (f64, f64, f64)) -> Vertex {
+    let tooth = (at % 2) as f64 * 1.5;
+    Vertex::new(at as f64 * 0.08 + x, tooth + y, bulge)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: cases(8), failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Of several runs of segments: what is left beyond dead ends is not asked again where theirs stay.
+    #[test]
+    fn dead_ends_of_a_zigzag_are_told_as_if_afresh(
+        closed in any::<bool>(),
+        edits in proptest::collection::vec(
+            (
+                0..200usize,
+                prop_oneof![1 => Just(1), 4 => Just(0)],
+                proptest::collection::vec((-0.1..0.1f64, -0.8..0.8f64, prop_oneof![3 => Just(0.0), 1 => -0.5..0.5f64]), 1..7),
+            ),
+            1..8,
+        ),
+    ) {
+        let settings = Arc::new(Effective::default());
+        let vertices = (0..200).map(|at| of_zigzag(at, (0.0, 0.0, 0.0))).collect();
+        let mut drawing = Drawing::new(None);
+        let polyline = drawing.push(entity(Geometry::Polyline { closed, vertices }, None));
+        let mut analysis = Analysis::new(&drawing, settings.clone());
+        analysis.findings(&drawing, usize::MAX);
+        for (from, fewer, moved) in edits {
+            let count = moved.len() - fewer;
+            let insert: Vec<Vertex> = (from..).zip(moved).map(|(at, by)| of_zigzag(at, by)).collect();
+            let Ok(touched) = drawing.splice(polyline, from, count, &insert) else {
+                continue;
+            };
+            analysis.update(&drawing, &Delta { touched: vec![touched] });
+            let mut fresh = Analysis::new(&drawing, settings.clone());
+            prop_assert_eq!(analysis.findings(&drawing, usize::MAX), fresh.findings(&drawing, usize::MAX));
+        }
+    }
+}
+
+#[test]
+fn a_contour_that_goes_back_on_itself_has_no_side_wherever_its_area_is_summed_from() {
+    let settings = Arc::new(Effective::of(&Settings {
+        correction: Some(0.8),
+        side: Some(SideSetting::Opening),
+        ..Settings::default()
+    }));
+    for number in 1..60 {
+        let place = |share: f64| {
+            Point::new(
+                0.1 * f64::from(number) + 1.1 * share,
+                0.3 + 0.7 / f64::from(number) * share,
+            )
+        };
+        let vertex = |point: Point| Vertex { point, bulge: 0.0 };
+        let mut drawing = Drawing::new(None);
+        let vertices = [Point::new(-7.3, 91.7), place(9.0), place(4.0)]
+            .map(vertex)
+            .to_vec();
+        let polyline = drawing.push(entity(
+            Geometry::Polyline {
+                closed: true,
+                vertices,
+            },
+            None,
+        ));
+        let mut analysis = Analysis::new(&drawing, settings.clone());
+        let touched = drawing
+            .splice(polyline, 0, 1, &[vertex(place(0.1))])
+            .unwrap();
+        analysis.update(
+            &drawing,
+            &Delta {
+                touched: vec![touched],
+            },
+        );
+        let mut fresh = Analysis::new(&drawing, settings.clone());
+        assert_eq!(
+            analysis.findings(&drawing, usize::MAX),
+            fresh.findings(&drawing, usize::MAX),
+            "{number}"
+        );
+    }
+}
