@@ -1,4 +1,4 @@
-//! Arcs below the correction: which they are, and the larger arc in the place of a run of them.
+//! Arcs below the correction, and the larger arc that replaces a run of them.
 
 use super::Analysis;
 use super::repair::{self, Wanted};
@@ -8,7 +8,7 @@ use crate::rules::small_radius::{self, Attempt, Replacement, Travel};
 use rustc_hash::FxHashSet;
 
 impl Analysis {
-    /// The repair of an arc below the correction that puts one larger arc in the place of its run, where that leaves the drawing
+    /// The repair of an arc below the correction that replaces its run by one larger arc, where that leaves the drawing
     /// better than it is.
     pub(super) fn larger_arc(
         &self,
@@ -126,7 +126,7 @@ impl Analysis {
         ))
     }
 
-    /// The replacement of the run that holds a tight arc, looked for on the side of its centre.
+    /// The replacement of the run with a tight arc, searched for on the side of its centre.
     pub(super) fn attempt<'a>(
         &'a self,
         drawing: &'a Drawing,
@@ -143,7 +143,7 @@ impl Analysis {
             side: small_radius::center_side(arc.sweep),
         };
         if !drawing.is_editable(segment.entity) {
-            // Whatever a search would find, it could not be made; and a fitted curve may have a million tight arcs.
+            // The result of a search could not be applied; and a fitted curve may have a million tight arcs.
             return Some((
                 travel,
                 Attempt {
@@ -155,7 +155,7 @@ impl Analysis {
         let position = travel.position_of(index);
         let run = small_radius::run_of(&travel, position, &self.limits)?;
         let mut attempt = small_radius::refillet(&travel, &run, &self.limits);
-        // Where the arc was drawn in two and rounded, the two are one run all the same.
+        // An arc that was drawn in two and rounded is one run all the same.
         if attempt.outcome.is_err()
             && let Some(longer) = small_radius::rounded_run_of(&travel, position, &self.limits)
                 .filter(|longer| *longer != run)
@@ -180,7 +180,7 @@ impl Analysis {
         Some((travel, attempt))
     }
 
-    /// Why a fault has no fix, `None` where it has one; remembered until something near it changes.
+    /// Why a fault has no fix, `None` where it has one; stored until something near it changes.
     pub(super) fn answer(
         &mut self,
         drawing: &Drawing,
@@ -209,7 +209,8 @@ impl Analysis {
     }
 }
 
-/// What a replacement takes of a contour, in the contour's own direction: from one place to another, in segments.
+/// The part of a contour that a replacement takes, in the contour's own direction: from one place to another, in
+/// segments.
 #[derive(Clone, Copy, Debug)]
 struct Stretch {
     from: f64,

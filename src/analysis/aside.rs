@@ -1,9 +1,9 @@
-//! What is drawn to be read and not to be cut: centre lines, hidden edges, hatches, dimensions, construction.
+//! Entities drawn to be read and not to be cut: centre lines, hidden edges, hatches, dimensions, construction.
 //!
-//! An entity is set aside by its linetype or its layer, whatever lies about it. A line is set aside as a contour of its own where it stands
-//! alone, with a stretch of it within a closed contour and no end near that of another: a chain, or an end that faces another one, is an
-//! outline that has lost something. A closed contour that holds a lone line is none the worse for it, so what is set aside is learned by no
-//! rule; it is looked at again where something near it has changed.
+//! An entity is set aside by its linetype or its layer, whatever lies about it. A line is set aside as a contour of its
+//! own if it is alone, with a stretch of it within a closed contour and no end near that of another: a chain, or an end
+//! that faces another one, is an outline that has lost something. A closed contour with a lone line in it is still
+//! sound, so rules do not see lines that are set aside; the decision is made again where something near has changed.
 
 use super::Analysis;
 use super::contours::{role_of, role_of_linetype, set_aside};
@@ -23,20 +23,20 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Share of a line's length within which an end of it and that of another belong together.
+/// Two ends of lines belong together within this share of a line's length.
 const SHARE: f64 = 0.25;
-/// Join tolerances (1 mm) within which they always do where the other one is no lone line.
+/// They always do within this many join tolerances (1 mm), unless the other one is a lone line.
 const JOINS: f64 = 100.0;
-/// Sine of the angle between lines that are none the less parallel: hatches, and the pieces of a broken line.
+/// Lines up to this sine of their angle count as parallel: hatches, and the pieces of a broken line.
 const PARALLEL: f64 = 0.01;
-/// From so many questions on it pays to sort the contours by place.
+/// From this many questions on it pays to sort the contours by place.
 const MANY: usize = 16;
 
 /// A contour that is one line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lone {
     line: Line,
-    /// What lies beyond this does not matter to it.
+    /// Nothing beyond this matters to it.
     reach: Bounds,
     pub(super) is_aside: bool,
 }
@@ -49,7 +49,7 @@ impl Analysis {
             return None;
         };
         let entity = drawing.get(piece.entity)?;
-        // Of the drawing, not of the piece, which may not have learned yet what became of its polyline.
+        // Of the drawing, not of the piece, which may not know yet what became of its polyline.
         let (1, false) = (entity.geometry.segment_count(), contour.closed) else {
             return None;
         };
@@ -58,7 +58,7 @@ impl Analysis {
         };
         let settings = &self.settings;
         let linetype = drawing.linetype(piece.entity);
-        // Who gives a role to a layer that is there to be read wants what lies on it.
+        // A role for a reference layer means that its entities are wanted.
         let is_for_reading = || {
             is_drafting_layer(&entity.layer)
                 || linetype.is_some_and(|it| it.of_layer && is_drafting_linetype(&it.name))
@@ -69,7 +69,7 @@ impl Analysis {
             || (settings.layers.contains_key(&*entity.layer) && is_for_reading());
         let join = self.limits.tolerances.join;
         let length = line.length();
-        // Where the contour is the wire's own path, a line may well be all of it.
+        // Where the contour is the wire's own path, a single line may be all of it.
         if has_role || settings.compensation == Compensation::None || length <= join {
             return None;
         }
@@ -86,14 +86,14 @@ impl Analysis {
         self.lone.get(&key).is_some_and(|lone| lone.is_aside)
     }
 
-    /// True for an entity that is a part of a contour that is cut.
+    /// True for an entity in a contour that is cut.
     pub(crate) fn cuts(&self, id: EntityId) -> bool {
         self.chains
             .contour_of(id)
             .is_some_and(|key| !self.is_lone(key))
     }
 
-    /// Says once what is seen in the drawing and not cut.
+    /// One finding for each kind of visible entity that is not cut.
     pub(super) fn report_set_aside(&self, drawing: &Drawing, report: &mut Report) {
         let by_itself = self.aside.iter().filter_map(|&id| {
             let why = set_aside(drawing, &self.settings, id)?;
@@ -149,7 +149,7 @@ impl Analysis {
         );
     }
 
-    /// Takes down whether an entity is set aside by itself.
+    /// Records whether an entity is set aside by itself.
     pub(super) fn note_aside(&mut self, drawing: &Drawing, id: EntityId) {
         let is_aside =
             drawing.visibility(id).is_seen() && set_aside(drawing, &self.settings, id).is_some();
@@ -160,7 +160,7 @@ impl Analysis {
         }
     }
 
-    /// Asks of lines whether they are to be cut; those of which the answer has changed.
+    /// Decides about lines again; returns those whose answer has changed.
     pub(super) fn judge_lone(&mut self, drawing: &Drawing, keys: &[ContourKey]) -> Vec<ContourKey> {
         if keys.is_empty() {
             return Vec::new();
@@ -185,7 +185,7 @@ impl Analysis {
         let [others, closed] = [others, closed].map(|all| ByPlace::of(all, is_many));
         let judge = |&key: &ContourKey| {
             let lone = self.lone.get(&key)?;
-            // What lies in no closed contour is asked no more: all that it crosses may be near it.
+            // A line in no closed contour is not asked further: all that it crosses may be near it.
             let holds = |other: ContourKey| self.holds_some_of(drawing, &lone.line, other);
             let faces = |other: ContourKey| other != key && self.faces(drawing, lone, other);
             let is_aside = closed.near(&lone.reach).into_iter().any(holds)
@@ -240,7 +240,7 @@ impl Analysis {
             for segment in contour.segments_in(drawing, range) {
                 let met = meetings(&own, &segment.geometry);
                 cuts.extend(met.into_iter().map(|point| line.share_of(point)));
-                // Where they run on one another they do not meet.
+                // Where they coincide they do not meet.
                 cuts.extend(
                     [segment.geometry.start(), segment.geometry.end()]
                         .into_iter()
@@ -268,7 +268,7 @@ impl Analysis {
             .any(|middle| is_inside(drawing, contour, &known.index, middle) && !lies_on(middle))
     }
 
-    /// The lines whose answer may hang on something within these boxes.
+    /// The lines whose answer may depend on something within these boxes.
     pub(super) fn lone_near(&self, changed: &[Bounds]) -> Vec<ContourKey> {
         let touched = |lone: &Lone| changed.iter().any(|bounds| bounds.touches(&lone.reach));
         let mut keys: Vec<ContourKey> = self
@@ -289,7 +289,7 @@ impl Analysis {
         }
     }
 
-    /// Divides contours into those that are learned and the lines that may be set aside, which are entered.
+    /// Divides contours into those that rules see and the lines that may be set aside, which are entered.
     pub(super) fn without_lone(
         &mut self,
         drawing: &Drawing,
@@ -342,8 +342,8 @@ impl ByPlace {
     }
 }
 
-/// True where the ends of two lines face each other as the sides of a corner do that has lost its tip, or lie within `least`: not where the
-/// lines cross, as in a centre mark, or run beside or behind each other, as in a hatch.
+/// True where the ends of two lines face each other like the sides of a corner that has lost its tip, or lie within
+/// `least`: not where the lines cross, as in a centre mark, or run beside or behind each other, as in a hatch.
 fn are_a_corner(one: &Line, other: &Line, least: f64) -> bool {
     let (u, v) = (one.end - one.start, other.end - other.start);
     let lengths = [u.norm(), v.norm()];
@@ -369,7 +369,7 @@ fn are_a_corner(one: &Line, other: &Line, least: f64) -> bool {
     beyond(one, u, lengths[0]) && beyond(other, v, lengths[1])
 }
 
-/// Whether a closed contour goes round a point. A run whose box does not hold the point is seen from there as its chord is.
+/// Whether a closed contour encloses a point. A run whose box does not hold the point is replaced by its chord.
 fn is_inside(drawing: &Drawing, contour: &Contour, index: &ContourIndex, point: Point) -> bool {
     let here = Bounds::of_points(&[point]);
     if !index.bounds().touches(&here) {

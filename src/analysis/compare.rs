@@ -1,4 +1,4 @@
-//! The segments of two runs held against each other by the rules on pairs.
+//! Compares the segments of two runs by the rules on pairs.
 
 use crate::drawing::{ContourKey, ContourSegment};
 use crate::finding::{Severity, Side};
@@ -18,7 +18,7 @@ pub(crate) type SegmentId = (ContourKey, usize);
 /// A contour's outlook by key.
 pub(crate) type Outlooks<'a, 'b> = &'a (dyn Fn(ContourKey) -> Option<Outlook<'b>> + Sync);
 
-/// What a pair rule has seen between two segments.
+/// What a pair rule has observed between two segments.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Observed {
     /// Index into [`PAIR_RULES`].
@@ -31,12 +31,12 @@ pub(crate) struct Observed {
     pub(crate) disc: Option<(Point, f64)>,
     pub(crate) own_disc: bool,
     pub(crate) blocked: bool,
-    /// Of a dead end, the walls from which and to which it goes and what is left beyond it, or that it is none: once that has been asked,
-    /// and where it hangs on nothing but the two runs.
+    /// For a dead end, its first and last wall and what is left beyond it, or that there is none: set once it is known
+    /// and depends only on the two runs.
     pub(crate) ended: Option<Option<([usize; 2], Left)>>,
 }
 
-/// What the rules take for two segments that come near each other, in looks.
+/// The cost of the rules for two segments that come near each other, in looks.
 pub(crate) const LOOKS_OF_A_PAIR: u64 = 16;
 
 /// Segments of a run that have one box together.
@@ -61,7 +61,7 @@ pub(crate) fn passes(segment: &Segment, bounds: &Bounds, reach: f64) -> bool {
     }
 }
 
-/// The walls of some runs, which are met again and again by those about them.
+/// The walls of some runs, which their neighbours need again and again.
 pub(crate) struct Kept<'a, 'b> {
     pub(crate) outlook: Outlooks<'a, 'b>,
     walls: FxHashMap<RunId, Rc<Walls<'b>>>,
@@ -152,7 +152,7 @@ impl<'a> Walls<'a> {
     }
 }
 
-/// One look at the pairs that two runs form.
+/// One comparison of the pairs that two runs form.
 pub(crate) struct Comparison<'a> {
     /// Indices into [`PAIR_RULES`], and how far each reaches.
     pub(crate) rules: &'a [(usize, f64)],
@@ -161,7 +161,7 @@ pub(crate) struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
-    /// The pairs within one run. Gives back how many looks it took, as [`Comparison::between`] does.
+    /// The pairs within one run. Returns how many looks it took, as [`Comparison::between`] does.
     pub(crate) fn within(&self, walls: &Walls, found: &mut Vec<Observed>) -> u64 {
         let mut looks = (walls.each.len() * walls.groups.len()) as u64;
         for (at, one) in walls.each.iter().enumerate() {
@@ -216,8 +216,8 @@ impl Comparison<'_> {
         looks
     }
 
-    /// Lets the rules look at two segments whose boxes come near each other. The one of the entity that is machined earlier
-    /// comes first, so that the answer depends neither on how contours are keyed nor on when an entity was drawn.
+    /// Runs the rules on two segments whose boxes come near each other. The one of the entity that is machined earlier
+    /// comes first, so that the answer depends neither on the keys of contours nor on when an entity was drawn.
     fn at(&self, one: &(Wall, Bounds), other: &(Wall, Bounds), found: &mut Vec<Observed>) {
         let place = |wall: &Wall| {
             (
@@ -233,7 +233,7 @@ impl Comparison<'_> {
         };
         let mut is_double = false;
         for &(rule, reach) in self.rules {
-            // What is said of the two as doubles needs no other word. A contour that doubles itself also crosses itself.
+            // For duplicates no other finding is needed. A contour that duplicates itself also crosses itself.
             if is_double && PAIR_RULES[rule].silent_for_doubles && own.0 != theirs.0 {
                 continue;
             }

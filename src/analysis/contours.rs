@@ -71,7 +71,7 @@ impl Analysis {
         })
     }
 
-    /// How many contours of its own workpiece hold each.
+    /// The number of contours of its own workpiece around each.
     fn depths_by_part(
         &self,
         drawing: &Drawing,
@@ -95,8 +95,8 @@ impl Analysis {
         depths
     }
 
-    /// The role of each contour: stated by an entity, by its layer, by the `side` setting, or by nesting. A side of its direction says
-    /// nothing of a closed one.
+    /// The role of each contour: stated by an entity, by its layer, by the `side` setting, or by nesting. A side of a
+    /// direction does not apply to a closed one.
     pub(super) fn roles(&self, drawing: &Drawing, keys: &[ContourKey]) -> Vec<Role> {
         let everywhere = self.settings.side.role();
         let depths = match everywhere {
@@ -151,7 +151,7 @@ pub(super) fn role_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> 
 
 /// Whether an entity is set aside by its linetype or its layer: nobody has given it, its linetype or its layer a role.
 ///
-/// A role of the layer does not bring back what has such a linetype of its own.
+/// A role of the layer does not bring back an entity with such a linetype of its own.
 pub(crate) fn set_aside(drawing: &Drawing, settings: &Effective, id: EntityId) -> Option<Aside> {
     let entity = drawing.get(id)?;
     let is_asked_for = entity.role.is_some() || own_role(drawing, settings, id).is_some();
@@ -186,9 +186,9 @@ pub(super) fn part_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> 
         .then(|| layer().map_or(0, |layer| settings.workpieces.of_layer(layer)))
 }
 
-/// True when an entity is part of a contour, which may be a lone line: it has segments, its role is not `ignore`, it is seen, or somebody
-/// has given it or its layer a role, and it is not set aside by its linetype or its layer. A colour or a handle alone does not bring back
-/// what is frozen.
+/// True when an entity is part of a contour, which may be a lone line: it has segments, its role is not `ignore`, it is
+/// visible, or somebody has given it or its layer a role, and it is not set aside by its linetype or its layer. A
+/// colour or a handle alone does not bring back a frozen entity.
 pub(crate) fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> bool {
     let Some(entity) = drawing
         .get(id)

@@ -7,7 +7,7 @@ use crate::finding::{Detail, Finding, Fix, FixKind, Place, Rule};
 use crate::rules::{CONTOUR_RULES, LOCAL_RULES, Observation, PAIR_RULES, Wall, small_radius};
 
 impl Analysis {
-    /// The fixes of one finding, the preferred one first; empty where none is right.
+    /// The fixes of one finding, the preferred one first; empty where there is none.
     pub fn fixes(&self, drawing: &Drawing, finding: &Finding) -> Vec<Fix> {
         let Place::Segment { entity, segment } = &finding.place else {
             return Vec::new();
@@ -72,7 +72,7 @@ impl Analysis {
         let (key, index) = self.chains.index_of(at.0, at.1)?;
         let outlook = self.outlook(drawing, key)?;
         if let Some(rule) = LOCAL_RULES.iter().find(|local| local.rule == finding.rule) {
-            // A hint that stands for many corners is no place to mend one of them.
+            // A hint that stands for many corners is not the place to mend one of them.
             if matches!(finding.detail, Detail::SharpCorner { count: Some(count), .. } if count > 1)
             {
                 return None;
@@ -105,13 +105,13 @@ impl Analysis {
 
     /// One edit that makes every safe fix; `None` where there is none.
     ///
-    /// Doubles first, then arcs; where there are none to be mended, what the other rules can mend safely, one rule at a time: call
-    /// again until nothing is left.
+    /// Doubles first, then arcs; after those the safe fixes of the other rules, one rule at a time: call again until
+    /// nothing is left.
     pub fn fix_all(&self, drawing: &Drawing) -> Option<DrawingEdit> {
         self.fix_all_of(drawing, Wanted::default())
     }
 
-    /// As [`Analysis::fix_all`], of the fixes that `can` says can be made.
+    /// As [`Analysis::fix_all`], with those fixes for which `can` holds.
     pub(crate) fn fix_all_that(
         &self,
         drawing: &Drawing,
@@ -127,8 +127,8 @@ impl Analysis {
         )
     }
 
-    /// Whether there is anything that [`Analysis::fix_all_that`] makes: the first of it is enough. `found` are all findings, where they
-    /// are at hand.
+    /// Whether [`Analysis::fix_all_that`] would change anything: the first change is enough. `found` are all findings,
+    /// if the caller has them.
     pub(crate) fn has_fix_that(
         &mut self,
         drawing: &Drawing,

@@ -1,4 +1,4 @@
-//! What is known of one contour: its index, its stated role, what the local rules have seen in it.
+//! The knowledge of one contour: its index, its stated role, the observations of the local rules.
 
 use super::report::Report;
 use crate::drawing::{Contour, ContourIndex, Drawing, RUN, Role};
@@ -11,7 +11,7 @@ use std::ops::Range;
 
 /// Runs whose segments are at hand at once.
 const AT_ONCE: usize = 256;
-/// Segments at hand before and behind them: what rules ask for beyond is worked out.
+/// Segments at hand before and behind them: those that rules ask for beyond are worked out.
 const ABOUT: usize = 32;
 
 #[derive(Clone, Debug)]
@@ -21,12 +21,11 @@ pub(crate) struct Known {
     pub(crate) stated: Option<Role>,
     /// The number of its workpiece.
     pub(crate) part: u16,
-    /// For each local rule, for each run of the index, what it has seen; nothing at all where it has seen nothing, as in
-    /// most contours.
+    /// For each local rule, for each run of the index, its observations; empty without any, as in most contours.
     observations: Vec<Vec<Vec<Observation>>>,
     /// For each local rule how many of its observations concern which side.
     counts: Vec<Counts>,
-    /// Number of runs when the rules looked last.
+    /// Number of runs at the last check.
     runs: usize,
 }
 
@@ -42,8 +41,8 @@ impl Known {
         }
     }
 
-    /// Lets every local rule look again at the segments of `changed` and as far about as it reaches; at all behind when
-    /// the number of segments has changed.
+    /// Runs every local rule on the segments of `changed` and as far about as it reaches; on all behind when the number
+    /// of segments has changed.
     pub(crate) fn check(
         &mut self,
         drawing: &Drawing,
@@ -63,7 +62,7 @@ impl Known {
         let (count, runs) = (contour.len(), self.index.run_count());
         let recounted = self.runs != runs;
         self.runs = runs;
-        // Which rule looks at which run, run by run.
+        // Which rule checks which run, run by run.
         let mut asked: Vec<(usize, usize)> = Vec::new();
         for (number, rule) in LOCAL_RULES.iter().enumerate() {
             if settings.severity(rule.rule).is_none() {
@@ -134,18 +133,18 @@ impl Known {
         }
     }
 
-    /// True when a local rule has seen something.
+    /// True when a local rule has an observation.
     pub(crate) fn has_observations(&self) -> bool {
         !self.observations.iter().flatten().all(Vec::is_empty)
     }
 
     /// Adds the findings of the local rules in this contour, rule by rule, in order of travel.
     pub(crate) fn report(&self, outlook: &Outlook, wire_side: Option<Side>, report: &mut Report) {
-        // What is open is not cut: what only spoils a cut is a hint until it is closed.
+        // An open contour is not cut: a finding that only spoils a cut is a hint until it is closed.
         let waits = !outlook.contour.closed && wire_side.is_none() && report.open_is_an_error();
         let of_rules = LOCAL_RULES.iter().zip(&self.observations);
         for ((rule, observations), counts) in of_rules.zip(&self.counts) {
-            // What is seen where a closed contour begins is asked anew.
+            // An observation at the start of a closed contour is checked again.
             let holds = |observation: &Observation| {
                 observation.index > 0
                     || !outlook.contour.closed
@@ -206,7 +205,7 @@ impl Known {
     }
 }
 
-/// True for what concerns the wire on this side, or on any where the side is not known.
+/// True for an observation on this side of the wire, or on any where the side is not known.
 fn is_of(wire_side: Option<Side>, observation: &Observation) -> bool {
     match wire_side {
         Some(_) => observation.side.is_none() || observation.side == wire_side,
@@ -214,7 +213,7 @@ fn is_of(wire_side: Option<Side>, observation: &Observation) -> bool {
     }
 }
 
-/// How many observations there are, by the side that they concern and by whether they need one.
+/// The number of observations, by side and by whether they need one.
 #[derive(Clone, Debug, Default)]
 struct Counts {
     of: [[usize; 2]; 3],
@@ -233,7 +232,7 @@ impl Counts {
         *self.place(observation) -= 1;
     }
 
-    /// How many are [`is_of`] this side.
+    /// The number for which [`is_of`] this side holds.
     fn of(&self, wire_side: Option<Side>) -> usize {
         match wire_side {
             Some(_) => [None, wire_side]
@@ -256,9 +255,9 @@ fn row_of(side: Option<Side>) -> usize {
 /// What the offset of a contour loses.
 #[derive(Clone, Debug)]
 pub(crate) struct Answer {
-    /// What was asked: the side, and whether there is a neck.
+    /// The question: the side, and whether there is a neck.
     pub(crate) asked: (Side, bool),
     pub(crate) lost: Vec<Lost>,
-    /// What stands against a path, where nothing is lost; `None` while that has not been asked.
+    /// Why there is no path, where nothing is lost; `None` while that has not been asked.
     pub(crate) misfit: Option<Option<Box<Finding>>>,
 }

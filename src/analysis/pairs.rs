@@ -1,4 +1,4 @@
-//! What the rules on pairs of segments have seen, by the runs of segments that the two lie in.
+//! The observations of the rules on pairs of segments, by the runs of the two segments.
 
 use super::compare::{Comparison, Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId, passes};
 use super::told::Told;
@@ -12,47 +12,47 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
 
-/// What a look of the budget is: a segment held against another one, or so many boxes of the grid.
+/// One look of the budget: the comparison of two segments, or of this many boxes of the grid.
 const BOXES_OF_A_LOOK: u64 = 4;
 
-/// Runs that are looked at side by side: what is found beyond the bounds is thrown away.
+/// Runs that are compared in parallel: results beyond the bounds are dropped.
 const BATCH: usize = 8192;
-/// From so many runs on it is worth waking other threads, each of which takes so many at a time.
+/// From this many runs on it is worth waking other threads, each of which takes this many at a time.
 const MANY_RUNS: usize = 512;
 const SHARE: usize = 64;
 
-/// The runs of all contours by place, and what has been seen between them.
+/// The runs of all contours by place, and the observations between them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pairs {
     grid: Grid<RunId>,
     pub(super) seen: FxHashMap<(RunId, RunId), Vec<Observed>>,
     partners: FxHashMap<RunId, Vec<RunId>>,
-    /// Runs near which something has come or gone: whether their discs are empty is to be asked again.
+    /// Runs near which something has come or gone: whether their discs are empty must be checked again.
     stale: FxHashSet<RunId>,
-    /// How many pairs are in `seen`.
+    /// The number of pairs in `seen`.
     seen_count: usize,
-    /// Runs that have not been compared with everything near them, since enough had been seen already.
+    /// Runs that have not been compared with all their neighbours because of the limit.
     pub(super) uncompared: FxHashSet<RunId>,
     /// The farthest that a rule reaches.
     reach: f64,
-    /// Looks that there were when all was looked at last, and those that are left of them: for comparing, and for asking whether discs
-    /// are empty.
+    /// The looks at the start of the last full comparison, and those that are left: for comparing, and for checking
+    /// whether discs are empty.
     granted: u64,
     left: u64,
     left_to_ask: u64,
     most_seen: usize,
-    /// Where enough has been seen: runs that had not been compared, nor seen by any other, and were forgotten; and whether something has
-    /// changed that those that were compared may see.
+    /// Set where the limit was reached: runs that had not been compared, nor met by any other, and were forgotten; and
+    /// whether something has changed that the compared ones may see.
     untold: FxHashSet<RunId>,
     is_disturbed: bool,
-    /// What there is to tell of all that has been seen, while that stays.
+    /// The findings from all observations, while these stay.
     pub(super) told: Option<Arc<Told>>,
     /// There are workpieces, which do not meet.
     are_parts: bool,
 }
 
 impl Pairs {
-    /// Nothing seen yet, and what a look at a drawing of so many segments may take, with all that is edited in it afterwards.
+    /// No observations yet, and the looks that a drawing of this many segments may take, with all later edits of it.
     pub(crate) fn new(budget: &Budget, segments: usize) -> Pairs {
         let granted = budget
             .looks
@@ -66,12 +66,12 @@ impl Pairs {
         }
     }
 
-    /// Gives the looks anew, for an edit that is only tried.
+    /// Resets the looks, for an edit that is only tried.
     pub(crate) fn refill(&mut self) {
         (self.left, self.left_to_ask) = (self.granted, self.granted);
     }
 
-    /// True while what has been seen, edit by edit, is what a look at everything sees.
+    /// True while the observations, edit by edit, equal those of a full comparison.
     pub(crate) fn is_as_fresh(&self) -> bool {
         self.is_within_budget() || self.is_settled()
     }
@@ -81,13 +81,13 @@ impl Pairs {
         self.told = None;
     }
 
-    /// Everything has been looked at, in the order of the drawing.
+    /// Everything has been compared, in the order of the drawing.
     pub(crate) fn settle(&mut self) {
         self.is_disturbed = false;
     }
 
-    /// True where so much has been seen that a look at everything ends there, and nothing has changed but among what comes behind that
-    /// end: a look at everything ends there again.
+    /// True where a full comparison ends at the limit, and changes since are only behind that end: another full
+    /// comparison would end there again.
     fn is_settled(&self) -> bool {
         let half = self.granted / 2;
         self.seen_count >= self.most_seen
@@ -97,13 +97,13 @@ impl Pairs {
             && self.untold.is_empty()
     }
 
-    /// True for a run that was left out of the comparison, and that none of those that were compared has seen.
+    /// True for a run that was left out of the comparison, and that none of the compared ones has met.
     fn is_left_out(&self, run: &RunId) -> bool {
         self.uncompared.contains(run) && !self.partners.contains_key(run)
     }
 
-    /// Each pair that there is has been looked at once at least: where that took no more than half of what there was, a look at everything comes to its end, too. Else what is left out
-    /// hangs on the order in which things are looked at: all has to be looked at.
+    /// Each present pair has been compared at least once: where that took no more than half of the looks, a full
+    /// comparison would finish, too. Otherwise the order decides what is left out, so everything must be compared.
     fn is_within_budget(&self) -> bool {
         let half = self.granted / 2;
         self.uncompared.is_empty()
@@ -112,7 +112,7 @@ impl Pairs {
             && self.left_to_ask >= half
     }
 
-    /// True when nothing that has been seen between others depends on this contour, and all that is sought has been.
+    /// True when no observation between others depends on this contour, and the search is complete.
     pub(crate) fn may_spare(&self, key: ContourKey) -> bool {
         let depends = |each: &Observed| {
             each.disc.is_some() && !each.own_disc && each.one.0 != key && each.other.0 != key
@@ -122,14 +122,14 @@ impl Pairs {
             && !self.seen.values().flatten().any(depends)
     }
 
-    /// Forgets a contour as it was when it was looked at last.
+    /// Forgets a contour as it was at the last comparison.
     pub(crate) fn forget(&mut self, key: ContourKey, index: &ContourIndex) {
         for run in 0..index.run_count() {
             self.forget_run((key, run as u32), &index.bounds_of_run(run));
         }
     }
 
-    /// Forgets a run with the box that it was looked at with.
+    /// Forgets a run with its box at the last comparison.
     pub(crate) fn forget_run(&mut self, run: RunId, bounds: &Bounds) {
         self.grid.remove(run, bounds);
         if self.is_left_out(&run) {
@@ -149,7 +149,7 @@ impl Pairs {
         }
     }
 
-    /// Contours of which something has been seen beside this one.
+    /// Contours with observations beside this one.
     pub(crate) fn beside(&self, key: ContourKey, runs: usize) -> FxHashSet<ContourKey> {
         let partners = (0..runs).filter_map(|run| self.partners.get(&(key, run as u32)));
         partners
@@ -186,7 +186,7 @@ impl Pairs {
         self.is_disturbed |= is_seen;
     }
 
-    /// Looks at new runs, with each other and with all that come near them.
+    /// Compares new runs with each other and with all that come near them.
     pub(crate) fn check(
         &mut self,
         outlook: Outlooks,
@@ -217,13 +217,13 @@ impl Pairs {
                 self.disturb(&bounds);
             }
         }
-        // Of what was not there before nobody knows whether it comes behind the end of what is compared.
+        // A new run may or may not be behind the end of the comparison.
         let is_known = |run| self.untold.contains(run);
         self.is_disturbed |= !runs.iter().all(is_known);
         for run in runs {
             self.untold.remove(run);
         }
-        // Their order is that of the contours, whatever the numbers by which these are known.
+        // Their order is that of the contours, whatever their keys.
         let new: FxHashMap<RunId, usize> = runs
             .iter()
             .enumerate()
@@ -241,7 +241,7 @@ impl Pairs {
         let (mut left, mut count) = (self.left, self.seen_count);
         for (batch, runs) in runs.chunks(BATCH).enumerate() {
             let first = batch * BATCH;
-            // A run that was not looked at here since too much is found is looked at below, if at all.
+            // A run that was not compared here because of the limit is compared below, if at all.
             let (looks, found) = (AtomicU64::new(0), AtomicUsize::new(0));
             let is_enough =
                 || looks.load(Relaxed) >= left || count + found.load(Relaxed) >= self.most_seen;
@@ -303,7 +303,8 @@ impl Pairs {
         self.ask_again(&mut kept, limits);
     }
 
-    /// Looks whether the discs of what has been seen at the stale runs are empty, while looks are left. Of the others nothing is told.
+    /// Checks whether the discs of the stale runs' observations are empty, while looks are left. The others make no
+    /// findings.
     fn ask_again(&mut self, kept: &mut Kept, limits: &Limits) {
         let mut left = self.left_to_ask;
         let stale = std::mem::take(&mut self.stale);
@@ -313,7 +314,7 @@ impl Pairs {
         let mut asked: Vec<(RunId, RunId)> = partners
             .flat_map(|(&run, partners)| partners.iter().map(move |&partner| ordered(run, partner)))
             .collect();
-        // In the order along the contours, so that what is kept of one pair serves the next.
+        // In the order along the contours, so that cached data of one pair serve the next.
         let mut ranks: FxHashMap<ContourKey, u64> = FxHashMap::default();
         let outlook = kept.outlook;
         let mut rank = |key: ContourKey| {
@@ -392,13 +393,13 @@ impl Pairs {
         })
     }
 
-    /// How many runs have not been compared with everything near them.
+    /// The number of runs that have not been compared with all their neighbours.
     pub(crate) fn uncompared(&self) -> usize {
         self.uncompared.len()
     }
 }
 
-/// What new runs are compared with.
+/// The partners of new runs.
 struct Search<'a> {
     grid: &'a Grid<RunId>,
     rules: &'a [(usize, f64)],
@@ -407,12 +408,12 @@ struct Search<'a> {
     are_parts: bool,
 }
 
-/// What a look at one run has seen.
+/// The results for one run.
 #[derive(Default)]
 struct Looked {
-    /// Looks that it took to find the runs that come near.
+    /// The looks that it took to find its neighbours.
     before: u64,
-    /// Each of those, the looks that it took, and what has been seen.
+    /// Each of those, the looks that it took, and the observations.
     each: Vec<(RunId, u64, Vec<Observed>)>,
     /// There were no looks left for the others.
     is_cut_short: bool,
@@ -429,7 +430,7 @@ impl Looked {
 }
 
 impl Search<'_> {
-    /// Compares the new run at a place in their order with all that come near it, in so many looks.
+    /// Compares the new run at a place in their order with all that come near it, within this many looks.
     fn look(&self, kept: &mut Kept, at: usize, run: RunId, most: u64) -> Looked {
         let mut looked = Looked::default();
         let Some(own) = (kept.outlook)(run.0) else {
@@ -438,7 +439,7 @@ impl Search<'_> {
         let area = own.index.bounds_of_run(run.1 as usize).grown(self.reach);
         let mut near = Vec::new();
         let boxes = self.grid.near(&area, |other| {
-            // Two new runs are looked at once.
+            // Two new runs are compared once.
             if self.new.get(&other).is_none_or(|&its| at <= its) {
                 near.push(other);
             }

@@ -1,4 +1,4 @@
-//! What the offsets of contours lose, and where no path of the wire would hold its proof.
+//! What the offsets of contours lose, and where no path of the wire would pass its proof.
 
 use super::Analysis;
 use super::known::Answer;
@@ -26,7 +26,7 @@ impl Analysis {
         if !of_rules || sides.iter().all(Option::is_none) {
             return;
         }
-        // Without the rules that see them, a neck is taken for granted, and a crossing for none.
+        // Without the rules that find them, a neck is assumed, and a crossing is not.
         let necks = is_on(Rule::NarrowSlot).then(|| self.pairs.contours_with(Rule::NarrowSlot));
         let crossed = self.pairs.contours_with(Rule::SelfIntersection);
         for (&key, &side) in ordered.iter().zip(sides) {
@@ -55,7 +55,7 @@ impl Analysis {
                     },
                 );
             }
-            // Fixes are held against each other by what is cheap to know.
+            // Fixes are compared by what is cheap to know.
             if report.shows_findings()
                 && self
                     .lost
@@ -78,7 +78,7 @@ impl Analysis {
             } else {
                 self.pairs.slots_of(key)
             };
-            // What a slot is told of is not told again as what is lost in it.
+            // A part in a slot with its own finding is not reported again as lost.
             let is_told = |near: Point, index: usize| {
                 slots.iter().any(|(walls, disc)| match disc {
                     Some((center, radius)) => {
@@ -141,8 +141,8 @@ impl Analysis {
         }
     }
 
-    /// What stands against a path of the wire on `side` of a contour; `None` for one that is too long to ask at every edit, that is the
-    /// wire's path itself, or of whose arcs each says so.
+    /// Why there is no path of the wire on `side` of a contour. `None` for a contour that is too long to ask at every
+    /// edit, is the wire's path itself, or whose arcs have findings of it.
     pub(super) fn misfit(&self, drawing: &Drawing, key: ContourKey, side: Side) -> Option<Finding> {
         let (contour, known) = (self.chains.get(key)?, self.known.get(&key)?);
         if contour.len() > lost_pocket::MOST_SEGMENTS

@@ -7,33 +7,34 @@ use crate::finding::{Finding, Fix, Rule};
 use rustc_hash::FxHashSet;
 use std::borrow::Cow;
 
-/// Rules whose safe repairs "fix all" makes before it makes arcs larger: a line that lies there twice would be moved once.
+/// Rules whose safe repairs "fix all" makes before it makes arcs larger: otherwise only one of two identical lines
+/// would be moved.
 pub(super) const FIRST: [Rule; 2] = [Rule::DuplicateEntity, Rule::Overlap];
 
-/// And behind that, the first of them that has any.
+/// And the first of the rules after that which has any.
 pub(super) const THEN: [Rule; 3] = [Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords];
 
-/// Edits that are tried before a rule is given up: each costs a look at the drawing. In a large one so many that about as many
-/// segments are looked at, and at least two; few where not even the drawing as it is has been compared to its end.
+/// Edits that are tried before a rule is given up: each costs a look at the drawing. In a large one, enough to read
+/// about this many segments, and at least two; few where not even the present drawing has been compared completely.
 const TRIES: usize = 24;
 const FEW_TRIES: usize = 6;
 const SEGMENTS: usize = 4_000_000;
 
-/// Whether the edit of one fix can be made where the drawing comes from; of all fixes where there is none to ask.
+/// Whether the edit of one fix can be made in the source of the drawing; of all fixes where there is none to ask.
 pub(super) type Can<'a> = Option<&'a dyn Fn(&DrawingEdit) -> bool>;
 
 /// Which of the safe repairs are wanted.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Wanted<'a> {
     pub(crate) can: Can<'a>,
-    /// Whether there is one is all that is asked.
+    /// Only whether there is one.
     pub(crate) first_will_do: bool,
-    /// All findings, where they are at hand.
+    /// All findings, if the caller has them.
     pub(crate) found: Option<&'a [Finding]>,
 }
 
 impl Analysis {
-    /// Those of the fixes of a finding of `rule` that make nothing worse and let the finding go.
+    /// The fixes of a finding of `rule` that make nothing worse and remove the finding.
     pub(super) fn checked(&self, drawing: &Drawing, rule: Rule, fixes: Vec<Fix>) -> Vec<Fix> {
         if fixes.is_empty() {
             return fixes;
@@ -45,7 +46,7 @@ impl Analysis {
             .collect()
     }
 
-    /// What is found behind an edit that can be made, leaves no more errors and no more warnings than `before`, and fewer
+    /// The findings after an edit that is possible, leaves no more errors and warnings than `before`, and fewer
     /// findings of `rule`; `None` for any other edit.
     fn mends(
         &self,
@@ -57,10 +58,10 @@ impl Analysis {
         let mut edited = drawing.clone();
         let delta = edited.apply(edit).ok()?;
         let after = self.updated(&edited, &delta).tally(&edited);
-        // What one circle could not hold may leave a second sequence of chords behind.
+        // Chords beyond one circle may leave a second sequence behind.
         let is_less = after.of(rule) < before.of(rule)
             || (rule == Rule::ArcAsChords && after.of(rule) <= before.of(rule))
-            // Where there is more than is sought, others come into observation.
+            // Where the search had reached its limit, other findings may appear.
             || after.unseen < before.unseen;
         let is_no_worse = match rule {
             Rule::OpenContour => after.is_no_worse_once_closed(before),
@@ -79,15 +80,15 @@ impl Analysis {
         (SEGMENTS / self.segments.max(1)).clamp(2, most)
     }
 
-    /// What there is to be said of the drawing as it is.
+    /// The findings of the present drawing.
     pub(super) fn tallied(&self, drawing: &Drawing) -> &Tally {
         self.tally.get_or_init(|| self.clone().tally(drawing))
     }
 
-    /// True when an edit that makes an arc larger leaves fewer tight arcs, no more errors, and no open end, overlap, crossing or
-    /// crumb that was not there. A line that lies there twice is moved once: then the contour falls apart.
+    /// True when an edit that makes an arc larger leaves fewer tight arcs, no more errors, and no new open end,
+    /// overlap, crossing or crumb. Of two identical lines only one is moved: then the contour falls apart.
     ///
-    /// An arc that keeps its ends leaves what it left before, whatever rule says it then: that one is `spared`.
+    /// An arc that keeps its ends leaves as much as before, whatever rule reports it then: that one is `spared`.
     pub(super) fn enlarges(
         &self,
         drawing: &Drawing,
@@ -140,7 +141,7 @@ impl Analysis {
                 let fix = fixes
                     .into_iter()
                     .find(|fix| fix.preferred && fix.in_fix_all)?;
-                // One that cannot be made must not stand in the way of the others.
+                // An impossible one must not block the others.
                 let accepted = fix
                     .edit
                     .changes
@@ -155,8 +156,8 @@ impl Analysis {
         None
     }
 
-    /// One edit that rounds the corners in which parts bind. Each is proved by the fit; a radius below the correction may come of it, of
-    /// which the fit says whether it matters.
+    /// One edit that rounds the corners in which parts bind. The fit proves each; a radius below the correction may
+    /// result, and the fit decides whether it matters.
     pub(super) fn fix_all_fits(&self, drawing: &Drawing, wanted: Wanted) -> Option<DrawingEdit> {
         self.settings.fit().ok()?;
         let (findings, _) = self.clone().findings(drawing, usize::MAX);
@@ -222,10 +223,10 @@ impl Analysis {
     }
 }
 
-/// What comes of as many of the parts as go together: where all of them do not, each half is tried beside what has been taken so far,
-/// then the halves of that half. `made` is given the parts and what has come of those taken so far.
+/// The result of as many parts as go together: where all of them do not, each half is tried beside those taken so far,
+/// then the halves of that half. `made` is given the parts and the result of those taken so far.
 ///
-/// Where none of the tries makes anything, the first part is tried by itself; where that will do, it is tried before all others.
+/// Where no try succeeds, the first part is tried by itself; if one is enough, it is tried before all others.
 pub(super) fn most_together<T: Clone, M>(
     mut parts: impl Iterator<Item = T>,
     tries: usize,
@@ -256,10 +257,10 @@ pub(super) fn most_together<T: Clone, M>(
     best.or_else(|| if is_tried { None } else { alone() })
 }
 
-/// What a change claims for itself: an entity, or one vertex of it.
+/// The target of a change: an entity, or one vertex of it.
 type Claim = (EntityId, Option<usize>);
 
-/// Those of the edits, from the first on, that touch neither the same entity nor vertices next to each other.
+/// The edits, from the first on, that touch neither the same entity nor adjacent vertices.
 fn apart(edits: impl Iterator<Item = DrawingEdit>) -> impl Iterator<Item = DrawingEdit> {
     let mut claimed: FxHashSet<Claim> = FxHashSet::default();
     let mut claimed_in: FxHashSet<EntityId> = FxHashSet::default();

@@ -1,5 +1,5 @@
-//! What the settings and the drawing itself say of single entities: what somebody has looked at and lets stand, with the reason, which is told
-//! apart from all other findings; and what is said of contours that are not there.
+//! The settings' and the drawing's own words for single entities: findings that somebody has suppressed, with the
+//! reason, which are listed apart; and settings of contours that do not exist.
 
 use super::Analysis;
 use crate::drawing::{Drawing, EntityId, Role, SUPPRESS, mark_of_layer};
@@ -8,16 +8,16 @@ use crate::geometry::{Bounds, Point};
 use crate::settings::{Effective, NEAR, nearest, point_of};
 use std::collections::BTreeSet;
 
-/// All findings of a drawing in which something is suppressed.
+/// All findings of a drawing with suppressions.
 pub(super) struct Judged {
     pub(super) findings: Vec<Finding>,
     pub(super) suppressed: Vec<(Finding, String)>,
-    /// What is said of suppressions that suppress nothing.
+    /// Findings about suppressions that suppress nothing.
     pub(super) useless: Vec<Finding>,
 }
 
 impl Analysis {
-    /// What is suppressed, each with the reason.
+    /// The suppressed ones, each with the reason.
     pub(crate) fn suppressed(&self, drawing: &Drawing) -> Vec<(Finding, String)> {
         if self.settings.suppressed.is_empty() && !drawing.has_marks() {
             return Vec::new();
@@ -25,7 +25,7 @@ impl Analysis {
         self.clone().judged(drawing).suppressed
     }
 
-    /// Why a finding of a rule at an entity is let stand.
+    /// Why a finding of a rule at an entity is suppressed.
     pub(super) fn reason(&self, drawing: &Drawing, rule: Rule, id: EntityId) -> Option<String> {
         let handle = &drawing.get(id)?.handle;
         let of_handle = self.settings.suppressed.get(&**handle);
@@ -77,7 +77,7 @@ impl Analysis {
         }
     }
 
-    /// What is said of marks in the drawing that suppress nothing, each once for an entity, or for a layer.
+    /// Findings about marks in the drawing that suppress nothing, one for each entity or layer.
     fn useless_marks(&self, drawing: &Drawing, used: &BTreeSet<(EntityId, Rule)>) -> Vec<Finding> {
         let mut marked: Vec<EntityId> = drawing.marked().collect();
         marked.sort_unstable_by_key(|id| drawing.rank(*id));
@@ -120,7 +120,7 @@ impl Analysis {
         told.collect()
     }
 
-    /// What is said of contours that are not in the drawing.
+    /// Findings about settings of contours that are not in the drawing.
     fn strays<'a>(&'a self, drawing: &'a Drawing) -> impl Iterator<Item = Finding> + 'a {
         let misses = |key: &&String| match point_of(key) {
             Some(at) => !drawing
@@ -148,8 +148,8 @@ impl Analysis {
     }
 }
 
-/// The rule that a mark suppresses, and why: `suppress RULE: reason`, with blanks, `_` or colons between them. `None` for other words, an
-/// error with what stands for the rule where it is none or the reason is missing.
+/// The rule that a mark suppresses, and why: `suppress RULE: reason`, with blanks, `_` or colons between them. `None`
+/// for other words; an error that quotes the rule where it is unknown or the reason is missing.
 fn waiver(mark: &str) -> Option<Result<(Rule, &str), &str>> {
     let is_between =
         |letter: char| letter.is_whitespace() || matches!(letter, '_' | ':' | '\u{ff1a}');

@@ -1,4 +1,4 @@
-//! What is told of what has been seen between segments.
+//! The findings from observations between segments.
 
 use super::compare::{Observed, SegmentId};
 use crate::drawing::{ContourKey, EntityId};
@@ -7,18 +7,18 @@ use crate::rules::PAIR_RULES;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 
-/// What there is to tell of the pairs that have been seen, while none comes or goes and the wire stays on its sides.
+/// The findings of the observed pairs, while none comes or goes and the wire stays on its sides.
 #[derive(Debug, Default)]
 pub(super) struct Told {
     /// The side of the wire at each of the contours.
     pub(super) sides: FxHashMap<ContourKey, Option<Side>>,
-    /// Where the first run lies that has not been compared.
+    /// The place of the first run that has not been compared.
     pub(super) uncompared: Option<Place>,
     /// In the order of the rules, and in the machining order of the entities.
     pub(super) pairs: Vec<ToldPair>,
-    /// How many there are of each rule and severity.
+    /// The number of each rule and severity.
     pub(super) counts: BTreeMap<(usize, Option<Severity>), usize>,
-    /// How many other findings stand for.
+    /// The number of other findings that they stand for.
     pub(super) absorbed: BTreeMap<(usize, Option<Severity>), usize>,
 }
 
@@ -31,23 +31,23 @@ pub(super) struct ToldPair {
     pub(super) kind: usize,
     pub(super) one: SegmentId,
     pub(super) other: SegmentId,
-    /// What lies there twice of the contour.
+    /// The duplicates in a contour.
     pub(super) others: Option<Doubles>,
 }
 
-/// Entities of one contour that lie there more than once.
+/// Entities of one contour that are duplicated.
 #[derive(Debug, Default)]
 pub(super) struct Doubles {
-    /// The later ones, which are too many.
+    /// The later ones, which are superfluous.
     pub(super) places: Vec<Place>,
-    /// How many entities of the contour they lie on, and the last of those.
+    /// The number of entities of the contour that they duplicate, and the last of those.
     count: usize,
     last: Option<EntityId>,
     known: FxHashSet<EntityId>,
 }
 
 impl Doubles {
-    /// One more, which lies on `first`; all that lie on one follow each other.
+    /// Adds one that lies on `first`; all that lie on one follow each other.
     pub(super) fn add(&mut self, first: EntityId, later: EntityId, place: Place) {
         self.count += usize::from(self.last.replace(first) != Some(first));
         if self.known.insert(later) {
@@ -68,7 +68,8 @@ impl Told {
     }
 }
 
-/// Which of `seen` another one stands for: of neighbouring pairs that see one thing, all but the one with the smallest disc.
+/// Which of `seen` another one stands for: of neighbouring pairs with one observation, all but the one with the
+/// smallest disc.
 pub(super) fn merged(
     seen: &[&Observed],
     count_of: &dyn Fn(ContourKey) -> Option<usize>,

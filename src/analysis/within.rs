@@ -1,4 +1,4 @@
-//! Sides that contradict what lies within what: a punch that is cut out of another punch.
+//! Sides that contradict the nesting: a punch that is cut out of another punch.
 
 use super::Analysis;
 use super::known::Known;
@@ -7,11 +7,12 @@ use crate::drawing::{Contour, ContourKey, Drawing, winding};
 use crate::finding::{Detail, Place, Rule, Severity, Side};
 use crate::settings::SideSetting;
 
-/// More contours than these are not held against each other at every edit.
+/// More contours than these are not compared at every edit.
 const MOST_CONTOURS: usize = 500;
 
 impl Analysis {
-    /// The first punch that lies within another one of its workpiece, and how many more there are. By nesting alone there is none.
+    /// The first punch that lies within another one of its workpiece, and how many more there are. Nesting alone gives
+    /// none.
     pub(super) fn report_punches_within(
         &self,
         drawing: &Drawing,

@@ -1,4 +1,4 @@
-//! Where a program lies on its drawing.
+//! The place of a program on its drawing.
 
 use super::REACH;
 use super::matching::{Found, matching};
@@ -9,14 +9,14 @@ use super::walk::Walk;
 use crate::geometry::Vector;
 use std::ops::Range;
 
-/// Cuts from which a place is tried, at most.
+/// The most cuts from which a place is tried.
 const TRIED: usize = 60;
-/// A place farther away than this is not that of a program in which a block is wrong, µm.
+/// A place farther away than this is not caused by a wrong block, µm.
 const FAR: f64 = 1e4;
-/// A place that so many blocks in a row follow is the right one.
+/// A place that this many consecutive blocks follow is the right one.
 const SURE: usize = 40;
 
-/// Where the program lies, from the blocks of its cuts; `None` where nothing of it is like the drawing.
+/// The place of the program, from the blocks of its cuts; `None` where nothing of it matches the drawing.
 pub(super) fn anchor(traced: &Traced, rounds: &Rounds) -> Option<Pose> {
     let still = Pose::at(Vector::zeros());
     let walk = Walk::new(traced, rounds, still);
@@ -42,7 +42,7 @@ pub(super) fn anchor(traced: &Traced, rounds: &Rounds) -> Option<Pose> {
     found_by(traced, rounds, &walk, &tried)
 }
 
-/// Other places where the program may lie: whatever is wrong in one block moves what comes behind, and the most of it may be there.
+/// Other possible places of the program: one wrong block moves everything behind it, which may be most of the program.
 pub(super) fn others(traced: &Traced, rounds: &Rounds, pose: &Pose) -> Vec<Pose> {
     let still = Pose::at(Vector::zeros());
     let walk = Walk::new(traced, rounds, still);
@@ -68,7 +68,7 @@ fn cuts(traced: &Traced, among: Range<usize>) -> Vec<usize> {
     among.filter(is_cut).take(TRIED).collect()
 }
 
-/// The first contour says it: whatever is wrong in one moves what comes behind.
+/// The first contour decides: a wrong one moves what comes behind.
 fn found_by(traced: &Traced, rounds: &Rounds, walk: &Walk, tried: &[usize]) -> Option<Pose> {
     let still = Pose::at(Vector::zeros());
     let mut best: Option<(usize, Found, usize)> = None;

@@ -1,4 +1,4 @@
-//! What a program does otherwise than its drawing.
+//! The differences between a program and its drawing.
 
 use super::anchor::{anchor, others};
 use super::drawn::Drawn;
@@ -32,27 +32,28 @@ pub struct Difference {
     pub kind: Kind,
 }
 
-/// What came of holding a program against its drawing.
+/// The result of comparing a program with its drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// What it does otherwise, in the order of the program.
+    /// The differences, in the order of the program.
     pub differences: Vec<Difference>,
     /// Bytes of the blocks that end where the drawing says.
     pub follows: Vec<Range<usize>>,
 }
 
-/// As many differences as this are one change each, whatever their share.
+/// Up to this many differences are one change each, whatever their share.
 pub(super) const FEW: usize = 6;
-/// What a block of 4B may be off by where another rounding of its transitions explains it, µm.
+/// The deviation of a 4B block that another rounding of its transitions explains, µm.
 const ROUNDED: f64 = 2.5;
-/// One of several blocks that are unlike is off by as much, µm.
+/// One of several differing blocks is off by as much, µm.
 const CHANGED: f64 = 2.5;
-/// So many blocks have to be as we write them for each that is not: it is a change then, and not another writer's rounding.
+/// For each differing block this many must be as we write them: it is a change then, and not another writer's rounding.
 const OWN: usize = 8;
-/// Corrections that are found for further passes, at most.
+/// The most corrections that are found for further passes.
 const FURTHER: usize = 4;
 
-/// Holds a program against a drawing by how its blocks lie, whoever wrote them; `None` where it follows nothing of it.
+/// Compares a program with a drawing by its blocks' geometry, whoever wrote them; `None` where it follows nothing of
+/// the drawing.
 pub(super) fn looked_at(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     if traced.is_empty() || drawn.contours().is_empty() {
         return None;
@@ -69,21 +70,21 @@ pub(super) fn looked_at(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     } else {
         own
     };
-    // Where 4B begins a contour decides how its transitions are rounded, and that is not known to the micrometre.
+    // The start of a contour in 4B decides how its transitions are rounded, and it is not known to the micrometre.
     let is_rounding = |unlike: &Unlike| unlike.off <= ROUNDED;
     let is_loose = traced.four_b && near.is_clean() && own.unlike.iter().all(is_rounding);
     if own.is_own() && !is_loose {
         return own.told(traced);
     }
     let near = near.surely(traced);
-    // Under settings that are not those of the drawing what is unlike may be as they have it.
+    // Under settings that are not those of the drawing, a difference may be meant.
     if near.is_guess && !near.is_clean() && !near.is_one_change() {
         return None;
     }
     near.told(traced)
 }
 
-/// The way of laying a program on its drawing that explains it best, with room for roundings.
+/// The placement of a program on its drawing that explains it best, with room for roundings.
 fn nearest(drawn: &Drawn, traced: &Traced, courses: &[Course]) -> Tried {
     let mut best = try_with(drawn, traced, courses, false);
     if !best.is_clean() {
@@ -133,7 +134,7 @@ fn with_other_corner(drawn: &Drawn) -> Drawn {
     })
 }
 
-/// One way of laying the program on the drawing.
+/// One placement of the program on the drawing.
 struct Tried {
     unlike: Vec<Unlike>,
     /// Blocks that follow.
@@ -142,11 +143,11 @@ struct Tried {
     laid: Option<(Rc<Rounds>, Pose)>,
     /// Every block is known to follow.
     is_sure: bool,
-    /// It is laid otherwise than the settings have it.
+    /// It is placed otherwise than the settings say.
     is_guess: bool,
 }
 
-/// `exact`: by what our own writers make of the drawing.
+/// `exact`: by the output of our own writers for the drawing.
 fn try_with(drawn: &Drawn, traced: &Traced, courses: &[Course], exact: bool) -> Tried {
     let mut rounds = Rounds::default();
     rounds.add(drawn, courses, None);
@@ -160,7 +161,7 @@ fn try_with(drawn: &Drawn, traced: &Traced, courses: &[Course], exact: bool) -> 
     }
 }
 
-/// Goes along the rounds that are laid, and along those of further corrections.
+/// Walks along the present rounds, and along those of further corrections.
 fn along(
     drawn: &Drawn,
     traced: &Traced,
@@ -215,7 +216,7 @@ fn along(
     Tried::of(traced, walked, &foreign, (Rc::new(rounds), pose))
 }
 
-/// All blocks of a program, where each lies on the drawing; and by how much they miss their places together, µm.
+/// All blocks of a program, each with its place on the drawing; and by how much they miss their places together, µm.
 fn sound(traced: &Traced, rounds: &Rounds, pose: Pose) -> Option<(Walked, f64)> {
     let members = Members::all(traced, rounds, pose);
     members.filter(|(walked, _)| foreign(traced, walked).is_empty())
@@ -227,7 +228,7 @@ fn sound_somewhere(traced: &Traced, rounds: &Rounds, pose: Pose) -> Option<Walke
     poses.find_map(|pose| Some(sound(traced, rounds, pose)?.0))
 }
 
-/// What may be left standing, µm.
+/// The longest tab that may be left standing, µm.
 fn tabs(drawn: &Drawn) -> Vec<f64> {
     match &drawn.settings.tab {
         LengthSetting::One(tab) => vec![tab * 1e3],
@@ -352,7 +353,7 @@ impl Tried {
         self.unlike.len() == 1 && self.is_own() && self.unlike.iter().all(is_change)
     }
 
-    /// The same program by what our own writers make of the drawing.
+    /// The same program by the output of our own writers for the drawing.
     fn exactly(&self, drawn: &Drawn, traced: &Traced) -> Tried {
         let laid = self.laid.as_ref();
         let laid = laid.and_then(|(rounds, pose)| Some((rounds.clone(), pose.exactly()?)));
@@ -367,14 +368,14 @@ impl Tried {
         Tried::of(traced, walked, &foreign, (rounds, pose))
     }
 
-    /// It is as we write it, but for what somebody has changed.
+    /// It is as we write it, except for what somebody has changed.
     fn is_own(&self) -> bool {
         let unlike = self.unlike.len();
         let own = if unlike > 2 { 4 * OWN } else { OWN };
         self.followed > 0 && self.followed >= own * unlike
     }
 
-    /// What a walk has named need not be so: perhaps all of it follows, or all but one block.
+    /// The walk may be wrong about a block: perhaps all of the program follows, or all but one block.
     fn surely(mut self, traced: &Traced) -> Tried {
         if self.is_sure {
             return self;
@@ -403,7 +404,7 @@ impl Tried {
         self.followed > 0 && self.unlike.is_empty()
     }
 
-    /// What is unlike may well be a change.
+    /// The differences may well be a change.
     fn is_sound(&self, traced: &Traced) -> bool {
         let count: usize = traced
             .cuts
@@ -411,7 +412,7 @@ impl Tried {
             .map(|[_, contour]| contour.len())
             .sum::<usize>()
             .max(1);
-        // Several that hardly differ are as the way was guessed, and not as somebody changed it.
+        // Several small differences come from the guessed settings, not from a change.
         let is_change = |unlike: &Unlike| unlike.kind != Kind::Block || unlike.off >= CHANGED;
         let all = &self.unlike[..];
         let is_likely = self.followed >= all.len().max(1)

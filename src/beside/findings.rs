@@ -1,4 +1,4 @@
-//! What is said of a comparison, at the program and at the drawing.
+//! The findings of a comparison, at the program and at the drawing.
 
 use super::compare::compare;
 use super::{Comparison, Difference, DifferenceKind, Drawn, Traced};
@@ -11,20 +11,20 @@ use std::sync::Arc;
 pub enum Beside {
     #[default]
     Nothing,
-    /// The drawing of a program, and the names of others that it may be of.
+    /// The drawing of a program, and the names of other candidates.
     Drawing(Partner<Drawn>, Vec<Arc<str>>),
     /// The programs of a drawing.
     Programs(Vec<Partner<Traced>>),
 }
 
-/// The other document: its name, and what was made of it or why nothing was.
+/// The other document: its name, and its content or why it has none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Partner<T> {
     pub name: Arc<str>,
     pub made: Result<Arc<T>, String>,
 }
 
-/// What is said of a program.
+/// The findings at a program.
 pub(crate) fn of_program(
     traced: &Traced,
     drawing: &Partner<Drawn>,
@@ -105,7 +105,7 @@ pub(crate) fn of_program(
     found
 }
 
-/// What is said of a drawing.
+/// The findings at a drawing.
 pub fn of_drawing(
     drawn: &Drawn,
     programs: &[Partner<Traced>],
@@ -127,7 +127,7 @@ pub fn of_drawing(
             return Vec::new();
         }
         let Some(Comparison { differences, .. }) = compare(drawn, traced) else {
-            // The program says it.
+            // The program has the finding.
             return match traced.mills {
                 true => Vec::new(),
                 false => whole(Unlike::Nothing { other: other() }),

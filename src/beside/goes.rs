@@ -1,10 +1,10 @@
-//! What a program cuts of each round from stop to stop, and whether nothing is left between.
+//! The parts of each round that a program cuts from stop to stop, and whether nothing is left between.
 
 use super::COVERED;
 use super::rounds::Rounds;
 use std::ops::Range;
 
-/// What may be cut twice where stretches lead from one to the next, as a share of their round.
+/// The overlap of consecutive stretches, as a share of their round.
 const TWICE: f64 = 0.35;
 
 /// What has been cut from stop to stop.
@@ -42,7 +42,7 @@ impl Goes {
         self.done.append(&mut self.open);
     }
 
-    /// Whether each goes all round, or together with others: a tab is cut by itself.
+    /// Whether each encloses its round, alone or with others: a tab is cut by itself.
     pub(crate) fn are_whole(mut self, rounds: &Rounds) -> bool {
         self.end();
         let mut partial: Vec<Go> = Vec::new();

@@ -1,15 +1,16 @@
-//! The corrections that a program itself speaks for.
+//! Infers corrections from a program.
 //!
-//! Beside a contour every line keeps its direction and every arc its sweep: the length of the one and the radius of the other say how far
-//! away the program runs, wherever it lies. Each pair of a block and a segment that may belong together has a vote.
+//! Beside a contour every line keeps its direction and every arc its sweep: the length of the one and the radius of the
+//! other tell how far away the program runs, wherever it lies. Each pair of a block and a segment that may belong
+//! together has a vote.
 
 use super::drawn::Contour;
 use crate::geometry::{Bounds, Segment, turn};
 
-/// Corrections that are thought of, µm.
+/// The range of corrections, µm.
 const LEAST: f64 = 5.0;
 const MOST: f64 = 3_000.0;
-/// Blocks and segments that are asked, at most.
+/// The most blocks and segments that vote.
 const ASKED: usize = 400;
 /// Angles of one corner, radians.
 const ANGLE: f64 = 0.01;
@@ -17,7 +18,7 @@ const ANGLE: f64 = 0.01;
 const CUT_OFF: f64 = 0.2;
 /// Votes for one correction lie within this, µm.
 const ONE: f64 = 2.0;
-/// Corrections that are told, at most.
+/// The most corrections that are returned.
 const TOLD: usize = 5;
 
 /// A segment with the turns before and behind it.
@@ -27,7 +28,7 @@ struct Turned {
     behind: f64,
 }
 
-/// Corrections in mm, that which most speaks for first. `scale` is the drawing's unit in µm.
+/// Corrections in mm, the one with the most votes first. `scale` is the drawing's unit in µm.
 pub(super) fn corrections<'a>(
     contours: impl Iterator<Item = &'a Contour>,
     scale: f64,
@@ -54,7 +55,7 @@ pub(super) fn corrections<'a>(
         if (wider - higher).abs() <= ONE {
             votes.extend([wider.abs(); 3]);
         }
-        // A circle has no corners: what each arc of the program says, wherever it begins.
+        // A circle has no corners: each arc of the program votes, wherever it begins.
         if let Some(radius) = circle(&segments) {
             let arcs = blocks.iter().filter_map(Segment::as_arc);
             votes.extend(arcs.map(|arc| (arc.radius - radius).abs()));
@@ -116,13 +117,13 @@ fn turned(segments: &[Segment], closed: bool) -> Vec<Turned> {
     (0..count.min(ASKED)).map(at).collect()
 }
 
-/// What a block says of the correction, if it runs beside a segment or round the corner behind it; µm.
+/// The correction from a block, if it runs beside a segment or round the corner behind it; µm.
 fn vote(own: &Turned, block: &Turned) -> Option<f64> {
     let (along, run) = (&own.segment, &block.segment);
     let turned = turn(along.start_tangent(), run.start_tangent()).abs();
     let same_way = turned <= ANGLE;
     match (along.as_arc(), run.as_arc()) {
-        // One that meets its neighbours at an angle is cut off by them.
+        // Its neighbours cut off a block that meets them at an angle.
         (Some(own), Some(arc)) if turned.max((own.sweep - arc.sweep).abs()) <= CUT_OFF => {
             Some((own.radius - arc.radius).abs())
         }

@@ -1,32 +1,33 @@
-//! What is kept with a drawing: programs that were written for it, and what a program was found to be written under.
+//! Results kept with a drawing: programs that were written for it, and the settings under which a program was found to
+//! be written.
 //!
-//! A program that we write hangs on the drawing, the settings and the format alone, not on the one that is held against it: it is kept as
-//! long as the drawing is, so that an edit of the program writes nothing.
+//! A program that we write depends only on the drawing, the settings and the format, not on the program compared with
+//! it: it is kept as long as the drawing is, so that an edit of the program writes nothing.
 
 use super::anew::{Anew, Asked, Of, Under};
 use super::traced::Traced;
 use super::way::{Way, way};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Blocks of programs that are kept, at most.
+/// The most blocks of programs that are kept.
 const MOST: usize = 60_000;
-/// Blocks that may be others in a program that was searched before.
+/// The most blocks that may differ in a program that was searched before.
 const EDITED: usize = 8;
 
-/// What has been written for a drawing.
+/// The programs written for a drawing.
 #[derive(Debug, Default)]
 pub(super) struct Kept {
-    /// With what it was written by; nothing where that cannot be.
+    /// With their settings; `None` where it cannot be written.
     written: Mutex<Vec<(Asked, Option<Arc<Anew>>)>>,
-    /// Under what a program was found to be written last.
+    /// The settings under which a program was last found to be written.
     guess: Mutex<Option<Guess>>,
 }
 
-/// What came of the last search.
+/// The result of the last search.
 #[derive(Clone, Debug)]
 pub(super) struct Guess {
     pub under: Option<Under>,
-    /// What the program that was searched does otherwise.
+    /// The differences of the searched program.
     pub left: usize,
     of: Vec<Way>,
 }
@@ -37,7 +38,7 @@ impl Guess {
         Guess { under, left, of }
     }
 
-    /// Whether a program is that which was searched, but for a few blocks in one place.
+    /// Whether a program is the searched one, except for a few blocks in one place.
     pub fn is_near(&self, traced: &Traced) -> bool {
         let ways = || traced.blocks.iter().map(|block| way(block, true));
         let alike = |(one, other): &(Way, Way)| one == other;

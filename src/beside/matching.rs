@@ -1,4 +1,4 @@
-//! Places of a drawing that a block of a program may be.
+//! Places of a drawing that may match a block of a program.
 
 use super::REACH;
 use super::pose::Pose;
@@ -9,14 +9,14 @@ use crate::geometry::Segment;
 /// Places on the drawing that are tried for a block.
 const PLACES: usize = 64;
 
-/// A place of the drawing that a block begins at.
+/// A place of the drawing where a block begins.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
     pub spot: Spot,
     pub pose: Pose,
 }
 
-/// Places of the drawing that a block may be, wherever the program lies.
+/// Places of the drawing that may match a block, wherever the program lies.
 pub(super) fn matching(rounds: &Rounds, traced: &Traced, index: usize, pose: &Pose) -> Vec<Found> {
     let Some(block) = traced.blocks[index].segment() else {
         return Vec::new();

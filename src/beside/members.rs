@@ -1,7 +1,8 @@
 //! Whether every block of a program lies on its drawing, in whatever order.
 //!
-//! A walk along both has to guess where a program means to be; that nothing is unlike can be told without: each block but the few that lead
-//! in, out and from pass to pass follows some piece of some round, and each round that is cut is cut as often everywhere.
+//! A walk along both must guess where a program means to be. That there is no difference can be shown without guessing:
+//! each block except the few leads and ways from pass to pass follows some piece of some round, and each round that is
+//! cut is cut as often everywhere.
 
 use super::goes::Goes;
 use super::pose::Pose;
@@ -11,7 +12,7 @@ use super::walk::Walked;
 use super::{BETWEEN, REACH};
 use crate::geometry::{Segment, Vector};
 
-/// What is known of a program up to one of its blocks.
+/// The state of a program up to one of its blocks.
 #[derive(Clone)]
 pub(super) struct Members {
     pub pose: Pose,
@@ -22,7 +23,7 @@ pub(super) struct Members {
     /// Blocks that end where the drawing says.
     follows: Vec<usize>,
     goes: Goes,
-    /// Where the program lies, without what 4B adds where it begins a contour.
+    /// The place of the program, without 4B's addition at the start of a contour.
     base: Option<Vector>,
     contours: Vec<usize>,
     /// Blocks since the last that follows; one that follows has been left for them.
@@ -53,7 +54,7 @@ impl Members {
         }
     }
 
-    /// Takes one block after the other in; the first one that shows that something is unlike, at the latest.
+    /// Takes one block after the other; fails at the latest at the first one that shows a difference.
     pub fn take(&mut self, traced: &Traced, rounds: &Rounds, index: usize) {
         let segment = match &traced.blocks[index].motion {
             Motion::Cut(segment) => segment,
@@ -112,8 +113,8 @@ impl Members {
         rounds.cover(&from, length, |part| self.goes.cut(from.round, part));
     }
 
-    /// Whether a run goes on from one spot at another as if the blocks between them were on it: there is no way from pass to pass that
-    /// comes back to its own place, nor one that goes along.
+    /// Whether a run goes on from one spot at another as if the blocks between them were on it: no way from pass to
+    /// pass returns to its own place or goes along.
     fn goes_on_behind(&self, rounds: &Rounds, left: &Spot, from: &Spot) -> bool {
         if (left.round, left.back) != (from.round, from.back) {
             return false;
@@ -171,8 +172,7 @@ impl Members {
         breaks
     }
 
-    /// All of them; `None` where something is unlike.
-    /// And by how much they miss their places together, µm.
+    /// All of them, and by how much they miss their places together, µm; `None` where there is a difference.
     pub fn all(traced: &Traced, rounds: &Rounds, pose: Pose) -> Option<(Walked, f64)> {
         let mut members = Members::new(traced, pose);
         for index in 0..traced.blocks.len() {

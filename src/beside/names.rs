@@ -1,4 +1,5 @@
-//! Which drawing a program belongs to: the one that a comment of it names, the one that the settings name, else the one of its own name.
+//! Finds the drawing of a program: the one that a comment of it names, the one in the settings, else the one of its own
+//! name.
 
 use crate::program::Language;
 use std::io::Read as _;
@@ -13,16 +14,17 @@ pub struct Named {
     pub others: Vec<PathBuf>,
 }
 
-/// Bytes of a program in which its drawing may be named.
+/// Bytes of a program that are searched for the name of its drawing.
 const HEAD: usize = 4096;
 
 /// Endings of drawings, in the order in which they are looked for.
 const ENDINGS: [&str; 4] = ["dxf", "DXF", "dxb", "DXB"];
 
-/// Programs in a folder that are looked at for their drawings, at most.
+/// The most programs in a folder that are read to find their drawings.
 const MOST: usize = 200;
 
-/// The drawing of a program whose text begins so; `setting` is what `program.drawing` says, from the program's folder on.
+/// The drawing of a program whose text begins like this; `setting` is `program.drawing`, relative to the program's
+/// folder.
 pub(crate) fn drawing_named(
     program: &Path,
     head: &[u8],
@@ -35,7 +37,7 @@ pub(crate) fn drawing_named(
         others: Vec::new(),
     };
     if let Some(name) = in_comment(head) {
-        // Of a path on another machine the file's name is left.
+        // Only the file name of a path on another machine is used.
         let file = name.rsplit(['/', '\\']).next().unwrap_or(&name);
         let places = [folder.join(name.replace('\\', "/")), folder.join(file)];
         if let Some(path) = places.into_iter().find(|path| exists(path)) {
@@ -48,7 +50,7 @@ pub(crate) fn drawing_named(
     let mut found: Vec<PathBuf> = Vec::new();
     for ending in ENDINGS {
         let path = program.with_extension(ending);
-        // Where letter cases are one, both names are of one file.
+        // Where letter case does not matter, both names are of one file.
         let is_same = |other: &PathBuf| {
             let real = |path: &Path| path.canonicalize().ok();
             real(other).is_some() && real(other) == real(&path)
@@ -62,7 +64,7 @@ pub(crate) fn drawing_named(
     Some(Named { path, others })
 }
 
-/// The programs among the files of a folder that belong to a drawing, in the order of their names. `named` says of one whether it does.
+/// The programs among the files of a folder that belong to a drawing, sorted by name. `named` decides for one.
 pub(crate) fn programs_beside(
     files: impl IntoIterator<Item = PathBuf>,
     named: &dyn Fn(&Path) -> bool,
@@ -74,7 +76,7 @@ pub(crate) fn programs_beside(
     programs
 }
 
-/// The first bytes of a file; none where it cannot be read.
+/// The first bytes of a file; empty where it cannot be read.
 pub(crate) fn head_of(path: &Path) -> Vec<u8> {
     let mut head = Vec::new();
     if let Ok(file) = std::fs::File::open(path) {

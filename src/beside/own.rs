@@ -1,8 +1,8 @@
-//! A program as we write it for its drawing, block by block.
+//! A program compared with our own program for its drawing, block by block.
 //!
-//! The drawing's program is written anew under the same settings (`anew`), or under those that the program speaks for (`guess`). Where that has
-//! the same blocks but for a few, somebody has changed those: each is named, in whatever number it was changed, and nothing else is. Of
-//! everything else nothing is known here.
+//! The drawing's program is written again under the same settings (`anew`), or under inferred ones (`guess`). Where
+//! that has the same blocks except a few, somebody has changed those: each of them is named, however many they are, and
+//! nothing else. Other programs are not judged here.
 
 use super::anew::{Anew, Under};
 use super::comparison::{Comparison, Difference, FEW};
@@ -12,26 +12,26 @@ use super::walk::Kind;
 use crate::drawing::EntityId;
 use crate::geometry::{Point, Segment, Vector};
 
-/// How far a block may lie from the one that is written anew, or one of its numbers from that, µm; and where that was written under
-/// settings that are not known to the last digit.
+/// The largest deviation of a block, or of one of its numbers, from the rewritten one, µm; and that under settings that
+/// are not known to the last digit.
 const ALIKE: f64 = 2.0;
 const ROUNDED: f64 = 1.5;
-/// Where the blocks of a program lie as near as this in the mean, it was written with just these settings, µm.
+/// Where the mean deviation of a program's blocks is below this, µm, it was written with just these settings.
 const SAME: f64 = 1e-2;
-/// What a way in or out, or between contours, is off by more is meant: its hole is elsewhere, µm.
+/// A larger deviation of a way in or out, or between contours, is meant: its hole is elsewhere, µm.
 const SLIP: f64 = 50.0;
-/// Blocks that may be lost, or be there too many, in one place.
+/// The most blocks that may be lost or superfluous in one place.
 const LOST: usize = 3;
 
-/// What is told of a program by one that is written anew.
+/// The verdict on a program from a rewritten one.
 #[derive(Clone, Debug)]
 pub(super) struct Told {
     pub comparison: Comparison,
-    /// How far the blocks of which nothing is told are off in the mean, µm.
+    /// The mean deviation of the unnamed blocks, µm.
     pub mean: f64,
-    /// Blocks are lost, or are there too many.
+    /// Blocks are lost or superfluous.
     pub has_gap: bool,
-    /// Ways in and out that are elsewhere by so much that it is meant.
+    /// Ways in and out that are moved so far that it is meant.
     pub elsewhere: usize,
 }
 
@@ -41,8 +41,8 @@ impl Told {
         self.mean < SAME
     }
 
-    /// Several ways in and out that are elsewhere are set otherwise, and so is one that is by more than `most`, mm; any other somebody has
-    /// changed.
+    /// Several moved ways in and out are set otherwise, and so is one that is moved by more than `most`, mm; somebody
+    /// has changed any other.
     pub(crate) fn without_leads(mut self, most: f64) -> Told {
         let is_lead = |one: &Difference| one.kind == Kind::Lead;
         let all = &mut self.comparison.differences;
@@ -54,18 +54,18 @@ impl Told {
         self
     }
 
-    /// How much speaks against it, the least first.
+    /// The evidence against it, the least first.
     pub(crate) fn doubt(&self) -> (bool, usize, bool) {
         let many = self.comparison.differences.len().min(2) + self.elsewhere.min(2);
         (!self.is_exact(), many, self.has_gap)
     }
 }
 
-/// What somebody has changed in a program that is ours under these settings; `None` where it is not.
+/// The changes in a program that is ours under these settings; `None` where it is not ours.
 pub(super) fn own(drawn: &Drawn, traced: &Traced, under: &Under) -> Option<Told> {
     let anew = &*drawn.anew(traced, under)?;
     let pairs = Pairs::of(traced, anew)?;
-    // Placed where the drawing is, or anywhere: where it begins, or where most of it lies.
+    // Placed as the drawing is, or anywhere: by its start, or by most of it.
     let anywhere = traced.begin()? - anew.traced.begin()?;
     let as_drawn = (traced.is_placed && anew.traced.is_placed).then(Vector::zeros);
     let mut best: Option<Told> = None;
@@ -94,7 +94,7 @@ pub(super) fn own(drawn: &Drawn, traced: &Traced, under: &Under) -> Option<Told>
     best
 }
 
-/// The blocks of a program, each beside the one that is written anew.
+/// The blocks of a program, each beside the rewritten one.
 struct Pairs<'a> {
     traced: &'a Traced,
     anew: &'a Anew,
@@ -107,18 +107,18 @@ struct Pair<'a> {
     own: &'a Block,
     meant: &'a Block,
     words: Words,
-    /// Blocks before it are lost, or too many.
+    /// Blocks before it are lost or superfluous.
     behind_gap: bool,
 }
 
-/// The words of a block beside those of the one that is written anew.
+/// The words of a block beside those of the rewritten one.
 #[derive(Clone, Copy)]
 struct Words {
     /// They are the same.
     are_same: bool,
-    /// By how much one of the numbers is another one, where all else is the same, µm.
+    /// By how much one of the numbers differs, where all else is equal, µm.
     apart: Option<f64>,
-    /// The same of the coordinates behind the block.
+    /// The same for the coordinates behind the block.
     stated: f64,
 }
 
@@ -153,7 +153,7 @@ impl Words {
 }
 
 impl<'a> Pairs<'a> {
-    /// `None` where more is unlike than blocks that are lost, or too many, in one place.
+    /// `None` where there are more differences than blocks lost or superfluous in one place.
     fn of(traced: &'a Traced, anew: &'a Anew) -> Option<Pairs<'a>> {
         let (own, meant) = (&traced.blocks[..], &anew.traced.blocks[..]);
         let (more, lost) = (
@@ -205,7 +205,7 @@ impl<'a> Pairs<'a> {
         })
     }
 
-    /// Where most of the program lies from the one that is written anew.
+    /// The place of most of the program relative to the rewritten one.
     fn away(&self) -> Vector {
         let ends = |pair: &Pair| {
             let ([_, end], [_, meant]) = (ends_of(&pair.own.motion)?, ends_of(&pair.meant.motion)?);
@@ -223,7 +223,7 @@ impl<'a> Pairs<'a> {
         Vector::new(middle(0), middle(1))
     }
 
-    /// What is unlike for a program that lies so far from the one that is written anew.
+    /// The differences of a program at this distance from the rewritten one.
     fn told(&self, from: Vector) -> Option<Told> {
         let (traced, anew) = (self.traced, self.anew);
         let rewritten = self
@@ -241,7 +241,7 @@ impl<'a> Pairs<'a> {
             }
             let is_behind = before || pair.behind_gap;
             let away = away(&own.motion, &meant.motion, from, is_behind);
-            // A block too many may have other kinds behind it.
+            // Behind a superfluous block there may be others of its kind.
             let away = away.or(pair.behind_gap.then_some(0.0))?;
             let off = match words.apart {
                 Some(apart) if is_in_our_words => away.max(apart),
@@ -278,7 +278,7 @@ impl<'a> Pairs<'a> {
                     || last + 1 == number && self.are_exchanged(last)
             });
             run = Some((number, !self.is_placed(number, from)));
-            // What is moved and comes back is one change, and so are two blocks that are exchanged.
+            // A move and its return are one change, and so are two exchanged blocks.
             if goes_on && self.comes_back(number, from) {
                 continue;
             }
@@ -298,7 +298,7 @@ impl<'a> Pairs<'a> {
             };
             found.push(named(own, segment, *off, kind));
         }
-        // Of a program that is ours most blocks are just as we write them.
+        // In a program that is ours most blocks are just as we write them.
         let moves = |pair: &&Pair| pair.own.motion != Motion::Stop;
         let moving = self.pairs.iter().filter(moves).count();
         let off = all.iter().filter(|(off, _)| *off > alike).count();
@@ -338,7 +338,7 @@ impl<'a> Pairs<'a> {
         })
     }
 
-    /// Two blocks one after the other, each in the place of the other.
+    /// Two consecutive blocks that have changed places.
     fn are_exchanged(&self, first: usize) -> bool {
         let [one, two] = [first, first + 1].map(|number| self.pairs.get(number));
         let (Some(one), Some(two)) = (one, two) else {
@@ -405,7 +405,7 @@ fn named(block: &Block, segment: Option<(EntityId, usize)>, off: f64, kind: Kind
     }
 }
 
-/// The line with which an ISO program says where it begins, where that is a little beside its place.
+/// The line with which an ISO program gives its start, where that is a little beside its place.
 fn begun_elsewhere(traced: &Traced, anew: &Traced) -> Option<Difference> {
     if traced.counts {
         return None;
@@ -429,7 +429,7 @@ fn begun_elsewhere(traced: &Traced, anew: &Traced) -> Option<Difference> {
     })
 }
 
-/// How far one motion is from another, counted from where it begins or from where the program does; `None` where they are of two kinds.
+/// The distance of two motions, from their starts or from the program's; `None` for two different kinds.
 ///
 /// `behind` a block that ends elsewhere the radius of an arc is enough: with it, its centre is elsewhere too.
 fn away(own: &Motion, meant: &Motion, from: Vector, behind: bool) -> Option<f64> {

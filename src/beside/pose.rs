@@ -1,4 +1,4 @@
-//! Where a program stands beside its drawing, and whether a block follows a piece of it from there.
+//! The position of a program beside its drawing, and whether a block follows a piece of it from there.
 
 use super::TOLERANCE;
 use super::rounds::{Rounds, Spot};
@@ -7,24 +7,25 @@ use crate::geometry::{Arc, Point, Segment, Vector};
 use crate::program::grid::{point_of, snap};
 use crate::program::three_b;
 
-/// How a program's places lead to those of the drawing.
+/// The map from a program's places to those of the drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pose {
     /// From the drawing to the program, µm.
     pub shift: Vector,
     /// The shift is of whole µm, and so are the program's nodes.
     pub on_grid: bool,
-    /// Blocks are held against what our own writers make of the drawing, not against it with room for the roundings of others.
+    /// Blocks are compared with the output of our own writers for the drawing, without room for other writers'
+    /// roundings.
     exact: bool,
-    /// What is added to the program's places: from where a chain of its blocks leads to the node that is meant.
+    /// Added to the program's places: from the end of a chain of its blocks to the intended node.
     lag: Vector,
-    /// How far the node that is meant may lie from where it is thought to be, µm.
+    /// The largest distance of the intended node from its assumed place, µm.
     unsure: f64,
-    /// The same where a run began: its end comes back to there.
+    /// The same at the start of a run: its end returns there.
     begun: f64,
 }
 
-/// What a block comes to.
+/// The result of following a block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reached {
     /// Behind the block; `None` at the end of an open round.
@@ -33,12 +34,12 @@ pub(super) struct Reached {
     pub whole: bool,
     /// Along the round, µm.
     pub length: f64,
-    /// From where the drawing has its end.
+    /// From the end in the drawing.
     pub off: Vector,
     end: Point,
 }
 
-/// What is left of a piece, or of a block on it, where it ends on the way, µm: less is a wrong length.
+/// The least rest of a piece, or of a block on it, that ends on the way, µm: a smaller rest is a wrong length.
 const LEAST_PART: f64 = 5.0;
 /// An arc that rises by no more over its chord may be a line, µm.
 const FLAT: f64 = 1.5;
@@ -46,19 +47,21 @@ const FLAT: f64 = 1.5;
 const CRUMB: f64 = 2.5;
 /// A larger radius is written in chords, µm.
 const HUGE: f64 = 1e6;
-/// How far an arc may lie from where the drawing has it where its writer had no better one, µm.
+/// The largest distance of an arc from that of the drawing where its writer had no better one, µm.
 const ROUNDED: f64 = 3.3;
-/// How far our own blocks end from their nodes: lines and arcs that name their ends, as the grid lets them; arcs that count, µm.
+/// The largest distance of our own blocks' ends from their nodes: lines and arcs that name their ends, by the grid;
+/// counting arcs, µm.
 const SNAPPED: f64 = 0.75;
 const COUNTED: f64 = 1.52;
-/// How far our own arcs have their centres from where the drawing has them, in X and in Y, and run beside it, µm.
+/// The largest distance of our own arcs' centres from those of the drawing, in X and in Y, and of the arcs themselves,
+/// µm.
 const CENTRED: f64 = 1.501;
 const ASIDE: f64 = 2.6;
-/// How far a node may be from where it is thought to be: where the program lies was found by places that are rounded; the arc before it
-/// has ended within a piece, µm.
+/// The largest distance of a node from its assumed place: the program's place was found from rounded places; the arc
+/// before it ended within a piece, µm.
 const UNSURE: f64 = 1.0;
 const WITHIN: f64 = 1.5;
-/// What lies so near to the middle between two nodes may be rounded either way, µm.
+/// This near to the middle between two nodes a place may be rounded either way, µm.
 const TIE: f64 = 1e-3;
 
 impl Pose {
@@ -81,7 +84,7 @@ impl Pose {
         }
     }
 
-    /// The same for a program whose every block is one that we would have written; there is none where the grid is not known.
+    /// The same for a program whose every block we might have written; `None` where the grid is unknown.
     pub fn exactly(self) -> Option<Pose> {
         self.on_grid.then_some(Pose {
             exact: true,
@@ -103,7 +106,7 @@ impl Pose {
         }
     }
 
-    /// The same where the node may be another one: where it lies was found by few blocks, or arcs have led beside the drawing.
+    /// The same where the node is uncertain: its place was found by few blocks, or arcs have led beside the drawing.
     pub(crate) fn unsurely(self) -> Pose {
         Pose {
             unsure: self.unsure.max(UNSURE),
@@ -176,7 +179,7 @@ impl Pose {
         Some(reached)
     }
 
-    /// Stands at the node behind a block: where the machine has counted to is beside it, and that is no fault of what comes behind.
+    /// Moves to the node behind a block: the counted position differs, which is no fault of the following blocks.
     fn stand(
         &mut self,
         rounds: &Rounds,
@@ -310,7 +313,7 @@ impl Pose {
         Pose { unsure, ..*self }
     }
 
-    /// How far a block may end beside a piece within which it ends, µm.
+    /// The largest distance of a block's end from a piece within which it ends, µm.
     fn beside(&self, counts: bool) -> f64 {
         match (self.exact, counts) {
             (true, true) => COUNTED + SNAPPED,
@@ -328,7 +331,7 @@ impl Pose {
         }
     }
 
-    /// Whether a block that ends so far from the end of a piece stands for it.
+    /// Whether a block that ends this far from the end of a piece stands for it.
     fn fits(
         &self,
         way: &Segment,
@@ -357,7 +360,7 @@ impl Pose {
         if off.norm() <= 0.8 && middle <= TOLERANCE {
             return true;
         }
-        // What the writer would have made of it: its own roundings are no fault.
+        // Compared with the writer's own output: its roundings are no fault.
         let written = || {
             let in_program = rest.moved(self.shift);
             let (from, to) = (snap(at + self.shift)?, snap(in_program.end())?);
@@ -383,7 +386,7 @@ impl Pose {
     }
 }
 
-/// What is left of a spot's piece, up to `entry` where that lies ahead on it; and the spot behind that.
+/// The rest of a spot's piece, up to `entry` where that lies ahead on it; and the spot behind that.
 pub(super) fn stretch(rounds: &Rounds, spot: &Spot, entry: &Spot) -> (Segment, Option<Spot>) {
     let rest = rounds.rest(spot);
     let same = (spot.round, spot.piece, spot.back) == (entry.round, entry.piece, entry.back);
@@ -406,7 +409,7 @@ fn slack_of(place: Point) -> f64 {
     f64::from(u8::from(place.iter().any(is_tie)))
 }
 
-/// Both straight, or both round in the same sense, as far as that can be told.
+/// Both straight, or both round in the same sense, as far as that can be decided.
 fn alike(way: &Segment, rest: &Segment) -> bool {
     let is_flat = |arc: &Arc| arc.sagitta() <= FLAT;
     match (way.as_arc(), rest.as_arc()) {

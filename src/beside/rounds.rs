@@ -1,4 +1,4 @@
-//! The ways of the wire round the contours of a drawing, as places that a program goes along.
+//! The ways of the wire round the contours of a drawing, as places along which a program moves.
 
 use super::drawn::{Contour, Drawn};
 use crate::drawing::EntityId;
@@ -17,11 +17,11 @@ pub(super) enum Course {
     Drawn,
     /// The part's contour as 4B has it.
     FourB,
-    /// Beside it by so many mm.
+    /// Beside it by this many mm.
     Beside(f64),
 }
 
-/// A piece of a round and the segment of the drawing that it is of.
+/// A piece of a round and its segment of the drawing.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     pub segment: Segment,
@@ -43,11 +43,12 @@ pub(super) struct Round {
     pub length: f64,
     /// Centre and radius, where it is a circle.
     pub circle: Option<(Point, f64)>,
-    /// How far to the left of it the wire runs, where the control offsets it: 4B puts it there where the wire begins.
+    /// How far to the left of it the wire runs, where the control offsets it: 4B moves it there at the start of the
+    /// wire.
     beside: Option<f64>,
 }
 
-/// A place on a round, with the way that is gone from there.
+/// A place on a round, with the direction of travel from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Spot {
     pub round: usize,
@@ -57,13 +58,13 @@ pub(super) struct Spot {
     pub at: Point,
 }
 
-/// What is shorter than this is no piece of its own, µm: nothing of it may be left on the grid of a program.
+/// A shorter piece is none of its own, µm: nothing of it may be left on the grid of a program.
 const CRUMB: f64 = 1.0;
 
 /// A round and a piece of it.
 type Place = (u32, u32);
 
-/// All rounds that a program is held against.
+/// All rounds with which a program is compared.
 #[derive(Debug, Default)]
 pub(super) struct Rounds {
     pub rounds: Vec<Round>,
@@ -74,15 +75,15 @@ pub(super) struct Rounds {
     leads: OnceCell<FxHashMap<(i64, i64), Vec<Place>>>,
 }
 
-/// Width of a cell in which pieces are found by where they lead, µm.
+/// Width of a cell for finding pieces by their vectors, µm.
 const CELL: f64 = 8.0;
-/// How far a transition of 4B may lie from the one that is cut the other way round, µm.
+/// How far a transition of 4B may differ from the one in the other direction, µm.
 const SAME: f64 = 6.0;
-/// By how much the vectors of a block and of its piece may differ when both are rounded, µm.
+/// The largest difference between the vectors of a block and of its piece when both are rounded, µm.
 const ALIKE: f64 = 2.9;
 
 impl Rounds {
-    /// Lays a course beside all contours, or one of them, where it is not there yet.
+    /// Adds a course beside all contours, or one of them, if it is not there yet.
     pub fn add(&mut self, drawn: &Drawn, courses: &[Course], only: Option<usize>) {
         for (index, contour) in drawn.contours().iter().enumerate() {
             if only.is_some_and(|only| only != index) {
@@ -108,7 +109,7 @@ impl Rounds {
         }
     }
 
-    /// The transitions of 4B are rounded otherwise where its contour is cut the other way round.
+    /// 4B's transitions are rounded differently when its contour is cut in the other direction.
     fn turn_back(&mut self, contour: &Contour, side: Side, drawn: &Drawn) {
         let scale = drawn.unit_mm * 1e3;
         let reversed = own(contour).into_iter().rev().map(|piece| PathSegment {
@@ -201,7 +202,7 @@ impl Rounds {
         if spot.back { piece.back } else { piece.segment }
     }
 
-    /// What is left of a spot's piece from it on.
+    /// The rest of a spot's piece from it on.
     pub fn rest(&self, spot: &Spot) -> Segment {
         let whole = self.whole(spot);
         if whole.start() == spot.at {
@@ -267,7 +268,7 @@ impl Rounds {
         way.rem_euclid(self.rounds[from.round].length)
     }
 
-    /// The stretches of a round that are cut by going so far from a spot.
+    /// The stretches of a round that are cut by going this far from a spot.
     pub(crate) fn cover(&self, from: &Spot, length: f64, mut cut: impl FnMut(Range<f64>)) {
         let whole = self.rounds[from.round].length;
         let along = self.along(from);
@@ -287,7 +288,7 @@ impl Rounds {
         }
     }
 
-    /// The beginnings of pieces that lead as far as this in either way, with the whole of them.
+    /// The beginnings of pieces with this vector in either direction, with the whole of them.
     pub(crate) fn leading(&self, by: Vector) -> Vec<(Spot, Segment)> {
         let cell = |by: Vector| ((by.x / CELL).floor() as i64, (by.y / CELL).floor() as i64);
         let leads = self.leads.get_or_init(|| {
@@ -318,7 +319,7 @@ impl Rounds {
         found
     }
 
-    /// By how much 4B moves a contour that it begins at a spot, µm; `None` where the wire runs as it is written.
+    /// By how much 4B moves a contour that begins at a spot, µm; `None` where the wire runs as it is written.
     pub fn beside(&self, spot: &Spot) -> Option<Vector> {
         let round = &self.rounds[spot.round];
         let segment = &round.pieces[spot.piece].segment;
@@ -326,7 +327,7 @@ impl Rounds {
         Some(left_normal(tangent) * round.beside?)
     }
 
-    /// Spots from which 4B begins at a point, in either way, and by how much it moves the contour there.
+    /// Spots from which 4B begins at a point, in either direction, and by how much it moves the contour there.
     pub(crate) fn near_beside(&self, point: Point, reach: f64) -> Vec<(Spot, Vector)> {
         let all = self.rounds.iter().filter_map(|round| round.beside);
         let farthest = all.map(f64::abs).fold(0.0, f64::max) + reach;
@@ -371,7 +372,7 @@ impl Rounds {
                     let share = way.share_of(point).clamp(0.0, 1.0);
                     let at = match share * way.length() {
                         begin if begin <= reach => way.start(),
-                        // What is left is no way.
+                        // The rest is no way.
                         end if way.length() - end <= reach => continue,
                         _ => way.point_at(share),
                     };

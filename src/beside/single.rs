@@ -1,7 +1,7 @@
-//! One changed block that explains all that is unlike.
+//! Finds one changed block that explains all differences.
 //!
-//! A walk names a changed block where it can tell it from a lead, a tab or another pass. Where it is unsure, each block about the named ones
-//! is tried: laid where the drawing has it, does all the rest follow?
+//! A walk names a changed block where it can tell it from a lead, a tab or another pass. Where it is unsure, each block
+//! near the named ones is tried: if it is laid as the drawing has it, does all the rest follow?
 
 use super::members::Members;
 use super::pose::{Pose, stretch};
@@ -12,20 +12,20 @@ use super::{REACH, TOLERANCE};
 use crate::geometry::{Arc, Point, Segment, Vector};
 use std::f64::consts::TAU;
 
-/// Blocks before and behind a named one that are tried, and blocks that all tries together may look at.
+/// Blocks before and behind a named one that are tried, and the blocks that all tries together may read.
 const ABOUT: usize = 3;
 const MOST: usize = 60_000;
-/// Pieces that one block may be, and how far apart they may lie as one line or arc, µm.
+/// The most pieces that one block may stand for, and how far apart they may lie as one line or arc, µm.
 const TOGETHER: usize = 5;
 const SAME: f64 = 1e-2;
-/// What is off by less is no change, µm; nor is what is off by more, where nothing was named.
+/// A smaller deviation is no change, µm; nor is a larger one, where nothing was named.
 const LEAST: f64 = 1.4;
 const MOST_UNNAMED: f64 = 50.0;
-/// What lies nearer to a node is that node, µm.
+/// A place nearer to a node is that node, µm.
 const NODE: f64 = 1.6;
 
-/// The one block that explains it best; `None` where none does. `miss` is by how much the blocks of a program miss their places together,
-/// `None` where one does not follow.
+/// The one block that explains it best; `None` where none does. `miss` is by how much the blocks of a program miss
+/// their places together, `None` where one does not follow.
 pub(super) fn single(
     traced: &Traced,
     rounds: &Rounds,
@@ -114,7 +114,8 @@ pub(super) fn single(
     best.map(|(_, unlike)| unlike)
 }
 
-/// What a block may be from a spot on: what is left of its piece, and more where that goes on as one line or arc.
+/// The possible meanings of a block from a spot on: the rest of its piece, and more where that continues as one line or
+/// arc.
 fn stretches(rounds: &Rounds, spot: Spot, entry: &Spot) -> Vec<Segment> {
     let (mut rest, mut next) = stretch(rounds, &spot, entry);
     let mut all = vec![rest];
@@ -151,14 +152,15 @@ fn joined(first: &Segment, second: &Segment) -> Option<Segment> {
     }
 }
 
-/// A stretch of the drawing in the place of a block, and by how much its end is elsewhere.
+/// A stretch of the drawing that replaces a block, and by how much its end moves.
 fn meant_by(
     stretch: &Segment,
     own: &Segment,
     is_lost: bool,
     pose: &Pose,
 ) -> Option<(Segment, Vector)> {
-    // In a program that counts from block to block, what lies before a change is moved where the change is what lies behind it by.
+    // In a program that counts from block to block, a change moves either what lies behind it or, seen from there, what
+    // lies before it.
     let aside = own.start() - pose.program(stretch.start());
     let aside = if aside.norm() > NODE {
         aside
@@ -177,7 +179,7 @@ fn meant_by(
     (is_alike && by.norm() >= LEAST).then_some((meant, by))
 }
 
-/// What lies behind a block that ends elsewhere.
+/// How the blocks behind a changed end continue.
 #[derive(Clone, Copy, PartialEq)]
 enum How {
     /// Counted from there: it is moved.

@@ -1,4 +1,4 @@
-//! What is taken of a program: its blocks as they mean it.
+//! The data of a program for comparing: its blocks as they mean it.
 
 use super::BETWEEN;
 use crate::geometry::{Point, Segment, Vector};
@@ -8,23 +8,23 @@ use crate::program::{Document, Language};
 use crate::text::SourceText;
 use std::ops::Range;
 
-/// Longer texts are not held against another one, bytes.
+/// Longer texts are not compared, bytes.
 const LONGEST: usize = 2_000_000;
 
 /// The blocks of a program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traced {
     pub(super) blocks: Vec<Block>,
-    /// Indices of the blocks of each cut, the ways in and out among them, and of those of its contour alone.
+    /// Indices of the blocks of each cut, with the ways in and out, and of those of its contour alone.
     pub(super) cuts: Vec<[Range<usize>; 2]>,
     /// Its first place is one of the drawing, if the program was written for it.
     pub(super) is_placed: bool,
-    /// The ends of arcs are where the machine stops counting: a little beside the place that is meant.
+    /// Arcs end where the machine stops counting: a little beside the intended place.
     pub(super) counts: bool,
     pub(super) four_b: bool,
-    /// An electrode mills it, layer by layer: it is compared with what we write, and with no path of a wire.
+    /// An electrode mills it, layer by layer: it is compared with our own program, and not with a wire's path.
     pub(super) mills: bool,
-    /// The text, where it is not too long to be held against another one.
+    /// The text, unless it is too long to compare.
     pub(super) text: SourceText,
     /// Coordinates stand behind blocks.
     pub(super) states_ends: bool,
@@ -39,14 +39,14 @@ pub(super) struct Block {
     pub motion: Motion,
     /// The control offsets it.
     pub is_offset: bool,
-    /// An arc that is none; it is taken as its chord.
+    /// An invalid arc, taken as its chord.
     pub is_lost: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Motion {
     Cut(Segment),
-    /// From one place to another without the wire, or by a block that means no line or arc.
+    /// From one place to another without the wire, or by a block without a line or arc.
     Way(Point, Vector),
     Stop,
 }
@@ -65,7 +65,7 @@ impl Traced {
         let trace = program.trace();
         let cuts = path::cuts(&trace);
         let cuts = cuts.iter().filter(|cut| !cut.is_way);
-        // What does not come back to where it began may be a part of a contour that is cut before or behind.
+        // A way that does not return to its start may be a part of a contour that is cut before or behind.
         let cuts = cuts.map(|cut| {
             let contour = cut.contour_steps();
             let is_one = cut.closed || contour.len() > 2 * BETWEEN;
@@ -109,7 +109,7 @@ impl Traced {
         }
     }
 
-    /// Where the first block that moves begins.
+    /// The start of the first block that moves.
     pub(super) fn begin(&self) -> Option<Point> {
         self.blocks.iter().find_map(|block| match &block.motion {
             Motion::Cut(segment) => Some(segment.start()),
@@ -118,7 +118,7 @@ impl Traced {
         })
     }
 
-    /// The bytes of a block, and of what stands behind it in its line where that are coordinates.
+    /// The bytes of a block, and of coordinates behind it in its line.
     pub(super) fn line_from(&self, block: &Block) -> &[u8] {
         self.text.slice(self.range_from(block)).unwrap_or_default()
     }
@@ -130,12 +130,12 @@ impl Traced {
         }
     }
 
-    /// What a block says.
+    /// The content of a block.
     pub(super) fn said(&self, block: &Block) -> Said {
         self.said_in(self.range_from(block))
     }
 
-    /// What stands in a range of the text.
+    /// The bytes of a range of the text.
     pub(super) fn said_in(&self, range: Range<usize>) -> Said {
         let language = match self.counts {
             true => Language::ThreeB,

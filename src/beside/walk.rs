@@ -1,8 +1,9 @@
-//! Along a program and the rounds of its drawing at once.
+//! Walks along a program and the rounds of its drawing at once.
 //!
-//! A run follows a round from where the program comes to it. A block that does not is named, and the run goes on behind it from where
-//! the program stands, or from where it comes back to the drawing: one change is one difference. What leads to a run and away from it is
-//! not looked at. Where a run ends although its contour goes on, that waits for the end: a tab may be cut later.
+//! A run follows a round from where the program reaches it. A block that does not follow is named, and the run goes on
+//! behind it from the program's position, or from where it returns to the drawing: one change is one difference. The
+//! ways to and from a run are not checked. A run that ends before its contour waits for the end: a tab may be cut
+//! later.
 
 mod covered;
 mod enter;
@@ -34,19 +35,19 @@ pub enum Kind {
     Moved,
     /// The contour goes on where the program does not.
     Unfinished,
-    /// No contour of the drawing is like this.
+    /// No contour of the drawing matches it.
     Foreign,
-    /// A way in or out, or between contours, of a program that is ours but for that.
+    /// A way in or out, or between contours, of a program that is otherwise ours.
     Lead,
-    /// The coordinates behind a block of such a one are not where it ends.
+    /// The coordinates behind a block of such a program differ from its end.
     Stated,
 }
 
-/// What came of a walk.
+/// The result of a walk.
 #[derive(Debug, Default)]
 pub(super) struct Walked {
     pub unlike: Vec<Unlike>,
-    /// Of each block: it is part of a run, or of what was named in one.
+    /// For each block: it is part of a run, or of something named in one.
     pub runs: Vec<bool>,
     /// The blocks that end where the drawing says.
     pub follows: Vec<usize>,
@@ -54,9 +55,9 @@ pub(super) struct Walked {
     pub contours: Vec<usize>,
 }
 
-/// Blocks that have to follow so that others before them are taken as changed.
+/// This many blocks must follow so that others before them count as changed.
 const SURE: usize = 3;
-/// How far a wrong first block of a contour may lie from where the contour comes back to it, µm.
+/// The largest distance of a wrong first block of a contour from the contour's return to it, µm.
 const NEAR: f64 = 1_000.0;
 
 #[derive(Clone, Debug)]
@@ -65,13 +66,13 @@ struct Run {
     entry: Spot,
     spot: Spot,
     travelled: f64,
-    /// It has come round.
+    /// It has completed its round.
     complete: bool,
-    /// Blocks up to here are on one piece, as has been seen.
+    /// Blocks up to here are known to be on one piece.
     split: usize,
-    /// The block before which pieces were passed over last: not twice, or there is no end.
+    /// The block before which pieces were last skipped: not twice, or there is no end.
     passed: Option<usize>,
-    /// Before it began, and how far it lies beside that.
+    /// Before its start, and its distance from there.
     moved: Option<Vector>,
 }
 
@@ -91,12 +92,12 @@ pub(super) struct Walk<'a> {
     pose: Pose,
     /// Of each round the stretches that have been cut.
     covered: Vec<Vec<Range<f64>>>,
-    /// The same of all laps and passes.
+    /// The same for all laps and passes.
     cuts: Vec<Vec<Range<f64>>>,
     loose: Vec<Loose>,
-    /// Runs that came to the end of an open contour.
+    /// Runs that reached the end of an open contour.
     ended: Vec<Run>,
-    /// Runs that begin beside where the drawing has them.
+    /// Runs that begin beside their place in the drawing.
     moved: Vec<Run>,
     walked: Walked,
 }
@@ -119,11 +120,11 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// `tabs`: what may be left standing, µm.
+    /// `tabs`: the longest tab that may be left standing, µm.
     pub fn go(mut self, tabs: &[f64]) -> Walked {
         let mut run: Option<Run> = None;
         let (mut index, mut tried) = (0, 0);
-        // Each block is gone back before once.
+        // Each block is returned to once.
         let mut gone_back = 0;
         while let Some(block) = self.traced.blocks.get(index) {
             match block.motion {
@@ -201,7 +202,7 @@ impl<'a> Walk<'a> {
     /// Notes what a block has cut.
     fn take(&mut self, run: &mut Run, reached: &Reached, index: usize) {
         self.walked.runs[index] = true;
-        // How far it goes on past its start, and where a tab begins, is the program's own.
+        // The overlap past its start, and the start of a tab, are the program's own.
         if reached.whole && !run.complete {
             self.walked.follows.push(index);
         }
@@ -239,7 +240,7 @@ impl<'a> Walk<'a> {
         });
     }
 
-    /// A run ends; what has not been cut of its contour is looked at when all has been gone along.
+    /// Ends a run; the uncut rest of its contour is checked at the end of the program.
     fn leave(&mut self, run: Option<Run>, index: usize, is_behind: bool) {
         let Some(run) = run else { return };
         self.walked

@@ -1,11 +1,11 @@
-//! What a block does, in whole micrometres, wherever the program lies.
+//! The motion of a block, in whole micrometres, wherever the program lies.
 
 use super::traced::{Block, Motion};
 
-/// Where a block leads, µm, and what it is.
+/// The displacement of a block, µm, and its kind.
 pub(super) type Way = (i64, i64, u8);
 
-/// What a block is by where it leads; where the way along it does not count, that of the upper half of the plane.
+/// The kind of a block by its displacement; where the direction does not count, that of the upper half of the plane.
 pub(super) fn way(block: &Block, is_directed: bool) -> Way {
     let (by, kind) = match &block.motion {
         Motion::Cut(segment) => {
@@ -14,7 +14,7 @@ pub(super) fn way(block: &Block, is_directed: bool) -> Way {
                 Some(arc) if arc.sweep > 0.0 && is_directed => 1,
                 Some(_) => 2,
             };
-            // A full turn leads nowhere: its centre says how large it is.
+            // A full turn leads nowhere: its centre gives its size.
             let by = match segment.as_arc().filter(|arc| arc.is_full_turn()) {
                 Some(arc) => arc.center - arc.start,
                 None => segment.end() - segment.start(),

@@ -6,9 +6,10 @@ use crate::geometry::{Arc, Point, Segment};
 use crate::settings::{Direction, PointSetting};
 use rustc_hash::FxHashSet;
 
-/// Everything in `chosen` as one path, in machining order, when each entity begins or ends where the last one ended. A circle
-/// is gone round from where the wire meets it; of doubles each is a way of its own. `None` where there is one contour alone, where the
-/// entities do not lead on from each other, and where a thread hole or an entry is asked for that is not the path's begin.
+/// Everything in `chosen` as one path, in machining order, when each entity begins or ends where the last one ended. A
+/// circle starts where the wire meets it; of doubles each is a way of its own. `None` where there is a single contour,
+/// where the entities do not lead on from each other, and where a thread hole or an entry other than the path's start
+/// is requested.
 pub(super) fn one_path(
     drawing: &Drawing,
     outlines: &[Outline],
@@ -89,8 +90,8 @@ fn is_circle(geometry: &Geometry) -> bool {
     matches!(geometry, Geometry::Circle { .. } | Geometry::Arc { .. }) && geometry.is_closed()
 }
 
-/// The entities of the chosen outlines, and the doubles of these: a way that is gone there and back is drawn twice. `None` where
-/// there is one outline without a double.
+/// The entities of the chosen outlines, and their doubles: a way that is gone there and back is drawn twice. `None` for
+/// a single outline without a double.
 fn with_doubles(outlines: &[Outline], chosen: &[usize]) -> Option<FxHashSet<EntityId>> {
     let pieces = chosen
         .iter()

@@ -1,4 +1,4 @@
-//! Where on a contour its cut begins.
+//! The start of the cut on a contour.
 
 use super::corners::Element;
 use super::job::{Job, ROUNDING};
@@ -19,8 +19,8 @@ pub(super) struct Entry {
     pub(crate) point: Point,
 }
 
-/// The place on the walls that is nearest to `point`, and how far it is. Among equally near ones that with the largest x, so that
-/// a thread hole in the centre of a circle leads to its +X-most point.
+/// The place on the walls nearest to `point`, and its distance. Among equally near ones the one with the largest x, so
+/// that a thread hole in the centre of a circle leads to its +X-most point.
 pub(super) fn nearest(walls: &[Wall], point: Point, tie: f64) -> Option<(Entry, f64)> {
     let mut best: Option<(Entry, f64)> = None;
     for (wall, segment) in walls.iter().map(|wall| &wall.geometry).enumerate() {
@@ -47,7 +47,8 @@ pub(super) fn nearest(walls: &[Wall], point: Point, tie: f64) -> Option<(Entry, 
     best
 }
 
-/// The middle of the longest line, else the +X-most point of the longest arc, or its middle. The first drawn one where several are as long.
+/// The middle of the longest line, else the +X-most point of the longest arc, or its middle. Of several equally long
+/// ones the first drawn.
 pub(super) fn default_entry(walls: &[Wall]) -> Option<Entry> {
     let rank = |wall: &Wall| match wall.source {
         Source::Segment { entity, segment } | Source::Corner { entity, segment } => {
@@ -87,8 +88,8 @@ pub(super) fn default_entry(walls: &[Wall]) -> Option<Entry> {
     })
 }
 
-/// Share of the point where an arc's circle goes furthest along x; of an arc that does not come there, of its middle: its ends may be
-/// corners that the wire does not come into.
+/// The share at which an arc's circle has its largest x; 0.5 for an arc that does not reach there, since its ends may
+/// be corners that the wire does not enter.
 fn furthest_x(arc: &Arc) -> f64 {
     let share = arc.share_of(arc.center + crate::geometry::Vector::x() * arc.radius);
     if (0.0..=1.0).contains(&share) {
@@ -98,8 +99,8 @@ fn furthest_x(arc: &Arc) -> f64 {
     }
 }
 
-/// The element of a closed path and the point on it that belong to an entry. Where the entry's own offset is cut off or left out, the
-/// nearest point that remains of it, or the point that stands for it.
+/// The element of a closed path and the point on it for an entry. Where the entry's own offset is cut off or left out,
+/// the nearest remaining point, or the point that stands for it.
 pub(super) fn path_point(
     path: &[Element],
     walls: &[Wall],
@@ -152,8 +153,8 @@ pub(super) fn circle_center(walls: &[Wall], tolerance: f64) -> Option<Point> {
 }
 
 impl Job<'_> {
-    /// The entry that is asked for, that beside the mark, the begin of the entity that was picked first, or the point nearest to the
-    /// thread hole; `None` where nothing of it is given.
+    /// The requested entry, the one beside the mark, the start of the entity that was picked first, or the point
+    /// nearest to the thread hole; `None` where none of these is given.
     pub(super) fn entry(
         &self,
         index: usize,

@@ -1,8 +1,8 @@
-//! What all passes leave of a contour, held against the drawing.
+//! The contour that all passes leave, compared with the drawing.
 //!
-//! A place of the contour is cut where a pass comes as near to it as half its kerf. What stands there else is the distance to the nearest
-//! place that is cut. Beside a wall that the last pass follows it is the difference of its correction and half its kerf; only where that
-//! pass leaves a wall, at corners, it is looked for.
+//! A place of the contour is cut where a pass comes within half its kerf. The material elsewhere is measured by the
+//! distance to the nearest cut place. Beside a wall that the last pass follows it is the difference of its correction
+//! and half its kerf; it only has to be searched for where that pass leaves a wall, at corners.
 
 use super::clearance::Walls;
 use super::corners::Element;
@@ -13,9 +13,9 @@ use crate::geometry::{Point, Segment};
 /// The largest deviations of a finished part from its drawing. Lengths in drawing units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finished {
-    /// What stays beyond the contour where it stays thickest; 0 where nothing does.
+    /// The largest thickness left beyond the contour; 0 where nothing is left.
     pub uncut: f64,
-    /// Where that is, on the contour.
+    /// Its place on the contour.
     pub(crate) at: Point,
     /// How far the wire cuts beyond the contour; 0 where it nowhere does.
     pub overcut: f64,
@@ -56,13 +56,14 @@ impl Kerf {
         }
     }
 
-    /// How far a point is from what this pass cuts; below 0 where it is cut.
+    /// The distance of a point from the cut of this pass; below 0 where it is cut.
     fn distance(&self, point: Point) -> f64 {
         self.path.distance_to(point, self.correction) - self.half
     }
 }
 
-/// What the passes leave along `walls`; `last` is the path of the last one. Exact within `tolerance`, in drawing units.
+/// The rest that the passes leave along `walls`; `last` is the path of the last one. Exact within `tolerance`, in
+/// drawing units.
 pub(super) fn finished(
     walls: &[Wall],
     last: &[Element],
@@ -116,7 +117,8 @@ pub(super) fn finished(
 /// The most looks at one stretch.
 const MOST: usize = 10_000;
 
-/// Looks for the place of a stretch, given by shares of a wall, where most is left: `left` changes by no more than the way along it.
+/// Searches a stretch, given by shares of a wall, for the place where most is left: `left` changes by no more than the
+/// way along it.
 fn search(
     wall: &Segment,
     [from, to]: [f64; 2],

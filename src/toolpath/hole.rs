@@ -1,4 +1,4 @@
-//! Start holes, which are drilled for the wire to be threaded through: where they are proposed, and what is wrong with them.
+//! Start holes, which are drilled for threading the wire: proposals, and faults.
 
 use super::clearance::Walls;
 use super::containment::Places;
@@ -15,13 +15,14 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::f64::consts::SQRT_2;
 
-/// Of half the size of an opening: within so much of its depth the deepest point is found. Near it nothing is deeper by a hundredth of that.
+/// The deepest point is found within this share of half the size of an opening. Near it nothing is deeper by a
+/// hundredth of that.
 const DEPTH: f64 = 1e-3;
 
-/// So many squares are looked at for it at most.
+/// The most squares that are searched for it.
 const MOST_SQUARES: usize = 100_000;
 
-/// Where the wire is threaded for a contour.
+/// The thread hole of a contour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StartHole {
     /// Index of the outline in the drawing's list.
@@ -31,7 +32,7 @@ pub struct StartHole {
     pub is_given: bool,
 }
 
-/// What is wrong with the start holes of the diameter that is set: with those that are given, and with openings that have no room for one.
+/// The faults of the start holes of the set diameter: of given ones, and of openings without room for one.
 pub(crate) fn hole_faults(
     drawing: &Drawing,
     outlines: &[Outline],
@@ -92,15 +93,15 @@ impl Job<'_> {
         Some(faults)
     }
 
-    /// How far the centre of a start hole is to be from every contour, drawing units. `None` where no diameter is set, and where
-    /// the part's side of the wire is not known.
+    /// The distance of a start hole's centre from every contour, drawing units. `None` where no diameter is set, and
+    /// where the part's side of the wire is not known.
     pub(super) fn hole_reach(&self) -> Option<f64> {
         let diameter = self.settings.start_hole?;
         let is_known = self.settings.compensation != Compensation::None;
         is_known.then(|| self.units(diameter / 2.0 + self.settings.correction + HOLE_CLEAR))
     }
 
-    /// As severe as it is bad: an error where the hole cuts into the part, else a warning.
+    /// By its effect: an error where the hole cuts into the part, else a warning.
     fn hole_finding(&self, wall: Option<Place>, cuts: bool, sentence: String) -> Option<Finding> {
         let own = if cuts {
             Severity::Error
@@ -111,7 +112,7 @@ impl Job<'_> {
         Some(finding(Rule::StartHole, severity, wall, sentence, None))
     }
 
-    /// What a hole cuts into, or comes too near to.
+    /// The contour that a hole cuts into, or comes too near to.
     fn hole_fault(&self, at: Point, reach: f64, contours: &Contours) -> Option<Finding> {
         let rounding = self.units(1e-6);
         contours.walls().nearer(at, reach - rounding)?;
@@ -159,7 +160,7 @@ impl Job<'_> {
         self.hole_finding(place, depth < diameter / 2.0, sentence)
     }
 
-    /// Holes that run into each other, but for those that are one and the same.
+    /// Holes that run into each other, unless they are the same.
     fn holes_that_meet(&self, mut holes: Vec<(Point, usize)>) -> Vec<Finding> {
         let (diameter, same) = (
             self.units(self.settings.start_hole.unwrap_or_default()),
@@ -197,7 +198,8 @@ impl Job<'_> {
         faults
     }
 
-    /// True where a start hole keeps its distance from every contour, and runs into none of the others; always where none is to be made.
+    /// True where a start hole keeps its distance from every contour, and runs into none of the others; always where
+    /// none is drilled.
     pub(super) fn has_room(&self, at: Point, contours: &Contours, others: &[Point]) -> bool {
         let Some(reach) = self.hole_reach() else {
             return true;
@@ -211,7 +213,8 @@ impl Job<'_> {
             })
     }
 
-    /// The point of an opening that is furthest from every contour, and how far that is; `enough` will do. `None` where it has no inside.
+    /// The point of an opening that is furthest from every contour, and its distance; `enough` will do. `None` where it
+    /// has no inside.
     pub(super) fn deepest(
         &self,
         index: usize,
@@ -265,8 +268,8 @@ impl Region<'_> {
         lies_in(self.own) && !self.islands.iter().any(|island| lies_in(island))
     }
 
-    /// In the square about `middle`: it is parted, those parts first that may hold the deepest point, until none may hold one that is
-    /// deeper by more than `within`.
+    /// Searches the square about `middle`: it is divided, the parts with the possibly deepest point first, until none
+    /// may hold one that is deeper by more than `within`.
     fn deepest(&self, middle: Point, half: f64, enough: f64, within: f64) -> Option<(Point, f64)> {
         let square = |center: Point, half: f64, inside: Option<bool>| {
             let away = self.walls.distance_to(center, half);

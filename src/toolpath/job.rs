@@ -1,4 +1,4 @@
-//! What all contours of one request have in common.
+//! The common data of all contours of one request.
 
 use super::order::Pick;
 use super::path::Refusal;
@@ -9,17 +9,17 @@ use rustc_hash::FxHashMap;
 /// How much nearer than the correction a path may come by rounding, mm.
 pub(super) const ROUNDING: f64 = 1e-6;
 
-/// What all contours of one request have in common.
+/// The common data of all contours of one request.
 pub(super) struct Job<'a> {
     pub(crate) drawing: &'a Drawing,
     pub(crate) outlines: &'a [Outline],
     pub(crate) settings: &'a Effective,
-    /// What the selection says of contours, by outline.
+    /// The selection's words for contours, by outline.
     pub(crate) picks: FxHashMap<usize, Pick>,
     pub(crate) unit_mm: f64,
-    /// What all passes leave is worked out, too.
+    /// The contour that all passes leave is worked out, too.
     pub(crate) finishes: bool,
-    /// A loop that is everywhere at its distance will do: whether the offset has others is not asked.
+    /// A loop that is everywhere at its distance is enough: whether the offset has others is not asked.
     pub(crate) a_loop_will_do: bool,
     pub(crate) goes_on: &'a dyn Fn() -> bool,
 }

@@ -1,7 +1,8 @@
-//! The path found from all places where raw offsets cross, for contours on which cutting neighbour with neighbour is not enough.
+//! Finds the path from all crossings of raw offsets, for contours on which cutting neighbour with neighbour is not
+//! enough.
 //!
-//! Every raw element is cut where another one crosses it; what keeps clear of the walls stays, and is followed from end to end
-//! in the order of the contour. What comes of it are the edges of all regions in which the wire's centre may be.
+//! Every raw element is cut where another one crosses it. The parts that keep clear of the walls stay, and are followed
+//! from end to end in the order of the contour. The result are the edges of all regions for the wire's centre.
 
 use super::corners::{Element, between, close_up};
 use super::proof::Proof;
@@ -20,7 +21,7 @@ struct Stretch {
 /// Closed ways of pieces, each with the index of its raw element.
 pub(super) type Loops = Vec<Vec<(usize, Element)>>;
 
-/// What there is for the wire's centre.
+/// The result for the wire's centre.
 pub(super) enum Found {
     /// All closed ways.
     Loops(Loops),
@@ -32,7 +33,7 @@ pub(super) enum Found {
     Cancelled,
 }
 
-/// Elements that are looked at between two questions whether the path is still wanted.
+/// Elements between two questions whether the path is still wanted.
 const STEP: usize = 256;
 
 pub(super) fn find(proof: &Proof, goes_on: &dyn Fn() -> bool) -> Found {
@@ -115,7 +116,7 @@ fn once(stretches: &mut Vec<Stretch>, on_each_other: impl Fn(&Stretch, &Stretch)
     });
 }
 
-/// Takes out what nothing leads to or from: stretches that are clear only by what counts as rounding.
+/// Removes stretches without a predecessor or successor, which are only clear by rounding.
 fn prune(stretches: &mut [Stretch], nodes: usize) {
     let (mut coming, mut going) = (vec![0_u32; nodes], vec![0_u32; nodes]);
     let mut at: Vec<Vec<u32>> = vec![Vec::new(); nodes];
@@ -147,8 +148,8 @@ fn prune(stretches: &mut [Stretch], nodes: usize) {
     }
 }
 
-/// The stretches one after another: each leads on to the next one in the order of the contour that begins where it ends, so that
-/// ways that touch are one. Where it does not come out, the raw element.
+/// Chains the stretches: each is followed by the next one in the order of the contour that begins where it ends, so
+/// that ways that touch are one. Where it does not close, returns the raw element.
 fn followed(proof: &Proof, stretches: &[Stretch], nodes: &Nodes) -> Result<Loops, usize> {
     let alive: Vec<usize> = (0..stretches.len())
         .filter(|&index| stretches[index].is_alive)
@@ -224,7 +225,7 @@ fn append(proof: &Proof, pieces: &mut Vec<(usize, Element)>, raw: usize, start: 
     ));
 }
 
-/// Points that are told apart only when they are further from each other than rounding.
+/// Points that are only distinct when they are further from each other than rounding.
 struct Nodes {
     cell: f64,
     near: f64,

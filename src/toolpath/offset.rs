@@ -1,4 +1,4 @@
-//! The offset of one segment, which remembers where it comes from. Corners join them, see `corners`.
+//! The offset of one segment, with its source. Corners join them, see `corners`.
 
 use super::path::Source;
 use crate::drawing::ContourSegment;
@@ -11,7 +11,8 @@ pub(super) struct Wall {
     pub(crate) source: Source,
 }
 
-/// The walls of a contour. Gaps within the join tolerance are closed half way by both neighbours, and what has no length is left out.
+/// The walls of a contour. Both neighbours close a gap within the join tolerance half way, and segments without length
+/// are left out.
 pub(super) fn walls(
     segments: impl IntoIterator<Item = ContourSegment>,
     closed: bool,
@@ -36,7 +37,7 @@ pub(super) fn walls(
                 .as_arc()
                 .is_some_and(|arc| !arc.is_full_turn())
         {
-            // One arc that comes back to its start within the join tolerance is a circle.
+            // One arc that returns to its start within the join tolerance is a circle.
             if let Segment::Arc(arc) = wall.geometry {
                 wall.geometry = Segment::Arc(Arc::about(
                     arc.center,
@@ -118,7 +119,7 @@ pub(super) fn offset(wall: &Segment, correction: f64, side: f64, tolerance: f64)
                     ..*arc
                 }));
             }
-            // Not by the share of the two radii: about a centre that is far away they differ by rounding alone.
+            // Not by the share of the two radii: about a far centre they differ by rounding alone.
             let out = |point: Point| point + (point - arc.center) * (shift / arc.radius);
             Offset::Runs(Segment::Arc(Arc {
                 radius,

@@ -1,8 +1,9 @@
 //! One side of an open contour.
 //!
-//! The wire's way round an open contour goes there on one side of it, round its last end, back on the other side and round its first
-//! end: the contour gone there and back is a closed one that holds nothing. What lies on the side of the wire, between the ways
-//! round the two ends, is the path: it begins and ends at the correction from the ends, square to the contour there.
+//! The wire's way round an open contour goes there on one side of it, round its last end, back on the other side and
+//! round its first end: there and back the contour is a closed one that holds nothing. The path is the part on the side
+//! of the wire, between the ways round the two ends: it begins and ends at the correction from the ends, square to the
+//! contour there.
 
 use super::corners::{Element, Raw};
 use super::loops::Loops;
@@ -18,10 +19,11 @@ pub(super) fn there_and_back(walls: &[Wall]) -> Vec<Wall> {
     walls.iter().copied().chain(back).collect()
 }
 
-/// Why there is no path: nothing of one lies on the side of the wire, or some of it is lost, near a point beside a wall.
+/// Why there is no path: nothing of one lies on the side of the wire, or some of it is lost, near a point beside a
+/// wall.
 pub(super) type Lost = Option<(Point, usize)>;
 
-/// The path on the side of the wire out of all closed ways about an open contour of so many `walls`.
+/// The path on the side of the wire, from all closed ways about an open contour with this many `walls`.
 pub(super) fn one_side(
     loops: Loops,
     raw: &Raw,

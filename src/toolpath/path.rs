@@ -4,7 +4,7 @@ use crate::drawing::EntityId;
 use crate::finding::{Finding, Place};
 use crate::geometry::{Point, Segment, Side};
 
-/// Where a piece of the path comes from.
+/// The source of a piece of the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
     /// The offset of this segment of an entity.
@@ -60,15 +60,15 @@ pub struct WirePath {
     pub outline: usize,
     /// 1-based number of the pass.
     pub pass: usize,
-    /// Which way a closed contour is gone round in this pass; `None` where it is open.
+    /// The direction of a closed contour in this pass; `None` where it is open.
     pub counter_clockwise: Option<bool>,
-    /// It cuts off what the passes of the contour have left standing; before its first pass the machine stops.
+    /// It cuts off the tab that the passes of the contour have left; before its first pass the machine stops.
     pub cut_off: bool,
-    /// How far the path lies from the contour, drawing units; 0 where the contour is the path.
+    /// The distance of the path from the contour, drawing units; 0 where the contour is the path.
     pub correction: f64,
-    /// Where the wire is threaded and comes back to.
+    /// The thread hole, to which it returns.
     pub thread_hole: Point,
-    /// The side of travel on which the control is to let the wire run; `None` where the path is that of the wire.
+    /// The side of travel on which the control must let the wire run; `None` where the path is that of the wire.
     pub side: Option<Side>,
     /// In order of travel, lead-in and lead-out included.
     pub segments: Vec<PathSegment>,
@@ -80,7 +80,7 @@ impl WirePath {
         self.pass == 1 && !self.cut_off
     }
 
-    /// It cuts a tab that another pass has cut before, from where that ended: the machine does not stop in between.
+    /// It cuts a tab that another pass has cut before, from that pass's end: the machine does not stop in between.
     pub(crate) fn goes_back_along_tab(&self) -> bool {
         self.cut_off && self.pass > 1 && self.begin() != self.thread_hole
     }
@@ -91,20 +91,21 @@ impl WirePath {
         self.counter_clockwise.is_none() && has_side && self.end() != self.begin()
     }
 
-    /// Where the path begins; where the wire is threaded if it only stands.
+    /// The start of the path; the thread hole if the wire only stands.
     pub fn begin(&self) -> Point {
         let first = self.segments.first();
         first.map_or(self.thread_hole, |piece| piece.geometry.start())
     }
 
-    /// Where the path ends; where the wire is threaded if it only stands.
+    /// The end of the path; the thread hole if the wire only stands.
     pub fn end(&self) -> Point {
         let last = self.segments.last();
         last.map_or(self.thread_hole, |piece| piece.geometry.end())
     }
 }
 
-/// Lengths in drawing units: of what is cut, leads and all passes included, and of the ways without a cut from each path to the next.
+/// Lengths in drawing units: of the cuts, with leads and all passes, and of the ways without a cut from each path to
+/// the next.
 pub(crate) fn lengths(paths: &[WirePath]) -> (f64, f64) {
     let segments = paths.iter().flat_map(|path| &path.segments);
     let cut = segments.map(|segment| segment.geometry.length()).sum();
@@ -113,12 +114,13 @@ pub(crate) fn lengths(paths: &[WirePath]) -> (f64, f64) {
     (cut, jumps.fold(0.0, |sum, way| sum + way))
 }
 
-/// Why no path can be made; a plain sentence for the user, lower-case, no final dot.
+/// Why there is no path; a plain sentence for the user, lower-case, no final dot.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     Sentence(String),
-    /// Refused for the geometry: errors in the drawing, at their places. Some it gets only when a path is asked for, such as `lead-in`.
+    /// Refused for the geometry: errors in the drawing, at their places. Some, such as `lead-in`, only arise when a
+    /// path is requested.
     Findings(Vec<Finding>),
-    /// Nobody wants the path any more.
+    /// The caller cancelled.
     Cancelled,
 }

@@ -1,4 +1,4 @@
-//! What the settings say of tabs, overlaps, thread holes, entries and steps, held against the contours while they are drawn.
+//! The settings of tabs, overlaps, thread holes, entries and steps, checked against the contours while they are drawn.
 
 use super::leads::finding;
 use super::order::name;
@@ -7,10 +7,10 @@ use crate::drawing::{Drawing, Outline};
 use crate::finding::{Finding, Place, Rule, Severity};
 use crate::settings::{Compensation, Effective, Electrode, LengthSetting};
 
-/// In drawings of more segments the path says it when one is asked for.
+/// In drawings of more segments these are only reported when a path is requested.
 const MOST_SEGMENTS: usize = 2_000;
 
-/// What stands against a path as the settings say it, of the contours whose side is known.
+/// The obstacles to a path under the settings, for the contours whose side is known.
 pub(crate) fn stated_faults(
     drawing: &Drawing,
     outlines: &[Outline],
@@ -56,7 +56,7 @@ pub(crate) fn stated_faults(
     }
 }
 
-/// Whether the settings say more of a path than its side.
+/// Whether the settings give more of a path than its side.
 pub(crate) fn is_stated(settings: &Effective) -> bool {
     if settings.compensation == Compensation::None {
         return false;
@@ -77,7 +77,7 @@ pub(crate) fn is_stated(settings: &Effective) -> bool {
         || own.any(|own| own.thread.is_some() || own.entry.is_some())
 }
 
-/// The leads that are shorter than the settings say, for which there was no room.
+/// The leads that are shorter than their setting for lack of room.
 pub(crate) fn shortened_leads(
     drawing: &Drawing,
     outlines: &[Outline],
@@ -93,7 +93,7 @@ pub(crate) fn shortened_leads(
     let shortened = firsts.zip(holes).filter_map(|(path, hole)| {
         let mut pieces = path.segments.iter();
         let begin = pieces.find(|piece| piece.source.place().is_some())?;
-        // Where the control offsets, the lead ends at the contour, and is as much longer.
+        // Where the control offsets, the lead ends at the contour, and is that much longer.
         let beside = if path.side.is_some() {
             settings.correction
         } else {
@@ -138,7 +138,7 @@ fn worn_layers(
     )
 }
 
-/// The contours of which a layer is shorter than the step of linear compensation.
+/// The contours with a layer that is shorter than the step of linear compensation.
 pub(crate) fn short_layers(
     drawing: &Drawing,
     outlines: &[Outline],
@@ -157,10 +157,10 @@ pub(crate) fn short_layers(
     )
 }
 
-/// What is said of a path of so many mm by the electrode that mills it.
+/// A finding for a path of this many mm, by the electrode that mills it.
 type Said<'a> = &'a dyn Fn(&Electrode, &WirePath, f64) -> Option<(Severity, String)>;
 
-/// What is said of paths by the electrode that mills them.
+/// Findings for paths, by the electrode that mills them.
 fn of_layers(
     drawing: &Drawing,
     outlines: &[Outline],

@@ -1,4 +1,4 @@
-//! Paths of small drawings as data, and the offset held against another library's.
+//! Paths of small drawings as data, and the offset compared with another library's.
 
 mod families;
 mod order;
@@ -21,7 +21,7 @@ fn entity(handle: &str, geometry: Geometry) -> Entity {
     }
 }
 
-/// A drawing of polylines `[x, y, bulge]`, closed but where the role is none, with handles 2A, 2B, ….
+/// A drawing of polylines `[x, y, bulge]`, closed unless they have no role, with handles 2A, 2B, ….
 fn drawing(polylines: &[(&[[f64; 3]], Option<Role>)]) -> (Drawing, Vec<Outline>) {
     let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
     let outlines = polylines

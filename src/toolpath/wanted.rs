@@ -1,4 +1,4 @@
-//! Where the wire is to be threaded, and where a contour is entered: what the settings say, and the marks in the drawing.
+//! The requested thread hole and entry of a contour: from the settings, and from the marks in the drawing.
 
 use super::containment::Places;
 use super::order::outline_of;
@@ -8,14 +8,14 @@ use crate::geometry::Point;
 use crate::settings::{Compensation, ContourSettings, Effective, NEAR, PointSetting, point_of};
 use rustc_hash::FxHashMap;
 
-/// What settings and start marks say about one contour, in drawing units.
+/// What settings and start marks give for one contour, in drawing units.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Wanted {
     pub(crate) thread: Option<Point>,
     pub(crate) entry: Option<Point>,
-    /// A mark that means the point of the contour beside it, where no entry is given.
+    /// A mark for the nearest point of the contour, where no entry is given.
     pub(crate) beside: Option<Point>,
-    /// Where a start hole is proposed.
+    /// The proposed start hole.
     pub(crate) proposed: Option<Point>,
 }
 
@@ -68,7 +68,7 @@ pub(super) fn wanted(
     Ok(wanted.collect())
 }
 
-/// What the settings say of single outlines of this drawing, by their index. What names none is a finding of its own.
+/// The settings of single outlines of this drawing, by their index. One that names no outline has a finding of its own.
 pub(super) fn own<'a>(
     drawing: &Drawing,
     outlines: &[Outline],
@@ -94,7 +94,7 @@ pub(super) fn own<'a>(
         .collect()
 }
 
-/// The places among all that the settings give to single outlines.
+/// The places in the order that the settings give to single outlines.
 pub(super) fn places(drawing: &Drawing, outlines: &[Outline], settings: &Effective) -> Places {
     if settings.own.is_empty() {
         return Places::default();
@@ -104,8 +104,8 @@ pub(super) fn places(drawing: &Drawing, outlines: &[Outline], settings: &Effecti
         .collect()
 }
 
-/// A mark within the correction of its contour, or on the part's side of it, means the entry: no wire is threaded there. Where the side
-/// is not known, or the contour is the wire's own path, it is the thread hole.
+/// A mark within the correction of its contour, or on the part's side of it, is the entry: no wire can be threaded
+/// there. Where the side is not known, or the contour is the wire's own path, it is the thread hole.
 fn means_entry(drawing: &Drawing, outline: &Outline, mark: &Mark, settings: &Effective) -> bool {
     if settings.compensation == Compensation::None
         || !outline.contour.closed
@@ -118,7 +118,7 @@ fn means_entry(drawing: &Drawing, outline: &Outline, mark: &Mark, settings: &Eff
         || is_inside != (outline.role == Role::Opening)
 }
 
-/// The mark of one outline: of several the nearest.
+/// The mark of one outline: the nearest of several.
 pub(super) fn mark_of(marks: &[Mark], outline: usize) -> Option<Point> {
     own_mark(marks, outline).map(|mark| mark.at)
 }

@@ -5,20 +5,20 @@ use crate::geometry::{Arc, Point, Segment, Vector, cross, direction, left_normal
 use crate::settings::Lead;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// A lead that is at right angles to the contour but for so much, radians, needs no corner.
+/// A lead needs no corner if it is at right angles to the contour within this angle, radians.
 const OBLIQUE: f64 = 0.02;
 
-/// So often the radius of an arc is halved.
+/// How often the radius of an arc is halved.
 const MOST_HALVED: usize = 24;
 
-/// Where a lead comes to the path of the wire's centre.
+/// Where a lead reaches the path of the wire's centre.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Landing {
     /// On the way of the wire's centre.
     pub at: Point,
-    /// On the path that is programmed: the same, but where the control offsets it.
+    /// On the programmed path: the same, unless the control offsets it.
     path: Point,
-    /// Which way the path goes on.
+    /// The direction in which the path goes on.
     along: Vector,
     /// Away from the part.
     room: Vector,
@@ -27,7 +27,7 @@ pub(super) struct Landing {
 }
 
 impl Landing {
-    /// Where a path begins, in `path`, that runs to the `side` of its contour; the control lets the wire run `control` beside it.
+    /// The start of `path`, which runs to the `side` of its contour; the control lets the wire run `control` beside it.
     pub(crate) fn of_begin(path: Point, along: Vector, side: f64, control: f64) -> Landing {
         let room = left_normal(along) * side;
         let at = match control {
@@ -49,7 +49,7 @@ impl Landing {
         oblique.abs() > OBLIQUE
     }
 
-    /// Where it ends, as a lead comes to it that is gone backwards.
+    /// Its end, for a lead that is gone backwards.
     pub(crate) fn of_end(path: Point, along: Vector, side: f64, control: f64) -> Landing {
         let begin = Landing::of_begin(path, along, side, control);
         Landing {
@@ -63,15 +63,15 @@ impl Landing {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Way {
     Straight,
-    /// At right angles to the contour from a corner that lies so far beside the path.
+    /// At right angles to the contour from a corner this far beside the path.
     Corner(f64),
     /// Along an arc of this radius, which ends tangent to the path.
     Arc(f64),
 }
 
 impl Way {
-    /// The forms that a lead may have, the best first. `length` is how far beside the path a corner lies at most; `least` is the
-    /// least radius of an arc. None where the thread hole lies too near for an arc.
+    /// The possible forms of a lead, the best first. `length` is the largest distance of a corner from the path;
+    /// `least` is the least radius of an arc. None where the thread hole lies too near for an arc.
     pub fn all(lead: Lead, thread: Point, landing: &Landing, length: f64, least: f64) -> Vec<Way> {
         let way = thread - landing.at;
         match lead {
@@ -96,7 +96,8 @@ impl Way {
         }
     }
 
-    /// The lead from the thread hole to the landing: as the wire's centre goes, or as it is programmed where the control offsets it.
+    /// The lead from the thread hole to the landing: for the wire's centre, or as programmed where the control offsets
+    /// it.
     pub fn pieces(self, thread: Point, landing: &Landing, programmed: bool) -> Vec<Segment> {
         let at = if programmed { landing.path } else { landing.at };
         match self {
@@ -111,8 +112,8 @@ impl Way {
     }
 }
 
-/// Straight to an arc and along it to the landing. The straight piece is tangent to the arc that is programmed. `None` where the thread hole
-/// lies within the arc's circle, or the arc would go more than three quarters round.
+/// Straight to an arc and along it to the landing. The straight piece is tangent to the programmed arc. `None` where
+/// the thread hole lies within the arc's circle, or the arc would go more than three quarters round.
 fn arc(thread: Point, landing: &Landing, radius: f64, programmed: bool) -> Option<Vec<Segment>> {
     let center = landing.at + landing.room * radius;
     let outer = radius + landing.control;
@@ -121,7 +122,7 @@ fn arc(thread: Point, landing: &Landing, radius: f64, programmed: bool) -> Optio
     if share.is_nan() || share >= 1.0 - 1e-6 {
         return None;
     }
-    // Seen against the way round, the tangent from the thread hole touches so far ahead of it.
+    // Against the direction of travel, the tangent from the thread hole touches this far ahead of it.
     let touch = to_thread.y.atan2(to_thread.x) + sign * share.acos();
     let to_landing = -landing.room;
     let sweep = ((to_landing.y.atan2(to_landing.x) - touch) * sign).rem_euclid(TAU);
@@ -158,7 +159,7 @@ pub(super) fn lead_out(pieces: Vec<Segment>) -> impl Iterator<Item = PathSegment
     })
 }
 
-/// The largest angle between a lead and the contour that it leads to or from, radians: how far the wire turns there. `None` without leads.
+/// The largest angle between a lead and its contour, radians: the turn of the wire there. `None` without leads.
 pub(crate) fn largest_lead_angle(segments: &[PathSegment]) -> Option<f64> {
     let is_lead = |piece: &PathSegment| matches!(piece.source, Source::LeadIn | Source::LeadOut);
     let angle = |pair: &[PathSegment]| {

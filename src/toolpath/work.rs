@@ -1,6 +1,6 @@
-//! What the paths of a job come to on the machine: lengths, times, slugs, money, and the wire that is thin enough.
+//! The totals of a job at the machine: lengths, times, slugs, money, and the largest possible wire.
 //!
-//! Nothing is guessed: what a key would be needed for that nobody has set is left out, and the key is named.
+//! Nothing is guessed: without a key that it needs a value is left out, and the key is named.
 
 use super::path::WirePath;
 use super::way::largest_lead_angle;
@@ -8,25 +8,25 @@ use crate::drawing::{Drawing, EntityId, Outline, Role};
 use crate::geometry::Segment;
 use crate::settings::Effective;
 
-/// What some paths come to.
+/// The totals of some paths.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Work {
     /// In the order of the cuts.
     pub cuts: Vec<WorkCut>,
-    /// mm of all cuts, leads included; the ways between contours are none.
+    /// mm of all cuts, with leads, without the ways between contours.
     pub length: f64,
-    /// mm of the ways from one contour to the next, on which nothing is cut.
+    /// mm of the ways from one contour to the next, without a cut.
     pub jumps: f64,
     /// Of all cuts.
     pub minutes: Option<f64>,
     /// In the money of `job.machine-rate`.
     pub cost: Option<f64>,
-    /// What drops out of openings.
+    /// The slugs that drop out of openings.
     pub slugs: Vec<Slug>,
     /// The largest angle between a lead and its contour, radians.
     pub lead_angle: Option<f64>,
     pub largest_wire: Option<LargestWire>,
-    /// Keys that are not set and that something of this would need.
+    /// Unset keys that some value needs.
     pub missing: Vec<&'static str>,
 }
 
@@ -36,14 +36,14 @@ pub struct WorkCut {
     /// Index of the outline in the drawing's list.
     pub outline: usize,
     pub pass: usize,
-    /// It cuts off what the passes have left standing.
+    /// It cuts off the tab.
     pub cut_off: bool,
     /// mm, leads included.
     pub length: f64,
     pub minutes: Option<f64>,
 }
 
-/// What drops out of an opening.
+/// A slug that drops out of an opening.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slug {
     pub outline: usize,
@@ -51,7 +51,7 @@ pub struct Slug {
     pub mass: f64,
 }
 
-/// The thickest wire that still cuts every arc, and the arc that says so.
+/// The thickest wire that still cuts every arc, and the arc that limits it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LargestWire {
     /// mm: twice the radius less the spark gap of the last pass.
@@ -62,7 +62,7 @@ pub struct LargestWire {
     pub segment: usize,
 }
 
-/// What `paths` of a drawing come to.
+/// The totals of `paths` of a drawing.
 pub fn work(
     drawing: &Drawing,
     outlines: &[Outline],
@@ -111,7 +111,7 @@ pub fn work(
     ];
     Work {
         length: cuts.iter().map(|cut| cut.length).sum(),
-        // The sum of none is -0.
+        // The sum of no numbers is -0.
         jumps: paths.windows(2).map(jump).fold(0.0, |sum, way| sum + way),
         minutes,
         cost: minutes
@@ -132,14 +132,14 @@ pub fn work(
     }
 }
 
-/// Spark gap of the last pass, mm, where somebody has set it.
+/// Spark gap of the last pass, mm, where set.
 fn last_gap(settings: &Effective) -> Option<f64> {
     let of_passes = settings.passes.gaps.as_ref();
     of_passes.map_or(settings.gap, |gaps| gaps.last().copied())
 }
 
-/// The thickest wire that cuts every arc of the contours that are `cut`: of an arc that the wire runs inside of it is Ø = 2 (r − δ). Where
-/// the side is not known each arc counts. `None` where there is no such arc, or nobody has set the gap.
+/// The thickest wire that cuts every arc of the contours that are `cut`: for an arc with the wire on its inside it is Ø
+/// = 2 (r − δ). Where the side is not known each arc counts. `None` where there is no such arc, or the gap is not set.
 pub fn largest_wire(
     drawing: &Drawing,
     outlines: &[Outline],

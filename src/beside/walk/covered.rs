@@ -1,4 +1,4 @@
-//! What of the rounds has been cut.
+//! The parts of the rounds that have been cut.
 
 use super::super::rounds::Spot;
 use super::super::{COVERED, TOLERANCE};
@@ -18,7 +18,7 @@ impl Walk<'_> {
         });
     }
 
-    /// Whether what lies right ahead of a spot has been cut as often as most of its round.
+    /// Whether the part right ahead of a spot has been cut as often as most of its round.
     pub(super) fn is_cut_as_often(&self, spot: &Spot) -> bool {
         const PLACES: usize = 25;
         let length = self.rounds.rounds[spot.round].length;
@@ -33,7 +33,7 @@ impl Walk<'_> {
         here >= all[PLACES / 2].max(1)
     }
 
-    /// What of a round has not been cut, in its direction.
+    /// The uncut parts of a round, in its direction.
     pub(super) fn uncut(&self, round: usize) -> Vec<Range<f64>> {
         let mut covered = self.covered[round].clone();
         covered.sort_by(|a, b| a.start.total_cmp(&b.start));
@@ -60,7 +60,7 @@ impl Walk<'_> {
         self.uncut_from(spot) <= COVERED
     }
 
-    /// How far nothing has been cut from a spot on, µm.
+    /// The uncut length from a spot on, µm.
     pub(super) fn uncut_from(&self, spot: &Spot) -> f64 {
         let length = self.rounds.rounds[spot.round].length;
         let along = self.rounds.along(spot);

@@ -1,4 +1,4 @@
-//! Where a run begins: a block that lies on the drawing, with others behind it that go on there.
+//! The start of a run: a block that lies on the drawing, with others behind it that continue there.
 
 use super::super::matching::{Found, matching};
 use super::super::pose::Pose;
@@ -44,7 +44,7 @@ impl Walk<'_> {
                 });
             if let Some(found) = found {
                 let by = found.pose.shift - self.pose.shift;
-                // Where the program lies was found by its first contour, or one behind that.
+                // The place of the program was found from its first contour, or from one behind that.
                 is_first = self.walked.contours.is_empty();
                 moved = (by.norm() > REACH).then_some(by);
                 best = Some((0, found));
@@ -53,7 +53,7 @@ impl Walk<'_> {
         let (_, Found { mut spot, pose }) = best?;
         let mut first = index;
         if moved.is_some() {
-            // What came before could not be told from a lead.
+            // The blocks before looked like a lead.
             for before in (1..=2).filter_map(|back| index.checked_sub(back)) {
                 let Some(own) = self.traced.blocks[before].segment() else {
                     break;
@@ -90,7 +90,7 @@ impl Walk<'_> {
         })
     }
 
-    /// Whether an arc that counts leads to a block beside the drawing.
+    /// Whether a counting arc leads to a block beside the drawing.
     pub(super) fn comes_by_arcs(&self, index: usize) -> bool {
         let before = (0..index)
             .rev()
@@ -109,7 +109,7 @@ impl Walk<'_> {
         reached.is_some_and(|reached| reached.whole)
     }
 
-    /// How much speaks for a run that begins with a block at a spot; `None` where it may lead there, or away.
+    /// The evidence for a run that begins with a block at a spot; `None` where it may be a way there, or away.
     pub(super) fn begins(&self, pose: &Pose, spot: &Spot, index: usize) -> Option<usize> {
         let (count, ends) = self.verify(*pose, *spot, *spot, index, SURE);
         let is_rest = || !self.is_cut(spot) && !self.covered[spot.round].is_empty();
@@ -121,7 +121,8 @@ impl Walk<'_> {
         self.rounds.rounds[spot.round].circle.is_some()
     }
 
-    /// Follows from a spot on, at most so many blocks: how many do, and whether the contour or the program's cut ends behind them.
+    /// Follows from a spot on, at most this many blocks: how many follow, and whether the contour or the program's cut
+    /// ends behind them.
     pub(in crate::beside) fn verify(
         &self,
         mut pose: Pose,

@@ -1,4 +1,4 @@
-//! Behind a block that does not follow: whether the run goes on, and where.
+//! Whether and where a run goes on behind a block that does not follow.
 
 use super::super::pose::{Pose, Reached, stretch};
 use super::super::rounds::Spot;
@@ -6,13 +6,14 @@ use super::super::traced::Motion;
 use super::super::{BETWEEN, REACH};
 use super::{Kind, NEAR, Run, SURE, Walk};
 
-/// Blocks and pieces that are passed over to find on, at most.
+/// The most blocks and pieces that are skipped to find the continuation.
 const PASSED: usize = 8;
-/// Blocks that are looked at for the end of a piece that several of them are on.
+/// Blocks that are read to find the end of a piece that several of them share.
 const SPLIT: usize = 400;
 
 impl Walk<'_> {
-    /// Goes on with a run behind a block that does not follow, and names it. The block to go on with; `None` where nothing follows.
+    /// Continues a run behind a block that does not follow, and names it. Returns the block to go on with; `None` where
+    /// nothing follows.
     pub(super) fn resume(&mut self, run: &mut Run, index: usize) -> Option<usize> {
         if run.complete {
             return None;
@@ -98,7 +99,7 @@ impl Walk<'_> {
         run.spot = to;
     }
 
-    /// How far the end of a block lies from that of the piece which it should follow.
+    /// The distance of a block's end from that of the piece which it should follow.
     pub(super) fn off(&self, pose: &Pose, run: &Run, index: usize) -> f64 {
         let Some(segment) = self.traced.blocks[index].segment() else {
             return 0.0;
@@ -117,8 +118,8 @@ impl Walk<'_> {
         off
     }
 
-    /// The block behind those that share a piece of the drawing with the one at `index`, which ends within it; `None` where they do not
-    /// come to its end, nor to a stop or another pass.
+    /// The block behind those that share a piece of the drawing with the one at `index`, which ends within it; `None`
+    /// where they do not reach its end, a stop or another pass.
     pub(super) fn split_ends(
         &self,
         pose: &Pose,
@@ -170,7 +171,8 @@ impl Walk<'_> {
         false
     }
 
-    /// Whether a block before the run begins about where this one ends: it was the first of its contour, which comes back to there.
+    /// Whether a block before the run begins about where this one ends: it was the first of its contour, which returns
+    /// there.
     pub(super) fn begins_before(&self, pose: &Pose, run: &Run, reached: &Reached) -> bool {
         let Some(spot) = reached.spot else {
             return false;
@@ -193,8 +195,8 @@ impl Walk<'_> {
     }
 }
 
-/// How many blocks and how many pieces are passed over, the likeliest first: few of both, and as many of the one as of the other. Pieces alone
-/// only where they `may_be_missing`.
+/// How many blocks and how many pieces are skipped, the likeliest first: few of both, and as many of each. Only pieces
+/// where they `may_be_missing`.
 fn choices(blocks: usize, pieces: usize, may_be_missing: bool) -> Vec<(usize, usize)> {
     let mut choices: Vec<(usize, usize)> = (0..=blocks)
         .flat_map(|blocks| (0..pieces).map(move |pieces| (blocks, pieces)))

@@ -1,4 +1,4 @@
-//! What is wrong where runs ended before their contours did, once the whole program has been gone along.
+//! Names what is wrong where runs ended before their contours did, at the end of the whole program.
 
 use super::super::traced::Motion;
 use super::super::{COVERED, REACH};
@@ -33,7 +33,7 @@ impl Walk<'_> {
                 self.moved.extend(run.moved.is_some().then_some(run));
                 continue;
             }
-            // Up to where the run began? Then a block before it may be the one.
+            // Up to where the run began? Then a block before it may be the wrong one.
             let entry = run.entry;
             let ahead = if self.rounds.rounds[entry.round].closed {
                 self.rounds.ahead(&run.spot, &entry)
@@ -52,7 +52,7 @@ impl Walk<'_> {
                 })
                 .min_by(|a, b| a.1.total_cmp(&b.1))
                 .filter(|_| gap <= COVERED || (ahead - gap).abs() <= COVERED + 1.0);
-            // All but a little before where it began is cut: its first block is that much too short.
+            // Everything is cut except a little before its start: its first block is that much too short.
             let is_short = gap <= NEAR && gap > COVERED && (ahead - gap).abs() <= COVERED + 1.0;
             let (named, off, kind) = match (before, of_block) {
                 (before, _) if is_short && before.is_none_or(|(_, by)| by > COVERED) => {
@@ -99,8 +99,8 @@ impl Walk<'_> {
         }
     }
 
-    /// An open contour is cut from its one end to the other: where a run begins behind that end, and nothing else has cut what lies
-    /// between, one of the blocks before it should have.
+    /// An open contour is cut from one end to the other: where a run begins behind that end, and the part between is
+    /// uncut, one of the blocks before it should have cut it.
     fn begins_late(&mut self, run: &Run) {
         let entry = run.entry;
         let last = self.rounds.rounds[entry.round].pieces.len() - 1;
@@ -136,7 +136,8 @@ impl Walk<'_> {
         self.name(&missed, named, off, Kind::Block);
     }
 
-    /// Of the blocks before a run, from that on which begins where the run came back to, the one that does not follow, and how far it is off.
+    /// Among the blocks before a run, starting with the one that begins where the run returned to, the one that does
+    /// not follow, and how far it is off.
     pub(super) fn first_unlike(&self, run: &Run, before: usize) -> (usize, f64) {
         let (mut spot, mut worst) = (run.spot, (before, 0.0));
         for block in before..run.first {

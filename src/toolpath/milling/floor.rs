@@ -1,12 +1,13 @@
-//! The wear of an electrode simulated beside its program: what is eroded place by place, and what that takes from the electrode.
+//! Simulates the wear of an electrode beside its program: what is eroded place by place, and what that takes from the
+//! electrode.
 //!
-//! Nothing here knows how the feeds were found. The way lies in cells as wide as what the electrode erodes. In a cell the electrode goes down to where
-//! its tip is, which gets shorter by ν times the volume that it erodes, over its cross-section.
+//! Nothing here knows how the feeds were found. The way consists of cells as wide as the erosion. In a cell the
+//! electrode goes down to its tip; it gets shorter by ν times the volume that it erodes, over its cross-section.
 
 use crate::settings::Electrode;
 use std::f64::consts::PI;
 
-/// Cells into which a way is divided. They are fewer where there are so many layers that more cells than [`MOST_VISITS`] would be visited in all.
+/// Cells of a way. There are fewer where the layers would visit more than [`MOST_VISITS`] cells in all.
 const CELLS: usize = 2_000;
 const FEWEST_CELLS: usize = 100;
 const MOST_VISITS: usize = 40_000_000;
@@ -21,10 +22,10 @@ pub(crate) struct Floor {
     /// Depth of the round ends, where they count.
     ends: Option<[f64; 2]>,
     of_end: f64,
-    /// Where the tip would be if nothing were worn.
+    /// Where the tip would be without wear.
     fed: f64,
     pub(crate) worn: f64,
-    /// The end at which the electrode stands; 0 is that from which ways count.
+    /// The electrode's end of the way; 0 is the one from which ways count.
     end: Option<usize>,
 }
 
@@ -92,8 +93,8 @@ impl Floor {
     }
 }
 
-/// The depth of a place behind an electrode that is worn by so much of what it erodes there while it passes: the tip comes nearer to the floor
-/// by that share of what is left between them at every moment.
+/// The depth of a place after an electrode has passed that is worn by this share of what it erodes there: at every
+/// moment the tip comes nearer to the floor by that share of the remaining distance.
 fn eroded(depth: f64, fed: f64, worn: &mut f64, share: f64) -> f64 {
     let left = fed - *worn - depth;
     if left <= 0.0 {

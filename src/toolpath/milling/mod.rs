@@ -1,7 +1,8 @@
-//! Milling by a cylindrical electrode that wears, layer by layer: how deep it is fed where.
+//! Milling by a cylindrical electrode that wears, layer by layer: the feeds.
 //!
-//! The uniform wear method feeds each layer its height and the wear of the whole layer, and lets the next layer go back along it, so that the
-//! floor wears even (Yu, Masuzawa, Fujino 1998). Linear compensation feeds what has been worn on the way, step by step. Lengths are in mm.
+//! The uniform wear method feeds each layer its height and the wear of the whole layer, and lets the next layer go back
+//! along it, so that the floor wears even (Yu, Masuzawa, Fujino 1998). Linear compensation feeds the wear on the way,
+//! step by step. Lengths are in mm.
 
 mod floor;
 #[cfg(test)]
@@ -13,12 +14,12 @@ use crate::settings::{Electrode, WearCompensation};
 use std::f64::consts::PI;
 
 impl Electrode {
-    /// How far its axis runs beside a contour: b = δ + D/2.
+    /// The distance of its axis from a contour: b = δ + D/2.
     pub fn correction(&self) -> f64 {
         self.diameter / 2.0 + self.gap
     }
 
-    /// Width of what it erodes: W = D + 2δ.
+    /// Width of the erosion: W = D + 2δ.
     pub fn width(&self) -> f64 {
         self.diameter + 2.0 * self.gap
     }
@@ -28,13 +29,13 @@ impl Electrode {
         PI * self.diameter.powi(2) / 4.0
     }
 
-    /// By how much it gets shorter on a way of 1 mm in a layer of 1 mm: ν W/A.
+    /// Its loss of length on a way of 1 mm in a layer of 1 mm: ν W/A.
     pub(crate) fn wear_along(&self) -> f64 {
         self.wear * self.width() / self.section()
     }
 
-    /// By how much it gets shorter in a layer along a way of `length`, as a share of the layer's height: K = ν S/A, where S = W·l, and
-    /// + πW²/4 where the round ends of an open slot count.
+    /// Its loss of length in a layer along a way of `length`, as a share of the layer's height: K = ν S/A, where S =
+    /// W·l, and + πW²/4 where the round ends of an open slot count.
     pub fn wear_of_layer(&self, length: f64, is_closed: bool) -> f64 {
         let ends = match self.slot_ends && !is_closed {
             true => PI * self.width().powi(2) / 4.0,
@@ -43,9 +44,9 @@ impl Electrode {
         self.wear * (self.width() * length + ends) / self.section()
     }
 
-    /// Of how many layers the depth is; the last one may be thinner.
+    /// The number of layers; the last one may be thinner.
     pub fn layers(&self) -> usize {
-        // A depth of so many layers is no layer more by its rounding.
+        // Rounding of the depth must not add a layer.
         (self.depth / self.layer - 1e-6).ceil().max(1.0) as usize
     }
 
@@ -55,7 +56,7 @@ impl Electrode {
     }
 }
 
-/// What the electrode does next on its way along a contour. Ways count from where the contour is entered.
+/// The next step of the electrode on its way along a contour. Ways count from the entry of the contour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Step {
     /// It is fed to so many mm below the surface.
@@ -64,14 +65,15 @@ pub(crate) enum Step {
     Along { from: f64, to: f64 },
 }
 
-/// The layers of one contour: to and fro along it, each from where the last one ended; a closed one the one way round and the other.
+/// The layers of one contour: to and fro along it, each from the end of the last one; a closed one in alternating
+/// directions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layers {
     pub(crate) electrode: Electrode,
     /// Of the way.
     pub(crate) length: f64,
     pub(crate) is_closed: bool,
-    /// What the electrode has been fed to make up for its wear along other contours.
+    /// The feed so far for the wear along other contours.
     pub(crate) fed_before: f64,
 }
 
@@ -81,7 +83,7 @@ impl Layers {
         self.electrode.wear_of_layer(self.length, self.is_closed)
     }
 
-    /// How deep a layer of a height is fed at its begin.
+    /// The feed of a layer of a height at its start.
     pub(crate) fn feed(&self, height: f64) -> f64 {
         match self.electrode.compensation {
             WearCompensation::Uniform => height * (1.0 + self.wear()),
@@ -89,7 +91,8 @@ impl Layers {
         }
     }
 
-    /// Tells the steps of all layers in their order; gives what has been fed for the wear up to their end, the contours before among it.
+    /// Hands out the steps of all layers in order; returns the feed for the wear up to their end, with that of the
+    /// contours before.
     pub(crate) fn each<E>(&self, step: &mut dyn FnMut(Step) -> Result<(), E>) -> Result<f64, E> {
         let Electrode {
             compensation,
@@ -116,7 +119,7 @@ impl Layers {
             let mut done = 0.0;
             if compensation == WearCompensation::Linear {
                 let per_mm = self.electrode.wear_along() * height;
-                // What is worn behind the last step is fed with the next layer.
+                // The wear behind the last step is fed with the next layer.
                 let steps = (self.length / self.electrode.step - 1e-9).floor() as usize;
                 for at in (1..=steps).map(|number| number as f64 * self.electrode.step) {
                     step(along(done, at))?;
@@ -133,7 +136,7 @@ impl Layers {
     }
 }
 
-/// What milling a contour comes to; depths are below the surface.
+/// The results of milling a contour; depths are below the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MilledContour {
     /// Index of the outline in the drawing's list.
@@ -142,20 +145,20 @@ pub struct MilledContour {
     pub length: f64,
     /// K.
     pub wear_of_layer: f64,
-    /// What each layer is fed at its begin, and the last one.
+    /// The feed of each layer at its start, and of the last one.
     pub feed: f64,
     pub last_feed: f64,
-    /// What is fed on 1 mm of the way; 0 but for `linear`.
+    /// The feed on 1 mm of the way; 0 except for `linear`.
     pub feed_along: f64,
-    /// Where the electrode is told to go at last.
+    /// The last programmed depth of the electrode.
     pub fed: f64,
-    /// Where the floor lies after all layers: its mean along the way, its highest and its deepest place.
+    /// The floor after all layers: its mean along the way, its highest and its deepest place.
     pub floor: [f64; 3],
-    /// By how much the electrode has got shorter, the contours before among it.
+    /// The electrode's loss of length, with that of the contours before.
     pub worn: f64,
 }
 
-/// What milling a drawing comes to.
+/// The results of milling a drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Milled {
     pub electrode: Electrode,

@@ -1,4 +1,4 @@
-//! Feeds and depths of published and of worked-out cases: the formulas, and the simulation that knows nothing of them.
+//! Feeds and depths of published and of worked-out cases: the formulas, and the simulation that does not know them.
 
 use super::{Floor, Layers, Step};
 use crate::settings::{Electrode, WearCompensation};
@@ -83,7 +83,7 @@ fn feeds_are_those_of_the_published_formulas() {
         near(along_um, along, 6e-6_f64.max(along * 4e-5), "linear");
         layers.electrode.slot_ends = true;
         near(layers.feed(height) * 1e3, with_ends, 1e-4, "with slot ends");
-        // Nothing is round at the ends of what has none.
+        // A way without round ends.
         layers.is_closed = true;
         near(layers.feed(height) * 1e3, feed, 6e-5, "closed");
     }
@@ -102,7 +102,8 @@ fn the_simulated_floor_lies_where_it_was_measured() {
         near(mean(WearCompensation::None), none, 6e-5, "none");
         near(mean(WearCompensation::Uniform), uniform, 6e-5, "uniform");
         near(mean(WearCompensation::Linear), linear, 6e-5, "linear");
-        // The first layer fed its height alone, as some do, leaves it further away; all fed alike is what is written.
+        // Fed only its height, as some do, the first layer leaves the floor further away; feeding all alike gives the
+        // result above.
         let all = layers(case, WearCompensation::Uniform);
         let too_much = all.feed(all.electrode.layer) - all.electrode.layer;
         let later: Vec<Step> = steps(&all)
@@ -159,7 +160,7 @@ fn a_linear_feed_that_comes_late_leaves_the_floor_too_high() {
     }
 }
 
-/// What the electrode loses is ν times what is eroded, whatever it does, and nothing is eroded above the tip.
+/// The electrode loses ν times the eroded volume, whatever it does, and nothing is eroded above the tip.
 #[test]
 fn what_is_worn_is_the_share_of_what_is_eroded() {
     for case in [ROW_1, ROW_2, (0.3, 0.02, 0.05, 0.002, 15.0, 10)] {
@@ -205,7 +206,7 @@ fn layers_go_to_and_fro_and_the_last_one_is_what_is_left() {
         })
         .collect();
     assert_eq!(ways, [(0.0, 2.0), (2.0, 0.0), (0.0, 2.0)]);
-    // 0.3 / 0.1 is a little less than 3 in numbers of a machine, 0.7 / 0.1 a little more than 7 with its rounding.
+    // In binary 0.3 / 0.1 is a little less than 3, and 0.7 / 0.1, rounded, a little more than 7.
     for (depth, layer, count) in [
         (0.3, 0.1, 3),
         (0.7, 0.1, 7),

@@ -1,7 +1,7 @@
-//! Families of contours on which an offset goes wrong easily, held against what the distances themselves say.
+//! Families of contours on which an offset goes wrong easily, checked by the distances alone.
 //!
-//! The judge knows nothing of how a path is made: a point is a place of the path when the nearest point of the contour is just the
-//! correction away, and every such point is reached from some point of the contour along its normal.
+//! The judge knows nothing of how a path is made: a point is a place of the path when the nearest point of the contour
+//! is just the correction away, and every such point is reached from some point of the contour along its normal.
 
 mod once;
 
@@ -68,12 +68,12 @@ fn without_leads(path: &WirePath) -> Vec<Segment> {
         .collect()
 }
 
-/// What is wrong with the path of a contour; `None` where it is right, or rightly refused.
+/// The fault in the path of a contour; `None` where it is right, or rightly refused.
 fn wrong(outline: &[[f64; 3]], role: Role, settings: &Effective) -> Option<String> {
     wrong_by(2e-6, outline, role, settings)
 }
 
-/// The same of a path that may lie so far beside its place, mm.
+/// The same for a path that may lie this far beside its place, mm.
 fn wrong_by(slack: f64, outline: &[[f64; 3]], role: Role, settings: &Effective) -> Option<String> {
     let (drawing, outlines) = drawing(&[(outline, Some(role))]);
     let walls = walls_of(&drawing, &outlines[0]);
@@ -102,7 +102,7 @@ fn wrong_by(slack: f64, outline: &[[f64; 3]], role: Role, settings: &Effective) 
                     return Some(format!("a gap at {:?}", pair[0].end()));
                 }
             }
-            // A roll that the tip stands for is not gone round.
+            // The path does not go round a roll that the tip replaces.
             let reach = if is_arc_style { 1.5 * slack } else { 4.0 * C };
             let missing = valid.iter().find(|&&point| distance(&path, point) > reach);
             if let Some(point) = missing {
@@ -127,7 +127,7 @@ fn wrong_by(slack: f64, outline: &[[f64; 3]], role: Role, settings: &Effective) 
     }
 }
 
-/// Threaded on the path, so that leads have no say.
+/// Threaded on the path, so that leads do not matter.
 fn unled(outline: &[[f64; 3]], direction: Direction) -> Effective {
     Effective {
         lead_in: 0.0,
@@ -167,7 +167,7 @@ fn is_simple(outline: &[[f64; 3]]) -> bool {
         && (0..count).all(|a| (a + 1..count).all(|b| apart(a, b)))
 }
 
-/// An outline about the origin, into which a hook goes behind one of its corners: back, forth, and on.
+/// An outline about the origin, with a hook behind one of its corners: back, forth, and on.
 fn hooked() -> impl Strategy<Value = Vec<[f64; 3]>> {
     let corner = (
         1.0_f64..6.0,
@@ -240,7 +240,8 @@ proptest! {
         prop_assert_eq!(wrong(&plain, role, &settings), None);
     }
 
-    /// A rounded corner whose arc is off its neighbours' direction by next to nothing, either way, on the inside and on the outside.
+    /// A rounded corner whose arc is off its neighbours' direction by next to nothing, either way, on the inside and on
+    /// the outside.
     #[test]
     fn joints_that_nearly_touch_are_passed(radius in 0.3_f64..4.0, power in -10.0_f64..-1.5, more: bool, inner: bool, turned in 0.0..TAU, punch: bool) {
         let off = 10.0_f64.powf(power) * if more { 1.0 } else { -1.0 };
@@ -256,8 +257,8 @@ proptest! {
         prop_assert_eq!(wrong(&outline, role, &unled(&outline, Direction::AsDrawn)), None);
     }
 
-    /// The same beside a notch into whose tip the wire does not get, so that all crossings count: next to the joint both offsets
-    /// lie on each other.
+    /// The same beside a notch whose tip the wire cannot reach, so that all crossings count: next to the joint both
+    /// offsets coincide.
     #[test]
     fn joints_that_nearly_touch_beside_a_notch_are_passed(off in -2e-4_f64..2e-4, turned in 0.0..TAU) {
         let (sin, cos) = turned.sin_cos();
@@ -275,7 +276,7 @@ proptest! {
         prop_assert!(found.is_none(), "{}", found.unwrap_or_default());
     }
 
-    /// Slots of just twice the correction, anywhere on the plane: the wire goes in and comes back on one line.
+    /// Slots exactly twice as wide as the correction, anywhere on the plane: the wire goes in and returns on one line.
     #[test]
     fn slots_of_just_the_wire_are_cut(x in -50.0_f64..50.0, turned in 0.0..TAU, depth in 0.5_f64..8.0, round: bool) {
         let turn = |u: f64, v: f64| {
@@ -313,7 +314,7 @@ proptest! {
     }
 }
 
-/// Two that the property above has found: arcs of 16 and 8 nm on the outside of a wall.
+/// Two cases that the property above has found: arcs of 16 and 8 nm on the outside of a wall.
 #[test]
 fn an_arc_of_nanometres_in_a_wall_changes_nothing() {
     for [power, way, bulge] in [

@@ -1,4 +1,4 @@
-//! Which contours are cut, in which order, and where the wire is threaded for each.
+//! Which contours are cut, in which order, and the thread hole of each.
 
 use super::{SQUARE, at, check, defaults, drawing, entity, outline, shown};
 use crate::drawing::{Drawing, Geometry, Role, Unit};
@@ -7,7 +7,7 @@ use crate::geometry::Point;
 use crate::settings::{Direction, Effective};
 use crate::toolpath::{Refusal, plan};
 
-/// Contours come as they are drawn, or as they are selected; what lies within another before it.
+/// Contours come as they are drawn, or as they are selected; those within another come before it.
 #[test]
 fn machining_order_is_that_of_the_drawing_or_of_the_selection() {
     let square = |x: f64, y: f64, side: f64| {

@@ -1,4 +1,4 @@
-//! Paths of random outlines, held against those of another library.
+//! Paths of random outlines, compared with those of another library.
 
 use super::{at, defaults, drawing, samples};
 use crate::drawing::Role;
@@ -61,7 +61,7 @@ fn furthest(points: &[Point], segments: &[Segment]) -> f64 {
     points.iter().map(away).fold(0.0, f64::max)
 }
 
-/// What the other library offsets; `None` where the outline crosses itself.
+/// The offset by the other library; `None` where the outline crosses itself.
 pub(super) fn judged(outline: &[[f64; 3]], offset: f64) -> Option<Vec<Vec<Segment>>> {
     let mut polyline = Polyline::new_closed();
     outline
@@ -119,7 +119,7 @@ proptest! {
             Ok(paths) => {
                 let path: Vec<Segment> = paths[0].segments.iter().map(|piece| piece.geometry).collect();
                 prop_assert_eq!(expected.len(), 1);
-                // The other library takes points 1e-5 apart for one; how exact the offset is, the walls say.
+                // The other library merges points 1e-5 apart; the walls tell how exact the offset is.
                 let points = samples(&path, 0.25);
                 prop_assert!(furthest(&points, &expected[0]) < 2e-5);
                 prop_assert!(furthest(&samples(&expected[0], 0.25), &path) < 2e-5);

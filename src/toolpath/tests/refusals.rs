@@ -1,4 +1,4 @@
-//! What has no path, and paths that nobody wants any more.
+//! Contours without a path, and paths that are cancelled.
 
 use super::{SQUARE, at, defaults, drawing};
 use crate::drawing::{Drawing, Entity, Geometry, Outline, Role};

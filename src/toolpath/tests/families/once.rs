@@ -1,4 +1,4 @@
-//! Single outlines that once had a wrong path or none, and what is said where there is none.
+//! Single outlines that once had a wrong path or none, and the refusals where there is none.
 
 use super::{C, distance, unled, without_leads, wrong};
 use crate::drawing::Role;
@@ -178,7 +178,7 @@ fn a_crumb_in_a_corner_leaves_a_path() {
     }
 }
 
-/// What stands against a path stands in the drawing as well; what only lets the wire stand is a warning there.
+/// Obstacles to a path are findings of the drawing as well; one that only lets the wire stand is a warning there.
 #[test]
 fn what_has_no_path_is_found_before_one_is_asked_for() {
     let side = 2.0 * C;
@@ -222,7 +222,7 @@ fn what_has_no_path_is_found_before_one_is_asked_for() {
     }
 }
 
-/// What has no path is an error at its place.
+/// A contour without a path is an error at its place.
 #[test]
 fn a_refusal_for_the_geometry_is_an_error_at_its_place() {
     let square: &[[f64; 3]] = &[
