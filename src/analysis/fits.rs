@@ -5,9 +5,11 @@ use super::report::Report;
 use crate::drawing::{ContourKey, Drawing, DrawingEdit, Outline, Role};
 use crate::finding::{Detail, Finding, Fix, FixKind, Misfit, Place, Rule, Severity, Side};
 use crate::fit::{self, Pair, SegmentOf, Spot};
+use crate::geometry::{Bounds, Grid};
 use crate::rules::small_radius::{self, Travel};
 use crate::settings::{Compensation, Partners};
 use crate::toolpath::Part;
+use std::cell::LazyCell;
 use std::sync::Arc;
 
 /// A contour of more segments is not held against its partner at every edit.
@@ -20,13 +22,23 @@ pub(crate) struct Answer {
     pub pair: Option<Arc<Pair>>,
 }
 
-/// What is left of a punch and of its plate, where both are drawn.
+/// What is left of a contour.
+#[derive(Clone, Debug)]
+pub(crate) struct Left {
+    part: Arc<Part>,
+    /// The contour has been edited since: what of it still holds need not be worked out again.
+    is_old: bool,
+}
+
+/// What is left of a punch and of its plate.
 type Parts = [(Role, Arc<Part>); 2];
 
 impl Analysis {
-    /// Forgets what was found between a contour and its partner, and what is left of it.
+    /// Forgets what was found between a contour that is edited and its partner.
     pub(super) fn forget_fits(&mut self, key: ContourKey) {
-        self.parts.retain(|(of, _), _| *of != key);
+        for ((of, _), left) in &mut self.parts {
+            left.is_old |= *of == key;
+        }
         self.fits
             .retain(|(one, other), _| *one != key && *other != key);
     }
@@ -105,7 +117,8 @@ impl Analysis {
             false => (None, None),
         };
         for ((key, _), (role, part)) in both.into_iter().zip(parts.into_iter().flatten()) {
-            self.parts.insert((key, role), part);
+            let is_old = false;
+            self.parts.insert((key, role), Left { part, is_old });
         }
         let pair = pair.map(Arc::new);
         self.fits
@@ -113,7 +126,7 @@ impl Analysis {
         pair
     }
 
-    /// Two outlines, or one that is cut twice, laid in each other; and the parts that are left of two, for what comes next.
+    /// Two outlines, or one that is cut twice, laid in each other; and the parts that are left, for what comes next.
     fn pair(
         &self,
         drawing: &Drawing,
@@ -121,19 +134,26 @@ impl Analysis {
     ) -> (Option<Pair>, Option<Parts>) {
         let settings = &self.settings;
         let [(one, punch), (other, plate)] = both;
+        let left = |key: ContourKey, role: Role| self.parts.get(&(key, role));
         let part_of = |key: ContourKey, outline: &Outline, role: Role| {
-            let kept = self.parts.get(&(key, role)).cloned();
-            let made = || {
-                Some(Arc::new(
-                    fit::drawn_part(drawing, outline, role, settings).ok()?,
-                ))
-            };
-            kept.or_else(made)
+            let before = left(key, role);
+            if let Some(left) = before.filter(|left| !left.is_old) {
+                return Some(left.part.clone());
+            }
+            let before = before.map(|left| &*left.part);
+            let part = fit::drawn_part(drawing, outline, role, settings, before);
+            part.ok().map(Arc::new)
         };
+        let roles = [Role::Punch, Role::Opening];
         match settings.partners() {
             Some(Partners::CutTwice(_)) => {
-                let pair = fit::cut_twice(drawing, punch, settings, false, &|| true);
-                (pair.ok(), None)
+                let before = roles.map(|role| left(one, role).map(|left| &*left.part));
+                let Ok(parts) = fit::cut_twice_parts(drawing, punch, settings, before) else {
+                    return (None, None);
+                };
+                let [punch, plate] = parts.map(Arc::new);
+                let pair = fit::cut_twice(drawing, [&punch, &plate], settings, false);
+                (Some(pair), Some([(roles[0], punch), (roles[1], plate)]))
             }
             Some(Partners::Drawn) => {
                 let parts = rayon::join(
@@ -170,12 +190,31 @@ impl Analysis {
             self.limits.tolerances.report,
             self.settings.pair.clearance.unwrap_or(0.0) / self.limits.unit_mm,
         );
+        let corners = LazyCell::new(|| {
+            let mut corners = Grid::default();
+            for (index, corner) in pair.spots.iter().enumerate() {
+                if corner.turn > 0.0 {
+                    corners.insert(index, Bounds::of_disc(corner.at, self.wide(wanted, 0.0)));
+                }
+            }
+            corners
+        });
+        // Walls are deepest where they end, in a corner.
+        let corner_of = |spot: &Spot| {
+            if spot.turn > 0.0 {
+                return Some(spot.of.clone());
+            }
+            let wide = self.wide(wanted, spot.clearance);
+            let mut first: Option<usize> = None;
+            corners.near(&Bounds::of_disc(spot.at, spot.clearance.abs()), |index| {
+                let is_near = (pair.spots[index].at - spot.at).norm() <= wide;
+                if is_near && first.is_none_or(|first| index < first) {
+                    first = Some(index);
+                }
+            });
+            Some(pair.spots.get(first?)?.of.clone())
+        };
         for spot in pair.spots.iter().filter(|spot| spot.clearance < -rounding) {
-            // Walls are deepest where they end, in a corner.
-            let wide = self.wide(wanted, spot);
-            let is_corner = |other: &&Spot| other.turn > 0.0 && (other.at - spot.at).norm() <= wide;
-            let corner = Some(spot).filter(|spot| spot.turn > 0.0);
-            let corner = corner.or_else(|| pair.spots.iter().find(is_corner));
             let mut add = |at: SegmentOf, other: SegmentOf, of: &Arc<str>, partner: &Arc<str>| {
                 if report.counts(Rule::DoesNotFit, None) {
                     let misfit = Misfit {
@@ -184,7 +223,7 @@ impl Analysis {
                         wanted,
                         of: of.clone(),
                         partner: partner.clone(),
-                        corner_of: corner.map(|corner| corner.of.clone()),
+                        corner_of: corner_of(spot),
                     };
                     let detail = Detail::DoesNotFit(Box::new(misfit));
                     report.add(
@@ -396,9 +435,9 @@ impl Analysis {
         }
     }
 
-    /// How far away from a spot what belongs to its corner may lie.
-    fn wide(&self, clearance: f64, spot: &Spot) -> f64 {
-        2.0 * self.limits.correction.max(clearance) + spot.clearance.abs()
+    /// How far away from a spot where so much clearance is `missing` what belongs to its corner may lie.
+    fn wide(&self, clearance: f64, missing: f64) -> f64 {
+        2.0 * self.limits.correction.max(clearance) + missing.abs()
     }
 
     fn left_behind(&self, drawing: &Drawing, corner: &Corner, edit: &DrawingEdit) -> Option<f64> {
@@ -411,7 +450,7 @@ impl Analysis {
         let spot = corner.spot;
         let place = (spot.segment.0, 0);
         let pair = after.pair_at(&edited, place)?;
-        let wide = self.wide(corner.clearance, spot);
+        let wide = self.wide(corner.clearance, spot.clearance);
         let near = |other: &&Spot| (other.at - spot.at).norm() <= wide;
         let left = pair.spots.iter().filter(near).map(|spot| spot.clearance);
         let binding = |pair: &Pair| {

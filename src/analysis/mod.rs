@@ -29,7 +29,6 @@ use crate::finding::{Finding, NoFix, Side};
 use crate::geometry::Bounds;
 use crate::rules::{Limits, Outlook};
 use crate::settings::Effective;
-use crate::toolpath::Part;
 use aside::{AsideEntities, LoneLines};
 use contours::set_aside;
 use known::{Answer, Known};
@@ -86,8 +85,8 @@ pub struct Analysis {
     lost: FxHashMap<ContourKey, Answer>,
     /// What was found between partners, or of a contour that is cut twice.
     fits: FxHashMap<(ContourKey, ContourKey), fits::Answer>,
-    /// What is left of contours whose partners are drawn, too.
-    parts: FxHashMap<(ContourKey, Role), Arc<Part>>,
+    /// What is left of contours that are of a pair.
+    parts: FxHashMap<(ContourKey, Role), fits::Left>,
     order: OnceLock<Vec<ContourKey>>,
     outlines: OnceLock<Arc<Vec<Outline>>>,
     /// What there is to be said in all, once it has been asked for.
@@ -257,6 +256,7 @@ impl Analysis {
     fn forget(&mut self, key: ContourKey) {
         self.lost.remove(&key);
         self.forget_fits(key);
+        self.parts.retain(|(of, _), _| *of != key);
         self.notable.remove(&key);
         self.vast.remove(&key);
         if let Some(known) = self.take_known(key) {

@@ -263,8 +263,7 @@ fn walls(punch: &Part, plate: &Part, names: [Arc<str>; 2], limits: &Limits) -> V
 
 /// The drawn segment of the edge that is nearest to a point.
 fn segment_near(part: &Part, at: Point) -> Option<super::SegmentOf> {
-    let away = |index: &usize| part.edges[*index].geometry.distance_to(at);
-    let nearest = (0..part.edges.len()).min_by(|a, b| away(a).total_cmp(&away(b)))?;
+    let (_, nearest) = part.near.nearest_to(at, part.half)?;
     part.segment_at(nearest, at)
 }
 

@@ -99,8 +99,12 @@ pub fn fit(
         Partners::CutTwice(_) => {
             let twice = outlines.iter().filter(|outline| is_cut_twice(outline));
             for outline in twice {
+                let parts = cut_twice_parts(drawing, outline, settings, [None; 2])?;
+                if !goes_on() {
+                    return Err(Refusal::Cancelled);
+                }
                 fit.pairs
-                    .push(cut_twice(drawing, outline, settings, true, goes_on)?);
+                    .push(cut_twice(drawing, [&parts[0], &parts[1]], settings, true));
             }
         }
         Partners::Drawn => {
@@ -108,8 +112,8 @@ pub fn fit(
             for &[punch, plate] in &drawn.pairs {
                 let (punch, plate) = (&outlines[punch], &outlines[plate]);
                 let parts = rayon::join(
-                    || drawn_part(drawing, punch, Role::Punch, settings),
-                    || drawn_part(drawing, plate, Role::Opening, settings),
+                    || drawn_part(drawing, punch, Role::Punch, settings, None),
+                    || drawn_part(drawing, plate, Role::Opening, settings, None),
                 );
                 if !goes_on() {
                     return Err(Refusal::Cancelled);
@@ -140,16 +144,14 @@ pub(crate) fn is_cut_twice(outline: &Outline) -> bool {
         && outline.contour.double_of.is_none()
 }
 
-/// The punch and the plate that are cut along one contour, one laid in the other. Both are made at once. `asks_least`: how much is left
-/// where nothing is missing, too.
-pub(crate) fn cut_twice(
+/// The punch and the plate that are cut along one contour, made at once; `before` are the same before an edit.
+pub(crate) fn cut_twice_parts(
     drawing: &Drawing,
     outline: &Outline,
     settings: &Effective,
-    asks_least: bool,
-    goes_on: &dyn Fn() -> bool,
-) -> Result<Pair, Refusal> {
-    let part_of = |of: Use| {
+    before: [Option<&Part>; 2],
+) -> Result<[Part; 2], Refusal> {
+    let part_of = |of: Use, before: Option<&Part>| {
         let (own, is_other) = settings.of_use(of).ok_or_else(|| {
             Refusal::Sentence(say!(passes_run_on_both_sides_of_the_contour, of.name()))
         })?;
@@ -158,12 +160,20 @@ pub(crate) fn cut_twice(
             is_other,
             settings: &own,
         };
-        part(drawing, &outline.contour, cutting, &|| true)
+        part(drawing, &outline.contour, cutting, before, &|| true)
     };
-    let parts = rayon::join(|| part_of(Use::Punch), || part_of(Use::Plate));
-    if !goes_on() {
-        return Err(Refusal::Cancelled);
-    }
+    let [punch, plate] = before;
+    let parts = rayon::join(|| part_of(Use::Punch, punch), || part_of(Use::Plate, plate));
+    Ok([parts.0?, parts.1?])
+}
+
+/// The two, one laid in the other. `asks_least`: how much is left where nothing is missing, too.
+pub(crate) fn cut_twice(
+    drawing: &Drawing,
+    [punch, plate]: [&Part; 2],
+    settings: &Effective,
+    asks_least: bool,
+) -> Pair {
     let names = [Use::Punch.name().into(), Use::Plate.name().into()];
     let unit_mm = settings.unit_of(drawing).mm;
     let clearance = settings.pair.clearance.unwrap_or(0.0) / unit_mm;
@@ -175,7 +185,7 @@ pub(crate) fn cut_twice(
         along_walls: Some(along_walls),
         asks_least,
     };
-    Ok(held::held(&parts.0?, &parts.1?, names, &limits))
+    held::held(punch, plate, names, &limits)
 }
 
 /// How far apart the walls of the two parts lie that are cut along one contour, mm.
@@ -189,19 +199,20 @@ fn punch_and_plate_apart(settings: &Effective) -> Option<f64> {
     Some(2.0 * half - within(Use::Punch)? - within(Use::Plate)?)
 }
 
-/// The part that all passes leave of a contour where both are drawn.
+/// The part that all passes leave of a contour where both are drawn; `before` is the same before an edit.
 pub(crate) fn drawn_part(
     drawing: &Drawing,
     outline: &Outline,
     role: Role,
     settings: &Effective,
+    before: Option<&Part>,
 ) -> Result<Part, Refusal> {
     let cutting = Cutting {
         side: side_of(outline, role)?,
         is_other: false,
         settings,
     };
-    part(drawing, &outline.contour, cutting, &|| true)
+    part(drawing, &outline.contour, cutting, before, &|| true)
 }
 
 /// Two drawn parts, the punch and the plate, one laid in the other.

@@ -137,17 +137,17 @@ fn run_together(drawing: &Drawing, both: [&Outline; 2], reach: f64) -> bool {
                 .collect(),
         )
     });
-    let keeps = |outline: &Outline, other: &Walls| {
+    let keeps = |own: &Walls, other: &Walls| {
         let mut beside = None;
         let mut is_near = |at: Point| {
             beside = other.nearer_from(beside, at, reach);
             beside.is_some()
         };
-        outline.contour.segments(drawing).all(|segment| {
+        own.segments().iter().all(|segment| {
             [0.0, 0.25, 0.5, 0.75]
                 .into_iter()
-                .all(|share| is_near(segment.geometry.point_at(share)))
+                .all(|share| is_near(segment.point_at(share)))
         })
     };
-    keeps(both[0], &walls[1]) && keeps(both[1], &walls[0])
+    keeps(&walls[0], &walls[1]) && keeps(&walls[1], &walls[0])
 }

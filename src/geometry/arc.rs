@@ -182,14 +182,18 @@ impl Arc {
     }
 
     /// True where the arc passes through the direction of `point` from the centre.
+    #[inline]
     pub(crate) fn spans(&self, point: Point) -> bool {
         if self.is_shallow() {
             return (0.0..=1.0).contains(&self.share_of(point));
         }
-        let sense = self.sweep.signum();
         let way = point - self.center;
-        let behind_start = cross(self.start - self.center, way) * sense >= 0.0;
-        let before_end = cross(way, self.end - self.center) * sense >= 0.0;
+        let from_start = cross(self.start - self.center, way);
+        let to_end = cross(way, self.end - self.center);
+        let (behind_start, before_end) = match self.sweep > 0.0 {
+            true => (from_start >= 0.0, to_end >= 0.0),
+            false => (from_start <= 0.0, to_end <= 0.0),
+        };
         match self.is_minor() {
             true => behind_start && before_end,
             false => behind_start || before_end || self.is_full_turn(),
@@ -213,6 +217,22 @@ impl Arc {
             return bounds.grown(self.sagitta());
         }
         // The quarter points that the sweep passes widen the box of the two ends.
+        if self.sweep.abs() <= 3.0 {
+            let (mut from, mut to) = (self.start - self.center, self.end - self.center);
+            if self.sweep < 0.0 {
+                (from, to) = (to, from);
+            }
+            let mut pass = |is_passed: bool, x: f64, y: f64| {
+                if is_passed {
+                    bounds.include(self.center + Vector::new(x, y) * self.radius);
+                }
+            };
+            pass(from.y <= 0.0 && to.y >= 0.0, 1.0, 0.0);
+            pass(from.x >= 0.0 && to.x <= 0.0, 0.0, 1.0);
+            pass(from.y >= 0.0 && to.y <= 0.0, -1.0, 0.0);
+            pass(from.x <= 0.0 && to.x >= 0.0, 0.0, -1.0);
+            return bounds;
+        }
         let (low, high) = if self.sweep >= 0.0 {
             (self.start_angle, self.start_angle + self.sweep)
         } else {

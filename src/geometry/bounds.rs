@@ -53,6 +53,14 @@ impl Bounds {
         }
     }
 
+    /// True when all of the other box lies in this one.
+    pub(crate) fn holds(&self, other: &Bounds) -> bool {
+        self.min.x <= other.min.x
+            && other.max.x <= self.max.x
+            && self.min.y <= other.min.y
+            && other.max.y <= self.max.y
+    }
+
     /// True when the two boxes share a point.
     pub(crate) fn touches(&self, other: &Bounds) -> bool {
         self.min.x <= other.max.x

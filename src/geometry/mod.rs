@@ -72,6 +72,9 @@ pub fn turn(a: Vector, b: Vector) -> f64 {
 
 /// `angle` brought into [0, 2π).
 pub fn positive_angle(angle: f64) -> f64 {
+    if (0.0..std::f64::consts::TAU).contains(&angle) {
+        return angle;
+    }
     let wrapped = angle.rem_euclid(std::f64::consts::TAU);
     // rem_euclid of a tiny negative number rounds up to 2π itself.
     if wrapped >= std::f64::consts::TAU {

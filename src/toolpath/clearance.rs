@@ -1,9 +1,7 @@
 //! How near a path comes to the walls, for contours of any size.
 
-use crate::geometry::{
-    Arc, Bounds, Line, Point, Segment, Vector, circle_circle, left_normal, line_circle, line_line,
-    reached,
-};
+use super::apart::{are_apart, distance_between};
+use crate::geometry::{Bounds, Point, Segment, Vector};
 use std::ops::Range;
 use std::sync::OnceLock;
 
@@ -29,14 +27,15 @@ const FAN: usize = 8;
 /// Up to so many walls lie together as they follow each other.
 const MOST_IN_ORDER: usize = 1024;
 
-/// So many walls about each are kept.
-const MOST_ABOUT: usize = 32;
+/// So many walls about each few are kept on an average.
+const MOST_ABOUT: usize = 64;
 
-/// Of each wall those whose boxes come within `reach` of its own.
+/// Of each few walls those whose boxes come near to theirs.
 #[derive(Debug)]
 struct About {
-    reach: f64,
-    /// Where those of each wall begin, and where the last ones end.
+    /// The box of each few, and so far about it.
+    boxes: Vec<Bounds>,
+    /// Where those of each few begin, and where the last ones end.
     begins: Vec<u32>,
     walls: Vec<u32>,
 }
@@ -90,6 +89,14 @@ impl Walls {
         &self.segments[index]
     }
 
+    pub(crate) fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    pub(crate) fn bounds_of(&self, index: usize) -> &Bounds {
+        &self.levels[0][index]
+    }
+
     /// The first wall found to which `path` comes nearer than `distance`.
     pub(crate) fn too_near(&self, path: &Segment, distance: f64) -> Option<usize> {
         self.find_near(path, distance, |_, _| true)
@@ -107,15 +114,13 @@ impl Walls {
         let bounds = path.bounds();
         let (area, boxes) = (bounds.grown(distance), &self.levels[0]);
         let about = self.about.get_or_init(|| self.about(2.1 * distance));
-        // All that comes near to what lies in the box is among those about the wall.
-        let is_known = |about: &&About| {
-            let within = boxes[own].grown(about.reach - distance);
-            within.merged(&bounds) == within
-        };
+        let few = own / FAN;
+        // All that comes near to what lies in the box is among those.
+        let is_known = |about: &&About| about.boxes[few].holds(&area);
         let Some(about) = about.as_ref().filter(is_known) else {
             return self.too_near(path, distance);
         };
-        let range = about.begins[own] as usize..about.begins[own + 1] as usize;
+        let range = about.begins[few] as usize..about.begins[few + 1] as usize;
         let mut walls = about.walls[range].iter().map(|&wall| wall as usize);
         walls.find(|&wall| {
             (with_own || wall != own)
@@ -126,28 +131,24 @@ impl Walls {
 
     fn about(&self, reach: f64) -> Option<About> {
         let count = self.segments.len();
+        let few = count.div_ceil(FAN);
         let mut about = About {
-            reach,
-            begins: Vec::with_capacity(count + 1),
-            walls: Vec::with_capacity(4 * count),
+            boxes: Vec::with_capacity(few),
+            begins: Vec::with_capacity(few + 1),
+            walls: Vec::with_capacity(2 * count),
         };
-        let (mut near, mut looks): (Vec<u32>, usize) = (Vec::new(), 0);
         for boxes in self.levels[0].chunks(FAN) {
             let mut all = Bounds::EMPTY;
             boxes.iter().for_each(|own| all.merge(own));
-            near.clear();
-            self.find(&all.grown(reach), |wall| {
-                near.push(wall as u32);
+            let all = all.grown(reach);
+            about.boxes.push(all);
+            about.begins.push(about.walls.len() as u32);
+            self.find(&all, |wall| {
+                about.walls.push(wall as u32);
                 false
             });
-            looks += near.len();
-            if looks > MOST_ABOUT * count || about.walls.len() > MOST_ABOUT * count {
+            if about.walls.len() > MOST_ABOUT * few {
                 return None;
-            }
-            for own in boxes.iter().map(|own| own.grown(reach)) {
-                about.begins.push(about.walls.len() as u32);
-                let is_near = |wall: &&u32| self.levels[0][**wall as usize].touches(&own);
-                about.walls.extend(near.iter().filter(is_near));
             }
         }
         about.begins.push(about.walls.len() as u32);
@@ -178,14 +179,24 @@ impl Walls {
 
     /// How far a point is from the nearest one; they are looked for `reach` about it first. Endless where there are none.
     pub(crate) fn distance_to(&self, point: Point, reach: f64) -> f64 {
+        let nearest = self.nearest_to(point, reach);
+        nearest.map_or(f64::INFINITY, |(away, _)| away)
+    }
+
+    /// The nearest one, of several the first, and how far it is.
+    pub(crate) fn nearest_to(&self, point: Point, reach: f64) -> Option<(f64, usize)> {
         let mut reach = reach.max(f64::MIN_POSITIVE);
         loop {
-            let mut nearest = f64::INFINITY;
+            let mut nearest = None;
             self.find(&Bounds::of_disc(point, reach), |index| {
-                nearest = nearest.min(self.segments[index].distance_to(point));
+                let found = (self.segments[index].distance_to(point), index);
+                if nearest.is_none_or(|nearest| found < nearest) {
+                    nearest = Some(found);
+                }
                 false
             });
-            if nearest <= reach || self.segments.is_empty() || reach == f64::INFINITY {
+            let is_within = nearest.is_some_and(|(away, _)| away <= reach);
+            if is_within || self.segments.is_empty() || reach == f64::INFINITY {
                 return nearest;
             }
             reach *= 4.0;
@@ -273,150 +284,6 @@ fn by_place(boxes: &[Bounds]) -> Vec<u32> {
     let mut keys: Vec<(u32, u32)> = boxes.iter().map(place).zip(0..).collect();
     keys.sort_unstable();
     keys.into_iter().map(|(_, index)| index).collect()
-}
-
-/// Smallest distance between two segments, 0 where they cross or touch.
-pub(crate) fn distance_between(a: &Segment, b: &Segment) -> f64 {
-    let ends = a
-        .distance_to(b.start())
-        .min(a.distance_to(b.end()))
-        .min(b.distance_to(a.start()))
-        .min(b.distance_to(a.end()));
-    ends.min(match (a, b) {
-        (Segment::Line(a), Segment::Line(b)) => between_lines(a, b),
-        (Segment::Line(line), Segment::Arc(arc)) | (Segment::Arc(arc), Segment::Line(line)) => {
-            between_line_and_arc(line, arc)
-        }
-        (Segment::Arc(a), Segment::Arc(b)) => between_arcs(a, b),
-    })
-}
-
-fn between_lines(a: &Line, b: &Line) -> f64 {
-    let within = |share: f64| (0.0..=1.0).contains(&share);
-    let crossing = line_line(a.start, a.end - a.start, b.start, b.end - b.start);
-    match crossing {
-        Some(point) if within(a.share_of(point)) && within(b.share_of(point)) => 0.0,
-        _ => f64::INFINITY,
-    }
-}
-
-fn between_line_and_arc(line: &Line, arc: &Arc) -> f64 {
-    let along = line.end - line.start;
-    let within = |share: f64| (0.0..=1.0).contains(&share);
-    let crosses = |&point: &Point| within(line.share_of(point)) && arc.spans(point);
-    if line_circle(line.start, along, arc.center, arc.radius)
-        .iter()
-        .any(crosses)
-    {
-        return 0.0;
-    }
-    let share = line.share_of(arc.center);
-    let foot = line.start + along * share;
-    if within(share) && arc.spans(foot) {
-        arc.rise_of(foot).abs()
-    } else {
-        f64::INFINITY
-    }
-}
-
-fn between_arcs(a: &Arc, b: &Arc) -> f64 {
-    let crosses = |&point: &Point| a.spans(point) && b.spans(point);
-    if circle_circle(a.center, a.radius, b.center, b.radius)
-        .iter()
-        .any(crosses)
-    {
-        return 0.0;
-    }
-    // The nearest inner points of two circles lie on the line of their centres.
-    let Some(axis) = (b.center - a.center).try_normalize(0.0) else {
-        return f64::INFINITY;
-    };
-    let mut nearest = f64::INFINITY;
-    for (on_a, on_b) in [(axis, axis), (axis, -axis), (-axis, axis), (-axis, -axis)] {
-        if let (Some(p), Some(q)) = (reached(a, on_a), reached(b, on_b)) {
-            nearest = nearest.min((p - q).norm());
-        }
-    }
-    nearest
-}
-
-/// True where two segments are seen to be at least `distance` apart by what carries one of them, at less cost than their distance. False
-/// says nothing.
-fn are_apart(a: &Segment, b: &Segment, distance: f64) -> bool {
-    keeps_off(a, b, distance)
-        || keeps_off(b, a, distance)
-        || lies_behind(a, b, distance)
-        || lies_behind(b, a, distance)
-}
-
-/// True where `segment` is an arc, and `other` lies behind it: nowhere further out than its radius less `distance`, in the direction of any
-/// place of the arc. So lie the walls beside a corner that the wire rolls about.
-fn lies_behind(segment: &Segment, other: &Segment, distance: f64) -> bool {
-    let Segment::Arc(arc) = segment else {
-        return false;
-    };
-    let ways = [arc.start, arc.end].map(|end| (end - arc.center) / arc.radius);
-    // Every direction between two that are no more than 120° apart is the sum of them, times no more than 1 each.
-    let room = (arc.radius - distance) / 2.0;
-    let is_narrow = arc.is_minor() && ways[0].dot(&ways[1]) >= -0.5;
-    let is_shallow = |it: &Segment| it.as_arc().is_some_and(Arc::is_shallow);
-    if !(is_narrow && room >= 0.0) || is_shallow(segment) || is_shallow(other) {
-        return false;
-    }
-    ways.iter().all(|way| {
-        let out = |point: Point| (point - arc.center).dot(way);
-        out(other.start()) <= room
-            && out(other.end()) <= room
-            && other.as_arc().is_none_or(|round| {
-                out(round.center) + round.radius <= room
-                    || !round.spans(round.center + way * round.radius)
-            })
-    })
-}
-
-/// True where all of `segment` keeps a distance from the line or circle that carries `other`, on one side of it.
-fn keeps_off(segment: &Segment, other: &Segment, distance: f64) -> bool {
-    let is_shallow = |it: &Segment| it.as_arc().is_some_and(Arc::is_shallow);
-    if is_shallow(segment) || is_shallow(other) {
-        // The centre of what is nearly straight is not known well enough.
-        return false;
-    }
-    let normal = match other {
-        Segment::Line(line) => left_normal(line.direction()),
-        Segment::Arc(_) => Vector::zeros(),
-    };
-    let rise = |point: Point| match other {
-        Segment::Line(line) => normal.dot(&(point - line.start)),
-        Segment::Arc(circle) => (point - circle.center).norm() - circle.radius,
-    };
-    let (start, end) = (rise(segment.start()), rise(segment.end()));
-    let is_beyond = start > 0.0;
-    let is_off = |rise: f64| {
-        if is_beyond {
-            rise >= distance
-        } else {
-            rise <= -distance
-        }
-    };
-    if !is_off(start) || !is_off(end) {
-        return false;
-    }
-    match (segment, other) {
-        (Segment::Line(line), Segment::Arc(circle)) => {
-            !is_beyond || line.distance_to(circle.center) - circle.radius >= distance
-        }
-        (Segment::Line(_), Segment::Line(_)) => true,
-        (Segment::Arc(arc), _) => {
-            // Between its ends it comes nearest, or farthest, where it is square to the other.
-            let axis = match other {
-                Segment::Line(_) => Some(normal),
-                Segment::Arc(circle) => (arc.center - circle.center).try_normalize(0.0),
-            };
-            let tops = axis.into_iter().flat_map(|axis| [axis, -axis]);
-            tops.map(|way| arc.center + way * arc.radius)
-                .all(|top| !arc.spans(top) || is_off(rise(top)))
-        }
-    }
 }
 
 #[cfg(test)]

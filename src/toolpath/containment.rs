@@ -15,6 +15,11 @@ pub(super) struct Nesting {
 
 impl Nesting {
     pub(crate) fn new(drawing: &Drawing, outlines: &[Outline], chosen: &[usize]) -> Nesting {
+        if chosen.len() < 2 {
+            return Nesting {
+                around: vec![Vec::new(); chosen.len()],
+            };
+        }
         let boxes: Vec<Bounds> = chosen
             .iter()
             .map(|&index| outlines[index].contour.bounds(drawing))

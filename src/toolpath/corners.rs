@@ -2,9 +2,8 @@
 //!
 //! Where the offsets touch they pass into each other; at a convex corner the wire rolls about the vertex; at a concave corner the
 //! two are cut where they meet. What is used up by that is left out and its neighbours are cut with each other. That is quick, and
-//! right on most contours: `proof` says whether it is, and `loops` finds the path where it is not. Tips in place of rolls come last.
+//! right on most contours: `proof` says whether it is, and `loops` finds the path where it is not. `tips` in place of rolls come last.
 
-use super::clearance::Walls;
 use super::offset::{Offset, Wall, offset};
 use super::path::Source;
 use crate::geometry::{
@@ -42,12 +41,9 @@ pub(super) struct Joining {
     pub(crate) tolerance: f64,
 }
 
-/// An extended corner reaches at most this many corrections from its vertex; beyond, the wire rolls about it.
-const LONGEST_TIP: f64 = 4.0;
-
 /// What is behind an element.
 #[derive(Clone, Copy, Debug)]
-enum Joint {
+pub(super) enum Joint {
     At(Point),
     /// The two elements meet where their lines or circles cross, nearest to this point.
     CrossNear(Point),
@@ -138,13 +134,13 @@ impl Raw {
 }
 
 /// How the path goes from one offset to the next.
-enum Way {
+pub(super) enum Way {
     Through(Joint),
     Roll(Arc),
 }
 
 /// The way round a vertex, from one direction into another.
-fn corner(vertex: Point, [before, behind]: [Vector; 2], joining: &Joining) -> Way {
+pub(super) fn corner(vertex: Point, [before, behind]: [Vector; 2], joining: &Joining) -> Way {
     let Joining {
         correction, side, ..
     } = *joining;
@@ -162,88 +158,6 @@ fn corner(vertex: Point, [before, behind]: [Vector; 2], joining: &Joining) -> Wa
         radius: correction,
         ..Arc::about(vertex, from, to, side < 0.0)
     })
-}
-
-/// Lets the wire run to the tip in place of each roll about a corner, where it keeps clear of all walls on the way there and back.
-/// What the path reaches stays as it is: the tips come on top of it.
-pub(super) fn with_tips(
-    path: Vec<Element>,
-    walls: &[Wall],
-    joining: &Joining,
-    own: &Walls,
-    clearance: f64,
-) -> Vec<Element> {
-    let count = path.len();
-    let mut extended = path;
-    let mut gone = vec![false; count];
-    for index in 0..count {
-        let roll = extended[index];
-        if count < 3 || !matches!(roll.source, Source::Corner { .. }) {
-            continue;
-        }
-        let (before, after) = ((index + count - 1) % count, (index + 1) % count);
-        let (wall, next) = (roll.wall, (roll.wall + 1) % walls.len());
-        let are_neighbours = |element: &Element, wall: usize| {
-            element.wall == wall && !matches!(element.source, Source::Corner { .. })
-        };
-        if !are_neighbours(&extended[before], wall) || !are_neighbours(&extended[after], next) {
-            continue;
-        }
-        let (one, other) = (&walls[wall].geometry, &walls[next].geometry);
-        let turn = [one.end_tangent(), other.start_tangent()];
-        let Way::Roll(whole) = corner(one.end(), turn, joining) else {
-            continue;
-        };
-        let is_whole = (roll.geometry.start() - whole.start).norm() <= joining.touch
-            && (roll.geometry.end() - whole.end).norm() <= joining.touch;
-        let Some(tip) =
-            tip(&walls[wall].geometry, &walls[next].geometry, joining).filter(|_| is_whole)
-        else {
-            continue;
-        };
-        let (out, back) = (extended[before].geometry, extended[after].geometry);
-        let ways = [
-            between(&out, roll.geometry.start(), tip),
-            between(&back, tip, roll.geometry.end()),
-        ];
-        if ways
-            .iter()
-            .all(|way| own.too_near(way, clearance).is_none())
-        {
-            extended[before].geometry = between(&out, out.start(), tip);
-            extended[after].geometry = between(&back, tip, back.end());
-            gone[index] = true;
-        }
-    }
-    extended
-        .into_iter()
-        .zip(gone)
-        .filter(|(_, gone)| !gone)
-        .map(|(element, _)| element)
-        .collect()
-}
-
-/// Where the two offsets meet when both are extended beyond a convex corner; `None` when they do not, or too far out.
-fn tip(wall: &Segment, next: &Segment, joining: &Joining) -> Option<Point> {
-    let runs = |segment: &Segment| match offset(
-        segment,
-        joining.correction,
-        joining.side,
-        joining.tolerance,
-    ) {
-        Offset::Runs(geometry) if geometry.length() > 0.0 => Some(geometry),
-        _ => None,
-    };
-    let (before, after) = (runs(wall)?, runs(next)?);
-    let vertex = wall.end();
-    meetings(&before, &after)
-        .into_iter()
-        .filter(|&tip| {
-            (tip - before.end()).dot(&before.end_tangent()) > 0.0
-                && (tip - after.start()).dot(&after.start_tangent()) < 0.0
-                && (tip - vertex).norm() <= LONGEST_TIP * joining.correction
-        })
-        .min_by(|a, b| (a - vertex).norm().total_cmp(&(b - vertex).norm()))
 }
 
 /// Where the lines or circles that carry two segments meet.
@@ -392,6 +306,7 @@ impl Ring<'_> {
         let length = geometry.length();
         length > 0.0
             && !is_all_of(geometry, start, end)
+            && !is_seen_forward(geometry, start, end)
             && (share_on(geometry, end) - share_on(geometry, start)) * length < -1e-9
     }
 
@@ -467,6 +382,20 @@ fn is_all_of(segment: &Segment, start: Point, end: Point) -> bool {
         && is_at(segment.start(), start)
         && is_at(segment.end(), end)
         && segment.length() > 1e3 * SAME
+}
+
+/// True where one point of an arc's circle is seen to lie behind the other in its sense: both are on the half of the circle that the middle of
+/// the arc is on. False says nothing.
+fn is_seen_forward(segment: &Segment, start: Point, end: Point) -> bool {
+    let Some(arc) = segment
+        .as_arc()
+        .filter(|arc| !arc.is_shallow() && arc.sweep.abs() < 3.0)
+    else {
+        return false;
+    };
+    let middle = (arc.start - arc.center) + (arc.end - arc.center);
+    let (from, to) = (start - arc.center, end - arc.center);
+    from.dot(&middle) > 0.0 && to.dot(&middle) > 0.0 && cross(from, to) * arc.sweep > 0.0
 }
 
 /// The part of a segment, or of what carries it, from `start` to `end`.

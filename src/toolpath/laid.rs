@@ -1,14 +1,16 @@
 //! The path along one contour, proved, or the fault that stands in its place.
 
 use super::clearance::Walls;
-use super::corners::{Element, Joining, Raw, with_tips};
+use super::corners::{Element, Joining, Raw};
 use super::job::{Job, ROUNDING};
+use super::kept::Kept;
 use super::loops::{self, Found};
 use super::nest::{Before, Nest};
 use super::offset::{Wall, walls};
 use super::open::{one_side, there_and_back};
 use super::path::Refusal;
 use super::proof::{Proof, Unproved};
+use super::tips::with_tips;
 use crate::drawing::ContourSegment;
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::Point;
@@ -36,6 +38,15 @@ pub(super) struct Along {
     pub(crate) closed: bool,
 }
 
+/// What has been proved before of a path beside the same walls.
+#[derive(Default)]
+pub(super) struct Known<'a> {
+    /// That of an earlier pass.
+    pub(crate) before: Option<Before<'a>>,
+    /// That before an edit.
+    pub(crate) kept: Option<Kept<'a>>,
+}
+
 /// What a contour gives the wire.
 pub(super) enum Laid {
     Path(Vec<Element>),
@@ -60,15 +71,15 @@ pub(super) enum Fault {
 impl Job<'_> {
     /// The walls of a contour with the wire on the side of that sign, and the path along them, proved. Where there is none because
     /// of crumbs, they are left out: their neighbours move by less than what any control can follow.
-    pub(crate) fn along(
+    pub(crate) fn along<Segments: Iterator<Item = ContourSegment>>(
         &self,
-        segments: &[ContourSegment],
+        segments: impl Fn() -> Segments,
         side: f64,
         correction: f64,
         closed: bool,
     ) -> Result<(Vec<Wall>, Walls, Outcome), Refusal> {
         let of = |shortest: f64| {
-            let walls = walls(segments.iter().copied(), closed, self.units(shortest));
+            let walls = walls(segments(), closed, self.units(shortest));
             let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
             (walls, own)
         };
@@ -109,17 +120,17 @@ impl Job<'_> {
         own: &Walls,
         along: Along,
     ) -> Result<Outcome, Refusal> {
-        self.laid_within(walls, own, along, None)
+        self.laid_within(walls, own, along, Known::default())
     }
 
     /// The path along a contour, proved; `walls` have the wire on the side of that sign. That of an open one runs from beside the begin of
-    /// the first wall to beside the end of the last. What has been proved of a pass `before` is not looked at again.
+    /// the first wall to beside the end of the last. What is `known` is not looked at again.
     pub(super) fn laid_within(
         &self,
         walls: &[Wall],
         own: &Walls,
         along: Along,
-        before: Option<Before>,
+        known: Known,
     ) -> Result<Outcome, Refusal> {
         let Along {
             side,
@@ -180,7 +191,7 @@ impl Job<'_> {
             false => found.and_then(|path| one_side(vec![path], &raw, walls.len()).ok()),
         };
         if let Some(path) = found
-            && self.holds(&proof, &path, before.map(Nest::new))?.is_ok()
+            && self.holds(&proof, &path, known)?.is_ok()
         {
             return Ok(Ok(tipped(path)));
         }
@@ -245,7 +256,7 @@ impl Job<'_> {
         tipped: impl Fn(Vec<(usize, Element)>) -> Laid,
     ) -> Result<Outcome, Refusal> {
         Ok(self
-            .holds(proof, &path, None)?
+            .holds(proof, &path, Known::default())?
             .map(|()| tipped(path))
             .map_err(|Unproved { wall }| Fault::Unproved { wall }))
     }
@@ -255,11 +266,17 @@ impl Job<'_> {
         &self,
         proof: &Proof,
         path: &[(usize, Element)],
-        mut nest: Option<Nest>,
+        known: Known,
     ) -> Result<Result<(), Unproved>, Refusal> {
+        let Known { before, mut kept } = known;
+        let mut nest = before.map(Nest::new);
+        let about = kept
+            .as_ref()
+            .map(|kept| kept.about(proof.own, proof.correction));
         for pieces in path.chunks(STEP) {
             self.go_on()?;
-            if let Err(fault) = proof.pieces_hold(pieces, nest.as_mut()) {
+            let kept = kept.as_mut().zip(about.as_deref());
+            if let Err(fault) = proof.pieces_hold(pieces, nest.as_mut(), kept) {
                 return Ok(Err(fault));
             }
         }

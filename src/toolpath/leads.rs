@@ -27,42 +27,56 @@ const MOST_HALVED: usize = 64;
 const HALVED_BEYOND: u32 = 4;
 
 /// The walls of all contours.
-pub(super) struct Contours {
-    segments: Vec<Segment>,
-    /// The same, once somebody has asked what is near.
-    walls: OnceLock<Walls>,
+pub(super) struct Contours<'a> {
+    drawing: &'a Drawing,
+    outlines: &'a [Outline],
+    /// Once somebody has asked what is near.
+    known: OnceLock<WallsOf>,
+}
+
+struct WallsOf {
+    walls: Walls,
     /// By wall: the outline, and the segment of the drawing.
     of: Vec<(usize, EntityId, usize)>,
 }
 
-impl Contours {
-    pub(crate) fn new(drawing: &Drawing, outlines: &[Outline]) -> Contours {
-        let (mut segments, mut of) = (Vec::new(), Vec::new());
-        let is_cut = |(_, outline): &(usize, &Outline)| outline.contour.double_of.is_none();
-        for (index, outline) in outlines.iter().enumerate().filter(is_cut) {
-            for segment in outline.contour.segments(drawing) {
-                segments.push(segment.geometry);
-                of.push((index, segment.entity, segment.segment));
-            }
-        }
+impl Contours<'_> {
+    pub(crate) fn new<'a>(drawing: &'a Drawing, outlines: &'a [Outline]) -> Contours<'a> {
         Contours {
-            segments,
-            walls: OnceLock::new(),
-            of,
+            drawing,
+            outlines,
+            known: OnceLock::new(),
         }
     }
 
+    fn known(&self) -> &WallsOf {
+        self.known.get_or_init(|| {
+            let (mut segments, mut of) = (Vec::new(), Vec::new());
+            let is_cut = |(_, outline): &(usize, &Outline)| outline.contour.double_of.is_none();
+            for (index, outline) in self.outlines.iter().enumerate().filter(is_cut) {
+                for segment in outline.contour.segments(self.drawing) {
+                    segments.push(segment.geometry);
+                    of.push((index, segment.entity, segment.segment));
+                }
+            }
+            WallsOf {
+                walls: Walls::new(segments),
+                of,
+            }
+        })
+    }
+
     pub(crate) fn walls(&self) -> &Walls {
-        self.walls.get_or_init(|| Walls::new(self.segments.clone()))
+        &self.known().walls
     }
 
     /// The outline that a wall is of.
     pub(crate) fn outline_of(&self, wall: usize) -> usize {
-        self.of[wall].0
+        self.known().of[wall].0
     }
 
     pub(crate) fn place_of(&self, wall: usize) -> Place {
-        let (_, entity, segment) = self.of[wall];
+        let (_, entity, segment) = self.known().of[wall];
         Place::Segment { entity, segment }
     }
 }
@@ -95,7 +109,7 @@ pub(super) struct Surroundings<'a> {
     /// The outline that the lead leads to, and its walls.
     pub(crate) outline: usize,
     pub(crate) own: &'a Walls,
-    pub(crate) contours: &'a Contours,
+    pub(crate) contours: &'a Contours<'a>,
     pub(crate) kerfs: &'a Kerfs,
     /// The path keeps at least this from the walls, and so must the leads; drawing units.
     pub(crate) clearance: f64,

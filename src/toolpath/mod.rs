@@ -4,6 +4,7 @@
 //! correction, lies at it everywhere but on the tips of corners, and leaves out nothing that the wire can reach: `proof`. Where that
 //! cannot be, there is an error finding at the place and no path. Everything is in drawing units; settings are in mm.
 
+mod apart;
 mod clearance;
 mod containment;
 mod corners;
@@ -12,6 +13,7 @@ mod entry;
 mod finished;
 mod hole;
 mod job;
+mod kept;
 mod laid;
 mod leads;
 mod loops;
@@ -31,6 +33,7 @@ mod tab;
 #[cfg(test)]
 mod tests;
 mod threading;
+mod tips;
 mod wanted;
 mod way;
 mod work;
@@ -277,9 +280,9 @@ pub(crate) fn misfit(
         goes_on: &|| true,
     };
     let correction = job.units(settings.correction);
-    let segments: Vec<_> = outline.contour.segments(drawing).collect();
+    let segments = || outline.contour.segments(drawing);
     let (walls, _, laid) = job
-        .along(&segments, side, correction, outline.contour.closed)
+        .along(segments, side, correction, outline.contour.closed)
         .ok()?;
     match laid {
         Ok(Laid::Path(_)) => None,

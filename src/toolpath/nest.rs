@@ -47,7 +47,8 @@ impl<'a> Nest<'a> {
         let is_roll = |element: &Element| matches!(element.source, Source::Corner { .. });
         let is_same =
             |other: &Element| other.wall == element.wall && is_roll(other) == is_roll(element);
-        let found = path.iter().skip(self.at).take(AHEAD).position(is_same)?;
+        let mut ahead = path.get(self.at..)?.iter().take(AHEAD);
+        let found = ahead.position(is_same)?;
         self.at += found;
         let by = correction - beside.correction;
         let slack = 1e-3 * beside.rounding;

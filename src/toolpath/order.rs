@@ -298,7 +298,7 @@ pub(super) fn directed(
 }
 
 /// A closed path turned round so that it begins and ends in `point` of element `index`, which is split there.
-pub(super) fn begin_at(path: Vec<Element>, index: usize, point: Point) -> Vec<Element> {
+pub(super) fn begin_at(mut path: Vec<Element>, index: usize, point: Point) -> Vec<Element> {
     let Some(&element) = path.get(index) else {
         return path;
     };
@@ -319,17 +319,15 @@ pub(super) fn begin_at(path: Vec<Element>, index: usize, point: Point) -> Vec<El
         along if along >= length - 1e-9 => ((index + 1) % path.len(), false),
         _ => (index, true),
     };
-    let mut turned = Vec::with_capacity(path.len() + 1);
-    turned.extend_from_slice(&path[first..]);
-    turned.extend_from_slice(&path[..first]);
-    if split {
-        turned[0].geometry = between(&element.geometry, point, element.geometry.end());
-        turned.push(Element {
+    path.rotate_left(first);
+    if split && let Some(begun) = path.first_mut() {
+        begun.geometry = between(&element.geometry, point, element.geometry.end());
+        path.push(Element {
             geometry: between(&element.geometry, element.geometry.start(), point),
             ..element
         });
     }
-    turned
+    path
 }
 
 #[cfg(test)]

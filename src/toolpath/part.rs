@@ -6,7 +6,8 @@
 use super::clearance::Walls;
 use super::corners::{Element, elements};
 use super::job::Job;
-use super::laid::{Along, Laid};
+use super::kept::{Kept, follows};
+use super::laid::{Along, Known, Laid};
 use super::offset::{Wall, walls};
 use super::path::{Refusal, Source};
 use super::paths::Pass;
@@ -38,6 +39,10 @@ pub(crate) struct Part {
     pub half: f64,
     /// The contour as it is drawn.
     drawn: Vec<Wall>,
+    /// Of each piece of the path its wall; nothing where it has not been proved beside the contour at the correction.
+    path_follows: Vec<u32>,
+    /// Of each edge the piece of the path; nothing where it is not the offset of the path.
+    edges_follow: Vec<u32>,
 }
 
 impl Part {
@@ -69,11 +74,12 @@ pub(crate) struct Cutting<'a> {
     pub settings: &'a Effective,
 }
 
-/// The part that all passes leave of a closed contour.
+/// The part that all passes leave of a closed contour; `before` is the same before an edit of the contour, under the same settings.
 pub(crate) fn part(
     drawing: &Drawing,
     contour: &Contour,
     cutting: Cutting,
+    before: Option<&Part>,
     goes_on: &dyn Fn() -> bool,
 ) -> Result<Part, Refusal> {
     let Cutting {
@@ -98,7 +104,11 @@ pub(crate) fn part(
     };
     let (last, half) = (job.units(last), job.units(half));
     let away = if is_other { side.reversed() } else { side };
-    let (drawn, path) = job.last_path(contour, away, last)?;
+    let (drawn, path, is_proved) = job.last_path(contour, away, last, before)?;
+    let path_follows = match is_proved {
+        true => follows(&path),
+        false => Vec::new(),
+    };
     let beside: Vec<Wall> = path
         .iter()
         .map(|element| Wall {
@@ -126,6 +136,8 @@ pub(crate) fn part(
             path: near_path,
             half,
             drawn,
+            path_follows: Vec::new(),
+            edges_follow: Vec::new(),
         });
     }
     let back = Along {
@@ -134,7 +146,15 @@ pub(crate) fn part(
         corner: Corner::Arc,
         closed: true,
     };
-    let outline = match job.laid(&beside, &near_path, back)? {
+    let kept = before.and_then(|before| {
+        let (then, now) = (before.path.segments(), near_path.segments());
+        Kept::new(then.iter(), now.iter(), &before.near, &before.edges_follow)
+    });
+    let known = Known {
+        kept,
+        ..Known::default()
+    };
+    let outline = match job.laid_within(&beside, &near_path, back, known)? {
         Ok(Laid::Path(outline)) => outline,
         Ok(Laid::Point(_)) => {
             let fault = super::laid::Fault::Nothing;
@@ -165,18 +185,21 @@ pub(crate) fn part(
         path: near_path,
         half,
         drawn,
+        path_follows,
+        edges_follow: follows(&outline),
     })
 }
 
 impl Job<'_> {
-    /// The walls of a closed contour, and the path of the last pass along them on a side; one line without length where the wire can only
-    /// stand.
+    /// The walls of a closed contour, the path of the last pass along them on a side, and whether it has been proved at its correction; one
+    /// line without length where the wire can only stand.
     fn last_path(
         &self,
         contour: &Contour,
         side: Side,
         last: f64,
-    ) -> Result<(Vec<Wall>, Vec<Element>), Refusal> {
+        before: Option<&Part>,
+    ) -> Result<(Vec<Wall>, Vec<Element>, bool), Refusal> {
         let settings = self.settings;
         let rough = self.units(settings.correction);
         let is_beside_rough = settings.passes.skim_corner() == SkimCorner::ConstantStock
@@ -186,11 +209,17 @@ impl Job<'_> {
             let zero_length = self.units(settings.tolerances.zero_length);
             let walls = walls(contour.segments(self.drawing), true, zero_length);
             let path = elements(&walls);
-            return Ok((walls, path));
+            return Ok((walls, path, false));
+        }
+        let is_plain = !is_beside_rough && settings.corner == Corner::Arc;
+        if let Some(before) = before.filter(|_| is_plain)
+            && let Some((walls, path)) = self.mended(contour, side, last, before)?
+        {
+            return Ok((walls, path, true));
         }
         let first = if is_beside_rough { rough } else { last };
-        let segments: Vec<_> = contour.segments(self.drawing).collect();
-        let (walls, own, laid) = self.along(&segments, side.sign(), first, true)?;
+        let segments = || contour.segments(self.drawing);
+        let (walls, own, laid) = self.along(segments, side.sign(), first, true)?;
         let laid = match (laid, is_beside_rough) {
             (Ok(Laid::Path(path)), true) => {
                 let rough = Pass {
@@ -210,16 +239,52 @@ impl Job<'_> {
             (laid, _) => laid,
         };
         match laid {
-            Ok(Laid::Path(path)) => Ok((walls, path)),
+            Ok(Laid::Path(path)) => Ok((walls, path, is_plain)),
             Ok(Laid::Point(stand)) => {
                 let element = Element {
                     geometry: Segment::line(stand, stand),
                     source: Source::Tab,
                     wall: 0,
                 };
-                Ok((walls, vec![element]))
+                Ok((walls, vec![element], false))
             }
             Err(fault) => Err(Refusal::Findings(vec![self.no_path(&fault, &walls, first)])),
         }
+    }
+
+    /// The same where it is plain and little has changed: what holds since before is not proved again. `None` where that does not come out.
+    fn mended(
+        &self,
+        contour: &Contour,
+        side: Side,
+        correction: f64,
+        before: &Part,
+    ) -> Result<Option<(Vec<Wall>, Vec<Element>)>, Refusal> {
+        let zero_length = self.units(self.settings.tolerances.zero_length);
+        let walls = walls(contour.segments(self.drawing), true, zero_length);
+        let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
+        let then = before.drawn.iter().map(|wall| &wall.geometry);
+        let Some(kept) = Kept::new(
+            then,
+            own.segments().iter(),
+            &before.path,
+            &before.path_follows,
+        ) else {
+            return Ok(None);
+        };
+        let along = Along {
+            side: side.sign(),
+            correction,
+            corner: Corner::Arc,
+            closed: true,
+        };
+        let known = Known {
+            kept: Some(kept),
+            ..Known::default()
+        };
+        Ok(match self.laid_within(&walls, &own, along, known)? {
+            Ok(Laid::Path(path)) => Some((walls, path)),
+            _ => None,
+        })
     }
 }

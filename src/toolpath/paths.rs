@@ -333,8 +333,8 @@ impl Job<'_> {
         let corrections = settings.each_correction();
         let corrections = || corrections.iter().map(|&mm| self.units(mm));
         let rough = corrections().fold(0.0, f64::max);
-        let segments: Vec<_> = contour.segments(self.drawing).collect();
-        let (walls, own, first) = self.along(&segments, side, rough, closed)?;
+        let segments = || contour.segments(self.drawing);
+        let (walls, own, first) = self.along(segments, side, rough, closed)?;
         let mut first = Some(first);
         let mut entry = None;
         let mut passes: Vec<Pass> = Vec::with_capacity(corrections().len());

@@ -6,10 +6,11 @@
 
 use super::clearance::Walls;
 use super::corners::{Element, Raw, meetings};
+use super::kept::Kept;
 use super::nest::{Beside, Nest};
 use super::offset::Wall;
 use crate::drawing::winding_of;
-use crate::geometry::{Arc, Line, Point, Segment};
+use crate::geometry::{Arc, Bounds, Line, Point, Segment, Vector, cross};
 use std::sync::OnceLock;
 
 /// What the offset of one contour is held against. Lengths in drawing units.
@@ -68,13 +69,20 @@ impl Proof<'_> {
         twice_area * self.side > 0.0
     }
 
-    /// Some pieces of a path: nowhere nearer to a wall than the correction, and at it from their own.
+    /// Some pieces of a path: nowhere nearer to a wall than the correction, and at it from their own. What is `kept` is asked with the
+    /// boxes of what has changed.
     pub(crate) fn pieces_hold(
         &self,
         pieces: &[(usize, Element)],
         mut nest: Option<&mut Nest>,
+        mut kept: Option<(&mut Kept, &[Bounds])>,
     ) -> Result<(), Unproved> {
         for (_, element) in pieces {
+            if let Some((kept, about)) = &mut kept
+                && kept.holds(element, about)
+            {
+                continue;
+            }
             let beyond = nest.as_mut().and_then(|nest| {
                 let beside = Beside {
                     wall: self.walls[element.wall].geometry,
@@ -114,16 +122,23 @@ impl Proof<'_> {
     }
 
     fn piece_holds(&self, geometry: &Segment, wall: usize) -> Result<(), Unproved> {
-        let least = self.correction - self.rounding;
+        let own = &self.walls[wall].geometry;
+        let (least, most) = (
+            self.correction - self.rounding,
+            self.correction + self.rounding,
+        );
+        let is_beside = runs_beside(geometry, own, [least, most]);
         let too_near = match self.closed {
-            true => self.own.too_near_beside(wall, geometry, least, true),
+            true => self.own.too_near_beside(wall, geometry, least, !is_beside),
             false => self.own.too_near(geometry, least),
         };
         if let Some(wall) = too_near {
             return Err(Unproved { wall });
         }
-        let own = &self.walls[wall].geometry;
-        let is_off = |point: Point| own.distance_to(point) > self.correction + self.rounding;
+        if is_beside {
+            return Ok(());
+        }
+        let is_off = |point: Point| own.distance_to(point) > most;
         let places = [geometry.start(), middle(geometry), geometry.end()];
         match places.into_iter().any(is_off) {
             true => Err(Unproved { wall }),
@@ -141,25 +156,25 @@ impl Proof<'_> {
         let mut next = by_raw.partition_point(|(raw, _)| *raw < range.start);
         for index in range {
             let element = &self.raw.elements[index];
-            let length = element.geometry.length();
             let first = next;
             while by_raw.get(next).is_some_and(|(raw, _)| *raw == index) {
                 next += 1;
             }
-            let beside = [
-                first
-                    .checked_sub(1)
-                    .unwrap_or(by_raw.len().saturating_sub(1)),
-                next % by_raw.len().max(1),
-            ];
-            let beside = beside.map(|place| by_raw.get(place).map(|(_, element)| element));
-            let [before, behind] = beside;
             if let [(_, piece)] = &by_raw[first..next]
                 && self.is_whole(&piece.geometry, &element.geometry)
             {
                 continue;
             }
+            let beside = [
+                first
+                    .checked_sub(1)
+                    .unwrap_or(by_raw.len().saturating_sub(1)),
+                if next < by_raw.len() { next } else { 0 },
+            ];
+            let beside = beside.map(|place| by_raw.get(place).map(|(_, element)| element));
+            let [before, behind] = beside;
             let raw = &element.geometry;
+            let length = raw.length();
             let shares = |piece: &(usize, Element)| {
                 let share = |point| raw.share_of(point).clamp(0.0, 1.0);
                 match (&piece.1.geometry, raw) {
@@ -201,6 +216,14 @@ impl Proof<'_> {
 
     /// True for a piece of a raw element that leaves nothing out at its ends.
     fn is_whole(&self, piece: &Segment, raw: &Segment) -> bool {
+        let half = self.rounding / 2.0;
+        let is_close = |one: Point, other: Point| (one - other).norm_squared() <= half * half;
+        if let (Segment::Line(piece), Segment::Line(raw)) = (piece, raw)
+            && is_close(piece.start, raw.start)
+            && is_close(piece.end, raw.end)
+        {
+            return true;
+        }
         (piece.start() - raw.start()).norm() <= self.rounding
             && (piece.end() - raw.end()).norm() <= self.rounding
             && (piece.length() - raw.length()).abs() <= self.rounding
@@ -316,6 +339,47 @@ fn middle(segment: &Segment) -> Point {
             way.map_or(arc.center, |way| arc.center + way * arc.radius)
         }
         _ => segment.point_at(0.5),
+    }
+}
+
+/// True when a segment is seen to run beside another of its kind, between so near and so far from it all along. False says nothing.
+fn runs_beside(segment: &Segment, wall: &Segment, [least, most]: [f64; 2]) -> bool {
+    match (segment, wall) {
+        (Segment::Line(segment), Segment::Line(wall)) => {
+            // All of it times the length of the wall.
+            let along = wall.end - wall.start;
+            let squared = along.norm_squared();
+            let (start, end) = (segment.start - wall.start, segment.end - wall.start);
+            let is_over = |from: Vector| (0.0..=squared).contains(&along.dot(&from));
+            let (first, last) = (cross(along, start), cross(along, end));
+            let (nearest, farthest) = (
+                (first * first).min(last * last),
+                (first * first).max(last * last),
+            );
+            first * last > 0.0
+                && nearest >= least * least * squared
+                && farthest <= most * most * squared
+                && is_over(start)
+                && is_over(end)
+        }
+        (Segment::Arc(segment), Segment::Arc(wall)) => {
+            let is_at = |radius: f64| (least..=most).contains(&(radius - wall.radius).abs());
+            let is_near = |point: Point, end: Point| (point - end).norm_squared() <= most * most;
+            let is_end = |end: Point| {
+                is_at((end - wall.center).norm())
+                    && (wall.spans(end) || is_near(end, wall.start) || is_near(end, wall.end))
+            };
+            segment.center == wall.center
+                && !segment.is_shallow()
+                && !wall.is_shallow()
+                && wall.is_minor()
+                && segment.sweep * wall.sweep > 0.0
+                && segment.sweep.abs() <= wall.sweep.abs() + 1e-9
+                && is_at(segment.radius)
+                && is_end(segment.start)
+                && is_end(segment.end)
+        }
+        _ => false,
     }
 }
 

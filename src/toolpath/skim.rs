@@ -2,7 +2,7 @@
 
 use super::clearance::Walls;
 use super::job::{Job, ROUNDING};
-use super::laid::{Along, Fault, Laid, Outcome};
+use super::laid::{Along, Fault, Known, Laid, Outcome};
 use super::nest::Before;
 use super::offset::Wall;
 use super::path::Refusal;
@@ -28,7 +28,11 @@ impl Job<'_> {
             };
             // With tips a path is more than what has been proved, and beside the first path it has been otherwise.
             let is_plain = along.corner == Corner::Arc && !is_constant;
-            return self.laid_within(walls, own, along, is_plain.then_some(before));
+            let known = Known {
+                before: is_plain.then_some(before),
+                ..Known::default()
+            };
+            return self.laid_within(walls, own, along, known);
         }
         let beside: Vec<Wall> = rough
             .path

@@ -78,7 +78,10 @@ impl Job<'_> {
             // The far end of an open contour is where a tab would begin, and there is none.
             let from_tab = (tab.is_some() || !closed) && cut_off != back;
             let to_tab = (tab.is_some() || !closed) && !from_tab;
-            let way = directed(if cut_off { &round.held } else { &round.main }, back);
+            let way = Directed {
+                way: if cut_off { &round.held } else { &round.main },
+                back,
+            };
             let (begin, end) = match (way.first(), way.last()) {
                 (Some(first), Some(last)) => (first.geometry.start(), last.geometry.end()),
                 _ => (thread, thread),
@@ -98,7 +101,7 @@ impl Job<'_> {
                 way.map(|way| way.pieces(thread, landing, true))
                     .map_err(|finding| Refusal::Findings(vec![finding]))
             };
-            let mut segments: Vec<PathSegment> = Vec::with_capacity(way.len() + 5);
+            let mut segments: Vec<PathSegment> = Vec::with_capacity(way.way.len() + 5);
             match (from_tab && !returns, round.aside) {
                 (false, _) if begin == thread => {}
                 (false, _) if is_straight && !from_tab => {
@@ -117,13 +120,17 @@ impl Job<'_> {
                     segments.extend(lead(at_tab.unwrap_or(begin), begin, Source::Tab));
                 }
             }
-            segments.extend(way.iter().map(|element| PathSegment {
+            segments.extend(way.elements().map(|element| PathSegment {
                 geometry: element.geometry,
                 source: element.source,
             }));
             let overlaps = overlap > 0.0 && closed && !to_tab && (cut_off || tab.is_none());
             if overlaps {
-                segments.extend(beyond(&directed(&round.main, back), overlap));
+                let way = Directed {
+                    way: &round.main,
+                    back,
+                };
+                segments.extend(beyond(way, overlap));
             }
             let last = segments.last().map_or(end, |piece| piece.geometry.end());
             at_tab = match (to_tab && !returns, round.aside) {
@@ -306,15 +313,35 @@ impl Job<'_> {
 }
 
 /// A way, gone back where that is asked for.
-fn directed(way: &[Element], back: bool) -> Vec<Element> {
-    if !back {
-        return way.to_vec();
+#[derive(Clone, Copy)]
+struct Directed<'a> {
+    way: &'a [Element],
+    back: bool,
+}
+
+impl<'a> Directed<'a> {
+    fn at(self, index: usize) -> Option<Element> {
+        if !self.back {
+            return self.way.get(index).copied();
+        }
+        let element = self.way.get(self.way.len().checked_sub(index + 1)?)?;
+        Some(Element {
+            geometry: element.geometry.reversed(),
+            ..*element
+        })
     }
-    let reversed = |element: &Element| Element {
-        geometry: element.geometry.reversed(),
-        ..*element
-    };
-    way.iter().rev().map(reversed).collect()
+
+    fn first(self) -> Option<Element> {
+        self.at(0)
+    }
+
+    fn last(self) -> Option<Element> {
+        self.at(self.way.len().checked_sub(1)?)
+    }
+
+    fn elements(self) -> impl Iterator<Item = Element> + 'a {
+        (0..self.way.len()).filter_map(move |index| self.at(index))
+    }
 }
 
 /// What lies before a point of a way, and what behind it: the last place of the way that is there.
@@ -362,9 +389,9 @@ fn with_ends(mut segment: Segment, start: Point, end: Point) -> Segment {
 }
 
 /// The first so much of a way once more.
-fn beyond(way: &[Element], length: f64) -> Vec<PathSegment> {
+fn beyond(way: Directed, length: f64) -> Vec<PathSegment> {
     let (mut left, mut pieces) = (length, Vec::new());
-    for element in way {
+    for element in way.elements() {
         let along = element.geometry.length();
         let geometry = match left < along {
             true => element.geometry.part(0.0, left / along),

@@ -35,7 +35,7 @@ impl Job<'_> {
     pub(super) fn surroundings<'a>(
         &'a self,
         unled: &'a Unled,
-        contours: &'a Contours,
+        contours: &'a Contours<'a>,
         kerfs: &'a Kerfs,
         lead: Lead,
         correction: f64,
