@@ -190,6 +190,9 @@ pub(crate) fn part(
     })
 }
 
+/// The walls of a contour, and the path beside them.
+type WallsAndPath = (Vec<Wall>, Vec<Element>);
+
 impl Job<'_> {
     /// The walls of a closed contour, the path of the last pass along them on a side, and whether it has been proved at its correction; one
     /// line without length where the wire can only stand.
@@ -259,7 +262,7 @@ impl Job<'_> {
         side: Side,
         correction: f64,
         before: &Part,
-    ) -> Result<Option<(Vec<Wall>, Vec<Element>)>, Refusal> {
+    ) -> Result<Option<WallsAndPath>, Refusal> {
         let zero_length = self.units(self.settings.tolerances.zero_length);
         let walls = walls(contour.segments(self.drawing), true, zero_length);
         let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
