@@ -1,8 +1,9 @@
 //! `wedm draw`: a picture of contour, faults and wire path as SVG, PNG or PDF; or contour and wire path as a new drawing.
 
+use super::files::{self, ending_of};
 use super::options::{Common, Program};
 use super::output::{self, styled};
-use super::{Failure, Verdict, files};
+use super::{Failure, Verdict};
 use crate::document::{Document, Snapshot};
 use crate::drawing::{Drawing, Entity, Geometry};
 use crate::dxf;
@@ -101,33 +102,19 @@ fn with_paths(snapshot: &Snapshot, paths: &[WirePath]) -> Drawing {
     drawing
 }
 
-fn ending_of(path: &Path) -> Option<String> {
-    Some(path.extension()?.to_string_lossy().to_ascii_lowercase())
-}
-
 /// The format of the picture, SVG by default; `None` for a drawing.
 fn form_of(target: Option<&Path>) -> Option<Image> {
-    match target.and_then(ending_of) {
-        Some(ending) if ending == "dxf" => None,
-        ending => Some(
-            ending
-                .and_then(|it| Image::of_ending(&it))
-                .unwrap_or(Image::Svg),
-        ),
-    }
+    let ending = target.map(ending_of).unwrap_or_default();
+    (ending != "dxf").then(|| Image::of_ending(&ending).unwrap_or(Image::Svg))
 }
 
 fn refuse_other_formats(target: &Path) -> Result<(), Failure> {
-    match ending_of(target).as_deref() {
-        Some(ending) if ending == "dxf" || Image::of_ending(ending).is_some() => Ok(()),
-        _ if target == Path::new("-") => Ok(()),
-        Some(ending) => Err(Failure::of(
-            target,
-            say!(a_picture_that_is_not_written, ending),
-        )),
-        None => Err(Failure::of(
-            target,
-            say!(its_name_has_no_ending, ".svg, .png, .pdf", ".dxf"),
-        )),
-    }
+    let refusal = match ending_of(target).as_str() {
+        "dxf" => return Ok(()),
+        _ if target == Path::new("-") => return Ok(()),
+        "" => say!(its_name_has_no_ending, ".svg, .png, .pdf", ".dxf"),
+        ending if Image::of_ending(ending).is_some() => return Ok(()),
+        ending => say!(a_picture_that_is_not_written, ending),
+    };
+    Err(Failure::of(target, refusal))
 }

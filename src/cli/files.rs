@@ -153,7 +153,8 @@ fn kind_of_content(path: &Path, bytes: &[u8]) -> Option<Kind> {
     Language::of_content(bytes).map(Kind::Program)
 }
 
-fn ending_of(path: &Path) -> String {
+/// In lower case; empty where there is none.
+pub(super) fn ending_of(path: &Path) -> String {
     let ending = path.extension().unwrap_or_default();
     ending.to_string_lossy().to_ascii_lowercase()
 }
@@ -380,8 +381,5 @@ fn place_of(error: &ignore::Error) -> Option<&Path> {
 }
 
 fn has_known_ending(path: &Path) -> bool {
-    let ending = path
-        .extension()
-        .map(|ending| ending.to_string_lossy().to_ascii_lowercase());
-    ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str()))
+    ENDINGS.contains(&ending_of(path).as_str())
 }

@@ -1,8 +1,9 @@
 //! `wedm holes`: the start holes for the drill.
 
+use super::files::{self, ending_of};
 use super::options::{Common, Program};
 use super::output::{self, styled};
-use super::{Failure, Verdict, files, report};
+use super::{Failure, Verdict, report};
 use crate::job::drill;
 use crate::{dxf, job};
 use clap::Args;
@@ -80,20 +81,12 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 }
 
 fn is_dxf(target: &Path) -> Result<bool, Failure> {
-    let ending = target
-        .extension()
-        .map(|ending| ending.to_string_lossy().to_ascii_lowercase());
-    match ending.as_deref() {
-        Some("dxf") => Ok(true),
-        Some("csv") => Ok(false),
-        _ if target == Path::new("-") => Ok(false),
-        Some(ending) => Err(Failure::of(
-            target,
-            say!(holes_that_are_not_written, ending),
-        )),
-        None => Err(Failure::of(
-            target,
-            say!(its_name_has_no_ending, ".csv", ".dxf"),
-        )),
-    }
+    let refusal = match ending_of(target).as_str() {
+        "dxf" => return Ok(true),
+        "csv" => return Ok(false),
+        _ if target == Path::new("-") => return Ok(false),
+        "" => say!(its_name_has_no_ending, ".csv", ".dxf"),
+        ending => say!(holes_that_are_not_written, ending),
+    };
+    Err(Failure::of(target, refusal))
 }

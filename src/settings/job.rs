@@ -5,13 +5,7 @@ use super::{PassFault, Settings};
 pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
     let program = settings.program();
     let mut faults = Vec::new();
-    let mut complain = |key: &'static str, message: String| {
-        faults.push(PassFault {
-            key,
-            pass: usize::MAX,
-            message,
-        });
-    };
+    let mut complain = |key, message| faults.push(PassFault::of(key, message));
     let (end, pause) = (program.end(), program.pause());
     if end.eq_ignore_ascii_case(&pause) {
         let keys = ["program.end", "program.pause"];

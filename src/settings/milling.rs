@@ -118,10 +118,6 @@ pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
     let milling = settings.milling.as_ref();
     let milling = milling.filter(|milling| milling.is_said());
     let fault = milling.and_then(|milling| milling.electrode().err());
-    let fault = fault.map(|(key, message)| PassFault {
-        key,
-        pass: usize::MAX,
-        message,
-    });
+    let fault = fault.map(|(key, message)| PassFault::of(key, message));
     fault.into_iter().collect()
 }

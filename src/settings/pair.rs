@@ -180,13 +180,7 @@ pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
     let pair = settings.pair.clone().unwrap_or_default();
     let workpieces = settings.workpieces.clone().unwrap_or_default();
     let mut faults = Vec::new();
-    let mut complain = |key: &'static str, message: String| {
-        faults.push(PassFault {
-            key,
-            pass: usize::MAX,
-            message,
-        });
-    };
+    let mut complain = |key, message| faults.push(PassFault::of(key, message));
     let mut layers: BTreeMap<&str, &str> = BTreeMap::new();
     for (name, of) in &workpieces {
         for layer in of {

@@ -16,6 +16,17 @@ pub(crate) struct PassFault {
     pub(crate) message: String,
 }
 
+impl PassFault {
+    /// A fault of no single pass.
+    pub(super) fn of(key: &'static str, message: String) -> PassFault {
+        PassFault {
+            key,
+            pass: usize::MAX,
+            message,
+        }
+    }
+}
+
 /// The faults in the corrections of the passes from rough to finish, mm: one above that of the pass before it, and one
 /// below the wire's radius, where the diameter is known. The corrections are those of `passes`, if any, else the single
 /// `correction`; each other list in `passes` must be as long.
@@ -63,11 +74,7 @@ pub(crate) fn pass_faults(
                 count,
                 corrections.len()
             );
-            faults.push(PassFault {
-                key,
-                pass: usize::MAX,
-                message,
-            });
+            faults.push(PassFault::of(key, message));
         }
     }
     faults

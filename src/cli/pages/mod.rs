@@ -76,8 +76,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 }
 
 fn is_drawing(path: &Path) -> bool {
-    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
-    ["dxf", "dxb", "dxfb"].iter().any(|known| ending == *known)
+    ["dxf", "dxb", "dxfb"].contains(&files::ending_of(path).as_str())
 }
 
 /// A name for the page of a drawing that no other has yet.
