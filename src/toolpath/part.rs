@@ -147,8 +147,9 @@ pub(crate) fn part(
         closed: true,
     };
     let kept = before.and_then(|before| {
-        let (then, now) = (before.path.segments(), near_path.segments());
-        Kept::new(then.iter(), now.iter(), &before.near, &before.edges_follow)
+        let then: Vec<&Segment> = before.path.segments().iter().collect();
+        let now = near_path.segments();
+        Kept::new(&then, now, &before.near, &before.edges_follow)
     });
     let known = Known {
         kept,
@@ -266,13 +267,9 @@ impl Job<'_> {
         let zero_length = self.units(self.settings.tolerances.zero_length);
         let walls = walls(contour.segments(self.drawing), true, zero_length);
         let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
-        let then = before.drawn.iter().map(|wall| &wall.geometry);
-        let Some(kept) = Kept::new(
-            then,
-            own.segments().iter(),
-            &before.path,
-            &before.path_follows,
-        ) else {
+        let then: Vec<&Segment> = before.drawn.iter().map(|wall| &wall.geometry).collect();
+        let now = own.segments();
+        let Some(kept) = Kept::new(&then, now, &before.path, &before.path_follows) else {
             return Ok(None);
         };
         let along = Along {
