@@ -101,6 +101,25 @@ impl<C> DerefMut for Chunks<C> {
     }
 }
 
+/// What an edit has put in place of what.
+#[derive(Clone, Debug)]
+pub(in crate::program) struct Reread {
+    /// The chunks that were read.
+    pub(crate) chunks: Range<usize>,
+    /// How many stood there before.
+    pub(crate) before: usize,
+}
+
+impl Reread {
+    /// Where a chunk stands now; `None` for one that is gone.
+    pub(crate) fn moved(&self, chunk: usize) -> Option<usize> {
+        match chunk.checked_sub(self.chunks.start + self.before) {
+            Some(behind) => Some(self.chunks.end + behind),
+            None => (chunk < self.chunks.start).then_some(chunk),
+        }
+    }
+}
+
 impl<C: Send> Chunks<C> {
     /// Reads some lines of a text as if they were the first ones.
     pub(crate) fn read<L: ChunkReader<Chunk = C>>(
@@ -130,7 +149,7 @@ impl<C: Send> Chunks<C> {
         text: &mut SourceText,
         range: Range<usize>,
         replacement: &str,
-    ) {
+    ) -> Reread {
         let end = range.end.min(text.len());
         let start = range.start.min(end);
         // The byte before belongs to it: a CR there may become one line end with an inserted LF.
@@ -161,7 +180,8 @@ impl<C: Send> Chunks<C> {
             .get(from)
             .map_or_else(|| language.begin(), L::before);
         let (fresh, places) = read(language, text, pieces::<L>(lines), before);
-        let mut next = from + fresh.len();
+        let first_behind = from + fresh.len();
+        let mut next = first_behind;
         self.list.splice(from..to, fresh);
         self.places.splice(from..to, places);
         for place in self.places.iter_mut().skip(next) {
@@ -178,6 +198,10 @@ impl<C: Send> Chunks<C> {
                 *chunk = language.finish(text, begun);
             }
             next += 1;
+        }
+        Reread {
+            before: to - from + (next - first_behind),
+            chunks: from..next,
         }
     }
 }

@@ -19,7 +19,7 @@ use super::stretch::{Stretch, Sum};
 use super::words::Words;
 use crate::finding::Finding;
 use crate::geometry::Point;
-use crate::program::chunks::{ChunkReader, Chunks};
+use crate::program::chunks::{ChunkReader, Chunks, Reread};
 use crate::program::path::Known;
 use crate::settings::Effective;
 use crate::text::SourceText;
@@ -126,7 +126,7 @@ impl Document {
             view: Box::default(),
             known: Box::default(),
         };
-        document.judge_again();
+        document.judge_again(None);
         document
     }
 
@@ -157,9 +157,10 @@ impl Document {
             words: self.words.words(),
             limits: &self.limits,
         };
-        self.stretches
+        let reread = self
+            .stretches
             .edit(&reader, &mut self.text, range, replacement);
-        self.judge_again();
+        self.judge_again(Some(reread));
     }
 
     fn entry(&self, at: At) -> Option<&Entry> {
@@ -174,10 +175,12 @@ impl Document {
         })
     }
 
-    fn judge_again(&mut self) {
+    /// What an edit has not `reread` stays, where nothing hangs on the whole.
+    fn judge_again(&mut self, reread: Option<Reread>) {
         let mut known = std::mem::take(&mut self.known);
         let mut clean = Vec::new();
-        *self.view = self.judged(&mut known, &mut clean);
+        let before = reread.map(|reread| (std::mem::take(&mut *self.view), reread));
+        *self.view = self.judged(before, &mut known, &mut clean);
         self.known = known;
         // The findings of a contour within one stretch depend on nothing else: it is not checked again.
         for of_stretch in clean.chunk_by(|a, b| a.0 == b.0) {
@@ -207,7 +210,8 @@ impl ChunkReader for Reader<'_> {
     type Begun = Range<usize>;
     type Chunk = Stretch;
 
-    const LINES: usize = 96;
+    // Unit tests have short texts.
+    const LINES: usize = if cfg!(test) { 24 } else { 128 };
 
     fn begin(&self) {}
 

@@ -248,6 +248,8 @@ pub(super) struct Stretch {
     pub(crate) blocks: usize,
     pub(crate) arcs: usize,
     pub(crate) texts: usize,
+    /// Blocks that could not be read.
+    pub(crate) unread: usize,
     /// Entries with a number, and blocks with an end point behind them.
     pub(crate) numbered: usize,
     pub(crate) stated: usize,
@@ -430,6 +432,7 @@ impl Stretch {
                 // Without its coordinates a block leads where it says.
                 open.sum.errors += usize::from(fault.flaw != Flaw::DecimalCommas);
                 open.sum.unread += usize::from(is_unread);
+                self.unread += usize::from(is_unread);
                 if is_unread {
                     // Its number has its turn, but its end is unknown.
                     self.positions.anchor = Some(None);

@@ -3,6 +3,7 @@
 use super::super::entry::{BlockEntry, Entry};
 use super::super::stretch::{Stretch, Sum, is_jump};
 use super::{At, Document, JoinedCut, PartAt, View};
+use crate::program::chunks::Reread;
 use std::ops::Range;
 
 impl Document {
@@ -160,20 +161,69 @@ impl Document {
     /// The cuts that are not parts of one stretch.
     pub(super) fn outer_cuts(&self, end: Option<At>) -> Vec<JoinedCut> {
         let mut cuts = Vec::new();
-        let mut next = Some((0, 0));
-        while let Some(cut) = next.and_then(|start| self.cut_from(start, end)) {
-            let (stretch, _) = cut.parts[1];
-            let ends_text = self
-                .stretches
-                .get(stretch)
-                .is_none_or(|of| cut.parts[1].1 + 1 >= of.parts.len());
-            next = self
-                .stretches
-                .get(stretch)
-                .filter(|_| !ends_text)
-                .map(|of| (stretch, of.parts.len() - 1));
+        let mut start = Some((0, 0));
+        while let Some(cut) = start.and_then(|start| self.cut_from(start, end)) {
+            start = self.outer_start_behind(&cut);
             cuts.push(cut);
         }
+        cuts
+    }
+
+    /// Where the next of them begins; `None` behind the last.
+    fn outer_start_behind(&self, cut: &JoinedCut) -> Option<PartAt> {
+        let (stretch, part) = cut.parts[1];
+        let parts = self.stretches.get(stretch)?.parts.len();
+        (part + 1 < parts).then_some((stretch, parts - 1))
+    }
+
+    /// The same after an edit: what lies apart from what was read again is as it was before, behind it perhaps some stretches on.
+    pub(super) fn outer_cuts_after(
+        &self,
+        before: View,
+        reread: &Reread,
+        end: Option<At>,
+    ) -> Vec<JoinedCut> {
+        let moved = |at: At| {
+            let stretch = reread.moved(at.stretch)?;
+            Some(At { stretch, ..at })
+        };
+        if before.end.map(moved) != end.map(Some) {
+            return self.outer_cuts(end);
+        }
+        let mut cuts = before.outer;
+        // How the last one before the edit ends may hang on what stands behind its word: it is asked anew.
+        let kept = cuts
+            .partition_point(|cut| cut.parts[1].0 < reread.chunks.start)
+            .saturating_sub(1);
+        let mut fresh: Vec<JoinedCut> = Vec::new();
+        let mut start = match kept.checked_sub(1).and_then(|last| cuts.get(last)) {
+            Some(last) => self.outer_start_behind(last),
+            None => Some((0, 0)),
+        };
+        let mut same_from = cuts.len();
+        while let Some(at) = start {
+            if at.0 >= reread.chunks.end
+                && let Some(same) = place_of_moved(&cuts, reread, at)
+                && same > 0
+                && kept + fresh.len() > 0
+            {
+                same_from = same;
+                break;
+            }
+            let Some(cut) = self.cut_from(at, end) else {
+                break;
+            };
+            start = self.outer_start_behind(&cut);
+            fresh.push(cut);
+        }
+        if reread.chunks.len() != reread.before {
+            for cut in cuts.iter_mut().skip(same_from) {
+                for part in &mut cut.parts {
+                    part.0 = reread.moved(part.0).unwrap_or(part.0);
+                }
+            }
+        }
+        cuts.splice(kept..same_from, fresh);
         cuts
     }
 
@@ -307,4 +357,16 @@ pub(super) fn joined(cut: JoinedCut, behind: &JoinedCut) -> JoinedCut {
         is_jump: false,
         stop: cut.stop.or(Some(cut.sum.blocks)),
     }
+}
+
+/// The cut that begins at a part which stood elsewhere before, perhaps.
+fn place_of_moved(cuts: &[JoinedCut], reread: &Reread, at: PartAt) -> Option<usize> {
+    let begin = |cut: &JoinedCut| {
+        let (stretch, part) = cut.parts[0];
+        (reread.moved(stretch).unwrap_or(reread.chunks.start), part)
+    };
+    let first = cuts.partition_point(|cut| begin(cut) < at);
+    cuts.get(first)
+        .filter(|cut| begin(cut) == at)
+        .map(|_| first)
 }

@@ -10,6 +10,7 @@ use super::cuts::joined;
 use super::{At, Document, JoinedCut, PartAt, View};
 use crate::finding::{Axis, Detail, Fault, Finding, Rule, Severity};
 use crate::geometry::{Bounds, Vector};
+use crate::program::chunks::Reread;
 use crate::program::path::{
     BehindStops, Ends, HasCuts, Known, Way, absurd_size, goes_on, tolerance,
 };
@@ -67,13 +68,21 @@ impl BehindStops for OpenCuts<'_> {
 
 impl Document {
     /// `clean` gets the contours within one stretch that are now known not to cross themselves, in order.
-    pub(super) fn judged(&self, known: &mut Known, clean: &mut Vec<PartAt>) -> View {
+    pub(super) fn judged(
+        &self,
+        before: Option<(View, Reread)>,
+        known: &mut Known,
+        clean: &mut Vec<PartAt>,
+    ) -> View {
         let mut view = View {
             begins: self.begins(),
             ..View::default()
         };
         view.end = self.end_word();
-        view.outer = self.outer_cuts(view.end);
+        view.outer = match before {
+            Some((before, reread)) => self.outer_cuts_after(before, &reread, view.end),
+            None => self.outer_cuts(view.end),
+        };
         view.last_block = self.last_block(view.end);
         self.judge_contours(&mut view);
         self.judge_joints(&mut view);

@@ -3,7 +3,7 @@
 use super::super::around::StatedPoint;
 use super::super::decode::meant;
 use super::super::entry::{Entry, What};
-use super::super::stretch::{Stretch, is_jump};
+use super::super::stretch::is_jump;
 use super::{At, Document};
 use crate::geometry::{Point, Vector};
 use crate::program::path::{Kind, Step, Trace, Writing};
@@ -80,8 +80,7 @@ impl Program for Document {
     }
 
     fn unread_line(&self) -> Option<usize> {
-        let is_unread = |of: &Stretch| of.parts.iter().any(|part| part.sum.unread > 0);
-        let stretch = self.stretches.iter().position(is_unread)?;
+        let stretch = self.stretches.iter().position(|of| of.unread > 0)?;
         let entries = &self.stretches.get(stretch)?.entries;
         let entry = entries.iter().find(|entry| entry.what == What::Unread)?;
         Some(self.stretches.place(stretch).lines.start + entry.line as usize)
