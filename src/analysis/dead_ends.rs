@@ -9,16 +9,19 @@ use crate::finding::{Detail, Rule, Severity, Side};
 use crate::rules::arc_as_chords::REACH;
 use crate::rules::dead_end::{DeadEnd, Left, holds};
 use crate::rules::{NEIGHBOURS, Outlook, Wall};
-use std::collections::BTreeMap;
+use rustc_hash::FxHashMap;
 
 /// The contour, the two walls that the wire comes to, and what it leaves.
 type Told = (ContourKey, [usize; 2], Left);
+
+/// Rank of an entity, its segment, and whether the wire runs on the left of it.
+type Farthest = (u64, usize, bool);
 
 /// What is left beyond the dead ends of all contours.
 #[derive(Debug, Default)]
 pub(crate) struct DeadEnds {
     /// By the rank of the entity and the segment that the wire stays farthest from.
-    left: BTreeMap<(u64, usize, bool), Told>,
+    left: FxHashMap<Farthest, Told>,
 }
 
 impl Analysis {
@@ -76,9 +79,20 @@ impl Analysis {
     pub(super) fn report_dead_ends(&self, drawing: &Drawing, ends: &DeadEnds, report: &mut Report) {
         // Where the contour is the wire's own path, it is followed.
         let mildest = report.is_for_a_path().then_some(Severity::Warning);
-        for (key, walls, left) in ends.left.values() {
-            if report.counts(Rule::LostPocket, mildest)
-                && let Some(outlook) = self.outlook(drawing, *key)
+        report.count(Rule::LostPocket, mildest, ends.left.len());
+        if report.is_full(Rule::LostPocket, mildest) {
+            return;
+        }
+        let mut told: Vec<(&Farthest, &Told)> = ends.left.iter().collect();
+        // Only the first are told, of however many.
+        let most = report.room(Rule::LostPocket, mildest);
+        if most < told.len() {
+            told.select_nth_unstable_by_key(most, |(place, _)| **place);
+            told.truncate(most);
+        }
+        told.sort_unstable_by_key(|(place, _)| **place);
+        for (_, (key, walls, left)) in told {
+            if let Some(outlook) = self.outlook(drawing, *key)
                 && let Some(place) = outlook.place(left.index)
             {
                 let related = walls
@@ -116,14 +130,10 @@ fn hangs_on_runs(one: usize, other: usize, count: usize) -> bool {
 impl DeadEnds {
     fn enter(&mut self, outlook: &Outlook, new: Told, side: Side) {
         let (_, _, left) = new;
-        let Some(segment) = outlook.segment(left.index as isize) else {
+        let Some((entity, segment)) = outlook.segment_id(left.index) else {
             return;
         };
-        let place = (
-            outlook.drawing.rank(segment.entity),
-            segment.segment,
-            side == Side::Left,
-        );
+        let place = (outlook.drawing.rank(entity), segment, side == Side::Left);
         // One place is told once: of discs that touch the same walls within rounding the first.
         let known = self.left.entry(place).or_insert(new);
         let order = |(_, walls, left): &Told| (left.depth, *walls);

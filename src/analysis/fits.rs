@@ -249,14 +249,14 @@ impl Analysis {
         key: ContourKey,
         wire_side: Option<Side>,
     ) -> bool {
-        let Some(contour) = self.chains.get(key).filter(|contour| contour.closed) else {
-            return false;
-        };
         if self.settings.compensation != Compensation::Path
             || self.settings.severity(Rule::DoesNotFit).is_none()
         {
             return false;
         }
+        let Some(contour) = self.chains.get(key).filter(|contour| contour.closed) else {
+            return false;
+        };
         match self.settings.fit() {
             Ok((Partners::CutTwice(_), _)) => wire_side.is_none(),
             Ok((Partners::Drawn, _)) => fit::workpiece_of(drawing, contour, &self.settings) != 0,

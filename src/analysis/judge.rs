@@ -1,30 +1,37 @@
 //! All that is found in a drawing: what has been seen is put together anew for each report.
 
-use super::Analysis;
 use super::report::{Report, Tally};
+use super::{Analysis, Faults, Notability};
 use crate::drawing::{ContourKey, Drawing, EntityId, Role};
 use crate::finding::{Detail, Finding, NoFix, Place, Rule, Severity, Side, SmallRadius};
 use crate::rules::{CONTOUR_RULES, Outlook, units};
 use crate::settings::SideSetting;
 use crate::toolpath;
 use rustc_hash::FxHashMap;
+use std::sync::Arc;
 
 /// Segments that are looked at to say which repairs of arcs below the correction would bring another fault.
 const MOST_TRIED: usize = 40_000;
 
+/// Arcs below the correction of one contour that are kept.
+const MOST_KEPT: usize = 16;
+
 impl Analysis {
     /// The contours that have something to tell, in machining order.
-    pub(super) fn notable_in_order(&self, drawing: &Drawing) -> Vec<ContourKey> {
+    fn notable_in_order(&self, drawing: &Drawing) -> Vec<(ContourKey, Notability)> {
         // What is suspended is not in the drawing.
         let awake = self
             .notable
             .iter()
             .filter(|(_, notable)| Some(notable.first) != self.suspended);
-        let mut notable: Vec<(u64, ContourKey)> = awake
-            .map(|(&key, notable)| (drawing.rank(notable.first), key))
+        let mut notable: Vec<(u64, ContourKey, Notability)> = awake
+            .map(|(&key, notable)| (drawing.rank(notable.first), key, notable.what))
             .collect();
-        notable.sort_unstable();
-        notable.into_iter().map(|(_, key)| key).collect()
+        notable.sort_unstable_by_key(|&(rank, key, _)| (rank, key));
+        notable
+            .into_iter()
+            .map(|(_, key, what)| (key, what))
+            .collect()
     }
 
     /// Says of arcs whose repair would bring another fault that there is none. Each takes a look at the drawing: in one where that would be
@@ -91,44 +98,38 @@ impl Analysis {
         let mut pairs = std::mem::take(&mut self.pairs);
         let ends = self.dead_ends(drawing, &mut pairs, &|key| side_of(self, key));
         self.pairs = pairs;
-        let notable: Vec<(ContourKey, Option<Side>)> = self
+        let notable: Vec<(ContourKey, Notability, Option<Side>)> = self
             .notable_in_order(drawing)
             .into_iter()
-            .map(|key| (key, side_of(self, key)))
+            .map(|(key, what)| (key, what, side_of(self, key)))
             .collect();
         let is_middle = |analysis: &Analysis, key: ContourKey| {
-            let contour = analysis.chains.get(key);
-            contour.is_some_and(|it| analysis.settings.goes_along_middle(it.closed))
+            let goes_along = |closed| analysis.settings.goes_along_middle(closed);
+            let contour = || analysis.chains.get(key);
+            (goes_along(true) || goes_along(false))
+                && contour().is_some_and(|it| goes_along(it.closed))
         };
-        for &(key, wire_side) in &notable {
-            if !is_middle(self, key) {
+        for &(key, what, wire_side) in &notable {
+            if what.has_tight_arcs && !is_middle(self, key) {
                 self.report_small_radii(drawing, key, wire_side, &mut report);
             }
         }
-        for &(key, wire_side) in &notable {
-            if !is_middle(self, key)
-                && self
-                    .notable
-                    .get(&key)
-                    .is_some_and(|notable| notable.has_observations)
+        for &(key, what, wire_side) in &notable {
+            if what.has_observations
+                && !is_middle(self, key)
                 && let (Some(known), Some(outlook)) =
                     (self.known.get(&key), self.outlook(drawing, key))
             {
                 known.report(&outlook, wire_side, &mut report);
             }
         }
-        let as_a_whole = |key: &ContourKey| {
-            self.notable
-                .get(key)
-                .is_some_and(|notable| notable.as_a_whole)
-        };
         self.report_contours(
             drawing,
             // An open contour with a side is meant so.
             notable
                 .iter()
-                .filter(|(key, side)| side.is_none() && as_a_whole(key))
-                .map(|(key, _)| *key),
+                .filter(|(_, what, side)| side.is_none() && what.as_a_whole)
+                .map(|(key, ..)| *key),
             &mut report,
         );
         self.report_size(drawing, &mut report);
@@ -256,55 +257,72 @@ impl Analysis {
     }
 
     /// Arcs below the correction in one contour.
-    pub(super) fn report_small_radii(
+    fn report_small_radii(
         &mut self,
         drawing: &Drawing,
         key: ContourKey,
         wire_side: Option<Side>,
         report: &mut Report,
     ) {
-        let Some(notable) = self
-            .notable
-            .get(&key)
-            .filter(|notable| notable.has_tight_arcs)
-        else {
-            return;
-        };
         let says_the_fit = self.says_the_fit(drawing, key, wire_side);
-        if let Some((_, count)) = notable.faults.filter(|(side, _)| *side == wire_side)
+        let known = self.notable.get(&key).and_then(|it| it.faults.as_ref());
+        let known = known.filter(|faults| faults.side == wire_side);
+        if let Some(faults) = known
             && !says_the_fit
             && self.limits.last_correction == self.limits.correction
             && report.is_full(Rule::SmallRadius, None)
         {
-            report.count(Rule::SmallRadius, None, count);
+            report.count(Rule::SmallRadius, None, faults.count);
             return;
         }
-        let tight: Vec<usize> = self
-            .known
-            .get(&key)
-            .map_or_else(Vec::new, |known| known.index.tight().collect());
-        let mut count = 0;
-        for index in tight {
-            let Some((segment, mut numbers)) = self.fault(drawing, key, index, wire_side) else {
-                continue;
-            };
-            count += 1;
+        let each: Arc<[(Place, SmallRadius)]> = match known.and_then(|it| it.each.clone()) {
+            Some(each) => each,
+            None => self.small_radii(drawing, key, wire_side),
+        };
+        for (place, numbers) in each.iter() {
             let is_mild = numbers.taken_by_skims || says_the_fit;
             let mildest = is_mild.then_some(Severity::Warning);
             if report.counts(Rule::SmallRadius, mildest) {
-                numbers.no_fix = self.answer(drawing, key, index);
-                let place = Place::from(&segment);
+                let index = place.entity().and_then(|(entity, segment)| {
+                    let (_, index) = self.chains.index_of(entity, segment?)?;
+                    Some(index)
+                });
+                let numbers = SmallRadius {
+                    no_fix: index.and_then(|index| self.answer(drawing, key, index)),
+                    ..numbers.clone()
+                };
                 report.add(
                     Rule::SmallRadius,
                     mildest,
-                    place,
+                    place.clone(),
                     Detail::SmallRadius(Box::new(numbers)),
                     Vec::new(),
                 );
             }
         }
+    }
+
+    /// The arcs of a contour that are below the correction with the wire on a side: kept, where they are few.
+    fn small_radii(
+        &mut self,
+        drawing: &Drawing,
+        key: ContourKey,
+        wire_side: Option<Side>,
+    ) -> Arc<[(Place, SmallRadius)]> {
+        let known = self.known.get(&key);
+        let tight = known.into_iter().flat_map(|known| known.index.tight());
+        let fault = |index| {
+            let (segment, numbers) = self.fault(drawing, key, index, wire_side)?;
+            Some((Place::from(&segment), numbers))
+        };
+        let each: Arc<[(Place, SmallRadius)]> = tight.filter_map(fault).collect();
         if let Some(notable) = self.notable.get_mut(&key) {
-            notable.faults = Some((wire_side, count));
+            notable.faults = Some(Faults {
+                side: wire_side,
+                count: each.len(),
+                each: (each.len() <= MOST_KEPT).then(|| each.clone()),
+            });
         }
+        each
     }
 }

@@ -3,7 +3,7 @@
 use super::compare::RunId;
 use super::contours::role_of;
 use super::known::Known;
-use super::{Analysis, MANY, Notable};
+use super::{Analysis, MANY, Notability, Notable};
 use crate::drawing::{ContourIndex, ContourKey, Drawing, EntityId, RUN, stated_role};
 use crate::fit;
 use crate::rules::{CONTOUR_RULES, NEIGHBOURS, Outlook, units};
@@ -39,13 +39,15 @@ impl Analysis {
         let known = self.known.get(&key);
         let notable = self.chains.first_of(key).map(|first| Notable {
             first,
-            has_tight_arcs: known.is_some_and(|known| known.index.tight().next().is_some()),
-            has_observations: known.is_some_and(Known::has_observations),
-            as_a_whole: self.outlook(drawing, key).is_some_and(of_contour),
+            what: Notability {
+                has_tight_arcs: known.is_some_and(|known| known.index.tight().next().is_some()),
+                has_observations: known.is_some_and(Known::has_observations),
+                as_a_whole: self.outlook(drawing, key).is_some_and(of_contour),
+            },
             faults: None,
         });
-        let has_something = |notable: &Notable| {
-            notable.has_tight_arcs || notable.has_observations || notable.as_a_whole
+        let has_something = |Notable { what, .. }: &Notable| {
+            what.has_tight_arcs || what.has_observations || what.as_a_whole
         };
         let is_vast =
             known.is_some_and(|known| units::is_vast(&known.index.bounds(), self.limits.unit_mm));

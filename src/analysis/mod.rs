@@ -25,7 +25,7 @@ pub(crate) use contours::is_cut;
 use crate::drawing::{
     Chains, Contour, ContourKey, Delta, Drawing, EntityId, Outline, RUN, Role, Touched,
 };
-use crate::finding::{Finding, NoFix, Side};
+use crate::finding::{Finding, NoFix, Place, Side, SmallRadius};
 use crate::geometry::Bounds;
 use crate::rules::{Limits, Outlook};
 use crate::settings::Effective;
@@ -42,18 +42,33 @@ use suppressed::Judged;
 const FEW: usize = 16;
 /// Where an edit takes more contours than these apart, and a good part of all, everything is looked at anew.
 const MANY: usize = 256;
-/// What of a contour that has something to tell is asked at every report, so that those beyond the limit of a report are not
-/// looked at.
-#[derive(Clone, Copy, Debug)]
+
+/// A contour that has something to tell.
+#[derive(Clone, Debug)]
 struct Notable {
     /// The first of its entities in machining order.
     first: EntityId,
+    what: Notability,
+    /// Its arcs below the correction, once they have been counted.
+    faults: Option<Faults>,
+}
+
+/// What is asked of such a contour at every report, so that those beyond the limit of a report are not looked at.
+#[derive(Clone, Copy, Debug)]
+struct Notability {
     has_tight_arcs: bool,
     has_observations: bool,
     /// A rule on whole contours holds.
     as_a_whole: bool,
-    /// How many of its arcs are below the correction with the wire on a side, once they have been counted.
-    faults: Option<(Option<Side>, usize)>,
+}
+
+/// The arcs of a contour that are below the correction with the wire on a side.
+#[derive(Clone, Debug)]
+struct Faults {
+    side: Option<Side>,
+    count: usize,
+    /// Each of them, where they are few.
+    each: Option<Arc<[(Place, SmallRadius)]>>,
 }
 
 /// What is known of one drawing under one set of settings.

@@ -81,11 +81,8 @@ impl Pairs {
             .filter(|seen| PAIR_RULES[seen.rule].rule == Rule::DuplicateEntity)
         {
             for (key, index) in [seen.one, seen.other] {
-                doubled.extend(
-                    outlook(key)
-                        .and_then(|outlook| outlook.segment(index as isize))
-                        .map(|segment| segment.entity),
-                );
+                let id = outlook(key).and_then(|outlook| outlook.segment_id(index));
+                doubled.extend(id.map(|(entity, _)| entity));
             }
         }
         doubled
@@ -204,11 +201,7 @@ impl Pairs {
         };
         let mut seen: Vec<(usize, Ends, &Observed)> = Vec::new();
         for each in self.seen.values().flatten() {
-            let ends = |(key, index): SegmentId| {
-                outlook(key)?
-                    .segment(index as isize)
-                    .map(|segment| (segment.entity, segment.segment))
-            };
+            let ends = |(key, index): SegmentId| outlook(key)?.segment_id(index);
             if !each.blocked
                 && PAIR_RULES[each.rule].pair_by_pair
                 && !(PAIR_RULES[each.rule].rule == Rule::NarrowSlot

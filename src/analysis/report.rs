@@ -160,9 +160,14 @@ impl Report {
 
     /// True when no finding of this severity is added any more, or the rule is off.
     pub(crate) fn is_full(&self, rule: Rule, mildest: Option<Severity>) -> bool {
+        self.room(rule, mildest) == 0
+    }
+
+    /// How many findings of this severity may be added yet.
+    pub(crate) fn room(&self, rule: Rule, mildest: Option<Severity>) -> usize {
         let kept = |severity| self.kept.get(&severity).map_or(0, Vec::len);
-        self.severity(rule, mildest)
-            .is_none_or(|severity| kept(severity) >= self.limit)
+        let severity = self.severity(rule, mildest);
+        severity.map_or(0, |severity| self.limit.saturating_sub(kept(severity)))
     }
 
     /// Adds a finding that has been counted.

@@ -118,6 +118,19 @@ impl Contour {
         )
     }
 
+    /// The entity of segment `index`, and the segment in there: without its geometry.
+    pub(crate) fn segment_id(&self, drawing: &Drawing, index: usize) -> Option<(EntityId, usize)> {
+        let behind = |piece: &Piece| piece.range().end <= index;
+        let piece = self.pieces.get(self.pieces.partition_point(behind))?;
+        let along = index - piece.first();
+        let segment = match piece.reversed {
+            true => piece.count().checked_sub(1 + along)?,
+            false => along,
+        };
+        let geometry = &drawing.get(piece.entity)?.geometry;
+        (segment < geometry.segment_count()).then_some((piece.entity, segment))
+    }
+
     /// All segments in the direction of travel.
     pub fn segments<'a>(
         &'a self,

@@ -23,7 +23,7 @@ mod wall;
 
 pub(crate) use wall::Wall;
 
-use crate::drawing::{Contour, ContourIndex, ContourSegment, Drawing};
+use crate::drawing::{Contour, ContourIndex, ContourSegment, Drawing, EntityId};
 use crate::finding::{Detail, Fix, Place, Rule, Severity, Side};
 use crate::geometry::{Point, Segment, Tolerances, turn};
 use crate::settings::{Compensation, Effective};
@@ -136,21 +136,31 @@ fn turn_between(limits: &Limits, before: &Segment, behind: &Segment) -> Option<f
 }
 
 impl Outlook<'_> {
+    /// An index that wraps round on a closed contour; `None` past the ends of an open one.
+    fn wrapped(&self, index: isize) -> Option<usize> {
+        let count = self.contour.len() as isize;
+        let is_there = count > 0 && (self.contour.closed || (0..count).contains(&index));
+        is_there.then(|| index.rem_euclid(count) as usize)
+    }
+
     /// Segment at `index`, which wraps round on a closed contour; `None` past the ends of an open one.
     pub(crate) fn segment(&self, index: isize) -> Option<ContourSegment> {
-        let count = self.contour.len() as isize;
-        if count == 0 || (!self.contour.closed && !(0..count).contains(&index)) {
-            return None;
-        }
-        let index = index.rem_euclid(count) as usize;
+        let index = self.wrapped(index)?;
         self.at_hand
             .and_then(|at_hand| at_hand.segment(index))
             .or_else(|| self.contour.segment(self.drawing, index))
     }
 
+    /// The entity of the segment at `index`, and which of its segments that is.
+    pub(crate) fn segment_id(&self, index: usize) -> Option<(EntityId, usize)> {
+        let index = self.wrapped(index as isize)?;
+        self.contour.segment_id(self.drawing, index)
+    }
+
     /// The place of the segment at `index`.
     pub(crate) fn place(&self, index: usize) -> Option<Place> {
-        Some(Place::from(&self.segment(index as isize)?))
+        let (entity, segment) = self.segment_id(index)?;
+        Some(Place::Segment { entity, segment })
     }
 
     /// The angle (radians, positive to the left) by which the contour turns where the segment at `index` begins.
