@@ -1,5 +1,6 @@
 //! The program that we would write for a drawing, and what we have written so.
 
+use super::sides::Sides;
 use super::traced::{Motion, Traced};
 use crate::drawing::{Drawing, EntityId, Outline};
 use crate::geometry::{Point, Segment, Vector};
@@ -24,6 +25,8 @@ pub(super) struct Anew {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Under {
     pub settings: Effective,
+    /// What the contours are that nobody has said a side of.
+    pub sides: Sides,
     /// The contours that it cuts; all where none are named.
     pub handles: Option<Vec<String>>,
 }

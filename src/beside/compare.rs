@@ -35,7 +35,7 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
         _ if !known.is_exact() => true,
         // Nobody sets anything otherwise by so little.
         [one] if known.elsewhere == 0 && !known.has_gap && one.off <= SLIP => false,
-        [_] => known.has_gap || blocks < SMALL,
+        [_] => known.has_gap || known.elsewhere > 0 || blocks < SMALL,
         all => 16 * all.len() > blocks || all.iter().any(|one| one.off < ROUNDING),
     };
     if !is_doubtful {

@@ -2,6 +2,7 @@
 
 use super::anew::{Anew, Of, Under};
 use super::kept::Kept;
+use super::sides::{Sides, sided};
 use super::traced::Traced;
 use crate::drawing::{ContourSegment, Drawing, EntityId, Outline};
 use crate::geometry::Side;
@@ -17,6 +18,8 @@ pub struct Drawn {
     /// mm of the drawing's unit.
     pub(super) unit_mm: f64,
     contours: Arc<OnceLock<Vec<Contour>>>,
+    /// The outlines by each guess of their sides.
+    sided: Arc<[OnceLock<Vec<Outline>>; Sides::GUESSED.len()]>,
     /// Programs that were written for it.
     kept: Arc<Kept>,
 }
@@ -55,6 +58,7 @@ impl Drawn {
             settings: settings.clone(),
             unit_mm: settings.unit_of(drawing).mm,
             contours: Arc::default(),
+            sided: Arc::default(),
             kept: Arc::default(),
         }
     }
@@ -87,7 +91,7 @@ impl Drawn {
     pub(super) fn anew(&self, traced: &Traced, under: &Under) -> Option<Arc<Anew>> {
         let of = Of {
             drawing: &self.drawing,
-            outlines: &self.outlines,
+            outlines: self.outlines_by(under.sides),
             unit_mm: self.unit_mm,
         };
         self.kept.anew(&of, traced, under)
@@ -97,7 +101,29 @@ impl Drawn {
     pub(super) fn as_set(&self) -> Under {
         Under {
             settings: (*self.settings).clone(),
+            sides: Sides::AsSet,
             handles: None,
+        }
+    }
+
+    /// The outlines, with sides as they are guessed.
+    fn outlines_by(&self, sides: Sides) -> &[Outline] {
+        let at = Sides::GUESSED.iter().position(|guess| *guess == sides);
+        let Some(kept) = at.and_then(|at| self.sided.get(at)) else {
+            return &self.outlines;
+        };
+        kept.get_or_init(|| sided(&self.drawing, &self.outlines, sides))
+    }
+
+    /// Under which sides a program may have been written.
+    pub(super) fn sides(&self) -> &'static [Sides] {
+        match self
+            .contours()
+            .iter()
+            .any(|it| it.closed && it.side.is_none())
+        {
+            true => &Sides::GUESSED,
+            false => &[Sides::AsSet],
         }
     }
 

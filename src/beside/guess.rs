@@ -7,13 +7,14 @@ use super::anew::{Anew, Under};
 use super::comparison::{Difference, FEW};
 use super::drawn::Drawn;
 use super::kept::Guess;
+use super::measure;
 use super::own::{Told, own};
-use super::tabs::tabs;
+use super::passes::corrections;
+use super::sides::Sides;
+use super::tabs::{tabs, threads};
 use super::traced::{Block, Motion, Traced};
 use super::walk::Kind;
 use super::way::{Way, way};
-use super::{infer, measure};
-use crate::geometry::Segment;
 use crate::settings::{
     Compensation, Corner, Direction, Effective, Lead, LengthSetting, Order, Sequence, SkimCorner,
 };
@@ -37,8 +38,8 @@ const SLIP: f64 = 1e-2;
 const SLIGHT: f64 = 5e-3;
 /// A tab, an overlap or a lead of another length shows so many blocks from a stop or an end, at most.
 const ABOUT: usize = 3;
-/// Passes that are thought of, at most.
-const PASSES: usize = 4;
+/// A hole for the wire that has room nearly everywhere, mm.
+const HOLE: f64 = 0.5;
 
 /// What somebody has changed in a program that is ours under other settings.
 pub(super) fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Told> {
@@ -53,10 +54,21 @@ pub(super) fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Told> {
     {
         return Some(without_leads(traced, told));
     }
-    let mut search = Search::of(drawn, traced)?;
-    if is_near {
-        search.fuel = MOST_AGAIN;
+    let mut best: Option<Search> = None;
+    for &sides in drawn.sides() {
+        let mut search = Search::of(drawn, traced, sides)?;
+        if is_near {
+            search.fuel = MOST_AGAIN;
+        }
+        search.begin();
+        if best.as_ref().is_none_or(|best| best.score < search.score) {
+            best = Some(search);
+        }
+        if best.as_ref().is_some_and(Search::is_done) {
+            break;
+        }
     }
+    let mut search = best?;
     search.all();
     let (told, under) = search.told.unzip();
     let told = told.map(|told| without_leads(traced, told));
@@ -143,7 +155,7 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    fn of(drawn: &'a Drawn, traced: &'a Traced) -> Option<Search<'a>> {
+    fn of(drawn: &'a Drawn, traced: &'a Traced, sides: Sides) -> Option<Search<'a>> {
         let is_offset = traced.blocks.iter().any(|block| block.is_offset);
         let settings = &*drawn.settings;
         let compensation = match (settings.compensation, is_offset) {
@@ -177,7 +189,11 @@ impl<'a> Search<'a> {
                 .len()
                 .max(segments.min(2 * traced.blocks.len()))
                 .max(LEAST_COST),
-            best: Under { settings, handles },
+            best: Under {
+                settings,
+                sides,
+                handles,
+            },
             score: -1.0,
             ways,
             told: None,
@@ -190,7 +206,8 @@ impl<'a> Search<'a> {
             .is_some_and(|(told, _)| is_certain(self.traced, told))
     }
 
-    fn all(&mut self) {
+    /// By corrections alone.
+    fn begin(&mut self) {
         let base = self.best.clone();
         self.each(false, self.of_corrections());
         if self.score <= 0.0 && base.handles.is_some() {
@@ -202,17 +219,26 @@ impl<'a> Search<'a> {
                     order: settings,
                     ..base.settings
                 },
+                ..base
             };
             self.each(false, self.of_corrections());
         }
+    }
+
+    /// The other settings, one after the other.
+    fn all(&mut self) {
         self.score = -1.0;
         self.each(true, vec![self.best.clone()]);
-        for _ in 0..2 {
+        for nth in 0..2 {
             let before = self.score;
             self.each(true, self.of_directions());
             self.each(true, self.of_leads());
+            self.each(true, self.of_holes());
             self.each(true, self.of_tabs());
             self.each(true, self.of_overlaps());
+            if nth == 0 {
+                self.each(true, self.of_threads());
+            }
             self.each(true, self.of_passes());
             for pass in 0..self.best.settings.each_correction().len() {
                 self.each(true, self.of_steps(pass));
@@ -316,6 +342,33 @@ impl<'a> Search<'a> {
         guesses
     }
 
+    /// The wire may be threaded at the deepest place of an opening.
+    fn of_holes(&self) -> Vec<Under> {
+        let of = |hole| self.with(|settings| settings.start_hole = hole);
+        let others = [None, Some(HOLE)].into_iter();
+        others
+            .filter(|hole| hole.is_some() != self.best.settings.start_hole.is_some())
+            .map(of)
+            .collect()
+    }
+
+    /// The wire may be threaded anywhere: where the program has it.
+    fn of_threads(&self) -> Vec<Under> {
+        let Some(anew) = self.drawn.anew(self.traced, &self.best) else {
+            return Vec::new();
+        };
+        let corrections = self.best.settings.each_correction();
+        let Some([threads, entries]) = threads(self.drawn, self.traced, &anew, &corrections) else {
+            return Vec::new();
+        };
+        let threaded = self.with(|settings| settings.thread = Some(threads.clone()));
+        let entered = self.with(|settings| {
+            settings.thread = Some(threads);
+            settings.entry = Some(entries);
+        });
+        vec![threaded, entered]
+    }
+
     fn of_tabs(&self) -> Vec<Under> {
         let without = self.with(|settings| settings.tab = LengthSetting::One(0.0));
         let Some(anew) = self.drawn.anew(self.traced, &without) else {
@@ -367,81 +420,4 @@ fn correct(settings: &mut Effective, corrections: &[f64]) {
     settings.correction = corrections.first().copied().unwrap_or_default();
     settings.pass = (corrections.len() > 1).then_some(1);
     settings.corrections = corrections.to_vec();
-}
-
-/// Corrections that a program may have been written with, mm, those of several passes falling.
-fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<Vec<f64>> {
-    let scale = drawn.unit_mm * 1e3;
-    let speaks_for = infer::corrections(drawn.contours().iter(), scale, &measure::first(traced));
-    let arcs = traced
-        .blocks
-        .iter()
-        .filter_map(|block| block.segment()?.as_arc());
-    // Round a corner it is the radius; a transition of 4B is larger by a step.
-    let least = arcs
-        .map(|arc| arc.radius / 1e3)
-        .fold(f64::INFINITY, f64::min);
-    let least = least.is_finite().then_some([least, least - 1e-3]);
-    let places = |mm: f64| (mm * 1e3).round() / 1e3;
-    // A way in whose length is counted from the contour is shorter by the correction.
-    let leads = measure::leads(traced, 0.0).into_iter();
-    let leads = leads.map(|(length, _)| drawn.settings.lead_in - length);
-    let lead = leads.take(1).filter(|mm| (0.0..1.0).contains(mm));
-    let rounded = speaks_for.iter().copied().take(2).chain(lead);
-    let rounded = rounded.chain(least.into_iter().flatten());
-    let near = |mm: f64| [0.0, -1e-3, 1e-3].map(|by| places(mm + by));
-    let mut single: Vec<f64> = Vec::new();
-    for mm in rounded.flat_map(near).filter(|mm| *mm > 0.0) {
-        if !single.contains(&mm) {
-            single.push(mm);
-        }
-    }
-    // A shorter number first.
-    let steps = |mm: &f64| (*mm * 1e3).round() as i64;
-    single.sort_by_key(|mm| (steps(mm) % 5 != 0, steps(mm) % 10 != 0));
-    let mut all: Vec<Vec<f64>> = single.into_iter().map(|mm| vec![mm]).collect();
-    let own = drawn.settings.each_correction();
-    if own.len() == 1 {
-        all.insert(0, own);
-    }
-    let count = measure::passes(traced).min(PASSES);
-    if count > 1 {
-        let of_control = traced.four_b || traced.blocks.iter().any(|block| block.is_offset);
-        let falling = |from: f64| {
-            let of = |pass: usize| from * (1.0 - 0.1 * pass as f64);
-            (0..count).map(of).collect()
-        };
-        // Where the control adds the correction, all passes are one way.
-        let mut lists: Vec<Vec<f64>> = match of_control {
-            true => {
-                let single = all.iter().take(4).map(|list| list[0]);
-                let aside = measure::aside(traced);
-                aside.into_iter().chain(single).map(falling).collect()
-            }
-            false => Vec::new(),
-        };
-        let mut each = measure::rounds(traced);
-        each.truncate(PASSES);
-        let of_round = |round: &Vec<Segment>| {
-            infer::corrections(drawn.contours().iter(), scale, round)
-                .first()
-                .copied()
-        };
-        let of_rounds: Option<Vec<f64>> = each.iter().map(of_round).collect();
-        let together = (speaks_for.len() >= count).then(|| speaks_for[..count].to_vec());
-        for mut list in of_rounds
-            .into_iter()
-            .filter(|list| list.len() > 1)
-            .chain(together)
-        {
-            list.sort_by(|a, b| b.total_cmp(a));
-            lists.push(list.iter().map(|mm| (mm * 200.0).round() / 200.0).collect());
-            lists.push(list.iter().map(|mm| places(*mm)).collect());
-            lists.push(list);
-        }
-        all.splice(0..0, lists);
-    }
-    // What the votes come to where it has more than three places.
-    all.extend(speaks_for.first().map(|mm| vec![*mm]));
-    all
 }

@@ -2,11 +2,13 @@
 
 use super::drawn::Drawn;
 use super::traced::Traced;
-use crate::geometry::{Bounds, Segment, Vector};
+use crate::geometry::{Bounds, Segment, Vector, left_normal};
 use std::ops::Range;
 
 /// Boxes of passes of one contour lie so near to each other, µm.
 const BESIDE: f64 = 1_000.0;
+/// Places of one line lie so near to another that runs beside it, µm.
+const PARALLEL: f64 = 3.0;
 /// Pairs of boxes that are compared, at most.
 const MOST: usize = 2_000_000;
 /// Cuts that are asked how they begin, and how far they go on past their start, at most.
@@ -126,6 +128,44 @@ pub(super) fn first(traced: &Traced) -> Vec<Segment> {
     rounds(traced).concat()
 }
 
+/// How much nearer to the wall each pass of the longest contour runs than the first, mm: along its longest line, or about its largest arc.
+pub(super) fn steps(traced: &Traced) -> Vec<f64> {
+    let blocks = first(traced);
+    let longest = |is_arc: bool| {
+        let own = blocks.iter().filter(|it| it.as_arc().is_some() == is_arc);
+        own.max_by(|one, other| one.length().total_cmp(&other.length()))
+    };
+    let beside = |along: &Segment| -> Vec<f64> {
+        let of = |block: &Segment| match (along.as_arc(), block.as_arc()) {
+            (Some(one), Some(other)) => {
+                let is_about = (one.center - other.center).norm() <= PARALLEL;
+                is_about.then_some(other.radius - one.radius)
+            }
+            (None, None) if 2.0 * block.length() > along.length() => {
+                let [from, to] = [block.start(), block.end()]
+                    .map(|place| left_normal(along.start_tangent()).dot(&(place - along.start())));
+                ((to - from).abs() <= PARALLEL).then_some((from + to) / 2.0)
+            }
+            _ => None,
+        };
+        let near = |away: &f64| away.abs() <= BESIDE;
+        let mut all: Vec<f64> = Vec::new();
+        for away in blocks.iter().filter_map(of).filter(near) {
+            if all.iter().all(|known| (known - away).abs() > PARALLEL) {
+                all.push(away);
+            }
+        }
+        let first = all.first().copied().unwrap_or_default();
+        all.into_iter()
+            .map(|away| (away - first).abs() / 1e3)
+            .collect()
+    };
+    let lines = longest(false).map(beside);
+    let falls = |steps: &Vec<f64>| steps.len() > 1 && steps.is_sorted();
+    let found = lines.filter(falls).or_else(|| longest(true).map(beside));
+    found.filter(falls).unwrap_or_default()
+}
+
 /// How often a place on the way round is passed at most, nearly: how many passes there may be.
 pub(super) fn passes(traced: &Traced) -> usize {
     let blocks = first(traced);
@@ -151,10 +191,17 @@ pub(super) fn leads(traced: &Traced, correction: f64) -> Vec<(f64, Option<f64>)>
     lengths.sort_by(|one, other| other.total_cmp(one));
     lengths.dedup_by(|one, other| (*one - *other).abs() <= 2.0);
     lengths.truncate(LEADS);
+    let is_offset = traced.blocks.iter().any(|block| block.is_offset);
     let of = |um: f64| {
         let unstated = hundredths(um + correction * 1e3);
-        let stated = [hundredths(um), um.round() / 1e3];
-        std::iter::once((unstated, None)).chain(stated.map(|length| (length, Some(length))))
+        // The control adds the correction to the way that is written, or takes it away.
+        let stated = [um, um - correction * 1e3].into_iter();
+        let stated = stated
+            .filter(|um| *um > 0.0)
+            .take(if is_offset { 2 } else { 1 });
+        let stated = stated.flat_map(|um| [hundredths(um), um.round() / 1e3]);
+        let stated = stated.map(|length| (length, Some(length)));
+        std::iter::once((unstated, None)).chain(stated)
     };
     lengths.into_iter().flat_map(of).collect()
 }

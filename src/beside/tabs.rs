@@ -1,11 +1,13 @@
-//! How long the tabs of a program are, measured along the drawing's walls.
+//! How long the tabs of a program are, measured along the drawing's walls, and where it begins beside them.
 
 use super::anew::Anew;
 use super::drawn::Drawn;
 use super::traced::{Motion, Traced};
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::write::scaled;
+use crate::settings::PointSetting;
 use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Blocks on either side of a stop, and at the ends of a cut, that may begin or end at a tab.
@@ -78,6 +80,43 @@ pub(super) fn tabs(drawn: &Drawn, traced: &Traced, anew: &Anew, corrections: &[f
     found
 }
 
+/// Where the wire is threaded for each contour, and where its cut begins, in the drawing's unit, by handles.
+pub(super) fn threads(
+    drawn: &Drawn,
+    traced: &Traced,
+    anew: &Anew,
+    corrections: &[f64],
+) -> Option<[PointSetting; 2]> {
+    let walls = Walls::of(drawn, corrections)?;
+    let names: Vec<&str> = drawn
+        .cut()
+        .map(|outline| Some(drawn.handle(outline.contour.pieces.first()?.entity)))
+        .collect::<Option<_>>()?;
+    let (mut threads, mut entries) = (BTreeMap::new(), BTreeMap::new());
+    for [all, contour] in &traced.cuts {
+        let segment = |index: usize| traced.blocks.get(index)?.segment();
+        let (Some(begin), Some(entry)) = (segment(all.start), segment(contour.start)) else {
+            continue;
+        };
+        let by = match traced.is_placed {
+            true => Vector::zeros(),
+            false => laid(traced, all, anew)?,
+        };
+        let Some((index, along)) = walls.foot(entry.start() + by) else {
+            continue;
+        };
+        let wall = walls.at(index, along)?;
+        let name = (*names.get(index)?).to_owned();
+        let scale = drawn.unit_mm * 1e3;
+        let in_drawing = |place: Point| [place.x / scale, place.y / scale];
+        let hole = (begin.start() + by).map(f64::round);
+        threads.entry(name.clone()).or_insert(in_drawing(hole));
+        entries.entry(name).or_insert(in_drawing(wall));
+    }
+    let by_handle = [threads, entries].map(PointSetting::ByHandle);
+    Some(by_handle)
+}
+
 /// The walls of each contour, in the direction of travel, each with the way to its begin; and how long the contour is.
 struct Walls {
     contours: Vec<(Vec<(Segment, f64)>, f64)>,
@@ -104,6 +143,14 @@ impl Walls {
             contours: of_contours.collect(),
             away: on_it.chain(corrections.iter().map(|mm| mm * 1e3)).collect(),
         })
+    }
+
+    /// The place so far along a contour.
+    fn at(&self, contour: usize, along: f64) -> Option<Point> {
+        let (segments, _) = self.contours.get(contour)?;
+        let own = segments.iter().rev().find(|(_, begin)| *begin <= along);
+        let (wall, begin) = own.or(segments.first())?;
+        Some(wall.point_at(((along - begin) / wall.length()).clamp(0.0, 1.0)))
     }
 
     /// The contour beside which a place of the path lies, and how far along it.

@@ -1,5 +1,7 @@
 //! Programs that wedm writes follow the drawings that they are of, every block of them; of those with one wrong block just that one is named.
 
+mod unknown;
+
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -1087,7 +1089,7 @@ fn geometry_of(list: &serde_json::Value) -> Vec<Geometry> {
 #[test]
 fn a_published_program_follows_its_contours() {
     let examples: Vec<serde_json::Value> =
-        serde_json::from_str(include_str!("data/published_3b.json")).expect("examples");
+        serde_json::from_str(include_str!("../data/published_3b.json")).expect("examples");
     let mut named = 0;
     for example in &examples {
         let id = example["id"].as_str().expect("id");
