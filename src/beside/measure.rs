@@ -142,6 +142,10 @@ pub(super) fn steps(traced: &Traced) -> Vec<f64> {
                 is_about.then_some(other.radius - one.radius)
             }
             (None, None) if 2.0 * block.length() > along.length() => {
+                let middle = along.share_of(block.point_at(0.5));
+                if !(0.0..=1.0).contains(&middle) {
+                    return None;
+                }
                 let [from, to] = [block.start(), block.end()]
                     .map(|place| left_normal(along.start_tangent()).dot(&(place - along.start())));
                 ((to - from).abs() <= PARALLEL).then_some((from + to) / 2.0)

@@ -7,6 +7,7 @@ use crate::geometry::{Point, Segment, Vector};
 use crate::program::write::scaled;
 use crate::settings::PointSetting;
 use rustc_hash::FxHashMap;
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -65,18 +66,22 @@ pub(super) fn tabs(drawn: &Drawn, traced: &Traced, anew: &Anew, corrections: &[f
             }
         }
     }
-    let mut rounded: Vec<(usize, f64)> = Vec::new();
+    // That which most stops and entries speak for first, and of these the rounder number.
+    let mut rounded: Vec<(usize, usize, f64)> = Vec::new();
     for um in lengths {
         for (rank, to) in ROUND.iter().enumerate() {
             let round = (um / to).round() * to;
-            let near = (rank, round / 1e3);
-            let is_near = (round - um).abs() <= ROUNDED && near.1 > 0.02;
-            let is_known = rounded.iter().any(|(_, known)| *known == near.1);
-            rounded.extend((is_near && !is_known).then_some(near));
+            if (round - um).abs() > ROUNDED || round <= 20.0 {
+                continue;
+            }
+            match rounded.iter_mut().find(|(.., known)| *known == round) {
+                Some((count, ..)) => *count += 1,
+                None => rounded.push((1, rank, round)),
+            }
         }
     }
-    rounded.sort_by(|one, other| one.0.cmp(&other.0).then(one.1.total_cmp(&other.1)));
-    found.extend(rounded.into_iter().map(|(_, mm)| mm).take(TOLD));
+    rounded.sort_by_key(|(count, rank, _)| (Reverse(*count), *rank));
+    found.extend(rounded.into_iter().map(|(.., um)| um / 1e3).take(TOLD));
     found
 }
 
