@@ -110,11 +110,10 @@ fn is_certain(traced: &Traced, told: &Told) -> bool {
 /// a program that is ours to the last block, or for one change that is large enough to be none of a correction's.
 fn is_told(traced: &Traced, told: &Told) -> bool {
     let all = &told.comparison.differences;
-    // Blocks that are far off are so because the guess goes another way: one that somebody has changed stands among others.
+    // Several that are far off are so because the guess goes another way.
     let is_little = |one: &Difference| one.off <= FAR || one.kind == Kind::Stated;
     let is_ours = match told.is_exact() {
-        true if all.iter().all(is_little) => all.len() <= FEW,
-        true => told.has_gap && all.len() == 1 || is_certain(traced, told),
+        true => all.len() < 2 || all.len() <= FEW && all.iter().all(is_little),
         false => {
             let is_change = |one: &Difference| {
                 one.off >= CHANGED && (one.kind == Kind::Block || one.off <= SLIGHT)
@@ -357,11 +356,8 @@ impl<'a> Search<'a> {
 
     /// The wire may be threaded anywhere: where the program has it.
     fn of_threads(&self) -> Vec<Under> {
-        let Some(anew) = self.drawn.anew(self.traced, &self.best) else {
-            return Vec::new();
-        };
         let corrections = self.best.settings.each_correction();
-        let Some([threads, entries]) = threads(self.drawn, self.traced, &anew, &corrections) else {
+        let Some([threads, entries]) = threads(self.drawn, self.traced, &corrections) else {
             return Vec::new();
         };
         let threaded = self.with(|settings| settings.thread = Some(threads.clone()));

@@ -85,13 +85,16 @@ pub(super) fn tabs(drawn: &Drawn, traced: &Traced, anew: &Anew, corrections: &[f
     found
 }
 
-/// Where the wire is threaded for each contour, and where its cut begins, in the drawing's unit, by handles.
+/// Where the wire is threaded for each contour, and where its cut begins, in the drawing's unit, by handles; `None` of a program that does
+/// not say where it lies.
 pub(super) fn threads(
     drawn: &Drawn,
     traced: &Traced,
-    anew: &Anew,
     corrections: &[f64],
 ) -> Option<[PointSetting; 2]> {
+    if !traced.is_placed {
+        return None;
+    }
     let walls = Walls::of(drawn, corrections)?;
     let names: Vec<&str> = drawn
         .cut()
@@ -103,19 +106,16 @@ pub(super) fn threads(
         let (Some(begin), Some(entry)) = (segment(all.start), segment(contour.start)) else {
             continue;
         };
-        let by = match traced.is_placed {
-            true => Vector::zeros(),
-            false => laid(traced, all, anew)?,
-        };
-        let Some((index, along)) = walls.foot(entry.start() + by) else {
+        let Some((index, along)) = walls.foot(entry.start()) else {
             continue;
         };
         let wall = walls.at(index, along)?;
         let name = (*names.get(index)?).to_owned();
         let scale = drawn.unit_mm * 1e3;
         let in_drawing = |place: Point| [place.x / scale, place.y / scale];
-        let hole = (begin.start() + by).map(f64::round);
-        threads.entry(name.clone()).or_insert(in_drawing(hole));
+        threads
+            .entry(name.clone())
+            .or_insert(in_drawing(begin.start()));
         entries.entry(name).or_insert(in_drawing(wall));
     }
     let by_handle = [threads, entries].map(PointSetting::ByHandle);
