@@ -377,8 +377,8 @@ impl Document {
         }
     }
 
-    /// A document of the same kind under the same settings with other bytes, such as a repair makes. `None` for a
-    /// drawing without text.
+    /// A document of the same kind under the same settings with other bytes, such as a repair makes. Not for a drawing
+    /// without text.
     pub(crate) fn reread(&self, bytes: Vec<u8>) -> Document {
         let settings = self.settings().clone();
         let source = match &self.source {

@@ -47,9 +47,9 @@ pub enum Refusal {
     Errors(Vec<Finding>),
     /// The refusals of the geometry, at their places.
     Findings(Vec<Finding>),
-    /// No path passed its proof, perhaps because of the errors that were forced.
+    /// The program did not pass its proof, perhaps because of the errors that were passed over.
     Unproved(String, Vec<Finding>),
-    /// No path passed its proof although the drawing has no error: a fault of wedm.
+    /// Nothing could be proved although there are no errors: a fault of wedm.
     Fault(String),
     /// The caller cancelled.
     Cancelled,
@@ -96,7 +96,7 @@ impl Refusal {
         }
     }
 
-    /// The paths that failed their proof. Where errors were forced, those are the reason.
+    /// Of a program that was not proved. Where errors were passed over, those are the reason for a failed proof.
     fn of_proof(
         error: ProofError,
         errors: Option<Vec<Finding>>,

@@ -12,7 +12,7 @@ pub(super) fn rounded(value: f64, decimals: usize) -> String {
     if text == "-0" { "0" } else { text }.into()
 }
 
-/// µm as mm with three decimals: the grid of machines is 1 µm.
+/// µm as mm with three decimals: the places that a machine on a µm grid can reach.
 pub(super) fn mm(micrometres: f64) -> String {
     let text = format!("{:.3}", micrometres / 1000.0);
     if text == "-0.000" {

@@ -54,7 +54,7 @@ impl<'a> Whole<'a> {
         }
     }
 
-    /// The pieces of the text, at most `limit`.
+    /// Calls `take` for each piece of the text, at most `limit`.
     pub(crate) fn tokens(
         &self,
         limit: usize,

@@ -61,7 +61,7 @@ pub(crate) fn convert(
     let any_errors = errors
         .iter()
         .any(|finding| finding.rule != Rule::NotTheDrawing);
-    // A radius that the wire cannot follow changes neither the program's path nor the drawing of it.
+    // Neither a radius that the wire cannot follow nor what the drawing is now changes where the wire goes.
     errors.retain(|finding| !matches!(finding.rule, Rule::SmallRadius | Rule::NotTheDrawing));
     if !force && !errors.is_empty() {
         return Err(Refusal::Errors(errors));

@@ -127,7 +127,7 @@ fn one(
     let drawing = snapshot.drawing.clone();
     let corrections = settings.each_correction();
     // Its passes have been checked against the wire; a correction reduced by the clearance may be below the wire's
-    // radius, which is meant.
+    // radius, and still leaves the part that is meant.
     let settings = Arc::new(Effective {
         wire_diameter: None,
         ..settings

@@ -59,7 +59,7 @@ fn data_of(frame: &Frame, subject: &Subject, entity: &Entity) -> String {
 }
 
 /// The insides of closed contours, the largest first, so that openings lie upon the part that holds them; each with
-/// what the wire cuts along it, and what it leaves standing.
+/// what the wire cuts along it, and what it leaves of the area that it should cut.
 fn areas(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     let drawing = subject.drawing;
     // By size: whether it is an opening, its contour, and its place among the outlines.

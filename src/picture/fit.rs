@@ -1,4 +1,4 @@
-//! A punch in its plate, as the wire leaves them: places without clearance are marked and enlarged.
+//! A punch in its plate, as the wire leaves them: the places where clearance is missing are marked and enlarged.
 
 use super::marks;
 use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped, named, number, path_data};
@@ -132,7 +132,7 @@ fn number_of(sheet: &mut Sheet, at: (f64, f64), index: usize) {
     ));
 }
 
-/// One place enlarged to suit its clearance, with the remaining distance.
+/// One place enlarged to suit its clearance, with what is left of that.
 fn lens(
     sheet: &mut Sheet,
     fit: &Fit,

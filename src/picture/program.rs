@@ -93,7 +93,7 @@ fn mm(point: Point) -> Point {
 
 const UPPER: &str = r#"<path class="upper" d="M0 0h24"/>"#;
 
-/// A move, and the end of the wire's upper end.
+/// A move, and the way of the wire's upper end.
 type Leaning<'a> = (&'a &'a Step, &'a Vec<Segment>);
 
 /// Both lean, in one contour.
@@ -200,7 +200,7 @@ fn label(step: &Step) -> String {
     say!(step_in_line, number, step.line + 1, what, end.x, end.y)
 }
 
-/// The start of each contour; coinciding starts once.
+/// The start of each contour, with its number where there are several.
 fn thread_holes(sheet: &mut Sheet, frame: &Frame, moving: &[&Step]) {
     let begins = moving.iter().enumerate().filter(|(index, step)| {
         let before = index.checked_sub(1).and_then(|before| moving.get(before));

@@ -91,7 +91,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// Centres `bounds` in the window, as large as possible.
+    /// Centres `bounds` across the sheet, as large as there is room for.
     pub(crate) fn fitting(bounds: &Bounds) -> Frame {
         let scale = (FIGURE_WIDTH / bounds.width()).min(FIGURE_HEIGHT / bounds.height());
         // A single point has no extent to fit.

@@ -158,7 +158,7 @@ pub(super) const THREAD: &str =
 
 pub(super) const JUMP: &str = r#"<path class="jump" d="M0 0h24"/>"#;
 
-/// The legend for the kinds of lines in the drawing.
+/// The legend for the kinds of lines that occur in the drawing.
 pub(super) fn entries(shown: &Shown) -> Vec<Entry> {
     let mut entries = vec![(r#"<path class="contour" d="M0 0h24"/>"#, say!(a_contour))];
     if shown.part {

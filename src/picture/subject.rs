@@ -69,7 +69,7 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// The box of everything cut; of the whole drawing where nothing is.
+    /// The box of everything cut; of everything shown where nothing is.
     pub(crate) fn extents(&self) -> Bounds {
         let mut bounds = Bounds::EMPTY;
         for outline in self.outlines {
@@ -141,7 +141,7 @@ fn tight_arcs<'a>(drawing: &Drawing, findings: &'a [Finding]) -> Vec<Fault<'a>> 
     faults.collect()
 }
 
-/// The box of the whole drawing; `None` where nothing finite is drawn.
+/// The box of the drawing and the paths; `None` where nothing finite is drawn.
 fn extents(drawing: &Drawing, paths: &[WirePath]) -> Option<Bounds> {
     let mut bounds = Bounds::EMPTY;
     for (_, entity) in drawing.entities() {
@@ -166,7 +166,7 @@ fn extents(drawing: &Drawing, paths: &[WirePath]) -> Option<Bounds> {
         .then_some(bounds)
 }
 
-/// An error or a warning on a segment, of any rule but `small-radius`; and the hints with a place.
+/// An error or a warning on a segment, of any rule but `small-radius`; and the hints that are of one place.
 pub(super) fn is_other(finding: &Finding) -> bool {
     let is_of_segment = matches!(finding.place, Place::Segment { .. });
     let is_of_one_place = matches!(

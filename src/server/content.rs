@@ -41,7 +41,7 @@ pub(super) enum Remains {
 const SMALL_TEXT: usize = 16 * 1024;
 const SMALL_DRAWING: usize = 500;
 
-/// The most that a drawing or program may grow beyond its own length.
+/// Words by which a drawing or program may grow beyond its own length.
 const MULTIPLIERS_IN_DXF: [&[u8]; 4] = [b"INSERT", b"SPLINE", b"ELLIPSE", b"HATCH"];
 const MULTIPLIERS_IN_ISO: [&[u8]; 2] = [b"98", b"L"];
 

@@ -94,7 +94,7 @@ pub(super) fn change(state: &mut State, sent: SentChanges) {
     }
 }
 
-/// A change of a drawing that failed.
+/// Called when a change of a drawing was not made.
 pub(super) fn does_not_apply(state: &mut State, uri: &Arc<str>, reason: &str) {
     refuse(
         state,

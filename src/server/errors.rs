@@ -9,7 +9,7 @@ use crate::protocol::{Diagnostic, Refused};
 use crate::text::Encoding;
 use tower_lsp::jsonrpc::{Error, ErrorCode};
 
-/// −32803: refused because of the document's state.
+/// −32803: refused because of what the document is, or what the client can do.
 pub(super) fn refused(message: impl Into<String>) -> Error {
     Error {
         code: ErrorCode::ServerError(-32803),

@@ -36,7 +36,7 @@ pub(super) enum Task {
     Settings,
     /// The derived data are in doubt.
     Rebuild,
-    /// The document beside it may have changed.
+    /// What lies beside it may have changed, or be another.
     Beside,
 }
 
@@ -190,7 +190,7 @@ impl Job {
             is_changed |= refused.len() == refusals;
             is_other |= wants_form;
         }
-        // Data in doubt after a panic are derived again.
+        // A text or drawing that a panic has left is read again.
         is_changed |= matches!(content, Content::Unread(_));
         is_other |= wants_form && matches!(content, Content::Unread(_));
         content.read(&settings);

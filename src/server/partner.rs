@@ -27,7 +27,7 @@ impl Form {
     }
 }
 
-/// The partner of an open document.
+/// The partner or partners of an open document.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) enum Link {
     #[default]
@@ -38,10 +38,10 @@ pub(super) enum Link {
     Programs(Vec<PathBuf>),
 }
 
-/// The identity of a file when it was read.
+/// The time of the last change of a file, and its length in bytes, when it was read.
 pub(super) type Stamp = Option<(SystemTime, u64)>;
 
-/// The partner of a document that is judged.
+/// The partners of a document that is judged.
 pub(super) struct Wanted {
     pub others: Vec<Arc<str>>,
     pub partners: Vec<(Arc<str>, From)>,
@@ -83,7 +83,7 @@ impl Wanted {
         self.partners.iter().all(known)
     }
 
-    /// The partner of the document, and the files that were read for it.
+    /// The partners of the document, and the files that were read for it.
     pub fn read(self) -> (Beside, Vec<(PathBuf, Kept)>) {
         let mut read = Vec::new();
         let mut forms = Vec::with_capacity(self.partners.len());

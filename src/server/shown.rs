@@ -34,7 +34,7 @@ pub(super) fn publish_of(
 pub(super) struct Shown {
     /// The conditions under which they were made.
     settings: Option<Arc<Effective>>,
-    /// The key of each kept finding.
+    /// The mark of each kept finding, by which it is searched for.
     marks: Vec<u64>,
     /// Behind those of the last publish the most recently removed ones: often a key removes a finding and the next
     /// brings it back.

@@ -1,7 +1,7 @@
 //! How much work may go into one document.
 
-/// The work that one document may take beyond its length, in counted steps: what is left out depends only on the
-/// document, not on the machine or on earlier edits. Not a user setting.
+/// The work that one document may take where it grows with more than the document's length, in counted steps: what is
+/// left out depends only on the document, not on the machine or on earlier edits. Not a user setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
     /// The comparisons that the segments of a drawing may take, and in addition for each segment: one for a pair of

@@ -40,7 +40,7 @@ pub struct Effective {
     pub contours: BTreeMap<String, Role>,
     /// Settings of single contours of the document, by handle or point.
     pub own: BTreeMap<String, ContourSettings>,
-    /// The roles among those of contours named by a point.
+    /// The roles among those, for contours that are named by a point.
     pub points: Vec<(Point, Role)>,
     pub colors: BTreeMap<Color, Role>,
     pub severities: BTreeMap<Rule, Option<Severity>>,
@@ -293,9 +293,9 @@ impl Effective {
         mass.is_some_and(|(mass, limit)| mass > limit)
     }
 
-    /// The radius that the last pass leaves in a sharp corner inside the path, mm: half its kerf, or its correction
-    /// where nothing else is known; with skims of constant stock, plus the distance between the first path and the
-    /// last.
+    /// The radius that the last pass leaves in a sharp corner when the wire runs on its inside, mm: half its kerf, or
+    /// its correction where nothing else is known; with skims of constant stock, plus the distance between the first
+    /// path and the last.
     pub(crate) fn corner_radius(&self) -> f64 {
         let last = self.last_correction();
         let number = self.corrections.len().saturating_sub(1);

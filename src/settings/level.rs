@@ -42,7 +42,7 @@ fn refuse_unknown_profile(reader: &mut Reader, settings: &mut Settings, root: &N
     }
 }
 
-/// The value that a fault of the passes concerns, else the table of the passes.
+/// The value that a fault concerns; for one of the passes without a value, the correction, else the wire's diameter.
 pub(super) fn place_of(root: &Node, fault: &PassFault) -> Option<std::ops::Range<usize>> {
     let (table, named) = fault.key.split_once('.').unwrap_or(("passes", fault.key));
     let named = snake_case(named);

@@ -396,12 +396,12 @@ pub(super) fn codes_of(record: &str) -> Vec<Code> {
     found
 }
 
-/// The kind of a code's value in any other record.
+/// The kind of a code's value where nothing more is known of it.
 pub(super) fn value_of(code: i16) -> Value {
     by_range(code).1
 }
 
-/// The meaning of a code in any other record.
+/// The meaning of a code, and the kind of its value, where nothing more is known of it.
 fn by_range(code: i16) -> (About, Value) {
     match code {
         5 | 105 => (said::a_handle, Value::OwnHandle),

@@ -2,7 +2,7 @@
 
 use crate::ide::{Fold, FoldKind, Symbol, SymbolKind};
 
-/// The folds of a tree, in the order of the text. Beyond `limit` the outermost go first.
+/// The folds of a tree, in the order of the text. Where there are more than `limit`, only the outermost.
 pub fn folds(tree: &[Symbol], limit: usize) -> Vec<Fold> {
     let mut found = Vec::new();
     collect(tree, 0, &mut found);

@@ -10,7 +10,7 @@ use crate::ide::{Stop, Token, TokenKind};
 use crate::text::SourceText;
 use std::ops::Range;
 
-/// The tokens of the whole text, at most `limit`; `None` when it was stopped.
+/// Calls `take` for each token of the whole text, at most `limit`; `None` when it was stopped.
 pub fn tokens(
     text: &SourceText,
     limit: usize,

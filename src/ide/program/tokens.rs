@@ -44,7 +44,7 @@ pub(crate) fn tokens_in(document: &Document, lines: Range<usize>) -> Vec<Token> 
     found
 }
 
-/// The tokens of the whole text, at most `limit`; each line stands for itself.
+/// Calls `take` for each token of the whole text, at most `limit`; each line stands for itself.
 pub(crate) fn tokens(
     document: &Document,
     limit: usize,

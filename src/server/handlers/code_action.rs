@@ -20,7 +20,8 @@ pub(in crate::server) const FIX_ALL: &str = "source.fixAll.wedm";
 /// More findings than this in one range get their fixes by "fix all" only: nobody picks from a longer list.
 const LISTED: usize = 100;
 
-/// Lines of a text, or entities of a drawing, beyond which nested repairs are not tried: it costs too much.
+/// Lines of a text, or entities of a drawing, beyond which repairs after other repairs are only tried on request: it
+/// costs too much to try them for no use.
 const LONG: usize = 50_000;
 
 pub(in crate::server) fn code_action(
@@ -94,7 +95,8 @@ fn actions(
         .collect()
 }
 
-/// In a long document, found once where the editor asks for everything at every step of the cursor.
+/// All safe fixes; in a long document one round of them where the editor asks for everything at every step of the
+/// cursor.
 fn fix_all(
     context: &RequestContext,
     document: &Document,
@@ -160,7 +162,7 @@ fn wants(context: &CodeActionContext, kind: &str) -> bool {
     })
 }
 
-/// The findings that the client means: those of its diagnostics, if given, else those in the range.
+/// The findings that the client means: those of its diagnostics where they say which, else those in the range.
 fn chosen(
     context: &RequestContext,
     document: &Document,

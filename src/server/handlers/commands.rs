@@ -10,7 +10,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use tower_lsp::jsonrpc::{Error, Result};
 
-/// The only argument of a command; `misfit` and `shape` say what is wrong with it, and what is expected.
+/// The only argument of a command; `misfit` and `shape` say what is wrong with any other, and what is expected.
 fn argument<T: DeserializeOwned>(arguments: Vec<Value>, misfit: &str, shape: &str) -> Result<T> {
     let [argument] = <[Value; 1]>::try_from(arguments)
         .map_err(|_| Error::invalid_params(say!(the_command_takes_one_argument, shape)))?;

@@ -57,7 +57,8 @@ pub(in crate::server) fn code_lens(
 /// Segments of a drawing beyond which no path is planned for a lens.
 const LAID: usize = 5_000;
 
-/// The totals of a drawing's cuts, above its first line; none without a text, or without cuts.
+/// The totals of a drawing's cuts and the largest wire, above its first line; nothing without a text, or where neither
+/// is known.
 fn of_drawing(context: &RequestContext) -> Option<Vec<CodeLens>> {
     let (document, text) = context.document_and_text()?;
     document.drawing()?;

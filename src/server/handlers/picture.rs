@@ -1,5 +1,5 @@
 //! `wedm/picture` and `wedm/export`: contours, faults and wire path of a drawing, or the path of a program, as SVG or
-//! as a file; `wedm/repairs`: a finding's place after each of its repairs.
+//! as a file; `wedm/repairs`: the segments that each repair of a finding adds.
 
 use super::Task;
 use crate::drawing::{Drawing, DrawingEdit, Touched};

@@ -218,7 +218,7 @@ fn write_all(shared: &Shared, mut output: impl Write) -> std::io::Result<()> {
                     queue.bytes -= publish.size();
                     break Next::Publish(publish);
                 }
-                // A place in line whose diagnostics were superseded is empty.
+                // A place in line whose diagnostics were superseded by owed ones is empty.
                 Some(Waiting::Slot(uri, ticket)) => {
                     if queue.slots.get(&uri).is_some_and(|(own, _)| *own == ticket)
                         && let Some((_, publish)) = queue.slots.remove(&uri)

@@ -15,7 +15,7 @@ use crate::program::iso::word::{Number, Token, WordFault};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// The most G and M words that are offered unasked.
+/// The G and M words that are offered unasked.
 const G_WORDS: [u8; 15] = [0, 1, 2, 3, 4, 17, 20, 21, 40, 41, 42, 90, 91, 92, 70];
 const M_WORDS: [u8; 6] = [0, 1, 2, 30, 98, 99];
 

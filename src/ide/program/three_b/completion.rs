@@ -243,7 +243,7 @@ fn beginnings(document: &Document, start: usize, offset: usize) -> Vec<Completio
         && let Some(first) = chain.step(0)
     {
         targets.push((say!(line_back_to_the_start_of_the_contour), first.start));
-        // Where the contour is closed, the way out is left.
+        // Where the contour is closed, only the way out is left.
         if chain.count() == 1 || !cut_of(&chain).is_some_and(|cut| cut.closed) {
             targets.push((say!(line_to_the_end_of_the_lead_in), first.end));
         }
