@@ -93,7 +93,7 @@ impl Analysis {
             .is_some_and(|key| !self.is_lone(key))
     }
 
-    /// One finding for each kind of visible entity that is not cut.
+    /// One finding for all visible entities that are not cut.
     pub(super) fn report_set_aside(&self, drawing: &Drawing, report: &mut Report) {
         let by_itself = self.aside.iter().filter_map(|&id| {
             let why = set_aside(drawing, &self.settings, id)?;

@@ -105,8 +105,8 @@ impl Analysis {
 
     /// One edit that makes every safe fix; `None` where there is none.
     ///
-    /// Doubles first, then arcs; after those the safe fixes of the other rules, one rule at a time: call again until
-    /// nothing is left.
+    /// Doubles first, then arcs; only where there are none of these to fix, the safe fixes of the other rules, one rule
+    /// at a time: call again until nothing is left.
     pub fn fix_all(&self, drawing: &Drawing) -> Option<DrawingEdit> {
         self.fix_all_of(drawing, Wanted::default())
     }

@@ -142,7 +142,7 @@ impl Analysis {
     }
 
     /// Why there is no path of the wire on `side` of a contour. `None` for a contour that is too long to ask at every
-    /// edit, is the wire's path itself, or whose arcs have findings of it.
+    /// edit, is the wire's path itself, or consists of arcs each of which has its own finding.
     pub(super) fn misfit(&self, drawing: &Drawing, key: ContourKey, side: Side) -> Option<Finding> {
         let (contour, known) = (self.chains.get(key)?, self.known.get(&key)?);
         if contour.len() > lost_pocket::MOST_SEGMENTS

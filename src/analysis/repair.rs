@@ -11,7 +11,7 @@ use std::borrow::Cow;
 /// would be moved.
 pub(super) const FIRST: [Rule; 2] = [Rule::DuplicateEntity, Rule::Overlap];
 
-/// And the first of the rules after that which has any.
+/// And the rules whose safe repairs it makes after that: of the first of them that has any.
 pub(super) const THEN: [Rule; 3] = [Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords];
 
 /// Edits that are tried before a rule is given up: each costs a look at the drawing. In a large one, enough to read
@@ -46,8 +46,8 @@ impl Analysis {
             .collect()
     }
 
-    /// The findings after an edit that is possible, leaves no more errors and warnings than `before`, and fewer
-    /// findings of `rule`; `None` for any other edit.
+    /// The findings after an edit that is possible, leaves no more errors than `before`, no more errors and warnings
+    /// together, and fewer findings of `rule`; `None` for any other edit.
     fn mends(
         &self,
         drawing: &Drawing,

@@ -18,7 +18,7 @@ pub(super) struct Told {
     pub(super) pairs: Vec<ToldPair>,
     /// The number of each rule and severity.
     pub(super) counts: BTreeMap<(usize, Option<Severity>), usize>,
-    /// The number of other findings that they stand for.
+    /// The number of those that other findings stand for, by their rule and severity.
     pub(super) absorbed: BTreeMap<(usize, Option<Severity>), usize>,
 }
 

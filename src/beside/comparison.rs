@@ -228,7 +228,7 @@ fn sound_somewhere(traced: &Traced, rounds: &Rounds, pose: Pose) -> Option<Walke
     poses.find_map(|pose| Some(sound(traced, rounds, pose)?.0))
 }
 
-/// The longest tab that may be left standing, µm.
+/// The lengths of the tabs that may be left standing, µm.
 fn tabs(drawn: &Drawn) -> Vec<f64> {
     match &drawn.settings.tab {
         LengthSetting::One(tab) => vec![tab * 1e3],

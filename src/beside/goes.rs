@@ -4,7 +4,7 @@ use super::COVERED;
 use super::rounds::Rounds;
 use std::ops::Range;
 
-/// The overlap of consecutive stretches, as a share of their round.
+/// The most that may be cut twice where consecutive stretches overlap, as a share of their round.
 const TWICE: f64 = 0.35;
 
 /// What has been cut from stop to stop.
@@ -42,7 +42,7 @@ impl Goes {
         self.done.append(&mut self.open);
     }
 
-    /// Whether each encloses its round, alone or with others: a tab is cut by itself.
+    /// Whether each goes all along its round, alone or with others: a tab is cut by itself.
     pub(crate) fn are_whole(mut self, rounds: &Rounds) -> bool {
         self.end();
         let mut partial: Vec<Go> = Vec::new();

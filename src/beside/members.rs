@@ -54,7 +54,7 @@ impl Members {
         }
     }
 
-    /// Takes one block after the other; fails at the latest at the first one that shows a difference.
+    /// Takes in one block after the other; sets `is_broken` at the first one that shows a difference.
     pub fn take(&mut self, traced: &Traced, rounds: &Rounds, index: usize) {
         let segment = match &traced.blocks[index].motion {
             Motion::Cut(segment) => segment,

@@ -153,7 +153,7 @@ impl Words {
 }
 
 impl<'a> Pairs<'a> {
-    /// `None` where there are more differences than blocks lost or superfluous in one place.
+    /// `None` where blocks are lost or superfluous and there is any other difference, or where they are too many.
     fn of(traced: &'a Traced, anew: &'a Anew) -> Option<Pairs<'a>> {
         let (own, meant) = (&traced.blocks[..], &anew.traced.blocks[..]);
         let (more, lost) = (
@@ -241,7 +241,7 @@ impl<'a> Pairs<'a> {
             }
             let is_behind = before || pair.behind_gap;
             let away = away(&own.motion, &meant.motion, from, is_behind);
-            // Behind a superfluous block there may be others of its kind.
+            // Behind a block that is lost or superfluous the next one may be of another kind.
             let away = away.or(pair.behind_gap.then_some(0.0))?;
             let off = match words.apart {
                 Some(apart) if is_in_our_words => away.max(apart),

@@ -43,8 +43,8 @@ pub(super) struct Round {
     pub length: f64,
     /// Centre and radius, where it is a circle.
     pub circle: Option<(Point, f64)>,
-    /// How far to the left of it the wire runs, where the control offsets it: 4B moves it there at the start of the
-    /// wire.
+    /// How far to the left of it the wire runs, where the control offsets it: 4B moves it there where the wire
+    /// begins.
     beside: Option<f64>,
 }
 

@@ -65,7 +65,7 @@ impl Traced {
         let trace = program.trace();
         let cuts = path::cuts(&trace);
         let cuts = cuts.iter().filter(|cut| !cut.is_way);
-        // A way that does not return to its start may be a part of a contour that is cut before or behind.
+        // A cut that does not return to its start may be a part of a contour that is cut before or behind.
         let cuts = cuts.map(|cut| {
             let contour = cut.contour_steps();
             let is_one = cut.closed || contour.len() > 2 * BETWEEN;

@@ -72,7 +72,7 @@ struct Run {
     split: usize,
     /// The block before which pieces were last skipped: not twice, or there is no end.
     passed: Option<usize>,
-    /// Before its start, and its distance from there.
+    /// By how much the program lies elsewhere from its start on than before.
     moved: Option<Vector>,
 }
 
@@ -120,11 +120,11 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// `tabs`: the longest tab that may be left standing, µm.
+    /// `tabs`: the lengths of the tabs that may be left standing, µm.
     pub fn go(mut self, tabs: &[f64]) -> Walked {
         let mut run: Option<Run> = None;
         let (mut index, mut tried) = (0, 0);
-        // Each block is returned to once.
+        // From each block the walk goes back once at most.
         let mut gone_back = 0;
         while let Some(block) = self.traced.blocks.get(index) {
             match block.motion {

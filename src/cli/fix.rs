@@ -40,10 +40,10 @@ struct Target {
     diff: bool,
 }
 
-/// This many are shown of the repaired findings.
+/// The words for a number of repaired findings.
 type Counted = fn(&usize) -> String;
 
-/// The rules whose findings are repaired unasked, with their counts.
+/// The rules whose findings are repaired unasked, with the words for their number.
 fn repaired_rules() -> [(Rule, Counted); 6] {
     [
         (Rule::SmallRadius, said::arcs),
@@ -58,7 +58,7 @@ fn repaired_rules() -> [(Rule, Counted); 6] {
 /// The most findings that are asked why they were not repaired: each answer costs a look at the drawing.
 const LISTED: usize = 100;
 
-/// Further findings are counted by rule.
+/// If more findings than this are left, they are counted by rule.
 const LEFT: usize = 8;
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {

@@ -101,7 +101,7 @@ fn is_program(path: &Path) -> bool {
     })
 }
 
-/// Formats one program and delivers it; true where it changed.
+/// Formats one program and delivers it; true where it was not in its layout.
 fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
     let common = Common {
         config: arguments.config.clone(),

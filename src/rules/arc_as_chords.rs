@@ -1,7 +1,7 @@
 //! `arc-as-chords`: five or more lines in a row whose ends lie on one circle.
 //!
-//! Some export broke the drawing's arc into chords. The wire cuts the facets, and the program has a block for each.
-//! Fix: one arc.
+//! Somewhere on its way the drawing's arc was broken into chords. The wire cuts the facets, and the program has a block
+//! for each. Fix: one arc.
 //!
 //! An observation at a segment depends on two windows of [`LEAST`] chords: the one that starts there and the one that
 //! starts a segment earlier. A sequence begins where the first fits one circle and the second does not. Its length is
@@ -130,7 +130,7 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
     }
 }
 
-/// For each of some segments: whether [`LEAST`] chords of one circle follow it.
+/// For each of some segments: whether [`LEAST`] chords of one circle in a row begin with it.
 fn windows(outlook: &Outlook, starts: Range<isize>) -> Vec<bool> {
     if outlook.contour.len() < LEAST {
         return vec![false; starts.len()];

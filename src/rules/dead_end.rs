@@ -236,7 +236,7 @@ impl DeadEnd {
         ) * self.side.sign()
     }
 
-    /// True when only the two walls reach into the disc.
+    /// True when no segment near the two walls reaches into the disc.
     fn is_clear_nearby(&self, one: &Wall, other: &Wall) -> bool {
         let least = self.radius - slack(one.outlook.limits, self.radius);
         let reach = NEIGHBOURS as isize;

@@ -81,7 +81,7 @@ pub(crate) struct Outlook<'a> {
     pub(crate) limits: &'a Limits,
     /// The number of its workpiece: contours of others do not meet it.
     pub(crate) part: u16,
-    /// Segments that need no new look.
+    /// Segments that need not be worked out again.
     pub(crate) at_hand: Option<&'a AtHand>,
 }
 
@@ -188,7 +188,7 @@ pub(crate) struct Observation {
 }
 
 impl Observation {
-    /// An observation at the segment with this index, on either side of the wire.
+    /// An observation at the segment with this index, whichever side the wire runs on.
     pub(crate) fn at(index: usize) -> Observation {
         Observation {
             index: index as u32,
@@ -264,7 +264,7 @@ pub(crate) type Places = (Place, Vec<Place>);
 pub(crate) struct ContourRule {
     pub(crate) rule: Rule,
     pub(crate) holds: fn(&Outlook) -> bool,
-    /// The mildest severity that some settings ask for, unless the user has set the rule.
+    /// The severity that it has at most under some settings, unless the user has set the rule.
     pub(crate) mildest: fn(&Effective) -> Option<Severity>,
     /// The place, and the other places that are concerned.
     pub(crate) places: fn(&Outlook) -> Option<Places>,

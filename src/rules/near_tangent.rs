@@ -38,7 +38,7 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
             if between.get(index - range.start) == Some(&true) {
                 continue;
             }
-            // Where the wire runs inside, the larger kinks are sharp corners, if `sharp-corner` is on.
+            // Where the wire runs inside, the larger kinks are sharp corners, if they leave enough to count.
             let uncut = own_share(outlook.limits.last_correction, turn);
             let is_corner = uncut >= outlook.limits.tolerances.resolution;
             observations.push(Observation {

@@ -88,7 +88,8 @@ pub(crate) struct Joints {
 }
 
 impl Joints {
-    /// The joints of two segments. Segments no longer than `short` between them count as part of a joint.
+    /// The joints of two segments. The segments between them count as part of a joint where they are together no longer
+    /// than `short`.
     pub(crate) fn of(one: &Wall, other: &Wall, same_contour: bool, short: f64) -> Joints {
         let mut joints = Joints::default();
         if !same_contour {

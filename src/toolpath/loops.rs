@@ -2,7 +2,8 @@
 //! enough.
 //!
 //! Every raw element is cut where another one crosses it. The parts that keep clear of the walls stay, and are followed
-//! from end to end in the order of the contour. The result are the edges of all regions for the wire's centre.
+//! from end to end in the order of the contour. The result is the edges of all regions in which the
+//! wire's centre may be.
 
 use super::corners::{Element, between, close_up};
 use super::proof::Proof;

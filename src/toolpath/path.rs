@@ -66,7 +66,7 @@ pub struct WirePath {
     pub cut_off: bool,
     /// The distance of the path from the contour, drawing units; 0 where the contour is the path.
     pub correction: f64,
-    /// The thread hole, to which it returns.
+    /// The thread hole, to which the wire returns.
     pub thread_hole: Point,
     /// The side of travel on which the control must let the wire run; `None` where the path is that of the wire.
     pub side: Option<Side>,

@@ -27,7 +27,8 @@ pub(super) struct Landing {
 }
 
 impl Landing {
-    /// The start of `path`, which runs to the `side` of its contour; the control lets the wire run `control` beside it.
+    /// Where a path begins, at `path`, that runs to the `side` of its contour; the control lets the wire run `control`
+    /// beside it.
     pub(crate) fn of_begin(path: Point, along: Vector, side: f64, control: f64) -> Landing {
         let room = left_normal(along) * side;
         let at = match control {
@@ -49,7 +50,7 @@ impl Landing {
         oblique.abs() > OBLIQUE
     }
 
-    /// Its end, for a lead that is gone backwards.
+    /// Where such a path ends, at `path`, for a lead that is gone backwards.
     pub(crate) fn of_end(path: Point, along: Vector, side: f64, control: f64) -> Landing {
         let begin = Landing::of_begin(path, along, side, control);
         Landing {

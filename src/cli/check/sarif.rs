@@ -99,7 +99,7 @@ fn level(severity: Severity) -> &'static str {
     }
 }
 
-/// A path as a URI reference: relative paths stay relative, other characters are escaped.
+/// A path as a URI reference: relative paths stay relative, characters that a URI cannot hold are escaped.
 fn uri(path: &str) -> String {
     let forward = if cfg!(windows) {
         path.replace('\\', "/")

@@ -9,7 +9,7 @@ use std::time::Duration;
 const COLUMNS: usize = 80;
 const INDENT: usize = 4;
 
-/// Set for a drawing with text: its diagnostics have lines.
+/// What is behind a drawing: with a text, its diagnostics have lines.
 pub(crate) enum Behind {
     Text,
     Nothing,

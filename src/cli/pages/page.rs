@@ -15,7 +15,7 @@ use crate::protocol::{Contours, Fit, Inspection, Milling, SegmentKind, StartHole
 use crate::toolpath::{self, WirePath};
 use std::collections::BTreeMap;
 
-/// The most arcs of the radius list, and findings of one rule, on a page; the commands list all.
+/// The most arcs of the radius list, and findings of one rule, on a page: whoever wants all asks for them.
 const MOST_ARCS: usize = 100;
 const MOST_OF_A_RULE: usize = 50;
 /// The same for milled contours.
@@ -34,10 +34,11 @@ pub(super) struct Page {
     holes: Vec<StartHole>,
     /// The totals of the paths, if there are any.
     work: Option<Work>,
-    /// The fit, if it is set, or why it is unknown.
+    /// The fit, if a clearance is set, or why it is unknown.
     fit: Option<Result<Fit, String>>,
-    /// The program, or why there is none. The layers of an electrode, and their results.
+    /// The layers of an electrode, and their results.
     milling: Vec<String>,
+    /// The program, or why there is none.
     program: Result<Generated, String>,
     format: Format,
 }

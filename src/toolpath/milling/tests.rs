@@ -206,7 +206,7 @@ fn layers_go_to_and_fro_and_the_last_one_is_what_is_left() {
         })
         .collect();
     assert_eq!(ways, [(0.0, 2.0), (2.0, 0.0), (0.0, 2.0)]);
-    // In binary 0.3 / 0.1 is a little less than 3, and 0.7 / 0.1, rounded, a little more than 7.
+    // In binary 0.3 / 0.1 is a little less than 3, and 0.7 / 0.1 a little less than 7.
     for (depth, layer, count) in [
         (0.3, 0.1, 3),
         (0.7, 0.1, 7),
