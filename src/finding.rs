@@ -64,7 +64,7 @@ impl Place {
 }
 
 impl Finding {
-    /// True if it concerns one of the `entities`; with an empty list, if it concerns any entity, the document as a
+    /// True if it concerns one of the `entities`, or any where they are `None`; always if it concerns the document as a
     /// whole or its text.
     pub(crate) fn concerns(&self, entities: Option<&FxHashSet<EntityId>>) -> bool {
         let of_entities = |entities| {

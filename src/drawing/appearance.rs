@@ -3,7 +3,8 @@
 use super::{Drawing, EntityId};
 use std::sync::Arc;
 
-/// Why an entity is not simply shown in the CAD program. A hidden entity is not cut, unless somebody gives it a role.
+/// Whether the CAD program shows an entity, and if not, why. A hidden entity is not cut, unless somebody gives it a
+/// role.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Visibility {
     #[default]
@@ -35,7 +36,7 @@ pub(crate) struct Linetype {
 /// Words that the drawing itself holds for one entity.
 pub(crate) type Marks = Arc<[Arc<str>]>;
 
-/// The name of a layer that marks everything on it: `WEDM_SUPPRESS_gap_as the customer drew it`.
+/// The mark in the name of a layer, for everything on it: `WEDM_SUPPRESS_gap_as the customer drew it`.
 pub(crate) fn mark_of_layer(layer: &str) -> Option<&str> {
     let (ours, mark) = (layer.get(..5)?, layer.get(5..)?);
     let is_mark = |mark: &&str| {
@@ -49,7 +50,7 @@ pub(crate) fn mark_of_layer(layer: &str) -> Option<&str> {
 /// The word that begins a mark which suppresses a finding.
 pub(crate) const SUPPRESS: &str = "suppress";
 
-/// Everything that a drawing knows of the appearance of its entities, and the words it holds for them.
+/// Everything that a drawing knows of the appearance of one entity, and the words it holds for that entity.
 #[derive(Clone, Debug)]
 pub(crate) struct Appearance {
     pub(super) unseen: Option<(Visibility, Arc<str>)>,

@@ -154,7 +154,8 @@ impl Chains {
     }
 
     /// True when an entity's free ends have not moved, so that the contours stand. Never for an entity whose own ends
-    /// touch, or that meets others within its length: there the part between its ends counts.
+    /// touch, nor in a contour with a double, of two entities that close a loop, or joined where several ends meet:
+    /// there the part between the ends counts.
     pub(crate) fn same_ends(&self, drawing: &Drawing, entity: EntityId, is_cut: bool) -> bool {
         let known = self.ends_of(entity);
         let now = if is_cut {

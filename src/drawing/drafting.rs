@@ -5,7 +5,7 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-/// The first words of the names of broken lines: ISO 128 as AutoCAD, LibreCAD, QCAD, JIS, ANSI and the DIN templates
+/// The beginnings of the names of broken lines: ISO 128 as AutoCAD, LibreCAD, QCAD, JIS, ANSI and the DIN templates
 /// name them, and as their German, French, Italian, Spanish, Portuguese and Russian versions do.
 const LINETYPES: &[&str] = &[
     "acad_iso",

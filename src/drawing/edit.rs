@@ -65,7 +65,7 @@ pub struct DrawingEdit {
     pub changes: Vec<Change>,
 }
 
-/// What an edit touched, so that only that is checked again. Several deltas apply one after another.
+/// What an edit touched, so that only that is checked again. Several of them apply one after another.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Touched {
     /// Vertices of one polyline: `inserted` new ones replaced the `removed` ones from `start` on.

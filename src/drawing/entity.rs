@@ -54,7 +54,7 @@ pub enum Role {
 }
 
 impl Role {
-    /// As the settings say.
+    /// Its name in the settings.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Role::Opening => "opening",

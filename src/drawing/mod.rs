@@ -60,7 +60,7 @@ impl Unit {
     pub const INCH: Unit = Unit { mm: 25.4 };
 }
 
-/// The step between the ranks of neighbours: this many entities fit between two without renumbering.
+/// The step between the ranks of neighbours: room for entities between two without renumbering.
 const RANK_STEP: u64 = 1 << 24;
 
 /// Entities by stable id, in machining order.
@@ -107,7 +107,7 @@ impl Drawing {
         }
     }
 
-    /// Sets the unit to assume where the drawing states none; `None` is millimetres.
+    /// Sets the unit to assume where the drawing states none; without a call it is millimetres.
     pub(crate) fn assume_unit(&mut self, unit: Unit) {
         self.assumed_unit = Some(unit);
     }
@@ -274,7 +274,8 @@ impl Drawing {
         }
     }
 
-    /// Sets whether an entity is a curve with fitted arcs: the source has no numbers for them, but one entity.
+    /// Sets whether an entity is a curve with fitted arcs: the source has no numbers for the arcs, but the curve is one
+    /// entity of it.
     pub(crate) fn set_fitted(&mut self, id: EntityId, fitted: bool) {
         self.set_editable(id, !fitted);
         if fitted {

@@ -18,7 +18,7 @@ pub struct SetAside {
     pub count: usize,
     /// Handles of the first entities, if only handles name them; empty where a name covers them.
     pub handles: Vec<Arc<str>>,
-    /// For lone lines: layers that hold only entities set aside.
+    /// For lone lines: those of their layers on which nothing is cut.
     pub spare_layers: Vec<Arc<str>>,
 }
 

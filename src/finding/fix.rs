@@ -42,7 +42,7 @@ pub enum Edit {
 /// A key of a table of the settings, and its new value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Keep {
-    /// A dotted key; its value is written as TOML.
+    /// A dotted key, each part of it written as in TOML.
     pub table: String,
     pub key: String,
     pub value: String,

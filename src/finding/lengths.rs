@@ -19,7 +19,7 @@ pub(super) fn told_apart(one: f64, other: f64) -> (String, String) {
         .unwrap_or_else(|| digits(3))
 }
 
-/// The absurd size of a part, mm.
+/// What is absurd about the size of a part, mm.
 pub(super) fn absurd(size: f64) -> &'static str {
     if size > 1.0 {
         say!(more_than_any_machine_travels)

@@ -14,7 +14,7 @@ pub enum NotJudged {
         segments: u64,
         most: u64,
     },
-    /// A curve takes this many arcs, and all curves of a drawing share a limit beyond their free allowance.
+    /// A curve takes this many arcs; all curves of a drawing together may take `most` beyond what each has free.
     Curve { arcs: usize, most: u64 },
     /// The calls of subprograms come to more than `lines` lines, or more than `calls` calls.
     Calls { lines: usize, calls: usize },

@@ -50,7 +50,7 @@ pub struct SmallRadius {
 }
 
 impl SmallRadius {
-    /// The numbers of an arc whose radius counts as `radius`; `unit` converts their lengths.
+    /// The numbers of an arc whose radius counts as `radius`; all lengths are divided by `unit`.
     pub(crate) fn of(arc: &Arc, radius: f64, required: f64, unit: f64) -> SmallRadius {
         let (short, turn) = ((required - radius).max(0.0) / unit, arc.sweep.abs().min(PI));
         let stock_left = if turn < PI {

@@ -7,7 +7,7 @@ use crate::settings::Effective;
 /// A finding before it is worded.
 pub(super) struct Found<K> {
     pub(super) rule: Rule,
-    /// In the rule's terms.
+    /// As the rule sees it, before the settings change it.
     pub(super) severity: Severity,
     /// First and last byte that it is sorted by.
     pub(super) place: (usize, usize),

@@ -16,7 +16,7 @@ pub(crate) struct Said {
 }
 
 impl Said {
-    /// For the first block of a line.
+    /// For the first block of a line that begins with it.
     pub(crate) fn of(language: Language, line: &[u8]) -> Said {
         match language {
             Language::ThreeB => Said::of_three_b(line),

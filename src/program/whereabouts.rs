@@ -57,7 +57,7 @@ impl<'a> Whereabouts<'a> {
         })
     }
 
-    /// The first chunk that holds a line: chunks in running order, not sorted by line.
+    /// The first chunk that holds a line: where the chunks run in the order of the text, not all are searched for it.
     fn chunk_of(&self, line: usize) -> Option<usize> {
         let count = self.program.chunk_count();
         let holds = |chunk: &usize| self.program.lines_of(*chunk).contains(&line);

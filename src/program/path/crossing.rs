@@ -27,7 +27,7 @@ pub(in crate::program) const MOST_PAIRS: usize = 1_000;
 /// itself for long, its branches never part.
 const MOST_STEPS: usize = 1_000_000;
 
-/// A crossing with this many consecutive pieces along another one is that of the first.
+/// The most consecutive pieces along another one for which a crossing is still that of the first of them.
 const MOST_ALONG: usize = 8;
 
 /// The largest distance of a place from another piece through it, µm: nodes are on whole µm or ends of arcs.

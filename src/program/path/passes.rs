@@ -318,7 +318,7 @@ mod tests {
         assert!(crossings(&[&star(0.0)[..], &aside, &[[16.0, 9.0]]].concat()) > 0);
     }
 
-    /// A way with a stop behind some of its places.
+    /// A way with a stop behind the first `before` of its places.
     fn stopping(way: &[[f64; 2]], before: usize) -> Vec<Option<[f64; 2]>> {
         let mut way: Vec<_> = way.iter().copied().map(Some).collect();
         way.insert(before, None);

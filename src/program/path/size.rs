@@ -7,7 +7,7 @@ use crate::rules::units::{is_sizable, is_vast, size};
 /// Fewer moves are no part.
 const FEWEST_MOVES: usize = 3;
 
-/// The larger side of a program's box (µm), mm. To the µm, since the place of the program affects rounding.
+/// The larger side of a program's box (µm), mm. To the µm, since rounding depends on where reading began.
 pub(crate) fn size_of(bounds: &Bounds) -> f64 {
     size(bounds).round() * 1e-3
 }

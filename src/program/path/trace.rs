@@ -81,8 +81,8 @@ pub struct Trace {
     pub(crate) start_is_known: bool,
     /// How its blocks give their ends.
     pub(crate) writing: Writing,
-    /// For each step that moves the way of the wire's upper end, µm; `None` where it follows the lower one. Empty where
-    /// the wire is upright in the whole program.
+    /// For each step that moves the way of the wire's upper end, µm; nothing where it follows the lower one. Empty
+    /// where the wire is upright in the whole program.
     pub upper: Vec<Vec<Segment>>,
     /// Why the way of the upper end is unknown.
     pub(crate) upper_unknown: Option<String>,

@@ -28,7 +28,7 @@ pub(super) fn all<N: Notation>() -> [Refactoring<N>; 2] {
 /// mm.
 pub(in crate::program) const INCH: f64 = 25.4;
 
-/// `None` where a word of the program states the unit.
+/// No edits where a word of the program states the unit.
 fn between_units<N: Notation>(sheet: &Sheet<'_, N>, factor: f64) -> Result<Vec<TextEdit>, String> {
     if N::is_in_inches(sheet.content()?) {
         return Ok(Vec::new());
@@ -36,7 +36,7 @@ fn between_units<N: Notation>(sheet: &Sheet<'_, N>, factor: f64) -> Result<Vec<T
     scaled(sheet, factor)
 }
 
-/// The offered factors.
+/// The factors by which a program can be scaled.
 const FACTORS: std::ops::RangeInclusive<f64> = 1e-4..=1e4;
 
 /// The edits that scale a program. Errors: a factor that is far from 1, or with which a block vanishes or grows too long.

@@ -20,7 +20,7 @@ pub(super) fn start_here<N: Notation>() -> Refactoring<N> {
     }
 }
 
-/// The largest distance between the end of a way in or out and the contour, µm.
+/// A way in or out may meet the contour only within this distance of its end, µm.
 const TOUCH: f64 = 3.0;
 
 fn begun_here<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String> {

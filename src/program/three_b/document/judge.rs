@@ -97,8 +97,8 @@ impl Document {
 
     /// `units`: a whole program of a size that no wire cuts.
     fn judge_size(&self, view: &mut View) {
-        // Stretches are laid end to end as their parts are, by their blocks' meaning: the end of a stretch shows
-        // nothing.
+        // Stretches are laid end to end as their parts are, by their blocks' meaning: it does not matter where a
+        // stretch ends.
         let (mut bounds, mut blocks, mut before) = (Bounds::EMPTY, 0, Move::default());
         for of in self.stretches.iter() {
             if let Some(own) = of.bounds {

@@ -257,7 +257,7 @@ impl Document {
             }
             Change::Exchange { index } => {
                 let mut ranges = [own(*index)?, own(index + 1)?];
-                // With their neighbours, where each has its line.
+                // With the rest of their lines, where each has a line to itself.
                 if is_alone(*index)? && is_alone(index + 1)? {
                     ranges =
                         [line(*index)?, line(index + 1)?].map(|line| self.text.line_range(line));

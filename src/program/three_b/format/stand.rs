@@ -84,7 +84,7 @@ struct Stand {
     /// µm.
     at: Point,
     trust: Trust,
-    /// Arcs since the last stated place.
+    /// Arcs since the last stated place that was taken over.
     arcs: f64,
 }
 

@@ -16,7 +16,7 @@ pub(in super::super) enum Number {
 /// A broken block.
 #[derive(Clone, Debug, PartialEq)]
 pub(in super::super) struct Loose {
-    /// From its first to its last number.
+    /// From its first number to the last part of it that is there.
     pub(crate) range: Range<usize>,
     numbers: Vec<Vec<u8>>,
     axis: Option<CountingAxis>,

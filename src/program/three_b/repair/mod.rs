@@ -97,7 +97,7 @@ pub(super) struct Path<'a> {
     pub(crate) limits: &'a Limits,
     /// It leads from one contour to the next.
     pub(crate) is_jump: bool,
-    /// Its end is unknown by itself, but it fits with others.
+    /// It is not reported as open: it closes, if only together with others.
     pub(crate) is_closed: bool,
 }
 

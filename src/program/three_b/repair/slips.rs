@@ -240,7 +240,7 @@ impl Suspect<'_> {
                 let is_other_kind = block.motion.is_line() != changed.motion.is_line();
                 let cost = match slip {
                     Slip::Number(Number::J, Digits::Any) => 1.6,
-                    // Along an axis the number has nothing to go by.
+                    // Along an axis nothing of such a number is written.
                     Slip::Number(_, Digits::Any) if block.x == 0 || block.y == 0 => 3.4,
                     Slip::Number(_, Digits::Any) => 2.6,
                     Slip::Motion if is_other_kind && is_like_line && changed.motion.is_line() => {

@@ -115,7 +115,7 @@ pub(super) enum Counts {
     },
 }
 
-/// The faults of a block for a rule.
+/// A fault that a rule sees in a block.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Observation {
     pub(crate) rule: Rule,

@@ -46,9 +46,10 @@ pub(in super::super) struct Positions {
     pub compared: usize,
     /// The wrong ones, by the number of the block in the stretch, its entry, and the displacement in µm.
     pub off: Vec<(usize, usize, [f64; 2])>,
-    /// Entry, end point and displacement of the first block with an end point in the stretch.
+    /// Entry, end point and displacement of the first block, if it has an end point and nothing in the stretch before
+    /// it decides what that is compared with.
     pub first: Option<(usize, StatedPoint, Move)>,
-    /// The place for comparing the next stretch's first end point; `None` where this stretch gives none.
+    /// The place for comparing the next stretch's first end point; `None` where this stretch does not decide it.
     pub anchor: Option<Option<StatedPoint>>,
 }
 
@@ -88,8 +89,8 @@ pub(in super::super) struct Mismatched<'a> {
     pub(crate) closes_with: &'a dyn Fn(&[Block]) -> bool,
 }
 
-/// The coordinates become the block's end, or the block becomes one that ends at the coordinates. Made unasked only
-/// where the contour shows which of the two is wrong.
+/// The coordinates become the block's end, or the block becomes one that ends at the coordinates, as the next block
+/// allows. Made unasked only where the contour shows which of the two is wrong.
 pub(in super::super) fn fixes(site: &Mismatched<'_>) -> Vec<TextFix> {
     let coordinates = if site.goes_on == Some(true) {
         None
