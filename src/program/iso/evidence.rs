@@ -157,15 +157,15 @@ impl Evidence {
         self.inch |= block.inch == Some(true);
     }
 
-    /// Counts an arc.
-    pub(crate) fn arc(&mut self, arc: &Move, tolerance: i64) {
+    /// Counts an arc; false where it has no centre in words, so that it tells nothing.
+    pub(crate) fn arc(&mut self, arc: &Move, tolerance: i64) -> bool {
         let arcs = if arc.incremental {
             &mut self.incremental
         } else {
             &mut self.absolute
         };
         if arc.center(CenterRule::StartToCenter).is_none() {
-            return;
+            return false;
         }
         arcs.all += 1;
         let centers = RULES.map(|rule| arc.center(rule));
@@ -186,6 +186,7 @@ impl Evidence {
         for (count, (a, b)) in arcs.unclear.iter_mut().zip(PAIRS) {
             *count += u32::from(b < compared && !off[a] && !off[b] && centers[a] != centers[b]);
         }
+        true
     }
 
     /// How the program is to be read. `preferred` holds where its arcs fit under several rules.
@@ -220,8 +221,8 @@ impl Evidence {
         }
     }
 
-    /// Whole numbers are the finest steps where there are only whole ones, or where a single other one stands among
-    /// many that are too long for anything else.
+    /// Whole numbers are the finest steps where no number has a point, or where each that has one stands among at least
+    /// four without that are too long for anything else.
     fn whole_numbers_are_fine(&self) -> bool {
         self.with_point == 0 || self.with_point.saturating_mul(4) <= self.long
     }

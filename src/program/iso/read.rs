@@ -176,6 +176,8 @@ impl Stretch {
         let cut_short = self.after.cut_short;
         let behind = self.after.behind;
         let made = self.after.run(&block, &self.reading);
+        // A line that says where to go does so too where nothing is cut, since the place before it is unknown.
+        self.fixed |= !self.after.incremental && block.has_coordinates();
         let is_free = self.faults.len() == known_faults;
         if is_free && self.has_stray_center(&block) {
             let sentence = say!(i_and_j_stand_beside_a_straight_cut);
@@ -183,8 +185,11 @@ impl Stretch {
         }
         match made {
             Some(made) => {
-                if made.is_arc() && cut_short.is_none() {
-                    self.evidence.arc(&made, self.reading.tolerance);
+                if made.is_arc()
+                    && cut_short.is_none()
+                    && self.evidence.arc(&made, self.reading.tolerance)
+                {
+                    self.first_center.get_or_insert(range);
                 }
                 self.moves += 1;
                 if is_free && !leans {

@@ -67,6 +67,8 @@ pub(crate) struct Stretch {
     /// How the numbers were read.
     pub(crate) reading: Reading,
     pub(crate) evidence: Evidence,
+    /// The first line with an arc that counts as evidence.
+    pub(crate) first_center: Option<(u32, u32)>,
     /// The faults of single lines; places are bytes from the start of the stretch.
     pub(crate) faults: Vec<Finding>,
     /// In the order of their parts, at their places before the stretch was moved, as `parts`.
@@ -97,7 +99,7 @@ pub(crate) struct Stretch {
     pub(crate) blocks: u32,
     /// Where a program or subprogram begins (`O`), which has its own numbers: how many N words stand before it.
     pub(crate) programs: Vec<u32>,
-    /// A cut that was in progress before these lines does not end in them; true where all of it could be read.
+    /// A cut that was in progress before these lines ends without a move of theirs; true where all of it could be read.
     pub(crate) ends_cut_before: Option<bool>,
     /// The stop before the first cut of these lines, as [`Part::stop`].
     pub(crate) stop_before: Option<u32>,

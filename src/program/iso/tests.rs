@@ -349,6 +349,54 @@ fn lines_that_name_places_do_not_move_with_what_stands_before_them() {
     }
 }
 
+#[test]
+fn a_place_behind_a_line_that_cannot_be_read_does_not_move_with_what_stands_before_it() {
+    // The wire's place is not known before it, so it makes no move; all the same it says where the wire is.
+    let steps = "G01 X3. Y1.\n".repeat(30);
+    for place in 0..60 {
+        let comments = "(plate)\n".repeat(place);
+        let text = format!(
+            "G92 X0 Y0\nG91\n{steps}G90\n{comments}X#1\n{comments}G01 X40. Y9.\nG91\n{steps}M02\n"
+        );
+        let mut document = read(&text);
+        let at = document.text().line_start(5) + "G01 X".len();
+        document.edit(at..at, "1");
+        let fresh = Document::read(document.text().bytes().to_vec());
+        assert_eq!(document.trace(), fresh.trace(), "{place} lines between");
+        assert_eq!(
+            document.findings(),
+            fresh.findings(),
+            "{place} lines between"
+        );
+    }
+}
+
+#[test]
+fn the_first_centre_that_does_not_tell_is_where_it_is_however_the_text_was_edited() {
+    // The first line with I and J follows one that cannot be read, so its arc is not known.
+    for place in 0..60 {
+        let comments = "(plate)\n".repeat(place);
+        let text = format!(
+            "G92 X10. Y0\nG90\n{comments}X\nG03 X0. Y0. I-5. J0.\n{comments}G03 X0. Y0. I-5. J0.\nM02\n"
+        );
+        let mut document = read(&text);
+        document.edit(12..12, "\n");
+        let fresh = Document::read(document.text().bytes().to_vec());
+        assert_eq!(
+            document.findings(),
+            fresh.findings(),
+            "{place} lines between"
+        );
+        let is_open = |finding: &crate::finding::Finding| {
+            finding.rule == crate::finding::Rule::AmbiguousCenter
+        };
+        assert!(
+            fresh.findings().iter().any(is_open),
+            "{place} lines between"
+        );
+    }
+}
+
 /// Lines of programs, some of them damaged.
 fn line() -> impl Strategy<Value = String> {
     prop_oneof![

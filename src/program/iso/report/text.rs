@@ -296,18 +296,13 @@ impl Report<'_> {
             .map(|line| self.document.words_of(line))
     }
 
-    /// The first I or J of the text.
+    /// The centre of the first arc that could have told how I and J are meant.
     pub(super) fn first_center(&self) -> Option<Range<usize>> {
-        for placed in self.document.placed() {
-            let has_arcs =
-                placed.stretch.evidence.absolute.all + placed.stretch.evidence.incremental.all > 0;
-            for line in placed.lines.filter(|_| has_arcs) {
-                let center = word_at(self.text, line, |letter, _| matches!(letter, b'I' | b'J'));
-                if center.is_some() {
-                    return center;
-                }
-            }
-        }
-        None
+        let mut arcs = self.document.placed().filter_map(|placed| {
+            let (first, _) = placed.stretch.first_center?;
+            Some(placed.offset + first as usize)
+        });
+        let line = self.text.line_of(arcs.next()?);
+        word_at(self.text, line, |letter, _| matches!(letter, b'I' | b'J'))
     }
 }
