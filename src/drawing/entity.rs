@@ -44,8 +44,7 @@ pub enum Role {
     Punch,
     /// Cut once as the punch and once as the plate: every arc must survive both sides.
     Both,
-    /// An open contour: the wire runs to the left of its direction, which is that of its first entity in machining
-    /// order.
+    /// An open contour: the wire runs to the left of its direction, which is that of the entity that was drawn first.
     Left,
     /// The same to the right.
     Right,

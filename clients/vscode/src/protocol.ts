@@ -16,7 +16,7 @@ export type Point = [number, number];
  */
 export type Direction = "ccw" | "cw";
 /**
- * What an outline is of: decides on which side of it the wire runs.
+ * The kind of outline: it decides on which side the wire runs.
  */
 export type Role = "opening" | "punch" | "both" | "left" | "right" | "ignore";
 /**
