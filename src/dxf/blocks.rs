@@ -113,7 +113,8 @@ pub(super) struct Blocks {
 }
 
 impl Blocks {
-    /// The same blocks, but undrawn: results from before the blocks were complete may not hold.
+    /// The same blocks, undrawn and with nothing known of them: results from before the blocks were complete may not
+    /// hold.
     pub(super) fn unasked(self) -> Blocks {
         let sizes = vec![None; self.blocks.len()];
         let used = self
@@ -281,7 +282,7 @@ impl Blocks {
             segments: 0,
             depth: 1,
         };
-        // Each block is counted once, however often it is referred to.
+        // The size of each block is asked for once, however often it is referred to.
         let mut below: FxHashMap<usize, u64> = FxHashMap::default();
         for content in &block.contents {
             match content {

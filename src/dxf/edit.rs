@@ -189,7 +189,7 @@ impl Document {
     }
 
     fn item_zone(&self, range: &Range<usize>) -> Option<ItemZone> {
-        // The byte-order mark, and a text that had none.
+        // The byte-order mark, and a text that was not DXF.
         if range.start < 4 || self.table.items.len() < 3 {
             return None;
         }

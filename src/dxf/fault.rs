@@ -14,7 +14,7 @@ pub(super) fn oddity(findings: &mut Vec<Finding>, range: Range<usize>, sentence:
     push(findings, range, Severity::Warning, sentence);
 }
 
-/// How something ambiguous was read.
+/// How something was read that is not a fault.
 pub(super) fn remark(findings: &mut Vec<Finding>, range: Range<usize>, sentence: String) {
     push(findings, range, Severity::Information, sentence);
 }

@@ -72,7 +72,8 @@ impl Inherited {
     }
 }
 
-/// The linetype of something on a layer, inside what `around` passes on; `None` is a continuous one.
+/// The linetype of something on a layer, inside a reference that passes on the linetype `around`; `None` is a
+/// continuous one.
 pub(super) fn stroke(
     own: &Stroke,
     around: Option<&Linetype>,

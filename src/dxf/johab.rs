@@ -46,7 +46,7 @@ pub(super) fn character(first: u8, second: u8) -> Option<char> {
 
 fn syllable(code: u32) -> Option<char> {
     let (initial, vowel, end) = ((code >> 10) & 31, (code >> 5) & 31, code & 31);
-    // 1 and 2 mean a missing part; two of each eight vowel codes are unused, and so is the eighteenth last consonant.
+    // 1 and 2 mean a missing part; of each eight vowel codes two are unused, and of those of the last consonant 18.
     let initial = match initial {
         1 => None,
         2..=20 => Some(initial - 2),

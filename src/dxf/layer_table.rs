@@ -86,7 +86,7 @@ impl LayerEntry {
 /// Whether a layer is shown, and its linetype.
 type LayerState = (Visibility, Option<Arc<str>>);
 
-/// The table's entry of each layer that is hidden or has a linetype. Names ignore case.
+/// The table's entry of each layer that is not simply shown, or has a linetype. Names ignore case.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LayerStates {
     unlike: FxHashMap<String, LayerState>,

@@ -33,7 +33,8 @@ impl Tag {
 pub(crate) struct Lexer<'a> {
     pub(crate) lines: Lines<'a>,
     at: usize,
-    /// The first line that may be a code line again.
+    /// The last line that must not be taken for a code line any more: [`Lexer::recover`] goes back only to lines behind
+    /// it.
     consumed: usize,
     /// The text was out of step since the last [`Lexer::begin_item`].
     pub(crate) out_of_step: bool,
@@ -73,7 +74,7 @@ impl<'a> Lexer<'a> {
         fault::oddity(&mut self.findings, range, sentence);
     }
 
-    /// How an ambiguous line was read.
+    /// How a line was read that is not a fault.
     pub(super) fn remark(&mut self, line: usize, sentence: String) {
         let range = self.lines.trimmed_range(line);
         fault::remark(&mut self.findings, range, sentence);

@@ -142,8 +142,8 @@ impl Document {
         &self.text
     }
 
-    /// Sets the largest distance, in mm, of arcs from the ellipses and splines that they replace. If that changes
-    /// anything, the text is read again and ids of entities may change.
+    /// Sets the largest distance, in mm, of arcs from the ellipses and splines that they replace. If the drawing has
+    /// some and the distance is another one, the text is read again and ids of entities may change.
     pub(crate) fn set_arc_fit(&mut self, mm: f64) {
         if self.arc_fit.unwrap_or(Tolerances::default().arc_fit) == mm {
             return;
@@ -240,7 +240,7 @@ impl Document {
         self.name_unsupported();
     }
 
-    /// Reads all items once more with the known frames and layers, and with `known` blocks if given.
+    /// Reads all items once more with the known frames; where blocks are `known`, with these and the known layers, too.
     fn read_again(&mut self, known: Option<Blocks>) -> Reading {
         let frames = std::mem::take(&mut self.table.frames);
         let states = match known {

@@ -64,7 +64,7 @@ impl Space {
             .iter()
             .map(off_axis)
             .max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
-        // Points on one line lie in many planes: any level one will do.
+        // Points on one line lie in many planes: any that is level across the line will do.
         let level = Vector3::z()
             .cross(&x)
             .try_normalize(1e-9)

@@ -120,7 +120,7 @@ impl Document {
         }
     }
 
-    /// The features of the language.
+    /// The fixes that the language offers.
     fn offered(&self, finding: &Finding) -> Vec<TextFix> {
         match self {
             Document::ThreeB(document) => document.fixes(finding),

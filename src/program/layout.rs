@@ -8,7 +8,7 @@ use std::ops::Range;
 
 /// The edits that bring some lines of a program into the layout that is set, else into that of most of its lines.
 ///
-/// They are sorted and disjoint, and do not change the machine's way: each line is read back first.
+/// They are sorted and disjoint, and change nothing that the machine does: each line is read back before it is taken.
 pub fn format(document: &Document, settings: &Effective, lines: Range<usize>) -> Vec<TextEdit> {
     match document {
         Document::ThreeB(program) => three_b::format::format(

@@ -46,7 +46,7 @@ impl Motion {
         matches!(self, Motion::Clockwise | Motion::CounterClockwise)
     }
 
-    /// The arc in this direction.
+    /// The arc that turns left, counter-clockwise, or else clockwise.
     pub(super) fn turning(left: bool) -> Motion {
         match left {
             true => Motion::CounterClockwise,

@@ -158,7 +158,7 @@ fn chamfered(one: &Segment, other: &Segment, length: f64) -> Option<(Point, Poin
     (fits && turns).then(|| (one.end() - from * length, other.start() + to * length, None))
 }
 
-/// The ends and the centre of an arc of a radius that is tangent to one way and runs into the other.
+/// The ends and the centre of the arc of a radius that is tangent to both ways.
 fn rounded(one: &Segment, other: &Segment, radius: f64) -> Option<(Point, Point, Option<Point>)> {
     let (from, to) = (one.end_tangent(), other.start_tangent());
     let turn = turn(from, to);

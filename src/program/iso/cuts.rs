@@ -178,7 +178,7 @@ fn tabs(document: &Document, cuts: &[Option<JoinedCut>]) -> Vec<StopAt> {
     found
 }
 
-/// A cut that does not close by itself, and its moves, once they were asked for.
+/// A cut that does not enclose anything by itself, and its moves, once they were asked for.
 struct OpenCut<'a> {
     cut: &'a JoinedCut,
     pieces: OnceCell<Vec<Segment>>,

@@ -22,7 +22,7 @@ impl Document {
     }
 
     /// The subprograms that a call may name, with their lines: those that are called, and in a program without calls
-    /// the one behind its end, which nobody runs yet.
+    /// those behind its end, which nobody runs yet.
     pub(crate) fn subprograms(&self) -> BTreeMap<u32, usize> {
         if let Some(order) = self.order() {
             let called = order.called.iter();

@@ -25,7 +25,7 @@ pub(in crate::program) struct Target {
     pub(crate) side: Option<Side>,
 }
 
-/// The centre of an arc.
+/// What a move runs about: nothing, a centre, or one given by its radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::program) enum Bent {
     Line,
@@ -34,7 +34,7 @@ pub(in crate::program) enum Bent {
 }
 
 impl Target {
-    /// The motion of a move.
+    /// The target of a move as it is.
     pub(crate) fn of(made: &Move, reading: &Reading) -> Target {
         let bend = match (made.is_arc(), made.bend) {
             (true, Bend::Radius(radius)) => Bent::Radius(radius),

@@ -1,8 +1,8 @@
 //! Writes paths of an electrode as one ISO program: layer by layer, each line read back at once.
 //!
 //! The electrode stands above the entry of a contour, is fed down, goes to and fro along the contour and comes up
-//! again. Heights count from the surface; a line moves either along the way or in height. The writing follows a
-//! simulation of the wear.
+//! again. Heights count from the surface; a line moves either along the way or in height. What is written also steers
+//! a simulation of the wear.
 
 use super::block::{Block, Motion};
 use super::encode::Encoded;

@@ -96,7 +96,7 @@ impl Walk<'_> {
             }
             self.left -= 1;
             let block = Block::of(self.text.line(line));
-            // Another program begins: running into it is not its end.
+            // Another program begins: a subprogram that runs into it has no end of its own.
             if let Some(own) = number.filter(|_| line > first)
                 && [
                     block.program,
@@ -150,7 +150,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Lines that run one after another, in stretches: coinciding cuts are searched stretch by stretch.
+    /// Lines that run one after another, in stretches: where they lie on themselves is searched stretch by stretch.
     fn push(&mut self, lines: Range<usize>) {
         let stretches = lines
             .clone()

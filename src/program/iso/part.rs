@@ -81,7 +81,7 @@ impl Part {
         self.first[0].from
     }
 
-    /// The area of a move.
+    /// What a move adds to twice the area.
     fn term(&self, step: &Move, cap: f64) -> i128 {
         let origin = self.start();
         let [from, to] = [step.from, step.to].map(|place| apart(place, origin));
@@ -223,7 +223,7 @@ pub(crate) struct Tight {
 /// The smallest radii among some arcs, µm; infinite where there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Tightest {
-    /// By the side on which the control lets the wire run, and for the others.
+    /// Of the arcs beside which the control lets the wire run on a side, and of the others.
     pub(crate) offset: f64,
     pub(crate) plain: f64,
 }

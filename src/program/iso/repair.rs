@@ -165,7 +165,7 @@ fn cut_around(document: &Document, line: usize) -> Range<usize> {
 }
 
 /// True where the lines of a cut hold all of it. The search makes no corners of the control, and an arc begins where
-/// such a corner ends; and the way on from a subprogram is unknown.
+/// such a corner ends; and with subprograms a cut may have begun before its lines.
 fn stands_alone(document: &Document, lines: &Range<usize>) -> bool {
     let (mut has_corner, mut has_arc) = (false, false);
     for block in lines.clone().map(|line| document.block(line)) {

@@ -271,7 +271,7 @@ impl<'a> Lines<'a> {
         lines.any(|line| line.contains("{register}"))
     }
 
-    /// The word for the control's correction of the pass.
+    /// The word that says where the control finds the correction of the pass.
     fn register(&self) -> String {
         let stated = self.settings.passes.registers.as_ref();
         let stated = stated.and_then(|words| words.get(self.pass - 1));

@@ -21,7 +21,7 @@ pub(crate) trait BehindStops {
     /// Some of them as one way.
     fn way(&self, cuts: Range<usize>) -> impl Way;
 
-    /// The last one is a contour of its own or the way to one: its way in is no tab.
+    /// The last one is a contour of its own or the way to one: no cut behind it is a tab of those before.
     fn last_stands_alone(&self) -> bool;
 }
 

@@ -11,7 +11,7 @@ use crate::program::refactor::Row;
 #[derive(Clone, Copy, Debug)]
 pub(in crate::program) struct Own {
     pub(crate) made: Move,
-    /// Whether lengths there are in inches or millimetres.
+    /// How lengths are written there, in inches or millimetres.
     pub(crate) style: Style,
 }
 

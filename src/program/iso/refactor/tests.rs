@@ -442,9 +442,9 @@ proptest! {
         let own = &before[1..before.len() - 1];
         let back: Vec<Segment> = way(&reversed)[1..before.len() - 1].iter().rev().map(Segment::reversed).collect();
         prop_assert!(apart(own, &back) < 1e-6, "{reversed}");
-        // Where a random way lies on itself, the number of crossings found there depends on the start. The start also
-        // decides whether one arc alone happens to fit another reading, and the writing decides which slip is the
-        // likeliest.
+        // Where a random way lies on itself, the number of crossings found there depends on where it is looked at from.
+        // Where one arc alone begins decides whether it happens to fit another reading, and the writing decides which
+        // slip is the likeliest.
         let rules = |text: &str| {
             let names = read(text).findings().into_iter().map(|finding| finding.rule.name());
             names.filter(|name| !matches!(*name, "path-crosses-itself" | "ambiguous-center" | "suspect-block")).collect::<Vec<_>>()
