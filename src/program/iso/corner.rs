@@ -41,42 +41,65 @@ pub(crate) fn turned<'a>(
     let Some(corner) = made.corner else {
         return turned;
     };
-    let (next, looked_at) = next_move(*machine, behind, reading);
-    turned.looked_at = looked_at;
-    let Some(next) = next else { return turned };
-    turned.is_fixed = !next.incremental;
+    let next = next_move(*machine, behind, reading, |_| true);
+    turned.looked_at = next.looked_at;
+    let Some(behind) = next.made else {
+        return turned;
+    };
+    turned.is_fixed = next.is_fixed;
     let size = reading.length(corner.size, machine.inch);
-    if let Some((short, own)) = cut_off(&made, &next, &corner, size, reading) {
+    if let Some((short, own)) = cut_off(&made, &behind, &corner, size, reading) {
         machine.cut_short = Some(apart(own.to, made.to));
         (turned.made, turned.corner) = (short, Some(own));
     }
     turned
 }
 
-/// The next cut, if it follows directly; and how many lines were read.
+/// What follows a cut directly.
+pub(crate) struct Next {
+    pub(crate) made: Option<Move>,
+    /// How many lines were read.
+    pub(crate) looked_at: usize,
+    /// It depends on where the wire stands before it.
+    pub(crate) is_fixed: bool,
+}
+
+/// The next cut, if one follows directly; those that are not `wanted` are passed over.
 pub(crate) fn next_move<'a>(
     mut machine: Machine,
     behind: impl Iterator<Item = &'a [u8]>,
     reading: &Reading,
-) -> (Option<Move>, usize) {
-    let mut looked_at = 0;
+    wanted: impl Fn(&Move) -> bool,
+) -> Next {
+    let mut next = Next {
+        made: None,
+        looked_at: 0,
+        is_fixed: false,
+    };
     for line in behind.take(REACH) {
-        looked_at += 1;
+        next.looked_at += 1;
         let block = Block::of(line);
         if block.sets_position || block.call.is_some() || block.returns || block.stop.is_some() {
-            return (None, looked_at);
+            return next;
         }
         if block.empty {
             continue;
         }
         if let Some(made) = machine.run(&block, reading) {
-            return (Some(made).filter(Move::is_cut), looked_at);
+            next.is_fixed |= !made.incremental;
+            if !made.is_cut() {
+                return next;
+            }
+            if wanted(&made) {
+                next.made = Some(made);
+                return next;
+            }
         }
         if machine.lost != [false, false] {
-            return (None, looked_at);
+            return next;
         }
     }
-    (None, looked_at)
+    next
 }
 
 /// The move up to where the corner begins, and the corner.

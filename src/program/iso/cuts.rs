@@ -91,12 +91,12 @@ fn cuts(document: &Document) -> Vec<Option<JoinedCut>> {
     let mut open: Option<JoinedCut> = None;
     for (index, placed) in document.placed().enumerate() {
         let stretch = placed.stretch;
-        if let Some(whole) = stretch.ends_cut_before
-            && let Some(cut) = open.as_mut().filter(|cut| cut.sum.open)
-        {
-            cut.sum.whole &= whole;
+        if let Some(cut) = open.as_mut().filter(|cut| cut.sum.open) {
             cut.sum.faulty |= stretch.faulty_before;
-            cut.sum.open = false;
+            if let Some(whole) = stretch.ends_cut_before {
+                cut.sum.whole &= whole;
+                cut.sum.open = false;
+            }
         }
         if let Some(cut) = &mut open {
             cut.stopped(stretch.stop_before, index);

@@ -116,6 +116,11 @@ impl Move {
         self.motion.is_arc()
     }
 
+    /// False for a straight move from a place to itself.
+    pub(crate) fn goes_anywhere(&self) -> bool {
+        self.from != self.to || self.is_arc()
+    }
+
     pub(crate) fn is_cut(&self) -> bool {
         self.motion != Motion::Rapid
     }

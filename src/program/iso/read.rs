@@ -368,7 +368,7 @@ impl Stretch {
         if !made.is_cut() {
             return self.interrupt(true);
         }
-        if made.from == made.to && !made.is_arc() {
+        if !made.goes_anywhere() {
             return;
         }
         self.examine(&made, range, ahead);
@@ -398,10 +398,10 @@ impl Stretch {
         let Some(joint) = joint(came.map(shape), &shape(before), made) else {
             return;
         };
-        let (next, looked_at) = corner::next_move(self.after, ahead.lines(), &reading);
-        self.ahead = self.ahead.max(ahead.beyond(looked_at));
-        self.fixed |= next.is_some_and(|next| !next.incremental);
-        let next = next.map(|next| shape(next.at_origin()));
+        let next = corner::next_move(self.after, ahead.lines(), &reading, Move::goes_anywhere);
+        self.ahead = self.ahead.max(ahead.beyond(next.looked_at));
+        self.fixed |= next.is_fixed;
+        let next = next.made.map(|next| shape(next.at_origin()));
         if let Some(fault) = joint.fault(next.as_ref()) {
             self.fault(fault, range);
         }

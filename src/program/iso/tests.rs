@@ -397,6 +397,45 @@ fn the_first_centre_that_does_not_tell_is_where_it_is_however_the_text_was_edite
     }
 }
 
+#[test]
+fn a_cut_with_a_line_that_cannot_be_read_is_not_judged_wherever_the_text_falls_apart() {
+    for place in 0..60 {
+        let comments = "(plate)\n".repeat(place);
+        let text = format!(
+            "G92 X0 Y0\nG90\n{comments}G01 X10. Y0.\nG01 X10. Y10.\n(open\nG01 X5. Y-5.\nG01 X0. Y0.\nM02\n"
+        );
+        let found = rules(&text);
+        assert!(found.contains(&"syntax"), "{place} lines before: {found:?}");
+        assert!(
+            !found.contains(&"path-crosses-itself"),
+            "{place} lines before: {found:?}"
+        );
+    }
+    let sound = "G92 X0 Y0\nG90\nG01 X10. Y0.\nG01 X10. Y10.\nG01 X5. Y-5.\nG01 X0. Y0.\nM02\n";
+    assert!(
+        rules(sound).contains(&"path-crosses-itself"),
+        "{:?}",
+        rules(sound)
+    );
+}
+
+#[test]
+fn a_spur_before_a_doubled_block_is_one() {
+    for doubled in ["", "G01 X1. Y5.\n"] {
+        let text = format!(
+            "G92 X0 Y0\nG90\nG01 X1. Y0.\nG01 X1. Y5.\nG01 X3. Y2.\nG01 X1. Y5.\n{doubled}G01 X-4. Y1.\nG01 X0. Y0.\nM02\n"
+        );
+        let found = rules(&text);
+        assert!(found.contains(&"spur"), "{text}{found:?}");
+    }
+}
+
+/// The names of the rules that find something in a text.
+fn rules(text: &str) -> Vec<&'static str> {
+    let findings = read(text).findings();
+    findings.iter().map(|finding| finding.rule.name()).collect()
+}
+
 /// Lines of programs, some of them damaged.
 fn line() -> impl Strategy<Value = String> {
     prop_oneof![

@@ -314,7 +314,7 @@ impl Scan {
 
     fn cut(&mut self, made: &Move, block: &Block, reading: &Reading) {
         let is_again = self.said.replace(*block) == Some(*block);
-        if made.from == made.to && !made.is_arc() {
+        if !made.goes_anywhere() {
             self.against.soft += 4.0;
             return;
         }
