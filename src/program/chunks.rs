@@ -42,9 +42,12 @@ pub(in crate::program) trait ChunkReader: Sync {
 
     fn after(chunk: &Self::Chunk) -> Self::State;
 
-    /// The reading of its last lines depends on lines behind it.
-    fn looks_ahead(_: &Self::Chunk) -> bool {
-        false
+    /// The reading of a line depends on no more than this many behind it.
+    const REACH: usize = 0;
+
+    /// On how many lines behind its own the reading of a chunk depends.
+    fn ahead(_: &Self::Chunk) -> usize {
+        0
     }
 
     /// Takes a chunk on from another state; false where its lines must be reread.
@@ -164,10 +167,17 @@ impl<C: Send> Chunks<C> {
             .places
             .partition_point(|place| place.lines.start <= last)
             .max((from + 1).min(self.list.len()));
-        while let Some(before) = from.checked_sub(1)
-            && self.list.get(before).is_some_and(L::looks_ahead)
+        // Those that looked at these lines, be there short ones between.
+        let (mut before, mut between) = (from, 0);
+        while between < L::REACH
+            && let Some(index) = before.checked_sub(1)
+            && let (Some(chunk), Some(place)) = (self.list.get(index), self.places.get(index))
         {
-            from = before;
+            if L::ahead(chunk) > between {
+                from = index;
+            }
+            between += place.lines.len();
+            before = index;
         }
         let moved = |line: usize| line + text.line_count() - old_count;
         let lines = self.places.get(from).map_or(0, |place| place.lines.start)

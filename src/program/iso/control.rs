@@ -1,5 +1,6 @@
 //! How the engine of all languages reads ISO text.
 
+use super::corner;
 use super::machine::Machine;
 use super::moves::{Reading, apart};
 use super::stretch::{Pathless, Stretch};
@@ -51,8 +52,10 @@ impl ChunkReader for Control {
         stretch.after
     }
 
-    fn looks_ahead(stretch: &Stretch) -> bool {
-        stretch.ahead > 0
+    const REACH: usize = corner::REACH;
+
+    fn ahead(stretch: &Stretch) -> usize {
+        stretch.ahead as usize
     }
 
     fn take_on(stretch: &mut Stretch, before: Machine) -> bool {

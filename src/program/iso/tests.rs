@@ -430,6 +430,25 @@ fn a_spur_before_a_doubled_block_is_one() {
     }
 }
 
+#[test]
+fn what_a_joint_looks_at_behind_many_comments_is_looked_at_again() {
+    // Whether the way goes back on itself is decided by the next block, which may stand several stretches on.
+    for before in (0..50).step_by(7) {
+        for between in 0..62 {
+            let text = format!(
+                "G92 X0 Y0\nG90\n{}G01 X1. Y0.\nG01 X1. Y5.\nG01 X3. Y2.\nG01 X1. Y5.\n{}G01 X-4. Y1.\nM02\n",
+                "(plate)\n".repeat(before),
+                "(plate)\n".repeat(between),
+            );
+            let mut document = read(&text);
+            let at = text.find("X-4. Y1.").unwrap();
+            document.edit(at..at + 8, "X1. Y0.");
+            let fresh = Document::read(document.text().bytes().to_vec());
+            assert_eq!(document.findings(), fresh.findings(), "{before} {between}");
+        }
+    }
+}
+
 /// The names of the rules that find something in a text.
 fn rules(text: &str) -> Vec<&'static str> {
     let findings = read(text).findings();
