@@ -66,6 +66,11 @@ pub(crate) fn convert(
     if !force && !errors.is_empty() {
         return Err(Refusal::Errors(errors));
     }
+    // Whatever the settings make of it: its move would be missing.
+    if let Some(line) = program.unread_line().filter(|_| !force) {
+        let reason = say!(the_line_cannot_be_read);
+        return Err(Refusal::Sentence(say!(line_by_number, line + 1, reason)));
+    }
     if program.mills() {
         return Err(Refusal::Sentence(say!(it_is_milled).into()));
     }

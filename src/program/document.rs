@@ -171,6 +171,11 @@ impl Document {
         }
     }
 
+    /// The first line that cannot be read: what it does is unknown.
+    pub(crate) fn unread_line(&self) -> Option<usize> {
+        self.program().unread_line()
+    }
+
     /// The machine's position at a finding.
     pub(crate) fn whereabouts(&self) -> Whereabouts<'_> {
         Whereabouts::within(self.program())

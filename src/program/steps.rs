@@ -46,7 +46,7 @@ pub(crate) struct Sum {
 }
 
 impl Sum {
-    fn is_empty(&self) -> bool {
+    pub(super) fn is_empty(&self) -> bool {
         self.moves + self.stops == 0
     }
 

@@ -39,22 +39,47 @@ impl<'a> Whereabouts<'a> {
             return None;
         }
         let chunk = self.chunk_of(line)?;
+        let is_before = |step: &&Step| step.range.end <= range.start;
+        let steps = self.steps_of(chunk);
+        if let Some(step) = steps.iter().find(|step| !is_before(step))
+            && step.range.start < range.end
+        {
+            return Some(Stand {
+                start: in_mm(step.start),
+                end: step.moves().then(|| in_mm(step.end)),
+            });
+        }
+        // No step is here: the machine stands where the last one before ends, in whichever chunk that is.
+        let mut before = steps
+            .iter()
+            .take_while(is_before)
+            .last()
+            .map(|step| step.end);
+        if before.is_none() {
+            let has_steps = |chunk: &usize| !program.sum_of(*chunk).is_empty();
+            let earlier = (0..chunk).rev().find(has_steps);
+            before = match earlier {
+                Some(earlier) => self.steps_of(earlier).last().map(|step| step.end),
+                None => (0..program.chunk_count())
+                    .any(|chunk| has_steps(&chunk))
+                    .then(|| program.begin().0),
+            };
+        }
+        Some(Stand {
+            start: in_mm(before?),
+            end: None,
+        })
+    }
+
+    fn steps_of(&mut self, chunk: usize) -> &[Step] {
         if self.chunk != Some(chunk) {
             self.chunk = Some(chunk);
             self.steps.clear();
             let steps = &mut self.steps;
-            program.walk(chunk, &mut 0, &mut |step| steps.push(step));
+            self.program
+                .walk(chunk, &mut 0, &mut |step| steps.push(step));
         }
-        let ends_behind = |step: &&Step| step.range.end > range.start;
-        let Some(step) = self.steps.iter().find(ends_behind) else {
-            let start = in_mm(self.steps.last()?.end);
-            return Some(Stand { start, end: None });
-        };
-        let is_there = step.moves() && step.range.start < range.end;
-        Some(Stand {
-            start: in_mm(step.start),
-            end: is_there.then(|| in_mm(step.end)),
-        })
+        &self.steps
     }
 
     /// The first chunk that holds a line: where the chunks run in the order of the text, not all are searched for it.

@@ -119,6 +119,40 @@ fn a_taper_is_dropped_only_where_it_is_forced() {
     }
 }
 
+/// A move that only the control knows is not left out of a program, whatever the settings say of such lines.
+#[test]
+fn a_line_that_cannot_be_read_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in [
+        (
+            "variable.iso",
+            "G92 X0 Y0\nG90\nG01 X3. Y-7.\nG01 X#1 Y2.\nG01 X7. Y3.\nG01 X0. Y0.\nM02\n",
+        ),
+        (
+            "damaged.3b",
+            "B9900B0B9900GXL1\nB9900BB\nB9900B0B9900GXL3\nDD\n",
+        ),
+    ] {
+        for level in ["error", "warning", "off"] {
+            let settings = format!("[rules]\nsyntax = \"{level}\"\n");
+            std::fs::write(folder.path().join("wedm.toml"), settings).unwrap();
+            std::fs::write(folder.path().join(name), text).unwrap();
+            for to in ["3b", "iso", "dxf"] {
+                let arguments = format!("convert {name} -o new.{to}");
+                let (code, out, said) = wedm(folder.path(), &arguments);
+                assert_eq!(code, 1, "{arguments}, {level}: {out}{said}");
+                let says = if level == "error" {
+                    "1 error"
+                } else {
+                    "cannot be read"
+                };
+                assert!(said.contains(says), "{arguments}, {level}: {out}{said}");
+                assert!(!folder.path().join(format!("new.{to}")).exists());
+            }
+        }
+    }
+}
+
 #[test]
 fn the_command_converts_and_refuses() {
     let folder = tempfile::tempdir().unwrap();

@@ -142,6 +142,7 @@ declare! {
     a_number_has_more_digits_than_the_controller_takes(field, value, digits) => "{field} {value} has more than the {digits} digits that the controller takes: it cuts digits off, or stops";
     // words of ISO that cannot be read
     word_without_number(column, letter) => "column {column}: {letter} has no number";
+    expression_for_a_number(column, letter, shown) => "column {column}: {letter} is `{shown}`, an expression: where the wire goes from here is known to the control alone";
     word_is_no_number(column, letter, shown) => "column {column}: {letter} is `{shown}`, expected a number with one decimal point";
     number_of_too_many_digits(column, digits) => "column {column}: found a number of {digits} digits, expected at most 9";
     comment_is_not_closed(column) => "column {column}: the comment is not closed, expected `)`";

@@ -142,6 +142,7 @@ translate! {
     a_number_has_more_digits_than_the_controller_takes(field, value, digits) => "{field} {value} 超过控制器允许的 {digits} 位：控制器会截去几位，或停机";
     // words of ISO that cannot be read
     word_without_number(column, letter) => "第 {column} 列：{letter} 后没有数字";
+    expression_for_a_number(column, letter, shown) => "第 {column} 列：{letter} 是表达式 `{shown}`：电极丝由此走向何处只有控制器知道";
     word_is_no_number(column, letter, shown) => "第 {column} 列：{letter} 是 `{shown}`，应为最多带一个小数点的数";
     number_of_too_many_digits(column, digits) => "第 {column} 列：数字有 {digits} 位，最多 9 位";
     comment_is_not_closed(column) => "第 {column} 列：注释没有结束，应有 `)`";

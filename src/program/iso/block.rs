@@ -5,6 +5,8 @@
 
 use super::plain::words;
 use super::word::{Number, Term, Token, Value, WordFault};
+use rustc_hash::FxHasher;
+use std::hash::{Hash, Hasher};
 use std::ops::Range;
 
 /// G00 to G03.
@@ -180,12 +182,13 @@ impl Note {
     }
 }
 
-/// The key of a foreign word: its letter, and for G and M its number times 10.
+/// The key of a foreign word: its letter, and for G and M its number times 10; or its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Code(u32);
 
 impl Code {
-    const NAME: Code = Code(0);
+    /// `#1=4`.
+    const VARIABLE: Code = Code(0);
     const SKIP: Code = Code(1);
     /// The text behind a colon.
     const SECOND: Code = Code(2);
@@ -201,6 +204,24 @@ impl Code {
         Code(u32::from(letter) << 16 | (tenths.unsigned_abs().min(0xffff) as u32))
     }
 
+    /// The code of `STOP`, which is that of `Stop` too, and of `GOTO10` that of `GOTO20`.
+    fn of_name(text: &[u8]) -> Code {
+        let letters = text.iter().take_while(|byte| byte.is_ascii_alphabetic());
+        let name: Vec<u8> = letters.map(u8::to_ascii_uppercase).collect();
+        if name.is_empty() {
+            return Code::VARIABLE;
+        }
+        let mut hasher = FxHasher::default();
+        name.hash(&mut hasher);
+        // No letter lies this high.
+        Code(1 << 31 | hasher.finish() as u32)
+    }
+
+    /// 0 for a name.
+    fn letter(self) -> u8 {
+        u8::try_from(self.0 >> 16).unwrap_or_default()
+    }
+
     /// It does not depend on the machine in a program that mills.
     pub(super) fn is_height(self) -> bool {
         self.0 == u32::from(b'Z') << 16
@@ -208,7 +229,7 @@ impl Code {
 
     /// It is followed where the lean of the wire is known. T also has many other meanings.
     pub(super) fn is_of_taper(self) -> bool {
-        let (letter, tenths) = ((self.0 >> 16) as u8, self.0 & 0xffff);
+        let (letter, tenths) = (self.letter(), self.0 & 0xffff);
         self.tilts()
             || self == Code::PLANE
             || letter == b'A'
@@ -217,7 +238,7 @@ impl Code {
 
     /// The wire may lean because of it: G51, G52, G141, G142, U, V, and a second contour.
     pub(super) fn tilts(self) -> bool {
-        match ((self.0 >> 16) as u8, self.0 & 0xffff) {
+        match (self.letter(), self.0 & 0xffff) {
             (b'G', tenths) => matches!(tenths, 510 | 520 | 1410 | 1420),
             (b'U' | b'V', _) => true,
             _ => self == Code::SECOND,
@@ -339,17 +360,13 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
         }
         Token::Foreign { range } => {
             block.empty = false;
-            // X#101 is an unknown coordinate.
-            block.broken |= range.len() > 1
-                && line
-                    .get(range.start - offset)
-                    .is_some_and(|byte| b"XYIJRxyijr".contains(byte));
-            let code = match line.get(range.start - offset) {
+            let text = line.get(range.start - offset..).unwrap_or_default();
+            let code = match text.first() {
                 Some(b':') => Code::SECOND,
                 Some(b'T' | b't') if range.len() > 2 && is_plane(line, range.start - offset) => {
                     Code::PLANE
                 }
-                _ => Code::NAME,
+                _ => Code::of_name(text),
             };
             note(Note::Foreign { code, range });
         }

@@ -26,6 +26,11 @@ pub(super) fn scan(line: &[u8], offset: usize, is_first: bool, mut each: impl Fn
     }
 }
 
+/// The way of the wire depends on a word with this letter.
+fn leads(letter: u8) -> bool {
+    matches!(letter, b'G' | b'X' | b'Y' | b'I' | b'J' | b'R')
+}
+
 struct Cursor<'a> {
     line: &'a [u8],
     at: usize,
@@ -214,7 +219,10 @@ impl Cursor<'_> {
         match self.peek() {
             Some(b'#' | b'[' | b'=') => {
                 self.skip_to_space();
-                return self.foreign(start);
+                return match leads(letter) {
+                    true => self.fault(WordFault::Expression { letter }, start),
+                    false => self.foreign(start),
+                };
             }
             _ => self.at = start + 1,
         }
@@ -241,7 +249,11 @@ impl Cursor<'_> {
                 byte.is_ascii_alphanumeric()
                     || matches!(byte, b'_' | b',' | b'.' | b'-' | b'+' | b'=')
             });
-            return self.foreign(start);
+            return match letter {
+                // `XABC5`: it may well be a coordinate.
+                b'X' | b'Y' => self.fault(WordFault::NoNumber { letter }, start),
+                _ => self.foreign(start),
+            };
         }
         self.fault(WordFault::NoNumber { letter }, start)
     }

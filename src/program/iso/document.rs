@@ -335,7 +335,7 @@ impl Document {
             self.reading = reading;
             self.run_stretches();
         }
+        // What an arc shows depends on the unit and the step, and these on neither: this evidence leads to no other.
         self.evidence = self.summed(&self.stretches);
-        self.reading = self.evidence.reading(self.limits.center);
     }
 }

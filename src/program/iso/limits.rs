@@ -88,7 +88,9 @@ fn known_words(settings: &Effective) -> BTreeSet<Code> {
 fn words_of_profile(profile: &Profile) -> Vec<Code> {
     let mut codes = Vec::new();
     for line in lines_of(profile) {
-        let line = line.replace("{register}", &profile.register);
+        let line = line
+            .replace("{register}", &profile.register)
+            .replace("{side}", "G41");
         read_line(line.replace(['{', '}'], " ").as_bytes(), 1, |note| {
             if let Note::Foreign { code, .. } = note {
                 codes.push(code);

@@ -74,6 +74,38 @@ fn loose(mut made: Move) -> Move {
     made
 }
 
+/// The effect of a line that moves the wire.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Steered {
+    /// As its words say: from the sharp corner, where the one before it is cut off.
+    pub(crate) said: Move,
+    /// The distance of its start from there.
+    cut_short: Option<Place>,
+}
+
+impl Steered {
+    /// The move that the wire makes.
+    pub(crate) fn made(&self, reading: &Reading) -> Move {
+        let Some(by) = self.cut_short else {
+            return self.said;
+        };
+        let mut made = self.said;
+        // The words of an arc count from the sharp corner.
+        if let Course::Arc(arc) = made.course(reading) {
+            let center = match made.center(reading.rule(made.incremental)) {
+                Some(center) => center,
+                None => [
+                    (arc.center.x * 1e3).round() as i64,
+                    (arc.center.y * 1e3).round() as i64,
+                ],
+            };
+            made.bend = bend_about(center, added(made.from, by), made.incremental, reading);
+        }
+        made.from = added(made.from, by);
+        made
+    }
+}
+
 impl Default for Machine {
     fn default() -> Self {
         Machine {
@@ -101,6 +133,12 @@ impl Default for Machine {
 impl Machine {
     /// Executes a line. Returns its move; none where the wire stands still, or its position is unknown.
     pub(crate) fn run(&mut self, block: &Block, reading: &Reading) -> Option<Move> {
+        self.steer(block, reading)
+            .map(|steered| steered.made(reading))
+    }
+
+    /// The same; the move as its words say it, and where it begins.
+    pub(crate) fn steer(&mut self, block: &Block, reading: &Reading) -> Option<Steered> {
         if let Some(inch) = block.inch {
             self.inch = inch;
         }
@@ -133,7 +171,7 @@ impl Machine {
             self.travel(block, reading)
         };
         self.behind = match (&moved, self.behind) {
-            (Some(moved), _) if moved.is_cut() => Behind::Cut,
+            (Some(moved), _) if moved.said.is_cut() => Behind::Cut,
             (Some(_), _) => Behind::Rest,
             (None, behind) => behind,
         };
@@ -145,7 +183,7 @@ impl Machine {
             Some(Stop::Pause) => self.moved = false,
             None => {}
         }
-        let parts = block.stop.is_some() || moved.is_some_and(|moved| !moved.is_cut());
+        let parts = block.stop.is_some() || moved.is_some_and(|moved| !moved.said.is_cut());
         self.torn = self.lost != [false, false] || (self.torn && !parts);
         moved
     }
@@ -170,7 +208,7 @@ impl Machine {
         }
     }
 
-    fn travel(&mut self, block: &Block, reading: &Reading) -> Option<Move> {
+    fn travel(&mut self, block: &Block, reading: &Reading) -> Option<Steered> {
         if block.takes_coordinates {
             return None;
         }
@@ -231,7 +269,7 @@ impl Machine {
             Motion::Clockwise | Motion::CounterClockwise => block.corner,
         };
         let (incremental, side, offset) = (self.incremental, self.side, self.offset);
-        let mut made = Move {
+        let said = Move {
             motion: self.motion,
             from,
             to,
@@ -242,20 +280,6 @@ impl Machine {
             switches,
             corner,
         };
-        if let Some(by) = cut_short {
-            // The words of an arc count from the sharp corner.
-            if let Course::Arc(arc) = made.course(reading) {
-                let center = match made.center(reading.rule(incremental)) {
-                    Some(center) => center,
-                    None => [
-                        (arc.center.x * 1e3).round() as i64,
-                        (arc.center.y * 1e3).round() as i64,
-                    ],
-                };
-                made.bend = bend_about(center, added(from, by), incremental, reading);
-            }
-            made.from = added(from, by);
-        }
-        Some(made)
+        Some(Steered { said, cut_short })
     }
 }

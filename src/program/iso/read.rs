@@ -4,6 +4,7 @@
 
 use super::block::{Block, Note, Stop, read_line};
 use super::corner::{self, Turned, turned};
+use super::evidence::FEW_BARE;
 use super::machine::{Behind, Machine, Trail};
 use super::moves::{Course, Move, Reading, added, apart};
 use super::part::{Hears, Part, SEVERAL, Tight, Ways};
@@ -16,9 +17,6 @@ use std::ops::Range;
 
 /// Arcs with a larger radius are not kept: no correction comes near, nm.
 const LARGEST_CORRECTION: f64 = 5e6;
-
-/// A stretch keeps the places of this many lengths, with a point and without.
-const MOST_LENGTHS: usize = 4;
 
 impl Stretch {
     /// Runs the first `count` of `lines`, each with the byte at which it begins, counted from `start`; the lines behind
@@ -104,10 +102,15 @@ impl Stretch {
         let (inch, known_faults) = (after.inch, faults.len());
         // The wire's upper end may go elsewhere than before.
         let mut leans = false;
+        let mut is_unread = false;
         let block = read_line(line, offset, |note| match note {
             Note::Fault { fault, range } => {
-                // One fault a line is enough: the others may follow from it.
-                if faults.len() == known_faults {
+                // One of a kind is enough for a line: the others may follow from it.
+                let is_new = match fault.is_read() {
+                    true => faults.len() == known_faults,
+                    false => !std::mem::replace(&mut is_unread, true),
+                };
+                if is_new {
                     faults.push(fault.finding(line, range.start - offset, range));
                 }
             }
@@ -135,7 +138,8 @@ impl Stretch {
             Note::Length { pointed, range } => {
                 let [bare, with_point] = &mut *lengths;
                 let kept = if pointed { with_point } else { bare };
-                if kept.len() < MOST_LENGTHS {
+                // Those of one stretch may be all that are told.
+                if kept.len() < FEW_BARE as usize {
                     kept.push(pair(range));
                 }
             }
@@ -173,9 +177,8 @@ impl Stretch {
         self.evidence.numbers(&block);
         self.fixed |= block.sets_position;
         let torn = self.after.torn;
-        let cut_short = self.after.cut_short;
         let behind = self.after.behind;
-        let made = self.after.run(&block, &self.reading);
+        let steered = self.after.steer(&block, &self.reading);
         // A line that says where to go does so too where nothing is cut, since the place before it is unknown.
         self.fixed |= !self.after.incremental && block.has_coordinates();
         let is_free = self.faults.len() == known_faults;
@@ -183,14 +186,14 @@ impl Stretch {
             let sentence = say!(i_and_j_stand_beside_a_straight_cut);
             self.fault(Fault::said(Rule::CenterOnLine, sentence), range);
         }
-        match made {
-            Some(made) => {
-                if made.is_arc()
-                    && cut_short.is_none()
-                    && self.evidence.arc(&made, self.reading.tolerance)
-                {
+        match steered {
+            Some(steered) => {
+                // As it is said: whether there is a corner before it depends on the meaning of I and J.
+                let said = steered.said;
+                if said.is_arc() && self.evidence.arc(&said, self.reading.tolerance) {
                     self.first_center.get_or_insert(range);
                 }
+                let made = steered.made(&self.reading);
                 self.moves += 1;
                 if is_free && !leans {
                     self.said(&block, &made, range);
@@ -213,7 +216,7 @@ impl Stretch {
         if let Some(stop) = block.stop {
             self.sum.stops += 1;
             self.interrupt(true);
-            if made.is_none() && behind == Behind::Stop && stop == Stop::Pause {
+            if steered.is_none() && behind == Behind::Stop && stop == Stop::Pause {
                 let known = self.parts.last_mut();
                 *known.map_or(&mut self.ends_open_before, |part| &mut part.ends_open) = true;
             }

@@ -53,7 +53,8 @@ pub(crate) enum Token {
         number: Number,
         range: Range<usize>,
     },
-    /// `STOP`, or a word with a variable or an expression instead of its number: it depends on the machine.
+    /// `STOP`, `#1=4`, or a word beside the wire's way with a variable or an expression instead of its number: it
+    /// depends on the machine.
     Foreign { range: Range<usize> },
     /// `( … )`, or `;` to the end of the line.
     Comment { range: Range<usize> },
@@ -116,6 +117,10 @@ pub enum WordFault {
     NoNumber {
         letter: u8,
     },
+    /// `X#101`, `Y[1+2]`, `X=AC(5)`: the way is known to the control alone.
+    Expression {
+        letter: u8,
+    },
     /// `X1.2.3`.
     NotANumber {
         letter: u8,
@@ -143,6 +148,14 @@ impl WordFault {
         let shown = shown(bytes);
         let sentence = match self {
             WordFault::NoNumber { letter } => say!(word_without_number, column, letter as char),
+            WordFault::Expression { letter } => {
+                say!(
+                    expression_for_a_number,
+                    column,
+                    letter as char,
+                    shown.get(1..).unwrap_or_default()
+                )
+            }
             WordFault::NotANumber { letter } => say!(
                 word_is_no_number,
                 column,

@@ -1,5 +1,6 @@
 //! Answers about a part of a program equal those of the whole trace, for programs of both languages under edits.
 
+use super::super::whereabouts::Stand;
 use super::chain_before;
 use crate::program::path::{Chain, Cut, Kind, Step, Trace, cuts};
 use crate::program::{Document, Language};
@@ -61,6 +62,34 @@ fn assert_parts_are_of_the_whole(document: &Document) -> Result<(), TestCaseErro
             prop_assert_eq!(stands, None);
         } else if is_known {
             prop_assert_eq!(stands, begins);
+        }
+    }
+    // Where nothing moves, it stands as the step before has left it, wherever the text falls into chunks.
+    let has_steps = !trace.steps.is_empty();
+    if has_steps && trace.steps.is_sorted_by_key(|step| step.range.start) {
+        for line in 0..=unread.unwrap_or(text.line_count() - 1) {
+            let range = text.line_range(line);
+            let program = document.program();
+            let mut chunks = 0..program.chunk_count();
+            let runs = chunks.any(|chunk| program.lines_of(chunk).contains(&line));
+            if !runs || trace.steps.iter().any(|step| step.line == line) {
+                continue;
+            }
+            let before = trace.steps.partition_point(|step| step.line < line);
+            let left = match before.checked_sub(1) {
+                Some(before) => trace.steps[before].end,
+                None => trace.start,
+            };
+            let stands = whereabouts.of(&range);
+            prop_assert_eq!(
+                stands,
+                Some(Stand {
+                    start: left / 1e3,
+                    end: None
+                }),
+                "line {}",
+                line
+            );
         }
     }
     for offset in (0..=text.len()).step_by(1 + text.len() / 29) {

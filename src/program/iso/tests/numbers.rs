@@ -93,7 +93,7 @@ fn words_have_their_numbers_and_places() {
     assert_eq!(
         tokens("X#101 STOP"),
         [
-            Token::Foreign { range: 10..15 },
+            fault(WordFault::Expression { letter: b'X' }, 10..15),
             Token::Foreign { range: 16..20 }
         ]
     );
@@ -302,4 +302,67 @@ fn subprograms_are_followed_where_they_are_called() {
             (4, "missing-end"),
         ],
     );
+}
+
+#[test]
+fn an_expression_where_the_wire_goes_is_an_error_and_a_name_is_told() {
+    let with = |line: &str| {
+        format!("G92 X0. Y0.\nG90\nG01 X3. Y-7.\n{line}\nG01 X7. Y3.\nG01 X0. Y0.\nM02\n")
+    };
+    for line in [
+        "G01 X#1 Y2.",
+        "g01 y#101",
+        "X[1+2]",
+        "X [#1 + 2]",
+        "G1 X=AC(5) Y2.",
+        "X=R1",
+        "XQ1",
+        "X+Q1",
+        "X-#1",
+        "XPOS5 Y1.",
+        "G03 X1. Y1. I#2 J0.",
+        "G03 X1. Y1. R[2]",
+        "G#1 X2.",
+        "X1. X2. Y#3",
+        "G01 X1O. Y#3",
+        "/X#1",
+        "N4X#1(a comment)",
+    ] {
+        let text = with(line);
+        let found = faults(&text, &Effective::default());
+        assert!(found.contains(&(4, "syntax")), "{line}: {found:?}");
+        assert_eq!(read(&text).unread_line(), Some(3), "{line}");
+    }
+    for (line, count) in [
+        ("STOP", 1),
+        ("#1=4", 1),
+        ("RETURN", 1),
+        ("GOTO20", 1),
+        ("M#1", 1),
+        ("Z=3", 1),
+        ("#1=4\nSTOP\n#2=5\nstop", 2),
+        ("WHILE\nREPEAT\nSIDE", 3),
+    ] {
+        let found = faults(&with(line), &Effective::default());
+        let told = found
+            .iter()
+            .filter(|(_, rule)| *rule == "machine-dependent");
+        assert_eq!(told.count(), count, "{line}: {found:?}");
+        assert!(!found.iter().any(|(_, rule)| *rule == "syntax"), "{line}");
+    }
+}
+
+#[test]
+fn every_number_that_stands_out_is_told_where_they_are_few() {
+    for bare in [1, 5, 20] {
+        let line = |index: usize| match index < bare {
+            true => format!("G01 X1 Y{index}.5\n"),
+            false => format!("G01 X{index}.5 Y0.5\n"),
+        };
+        let body: String = (0..200).map(line).collect();
+        let text = format!("G92 X0.0 Y0.0\nG90\n{body}M02\n");
+        let found = faults(&text, &Effective::default());
+        let told = found.iter().filter(|(_, rule)| *rule == "mixed-numbers");
+        assert_eq!(told.count(), bare);
+    }
 }
