@@ -128,14 +128,23 @@ impl Anew {
             return None;
         };
         let shares = [0.0, 0.5, 1.0].map(|share| segment.point_at(share) + self.shift);
-        let farthest = |piece: &Segment| {
-            let all = shares.iter().map(|place| piece.distance_to(*place));
-            all.fold(0.0, f64::max)
+        // Farther away than the nearest so far is as good as any.
+        let within = |piece: &Segment, than: f64| {
+            let mut farthest: f64 = 0.0;
+            for place in shares {
+                farthest = farthest.max(piece.distance_to(place));
+                if farthest >= than {
+                    return None;
+                }
+            }
+            Some(farthest)
         };
-        let nearest = self
-            .pieces
-            .iter()
-            .min_by(|(one, _), (other, _)| farthest(one).total_cmp(&farthest(other)));
-        nearest?.1.segment()
+        let (mut least, mut nearest) = (f64::INFINITY, None);
+        for (piece, source) in &self.pieces {
+            if let Some(away) = within(piece, least) {
+                (least, nearest) = (away, Some(source));
+            }
+        }
+        nearest?.segment()
     }
 }

@@ -30,7 +30,7 @@ const OURS: f64 = 0.5;
 /// By how much a block at a stop is off where a tab was guessed wrong, mm.
 const FAR: f64 = 0.05;
 /// What is off by less may be so because a guess is not that of the program, mm.
-const CHANGED: f64 = 2e-3;
+const CHANGED: f64 = 3e-3;
 /// A correction may have four places: it is so many steps of 0.1 µm away from one that was found, at most.
 const STEPS: i32 = 12;
 /// A way in or out that is off by more is set otherwise, mm; and where it hangs on what is not known.
@@ -268,8 +268,10 @@ impl<'a> Search<'a> {
             let told = own(self.drawn, self.traced, &guess);
             let told = told.filter(|told| is_told(self.traced, told));
             if let Some(told) = told {
-                // Of those that are not the program's own the nearest: one that is farther off may hide a change.
+                // Of those that are not the program's own the nearest: one that is farther off may hide a change. They go before one of
+                // which blocks are lost or too many: these may be an overlap.
                 let rank = |told: &Told| match told.is_exact() {
+                    true if told.has_gap => ((true, 0, true), told.mean),
                     true => (told.doubt(), told.mean),
                     false => ((true, 0, false), told.mean),
                 };

@@ -253,6 +253,13 @@ impl<'a> Pairs<'a> {
         }
         let mean = beside / traced.blocks.len() as f64;
         let alike = if mean < SAME { ALIKE } else { ROUNDED };
+        // In a program that is ours most blocks are just as we write them.
+        let moves = |pair: &&Pair| pair.own.motion != Motion::Stop;
+        let moving = self.pairs.iter().filter(moves).count();
+        if 2 * all.iter().filter(|(off, _)| *off > alike).count() > moving {
+            return None;
+        }
+        let most = FEW.min(traced.blocks.len() / 3);
         let (mut found, mut stated, mut elsewhere) = (Vec::new(), Vec::new(), 0);
         // Of the last that is named: its number, and whether the program is elsewhere since.
         let mut run: Option<(usize, bool)> = None;
@@ -296,14 +303,10 @@ impl<'a> Pairs<'a> {
                     continue;
                 }
             };
+            if found.len() == most {
+                return None;
+            }
             found.push(named(own, segment, *off, kind));
-        }
-        // In a program that is ours most blocks are just as we write them.
-        let moves = |pair: &&Pair| pair.own.motion != Motion::Stop;
-        let moving = self.pairs.iter().filter(moves).count();
-        let off = all.iter().filter(|(off, _)| *off > alike).count();
-        if 2 * off > moving || found.len() > FEW.min(traced.blocks.len() / 3) {
-            return None;
         }
         if stated.len() <= FEW {
             found.append(&mut stated);

@@ -3,7 +3,7 @@
 use crate::drawing::{Drawing, Outline, Role, winding_of};
 use crate::geometry::Bounds;
 
-/// Of more contours it is not asked which lie within others.
+/// Of more contours it is not asked which lie within others: `docs/rules/not-the-drawing.md` says so.
 const MOST: usize = 500;
 
 /// What the contours are that may be punch and opening alike.

@@ -32,8 +32,8 @@ pub(super) fn publish_of(
 /// The findings of the last publish.
 #[derive(Default)]
 pub(super) struct Shown {
-    /// The conditions under which they were made.
-    settings: Option<Arc<Effective>>,
+    /// The conditions under which they were made: the settings, and mm of the drawing's unit.
+    under: Option<(Arc<Effective>, f64)>,
     /// The mark of each kept finding, by which it is searched for.
     marks: Vec<u64>,
     /// Behind those of the last publish the most recently removed ones: often a key removes a finding and the next
@@ -71,10 +71,11 @@ impl Shown {
         encoding: Encoding,
         uri: Option<&str>,
     ) -> Written {
-        let settings = Some(document.settings());
-        if self.settings.as_ref() != settings {
+        let (settings, unit_mm) = (document.settings(), document.unit_mm());
+        let is_under = |(old, mm): &(Arc<Effective>, f64)| old == settings && *mm == unit_mm;
+        if !self.under.as_ref().is_some_and(is_under) {
             *self = Shown::default();
-            self.settings = settings.cloned();
+            self.under = Some((settings.clone(), unit_mm));
         }
         let mut whereabouts = document.whereabouts();
         let mut marks: Vec<u64> = findings.iter().map(mark).collect();
@@ -218,7 +219,9 @@ mod tests {
 
     /// Squares with a corner radius below the correction, two of which cross, and one without closing line.
     fn drawing() -> String {
-        let mut text = String::from("0\nSECTION\n2\nENTITIES\n");
+        let mut text = String::from(
+            "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n",
+        );
         for square in 0..6 {
             let x = 7 * square;
             let _ = write!(
@@ -235,13 +238,37 @@ mod tests {
 
     fn edits() -> impl Strategy<Value = Vec<(usize, usize, &'static str)>> {
         let text = prop::sample::select(vec!["1", "0", "-", "", ".5", "\n", "9\n10\n4\n20\n8"]);
-        prop::collection::vec((0usize..90, 0usize..3, text), 1..12)
+        prop::collection::vec((0usize..100, 0usize..3, text), 1..12)
+    }
+
+    /// Edits of a drawing, also of its unit and of handles.
+    fn drawn_edits() -> impl Strategy<Value = Vec<(usize, usize, &'static str)>> {
+        let unit = prop::sample::select(vec!["1", "4", "5", "13", ""]);
+        let handle = prop::sample::select(vec!["1", "B", ""]);
+        let whole = prop_oneof![
+            unit.prop_map(|unit| (7, 2, unit)),
+            (0usize..3, 0usize..3, handle).prop_map(|(square, width, handle)| (
+                17 + 32 * square,
+                width,
+                handle
+            )),
+        ];
+        (
+            edits(),
+            prop::collection::vec((any::<prop::sample::Index>(), whole), 0..5),
+        )
+            .prop_map(|(mut edits, whole)| {
+                for (at, edit) in whole {
+                    edits.insert(at.index(edits.len() + 1), edit);
+                }
+                edits
+            })
     }
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(48))]
         #[test]
-        fn a_drawing_is_shown_as_afresh(edits in edits()) {
+        fn a_drawing_is_shown_as_afresh(edits in drawn_edits()) {
             let settings = Arc::new(Effective::of(&crate::settings::Settings::default()));
             check(Document::new(Source::Dxf(dxf::Document::read(drawing().into())), settings), &edits);
         }

@@ -85,7 +85,8 @@ fn lies_behind(segment: &Segment, other: &Segment, distance: f64) -> bool {
         return false;
     };
     let ways = [arc.start, arc.end].map(|end| (end - arc.center) / arc.radius);
-    // Every direction between two that are no more than 120° apart is the sum of them, times no more than 1 each.
+    // Every direction between two that are no more than 120° apart is the sum of them, times factors that are at least 0 and come to no
+    // more than 2 together.
     let room = (arc.radius - distance) / 2.0;
     let is_narrow = arc.is_minor() && ways[0].dot(&ways[1]) >= -0.5;
     let is_shallow = |it: &Segment| it.as_arc().is_some_and(Arc::is_shallow);

@@ -89,3 +89,28 @@ fn without_settings_nothing_is_said_of_an_unchanged_program() {
     // It is not only that nothing was compared.
     assert!(all > 3 && 2 * followed >= all, "{followed} of {all}");
 }
+
+/// A correction of four places is not guessed to the last of them, nor is an overlap on a circle: of an unchanged program nothing is said.
+#[test]
+fn a_correction_of_four_places_and_an_overlap_name_nothing_of_a_circle() {
+    let settings = settings_of("");
+    for (radius, correction, overlap, role, format) in [
+        (4.0, 0.0875, 0.3, Role::Punch, Format::Iso),
+        (4.0, 0.0875, 1.5, Role::Punch, Format::Iso),
+        (8.0, 0.0875, 0.5, Role::Punch, Format::Iso),
+        (12.0, 0.0875, 1.0, Role::Punch, Format::Iso),
+    ] {
+        let circle = Shape::Circle([7.0, 2.5], radius);
+        let written = settings_of(&format!(
+            "correction = {correction}\n[program]\nlead-in = 3\nclosing-overlap = {overlap}\n"
+        ));
+        let made = document(&[(circle.clone(), role)], &written);
+        let text = program_of(&made, format).unwrap();
+        let drawn = document(&[(circle, Role::Both)], &settings)
+            .drawn()
+            .unwrap();
+        let found = compare(&drawn, &traced(&text, format, &settings));
+        let said = found.map_or(Vec::new(), |found| found.differences);
+        assert_eq!(said, [], "{radius} {correction} {overlap} {role:?}\n{text}");
+    }
+}
