@@ -220,14 +220,19 @@ impl Report<'_> {
                 continue;
             }
             for line in placed.lines {
+                // Of a word that stands twice the last one counts, as in the evidence.
+                let mut lengths: [Option<Range<usize>>; 5] = Default::default();
                 words_at(self.text, line, |letter, number, word| {
-                    let is_length = matches!(letter, b'X' | b'Y' | b'I' | b'J' | b'R');
-                    if is_length && number.point && number.decimals != usual {
-                        found.push(word);
+                    let own = b"XYIJR".iter().position(|of| *of == letter);
+                    if let Some(own) = own.and_then(|own| lengths.get_mut(own)) {
+                        *own = (number.point && number.decimals != usual).then_some(word);
                     }
                 });
+                found.extend(lengths.into_iter().flatten());
             }
         }
+        found.sort_by_key(|word| word.start);
+        found.dedup();
         for range in found.into_iter().take(odd as usize) {
             let word = self.shown(&range);
             self.add(range, Fault::Places { word, usual });

@@ -366,3 +366,22 @@ fn every_number_that_stands_out_is_told_where_they_are_few() {
         assert_eq!(told.count(), bare);
     }
 }
+
+#[test]
+fn a_number_that_the_control_passes_over_does_not_stand_for_one_with_other_decimals() {
+    // Of X that stands twice the last one counts; where the lines come to stand in one stretch, and where they do not.
+    for between in [0, 5, 400] {
+        let comments = "(plate)\n".repeat(between);
+        let body = "G01 X1.5 Y2.5\nG01 X3.5 Y0.5\n".repeat(10);
+        let text = format!(
+            "G92 X0.0 Y0.0\nG90\nG01 X9. X2.5\n{comments}{body}G01 X4. Y2.5\nG01 X0.0 Y0.0\nM02\n"
+        );
+        let found = faults(&text, &Effective::default());
+        let line = 24 + between;
+        let told: Vec<_> = found
+            .iter()
+            .filter(|(_, rule)| *rule == "mixed-numbers")
+            .collect();
+        assert_eq!(told, [&(line, "mixed-numbers")], "{between}");
+    }
+}
