@@ -1,8 +1,8 @@
 //! Answers about a part of a program equal those of the whole trace, for programs of both languages under edits.
 
-use super::super::whereabouts::Stand;
 use super::chain_before;
 use crate::program::path::{Chain, Cut, Kind, Step, Trace, cuts};
+use crate::program::whereabouts::Stand;
 use crate::program::{Document, Language};
 use crate::settings::Effective;
 use proptest::prelude::*;

@@ -3,6 +3,15 @@
 use super::*;
 use proptest::prelude::*;
 
+/// What was edited is the same as its text read afresh.
+fn assert_as_afresh(document: &Document, what: &str) -> Document {
+    let fresh = Document::read(document.text().bytes().to_vec());
+    assert_eq!(document.reading(), fresh.reading(), "{what}");
+    assert_eq!(document.findings(), fresh.findings(), "{what}");
+    assert_eq!(document.trace(), fresh.trace(), "{what}");
+    fresh
+}
+
 #[test]
 fn lines_that_name_places_do_not_move_with_what_stands_before_them() {
     // Steps move with the text before them, places do not: where one replaces the other, all is read again.
@@ -16,9 +25,7 @@ fn lines_that_name_places_do_not_move_with_what_stands_before_them() {
         let mut document = read(&text);
         let at = document.text().line_start(5) + "G01 X".len();
         document.edit(at..at, "1");
-        let fresh = Document::read(document.text().bytes().to_vec());
-        assert_eq!(document.trace(), fresh.trace(), "{steps} steps");
-        assert_eq!(document.findings(), fresh.findings(), "{steps} steps");
+        assert_as_afresh(&document, &format!("{steps} steps"));
     }
 }
 
@@ -34,13 +41,7 @@ fn a_place_behind_a_line_that_cannot_be_read_does_not_move_with_what_stands_befo
         let mut document = read(&text);
         let at = document.text().line_start(5) + "G01 X".len();
         document.edit(at..at, "1");
-        let fresh = Document::read(document.text().bytes().to_vec());
-        assert_eq!(document.trace(), fresh.trace(), "{place} lines between");
-        assert_eq!(
-            document.findings(),
-            fresh.findings(),
-            "{place} lines between"
-        );
+        assert_as_afresh(&document, &format!("{place} lines between"));
     }
 }
 
@@ -54,12 +55,7 @@ fn the_first_centre_that_does_not_tell_is_where_it_is_however_the_text_was_edite
         );
         let mut document = read(&text);
         document.edit(12..12, "\n");
-        let fresh = Document::read(document.text().bytes().to_vec());
-        assert_eq!(
-            document.findings(),
-            fresh.findings(),
-            "{place} lines between"
-        );
+        let fresh = assert_as_afresh(&document, &format!("{place} lines between"));
         let is_open = |finding: &crate::finding::Finding| {
             finding.rule == crate::finding::Rule::AmbiguousCenter
         };
@@ -116,8 +112,7 @@ fn what_a_joint_looks_at_behind_many_comments_is_looked_at_again() {
             let mut document = read(&text);
             let at = text.find("X-4. Y1.").unwrap();
             document.edit(at..at + 8, "X1. Y0.");
-            let fresh = Document::read(document.text().bytes().to_vec());
-            assert_eq!(document.findings(), fresh.findings(), "{before} {between}");
+            assert_as_afresh(&document, &format!("{before} {between}"));
         }
     }
 }
@@ -137,10 +132,7 @@ fn what_i_and_j_mean_does_not_turn_with_each_edit() {
         for edit in 0..4 {
             let at = document.text().line_range(6).end;
             document.edit(at..at, " ");
-            let fresh = Document::read(document.text().bytes().to_vec());
-            assert_eq!(document.reading(), fresh.reading(), "{arc}, edit {edit}");
-            assert_eq!(document.findings(), fresh.findings(), "{arc}, edit {edit}");
-            assert_eq!(document.trace(), fresh.trace(), "{arc}, edit {edit}");
+            assert_as_afresh(&document, &format!("{arc}, edit {edit}"));
         }
     }
 }
