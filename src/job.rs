@@ -27,7 +27,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// The caller while it waits: whether it still wants the result, and the progress that it is shown.
-pub trait Watch {
+pub trait Watch: Sync {
     fn is_wanted(&self) -> bool {
         true
     }

@@ -7,6 +7,8 @@
 use super::{Pair, Spot, segments};
 use crate::geometry::{Bounds, Few, Point, Segment, Vector, cross};
 use crate::toolpath::Part;
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+use rayon::slice::ParallelSlice;
 use std::sync::Arc;
 
 /// What the clearance is held against. Drawing units.
@@ -24,6 +26,9 @@ const FARTHEST: f64 = 16.0;
 
 /// The most looks at one edge for how deep it stands in the other part.
 const MOST: usize = 2_000;
+
+/// Edges that one core takes at a time.
+const AT_A_TIME: usize = 256;
 
 /// How often twice as much clearance is asked for to see how much is left: partners lie within five of each other.
 const DOUBLINGS: u32 = 6;
@@ -119,7 +124,7 @@ fn corners(
             partner: names[1].clone(),
         })
     };
-    let turns = one.edges.iter().enumerate();
+    let turns = one.edges.par_iter().enumerate().with_min_len(AT_A_TIME);
     turns
         .filter_map(|(index, edge)| Some((index, edge.turned_about?)))
         .filter_map(spot)
@@ -197,15 +202,25 @@ fn crossed(segment: &Segment, from: Point, ray: Vector) -> Few<f64, 2> {
 
 /// Walls of two drawn parts that lie too near to each other, or run into each other.
 fn walls(punch: &Part, plate: &Part, names: [Arc<str>; 2], limits: &Limits) -> Vec<Spot> {
+    let edges: Vec<usize> = (0..punch.edges.len()).collect();
+    let some = edges.par_chunks(AT_A_TIME);
+    some.flat_map_iter(|edges| walls_of(edges, punch, plate, &names, limits))
+        .collect()
+}
+
+/// Those of some edges of the punch.
+fn walls_of(
+    edges: &[usize],
+    punch: &Part,
+    plate: &Part,
+    names: &[Arc<str>; 2],
+    limits: &Limits,
+) -> Vec<Spot> {
     let mut spots = Vec::new();
     let plain = |part: &Part, index: usize| part.edges[index].turned_about.is_none();
     let mut beside = None;
-    for (index, edge) in punch
-        .edges
-        .iter()
-        .enumerate()
-        .filter(|(index, _)| plain(punch, *index))
-    {
+    for &index in edges.iter().filter(|index| plain(punch, **index)) {
+        let edge = &punch.edges[index];
         let geometry = &edge.geometry;
         let mut nearest = (limits.clearance - limits.rounding, None);
         plate

@@ -83,7 +83,7 @@ pub fn fit(
     drawing: &Drawing,
     outlines: &[Outline],
     settings: &Effective,
-    goes_on: &dyn Fn() -> bool,
+    goes_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Fit, Refusal> {
     let (partners_are, clearance) = settings
         .fit()

@@ -1,9 +1,12 @@
 //! How near a path comes to the walls, for contours of any size.
 
 use super::apart::{are_apart, distance_between};
+use super::cores::each;
 use crate::geometry::{Bounds, Point, Segment, Vector};
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use std::ops::Range;
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Walls in boxes of boxes: a few that follow each other along the contour in one, and of these, where there are many, a few that lie
 /// together anywhere, as the turns of a spiral do.
@@ -30,6 +33,9 @@ const MOST_IN_ORDER: usize = 1024;
 /// So many walls about each few are kept on an average.
 const MOST_ABOUT: usize = 64;
 
+/// One core takes so many walls at a time.
+const AT_A_TIME: usize = 2048;
+
 /// Of each few walls those whose boxes come near to theirs.
 #[derive(Debug)]
 struct About {
@@ -42,7 +48,18 @@ struct About {
 
 impl Walls {
     pub(crate) fn new(segments: Vec<Segment>) -> Walls {
-        let mut level: Vec<Bounds> = segments.iter().map(Segment::bounds).collect();
+        let boxes = each(&segments, AT_A_TIME, Segment::bounds);
+        Walls::within(segments, boxes)
+    }
+
+    /// The same by one core, for what others are waiting for.
+    pub(crate) fn by_one_core(segments: Vec<Segment>) -> Walls {
+        let boxes = segments.iter().map(Segment::bounds).collect();
+        Walls::within(segments, boxes)
+    }
+
+    fn within(segments: Vec<Segment>, boxes: Vec<Bounds>) -> Walls {
+        let mut level = boxes;
         let mut levels = Vec::new();
         let mut order = Vec::new();
         while level.len() > 1 {
@@ -72,8 +89,14 @@ impl Walls {
     /// Of each segment its directions at both ends.
     pub(crate) fn tangents(&self) -> &[[Vector; 2]] {
         let ends = |segment: &Segment| [segment.start_tangent(), segment.end_tangent()];
-        self.tangents
-            .get_or_init(|| self.segments.iter().map(ends).collect())
+        match self.tangents.get() {
+            Some(known) => known,
+            None => {
+                // Nobody waits for it meanwhile: a core that waited might be one that it takes.
+                let made = each(&self.segments, AT_A_TIME, ends);
+                self.tangents.get_or_init(|| made)
+            }
+        }
     }
 
     /// Twice the signed area of all as one closed contour.
@@ -113,11 +136,12 @@ impl Walls {
     ) -> Option<usize> {
         let bounds = path.bounds();
         let (area, boxes) = (bounds.grown(distance), &self.levels[0]);
-        let about = self.about.get_or_init(|| self.about(2.1 * distance));
+        self.know_about(distance);
+        let about = self.about.get().and_then(Option::as_ref);
         let few = own / FAN;
         // All that comes near to what lies in the box is among those.
         let is_known = |about: &&About| about.boxes[few].holds(&area);
-        let Some(about) = about.as_ref().filter(is_known) else {
+        let Some(about) = about.filter(is_known) else {
             return self.too_near(path, distance);
         };
         let range = about.begins[few] as usize..about.begins[few + 1] as usize;
@@ -129,27 +153,63 @@ impl Walls {
         })
     }
 
+    /// What lies about each few, for paths that run at a distance; made over the cores where it is asked for first, so not by what runs
+    /// on several of them already.
+    pub(crate) fn know_about(&self, distance: f64) {
+        if self.about.get().is_none() {
+            let made = self.about(2.1 * distance);
+            self.about.get_or_init(|| made);
+        }
+    }
+
     fn about(&self, reach: f64) -> Option<About> {
-        let count = self.segments.len();
-        let few = count.div_ceil(FAN);
+        let boxes = &self.levels[0];
+        let few = boxes.len().div_ceil(FAN);
+        let (most, found) = (MOST_ABOUT * few, AtomicUsize::new(0));
+        let part = |boxes: &[Bounds]| {
+            let mut about = About {
+                boxes: Vec::with_capacity(boxes.len().div_ceil(FAN)),
+                begins: Vec::with_capacity(boxes.len().div_ceil(FAN)),
+                walls: Vec::with_capacity(2 * boxes.len()),
+            };
+            for boxes in boxes.chunks(FAN) {
+                let mut all = Bounds::EMPTY;
+                boxes.iter().for_each(|own| all.merge(own));
+                let all = all.grown(reach);
+                about.boxes.push(all);
+                let begin = about.walls.len();
+                about.begins.push(begin as u32);
+                self.find(&all, |wall| {
+                    about.walls.push(wall as u32);
+                    false
+                });
+                let own = about.walls.len() - begin;
+                if found.fetch_add(own, Ordering::Relaxed) + own > most {
+                    return None;
+                }
+            }
+            Some(about)
+        };
+        let parts: Vec<&[Bounds]> = boxes.chunks(AT_A_TIME).collect();
+        let parts: Vec<About> = match &parts[..] {
+            [only] => vec![part(only)?],
+            several => several
+                .par_iter()
+                .map(|boxes| part(boxes))
+                .collect::<Option<_>>()?,
+        };
         let mut about = About {
             boxes: Vec::with_capacity(few),
             begins: Vec::with_capacity(few + 1),
-            walls: Vec::with_capacity(2 * count),
+            walls: Vec::with_capacity(parts.iter().map(|part| part.walls.len()).sum()),
         };
-        for boxes in self.levels[0].chunks(FAN) {
-            let mut all = Bounds::EMPTY;
-            boxes.iter().for_each(|own| all.merge(own));
-            let all = all.grown(reach);
-            about.boxes.push(all);
-            about.begins.push(about.walls.len() as u32);
-            self.find(&all, |wall| {
-                about.walls.push(wall as u32);
-                false
-            });
-            if about.walls.len() > MOST_ABOUT * few {
-                return None;
-            }
+        for part in parts {
+            let before = about.walls.len() as u32;
+            about.boxes.extend(part.boxes);
+            about
+                .begins
+                .extend(part.begins.iter().map(|begin| before + begin));
+            about.walls.extend(part.walls);
         }
         about.begins.push(about.walls.len() as u32);
         Some(about)

@@ -21,7 +21,7 @@ pub(super) struct Job<'a> {
     pub(crate) finishes: bool,
     /// A loop that is everywhere at its distance is enough: whether the offset has others is not asked.
     pub(crate) a_loop_will_do: bool,
-    pub(crate) goes_on: &'a dyn Fn() -> bool,
+    pub(crate) goes_on: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl Job<'_> {

@@ -24,9 +24,6 @@ const CRUMB: f64 = 4e-6;
 /// Walls up to this long, mm, are left out where a path does not hold its proof otherwise.
 const SPECK: f64 = 4e-5;
 
-/// Elements of a path that are looked at between two questions whether it is still wanted.
-const STEP: usize = 1024;
-
 /// How a path runs along a contour.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Along {
@@ -268,17 +265,26 @@ impl Job<'_> {
         path: &[(usize, Element)],
         known: Known,
     ) -> Result<Result<(), Unproved>, Refusal> {
-        let Known { before, mut kept } = known;
-        let mut nest = before.map(Nest::new);
-        let about = kept
-            .as_ref()
-            .map(|kept| kept.about(proof.own, proof.correction));
-        for pieces in path.chunks(STEP) {
-            self.go_on()?;
-            let kept = kept.as_mut().zip(about.as_deref());
-            if let Err(fault) = proof.pieces_hold(pieces, nest.as_mut(), kept) {
-                return Ok(Err(fault));
+        let Known { before, kept } = known;
+        let nest = before.map(|before| Nest::new(before, proof.walls.len()));
+        let held = match kept {
+            // Little of it is looked at.
+            Some(mut kept) => {
+                self.go_on()?;
+                let about = kept.about(proof.own, proof.correction);
+                proof.pieces_hold(path, nest.as_ref(), Some((&mut kept, &about)))
             }
+            None => {
+                if proof.closed {
+                    proof.own.know_about(proof.correction - proof.rounding);
+                }
+                self.first_fault(path.len(), |range| {
+                    proof.pieces_hold(&path[range], nest.as_ref(), None)
+                })?
+            }
+        };
+        if held.is_err() {
+            return Ok(held);
         }
         if self.a_loop_will_do {
             return Ok(Ok(()));
@@ -293,15 +299,9 @@ impl Job<'_> {
             let by_share = |a: &_, b: &_| share(a).total_cmp(&share(b));
             (by_raw.to_mut()).sort_by(|a, b| a.0.cmp(&b.0).then_with(|| by_share(a, b)));
         }
-        let count = proof.followed();
-        for first in (0..count).step_by(STEP) {
-            self.go_on()?;
-            if let Err(fault) = proof.nothing_is_missing(&by_raw, first..(first + STEP).min(count))
-            {
-                return Ok(Err(fault));
-            }
-        }
-        Ok(Ok(()))
+        self.first_fault(proof.followed(), |range| {
+            proof.nothing_is_missing(&by_raw, range)
+        })
     }
 
     /// The finding that stands for a path which cannot be made.

@@ -59,8 +59,9 @@ impl Contours<'_> {
                     of.push((index, segment.entity, segment.segment));
                 }
             }
+            // Those that make the paths of other contours may wait for it.
             WallsOf {
-                walls: Walls::new(segments),
+                walls: Walls::by_one_core(segments),
                 of,
             }
         })

@@ -7,6 +7,7 @@
 mod apart;
 mod clearance;
 mod containment;
+mod cores;
 mod corners;
 mod drawn;
 mod entry;
@@ -143,7 +144,7 @@ pub(crate) fn plan_while(
     settings: &Effective,
     handles: Option<&[String]>,
     finishes: bool,
-    goes_on: &dyn Fn() -> bool,
+    goes_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Planned, Refusal> {
     let tolerances = settings.tolerances.in_units(settings.unit_of(drawing).mm);
     let places = wanted::places(drawing, outlines, settings);

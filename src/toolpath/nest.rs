@@ -27,36 +27,38 @@ pub(super) struct Beside {
 /// Which pieces of a path run beside what an earlier pass does.
 pub(super) struct Nest<'a> {
     before: Before<'a>,
-    at: usize,
+    /// Of each wall where the earlier path comes to it first.
+    first: Vec<u32>,
 }
 
+/// No piece of a path runs beside a wall.
+const NOWHERE: u32 = u32::MAX;
+
 impl<'a> Nest<'a> {
-    pub(crate) fn new(before: Before<'a>) -> Nest<'a> {
-        Nest { before, at: 0 }
+    /// `walls`: how many there are.
+    pub(crate) fn new(before: Before<'a>, walls: usize) -> Nest<'a> {
+        let mut first = vec![NOWHERE; walls];
+        for (piece, element) in before.path.iter().enumerate().rev() {
+            first[element.wall] = piece as u32;
+        }
+        Nest { before, first }
     }
 
     /// What of a piece reaches beyond the piece of the earlier path beside the same wall. `None` where there is none, or that is not known.
-    pub(crate) fn beyond(
-        &mut self,
-        beside: Beside,
-        element: &Element,
-    ) -> Option<[Option<Segment>; 2]> {
-        /// So many pieces of the earlier path are looked at.
-        const AHEAD: usize = 6;
+    pub(crate) fn beyond(&self, beside: Beside, element: &Element) -> Option<[Option<Segment>; 2]> {
         let Before { path, correction } = self.before;
         let is_roll = |element: &Element| matches!(element.source, Source::Corner { .. });
-        let is_same =
-            |other: &Element| other.wall == element.wall && is_roll(other) == is_roll(element);
-        let mut ahead = path.get(self.at..)?.iter().take(AHEAD);
-        let found = ahead.position(is_same)?;
-        self.at += found;
+        let first = *self.first.get(element.wall)? as usize;
+        let of_wall = path.get(first..)?.iter();
+        let mut of_wall = of_wall.take_while(|other| other.wall == element.wall);
+        let earlier = of_wall.find(|other| is_roll(other) == is_roll(element))?;
         let by = correction - beside.correction;
         let slack = 1e-3 * beside.rounding;
         if by < 0.0 {
             return None;
         }
         let mut parts = [None; 2];
-        match (element.geometry, path.get(self.at)?.geometry) {
+        match (element.geometry, earlier.geometry) {
             (Segment::Line(inner), Segment::Line(outer)) => {
                 let own = beside.wall;
                 let along = own.start_tangent();
@@ -196,7 +198,7 @@ mod tests {
                 path: &outer,
                 correction,
             };
-            let mut nest = Nest::new(before);
+            let nest = Nest::new(before, walls.len());
             let parts = inner
                 .iter()
                 .map(|element| nest.beyond(beside(element), element));

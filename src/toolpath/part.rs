@@ -10,7 +10,7 @@ use super::kept::{Kept, follows};
 use super::laid::{Along, Known, Laid};
 use super::offset::{Wall, walls};
 use super::path::{Refusal, Source};
-use super::paths::Pass;
+use super::skim::Rough;
 use crate::drawing::{Contour, Drawing, EntityId};
 use crate::geometry::{Arc, Point, Segment, Side};
 use crate::settings::{Corner, Effective, SkimCorner};
@@ -80,7 +80,7 @@ pub(crate) fn part(
     contour: &Contour,
     cutting: Cutting,
     before: Option<&Part>,
-    goes_on: &dyn Fn() -> bool,
+    goes_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Part, Refusal> {
     let Cutting {
         side,
@@ -226,11 +226,9 @@ impl Job<'_> {
         let (walls, own, laid) = self.along(segments, side.sign(), first, true)?;
         let laid = match (laid, is_beside_rough) {
             (Ok(Laid::Path(path)), true) => {
-                let rough = Pass {
+                let rough = Rough {
                     correction: rough,
                     path,
-                    element: 0,
-                    begin: Point::origin(),
                 };
                 let along = Along {
                     side: side.sign(),
@@ -238,7 +236,7 @@ impl Job<'_> {
                     corner: settings.corner,
                     closed: true,
                 };
-                self.skim(&walls, &own, [&rough, &rough], along)?
+                self.skim(&walls, &own, &rough, along)?
             }
             (laid, _) => laid,
         };

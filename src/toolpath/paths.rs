@@ -2,6 +2,7 @@
 
 use super::Planned;
 use super::clearance::Walls;
+use super::cores::each;
 use super::corners::{Element, elements};
 use super::entry::{Entry, default_entry, path_point};
 use super::finished::{Finished, Kerf, finished};
@@ -30,6 +31,17 @@ pub(super) struct Unled {
     pub(crate) side: f64,
     pub(crate) passes: Vec<Pass>,
 }
+
+/// What the wire follows of one contour.
+enum Offset {
+    /// Ready.
+    Middle(WirePath),
+    /// With what is wanted of it, without leads.
+    Beside(Wanted, Box<Unled>),
+}
+
+/// One core takes so many contours at a time.
+const CONTOURS_AT_A_TIME: usize = 8;
 
 /// One pass along a contour.
 pub(super) struct Pass {
@@ -109,22 +121,15 @@ impl Job<'_> {
     ) -> Result<(Planned, Vec<Finding>), Refusal> {
         let (mut planned, mut findings) = (Planned::default(), Vec::new());
         let mut offsets = Vec::with_capacity(chosen.len());
-        for (&index, wanted) in chosen.iter().zip(wanted) {
+        let both: Vec<(usize, &Wanted)> = chosen.iter().copied().zip(wanted).collect();
+        let made = each(&both, CONTOURS_AT_A_TIME, |&(index, wanted)| {
             self.go_on()?;
-            if self
-                .settings
-                .goes_along_middle(self.outlines[index].contour.closed)
-            {
-                let thread = wanted.thread.or(wanted.beside);
-                let mut path = self.as_drawn(index, &Wanted { thread, ..*wanted })?;
-                path.segments.retain(|piece| piece.source.place().is_some());
-                path.thread_hole = path.begin();
-                planned.paths.push(path);
-                continue;
-            }
-            let wanted = self.with_proposed(index, *wanted, contours);
-            match self.compensated(index, &wanted) {
-                Ok(offset) => offsets.push((wanted, offset)),
+            self.offset(index, wanted, contours)
+        });
+        for made in made {
+            match made {
+                Ok(Offset::Middle(path)) => planned.paths.push(path),
+                Ok(Offset::Beside(wanted, unled)) => offsets.push((wanted, *unled)),
                 Err(Refusal::Findings(found)) => findings.extend(found),
                 Err(refusal) => return Err(refusal),
             }
@@ -161,6 +166,26 @@ impl Job<'_> {
             planned.paths.sort_by_key(|path| places.get(&path.outline));
         }
         Ok((planned, findings))
+    }
+
+    /// The offsets of one contour, or the way along its middle.
+    fn offset(
+        &self,
+        index: usize,
+        wanted: &Wanted,
+        contours: &Contours,
+    ) -> Result<Offset, Refusal> {
+        let closed = self.outlines[index].contour.closed;
+        if self.settings.goes_along_middle(closed) {
+            let thread = wanted.thread.or(wanted.beside);
+            let mut path = self.as_drawn(index, &Wanted { thread, ..*wanted })?;
+            path.segments.retain(|piece| piece.source.place().is_some());
+            path.thread_hole = path.begin();
+            return Ok(Offset::Middle(path));
+        }
+        let wanted = self.with_proposed(index, *wanted, contours);
+        let unled = self.compensated(index, &wanted)?;
+        Ok(Offset::Beside(wanted, Box::new(unled)))
     }
 
     /// Where a start hole is to be in an opening of which nothing is said: in the deepest point.
@@ -330,29 +355,22 @@ impl Job<'_> {
             true => own_side.reversed().sign(),
             false => own_side.sign(),
         };
-        let corrections = settings.each_correction();
-        let corrections = || corrections.iter().map(|&mm| self.units(mm));
-        let rough = corrections().fold(0.0, f64::max);
+        let corrections = settings.each_correction().into_iter();
+        let corrections: Vec<f64> = corrections.map(|mm| self.units(mm)).collect();
+        let rough = corrections.iter().copied().fold(0.0, f64::max);
         let segments = || contour.segments(self.drawing);
         let (walls, own, first) = self.along(segments, side, rough, closed)?;
-        let mut first = Some(first);
+        let along = Along {
+            side,
+            correction: rough,
+            corner: settings.corner,
+            closed,
+        };
+        let later = corrections.get(1..).unwrap_or_default();
+        let all = self.each_pass(&walls, &own, first, later, along)?;
         let mut entry = None;
-        let mut passes: Vec<Pass> = Vec::with_capacity(corrections().len());
-        for correction in corrections() {
-            let along = Along {
-                side,
-                correction,
-                corner: settings.corner,
-                closed,
-            };
-            let laid = match (first.take(), passes.first()) {
-                (None, Some(rough)) => {
-                    let last = passes.last().unwrap_or(rough);
-                    self.skim(&walls, &own, [rough, last], along)?
-                }
-                (None, None) => self.laid(&walls, &own, along)?,
-                (Some(first), _) => first,
-            };
+        let mut passes: Vec<Pass> = Vec::with_capacity(corrections.len());
+        for (correction, laid) in corrections.into_iter().zip(all) {
             let path = match laid {
                 Ok(Laid::Path(path)) => path,
                 Ok(Laid::Point(begin)) => {

@@ -74,7 +74,7 @@ impl Proof<'_> {
     pub(crate) fn pieces_hold(
         &self,
         pieces: &[(usize, Element)],
-        mut nest: Option<&mut Nest>,
+        nest: Option<&Nest>,
         mut kept: Option<(&mut Kept, &[Bounds])>,
     ) -> Result<(), Unproved> {
         for (_, element) in pieces {
@@ -83,7 +83,7 @@ impl Proof<'_> {
             {
                 continue;
             }
-            let beyond = nest.as_mut().and_then(|nest| {
+            let beyond = nest.and_then(|nest| {
                 let beside = Beside {
                     wall: self.walls[element.wall].geometry,
                     side: self.side,
@@ -293,7 +293,8 @@ impl Proof<'_> {
             false
         };
         let near_raw = self.near_raw.get_or_init(|| {
-            Walls::new(
+            // Those that hold other pieces may wait for it.
+            Walls::by_one_core(
                 self.raw
                     .elements
                     .iter()

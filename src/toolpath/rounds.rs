@@ -3,9 +3,9 @@
 use super::job::Job;
 use super::laid::{Along, Laid};
 use super::path::{PathSegment, Refusal};
-use super::paths::Pass;
+use super::skim::Rough;
 use crate::drawing::{ContourSegment, Drawing};
-use crate::geometry::{Point, Side};
+use crate::geometry::Side;
 use crate::settings::Effective;
 use rustc_hash::FxHashMap;
 
@@ -35,7 +35,7 @@ pub(crate) fn rounds(
         return Vec::new();
     };
     let mut first = Some(first);
-    let mut before: Option<Pass> = None;
+    let mut before: Option<Rough> = None;
     let mut pass = |correction: f64| -> Result<Option<Vec<PathSegment>>, Refusal> {
         let along = Along {
             side,
@@ -45,7 +45,7 @@ pub(crate) fn rounds(
         };
         let laid = match (first.take_if(|_| correction == rough), &before) {
             (Some(first), _) => first,
-            (None, Some(rough)) => job.skim(&walls, &own, [rough, rough], along)?,
+            (None, Some(rough)) => job.skim(&walls, &own, rough, along)?,
             (None, None) => job.laid(&walls, &own, along)?,
         };
         let Ok(Laid::Path(path)) = laid else {
@@ -56,12 +56,7 @@ pub(crate) fn rounds(
             source: element.source,
         });
         let pieces = pieces.collect();
-        before.get_or_insert(Pass {
-            correction,
-            path,
-            element: 0,
-            begin: Point::origin(),
-        });
+        before.get_or_insert(Rough { correction, path });
         Ok(Some(pieces))
     };
     corrections

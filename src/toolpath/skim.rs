@@ -1,30 +1,73 @@
 //! The path of a pass behind the first.
 
 use super::clearance::Walls;
+use super::corners::Element;
 use super::job::{Job, ROUNDING};
 use super::laid::{Along, Fault, Known, Laid, Outcome};
 use super::nest::Before;
 use super::offset::Wall;
 use super::path::Refusal;
-use super::paths::Pass;
 use crate::settings::{Corner, SkimCorner};
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+
+/// The path of the first pass.
+pub(super) struct Rough {
+    /// Drawing units.
+    pub(super) correction: f64,
+    /// Empty where the wire stands in one point.
+    pub(super) path: Vec<Element>,
+}
 
 impl Job<'_> {
+    /// The paths of all passes from that of the first, which is there; those behind it are made at once. Only the first where it has none.
+    pub(super) fn each_pass(
+        &self,
+        walls: &[Wall],
+        own: &Walls,
+        first: Outcome,
+        later: &[f64],
+        along: Along,
+    ) -> Result<Vec<Outcome>, Refusal> {
+        let (path, stand) = match first {
+            Ok(Laid::Path(path)) => (path, None),
+            Ok(Laid::Point(stand)) => (Vec::new(), Some(stand)),
+            Err(_) => return Ok(vec![first]),
+        };
+        let rough = Rough {
+            correction: along.correction,
+            path,
+        };
+        let pass = |&correction: &f64| {
+            let along = Along {
+                correction,
+                ..along
+            };
+            self.skim(walls, own, &rough, along)
+        };
+        let later: Result<Vec<Outcome>, Refusal> = later.par_iter().map(pass).collect();
+        let first = match stand {
+            Some(stand) => Laid::Point(stand),
+            None => Laid::Path(rough.path),
+        };
+        let mut all = vec![Ok(first)];
+        all.extend(later?);
+        Ok(all)
+    }
+
     /// The path of a pass behind the first: beside the contour, or where the corners are to have a constant stock beside the first path.
-    /// Of the passes before it there are the first and the last.
     pub(super) fn skim(
         &self,
         walls: &[Wall],
         own: &Walls,
-        [rough, last]: [&Pass; 2],
+        rough: &Rough,
         along: Along,
     ) -> Result<Outcome, Refusal> {
         let by = rough.correction - along.correction;
         let is_constant = self.settings.passes.skim_corner() == SkimCorner::ConstantStock;
         if !is_constant || by <= self.units(ROUNDING) || rough.path.is_empty() {
             let before = Before {
-                path: &last.path,
-                correction: last.correction,
+                path: &rough.path,
+                correction: rough.correction,
             };
             // With tips a path is more than what has been proved, and beside the first path it has been otherwise.
             let is_plain = along.corner == Corner::Arc && !is_constant;

@@ -7,6 +7,7 @@ use crate::geometry::Point;
 use crate::settings::{Compensation, Direction, Effective, PointSetting, SideSetting};
 use crate::toolpath::{Refusal, plan, plan_while};
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 fn check_refused(polyline: &[[f64; 3]], role: Option<Role>, settings: Effective, expected: &str) {
     let (drawing, outlines) = drawing(&[(polyline, role)]);
@@ -124,22 +125,24 @@ fn a_slot_narrower_than_the_wire_is_left_out_and_an_error() {
 #[test]
 fn a_path_that_nobody_wants_any_more_is_given_up() {
     let (drawing, outlines) = circles(40);
-    let asked = std::cell::Cell::new(0);
+    let asked = AtomicUsize::new(0);
     // Given up at each of the places where it asks, whichever comes first.
     let until = |most: usize| {
-        asked.set(0);
-        let goes_on = || {
-            asked.set(asked.get() + 1);
-            asked.get() <= most
-        };
+        asked.store(0, Relaxed);
+        let goes_on = || asked.fetch_add(1, Relaxed) < most;
         plan_while(&drawing, &outlines, &defaults(), None, false, &goes_on)
     };
     assert!(until(usize::MAX).is_ok());
-    let places = asked.get();
+    let places = asked.load(Relaxed);
     assert!(places > 40 * 3, "{places}");
     for most in 0..places {
         assert_eq!(until(most), Err(Refusal::Cancelled), "{most} of {places}");
-        assert_eq!(asked.get(), most + 1, "nothing is done once it has said so");
+        // Each of the contours that are made at once may ask once more.
+        let asked = asked.load(Relaxed);
+        assert!(
+            asked <= most + 40,
+            "{asked}: nothing is done once it has said so"
+        );
     }
 }
 

@@ -1,0 +1,54 @@
+//! Work over the cores of the machine: what is made, or held against a proof, piece by piece.
+
+use super::job::Job;
+use super::path::Refusal;
+use rayon::iter::{
+    IndexedParallelIterator, IntoParallelIterator, IntoParallelRefIterator, ParallelIterator,
+};
+use std::ops::Range;
+
+/// Pieces that one core takes at a time.
+const STEP: usize = 1024;
+
+/// Steps between two questions whether the answer is still wanted.
+const ROUND: usize = 32;
+
+/// What comes of each, in their order. A core takes so many at a time; to wake one takes as long as some microseconds of work.
+pub(super) fn each<One: Sync, Made: Send>(
+    all: &[One],
+    at_a_time: usize,
+    made: impl Fn(&One) -> Made + Sync + Send,
+) -> Vec<Made> {
+    match all.len() <= at_a_time {
+        true => all.iter().map(made).collect(),
+        false => all.par_iter().with_min_len(at_a_time).map(made).collect(),
+    }
+}
+
+impl Job<'_> {
+    /// The first fault, in their order, among `count` pieces; `fault_of` says that of some of them.
+    pub(super) fn first_fault<Fault: Send>(
+        &self,
+        count: usize,
+        fault_of: impl Fn(Range<usize>) -> Result<(), Fault> + Sync,
+    ) -> Result<Result<(), Fault>, Refusal> {
+        for first in (0..count).step_by(ROUND * STEP) {
+            self.go_on()?;
+            let last = (first + ROUND * STEP).min(count);
+            let step = |at: usize| first + at * STEP..(first + (at + 1) * STEP).min(last);
+            let steps = (last - first).div_ceil(STEP);
+            let fault = match steps {
+                // To wake a core takes longer.
+                1 => fault_of(step(0)).err(),
+                _ => {
+                    let steps = (0..steps).into_par_iter();
+                    steps.find_map_first(|at| fault_of(step(at)).err())
+                }
+            };
+            if let Some(fault) = fault {
+                return Ok(Err(fault));
+            }
+        }
+        Ok(Ok(()))
+    }
+}
