@@ -48,7 +48,7 @@ struct About {
 
 impl Walls {
     pub(crate) fn new(segments: Vec<Segment>) -> Walls {
-        let boxes = each(&segments, AT_A_TIME, Segment::bounds);
+        let boxes = each(segments.len(), AT_A_TIME, |index| segments[index].bounds());
         Walls::within(segments, boxes)
     }
 
@@ -88,12 +88,15 @@ impl Walls {
 
     /// Of each segment its directions at both ends.
     pub(crate) fn tangents(&self) -> &[[Vector; 2]] {
-        let ends = |segment: &Segment| [segment.start_tangent(), segment.end_tangent()];
+        let ends = |index: usize| {
+            let segment = &self.segments[index];
+            [segment.start_tangent(), segment.end_tangent()]
+        };
         match self.tangents.get() {
             Some(known) => known,
             None => {
                 // Nobody waits for it meanwhile: a core that waited might be one that it takes.
-                let made = each(&self.segments, AT_A_TIME, ends);
+                let made = each(self.segments.len(), AT_A_TIME, ends);
                 self.tangents.get_or_init(|| made)
             }
         }

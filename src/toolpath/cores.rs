@@ -2,9 +2,7 @@
 
 use super::job::Job;
 use super::path::Refusal;
-use rayon::iter::{
-    IndexedParallelIterator, IntoParallelIterator, IntoParallelRefIterator, ParallelIterator,
-};
+use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 use std::ops::Range;
 
 /// Pieces that one core takes at a time.
@@ -13,16 +11,32 @@ const STEP: usize = 1024;
 /// Steps between two questions whether the answer is still wanted.
 const ROUND: usize = 32;
 
-/// What comes of each, in their order. A core takes so many at a time; to wake one takes as long as some microseconds of work.
-pub(super) fn each<One: Sync, Made: Send>(
-    all: &[One],
+/// What comes of each of so many, in their order. A core takes so many at a time; to wake one takes as long as some microseconds of work.
+pub(super) fn each<Made: Send>(
+    count: usize,
     at_a_time: usize,
-    made: impl Fn(&One) -> Made + Sync + Send,
+    made: impl Fn(usize) -> Made + Sync + Send,
 ) -> Vec<Made> {
-    match all.len() <= at_a_time {
-        true => all.iter().map(made).collect(),
-        false => all.par_iter().with_min_len(at_a_time).map(made).collect(),
+    match count <= at_a_time {
+        true => (0..count).map(made).collect(),
+        false => over_cores(count, at_a_time).map(made).collect(),
     }
+}
+
+/// The same where two things come of each.
+pub(super) fn each_two<One: Send, Other: Send>(
+    count: usize,
+    at_a_time: usize,
+    made: impl Fn(usize) -> (One, Other) + Sync + Send,
+) -> (Vec<One>, Vec<Other>) {
+    match count <= at_a_time {
+        true => (0..count).map(made).unzip(),
+        false => over_cores(count, at_a_time).map(made).unzip(),
+    }
+}
+
+fn over_cores(count: usize, at_a_time: usize) -> impl IndexedParallelIterator<Item = usize> {
+    (0..count).into_par_iter().with_min_len(at_a_time)
 }
 
 impl Job<'_> {

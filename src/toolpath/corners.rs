@@ -4,11 +4,17 @@
 //! two are cut where they meet. What is used up by that is left out and its neighbours are cut with each other. That is quick, and
 //! right on most contours: `proof` says whether it is, and `loops` finds the path where it is not. `tips` in place of rolls come last.
 
+use super::cores::{each, each_two};
 use super::offset::{Offset, Wall, offset};
 use super::path::Source;
 use crate::geometry::{
     Arc, Few, Point, Segment, Vector, circle_circle, cross, left_normal, line_circle, line_line,
 };
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
+/// One core takes so many elements at a time.
+const AT_A_TIME: usize = 2048;
 
 /// A piece of the closed path and the wall it belongs to.
 #[derive(Clone, Copy, Debug)]
@@ -62,54 +68,84 @@ pub(super) struct Raw {
 impl Raw {
     /// `tangents` are those of each wall at its ends.
     pub(crate) fn new(walls: &[Wall], tangents: &[[Vector; 2]], joining: &Joining) -> Raw {
-        let mut raw = Raw {
-            elements: Vec::with_capacity(walls.len()),
-            joints: Vec::with_capacity(walls.len()),
-            tight: Vec::new(),
+        let way = |wall: usize| {
+            let behind = if wall + 1 == walls.len() { 0 } else { wall + 1 };
+            let turn = [tangents[wall][1], tangents[behind][0]];
+            corner(walls[wall].geometry.end(), turn, joining)
         };
-        for (index, wall) in walls.iter().enumerate() {
-            let geometry = match offset(
-                &wall.geometry,
+        let shifted = |wall: usize| {
+            let geometry = &walls[wall].geometry;
+            offset(
+                geometry,
                 joining.correction,
                 joining.side,
                 joining.tolerance,
-            ) {
-                Offset::Runs(geometry) => geometry,
-                Offset::TooTight { center } => {
-                    raw.tight.push((raw.elements.len(), center));
-                    Segment::line(center, center)
-                }
-            };
-            let after = [index + 1, 0][usize::from(index + 1 == walls.len())];
-            let element = Element {
-                geometry,
-                source: wall.source,
-                wall: index,
-            };
-            match corner(
-                wall.geometry.end(),
-                [tangents[index][1], tangents[after][0]],
-                joining,
-            ) {
-                Way::Through(joint) => raw.push(element, joint),
-                Way::Roll(arc) => {
+            )
+        };
+        let rolls = each(walls.len(), AT_A_TIME, |wall| {
+            matches!(way(wall), Way::Roll(_))
+        });
+        // Of each element its wall, and whether it leads round the end of that.
+        let mut of = Vec::with_capacity(2 * walls.len());
+        for (wall, &is_roll) in rolls.iter().enumerate() {
+            of.push((wall as u32, false));
+            if is_roll {
+                of.push((wall as u32, true));
+            }
+        }
+        let is_any_tight = AtomicBool::new(false);
+        let element = |at: usize| {
+            let (index, is_roll) = (of[at].0 as usize, of[at].1);
+            let wall = &walls[index];
+            let (geometry, source, joint) = match (way(index), is_roll) {
+                (Way::Roll([from, to]), true) => {
+                    let arc = Arc::about(wall.geometry.end(), from, to, joining.side < 0.0);
+                    let arc = Arc {
+                        radius: joining.correction,
+                        ..arc
+                    };
                     let source = match wall.source {
                         Source::Segment { entity, segment } => Source::Corner { entity, segment },
                         other => other,
                     };
-                    raw.push(element, Joint::At(arc.start));
-                    raw.push(
-                        Element {
-                            geometry: Segment::Arc(arc),
-                            source,
-                            wall: index,
-                        },
-                        Joint::At(arc.end),
-                    );
+                    (Segment::Arc(arc), source, Joint::At(to))
                 }
-            }
+                (way, _) => {
+                    let geometry = match shifted(index) {
+                        Offset::Runs(geometry) => geometry,
+                        Offset::TooTight { center } => {
+                            is_any_tight.store(true, Relaxed);
+                            Segment::line(center, center)
+                        }
+                    };
+                    let joint = match way {
+                        Way::Through(joint) => joint,
+                        Way::Roll([from, _]) => Joint::At(from),
+                    };
+                    (geometry, wall.source, joint)
+                }
+            };
+            let element = Element {
+                geometry,
+                source,
+                wall: index,
+            };
+            (element, joint)
+        };
+        let (elements, joints) = each_two(of.len(), AT_A_TIME, element);
+        let tight = |(at, &(wall, is_roll)): (usize, &(u32, bool))| match shifted(wall as usize) {
+            Offset::TooTight { center } if !is_roll => Some((at, center)),
+            _ => None,
+        };
+        let tight = match is_any_tight.into_inner() {
+            true => of.iter().enumerate().filter_map(tight).collect(),
+            false => Vec::new(),
+        };
+        Raw {
+            elements,
+            joints,
+            tight,
         }
-        raw
     }
 
     /// Of an open contour that is gone there and back, so many walls either way: the element that leads round its end. Those before it
@@ -118,11 +154,6 @@ impl Raw {
         self.elements
             .partition_point(|element| element.wall < walls)
             .saturating_sub(1)
-    }
-
-    fn push(&mut self, element: Element, joint: Joint) {
-        self.elements.push(element);
-        self.joints.push(joint);
     }
 
     /// The path that is left where neighbours are cut with each other and what they use up goes, each piece with the index of the
@@ -136,7 +167,8 @@ impl Raw {
 /// How the path goes from one offset to the next.
 pub(super) enum Way {
     Through(Joint),
-    Roll(Arc),
+    /// About the vertex from one place to another, in the sense that leaves the contour on its side.
+    Roll([Point; 2]),
 }
 
 /// The way round a vertex, from one direction into another.
@@ -154,10 +186,7 @@ pub(super) fn corner(vertex: Point, [before, behind]: [Vector; 2], joining: &Joi
     if turned * side > 0.0 && (turned.abs() > 1e-9 || before.dot(&behind) > 0.0) {
         return Way::Through(Joint::CrossNear(from + (to - from) * 0.5));
     }
-    Way::Roll(Arc {
-        radius: correction,
-        ..Arc::about(vertex, from, to, side < 0.0)
-    })
+    Way::Roll([from, to])
 }
 
 /// Where the lines or circles that carry two segments meet.
@@ -208,8 +237,8 @@ struct Ring<'a> {
     joints: Vec<Joint>,
     /// Elements that the wire's centre cannot follow at all, with the place that stands for them.
     tight: &'a [(usize, Point)],
-    before: Vec<usize>,
-    after: Vec<usize>,
+    before: Vec<u32>,
+    after: Vec<u32>,
     alive: Vec<bool>,
     count: usize,
 }
@@ -217,17 +246,24 @@ struct Ring<'a> {
 impl Ring<'_> {
     fn new(raw: &Raw) -> Ring<'_> {
         let count = raw.elements.len();
+        let last = count.saturating_sub(1) as u32;
         Ring {
             elements: &raw.elements,
             joints: raw.joints.clone(),
             tight: &raw.tight,
-            before: (0..count)
-                .map(|index| (index + count - 1) % count)
-                .collect(),
-            after: (0..count).map(|index| (index + 1) % count).collect(),
+            before: std::iter::once(last).chain(0..last).collect(),
+            after: (1..=last).chain([0]).collect(),
             alive: vec![true; count],
             count,
         }
+    }
+
+    fn before(&self, index: usize) -> usize {
+        self.before[index] as usize
+    }
+
+    fn after(&self, index: usize) -> usize {
+        self.after[index] as usize
     }
 
     /// Takes out what is used up until every element runs forward; `None` when nothing is left or neighbours do not meet.
@@ -238,18 +274,32 @@ impl Ring<'_> {
         for &(index, center) in self.tight {
             self.remove(index, center)?;
         }
-        let mut waiting: Vec<usize> = (0..self.elements.len()).rev().collect();
+        self.settle_all();
+        // What runs forward from the first is looked at again only beside what goes.
+        let settled = |index: usize| match self.joints[index] {
+            Joint::At(point) => Some(point),
+            Joint::CrossNear(_) => None,
+        };
+        let runs_forward = |index: usize| {
+            let ends = settled(self.before(index)).zip(settled(index));
+            ends.is_some_and(|(start, end)| !self.runs_backwards(index, start, end))
+        };
+        let is_fine = each(self.elements.len(), AT_A_TIME, |index| {
+            !self.alive[index] || runs_forward(index)
+        });
+        let waiting = (0..self.elements.len()).rev();
+        let mut waiting: Vec<usize> = waiting.filter(|&index| !is_fine[index]).collect();
         while let Some(index) = waiting.pop() {
             if !self.alive[index] {
                 continue;
             }
-            let gone = match (self.settle(self.before[index]), self.settle(index)) {
+            let gone = match (self.settle(self.before(index)), self.settle(index)) {
                 (Err(shorter), _) | (_, Err(shorter)) => shorter,
                 (Ok(start), Ok(end)) if self.runs_backwards(index, start, end) => index,
                 _ => continue,
             };
             let near = self.elements[gone].geometry.point_at(0.5);
-            let (before, after) = (self.before[gone], self.after[gone]);
+            let (before, after) = (self.before(gone), self.after(gone));
             self.remove(gone, near)?;
             waiting.extend([after, before, index]);
         }
@@ -257,13 +307,35 @@ impl Ring<'_> {
     }
 
     fn remove(&mut self, index: usize, near: Point) -> Option<()> {
-        let (before, after) = (self.before[index], self.after[index]);
+        let (before, after) = (self.before(index), self.after(index));
         self.alive[index] = false;
         self.count -= 1;
-        self.after[before] = after;
-        self.before[after] = before;
+        self.after[before] = after as u32;
+        self.before[after] = before as u32;
         self.joints[before] = Joint::CrossNear(near);
         (self.count >= 2).then_some(())
+    }
+
+    /// The points behind all elements, where they meet the next.
+    fn settle_all(&mut self) {
+        let Ring {
+            elements,
+            joints,
+            after,
+            alive,
+            ..
+        } = self;
+        let joints = joints.par_iter_mut().with_min_len(AT_A_TIME).enumerate();
+        joints.for_each(|(index, joint)| {
+            if let Joint::CrossNear(near) = *joint
+                && alive[index]
+            {
+                let next = &elements[after[index] as usize].geometry;
+                if let Some(point) = meeting(&elements[index].geometry, next, near) {
+                    *joint = Joint::At(point);
+                }
+            }
+        });
     }
 
     /// The point behind element `index`; where the two do not meet, the shorter one.
@@ -272,26 +344,13 @@ impl Ring<'_> {
             Joint::At(point) => return Ok(point),
             Joint::CrossNear(near) => near,
         };
-        let next = self.after[index];
+        let next = self.after(index);
         let (a, b) = (
             &self.elements[index].geometry,
             &self.elements[next].geometry,
         );
         let shorter = if a.length() < b.length() { index } else { next };
-        let rank = |point: &Point| {
-            let is_beside = |segment: &&Segment| {
-                !segment.spans(*point) && !(-1e-9..=1.0 + 1e-9).contains(&segment.share_of(*point))
-            };
-            let beside = [a, b].iter().any(is_beside);
-            (beside, (point - near).norm())
-        };
-        let best = meetings(a, b).into_iter().min_by(|p, q| {
-            let ((p_beside, p_away), (q_beside, q_away)) = (rank(p), rank(q));
-            p_beside.cmp(&q_beside).then(p_away.total_cmp(&q_away))
-        });
-        let point = best
-            .filter(|point| point.x.is_finite() && point.y.is_finite())
-            .ok_or(shorter)?;
+        let point = meeting(a, b, near).ok_or(shorter)?;
         self.joints[index] = Joint::At(point);
         Ok(point)
     }
@@ -311,30 +370,29 @@ impl Ring<'_> {
     }
 
     fn trimmed(mut self) -> Option<Vec<(usize, Element)>> {
-        let first = self.alive.iter().position(|&alive| alive)?;
-        let mut path = Vec::with_capacity(self.count);
-        let mut index = first;
-        loop {
-            let start = self.settle(self.before[index]).ok()?;
-            let end = self.settle(index).ok()?;
+        let alive = 0..self.elements.len();
+        let alive: Vec<usize> = alive.filter(|&index| self.alive[index]).collect();
+        let ends: Option<Vec<Point>> = (alive.iter())
+            .map(|&index| self.settle(index).ok())
+            .collect();
+        let ends = ends?;
+        let is_any_point = AtomicBool::new(false);
+        let piece = |at: usize| {
+            let (index, start) = (alive[at], ends[if at == 0 { ends.len() } else { at } - 1]);
             let element = self.elements[index];
-            let geometry = between(&element.geometry, start, end);
-            if geometry.length() > 1e-9 {
-                path.push((
-                    index,
-                    Element {
-                        geometry,
-                        ..element
-                    },
-                ));
-            } else if let Some((_, last)) = path.last_mut() {
-                // A point of the path: what follows begins where it stands, so nothing is left between.
-                close_up(last, end);
+            let geometry = between(&element.geometry, start, ends[at]);
+            let piece = Element {
+                geometry,
+                ..element
+            };
+            if is_point(&piece) {
+                is_any_point.store(true, Relaxed);
             }
-            index = self.after[index];
-            if index == first {
-                break;
-            }
+            (index, piece)
+        };
+        let mut path = each(alive.len(), AT_A_TIME, piece);
+        if is_any_point.into_inner() {
+            path = without_points(path);
         }
         if let (Some(head), Some((_, last))) = (
             path.first()
@@ -345,6 +403,40 @@ impl Ring<'_> {
         }
         (path.len() >= 2).then_some(path)
     }
+}
+
+/// Where two elements that follow each other meet, of several places the one nearest to a point.
+fn meeting(a: &Segment, b: &Segment, near: Point) -> Option<Point> {
+    let rank = |point: &Point| {
+        let is_beside = |segment: &&Segment| {
+            !segment.spans(*point) && !(-1e-9..=1.0 + 1e-9).contains(&segment.share_of(*point))
+        };
+        let beside = [a, b].iter().any(is_beside);
+        (beside, (point - near).norm())
+    };
+    let best = meetings(a, b).into_iter().min_by(|p, q| {
+        let ((p_beside, p_away), (q_beside, q_away)) = (rank(p), rank(q));
+        p_beside.cmp(&q_beside).then(p_away.total_cmp(&q_away))
+    });
+    best.filter(|point| point.x.is_finite() && point.y.is_finite())
+}
+
+/// A piece of a path that is no more than a point of it.
+fn is_point(piece: &Element) -> bool {
+    piece.geometry.length() <= 1e-9
+}
+
+/// What follows a point of the path begins where it stands: what is before it ends there, so nothing is left between.
+fn without_points(path: Vec<(usize, Element)>) -> Vec<(usize, Element)> {
+    let mut kept: Vec<(usize, Element)> = Vec::with_capacity(path.len());
+    for (index, piece) in path {
+        if !is_point(&piece) {
+            kept.push((index, piece));
+        } else if let Some((_, last)) = kept.last_mut() {
+            close_up(last, piece.geometry.end());
+        }
+    }
+    kept
 }
 
 /// Lets an element end in a point that lies within rounding of its end.

@@ -121,10 +121,9 @@ impl Job<'_> {
     ) -> Result<(Planned, Vec<Finding>), Refusal> {
         let (mut planned, mut findings) = (Planned::default(), Vec::new());
         let mut offsets = Vec::with_capacity(chosen.len());
-        let both: Vec<(usize, &Wanted)> = chosen.iter().copied().zip(wanted).collect();
-        let made = each(&both, CONTOURS_AT_A_TIME, |&(index, wanted)| {
+        let made = each(chosen.len(), CONTOURS_AT_A_TIME, |at| {
             self.go_on()?;
-            self.offset(index, wanted, contours)
+            self.offset(chosen[at], &wanted[at], contours)
         });
         for made in made {
             match made {

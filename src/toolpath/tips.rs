@@ -36,11 +36,11 @@ pub(super) fn with_tips(
         }
         let (one, other) = (&walls[wall].geometry, &walls[next].geometry);
         let turn = [one.end_tangent(), other.start_tangent()];
-        let Way::Roll(whole) = corner(one.end(), turn, joining) else {
+        let Way::Roll([from, to]) = corner(one.end(), turn, joining) else {
             continue;
         };
-        let is_whole = (roll.geometry.start() - whole.start).norm() <= joining.touch
-            && (roll.geometry.end() - whole.end).norm() <= joining.touch;
+        let is_whole = (roll.geometry.start() - from).norm() <= joining.touch
+            && (roll.geometry.end() - to).norm() <= joining.touch;
         let Some(tip) =
             tip(&walls[wall].geometry, &walls[next].geometry, joining).filter(|_| is_whole)
         else {
