@@ -1,7 +1,7 @@
 //! How near a path comes to the walls, for contours of any size.
 
 use super::apart::{are_apart, distance_between};
-use super::cores::each;
+use super::cores::{each, sum};
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use std::ops::Range;
@@ -104,11 +104,14 @@ impl Walls {
 
     /// Twice the signed area of all as one closed contour.
     pub(crate) fn twice_area(&self) -> f64 {
-        *self.twice_area.get_or_init(|| {
-            let first = self.segments.first();
-            let origin = first.map_or_else(Point::origin, Segment::start);
-            self.segments.iter().map(|one| one.twice_area(origin)).sum()
-        })
+        if let Some(known) = self.twice_area.get() {
+            return *known;
+        }
+        let first = self.segments.first();
+        let origin = first.map_or_else(Point::origin, Segment::start);
+        let of = |index: usize| self.segments[index].twice_area(origin);
+        let made = sum(self.segments.len(), of);
+        *self.twice_area.get_or_init(|| made)
     }
 
     pub(crate) fn segment(&self, index: usize) -> &Segment {

@@ -2,7 +2,9 @@
 
 use super::job::Job;
 use super::path::Refusal;
-use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
+use rayon::iter::{
+    IndexedParallelIterator, IntoParallelIterator, ParallelExtend, ParallelIterator,
+};
 use std::ops::Range;
 
 /// Pieces that one core takes at a time.
@@ -17,9 +19,21 @@ pub(super) fn each<Made: Send>(
     at_a_time: usize,
     made: impl Fn(usize) -> Made + Sync + Send,
 ) -> Vec<Made> {
+    let mut all = Vec::with_capacity(count);
+    extend(&mut all, count, at_a_time, made);
+    all
+}
+
+/// The same behind others.
+pub(super) fn extend<Made: Send>(
+    all: &mut Vec<Made>,
+    count: usize,
+    at_a_time: usize,
+    made: impl Fn(usize) -> Made + Sync + Send,
+) {
     match count <= at_a_time {
-        true => (0..count).map(made).collect(),
-        false => over_cores(count, at_a_time).map(made).collect(),
+        true => all.extend((0..count).map(made)),
+        false => all.par_extend(over_cores(count, at_a_time).map(made)),
     }
 }
 
@@ -33,6 +47,15 @@ pub(super) fn each_two<One: Send, Other: Send>(
         true => (0..count).map(made).unzip(),
         false => over_cores(count, at_a_time).map(made).unzip(),
     }
+}
+
+/// The sum of so many numbers, the same one whatever the cores are.
+pub(super) fn sum(count: usize, of: impl Fn(usize) -> f64 + Sync + Send) -> f64 {
+    let parts = each(count.div_ceil(STEP), 2, |part| {
+        let numbers = part * STEP..((part + 1) * STEP).min(count);
+        numbers.map(&of).sum::<f64>()
+    });
+    parts.into_iter().sum()
 }
 
 fn over_cores(count: usize, at_a_time: usize) -> impl IndexedParallelIterator<Item = usize> {

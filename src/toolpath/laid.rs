@@ -1,6 +1,7 @@
 //! The path along one contour, proved, or the fault that stands in its place.
 
 use super::clearance::Walls;
+use super::cores::sum;
 use super::corners::{Element, Joining, Raw};
 use super::job::{Job, ROUNDING};
 use super::kept::Kept;
@@ -369,10 +370,9 @@ fn keeps_its_side(path: &[(usize, Element)], walls: &[Wall], own: &Walls, side: 
         return false;
     };
     let contour = own.twice_area();
-    let area: f64 = path
-        .iter()
-        .map(|(_, element)| element.geometry.twice_area(origin))
-        .sum();
+    let area = sum(path.len(), |piece| {
+        path[piece].1.geometry.twice_area(origin)
+    });
     let grows = (area - contour) * contour.signum();
     let inside = grows * side * contour.signum() <= 0.0;
     // To the left of a counter-clockwise contour lies its inside.

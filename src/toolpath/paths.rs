@@ -367,9 +367,34 @@ impl Job<'_> {
         };
         let later = corrections.get(1..).unwrap_or_default();
         let all = self.each_pass(&walls, &own, first, later, along)?;
-        let mut entry = None;
+        let path_of = |pass: usize| match &all[pass] {
+            Ok(Laid::Path(path)) => Some(path),
+            _ => None,
+        };
+        let is_any_path = (0..all.len()).any(|pass| path_of(pass).is_some());
+        let is_fault = all.first().is_some_and(Result::is_err);
+        let entry = match (is_any_path && !is_fault, closed) {
+            (false, _) => None,
+            (true, true) => {
+                let entry = self.entry(index, &walls, wanted)?;
+                entry.or_else(|| default_entry(&walls))
+            }
+            (true, false) => walls.first().map(|first| Entry {
+                wall: 0,
+                share: 0.0,
+                point: first.geometry.start(),
+            }),
+        };
+        // An open path begins where it begins.
+        let begins = each(all.len(), 1, |pass| {
+            let path = path_of(pass)?;
+            let first = path.first().map(|first| (0, first.geometry.start()));
+            first
+                .filter(|_| !closed)
+                .or_else(|| path_point(path, &walls, &entry?, corrections[pass], side))
+        });
         let mut passes: Vec<Pass> = Vec::with_capacity(corrections.len());
-        for (correction, laid) in corrections.into_iter().zip(all) {
+        for ((correction, laid), begin) in corrections.into_iter().zip(all).zip(begins) {
             let path = match laid {
                 Ok(Laid::Path(path)) => path,
                 Ok(Laid::Point(begin)) => {
@@ -387,29 +412,13 @@ impl Job<'_> {
                     return Err(Refusal::Findings(vec![finding]));
                 }
             };
-            let at = match entry {
-                Some(entry) => Some(entry),
-                None if !closed => walls.first().map(|first| Entry {
-                    wall: 0,
-                    share: 0.0,
-                    point: first.geometry.start(),
-                }),
-                None => self
-                    .entry(index, &walls, wanted)?
-                    .or_else(|| default_entry(&walls)),
-            };
-            let Some(at) = at else {
+            let Some(at) = entry else {
                 return Err(Refusal::Sentence(say!(contour_has_no_length, handle)));
             };
-            let first = path.first().map(|first| (0, first.geometry.start()));
-            let begin = first
-                .filter(|_| !closed)
-                .or_else(|| path_point(&path, &walls, &at, correction, side));
             let (element, begin) = begin.ok_or_else(|| {
                 let fault = Fault::Unproved { wall: at.wall };
                 Refusal::Findings(vec![self.no_path(&fault, &walls, correction)])
             })?;
-            entry = Some(at);
             passes.push(Pass {
                 correction,
                 path,

@@ -4,6 +4,7 @@
 //! next. Passes that all go one way come back to the thread hole from where the tab begins. Then the tab is cut in passes of its own, to and
 //! fro from where the wire stands, or one way from the thread hole.
 
+use super::cores::extend;
 use super::corners::Element;
 use super::entry::{Entry, path_point};
 use super::job::{Job, ROUNDING};
@@ -18,9 +19,13 @@ use super::way::{Landing, lead_in, lead_out};
 use crate::drawing::Role;
 use crate::geometry::{Point, Segment, Side};
 use crate::settings::{Compensation, Lead, Sequence};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 /// How much further than the correction the wire goes from a part's contour at a tab, where the control switches the correction, mm.
 const CLEAR: f64 = 0.01;
+
+/// One core takes so many pieces of a path at a time.
+const PIECES_AT_A_TIME: usize = 4096;
 
 /// One pass, from the entry on.
 #[derive(Default)]
@@ -54,8 +59,10 @@ impl Job<'_> {
         let passes = std::mem::take(&mut unled.passes);
         let count = passes.len();
         let (mut rounds, mut side) = (Vec::with_capacity(count), None);
-        for pass in passes {
-            let (round, of_control) = self.round(&unled, wanted, pass, tab.as_ref(), count)?;
+        let made = passes.into_par_iter();
+        let made = made.map(|pass| self.round(&unled, wanted, pass, tab.as_ref(), count));
+        for made in made.collect::<Vec<_>>() {
+            let (round, of_control) = made?;
             rounds.push(round);
             side = of_control;
         }
@@ -120,10 +127,13 @@ impl Job<'_> {
                     segments.extend(lead(at_tab.unwrap_or(begin), begin, Source::Tab));
                 }
             }
-            segments.extend(way.elements().map(|element| PathSegment {
-                geometry: element.geometry,
-                source: element.source,
-            }));
+            extend(&mut segments, way.way.len(), PIECES_AT_A_TIME, |index| {
+                let element = way.element(index);
+                PathSegment {
+                    geometry: element.geometry,
+                    source: element.source,
+                }
+            });
             let overlaps = overlap > 0.0 && closed && !to_tab && (cut_off || tab.is_none());
             if overlaps {
                 let way = Directed {
@@ -320,27 +330,28 @@ struct Directed<'a> {
 }
 
 impl<'a> Directed<'a> {
-    fn at(self, index: usize) -> Option<Element> {
+    fn element(self, index: usize) -> Element {
         if !self.back {
-            return self.way.get(index).copied();
+            return self.way[index];
         }
-        let element = self.way.get(self.way.len().checked_sub(index + 1)?)?;
-        Some(Element {
+        let element = self.way[self.way.len() - 1 - index];
+        Element {
             geometry: element.geometry.reversed(),
-            ..*element
-        })
+            ..element
+        }
     }
 
     fn first(self) -> Option<Element> {
-        self.at(0)
+        self.elements().next()
     }
 
     fn last(self) -> Option<Element> {
-        self.at(self.way.len().checked_sub(1)?)
+        let last = self.way.len().checked_sub(1)?;
+        Some(self.element(last))
     }
 
     fn elements(self) -> impl Iterator<Item = Element> + 'a {
-        (0..self.way.len()).filter_map(move |index| self.at(index))
+        (0..self.way.len()).map(move |index| self.element(index))
     }
 }
 
