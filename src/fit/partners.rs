@@ -5,6 +5,11 @@ use crate::drawing::{Drawing, Outline};
 use crate::geometry::{Bounds, Point};
 use crate::settings::Effective;
 use crate::toolpath::Walls;
+use rayon::iter::ParallelIterator;
+use rayon::slice::ParallelSlice;
+
+/// One core takes so many segments at a time.
+const AT_A_TIME: usize = 1024;
 
 /// Partners may be so many clearances apart.
 const FARTHEST: f64 = 5.0;
@@ -128,26 +133,25 @@ fn apart(a: &Bounds, b: &Bounds) -> f64 {
 
 /// True where no place of the one contour is farther from the other than `reach`, as far as ends and places between them tell.
 fn run_together(drawing: &Drawing, both: [&Outline; 2], reach: f64) -> bool {
-    let walls = both.map(|outline| {
-        Walls::new(
-            outline
-                .contour
-                .segments(drawing)
-                .map(|segment| segment.geometry)
-                .collect(),
-        )
-    });
+    let walls = |outline: &Outline| {
+        let segments = outline.contour.segments(drawing);
+        Walls::new(segments.map(|segment| segment.geometry).collect())
+    };
+    let (punch, plate) = rayon::join(|| walls(both[0]), || walls(both[1]));
     let keeps = |own: &Walls, other: &Walls| {
-        let mut beside = None;
-        let mut is_near = |at: Point| {
-            beside = other.nearer_from(beside, at, reach);
-            beside.is_some()
-        };
-        own.segments().iter().all(|segment| {
-            [0.0, 0.25, 0.5, 0.75]
-                .into_iter()
-                .all(|share| is_near(segment.point_at(share)))
+        let some = own.segments().par_chunks(AT_A_TIME);
+        some.all(|segments| {
+            let mut beside = None;
+            let mut is_near = |at: Point| {
+                beside = other.nearer_from(beside, at, reach);
+                beside.is_some()
+            };
+            segments.iter().all(|segment| {
+                [0.0, 0.25, 0.5, 0.75]
+                    .into_iter()
+                    .all(|share| is_near(segment.point_at(share)))
+            })
         })
     };
-    keeps(&walls[0], &walls[1]) && keeps(&walls[1], &walls[0])
+    keeps(&punch, &plate) && keeps(&plate, &punch)
 }
