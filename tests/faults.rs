@@ -13,7 +13,7 @@
 mod chance;
 #[path = "faults/contours.rs"]
 mod contours;
-#[path = "faults/inject.rs"]
+#[path = "faults/inject/mod.rs"]
 mod inject;
 #[path = "faults/judge.rs"]
 mod judge;

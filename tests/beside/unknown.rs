@@ -1,6 +1,9 @@
 //! Programs beside drawings whose settings say nothing of how they were written.
 
-use super::*;
+use super::{Shape, document, plate, program_of, settings_of, traced};
+use wedm::beside::compare;
+use wedm::drawing::Role;
+use wedm::program::Format;
 
 /// What is asked of one program: its drawing, its language and the settings that it was written under.
 struct Row {

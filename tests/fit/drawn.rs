@@ -1,0 +1,166 @@
+//! Punch and plate that are both drawn, held against each other.
+
+use super::{circle, drawing, findings, fit_of, polyline, rounded, settings, snapshot};
+use std::sync::Arc;
+use wedm::analysis::Analysis;
+use wedm::drawing::{Entity, Geometry, Kind, Vertex};
+use wedm::finding::{Rule, Severity};
+use wedm::geometry::Point;
+
+const DRAWN: &str = "wire-diameter = 0.18\ngap = 0.01\n[layers]\nPU = \"punch\"\nPL = \"opening\"\n[pair]\nclearance = 0.01\n[workpieces]\nPUNCH = [\"PU\"]\nPLATE = [\"PL\"]\n";
+
+fn grown(x: f64, y: f64, by: f64, radius: f64) -> Vec<Vertex> {
+    rounded(&[
+        (Point::new(-by, -by), radius),
+        (Point::new(x + by, -by), radius),
+        (Point::new(x + by, y + by), radius),
+        (Point::new(-by, y + by), radius),
+    ])
+}
+
+#[test]
+fn two_drawn_parts_are_held_against_each_other_and_meet_in_no_other_rule() {
+    let own = settings(DRAWN);
+    let mut drawing = drawing(vec![
+        polyline("PU", "A", grown(20.0, 10.0, 0.0, 0.05)),
+        polyline("PL", "B", grown(20.0, 10.0, 0.01, 0.06)),
+    ]);
+    // 0.1 mm of half a kerf: 10 − 0.4142 (100 − 50 − 10) µm.
+    let found = fit_of(&drawing, &own);
+    let expected = 0.01 - (f64::sqrt(2.0) - 1.0) * (0.1 - 0.06);
+    assert!((found.least() - expected).abs() < 1e-7, "{}", found.least());
+    assert_eq!((found.spots().count(), found.alone.len()), (4, 0));
+    let all = Analysis::new(&drawing, Arc::new(own.clone()))
+        .findings(&drawing, usize::MAX)
+        .0;
+    let others: Vec<_> = all
+        .iter()
+        .filter(|finding| !matches!(finding.rule, Rule::DoesNotFit | Rule::SmallRadius))
+        .collect();
+    assert!(others.is_empty(), "{others:?}");
+    assert!(
+        all.iter()
+            .all(|finding| finding.rule != Rule::SmallRadius
+                || finding.severity == Severity::Warning)
+    );
+    // On both, and one edit for both, until it fits.
+    for left in (0..4).rev() {
+        let found = findings(&drawing, &own, Rule::DoesNotFit);
+        assert_eq!(found.len(), 2 * (left + 1));
+        let analysis = Analysis::new(&drawing, Arc::new(own.clone()));
+        let fixes = analysis.fixes(&drawing, &found[0]);
+        assert_eq!(fixes.len(), 1, "{found:?}");
+        drawing.apply(&fixes[0].edit).unwrap();
+    }
+    let after = fit_of(&drawing, &own);
+    assert!(after.fits() && after.least() < 0.001, "{after:?}");
+    assert_eq!(findings(&drawing, &own, Rule::DoesNotFit), []);
+    // The same two in one workpiece lie too near to each other; without partners each says so.
+    let alone = settings(&DRAWN.replace("clearance = 0.01", "clearance = 0.001"));
+    let found = findings(&drawing, &alone, Rule::DoesNotFit);
+    assert_eq!(
+        found
+            .iter()
+            .map(|finding| finding.severity)
+            .collect::<Vec<_>>(),
+        [Severity::Warning; 2]
+    );
+    let one = settings(
+        &DRAWN
+            .replace("PLATE = [\"PL\"]", "")
+            .replace("[\"PU\"]", "[\"PU\", \"PL\"]")
+            .replace("[pair]\nclearance = 0.01\n", ""),
+    );
+    let mut crossing = drawing.clone();
+    crossing.push(polyline("PL", "C", grown(5.0, 30.0, 0.0, 1.0)));
+    assert!(!findings(&crossing, &one, Rule::SelfIntersection).is_empty());
+    assert_eq!(
+        findings(&crossing, &own, Rule::SelfIntersection).len(),
+        findings(&crossing, &own, Rule::SelfIntersection)
+            .iter()
+            .filter(|finding| !finding.related.is_empty())
+            .count()
+    );
+}
+
+/// Lines of two parts whose ends are nearer to each other than the join tolerance.
+/// Parts that are looser than they should be: what is left is the true distance, not the clearance that was asked for.
+#[test]
+fn more_than_the_clearance_is_said_as_it_is() {
+    for clearance in [0.005, 0.01, 0.02] {
+        // Cut twice with a correction below half the kerf: both parts lose what is missing.
+        for less in [0.0, 0.002, 0.009] {
+            for drawn_as in ["punch", "plate"] {
+                let own = settings(&format!(
+                    "wire-diameter = 0.18\ngap = 0.01\ncorrection = {:?}\n[pair]\ndrawn-as = \"{drawn_as}\"\nclearance = {clearance:?}\n",
+                    0.1 - less
+                ));
+                let found = fit_of(&circle(7.0), &own);
+                let expected = clearance + 2.0 * less;
+                let label = format!("{clearance} {less} {drawn_as}: {}", found.least());
+                assert!((found.least() - expected).abs() < 1e-9, "{label}");
+                assert!(found.fits() && found.spots().count() == 0, "{label}");
+            }
+        }
+        // Two drawn parts, so far from each other.
+        for share in [1.0, 1.3, 2.0, 3.0, 4.9] {
+            let apart: f64 = share * clearance;
+            let text = DRAWN.replace("clearance = 0.01", &format!("clearance = {clearance}"));
+            let own = settings(&text);
+            assert_eq!(own.pair.clearance, Some(clearance), "{text}");
+            let drawing = drawing(vec![
+                polyline("PU", "A", grown(20.0, 10.0, 0.0, 0.3)),
+                polyline("PL", "B", grown(20.0, 10.0, apart, 0.3 + apart)),
+            ]);
+            let found = fit_of(&drawing, &own);
+            assert_eq!(found.pairs.len(), 1, "{clearance} {share}");
+            assert!(
+                (found.least() - apart).abs() < 1e-6,
+                "{clearance} {share}: {}",
+                found.least()
+            );
+        }
+    }
+}
+
+#[test]
+fn entities_of_two_workpieces_are_not_chained_to_each_other() {
+    let own = settings(&DRAWN.replace("0.01\n[workpieces]", "0.006\n[workpieces]"));
+    let mut entities = Vec::new();
+    for (layer, by) in [("PU", 0.0), ("PL", 0.006)] {
+        let corners = [
+            (-by, -by),
+            (8.0 + by, -by),
+            (8.0 + by, 5.0 + by),
+            (-by, 5.0 + by),
+        ];
+        for at in 0..4 {
+            let point = |(x, y): (f64, f64)| Point::new(x, y);
+            entities.push(Entity {
+                handle: format!("{layer}{at}").as_str().into(),
+                layer: layer.into(),
+                role: None,
+                kind: Kind::Line,
+                geometry: Geometry::Line {
+                    start: point(corners[at]),
+                    end: point(corners[(at + 1) % 4]),
+                },
+            });
+        }
+    }
+    let drawing = drawing(entities);
+    let outlines = snapshot(&drawing, &own).outlines;
+    assert!(
+        outlines.len() == 2
+            && outlines
+                .iter()
+                .all(|outline| outline.contour.closed && outline.contour.pieces.len() == 4)
+    );
+    let found = fit_of(&drawing, &own);
+    let k = f64::sqrt(2.0) - 1.0;
+    assert!(
+        (found.least() - (0.006 - k * (0.1 - 0.006))).abs() < 1e-7,
+        "{}",
+        found.least()
+    );
+}

@@ -1,0 +1,66 @@
+//! The fix of a contour that does not fit.
+
+use super::{corner, drawing, findings, fit_of, notch, pair, polyline};
+use std::sync::Arc;
+use wedm::analysis::Analysis;
+use wedm::finding::{Rule, Severity};
+
+/// One drawn contour: one finding, at it; its fix makes it fit.
+#[test]
+fn one_contour_that_does_not_fit_has_one_finding_and_a_fix_that_makes_it_fit() {
+    for (drawn_as, turn, radius, half, clearance) in [
+        ("punch", 90.0, 0.05, 0.10, 0.01),
+        ("punch", 90.0, 0.0, 0.10, 0.01),
+        ("plate", 60.0, 0.0, 0.15, 0.006),
+        ("plate", 110.0, 0.02, 0.12, 0.01),
+        ("punch", 120.0, 0.03, 0.14, 0.008),
+    ] {
+        for vertices in [corner(turn, radius), notch(turn, radius)] {
+            let own = pair(drawn_as, half, clearance);
+            let mut drawing = drawing(vec![polyline("0", "2A", vertices)]);
+            let label = format!("{drawn_as} {turn}° r {radius}");
+            let found = findings(&drawing, &own, Rule::DoesNotFit);
+            let [finding] = found.as_slice() else {
+                panic!("{label}: {found:?}");
+            };
+            assert_eq!(
+                (finding.severity, finding.related.len()),
+                (Severity::Error, 1)
+            );
+            let analysis = Analysis::new(&drawing, Arc::new(own.clone()));
+            let fixes = analysis.fixes(&drawing, finding);
+            let [fix] = fixes.as_slice() else {
+                panic!("{label}: {fixes:?}");
+            };
+            let mut all = drawing.clone();
+            for _ in 0..12 {
+                let now = Analysis::new(&all, Arc::new(own.clone()));
+                let Some(edit) = now.fix_all(&all) else {
+                    break;
+                };
+                all.apply(&edit).expect("an edit that can be made");
+            }
+            assert!(fit_of(&all, &own).fits(), "{label}: fix all");
+            drawing.apply(&fix.edit).expect("an edit that can be made");
+            let after = fit_of(&drawing, &own);
+            // The least that fits, and the margin.
+            let k = 1.0 / (f64::to_radians(turn) / 2.0).cos() - 1.0;
+            assert!(after.fits(), "{label}: {after:?}");
+            assert!(
+                (after.least() - own.margin * k).abs() < 1e-6,
+                "{label}: {}",
+                after.least()
+            );
+            assert_eq!(findings(&drawing, &own, Rule::DoesNotFit), []);
+            let errors = Analysis::new(&drawing, Arc::new(own.clone()))
+                .findings(&drawing, usize::MAX)
+                .0;
+            assert!(
+                errors
+                    .iter()
+                    .all(|finding| finding.severity != Severity::Error),
+                "{label}: {errors:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Settings of which something is missing for a fit, or that contradict each other.
+
+use super::{circle, snapshot};
+use wedm::job;
+use wedm::settings::{Effective, from_toml};
+
+#[test]
+fn what_is_missing_for_a_fit_is_named() {
+    let check = |text: &str, expected: &str| {
+        let (read, _) = from_toml(text);
+        let own = Effective::of(&read);
+        let refusal = job::fit(&snapshot(&circle(5.0), &own), &()).unwrap_err();
+        assert!(
+            refusal.sentence(1.0).contains(expected),
+            "{text}: {}",
+            refusal.sentence(1.0)
+        );
+    };
+    check(
+        "",
+        "expected pair.drawn-as, pair.clearance, wire-diameter and gap to be set",
+    );
+    check(
+        "gap = 0.01\n[pair]\nclearance = 0.01\ndrawn-as = \"punch\"",
+        "expected wire-diameter to be set",
+    );
+    check(
+        "wire-diameter = 0.2\n[pair]\nclearance = 0.01\ndrawn-as = \"punch\"",
+        "expected gap to be set",
+    );
+    check(
+        "wire-diameter = 0.2\ngap = 0.01\n[pair]\nclearance = 0.01",
+        "expected pair.drawn-as to be set",
+    );
+}
+
+#[test]
+fn settings_that_contradict_each_other_are_named_at_their_key() {
+    let check = |text: &str, at: &str, expected: &str| {
+        let (_, errors) = from_toml(text);
+        let found: Vec<_> = errors
+            .iter()
+            .map(|error| {
+                (
+                    error.range.clone().map_or("", |range| &text[range]),
+                    error.message.as_str(),
+                )
+            })
+            .collect();
+        assert!(
+            found
+                .iter()
+                .any(|(place, message)| *place == at && message.contains(expected)),
+            "{text}: {found:?}"
+        );
+    };
+    check(
+        "[pair]\ndrawn-as = \"punch\"\nclearance = 0.01\n",
+        "clearance",
+        "expected wire-diameter and gap beside it",
+    );
+    check(
+        "wire-diameter = 0.2\ngap = 0.01\n[pair]\nclearance = 0.01\n",
+        "clearance",
+        "has no pair",
+    );
+    check(
+        "[pair]\ndrawn-as = \"plate\"\n",
+        "drawn-as",
+        "says nothing without pair.clearance",
+    );
+    check(
+        "side = \"auto\"\n[pair]\ndrawn-as = \"plate\"\n",
+        "drawn-as",
+        "side is auto: expected both",
+    );
+    check(
+        "[pair]\ndrawn-as = \"plate\"\n[workpieces]\nA = [\"A\"]\nB = [\"B\"]\n",
+        "drawn-as",
+        "expected one of the two",
+    );
+    check(
+        "[pair]\nholder = 0.01\n",
+        "holder",
+        "expected pair.drawn-as beside it",
+    );
+    check(
+        "[workpieces]\nA = [\"X\"]\nB = [\"X\"]\n",
+        "workpieces",
+        "the layer X is of the workpieces A and B",
+    );
+}

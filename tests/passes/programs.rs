@@ -1,0 +1,108 @@
+//! The programs of passes in every language.
+
+use super::{SQUARE, THREE, drawing, generated, paths, settings};
+use wedm::drawing::Role;
+use wedm::program::{Document, Format, Language};
+
+#[test]
+fn one_pass_is_what_it_was() {
+    let made = generated(
+        &drawing(Role::Punch, &SQUARE),
+        &settings("correction = 0.14\n"),
+        Format::ThreeB,
+    );
+    assert_eq!((made.finished, made.warnings.len()), (None, 0));
+    assert_eq!(made.program.text.matches("D\n").count(), 1, "DD alone");
+}
+
+#[test]
+fn passes_are_written_with_a_pause_between_them_and_read_back_without_a_fault() {
+    let drawing = drawing(Role::Punch, &SQUARE);
+    for corner in ["arc", "intersection"] {
+        for (format, language) in [
+            (Format::ThreeB, Language::ThreeB),
+            (Format::Iso, Language::Iso),
+        ] {
+            let settings = settings(&format!("{THREE}[program]\ncorner = \"{corner}\"\n"));
+            let made = generated(&drawing, &settings, format);
+            let text = made.program.text;
+            assert_eq!(made.contours, 1);
+            assert_eq!(made.warnings, []);
+            let pause = if format == Format::Iso { "M00" } else { "D" };
+            let pauses = text.lines().filter(|line| line.trim() == pause).count();
+            assert_eq!(pauses, 2, "{text}");
+            let document = Document::read(language, text.clone().into(), &settings);
+            let (findings, _) = document.findings(&settings, usize::MAX);
+            assert_eq!(findings, [], "{text}");
+        }
+    }
+}
+
+#[test]
+fn the_control_offsets_each_pass_by_its_own_register_on_the_side_of_its_direction() {
+    let words = |text: &str| -> Vec<String> {
+        let made = generated(
+            &drawing(Role::Opening, &SQUARE),
+            &settings(text),
+            Format::Iso,
+        );
+        let lines = made.program.text.lines();
+        lines
+            .filter(|line| line.starts_with("G4"))
+            .map(str::to_owned)
+            .collect()
+    };
+    let controller = "[program]\ncompensation = \"controller\"\n";
+    assert_eq!(
+        words(&format!("{THREE}{controller}")),
+        ["G41 D1", "G40", "G42 D2", "G40", "G41 D3", "G40"]
+    );
+    assert_eq!(
+        words(&format!(
+            "{THREE}sequence = \"one-way\"\nregisters = [\"H101\", \"H102\", \"H105\"]\n{controller}profile = \"robofil\"\n"
+        )),
+        ["G41 H101", "G40", "G41 H102", "G40", "G41 H105", "G40"]
+    );
+    // A profile that names no register would cut all passes alike.
+    let own = "[profiles.mine]\ncontour-begin = [\"{side} D7\"]\n";
+    let settings = settings(&format!("{THREE}{controller}profile = \"mine\"\n{own}"));
+    let drawing = drawing(Role::Opening, &SQUARE);
+    let refused = Format::Iso
+        .write(&paths(&drawing, &settings), 1.0, &settings, &mut |_, _| {
+            true
+        })
+        .expect_err("one register");
+    assert!(refused.to_string().contains("{register}"), "{refused}");
+}
+
+#[test]
+fn four_b_holds_the_parts_contour_once_for_each_pass() {
+    let corner = (std::f64::consts::PI / 8.0).tan();
+    // A rounded punch, entered in a line.
+    let punch = [
+        [2.0, 0.0, 0.0],
+        [18.0, 0.0, corner],
+        [20.0, 2.0, 0.0],
+        [20.0, 8.0, corner],
+        [18.0, 10.0, 0.0],
+        [2.0, 10.0, corner],
+        [0.0, 8.0, 0.0],
+        [0.0, 2.0, corner],
+    ];
+    let made = generated(
+        &drawing(Role::Punch, &punch),
+        &settings(THREE),
+        Format::FourB,
+    );
+    let text = &made.program.text;
+    assert_eq!(
+        text.lines().filter(|line| *line == "D").count(),
+        2,
+        "{text}"
+    );
+    assert_eq!(
+        text.matches("SR").count(),
+        text.matches("NR").count() / 2,
+        "{text}"
+    );
+}

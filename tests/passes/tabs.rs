@@ -1,0 +1,180 @@
+//! Tabs: what is left standing, and the passes that cut it off.
+
+use super::{PLATE, THREE, drawing, generated, held, length, outlines, paths, settings};
+use wedm::drawing::Role;
+use wedm::geometry::Point;
+use wedm::program::Format;
+use wedm::toolpath::{Source, plan};
+
+fn is_of_contour(source: &Source) -> bool {
+    matches!(source, Source::Segment { .. } | Source::Corner { .. })
+}
+
+#[test]
+fn a_punch_stands_on_its_tab_until_it_is_cut_off() {
+    let text = "correction = 0.155\n[program]\nlead-in = 4\ntab = 3\n";
+    let settings = settings(text);
+    let drawing = drawing(Role::Punch, &PLATE);
+    let found = paths(&drawing, &settings);
+    let [cut, tab] = &found[..] else {
+        panic!("{found:?}")
+    };
+    assert_eq!((cut.cut_off, tab.cut_off, tab.pass), (false, true, 1));
+    // The lead is counted from the wire's path.
+    assert!((cut.thread_hole - Point::new(20.0, -4.155)).norm() < 1e-9);
+    assert!((length(tab, is_of_contour) - 3.0).abs() < 1e-9, "{tab:?}");
+    let round = 2.0 * (40.0 + 20.0) + 2.0 * std::f64::consts::PI * 0.155;
+    let both = length(cut, is_of_contour) + length(tab, is_of_contour);
+    assert!((both - round).abs() < 1e-9);
+    // It goes on where the others stopped, and ends where the wire was threaded.
+    assert_eq!(cut.end(), tab.begin());
+    assert_eq!((cut.begin(), tab.end()), (cut.thread_hole, cut.thread_hole));
+    for format in [Format::ThreeB, Format::Iso] {
+        let document = held(&drawing, &settings, format);
+        let contours = document.trace().steps.last().map_or(0, |step| step.contour);
+        assert_eq!(contours, 0, "one contour");
+    }
+}
+
+#[test]
+fn passes_leave_the_tab_and_cut_it_off_in_passes_of_its_own() {
+    {
+        for corrections in ["0.17, 0.14", "0.215, 0.17, 0.14"] {
+            for compensation in ["path", "controller"] {
+                let text = format!(
+                    "[passes]\ncorrections = [{corrections}]\n[program]\ntab = 3\ncompensation = \"{compensation}\"\n"
+                );
+                let settings = settings(&text);
+                let drawing = drawing(Role::Punch, &PLATE);
+                let found = paths(&drawing, &settings);
+                let count = settings.corrections.len();
+                assert_eq!(found.len(), 2 * count, "{text}");
+                for (number, path) in found.iter().enumerate() {
+                    assert_eq!(path.cut_off, number >= count);
+                    assert_eq!(path.pass, number % count + 1);
+                    let own = length(path, is_of_contour);
+                    assert!((own - 3.0).abs() < 1e-9 || own > 116.0, "{own}: {text}");
+                    // Nothing is left out between one path and the next but jumps from the thread hole or to it.
+                    if let Some(next) = found.get(number + 1) {
+                        assert_eq!(path.end(), next.begin(), "{number}: {text}");
+                    }
+                }
+                held(&drawing, &settings, Format::Iso);
+                if compensation == "path" {
+                    held(&drawing, &settings, Format::ThreeB);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn passes_one_way_come_back_from_the_tab_to_the_thread_hole() {
+    for compensation in ["path", "controller"] {
+        let settings = settings(&format!(
+            "{THREE}sequence = \"one-way\"\n[program]\ntab = 3\ncompensation = \"{compensation}\"\n"
+        ));
+        let drawing = drawing(Role::Punch, &PLATE);
+        let found = paths(&drawing, &settings);
+        assert_eq!(found.len(), 6);
+        for (number, path) in found.iter().enumerate() {
+            assert_eq!((path.cut_off, path.pass), (number >= 3, number % 3 + 1));
+            assert_eq!(path.counter_clockwise, Some(true));
+            assert_eq!(
+                (path.begin(), path.end()),
+                (path.thread_hole, path.thread_hole)
+            );
+            let own = length(path, is_of_contour);
+            assert!((own - 3.0).abs() < 1e-9 || own > 116.0, "{own}");
+            // The leads at the tab keep clear of the part, too.
+            for piece in path
+                .segments
+                .iter()
+                .filter(|piece| matches!(piece.source, Source::LeadIn | Source::LeadOut))
+            {
+                assert!(piece.geometry.start().y.max(piece.geometry.end().y) <= 0.0);
+            }
+        }
+        let made = generated(&drawing, &settings, Format::Iso);
+        assert_eq!(made.program.text.matches("M00").count(), 5);
+    }
+}
+
+#[test]
+fn the_machine_stops_before_the_tab_by_its_own_word() {
+    let text = "[program]\ntab = 3\ntab-stop = \"M01\"\n";
+    let drawing = drawing(Role::Punch, &PLATE);
+    let made = generated(&drawing, &settings(text), Format::Iso);
+    let stops: Vec<&str> = made
+        .program
+        .text
+        .lines()
+        .filter(|line| line.starts_with('M'))
+        .collect();
+    assert_eq!(stops, ["M01", "M02"]);
+    let refused = Format::ThreeB
+        .write(
+            &paths(&drawing, &settings(text)),
+            1.0,
+            &settings(text),
+            &mut |_, _| true,
+        )
+        .expect_err("3B has no such word");
+    assert!(refused.to_string().contains("\"M01\""), "{refused}");
+}
+
+#[test]
+fn four_b_stops_before_its_tab_and_goes_on_in_one_contour() {
+    let drawing = drawing(Role::Punch, &PLATE);
+    let whole = generated(&drawing, &settings(""), Format::FourB).program;
+    let tab = generated(&drawing, &settings("[program]\ntab = 3\n"), Format::FourB).program;
+    let lines: Vec<&str> = tab.text.lines().collect();
+    let stop = lines.iter().position(|line| *line == "D").expect("a stop");
+    assert_eq!(lines.iter().filter(|line| **line == "D").count(), 1);
+    // What stands behind it is the tab and the way out.
+    assert!(
+        lines[stop + 1].starts_with("B3000B0B3000GX"),
+        "{}",
+        tab.text
+    );
+    assert_eq!(tab.blocks, whole.blocks + 1);
+    assert!((tab.length - whole.length).abs() < 1e-9);
+    let several = settings(
+        "[passes]\ncorrections = [0.17, 0.14]\n[program]\ntab = 3\ncompensation = \"controller\"\n",
+    );
+    let refused = Format::FourB
+        .write(&paths(&drawing, &several), 1.0, &several, &mut |_, _| true)
+        .expect_err("one contour for all passes");
+    assert!(refused.to_string().contains("one pass"), "{refused}");
+}
+
+#[test]
+fn a_slug_above_its_limit_keeps_a_tab_and_a_tab_is_shorter_than_its_contour() {
+    let count = |text: &str| paths(&drawing(Role::Opening, &PLATE), &settings(text)).len();
+    // 7.85 g/cm³ × 8 cm² × 4 cm = 251.2 g.
+    let tab = "[program]\ntab = 3\n";
+    assert_eq!(count(tab), 1);
+    assert_eq!(
+        count(&format!("{tab}[job]\nthickness = 40\nslug-limit = 251\n")),
+        2
+    );
+    assert_eq!(
+        count(&format!("{tab}[job]\nthickness = 40\nslug-limit = 252\n")),
+        1
+    );
+    for (text, says) in [
+        (
+            "[program]\ntab = 120\n",
+            "the tab of 120.000 mm leaves nothing of contour 2A, which is 120.000 mm long",
+        ),
+        (
+            "[program]\nclosing-overlap = 130\n",
+            "the overlap of 130.000 mm goes all round contour 2A",
+        ),
+    ] {
+        let settings = settings(text);
+        let drawing = drawing(Role::Punch, &PLATE);
+        let refused = plan(&drawing, &outlines(&drawing, &settings), &settings, None);
+        assert!(format!("{refused:?}").contains(says), "{refused:?}");
+    }
+}
