@@ -7,10 +7,10 @@
 use super::cores::{each, each_two};
 use super::offset::{Offset, Wall, offset};
 use super::path::Source;
+use super::ring::Ring;
 use crate::geometry::{
     Arc, Few, Point, Segment, Vector, circle_circle, cross, left_normal, line_circle, line_line,
 };
-use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// One core takes so many elements at a time.
@@ -60,9 +60,9 @@ pub(super) struct Raw {
     /// Those that the wire's centre cannot follow at all are points.
     pub(crate) elements: Vec<Element>,
     /// Behind each element.
-    joints: Vec<Joint>,
+    pub(super) joints: Vec<Joint>,
     /// Elements that the wire's centre cannot follow, with the place that stands for them.
-    tight: Vec<(usize, Point)>,
+    pub(super) tight: Vec<(usize, Point)>,
 }
 
 impl Raw {
@@ -230,215 +230,6 @@ fn nearer_to_both(a: &Segment, b: &Segment, point: Point) -> Point {
     point - (left_normal(normal_a) * from_b - left_normal(normal_b) * from_a) / between
 }
 
-/// The elements round a contour, from which what is used up is taken out.
-struct Ring<'a> {
-    elements: &'a [Element],
-    /// Behind each element.
-    joints: Vec<Joint>,
-    /// Elements that the wire's centre cannot follow at all, with the place that stands for them.
-    tight: &'a [(usize, Point)],
-    before: Vec<u32>,
-    after: Vec<u32>,
-    alive: Vec<bool>,
-    count: usize,
-}
-
-impl Ring<'_> {
-    fn new(raw: &Raw) -> Ring<'_> {
-        let count = raw.elements.len();
-        let last = count.saturating_sub(1) as u32;
-        Ring {
-            elements: &raw.elements,
-            joints: raw.joints.clone(),
-            tight: &raw.tight,
-            before: std::iter::once(last).chain(0..last).collect(),
-            after: (1..=last).chain([0]).collect(),
-            alive: vec![true; count],
-            count,
-        }
-    }
-
-    fn before(&self, index: usize) -> usize {
-        self.before[index] as usize
-    }
-
-    fn after(&self, index: usize) -> usize {
-        self.after[index] as usize
-    }
-
-    /// Takes out what is used up until every element runs forward; `None` when nothing is left or neighbours do not meet.
-    fn resolve(mut self) -> Option<Vec<(usize, Element)>> {
-        if self.count < 2 {
-            return None;
-        }
-        for &(index, center) in self.tight {
-            self.remove(index, center)?;
-        }
-        self.settle_all();
-        // What runs forward from the first is looked at again only beside what goes.
-        let settled = |index: usize| match self.joints[index] {
-            Joint::At(point) => Some(point),
-            Joint::CrossNear(_) => None,
-        };
-        let runs_forward = |index: usize| {
-            let ends = settled(self.before(index)).zip(settled(index));
-            ends.is_some_and(|(start, end)| !self.runs_backwards(index, start, end))
-        };
-        let is_fine = each(self.elements.len(), AT_A_TIME, |index| {
-            !self.alive[index] || runs_forward(index)
-        });
-        let waiting = (0..self.elements.len()).rev();
-        let mut waiting: Vec<usize> = waiting.filter(|&index| !is_fine[index]).collect();
-        while let Some(index) = waiting.pop() {
-            if !self.alive[index] {
-                continue;
-            }
-            let gone = match (self.settle(self.before(index)), self.settle(index)) {
-                (Err(shorter), _) | (_, Err(shorter)) => shorter,
-                (Ok(start), Ok(end)) if self.runs_backwards(index, start, end) => index,
-                _ => continue,
-            };
-            let near = self.elements[gone].geometry.point_at(0.5);
-            let (before, after) = (self.before(gone), self.after(gone));
-            self.remove(gone, near)?;
-            waiting.extend([after, before, index]);
-        }
-        self.trimmed()
-    }
-
-    fn remove(&mut self, index: usize, near: Point) -> Option<()> {
-        let (before, after) = (self.before(index), self.after(index));
-        self.alive[index] = false;
-        self.count -= 1;
-        self.after[before] = after as u32;
-        self.before[after] = before as u32;
-        self.joints[before] = Joint::CrossNear(near);
-        (self.count >= 2).then_some(())
-    }
-
-    /// The points behind all elements, where they meet the next.
-    fn settle_all(&mut self) {
-        let Ring {
-            elements,
-            joints,
-            after,
-            alive,
-            ..
-        } = self;
-        let joints = joints.par_iter_mut().with_min_len(AT_A_TIME).enumerate();
-        joints.for_each(|(index, joint)| {
-            if let Joint::CrossNear(near) = *joint
-                && alive[index]
-            {
-                let next = &elements[after[index] as usize].geometry;
-                if let Some(point) = meeting(&elements[index].geometry, next, near) {
-                    *joint = Joint::At(point);
-                }
-            }
-        });
-    }
-
-    /// The point behind element `index`; where the two do not meet, the shorter one.
-    fn settle(&mut self, index: usize) -> Result<Point, usize> {
-        let near = match self.joints[index] {
-            Joint::At(point) => return Ok(point),
-            Joint::CrossNear(near) => near,
-        };
-        let next = self.after(index);
-        let (a, b) = (
-            &self.elements[index].geometry,
-            &self.elements[next].geometry,
-        );
-        let shorter = if a.length() < b.length() { index } else { next };
-        let point = meeting(a, b, near).ok_or(shorter)?;
-        self.joints[index] = Joint::At(point);
-        Ok(point)
-    }
-
-    fn runs_backwards(&self, index: usize, start: Point, end: Point) -> bool {
-        let geometry = &self.elements[index].geometry;
-        if let Segment::Line(line) = geometry {
-            let along = line.end - line.start;
-            let forward = (end - start).dot(&along);
-            return forward < 0.0 && forward * forward > 1e-18 * along.norm_squared();
-        }
-        let length = geometry.length();
-        length > 0.0
-            && !is_all_of(geometry, start, end)
-            && !is_seen_forward(geometry, start, end)
-            && (share_on(geometry, end) - share_on(geometry, start)) * length < -1e-9
-    }
-
-    fn trimmed(mut self) -> Option<Vec<(usize, Element)>> {
-        let alive = 0..self.elements.len();
-        let alive: Vec<usize> = alive.filter(|&index| self.alive[index]).collect();
-        let ends: Option<Vec<Point>> = (alive.iter())
-            .map(|&index| self.settle(index).ok())
-            .collect();
-        let ends = ends?;
-        let is_any_point = AtomicBool::new(false);
-        let piece = |at: usize| {
-            let (index, start) = (alive[at], ends[if at == 0 { ends.len() } else { at } - 1]);
-            let element = self.elements[index];
-            let geometry = between(&element.geometry, start, ends[at]);
-            let piece = Element {
-                geometry,
-                ..element
-            };
-            if is_point(&piece) {
-                is_any_point.store(true, Relaxed);
-            }
-            (index, piece)
-        };
-        let mut path = each(alive.len(), AT_A_TIME, piece);
-        if is_any_point.into_inner() {
-            path = without_points(path);
-        }
-        if let (Some(head), Some((_, last))) = (
-            path.first()
-                .map(|(_, first): &(usize, Element)| first.geometry.start()),
-            path.last_mut(),
-        ) {
-            close_up(last, head);
-        }
-        (path.len() >= 2).then_some(path)
-    }
-}
-
-/// Where two elements that follow each other meet, of several places the one nearest to a point.
-fn meeting(a: &Segment, b: &Segment, near: Point) -> Option<Point> {
-    let rank = |point: &Point| {
-        let is_beside = |segment: &&Segment| {
-            !segment.spans(*point) && !(-1e-9..=1.0 + 1e-9).contains(&segment.share_of(*point))
-        };
-        let beside = [a, b].iter().any(is_beside);
-        (beside, (point - near).norm())
-    };
-    let best = meetings(a, b).into_iter().min_by(|p, q| {
-        let ((p_beside, p_away), (q_beside, q_away)) = (rank(p), rank(q));
-        p_beside.cmp(&q_beside).then(p_away.total_cmp(&q_away))
-    });
-    best.filter(|point| point.x.is_finite() && point.y.is_finite())
-}
-
-/// A piece of a path that is no more than a point of it.
-fn is_point(piece: &Element) -> bool {
-    piece.geometry.length() <= 1e-9
-}
-
-/// What follows a point of the path begins where it stands: what is before it ends there, so nothing is left between.
-fn without_points(path: Vec<(usize, Element)>) -> Vec<(usize, Element)> {
-    let mut kept: Vec<(usize, Element)> = Vec::with_capacity(path.len());
-    for (index, piece) in path {
-        if !is_point(&piece) {
-            kept.push((index, piece));
-        } else if let Some((_, last)) = kept.last_mut() {
-            close_up(last, piece.geometry.end());
-        }
-    }
-    kept
-}
-
 /// Lets an element end in a point that lies within rounding of its end.
 pub(super) fn close_up(element: &mut Element, end: Point) {
     match &mut element.geometry {
@@ -451,7 +242,7 @@ pub(super) fn close_up(element: &mut Element, end: Point) {
 const SAME: f64 = 1e-11;
 
 /// The share of a segment at which one of its points lies: an angle need not be worked out for its ends.
-fn share_on(segment: &Segment, point: Point) -> f64 {
+pub(super) fn share_on(segment: &Segment, point: Point) -> f64 {
     let is_at = |end: Point| (point - end).norm_squared() <= SAME * SAME;
     match segment {
         Segment::Arc(arc) if !arc.is_full_turn() && arc.length() > 1e3 * SAME => {
@@ -468,26 +259,12 @@ fn share_on(segment: &Segment, point: Point) -> f64 {
 }
 
 /// True for points that are the ends of a segment but for what is no more than rounding of coordinates.
-fn is_all_of(segment: &Segment, start: Point, end: Point) -> bool {
+pub(super) fn is_all_of(segment: &Segment, start: Point, end: Point) -> bool {
     let is_at = |one: Point, other: Point| (one - other).norm_squared() <= SAME * SAME;
     start != end
         && is_at(segment.start(), start)
         && is_at(segment.end(), end)
         && segment.length() > 1e3 * SAME
-}
-
-/// True where one point of an arc's circle is seen to lie behind the other in its sense: both are on the half of the circle that the middle of
-/// the arc is on. False says nothing.
-fn is_seen_forward(segment: &Segment, start: Point, end: Point) -> bool {
-    let Some(arc) = segment
-        .as_arc()
-        .filter(|arc| !arc.is_shallow() && arc.sweep.abs() < 3.0)
-    else {
-        return false;
-    };
-    let middle = (arc.start - arc.center) + (arc.end - arc.center);
-    let (from, to) = (start - arc.center, end - arc.center);
-    from.dot(&middle) > 0.0 && to.dot(&middle) > 0.0 && cross(from, to) * arc.sweep > 0.0
 }
 
 /// The part of a segment, or of what carries it, from `start` to `end`.

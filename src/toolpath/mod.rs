@@ -27,6 +27,7 @@ mod part;
 mod path;
 mod paths;
 mod proof;
+mod ring;
 mod rounds;
 mod skim;
 mod stated;

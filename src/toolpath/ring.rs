@@ -1,0 +1,317 @@
+//! The path that is left where neighbours are cut with each other, and what they use up is taken out.
+
+use super::cores::each;
+use super::corners::{Element, Joint, Raw, between, close_up, is_all_of, meetings, share_on};
+use crate::geometry::{Point, Segment, cross};
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
+/// One core takes so many elements at a time.
+const AT_A_TIME: usize = 2048;
+
+/// The elements round a contour, from which what is used up is taken out.
+pub(super) struct Ring<'a> {
+    elements: &'a [Element],
+    /// Behind each element.
+    joints: Vec<Joint>,
+    /// Elements that the wire's centre cannot follow at all, with the place that stands for them.
+    tight: &'a [(usize, Point)],
+    before: Vec<u32>,
+    after: Vec<u32>,
+    alive: Vec<bool>,
+    count: usize,
+}
+
+impl Ring<'_> {
+    pub(super) fn new(raw: &Raw) -> Ring<'_> {
+        let count = raw.elements.len();
+        let last = count.saturating_sub(1) as u32;
+        Ring {
+            elements: &raw.elements,
+            joints: raw.joints.clone(),
+            tight: &raw.tight,
+            before: std::iter::once(last).chain(0..last).collect(),
+            after: (1..=last).chain([0]).collect(),
+            alive: vec![true; count],
+            count,
+        }
+    }
+
+    fn before(&self, index: usize) -> usize {
+        self.before[index] as usize
+    }
+
+    fn after(&self, index: usize) -> usize {
+        self.after[index] as usize
+    }
+
+    /// Takes out what is used up until every element runs forward; `None` when nothing is left or neighbours do not meet.
+    pub(super) fn resolve(mut self) -> Option<Vec<(usize, Element)>> {
+        self.remove_tight()?;
+        self.settle_all();
+        let waiting = self.not_forward();
+        self.resolve_beside(waiting)
+    }
+
+    /// Takes out what the wire's centre cannot follow at all.
+    fn remove_tight(&mut self) -> Option<()> {
+        if self.count < 2 {
+            return None;
+        }
+        let tight = self.tight;
+        for &(index, center) in tight {
+            self.remove(index, center)?;
+        }
+        Some(())
+    }
+
+    /// The elements that do not run forward between what is settled, from the last to the first. The others are looked at again only beside
+    /// what goes.
+    fn not_forward(&self) -> Vec<usize> {
+        let settled = |index: usize| match self.joints[index] {
+            Joint::At(point) => Some(point),
+            Joint::CrossNear(_) => None,
+        };
+        let runs_forward = |index: usize| {
+            let ends = settled(self.before(index)).zip(settled(index));
+            ends.is_some_and(|(start, end)| !self.runs_backwards(index, start, end))
+        };
+        let is_fine = each(self.elements.len(), AT_A_TIME, |index| {
+            !self.alive[index] || runs_forward(index)
+        });
+        let all = (0..self.elements.len()).rev();
+        all.filter(|&index| !is_fine[index]).collect()
+    }
+
+    /// Looks at what is `waiting`, the last first, and at what stands beside what goes.
+    fn resolve_beside(mut self, mut waiting: Vec<usize>) -> Option<Vec<(usize, Element)>> {
+        while let Some(index) = waiting.pop() {
+            if !self.alive[index] {
+                continue;
+            }
+            let gone = match (self.settle(self.before(index)), self.settle(index)) {
+                (Err(shorter), _) | (_, Err(shorter)) => shorter,
+                (Ok(start), Ok(end)) if self.runs_backwards(index, start, end) => index,
+                _ => continue,
+            };
+            let near = self.elements[gone].geometry.point_at(0.5);
+            let (before, after) = (self.before(gone), self.after(gone));
+            self.remove(gone, near)?;
+            waiting.extend([after, before, index]);
+        }
+        self.trimmed()
+    }
+
+    fn remove(&mut self, index: usize, near: Point) -> Option<()> {
+        let (before, after) = (self.before(index), self.after(index));
+        self.alive[index] = false;
+        self.count -= 1;
+        self.after[before] = after as u32;
+        self.before[after] = before as u32;
+        self.joints[before] = Joint::CrossNear(near);
+        (self.count >= 2).then_some(())
+    }
+
+    /// The points behind all elements, where they meet the next.
+    fn settle_all(&mut self) {
+        let Ring {
+            elements,
+            joints,
+            after,
+            alive,
+            ..
+        } = self;
+        let joints = joints.par_iter_mut().with_min_len(AT_A_TIME).enumerate();
+        joints.for_each(|(index, joint)| {
+            if let Joint::CrossNear(near) = *joint
+                && alive[index]
+            {
+                let next = &elements[after[index] as usize].geometry;
+                if let Some(point) = meeting(&elements[index].geometry, next, near) {
+                    *joint = Joint::At(point);
+                }
+            }
+        });
+    }
+
+    /// The point behind element `index`; where the two do not meet, the shorter one.
+    fn settle(&mut self, index: usize) -> Result<Point, usize> {
+        let near = match self.joints[index] {
+            Joint::At(point) => return Ok(point),
+            Joint::CrossNear(near) => near,
+        };
+        let next = self.after(index);
+        let (a, b) = (
+            &self.elements[index].geometry,
+            &self.elements[next].geometry,
+        );
+        let shorter = if a.length() < b.length() { index } else { next };
+        let point = meeting(a, b, near).ok_or(shorter)?;
+        self.joints[index] = Joint::At(point);
+        Ok(point)
+    }
+
+    fn runs_backwards(&self, index: usize, start: Point, end: Point) -> bool {
+        let geometry = &self.elements[index].geometry;
+        if let Segment::Line(line) = geometry {
+            let along = line.end - line.start;
+            let forward = (end - start).dot(&along);
+            return forward < 0.0 && forward * forward > 1e-18 * along.norm_squared();
+        }
+        let length = geometry.length();
+        length > 0.0
+            && !is_all_of(geometry, start, end)
+            && !is_seen_forward(geometry, start, end)
+            && (share_on(geometry, end) - share_on(geometry, start)) * length < -1e-9
+    }
+
+    fn trimmed(mut self) -> Option<Vec<(usize, Element)>> {
+        let alive = 0..self.elements.len();
+        let alive: Vec<usize> = alive.filter(|&index| self.alive[index]).collect();
+        let ends: Option<Vec<Point>> = (alive.iter())
+            .map(|&index| self.settle(index).ok())
+            .collect();
+        let ends = ends?;
+        let is_any_point = AtomicBool::new(false);
+        let piece = |at: usize| {
+            let (index, start) = (alive[at], ends[if at == 0 { ends.len() } else { at } - 1]);
+            let element = self.elements[index];
+            let geometry = between(&element.geometry, start, ends[at]);
+            let piece = Element {
+                geometry,
+                ..element
+            };
+            if is_point(&piece) {
+                is_any_point.store(true, Relaxed);
+            }
+            (index, piece)
+        };
+        let mut path = each(alive.len(), AT_A_TIME, piece);
+        if is_any_point.into_inner() {
+            path = without_points(path);
+        }
+        if let (Some(head), Some((_, last))) = (
+            path.first()
+                .map(|(_, first): &(usize, Element)| first.geometry.start()),
+            path.last_mut(),
+        ) {
+            close_up(last, head);
+        }
+        (path.len() >= 2).then_some(path)
+    }
+}
+
+/// Where two elements that follow each other meet, of several places the one nearest to a point.
+fn meeting(a: &Segment, b: &Segment, near: Point) -> Option<Point> {
+    let rank = |point: &Point| {
+        let is_beside = |segment: &&Segment| {
+            !segment.spans(*point) && !(-1e-9..=1.0 + 1e-9).contains(&segment.share_of(*point))
+        };
+        let beside = [a, b].iter().any(is_beside);
+        (beside, (point - near).norm())
+    };
+    let best = meetings(a, b).into_iter().min_by(|p, q| {
+        let ((p_beside, p_away), (q_beside, q_away)) = (rank(p), rank(q));
+        p_beside.cmp(&q_beside).then(p_away.total_cmp(&q_away))
+    });
+    best.filter(|point| point.x.is_finite() && point.y.is_finite())
+}
+
+/// A piece of a path that is no more than a point of it.
+fn is_point(piece: &Element) -> bool {
+    piece.geometry.length() <= 1e-9
+}
+
+/// What follows a point of the path begins where it stands: what is before it ends there, so nothing is left between.
+fn without_points(path: Vec<(usize, Element)>) -> Vec<(usize, Element)> {
+    let mut kept: Vec<(usize, Element)> = Vec::with_capacity(path.len());
+    for (index, piece) in path {
+        if !is_point(&piece) {
+            kept.push((index, piece));
+        } else if let Some((_, last)) = kept.last_mut() {
+            close_up(last, piece.geometry.end());
+        }
+    }
+    kept
+}
+
+/// True where one point of an arc's circle is seen to lie behind the other in its sense: both are on the half of the circle that the middle of
+/// the arc is on. False says nothing.
+fn is_seen_forward(segment: &Segment, start: Point, end: Point) -> bool {
+    let Some(arc) = segment
+        .as_arc()
+        .filter(|arc| !arc.is_shallow() && arc.sweep.abs() < 3.0)
+    else {
+        return false;
+    };
+    let middle = (arc.start - arc.center) + (arc.end - arc.center);
+    let (from, to) = (start - arc.center, end - arc.center);
+    from.dot(&middle) > 0.0 && to.dot(&middle) > 0.0 && cross(from, to) * arc.sweep > 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::corners::Joining;
+    use super::super::offset::Wall;
+    use super::super::path::Source;
+    use super::*;
+    use crate::drawing::EntityId;
+    use proptest::prelude::*;
+    use std::f64::consts::TAU;
+
+    /// A closed contour of lines and arcs about the origin, its corners in and out, some of its pieces shorter than the correction.
+    fn walls(corners: &[(f64, f64)]) -> Vec<Wall> {
+        let count = corners.len();
+        let at = |index: usize| {
+            let (away, _) = corners[index % count];
+            let (sin, cos) = (TAU * (index % count) as f64 / count as f64).sin_cos();
+            Point::new(cos, sin) * (0.03 * count as f64 + away)
+        };
+        let wall = |index: usize| Wall {
+            geometry: Segment::from_bulge(at(index), at(index + 1), corners[index].1),
+            source: Source::Segment {
+                entity: EntityId(0),
+                segment: index,
+            },
+        };
+        (0..count).map(wall).collect()
+    }
+
+    fn corner() -> impl Strategy<Value = (f64, f64)> {
+        let bulge = prop_oneof![3 => Just(0.0), 1 => -0.9..0.9];
+        (prop_oneof![2 => Just(0.0), 1 => 0.0..0.4], bulge)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// What is settled at once, over the cores, leaves the path that one element after the other leaves.
+        #[test]
+        fn the_path_is_that_of_one_element_after_the_other(
+            corners in prop::collection::vec(corner(), 3..400),
+            times in prop_oneof![9 => Just(1_usize), 1 => Just(20)],
+            left in any::<bool>(),
+        ) {
+            let walls = walls(&corners.repeat(times));
+            let ends = |wall: &Wall| [wall.geometry.start_tangent(), wall.geometry.end_tangent()];
+            let tangents: Vec<_> = walls.iter().map(ends).collect();
+            let joining = Joining {
+                correction: 0.1,
+                side: if left { 1.0 } else { -1.0 },
+                touch: 1e-7,
+                tolerance: 1e-6,
+            };
+            let raw = Raw::new(&walls, &tangents, &joining);
+            let told = |path: Option<Vec<(usize, Element)>>| format!("{path:?}");
+            let mut one_by_one = Ring::new(&raw);
+            let one_by_one = match one_by_one.remove_tight() {
+                Some(()) => {
+                    let all = (0..raw.elements.len()).rev().collect();
+                    one_by_one.resolve_beside(all)
+                }
+                None => None,
+            };
+            prop_assert_eq!(told(Ring::new(&raw).resolve()), told(one_by_one));
+        }
+    }
+}
