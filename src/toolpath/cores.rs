@@ -1,7 +1,5 @@
 //! Work over the cores of the machine: what is made, or held against a proof, piece by piece.
 
-use super::job::Job;
-use super::path::Refusal;
 use rayon::iter::{
     IndexedParallelIterator, IntoParallelIterator, ParallelExtend, ParallelIterator,
 };
@@ -62,30 +60,28 @@ fn over_cores(count: usize, at_a_time: usize) -> impl IndexedParallelIterator<It
     (0..count).into_par_iter().with_min_len(at_a_time)
 }
 
-impl Job<'_> {
-    /// The first fault, in their order, among `count` pieces; `fault_of` says that of some of them.
-    pub(super) fn first_fault<Fault: Send>(
-        &self,
-        count: usize,
-        fault_of: impl Fn(Range<usize>) -> Result<(), Fault> + Sync,
-    ) -> Result<Result<(), Fault>, Refusal> {
-        for first in (0..count).step_by(ROUND * STEP) {
-            self.go_on()?;
-            let last = (first + ROUND * STEP).min(count);
-            let step = |at: usize| first + at * STEP..(first + (at + 1) * STEP).min(last);
-            let steps = (last - first).div_ceil(STEP);
-            let fault = match steps {
-                // To wake a core takes longer.
-                1 => fault_of(step(0)).err(),
-                _ => {
-                    let steps = (0..steps).into_par_iter();
-                    steps.find_map_first(|at| fault_of(step(at)).err())
-                }
-            };
-            if let Some(fault) = fault {
-                return Ok(Err(fault));
+/// The first fault, in their order, among `count` pieces; `fault_of` says that of some of them. Now and then it is asked whether to `go_on`.
+pub(super) fn first_fault<Fault: Send, Stop>(
+    count: usize,
+    go_on: impl Fn() -> Result<(), Stop>,
+    fault_of: impl Fn(Range<usize>) -> Result<(), Fault> + Sync,
+) -> Result<Result<(), Fault>, Stop> {
+    for first in (0..count).step_by(ROUND * STEP) {
+        go_on()?;
+        let last = (first + ROUND * STEP).min(count);
+        let step = |at: usize| first + at * STEP..(first + (at + 1) * STEP).min(last);
+        let steps = (last - first).div_ceil(STEP);
+        let fault = match steps {
+            // To wake a core takes longer.
+            1 => fault_of(step(0)).err(),
+            _ => {
+                let steps = (0..steps).into_par_iter();
+                steps.find_map_first(|at| fault_of(step(at)).err())
             }
+        };
+        if let Some(fault) = fault {
+            return Ok(Err(fault));
         }
-        Ok(Ok(()))
     }
+    Ok(Ok(()))
 }

@@ -7,7 +7,6 @@
 use super::cores::{each, each_two};
 use super::offset::{Offset, Wall, offset};
 use super::path::Source;
-use super::ring::Ring;
 use crate::geometry::{
     Arc, Few, Point, Segment, Vector, circle_circle, cross, left_normal, line_circle, line_line,
 };
@@ -154,13 +153,6 @@ impl Raw {
         self.elements
             .partition_point(|element| element.wall < walls)
             .saturating_sub(1)
-    }
-
-    /// The path that is left where neighbours are cut with each other and what they use up goes, each piece with the index of the
-    /// element that it is of. Right wherever corners do not reach past their neighbours; whether it is, `proof` says. `None`
-    /// where nothing is left or neighbours do not meet.
-    pub(crate) fn trimmed(&self) -> Option<Vec<(usize, Element)>> {
-        Ring::new(self).resolve()
     }
 }
 

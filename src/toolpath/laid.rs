@@ -1,7 +1,7 @@
 //! The path along one contour, proved, or the fault that stands in its place.
 
 use super::clearance::Walls;
-use super::cores::sum;
+use super::cores::{first_fault, sum};
 use super::corners::{Element, Joining, Raw};
 use super::job::{Job, ROUNDING};
 use super::kept::Kept;
@@ -11,6 +11,7 @@ use super::offset::{Wall, walls};
 use super::open::{one_side, there_and_back};
 use super::path::Refusal;
 use super::proof::{Proof, Unproved};
+use super::ring::trimmed;
 use super::tips::with_tips;
 use crate::drawing::ContourSegment;
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
@@ -182,7 +183,7 @@ impl Job<'_> {
         self.go_on()?;
         let found = match &raw.elements[..] {
             [circle] if circle.geometry.length() > 0.0 => Some(vec![(0, *circle)]),
-            _ => raw.trimmed(),
+            _ => trimmed(&raw),
         };
         let found = match closed {
             true => found.filter(|path| keeps_its_side(path, walls, own, side)),
@@ -267,6 +268,7 @@ impl Job<'_> {
         known: Known,
     ) -> Result<Result<(), Unproved>, Refusal> {
         let Known { before, kept } = known;
+        let go_on = || self.go_on();
         let nest = before.map(|before| Nest::new(before, proof.walls.len()));
         let held = match kept {
             // Little of it is looked at.
@@ -279,7 +281,7 @@ impl Job<'_> {
                 if proof.closed {
                     proof.own.know_about(proof.correction - proof.rounding);
                 }
-                self.first_fault(path.len(), |range| {
+                first_fault(path.len(), go_on, |range| {
                     proof.pieces_hold(&path[range], nest.as_ref(), None)
                 })?
             }
@@ -300,7 +302,7 @@ impl Job<'_> {
             let by_share = |a: &_, b: &_| share(a).total_cmp(&share(b));
             (by_raw.to_mut()).sort_by(|a, b| a.0.cmp(&b.0).then_with(|| by_share(a, b)));
         }
-        self.first_fault(proof.followed(), |range| {
+        first_fault(proof.followed(), go_on, |range| {
             proof.nothing_is_missing(&by_raw, range)
         })
     }

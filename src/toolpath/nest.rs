@@ -181,7 +181,7 @@ mod tests {
                 tolerance: 1e-6,
             };
             let raw = Raw::new(&walls, own.tangents(), &joining);
-            let path = raw.trimmed().unwrap();
+            let path = super::super::ring::trimmed(&raw).unwrap();
             path.into_iter()
                 .map(|(_, element)| element)
                 .collect::<Vec<_>>()

@@ -9,8 +9,15 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 /// One core takes so many elements at a time.
 const AT_A_TIME: usize = 2048;
 
+/// The path that is left where neighbours are cut with each other and what they use up goes, each piece with the index of the
+/// element that it is of. Right wherever corners do not reach past their neighbours; whether it is, `proof` says. `None`
+/// where nothing is left or neighbours do not meet.
+pub(super) fn trimmed(raw: &Raw) -> Option<Vec<(usize, Element)>> {
+    Ring::new(raw).resolve()
+}
+
 /// The elements round a contour, from which what is used up is taken out.
-pub(super) struct Ring<'a> {
+struct Ring<'a> {
     elements: &'a [Element],
     /// Behind each element.
     joints: Vec<Joint>,
@@ -23,7 +30,7 @@ pub(super) struct Ring<'a> {
 }
 
 impl Ring<'_> {
-    pub(super) fn new(raw: &Raw) -> Ring<'_> {
+    fn new(raw: &Raw) -> Ring<'_> {
         let count = raw.elements.len();
         let last = count.saturating_sub(1) as u32;
         Ring {
@@ -46,7 +53,7 @@ impl Ring<'_> {
     }
 
     /// Takes out what is used up until every element runs forward; `None` when nothing is left or neighbours do not meet.
-    pub(super) fn resolve(mut self) -> Option<Vec<(usize, Element)>> {
+    fn resolve(mut self) -> Option<Vec<(usize, Element)>> {
         self.remove_tight()?;
         self.settle_all();
         let waiting = self.not_forward();
@@ -99,7 +106,7 @@ impl Ring<'_> {
             self.remove(gone, near)?;
             waiting.extend([after, before, index]);
         }
-        self.trimmed()
+        self.pieces()
     }
 
     fn remove(&mut self, index: usize, near: Point) -> Option<()> {
@@ -165,7 +172,7 @@ impl Ring<'_> {
             && (share_on(geometry, end) - share_on(geometry, start)) * length < -1e-9
     }
 
-    fn trimmed(mut self) -> Option<Vec<(usize, Element)>> {
+    fn pieces(mut self) -> Option<Vec<(usize, Element)>> {
         let alive = 0..self.elements.len();
         let alive: Vec<usize> = alive.filter(|&index| self.alive[index]).collect();
         let ends: Option<Vec<Point>> = (alive.iter())
@@ -311,7 +318,7 @@ mod tests {
                 }
                 None => None,
             };
-            prop_assert_eq!(told(Ring::new(&raw).resolve()), told(one_by_one));
+            prop_assert_eq!(told(super::trimmed(&raw)), told(one_by_one));
         }
     }
 }

@@ -83,7 +83,6 @@ fn two_drawn_parts_are_held_against_each_other_and_meet_in_no_other_rule() {
     );
 }
 
-/// Lines of two parts whose ends are nearer to each other than the join tolerance.
 /// Parts that are looser than they should be: what is left is the true distance, not the clearance that was asked for.
 #[test]
 fn more_than_the_clearance_is_said_as_it_is() {
@@ -123,6 +122,7 @@ fn more_than_the_clearance_is_said_as_it_is() {
     }
 }
 
+/// Lines of two parts whose ends are nearer to each other than the join tolerance.
 #[test]
 fn entities_of_two_workpieces_are_not_chained_to_each_other() {
     let own = settings(&DRAWN.replace("0.01\n[workpieces]", "0.006\n[workpieces]"));
