@@ -213,6 +213,7 @@ fn text_session(name: &str, text: &str, rounds: usize) {
         let mut last = 0;
         for _ in 0..30 {
             std::thread::sleep(Duration::from_millis(1000 / 15));
+            client.pass_over();
             last = change(&mut client);
         }
         timed(|| client.diagnostics(uri, last)).1

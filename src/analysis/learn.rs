@@ -3,7 +3,8 @@
 use super::compare::RunId;
 use super::contours::role_of;
 use super::known::Known;
-use super::{Analysis, MANY, Notability, Notable};
+use super::notable::{Notability, Notable};
+use super::{Analysis, MANY};
 use crate::drawing::{ContourIndex, ContourKey, Drawing, EntityId, RUN, stated_role};
 use crate::fit;
 use crate::rules::{CONTOUR_RULES, NEIGHBOURS, Outlook, units};
@@ -17,6 +18,7 @@ impl Analysis {
     pub(super) fn enter_known(&mut self, key: ContourKey, known: Known) {
         self.segments += known.index.len();
         self.stated += usize::from(known.stated.is_some());
+        self.enter_vicinity(key, &known.index);
         self.known.insert(key, known);
     }
 
@@ -24,6 +26,7 @@ impl Analysis {
         let known = self.known.remove(&key)?;
         self.segments -= known.index.len();
         self.stated -= usize::from(known.stated.is_some());
+        self.leave_vicinity(key, &known.index);
         Some(known)
     }
 
@@ -44,7 +47,7 @@ impl Analysis {
                 has_observations: known.is_some_and(Known::has_observations),
                 as_a_whole: self.outlook(drawing, key).is_some_and(of_contour),
             },
-            faults: None,
+            counted: None,
         });
         let has_something = |Notable { what, .. }: &Notable| {
             what.has_tight_arcs || what.has_observations || what.as_a_whole
@@ -56,8 +59,8 @@ impl Analysis {
 
     fn take_down(&mut self, key: ContourKey, (notable, is_vast): (Option<Notable>, bool)) {
         match notable {
-            Some(notable) => drop(self.notable.insert(key, notable)),
-            None => drop(self.notable.remove(&key)),
+            Some(notable) => self.notable.insert(key, notable),
+            None => self.notable.remove(key),
         }
         match is_vast {
             true => self.vast.insert(key),

@@ -293,6 +293,13 @@ impl Chains {
         self.piece_of.resize(bound, 0);
     }
 
+    /// Sorts the free ends by cell, unless that is done: the first edit needs it.
+    pub(crate) fn make_ready(&mut self) {
+        if self.ends.is_none() {
+            self.ends = Some(self.sorted_ends());
+        }
+    }
+
     /// All ends by cell.
     fn sorted_ends(&self) -> Buckets {
         let open = self.ends_of.iter().filter(|ends| has_ends(ends)).count();
