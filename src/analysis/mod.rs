@@ -77,7 +77,8 @@ pub struct Analysis {
     settings: Arc<Effective>,
     limits: Limits,
     chains: Chains,
-    known: FxHashMap<ContourKey, Known>,
+    /// Shared with copies, which a repair that is tried makes.
+    known: FxHashMap<ContourKey, Arc<Known>>,
     /// Contours that have something to tell without a look at others: most have not.
     notable: FxHashMap<ContourKey, Notable>,
     /// Contours larger than any machine.
