@@ -18,6 +18,7 @@ use crate::geometry::{
     Bounds, Grid, Line, Point, Segment, Vector, cross, line_line, meetings, turn,
 };
 use crate::settings::Compensation;
+use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
@@ -182,6 +183,12 @@ impl Analysis {
         let mut closed = others.clone();
         closed.retain(|(key, _)| is_closed(*key));
         let is_many = keys.len() > MANY;
+        // Where nothing is closed no line is within anything.
+        let others = if closed.is_empty() {
+            Vec::new()
+        } else {
+            others
+        };
         let [others, closed] = [others, closed].map(|all| ByPlace::of(all, is_many));
         let judge = |&key: &ContourKey| {
             let lone = self.lone.get(&key)?;
@@ -192,7 +199,10 @@ impl Analysis {
                 && !others.near(&lone.reach).into_iter().any(faces);
             Some((key, is_aside))
         };
-        let judged: Vec<(ContourKey, bool)> = keys.iter().filter_map(judge).collect();
+        let judged: Vec<(ContourKey, bool)> = match is_many {
+            true => keys.par_iter().filter_map(judge).collect(),
+            false => keys.iter().filter_map(judge).collect(),
+        };
         let is_new = |(key, is_aside): (ContourKey, bool)| {
             let lone = self.lone.get_mut(&key)?;
             (std::mem::replace(&mut lone.is_aside, is_aside) != is_aside).then_some(key)
