@@ -18,6 +18,7 @@ use crate::geometry::{
     Bounds, Grid, Line, Point, Segment, Vector, cross, line_line, meetings, turn,
 };
 use crate::settings::Compensation;
+use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
@@ -29,6 +30,9 @@ const SHARE: f64 = 0.25;
 const JOINS: f64 = 100.0;
 /// Lines up to this sine of their angle count as parallel: hatches, and the pieces of a broken line.
 const PARALLEL: f64 = 0.01;
+
+/// From this many questions on it pays to ask over the cores.
+const MANY: usize = 16;
 
 /// A contour that is one line.
 #[derive(Clone, Copy, Debug)]
@@ -178,7 +182,10 @@ impl Analysis {
                     .any(|&other| other != key && self.faces(drawing, lone, other));
             Some((key, is_aside))
         };
-        let judged: Vec<(ContourKey, bool)> = keys.iter().filter_map(judge).collect();
+        let judged: Vec<(ContourKey, bool)> = match keys.len() > MANY {
+            true => keys.par_iter().filter_map(judge).collect(),
+            false => keys.iter().filter_map(judge).collect(),
+        };
         let is_new = |(key, is_aside): (ContourKey, bool)| {
             let lone = self.lone.get_mut(&key)?;
             (std::mem::replace(&mut lone.is_aside, is_aside) != is_aside).then_some(key)

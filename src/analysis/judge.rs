@@ -15,12 +15,15 @@ use std::sync::Arc;
 /// Segments that are looked at to say which repairs of arcs below the correction would bring another fault.
 const MOST_TRIED: usize = 40_000;
 
+/// And looks at pairs of them: where many arcs crowd, each try compares them all with each other.
+const MOST_LOOKS: u64 = 5_000_000;
+
 /// Arcs below the correction of one contour that are kept.
 const MOST_KEPT: usize = 16;
 
 impl Analysis {
     /// Says of arcs whose repair would bring another fault that there is none. Each takes a look at the drawing: in one where that would be
-    /// more than [`MOST_TRIED`] segments in all, it is found out when the repair is asked for.
+    /// more than [`MOST_TRIED`] segments in all, and beyond [`MOST_LOOKS`], it is found out when the repair is asked for.
     pub(super) fn give_reasons(&self, drawing: &Drawing, findings: &mut [Finding]) {
         let mut hopeful: Vec<(&mut SmallRadius, EntityId, usize)> = findings
             .iter_mut()
@@ -36,9 +39,16 @@ impl Analysis {
         if hopeful.len().saturating_mul(self.segments) > MOST_TRIED {
             return;
         }
+        let mut looks = 0;
         for (numbers, entity, segment) in &mut hopeful {
-            let at = self.chains.index_of(*entity, *segment);
-            if at.is_some_and(|(key, index)| self.larger_arc(drawing, key, index).is_none()) {
+            if looks >= MOST_LOOKS {
+                break;
+            }
+            let Some((key, index)) = self.chains.index_of(*entity, *segment) else {
+                continue;
+            };
+            let larger = self.larger_arc(drawing, key, index, &mut looks);
+            if larger.is_none() {
                 numbers.no_fix = Some(NoFix::Spoils);
             }
         }

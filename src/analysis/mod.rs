@@ -52,7 +52,8 @@ pub struct Analysis {
     settings: Arc<Effective>,
     limits: Limits,
     chains: Chains,
-    known: FxHashMap<ContourKey, Known>,
+    /// Shared with copies, which a repair that is tried makes.
+    known: FxHashMap<ContourKey, Arc<Known>>,
     /// Contours that have something to tell without a look at others: most have not.
     notable: Notables,
     /// Contours larger than any machine.

@@ -73,6 +73,11 @@ impl Pairs {
         (self.left, self.left_to_ask) = (self.granted, self.granted);
     }
 
+    /// The looks since they were granted, or reset.
+    pub(crate) fn looks(&self) -> u64 {
+        (self.granted - self.left).saturating_add(self.granted - self.left_to_ask)
+    }
+
     /// True while the observations, edit by edit, equal those of a full comparison.
     pub(crate) fn is_as_fresh(&self) -> bool {
         self.is_within_budget() || self.is_settled()
