@@ -16,6 +16,7 @@ mod pairs;
 mod pockets;
 mod repair;
 mod report;
+mod search;
 mod seen;
 mod suppressed;
 mod told;

@@ -1,6 +1,7 @@
 //! The observations of the rules on pairs of segments, by the runs of the two segments.
 
-use super::compare::{Comparison, Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId, passes};
+use super::compare::{Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId};
+use super::search::{BOXES_OF_A_LOOK, Looked, Search};
 use super::seen::Seen;
 use super::told::Made;
 use crate::drawing::{ContourIndex, ContourKey};
@@ -11,9 +12,6 @@ use crate::settings::{Budget, Effective};
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
-
-/// One look of the budget: the comparison of two segments, or of this many boxes of the grid.
-const BOXES_OF_A_LOOK: u64 = 4;
 
 /// Runs that are compared in parallel: results beyond the bounds are dropped.
 const BATCH: usize = 8192;
@@ -406,93 +404,6 @@ impl Pairs {
     /// The number of runs that have not been compared with all their neighbours.
     pub(crate) fn uncompared(&self) -> usize {
         self.uncompared.len()
-    }
-}
-
-/// The partners of new runs.
-struct Search<'a> {
-    grid: &'a Grid<RunId>,
-    rules: &'a [(usize, f64)],
-    reach: f64,
-    new: &'a FxHashMap<RunId, usize>,
-    are_parts: bool,
-}
-
-/// The results for one run.
-#[derive(Default)]
-struct Looked {
-    /// The looks that it took to find its neighbours.
-    before: u64,
-    /// Each of those, the looks that it took, and the observations.
-    each: Vec<(RunId, u64, Vec<Observed>)>,
-    /// There were no looks left for the others.
-    is_cut_short: bool,
-}
-
-impl Looked {
-    fn looks(&self) -> u64 {
-        self.before + self.each.iter().map(|(_, looks, _)| looks).sum::<u64>()
-    }
-
-    fn found(&self) -> usize {
-        self.each.iter().map(|(.., found)| found.len()).sum()
-    }
-}
-
-impl Search<'_> {
-    /// Compares the new run at a place in their order with all that come near it, within this many looks.
-    fn look(&self, kept: &mut Kept, at: usize, run: RunId, most: u64) -> Looked {
-        let mut looked = Looked::default();
-        let Some(own) = (kept.outlook)(run.0) else {
-            return looked;
-        };
-        let area = own.index.bounds_of_run(run.1 as usize).grown(self.reach);
-        let mut near = Vec::new();
-        let boxes = self.grid.near(&area, |other| {
-            // Two new runs are compared once.
-            if self.new.get(&other).is_none_or(|&its| at <= its) {
-                near.push(other);
-            }
-        });
-        looked.before = boxes / BOXES_OF_A_LOOK;
-        if self.are_parts {
-            near.retain(|other| (kept.outlook)(other.0).is_some_and(|it| it.part == own.part));
-        }
-        let Some(walls) = kept.walls_of(run).filter(|_| !near.is_empty()) else {
-            return looked;
-        };
-        // A long line may have a box that holds half the drawing, and come near little of it.
-        near.retain(|&other| {
-            looked.before += LOOKS_OF_A_PAIR + walls.each.len() as u64;
-            let theirs = (kept.outlook)(other.0).map_or(Bounds::EMPTY, |theirs| {
-                theirs.index.bounds_of_run(other.1 as usize)
-            });
-            other == run
-                || walls.each.iter().any(|(wall, bounds)| {
-                    bounds.grown(self.reach).touches(&theirs)
-                        && passes(wall.geometry(), &theirs, self.reach)
-                })
-        });
-        let comparison = |other: RunId| Comparison {
-            rules: self.rules,
-            reach: self.reach,
-            keys: (run.0, other.0),
-        };
-        let mut looks = looked.before;
-        for other in near {
-            if looks >= most {
-                looked.is_cut_short = true;
-                break;
-            }
-            let mut found = Vec::new();
-            let own = match kept.walls_of(other).filter(|_| other != run) {
-                Some(theirs) => comparison(other).between(&walls, &theirs, &mut found),
-                None => comparison(other).within(&walls, &mut found),
-            };
-            looks += own;
-            looked.each.push((other, own, found));
-        }
-        looked
     }
 }
 

@@ -11,7 +11,7 @@ use super::crossing::{
 };
 use super::parted::{Part, PartedWay, micrometres};
 use super::passes::{BESIDE, Before, MOST_PASSES, passes};
-use super::way::{HeldWay, Way};
+use super::way::Way;
 use crate::finding::{Detail, Fault, Finding, NotJudged, Place, Rule, Severity};
 use crate::geometry::{Bounds, Segment, Vector};
 use crate::text::SourceText;
@@ -341,31 +341,6 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
         is_crowded: is_crowded || !is_all,
         pairs: gone,
     }
-}
-
-/// Whether a way that is a whole cut crosses itself, or too much lies on one place to tell.
-pub(super) fn crosses_itself(way: &HeldWay) -> bool {
-    let (pieces, passes) = (way.pieces(), passes(way, None).all);
-    let is_arc = |piece: &&Segment| piece.as_arc().is_some();
-    let crosses = |own: &[Segment], arcs: usize| {
-        let (found, is_all) = Tangle {
-            piece: &|index| own.get(index).copied(),
-            count: own.len(),
-            margin: margin(arcs),
-            aside: 0.0,
-            steps: Cell::new(0),
-        }
-        .all_crossings();
-        !found.is_empty() || !is_all
-    };
-    if passes.is_empty() {
-        return crosses(pieces, way.arcs());
-    }
-    passes.len() == MOST_PASSES
-        || passes.iter().any(|pass| {
-            let own = pieces.get(pass.clone()).unwrap_or_default();
-            crosses(own, own.iter().filter(is_arc).count())
-        })
 }
 
 /// The crossings of one pass of a cut: it may coincide with another, and ways in and out cross others.

@@ -2,7 +2,7 @@
 
 use super::contour::{closing, goes_round};
 use super::crossing::near_each_other;
-use super::crossings::crosses_itself;
+use super::passes::crosses_itself;
 use super::way::HeldWay;
 use crate::geometry::{Bounds, Segment};
 

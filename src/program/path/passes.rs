@@ -1,7 +1,9 @@
 //! Passes: one contour that is cut several times in one go, each time on the same way or a little beside it.
 
-use super::way::Way;
+use super::crossing::{Tangle, margin};
+use super::way::{HeldWay, Way};
 use crate::geometry::{Bounds, Point, Segment};
+use std::cell::Cell;
 use std::ops::Range;
 
 /// The most blocks before the first pass, or from one to the next.
@@ -124,6 +126,31 @@ impl Before<'_> {
         let rest = rest.iter();
         (is_all || at == known).then(|| rest.map(move |pass| moved(pass.start)..moved(pass.end)))
     }
+}
+
+/// Whether a way that is a whole cut crosses itself, or too much lies on one place to tell.
+pub(super) fn crosses_itself(way: &HeldWay) -> bool {
+    let (pieces, passes) = (way.pieces(), passes(way, None).all);
+    let is_arc = |piece: &&Segment| piece.as_arc().is_some();
+    let crosses = |own: &[Segment], arcs: usize| {
+        let (found, is_all) = Tangle {
+            piece: &|index| own.get(index).copied(),
+            count: own.len(),
+            margin: margin(arcs),
+            aside: 0.0,
+            steps: Cell::new(0),
+        }
+        .all_crossings();
+        !found.is_empty() || !is_all
+    };
+    if passes.is_empty() {
+        return crosses(pieces, way.arcs());
+    }
+    passes.len() == MOST_PASSES
+        || passes.iter().any(|pass| {
+            let own = pieces.get(pass.clone()).unwrap_or_default();
+            crosses(own, own.iter().filter(is_arc).count())
+        })
 }
 
 /// All pieces of a way; `None` where they are not held.

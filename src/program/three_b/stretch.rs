@@ -282,14 +282,18 @@ impl Stretch {
 
     /// Of parts that are sound by themselves nothing is held.
     pub(crate) fn let_go(&mut self) {
-        let last = self.parts.len().saturating_sub(1);
-        for index in 1..last {
-            let has_fault = self.faults.iter().any(|fault| fault.part == index);
-            let is_told =
-                has_fault || self.open.contains(&index) || self.may_cross.contains(&index);
-            let part = &mut self.parts[index];
+        let of_faults = self.faults.iter().map(|fault| fault.part);
+        let told = of_faults.chain(self.open.iter().chain(&self.may_cross).copied());
+        let mut is_told = vec![false; self.parts.len()];
+        told.for_each(|index| {
+            if let Some(is_told) = is_told.get_mut(index) {
+                *is_told = true;
+            }
+        });
+        let inner = 1..self.parts.len().saturating_sub(1);
+        for index in inner.filter(|&index| !is_told[index]) {
             let is_read = |whole: &mut Box<Whole>| whole.sum.errors + whole.sum.unread == 0;
-            part.whole.take_if(|whole| !is_told && is_read(whole));
+            self.parts[index].whole.take_if(is_read);
         }
     }
 

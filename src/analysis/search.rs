@@ -1,0 +1,95 @@
+//! The search for what comes near a run, and the comparison with each of it. Knows nothing of what was found before.
+
+use super::compare::{Comparison, Kept, LOOKS_OF_A_PAIR, Observed, RunId, passes};
+use crate::geometry::{Bounds, Grid};
+use rustc_hash::FxHashMap;
+
+/// One look of the budget: the comparison of two segments, or of this many boxes of the grid.
+pub(super) const BOXES_OF_A_LOOK: u64 = 4;
+
+/// The partners of new runs.
+pub(super) struct Search<'a> {
+    pub(super) grid: &'a Grid<RunId>,
+    pub(super) rules: &'a [(usize, f64)],
+    pub(super) reach: f64,
+    pub(super) new: &'a FxHashMap<RunId, usize>,
+    pub(super) are_parts: bool,
+}
+
+/// The results for one run.
+#[derive(Default)]
+pub(super) struct Looked {
+    /// The looks that it took to find its neighbours.
+    pub(super) before: u64,
+    /// Each of those, the looks that it took, and the observations.
+    pub(super) each: Vec<(RunId, u64, Vec<Observed>)>,
+    /// There were no looks left for the others.
+    pub(super) is_cut_short: bool,
+}
+
+impl Looked {
+    pub(super) fn looks(&self) -> u64 {
+        self.before + self.each.iter().map(|(_, looks, _)| looks).sum::<u64>()
+    }
+
+    pub(super) fn found(&self) -> usize {
+        self.each.iter().map(|(.., found)| found.len()).sum()
+    }
+}
+
+impl Search<'_> {
+    /// Compares the new run at a place in their order with all that come near it, within this many looks.
+    pub(super) fn look(&self, kept: &mut Kept, at: usize, run: RunId, most: u64) -> Looked {
+        let mut looked = Looked::default();
+        let Some(own) = (kept.outlook)(run.0) else {
+            return looked;
+        };
+        let area = own.index.bounds_of_run(run.1 as usize).grown(self.reach);
+        let mut near = Vec::new();
+        let boxes = self.grid.near(&area, |other| {
+            // Two new runs are compared once.
+            if self.new.get(&other).is_none_or(|&its| at <= its) {
+                near.push(other);
+            }
+        });
+        looked.before = boxes / BOXES_OF_A_LOOK;
+        if self.are_parts {
+            near.retain(|other| (kept.outlook)(other.0).is_some_and(|it| it.part == own.part));
+        }
+        let Some(walls) = kept.walls_of(run).filter(|_| !near.is_empty()) else {
+            return looked;
+        };
+        // A long line may have a box that holds half the drawing, and come near little of it.
+        near.retain(|&other| {
+            looked.before += LOOKS_OF_A_PAIR + walls.each.len() as u64;
+            let theirs = (kept.outlook)(other.0).map_or(Bounds::EMPTY, |theirs| {
+                theirs.index.bounds_of_run(other.1 as usize)
+            });
+            other == run
+                || walls.each.iter().any(|(wall, bounds)| {
+                    bounds.grown(self.reach).touches(&theirs)
+                        && passes(wall.geometry(), &theirs, self.reach)
+                })
+        });
+        let comparison = |other: RunId| Comparison {
+            rules: self.rules,
+            reach: self.reach,
+            keys: (run.0, other.0),
+        };
+        let mut looks = looked.before;
+        for other in near {
+            if looks >= most {
+                looked.is_cut_short = true;
+                break;
+            }
+            let mut found = Vec::new();
+            let own = match kept.walls_of(other).filter(|_| other != run) {
+                Some(theirs) => comparison(other).between(&walls, &theirs, &mut found),
+                None => comparison(other).within(&walls, &mut found),
+            };
+            looks += own;
+            looked.each.push((other, own, found));
+        }
+        looked
+    }
+}
