@@ -101,7 +101,7 @@ impl Shown {
         for (finding, &mark) in findings.into_iter().zip(&marks) {
             let data = OnceCell::new();
             let mut data_now =
-                || &*data.get_or_init(|| FindingData::of(document, &finding, &mut whereabouts));
+                || data.get_or_init(|| FindingData::of(document, &finding, &mut whereabouts));
             let known = self.find(mark, next, |old| {
                 says_the_same(&old.finding, &finding)
                     && (!old.is_in_doubt || old.data == *data_now())
