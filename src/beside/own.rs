@@ -20,6 +20,8 @@ const ROUNDED: f64 = 1.5;
 const SAME: f64 = 1e-2;
 /// A larger deviation of a way in or out, or between contours, is meant: its hole is elsewhere, µm.
 const SLIP: f64 = 50.0;
+/// For each block that is unlike so many others have to be as they are meant, or it is not known under which settings they would be.
+const LIKE: usize = 4;
 /// The most blocks that may be lost or superfluous in one place.
 const LOST: usize = 3;
 
@@ -33,6 +35,10 @@ pub(super) struct Told {
     pub has_gap: bool,
     /// Ways in and out that are moved so far that it is meant.
     pub elsewhere: usize,
+    /// Ways in and out that are not just as they are meant.
+    ways: usize,
+    /// The same of all blocks, and how many there are.
+    unlike: [usize; 2],
 }
 
 impl Told {
@@ -41,13 +47,19 @@ impl Told {
         self.mean < SAME
     }
 
-    /// Several moved ways in and out are set otherwise, and so is one that is moved by more than `most`, mm; somebody
-    /// has changed any other.
+    /// Hardly any more blocks are as they are meant than are not.
+    pub(crate) fn is_mostly_unlike(&self) -> bool {
+        let [unlike, all] = self.unlike;
+        LIKE * unlike >= all
+    }
+
+    /// Several moved ways in and out are set otherwise, whether or not they are one change, and so is one that is moved by more than
+    /// `most`, mm; somebody has changed any other.
     pub(crate) fn without_leads(mut self, most: f64) -> Told {
         let is_lead = |one: &Difference| one.kind == Kind::Lead;
         let all = &mut self.comparison.differences;
         let leads = || all.iter().filter(|one| is_lead(one));
-        if leads().count() > 1 || leads().any(|one| one.off > most) {
+        if self.ways > 1 || leads().any(|one| one.off > most) {
             self.elsewhere += leads().count();
             all.retain(|one| !is_lead(one));
         }
@@ -260,7 +272,8 @@ impl<'a> Pairs<'a> {
             return None;
         }
         let most = FEW.min(traced.blocks.len() / 3);
-        let (mut found, mut stated, mut elsewhere) = (Vec::new(), Vec::new(), 0);
+        let (mut found, mut stated) = (Vec::new(), Vec::new());
+        let (mut elsewhere, mut ways, mut unlike) = (0, 0, 0);
         // Of the last that is named: its number, and whether the program is elsewhere since.
         let mut run: Option<(usize, bool)> = None;
         for (number, (pair, (off, is_behind))) in self.pairs.iter().zip(&all).enumerate() {
@@ -280,6 +293,9 @@ impl<'a> Pairs<'a> {
                 }
                 continue;
             }
+            let source = anew.source_of(&meant.motion);
+            ways += usize::from(source.is_none());
+            unlike += 1;
             let goes_on = run.is_some_and(|(last, is_elsewhere)| {
                 number - last <= FEW && is_elsewhere
                     || last + 1 == number && self.are_exchanged(last)
@@ -294,7 +310,7 @@ impl<'a> Pairs<'a> {
                 run = None;
                 continue;
             }
-            let (segment, kind) = match anew.source_of(&meant.motion) {
+            let (segment, kind) = match source {
                 Some(segment) => (Some(segment), Kind::Block),
                 None if *off <= SLIP => (None, Kind::Lead),
                 // The hole is elsewhere, and so is how the wire comes from it.
@@ -338,6 +354,8 @@ impl<'a> Pairs<'a> {
             mean,
             has_gap: self.gap.is_some(),
             elsewhere,
+            ways,
+            unlike: [unlike, moving],
         })
     }
 
