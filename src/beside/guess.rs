@@ -160,10 +160,16 @@ fn is_told(traced: &Traced, told: &Told) -> bool {
     let is_little = |one: &Difference| one.off <= FAR || one.kind == Kind::Stated;
     // Of so few that are alike none speaks for the guess; and what is off by little is so by a tenth of a micrometre of a correction.
     let is_slight = |one: &Difference| one.kind == Kind::Block && one.off < SLIGHTLY;
-    // At a stop or an end another tab, overlap or hole is as likely.
+    // Coordinates that stand behind a block are others where the wire comes from elsewhere.
+    let is_of_ways = |one: &Difference| one.kind == Kind::Stated && told.ways > 0;
+    // At a stop or an end another tab, overlap or hole is as likely, but none of them loses a block or leaves each in its place.
+    let may_be_set = told.strays && !told.has_gap;
     let is_set =
         |one: &Difference| one.kind == Kind::Block && one.off > FAR && !is_amid(traced, one);
-    if told.is_mostly_unlike() || all.iter().any(|one| is_slight(one) || is_set(one)) {
+    if told.is_mostly_unlike()
+        || all.iter().any(|one| is_slight(one) || is_of_ways(one))
+        || may_be_set && all.iter().any(is_set)
+    {
         return false;
     }
     let is_ours = match told.is_exact() {

@@ -35,9 +35,11 @@ pub(super) struct Told {
     pub has_gap: bool,
     /// Ways in and out that are moved so far that it is meant.
     pub elsewhere: usize,
+    /// One of the named blocks ends as far from where it is meant to.
+    pub strays: bool,
     /// Ways in and out that are not just as they are meant.
-    ways: usize,
-    /// The same of all blocks, and how many there are.
+    pub ways: usize,
+    /// The same of blocks of contours, and how many there are of both.
     unlike: [usize; 2],
 }
 
@@ -273,7 +275,7 @@ impl<'a> Pairs<'a> {
         }
         let most = FEW.min(traced.blocks.len() / 3);
         let (mut found, mut stated) = (Vec::new(), Vec::new());
-        let (mut elsewhere, mut ways, mut unlike) = (0, 0, 0);
+        let (mut elsewhere, mut ways, mut unlike, mut strays) = (0, 0, 0, false);
         // Of the last that is named: its number, and whether the program is elsewhere since.
         let mut run: Option<(usize, bool)> = None;
         for (number, (pair, (off, is_behind))) in self.pairs.iter().zip(&all).enumerate() {
@@ -295,7 +297,7 @@ impl<'a> Pairs<'a> {
             }
             let source = anew.source_of(&meant.motion);
             ways += usize::from(source.is_none());
-            unlike += 1;
+            unlike += usize::from(source.is_some());
             let goes_on = run.is_some_and(|(last, is_elsewhere)| {
                 number - last <= FEW && is_elsewhere
                     || last + 1 == number && self.are_exchanged(last)
@@ -322,6 +324,7 @@ impl<'a> Pairs<'a> {
             if found.len() == most {
                 return None;
             }
+            strays |= !self.ends_near(number, from, SLIP);
             found.push(named(own, segment, *off, kind));
         }
         if stated.len() <= FEW {
@@ -354,6 +357,7 @@ impl<'a> Pairs<'a> {
             mean,
             has_gap: self.gap.is_some(),
             elsewhere,
+            strays,
             ways,
             unlike: [unlike, moving],
         })
@@ -373,11 +377,15 @@ impl<'a> Pairs<'a> {
 
     /// Whether a block ends where it is meant to.
     fn is_placed(&self, number: usize, from: Vector) -> bool {
+        self.ends_near(number, from, ROUNDED)
+    }
+
+    fn ends_near(&self, number: usize, from: Vector, most: f64) -> bool {
         let Some(pair) = self.pairs.get(number) else {
             return true;
         };
         match (ends_of(&pair.own.motion), ends_of(&pair.meant.motion)) {
-            (Some([_, end]), Some([_, meant])) => (end - from - meant).norm() <= ROUNDED,
+            (Some([_, end]), Some([_, meant])) => (end - from - meant).norm() <= most,
             _ => true,
         }
     }

@@ -63,11 +63,13 @@ pub(super) fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<Vec<f64>> {
         // Where the control adds the correction, all passes are one way.
         let mut lists: Vec<Vec<f64>> = match of_control {
             true => {
-                let single = all.iter().take(4).map(|list| list[0]);
+                let mut single = all.iter().take(4).map(|list| list[0]);
+                let own = single.next();
                 let aside = measure::switching(traced);
                 let radii = least.into_iter().flatten().rev();
                 let radii = radii.map(|mm| rounded(mm, 1e-3)).filter(|mm| *mm > 0.0);
-                let first = aside.into_iter().chain(radii).chain(single);
+                // Where several are alike as likely, the drawing's own.
+                let first = aside.into_iter().chain(own).chain(radii).chain(single);
                 first.map(falling).collect()
             }
             false => Vec::new(),
