@@ -10,6 +10,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use wedm::analysis::Analysis;
 use wedm::drawing::Chains;
+use wedm::program::{self, Language};
 use wedm::settings::Effective;
 use wedm::text::SourceText;
 
@@ -54,10 +55,7 @@ fn main() {
         let size = text.len();
         let share = |bytes: usize| format!("{:.2}", bytes as f64 / size as f64);
         let settings = Arc::new(Effective::default());
-        let before = in_use();
-        let lines = SourceText::new(text.clone().into_bytes());
-        let of_lines = in_use() - before - size;
-        drop(lines);
+        let of_lines = of_lines(&text);
         let bytes = text.clone().into_bytes();
         let before = in_use() - bytes.capacity();
         MOST.store(in_use(), Ordering::Relaxed);
@@ -89,4 +87,55 @@ fn main() {
         );
         drop(findings);
     }
+    for (name, language, text) in [
+        ("5 MB 3B", Language::ThreeB, generated::three_b(200_000)),
+        ("5 MB ISO", Language::Iso, generated::iso(200_000)),
+        (
+            "5 MB 3B, the same squares round",
+            Language::ThreeB,
+            generated::three_b_round(200_000),
+        ),
+        (
+            "5 MB ISO, the same squares round",
+            Language::Iso,
+            generated::iso_round(200_000),
+        ),
+        (
+            "5 MB ISO, holes of every size",
+            Language::Iso,
+            generated::iso_holes(200_000),
+        ),
+    ] {
+        let size = text.len();
+        let share = |bytes: usize| format!("{:.2}", bytes as f64 / size as f64);
+        let lines = of_lines(&text);
+        let bytes = text.into_bytes();
+        let before = in_use() - bytes.capacity();
+        MOST.store(in_use(), Ordering::Relaxed);
+        let document = program::Document::read(language, bytes, &Effective::default());
+        let (all, most) = (
+            in_use() - before - size,
+            MOST.load(Ordering::Relaxed) - before - size,
+        );
+        println!(
+            "{name:<32} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}   3",
+            share(lines),
+            share(all - lines),
+            "",
+            "",
+            share(all),
+            share(most)
+        );
+        drop(document);
+    }
+}
+
+/// Bytes that the lines of a text take.
+fn of_lines(text: &str) -> usize {
+    let bytes = text.as_bytes().to_vec();
+    let before = in_use() - bytes.capacity();
+    let lines = SourceText::new(bytes);
+    let taken = in_use() - before - lines.len();
+    drop(lines);
+    taken
 }

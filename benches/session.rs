@@ -65,7 +65,7 @@ fn main() {
     {
         large_session(name, &text(), rounds / 4);
     }
-    for program in [THREE_B, ISO, THREE_B_ROUND, ISO_ROUND] {
+    for program in [THREE_B, ISO, THREE_B_ROUND, ISO_ROUND, ISO_HOLES] {
         if is_chosen(program.session) {
             program_session(&program, rounds);
         }
@@ -113,13 +113,17 @@ fn resident(client: &Client) -> Option<u64> {
 
 /// Right after the opening, and when what the opening left behind has been given back.
 fn memory_row(name: &str, client: &Client, length: usize) {
+    memory_rows(name, client, |bytes| {
+        let times = bytes as f64 / length as f64;
+        format!("{times:.1} times the text   goal 10 times")
+    });
+}
+
+fn memory_rows(name: &str, client: &Client, told: impl Fn(u64) -> String) {
     for (when, pause) in [("", 0), (", a second later", 1000)] {
         std::thread::sleep(Duration::from_millis(pause));
         if let Some(bytes) = resident(client) {
-            println!(
-                "{name}: resident memory{when} {:.1} times the text   goal 10 times",
-                bytes as f64 / length as f64
-            );
+            println!("{name}: resident memory{when} {}", told(bytes));
         }
     }
 }
@@ -209,6 +213,7 @@ fn text_session(name: &str, text: &str, rounds: usize) {
         let mut last = 0;
         for _ in 0..30 {
             std::thread::sleep(Duration::from_millis(1000 / 15));
+            client.pass_over();
             last = change(&mut client);
         }
         timed(|| client.diagnostics(uri, last)).1
@@ -347,6 +352,13 @@ const ISO_ROUND: Program = Program {
     ..ISO
 };
 
+/// Small contours, each of a size of its own, with a way in that the wire runs beside.
+const ISO_HOLES: Program = Program {
+    name: "5 MB ISO, holes of every size",
+    text: generated::iso_holes,
+    ..ISO
+};
+
 /// What an editor asks about it.
 fn program_session(program: &Program, rounds: usize) {
     let &Program {
@@ -367,6 +379,9 @@ fn program_session(program: &Program, rounds: usize) {
         vec![time],
         "150 ms",
     );
+    memory_rows(name, &client, |bytes| {
+        format!("{:.1} MB   goal 25 MB", bytes as f64 / 1e6)
+    });
     let half = text.lines().count() / 2;
     let (line, character) = text
         .lines()

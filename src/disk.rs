@@ -1,7 +1,8 @@
 //! Reads and writes files: never more than fits in memory, and never over a file that has changed since it was read.
 
+use rustc_hash::FxHasher;
 use std::fs::{File, Metadata};
-use std::hash::{DefaultHasher, Hasher};
+use std::hash::Hasher;
 use std::io::{self, ErrorKind, Read, Write};
 use std::path::Path;
 
@@ -58,7 +59,7 @@ impl Seen {
     /// The identity of `file`, which has these bytes.
     pub(crate) fn of(file: &File, bytes: &[u8]) -> Result<Seen, String> {
         let metadata = file.metadata().map_err(|error| plain(&error))?;
-        let mut hasher = DefaultHasher::new();
+        let mut hasher = FxHasher::default();
         hasher.write(bytes);
         Ok(Seen {
             identity: identity(&metadata),

@@ -2,6 +2,12 @@
 //!
 //! DXF text, drawings sent by a CAD program and programs differ here and nowhere above.
 
+mod changes;
+mod since;
+
+use since::EditedLines;
+pub(crate) use since::Since;
+
 use crate::analysis::Analysis;
 use crate::beside::{self, Beside, Drawn, Traced};
 use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline, Role};
@@ -31,6 +37,7 @@ pub struct Document {
     /// The drawing of a program, or the programs of a drawing.
     beside: Beside,
     asked: Asked,
+    since: Since,
 }
 
 /// Answers for the present state of the document: an editor asks for actions at every step of the cursor.
@@ -73,6 +80,7 @@ impl Document {
             analysis,
             beside: Beside::default(),
             asked: Asked::default(),
+            since: Since::default(),
         }
     }
 
@@ -152,6 +160,7 @@ impl Document {
             }
             assume_unit(&mut self.source, &settings);
             self.analysis = judged(&self.source, settings);
+            self.since = Since::default();
         }
     }
 
@@ -221,7 +230,9 @@ impl Document {
         self.asked = Asked::default();
         match &mut self.source {
             Source::Dxf(document) => {
+                let lines = EditedLines::before(document.text(), &range);
                 let delta = document.edit(range, replacement);
+                self.since.add_edit(lines, document, &delta.touched);
                 self.analysis.update(document.drawing(), &delta);
             }
             Source::Program(program) => program.edit(range, replacement),
@@ -240,7 +251,10 @@ impl Document {
             return None;
         };
         self.asked = Asked::default();
-        Some(change(Arc::make_mut(drawing)).map(|delta| self.analysis.update(drawing, &delta)))
+        Some(change(Arc::make_mut(drawing)).map(|delta| {
+            self.since.add_touched(&delta.touched);
+            self.analysis.update(drawing, &delta)
+        }))
     }
 
     /// At most `limit` findings of reader and rules, errors first; and how many there are in all.

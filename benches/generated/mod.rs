@@ -204,6 +204,21 @@ pub fn iso_round(blocks: usize) -> String {
     text + "M02\n"
 }
 
+/// Round holes as an ISO program, each of another size, the wire beside them by the control's correction.
+pub fn iso_holes(blocks: usize) -> String {
+    let mut text = String::from("%\nG90\nG92 X0.000 Y0.000\n");
+    for hole in 0..blocks / 6 {
+        let (x, y, radius) = (hole % 200 * 20, hole / 200 * 20, 1000 + hole % 7919);
+        let (begin, radius) = (x * 1000 + radius, radius as f64 / 1e3);
+        let begin = begin as f64 / 1e3;
+        let _ = writeln!(text, "G00 X{x}.000 Y{y}.000\nM00");
+        let _ = writeln!(text, "G41 D01 G01 X{begin:.3} Y{y}.000");
+        let _ = writeln!(text, "G03 X{begin:.3} Y{y}.000 I-{radius:.3} J0.000");
+        let _ = writeln!(text, "G40 G01 X{x}.000 Y{y}.000\nM00");
+    }
+    text + "M02\n"
+}
+
 /// Vertices of one closed polyline of `count` vertices: a saw round a large circle, every tenth tooth rounded.
 pub fn long_outline(count: usize) -> Vec<[f64; 3]> {
     let radius = count as f64 * 0.2;

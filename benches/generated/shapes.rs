@@ -10,7 +10,7 @@ pub struct Shape {
 }
 
 /// All of them, with names that can be names of files.
-pub const ALL: [Shape; 16] = [
+pub const ALL: [Shape; 21] = [
     Shape {
         name: "comb",
         text: |count| polyline(&comb(count), true),
@@ -42,6 +42,26 @@ pub const ALL: [Shape; 16] = [
     Shape {
         name: "hatch",
         text: |count| lines(hatch(count)),
+    },
+    Shape {
+        name: "hatch-slanted",
+        text: |count| lines(hatch_slanted(count)),
+    },
+    Shape {
+        name: "nested-squares",
+        text: |count| lines(nested_squares(count)),
+    },
+    Shape {
+        name: "concentric",
+        text: |count| circles((1..=count).map(|number| ([0.0, 0.0], number as f64))),
+    },
+    Shape {
+        name: "flower",
+        text: |count| circles(flower(count)),
+    },
+    Shape {
+        name: "chords",
+        text: |count| lines(chords(count)),
     },
     Shape {
         name: "star",
@@ -105,6 +125,21 @@ fn lines(ends: impl IntoIterator<Item = [Point; 2]>) -> String {
         let _ = write!(
             text,
             "0\nLINE\n5\n{handle:X}\n8\nDIE\n10\n{x0:.9}\n20\n{y0:.9}\n11\n{x1:.9}\n21\n{y1:.9}\n"
+        );
+    }
+    text.push_str("0\nENDSEC\n0\nEOF\n");
+    text
+}
+
+/// DXF with a CIRCLE for each centre and radius.
+fn circles(circles: impl IntoIterator<Item = (Point, f64)>) -> String {
+    let mut text = String::new();
+    super::header(&mut text);
+    for (number, ([x, y], radius)) in circles.into_iter().enumerate() {
+        let handle = 100 + number;
+        let _ = write!(
+            text,
+            "0\nCIRCLE\n5\n{handle:X}\n8\nDIE\n10\n{x:.9}\n20\n{y:.9}\n40\n{radius:.9}\n"
         );
     }
     text.push_str("0\nENDSEC\n0\nEOF\n");
@@ -196,6 +231,52 @@ fn hatch(count: usize) -> Vec<[Point; 2]> {
         }
     };
     (0..count).map(line).collect()
+}
+
+/// Long lines beside each other, askew: the box of each holds a part of all others.
+fn hatch_slanted(count: usize) -> Vec<[Point; 2]> {
+    let length = count as f64;
+    let line = |number: usize| {
+        let at = number as f64;
+        [[at, 0.0], [at + 0.8 * length, 0.6 * length]]
+    };
+    (0..count).map(line).collect()
+}
+
+/// Squares that lie in each other, one within the next.
+fn nested_squares(count: usize) -> Vec<[Point; 2]> {
+    let square = |number: usize| {
+        let half = number as f64 + 1.0;
+        let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
+        (0..4).map(move |side| [corners[side], corners[(side + 1) % 4]])
+    };
+    (0..count.div_ceil(4))
+        .flat_map(square)
+        .take(count)
+        .collect()
+}
+
+/// Circles through one point, each of which crosses all others.
+fn flower(count: usize) -> Vec<(Point, f64)> {
+    let radius = count as f64;
+    let petal = |number: usize| {
+        let (sine, cosine) = (number as f64 / count as f64 * TAU).sin_cos();
+        ([radius * cosine, radius * sine], radius)
+    };
+    (0..count).map(petal).collect()
+}
+
+/// Chords of one circle in many directions, most of which cross each other.
+fn chords(count: usize) -> Vec<[Point; 2]> {
+    let radius = count as f64;
+    let at = |number: usize| {
+        // By the golden ratio, so that no two begin in one place.
+        let (sine, cosine) = (number as f64 * 0.618_033_988_749_895 * TAU).sin_cos();
+        [radius * cosine, radius * sine]
+    };
+    (0..count)
+        .map(|number| [at(number), at(2 * count - number)])
+        .collect()
 }
 
 /// Lines through one point, in all directions.

@@ -9,12 +9,13 @@ use rustc_hash::FxHashSet;
 
 impl Analysis {
     /// The repair of an arc below the correction that replaces its run by one larger arc, where that leaves the drawing
-    /// better than it is.
+    /// better than it is. The looks that it took to see that are added to `looks`.
     pub(super) fn larger_arc(
         &self,
         drawing: &Drawing,
         key: ContourKey,
         index: usize,
+        looks: &mut u64,
     ) -> Option<Fix> {
         let (travel, attempt) = self.attempt(drawing, key, index)?;
         let replacement = attempt.outcome.ok()?;
@@ -28,7 +29,7 @@ impl Analysis {
         let in_fix_all = replacement.moved <= self.limits.correction
             && !radius.as_arc().is_some_and(|arc| is_for_skims(arc.radius));
         let edit = small_radius::drawing_edit(drawing, &[(travel, replacement)])
-            .filter(|edit| self.enlarges(drawing, edit, None))?;
+            .filter(|edit| self.enlarges(drawing, edit, None, looks))?;
         Some(Fix {
             kind,
             preferred: true,
@@ -42,7 +43,12 @@ impl Analysis {
         let of_contour = |(key, wire_side): (ContourKey, Option<Side>)| {
             let mut accepted: Vec<(Stretch, Travel, Replacement)> = Vec::new();
             for index in self.tight_in_entity_order(key) {
-                let fault = self.fault(drawing, key, index, wire_side);
+                let is_answered = matches!(self.answers.get(&(key, index)), Some((Some(_), _)));
+                let fault = if is_answered {
+                    None
+                } else {
+                    self.fault(drawing, key, index, wire_side)
+                };
                 let is_let_stand = |(at, numbers): &(ContourSegment, SmallRadius)| {
                     numbers.taken_by_skims
                         || self.reason(drawing, Rule::SmallRadius, at.entity).is_some()
@@ -88,7 +94,7 @@ impl Analysis {
             .flat_map(of_contour);
         repair::most_together(replacements, self.tries(), wanted, |together, _| {
             small_radius::drawing_edit(drawing, together)
-                .filter(|edit| self.enlarges(drawing, edit, None))
+                .filter(|edit| self.enlarges(drawing, edit, None, &mut 0))
         })
     }
 
@@ -190,10 +196,25 @@ impl Analysis {
         if let Some((answer, _)) = self.answers.get(&(key, index)) {
             return *answer;
         }
-        let (_, attempt) = self.attempt(drawing, key, index)?;
-        let answer = attempt.outcome.err();
-        self.answers.insert((key, index), (answer, attempt.region));
-        answer
+        let (travel, attempt) = self.attempt(drawing, key, index)?;
+        let answer = (attempt.outcome.err(), attempt.region);
+        let is_editable = |index: usize| {
+            let segment = travel.contour.segment_id(drawing, index);
+            segment.is_some_and(|(entity, _)| drawing.is_editable(entity))
+        };
+        // What replaces one arc of a run replaces them all.
+        let run = small_radius::run_of(&travel, travel.position_of(index), &self.limits)
+            .filter(|_| is_editable(index));
+        let alike: Vec<usize> = run
+            .into_iter()
+            .flatten()
+            .filter_map(|position| travel.index_at(position))
+            .filter(|&index| is_editable(index))
+            .collect();
+        self.answers.insert((key, index), answer);
+        let alike = alike.into_iter().map(|index| ((key, index), answer));
+        self.answers.extend(alike);
+        answer.0
     }
 
     /// Number of arcs below the correction in some entities.

@@ -18,6 +18,7 @@ use crate::geometry::{
     Bounds, Grid, Line, Point, Segment, Vector, cross, line_line, meetings, turn,
 };
 use crate::settings::Compensation;
+use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
@@ -29,7 +30,8 @@ const SHARE: f64 = 0.25;
 const JOINS: f64 = 100.0;
 /// Lines up to this sine of their angle count as parallel: hatches, and the pieces of a broken line.
 const PARALLEL: f64 = 0.01;
-/// From this many questions on it pays to sort the contours by place.
+
+/// From this many questions on it pays to ask over the cores.
 const MANY: usize = 16;
 
 /// A contour that is one line.
@@ -165,39 +167,94 @@ impl Analysis {
         if keys.is_empty() {
             return Vec::new();
         }
-        let others: Vec<(ContourKey, Bounds)> = self
-            .known
-            .iter()
-            .filter(|(key, _)| !self.lone.contains_key(key))
-            .filter(|(key, _)| {
-                self.chains
-                    .first_of(**key)
-                    .is_some_and(|first| drawing.get(first).is_some())
-            })
-            .map(|(&key, known)| (key, known.index.bounds()))
-            .chain(self.lone.iter().map(|(&key, lone)| (key, lone.reach)))
-            .collect();
-        let is_closed =
-            |key: ContourKey| self.chains.get(key).is_some_and(|contour| contour.closed);
-        let mut closed = others.clone();
-        closed.retain(|(key, _)| is_closed(*key));
-        let is_many = keys.len() > MANY;
-        let [others, closed] = [others, closed].map(|all| ByPlace::of(all, is_many));
+        self.know_vicinity();
         let judge = |&key: &ContourKey| {
             let lone = self.lone.get(&key)?;
+            let near = self.contours_near(drawing, &lone.reach);
+            let is_closed = |key: &&ContourKey| self.chains.get(**key).is_some_and(|it| it.closed);
             // A line in no closed contour is not asked further: all that it crosses may be near it.
-            let holds = |other: ContourKey| self.holds_some_of(drawing, &lone.line, other);
-            let faces = |other: ContourKey| other != key && self.faces(drawing, lone, other);
-            let is_aside = closed.near(&lone.reach).into_iter().any(holds)
-                && !others.near(&lone.reach).into_iter().any(faces);
+            let is_aside = near
+                .iter()
+                .filter(is_closed)
+                .any(|&other| self.holds_some_of(drawing, &lone.line, other))
+                && !near
+                    .iter()
+                    .any(|&other| other != key && self.faces(drawing, lone, other));
             Some((key, is_aside))
         };
-        let judged: Vec<(ContourKey, bool)> = keys.iter().filter_map(judge).collect();
+        let judged: Vec<(ContourKey, bool)> = match keys.len() > MANY {
+            true => keys.par_iter().filter_map(judge).collect(),
+            false => keys.iter().filter_map(judge).collect(),
+        };
         let is_new = |(key, is_aside): (ContourKey, bool)| {
             let lone = self.lone.get_mut(&key)?;
             (std::mem::replace(&mut lone.is_aside, is_aside) != is_aside).then_some(key)
         };
         judged.into_iter().filter_map(is_new).collect()
+    }
+
+    /// The contours of a drawing whose boxes, or reaches of lone lines, touch an area.
+    fn contours_near(&self, drawing: &Drawing, area: &Bounds) -> Vec<ContourKey> {
+        let mut near = Vec::new();
+        // A contour of one run lies where its run does.
+        self.pairs.grid.near(area, |(key, _)| {
+            if !self.lone.contains_key(&key) {
+                near.push(key);
+            }
+        });
+        if let Some(vicinity) = &self.vicinity {
+            vicinity.near(area, |key| near.push(key));
+        }
+        near.sort_unstable();
+        near.dedup();
+        near.retain(|key| self.lone.contains_key(key) || self.is_there(drawing, *key));
+        near
+    }
+
+    /// Sorts by place what lone lines are asked about, unless that is so already.
+    pub(super) fn know_vicinity(&mut self) {
+        if self.vicinity.is_some() {
+            return;
+        }
+        let mut vicinity = Grid::default();
+        for (&key, lone) in &self.lone {
+            vicinity.insert(key, lone.reach);
+        }
+        for (&key, known) in &self.known {
+            if known.index.run_count() > 1 && !self.lone.contains_key(&key) {
+                vicinity.insert(key, known.index.bounds());
+            }
+        }
+        self.vicinity = Some(vicinity);
+    }
+
+    /// Takes down that a contour has come to be known.
+    pub(super) fn enter_vicinity(&mut self, key: ContourKey, index: &ContourIndex) {
+        if let Some(vicinity) = &mut self.vicinity
+            && index.run_count() > 1
+            && !self.lone.contains_key(&key)
+        {
+            vicinity.insert(key, index.bounds());
+        }
+    }
+
+    /// The same for one that is known no longer.
+    pub(super) fn leave_vicinity(&mut self, key: ContourKey, index: &ContourIndex) {
+        if let Some(vicinity) = &mut self.vicinity
+            && index.run_count() > 1
+            && !self.lone.contains_key(&key)
+        {
+            vicinity.remove(key, &index.bounds());
+        }
+    }
+
+    /// Forgets a lone line.
+    pub(super) fn forget_lone(&mut self, key: ContourKey) {
+        if let Some(lone) = self.lone.remove(&key)
+            && let Some(vicinity) = &mut self.vicinity
+        {
+            vicinity.remove(key, &lone.reach);
+        }
     }
 
     /// True where an end of the line faces one of another contour.
@@ -270,14 +327,24 @@ impl Analysis {
 
     /// The lines whose answer may depend on something within these boxes.
     pub(super) fn lone_near(&self, changed: &[Bounds]) -> Vec<ContourKey> {
-        let touched = |lone: &Lone| changed.iter().any(|bounds| bounds.touches(&lone.reach));
-        let mut keys: Vec<ContourKey> = self
-            .lone
-            .iter()
-            .filter(|(_, lone)| touched(lone))
-            .map(|(&key, _)| key)
-            .collect();
+        let mut keys: Vec<ContourKey> = match &self.vicinity {
+            Some(vicinity) => {
+                let mut near = Vec::new();
+                for bounds in changed {
+                    vicinity.near(bounds, |key| near.push(key));
+                }
+                near.retain(|key| self.lone.contains_key(key));
+                near
+            }
+            None => {
+                let touched =
+                    |lone: &Lone| changed.iter().any(|bounds| bounds.touches(&lone.reach));
+                let touched = self.lone.iter().filter(|(_, lone)| touched(lone));
+                touched.map(|(&key, _)| key).collect()
+            }
+        };
         keys.sort_unstable();
+        keys.dedup();
         keys
     }
 
@@ -299,6 +366,9 @@ impl Analysis {
         for key in keys {
             match self.as_lone(drawing, key) {
                 Some(line) => {
+                    if let Some(vicinity) = &mut self.vicinity {
+                        vicinity.insert(key, line.reach);
+                    }
                     self.lone.insert(key, line);
                     lone.push(key);
                 }
@@ -306,39 +376,6 @@ impl Analysis {
             }
         }
         (whole, lone)
-    }
-}
-
-/// Contours by their boxes, sorted by place where that pays.
-struct ByPlace {
-    all: Vec<(ContourKey, Bounds)>,
-    grid: Option<Grid<ContourKey>>,
-}
-
-impl ByPlace {
-    fn of(all: Vec<(ContourKey, Bounds)>, is_many: bool) -> ByPlace {
-        let sorted = || {
-            let mut grid = Grid::default();
-            all.iter()
-                .for_each(|&(key, bounds)| grid.insert(key, bounds));
-            grid
-        };
-        ByPlace {
-            grid: is_many.then(sorted),
-            all,
-        }
-    }
-
-    fn near(&self, area: &Bounds) -> Vec<ContourKey> {
-        let mut near = Vec::new();
-        match &self.grid {
-            Some(grid) => drop(grid.near(area, |key| near.push(key))),
-            None => {
-                let touched = self.all.iter().filter(|(_, bounds)| bounds.touches(area));
-                near.extend(touched.map(|(key, _)| *key));
-            }
-        }
-        near
     }
 }
 

@@ -4,7 +4,7 @@ use crate::drawing::{ContourKey, ContourSegment};
 use crate::finding::{Severity, Side};
 use crate::geometry::{Bounds, Point, Segment, left_normal};
 use crate::rules::dead_end::Left;
-use crate::rules::{Outlook, PAIR_RULES, PairObservation, Wall};
+use crate::rules::{Outlook, PAIR_RULES, PairObservation, Wall, part_for_good};
 use rustc_hash::FxHashMap;
 use std::collections::VecDeque;
 use std::rc::Rc;
@@ -118,12 +118,8 @@ impl<'a> Walls<'a> {
             .segment(first as isize - 1)
             .map(|segment| segment.geometry);
         let wall = |(along, segment): (usize, ContourSegment)| {
-            let wall = Wall {
-                outlook: *outlook,
-                index: first + along,
-                segment,
-                before: before.replace(segment.geometry),
-            };
+            let before = before.replace(segment.geometry);
+            let wall = Wall::behind(before, outlook, first + along, segment);
             (wall, segment.geometry.bounds())
         };
         let each: Vec<(Wall, Bounds)> = segments.map(wall).collect();
@@ -232,9 +228,13 @@ impl Comparison<'_> {
             ((other, theirs), (one, own))
         };
         let mut is_double = false;
+        let part = part_for_good(&one.0, &other.0, own.0 == theirs.0);
         for &(rule, reach) in self.rules {
             // For duplicates no other finding is needed. A contour that duplicates itself also crosses itself.
             if is_double && PAIR_RULES[rule].silent_for_doubles && own.0 != theirs.0 {
+                continue;
+            }
+            if part && PAIR_RULES[rule].silent_where_they_part {
                 continue;
             }
             if one.1.grown(reach).touches(&other.1) {

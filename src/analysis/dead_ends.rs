@@ -4,25 +4,15 @@ use super::Analysis;
 use super::pair_findings::FacingWalls;
 use super::pairs::Pairs;
 use super::report::Report;
+use super::told::{DeadEnds, Farthest, LeftBetween};
 use crate::drawing::{ContourKey, Drawing, RUN};
 use crate::finding::{Detail, Rule, Severity, Side};
 use crate::rules::arc_as_chords::REACH;
-use crate::rules::dead_end::{DeadEnd, Left, holds};
+use crate::rules::dead_end::{DeadEnd, holds};
 use crate::rules::{NEIGHBOURS, Outlook, Wall};
 use rustc_hash::FxHashMap;
-
-/// The contour, the two walls that the wire comes to, and what it leaves.
-type Told = (ContourKey, [usize; 2], Left);
-
-/// Rank of an entity, its segment, and whether the wire runs on the left of it.
-type Farthest = (u64, usize, bool);
-
-/// What is left beyond the dead ends of all contours.
-#[derive(Debug, Default)]
-pub(crate) struct DeadEnds {
-    /// By the rank of the entity and the segment that the wire stays farthest from.
-    left: FxHashMap<Farthest, Told>,
-}
+use std::ops::Range;
+use std::sync::Arc;
 
 impl Analysis {
     /// The dead ends of all contours on the sides that the wire may run on. Where two walls are `narrow-slot`, that says it; and a contour
@@ -32,22 +22,42 @@ impl Analysis {
         drawing: &Drawing,
         pairs: &mut Pairs,
         side_of: &dyn Fn(ContourKey) -> Option<Side>,
+    ) -> Arc<DeadEnds> {
+        let forgotten = std::mem::take(&mut pairs.forgotten);
+        let known = pairs.made.ends.take();
+        if self.settings.severity(Rule::LostPocket).is_none() || !pairs.seen.has(Rule::LostPocket) {
+            return Arc::default();
+        }
+        let holds = |known: &Arc<DeadEnds>| {
+            let mut sides = known.sides.iter();
+            sides.all(|(&key, &side)| side_of(key) == side)
+                && !forgotten.iter().any(|run| known.hang_on(run))
+        };
+        let ends = known.filter(holds);
+        let ends = ends.unwrap_or_else(|| Arc::new(self.dead_ends_anew(drawing, pairs, side_of)));
+        pairs.made.ends = Some(ends.clone());
+        ends
+    }
+
+    fn dead_ends_anew(
+        &self,
+        drawing: &Drawing,
+        pairs: &mut Pairs,
+        side_of: &dyn Fn(ContourKey) -> Option<Side>,
     ) -> DeadEnds {
         let mut ends = DeadEnds::default();
-        if self.settings.severity(Rule::LostPocket).is_none() || pairs.dead_ends().next().is_none()
-        {
-            return ends;
-        }
+        let mut left = FxHashMap::default();
         let crossed = pairs.contours_with(Rule::SelfIntersection);
         let slots = pairs.slots();
         for each in pairs.dead_ends() {
             let (key, one, other) = (each.one.0, each.one.1, each.other.1);
+            let wire = *ends.sides.entry(key).or_insert_with(|| side_of(key));
             let (Some(side), Some((center, _)), Some(outlook)) =
                 (each.sides.0, each.disc, self.outlook(drawing, key))
             else {
                 continue;
             };
-            if crossed.contains(&key) || side_of(key).is_some_and(|known| known != side) {
+            if crossed.contains(&key) || wire.is_some_and(|known| known != side) {
                 continue;
             }
             let count = outlook.contour.len();
@@ -58,9 +68,15 @@ impl Analysis {
                 let ended = end.and_then(|end| Some((end.walls(), end.left(&outlook)?)));
                 let is_forward = end.is_none_or(|end| end.walls().is_sorted());
                 each.ended = (is_forward && hangs_on_runs(one, other, count)).then_some(ended);
+                if each.ended.is_none() {
+                    match runs_about(one, other, count).filter(|_| is_forward) {
+                        Some(runs) => ends.runs.extend(runs.map(|run| (key, run as u32))),
+                        None => _ = ends.contours.insert(key),
+                    }
+                }
                 ended
             });
-            let Some((walls, left)) = ended else {
+            let Some((walls, beyond)) = ended else {
                 continue;
             };
             let is_told = |of: &[FacingWalls]| {
@@ -69,9 +85,11 @@ impl Analysis {
                 })
             };
             if slots.get(&key).is_none_or(|of| !is_told(of)) {
-                ends.enter(&outlook, (key, walls, left), side);
+                enter(&mut left, &outlook, (key, walls, beyond), side);
             }
         }
+        ends.left = left.into_iter().collect();
+        ends.left.sort_unstable_by_key(|(place, _)| *place);
         ends
     }
 
@@ -83,15 +101,9 @@ impl Analysis {
         if report.is_full(Rule::LostPocket, mildest) {
             return;
         }
-        let mut told: Vec<(&Farthest, &Told)> = ends.left.iter().collect();
         // Only the first are told, of however many.
         let most = report.room(Rule::LostPocket, mildest);
-        if most < told.len() {
-            told.select_nth_unstable_by_key(most, |(place, _)| **place);
-            told.truncate(most);
-        }
-        told.sort_unstable_by_key(|(place, _)| **place);
-        for (_, (key, walls, left)) in told {
+        for (_, (key, walls, left)) in ends.left.iter().take(most) {
             if let Some(outlook) = self.outlook(drawing, *key)
                 && let Some(place) = outlook.place(left.index)
             {
@@ -127,21 +139,34 @@ fn hangs_on_runs(one: usize, other: usize, count: usize) -> bool {
         && (last + ABOUT) / RUN == last / RUN
 }
 
-impl DeadEnds {
-    fn enter(&mut self, outlook: &Outlook, new: Told, side: Side) {
-        let (_, _, left) = new;
-        let Some((entity, segment)) = outlook.segment_id(left.index) else {
-            return;
-        };
-        let place = (outlook.drawing.rank(entity), segment, side == Side::Left);
-        // One place is told once: of discs that touch the same walls within rounding the first.
-        let known = self.left.entry(place).or_insert(new);
-        let order = |(_, walls, left): &Told| (left.depth, *walls);
-        if order(&new)
-            .partial_cmp(&order(known))
-            .is_some_and(std::cmp::Ordering::is_lt)
-        {
-            *known = new;
-        }
+/// The runs that hold two segments of a contour and those about them; `None` where these are many, or go round its end.
+fn runs_about(one: usize, other: usize, count: usize) -> Option<Range<usize>> {
+    const FEW: usize = 8;
+    let first = one.min(other).checked_sub(REACH)? / RUN;
+    let last = one.max(other) + REACH;
+    let runs = first..last / RUN + 1;
+    (last < count && runs.len() <= FEW).then_some(runs)
+}
+
+/// Adds what is left, by its place.
+fn enter(
+    left_at: &mut FxHashMap<Farthest, LeftBetween>,
+    outlook: &Outlook,
+    new: LeftBetween,
+    side: Side,
+) {
+    let (_, _, left) = new;
+    let Some((entity, segment)) = outlook.segment_id(left.index) else {
+        return;
+    };
+    let place = (outlook.drawing.rank(entity), segment, side == Side::Left);
+    // One place is told once: of discs that touch the same walls within rounding the first.
+    let known = left_at.entry(place).or_insert(new);
+    let order = |(_, walls, left): &LeftBetween| (left.depth, *walls);
+    if order(&new)
+        .partial_cmp(&order(known))
+        .is_some_and(std::cmp::Ordering::is_lt)
+    {
+        *known = new;
     }
 }

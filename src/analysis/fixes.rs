@@ -39,14 +39,14 @@ impl Analysis {
             let ends = [old.start(), old.end()];
             ends.contains(&replacement.arc.start) && ends.contains(&replacement.arc.end)
         });
-        fixes.extend(self.larger_arc(drawing, key, index));
+        fixes.extend(self.larger_arc(drawing, key, index, &mut 0));
         let place = self
             .chains
             .get(key)
             .and_then(|contour| contour.segment(drawing, index));
         if let Some(place) = place.filter(|_| !is_notch)
             && let Some((edit, kink)) = small_radius::keep_end_points(drawing, &place, &self.limits)
-            && self.enlarges(drawing, &edit, Some(Rule::LostPocket))
+            && self.enlarges(drawing, &edit, Some(Rule::LostPocket), &mut 0)
         {
             let kind = FixKind::KeepEndPoints {
                 radius: self.limits.fix_radius,

@@ -1,41 +1,29 @@
 //! All that is found in a drawing: what has been seen is put together anew for each report.
 
+use super::Analysis;
+use super::notable::{Counted, Kind, Notability};
 use super::report::{Report, Tally};
-use super::{Analysis, Faults, Notability};
 use crate::drawing::{ContourKey, Drawing, EntityId, Role};
 use crate::finding::{Detail, Finding, NoFix, Place, Rule, Severity, Side, SmallRadius};
-use crate::rules::{CONTOUR_RULES, Outlook, units};
+use crate::rules::{CONTOUR_RULES, ContourRule, Outlook, units};
 use crate::settings::SideSetting;
 use crate::toolpath;
 use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Segments that are looked at to say which repairs of arcs below the correction would bring another fault.
 const MOST_TRIED: usize = 40_000;
 
+/// And looks at pairs of them: where many arcs crowd, each try compares them all with each other.
+const MOST_LOOKS: u64 = 5_000_000;
+
 /// Arcs below the correction of one contour that are kept.
 const MOST_KEPT: usize = 16;
 
 impl Analysis {
-    /// The contours that have something to tell, in machining order.
-    fn notable_in_order(&self, drawing: &Drawing) -> Vec<(ContourKey, Notability)> {
-        // What is suspended is not in the drawing.
-        let awake = self
-            .notable
-            .iter()
-            .filter(|(_, notable)| Some(notable.first) != self.suspended);
-        let mut notable: Vec<(u64, ContourKey, Notability)> = awake
-            .map(|(&key, notable)| (drawing.rank(notable.first), key, notable.what))
-            .collect();
-        notable.sort_unstable_by_key(|&(rank, key, _)| (rank, key));
-        notable
-            .into_iter()
-            .map(|(_, key, what)| (key, what))
-            .collect()
-    }
-
     /// Says of arcs whose repair would bring another fault that there is none. Each takes a look at the drawing: in one where that would be
-    /// more than [`MOST_TRIED`] segments in all, it is found out when the repair is asked for.
+    /// more than [`MOST_TRIED`] segments in all, and beyond [`MOST_LOOKS`], it is found out when the repair is asked for.
     pub(super) fn give_reasons(&self, drawing: &Drawing, findings: &mut [Finding]) {
         let mut hopeful: Vec<(&mut SmallRadius, EntityId, usize)> = findings
             .iter_mut()
@@ -51,9 +39,16 @@ impl Analysis {
         if hopeful.len().saturating_mul(self.segments) > MOST_TRIED {
             return;
         }
+        let mut looks = 0;
         for (numbers, entity, segment) in &mut hopeful {
-            let at = self.chains.index_of(*entity, *segment);
-            if at.is_some_and(|(key, index)| self.larger_arc(drawing, key, index).is_none()) {
+            if looks >= MOST_LOOKS {
+                break;
+            }
+            let Some((key, index)) = self.chains.index_of(*entity, *segment) else {
+                continue;
+            };
+            let larger = self.larger_arc(drawing, key, index, &mut looks);
+            if larger.is_none() {
                 numbers.no_fix = Some(NoFix::Spoils);
             }
         }
@@ -98,40 +93,7 @@ impl Analysis {
         let mut pairs = std::mem::take(&mut self.pairs);
         let ends = self.dead_ends(drawing, &mut pairs, &|key| side_of(self, key));
         self.pairs = pairs;
-        let notable: Vec<(ContourKey, Notability, Option<Side>)> = self
-            .notable_in_order(drawing)
-            .into_iter()
-            .map(|(key, what)| (key, what, side_of(self, key)))
-            .collect();
-        let is_middle = |analysis: &Analysis, key: ContourKey| {
-            let goes_along = |closed| analysis.settings.goes_along_middle(closed);
-            let contour = || analysis.chains.get(key);
-            (goes_along(true) || goes_along(false))
-                && contour().is_some_and(|it| goes_along(it.closed))
-        };
-        for &(key, what, wire_side) in &notable {
-            if what.has_tight_arcs && !is_middle(self, key) {
-                self.report_small_radii(drawing, key, wire_side, &mut report);
-            }
-        }
-        for &(key, what, wire_side) in &notable {
-            if what.has_observations
-                && !is_middle(self, key)
-                && let (Some(known), Some(outlook)) =
-                    (self.known.get(&key), self.outlook(drawing, key))
-            {
-                known.report(&outlook, wire_side, &mut report);
-            }
-        }
-        self.report_contours(
-            drawing,
-            // An open contour with a side is meant so.
-            notable
-                .iter()
-                .filter(|(_, what, side)| side.is_none() && what.as_a_whole)
-                .map(|(key, ..)| *key),
-            &mut report,
-        );
+        self.report_notable(drawing, nested.is_none(), &side_of, &mut report);
         self.report_size(drawing, &mut report);
         let mut pairs = std::mem::take(&mut self.pairs);
         pairs.report(
@@ -168,37 +130,124 @@ impl Analysis {
         report
     }
 
-    /// What the rules on whole contours see.
-    pub(super) fn report_contours(
-        &self,
+    /// What contours have to tell by themselves. Where `sides_stay`, the side of each hangs on nothing else.
+    fn report_notable(
+        &mut self,
         drawing: &Drawing,
-        keys: impl Iterator<Item = ContourKey>,
+        sides_stay: bool,
+        side_of: &dyn Fn(&Analysis, ContourKey) -> Option<Side>,
         report: &mut Report,
     ) {
-        let outlook = |key| self.outlook(drawing, key);
-        let concerned: Vec<Outlook> = keys
-            .filter_map(outlook)
-            .filter(|outlook| outlook.contour.pieces.len() > 1 || !outlook.contour.closed)
-            .filter(|outlook| CONTOUR_RULES.iter().any(|rule| (rule.holds)(outlook)))
-            .collect();
-        if concerned.is_empty() {
+        let mut notable = std::mem::take(&mut self.notable);
+        // What is suspended is not in the drawing.
+        let suspended = self.suspended.and_then(|id| self.chains.contour_of(id));
+        let open_is_an_error = report.open_is_an_error();
+        let sums = notable.sums(
+            sides_stay,
+            suspended,
+            |key| side_of(self, key),
+            |key, what, side| self.count(drawing, key, (what, side), open_is_an_error),
+        );
+        let in_order = notable.in_order(|id| drawing.rank(id));
+        let told = in_order.iter().filter(|&&key| Some(key) != suspended);
+        let told = told.filter_map(|&key| Some((key, notable.get(key)?.counted.as_ref()?)));
+        let of_arcs = told.clone().map(|(key, it)| (key, it, &it.counts.arcs[..]));
+        tell(&sums.arcs, of_arcs, report, |key, counted, report| {
+            self.report_small_radii(drawing, key, counted, report)
+        });
+        let of_rules = told
+            .clone()
+            .map(|(key, it)| (key, it, &it.counts.local[..]));
+        tell(&sums.local, of_rules, report, |key, counted, report| {
+            if let Some((known, outlook)) = self.known.get(&key).zip(self.outlook(drawing, key)) {
+                known.report(&outlook, counted.side, report);
+            }
+        });
+        let whole = told.filter(|(_, counted)| !counted.counts.whole.is_empty());
+        self.report_contours(drawing, whole.map(|(key, _)| key), &sums.whole, report);
+        self.notable = notable;
+    }
+
+    /// How many findings a contour has by itself with the wire on a side.
+    fn count(
+        &self,
+        drawing: &Drawing,
+        key: ContourKey,
+        (what, side): (Notability, Option<Side>),
+        open_is_an_error: bool,
+    ) -> Counted {
+        let mut counted = Counted {
+            side,
+            ..Counted::default()
+        };
+        let Some(outlook) = self.outlook(drawing, key) else {
+            return counted;
+        };
+        let is_middle = self.settings.goes_along_middle(outlook.contour.closed);
+        if what.has_tight_arcs && !is_middle {
+            let arcs = self.small_radii(drawing, key, side);
+            let says_the_fit = self.says_the_fit(drawing, key, side);
+            let is_mild = |(_, numbers): &&(Place, SmallRadius)| is_mild(numbers, says_the_fit);
+            let mild = arcs.iter().filter(is_mild).count();
+            let counts = [(arcs.len() - mild, false), (mild, true)].into_iter();
+            counted.counts.arcs = counts
+                .filter(|(count, _)| *count > 0)
+                .map(|(count, is_mild)| ((Rule::SmallRadius, mildest(is_mild)), count))
+                .collect();
+            counted.arcs = (arcs.len() <= MOST_KEPT).then_some(arcs);
+        }
+        if what.has_observations
+            && !is_middle
+            && let Some(known) = self.known.get(&key)
+        {
+            counted.counts.local = known.counts(&outlook, side, open_is_an_error);
+        }
+        // An open contour with a side is meant so.
+        if what.as_a_whole && side.is_none() {
+            counted.counts.whole = CONTOUR_RULES
+                .iter()
+                .filter(|rule| holds(rule, &outlook))
+                .map(|rule| ((rule.rule, (rule.mildest)(&self.settings)), 1))
+                .collect();
+        }
+        counted
+    }
+
+    /// What the rules on whole contours see in some, which have so many findings in all.
+    fn report_contours(
+        &self,
+        drawing: &Drawing,
+        keys: impl Iterator<Item = ContourKey> + Clone,
+        sums: &BTreeMap<Kind, usize>,
+        report: &mut Report,
+    ) {
+        if sums.is_empty() {
             return;
         }
+        let outlook = |key| self.outlook(drawing, key);
         let doubled = self.pairs.doubled(&outlook);
         for rule in CONTOUR_RULES {
             let mildest = (rule.mildest)(&self.settings);
-            for outlook in concerned
-                .iter()
-                .copied()
-                .filter(|outlook| (rule.holds)(outlook))
-            {
-                // What lies there twice is reported as that.
-                if !outlook
-                    .contour
-                    .pieces
-                    .iter()
-                    .all(|piece| doubled.contains(&piece.entity))
-                    && report.counts(rule.rule, mildest)
+            // What lies there twice is reported as that.
+            let is_doubled = |outlook: &Outlook| {
+                let mut pieces = outlook.contour.pieces.iter();
+                pieces.all(|piece| doubled.contains(&piece.entity))
+            };
+            if doubled.is_empty() {
+                let count = sums.get(&(rule.rule, mildest)).copied();
+                report.count(rule.rule, mildest, count.unwrap_or(0));
+            }
+            for outlook in keys.clone().filter_map(outlook) {
+                if doubled.is_empty() && report.is_full(rule.rule, mildest) {
+                    break;
+                }
+                if !holds(rule, &outlook) || is_doubled(&outlook) {
+                    continue;
+                }
+                if !doubled.is_empty() {
+                    report.count(rule.rule, mildest, 1);
+                }
+                if !report.is_full(rule.rule, mildest)
                     && let (Some((place, related)), Some(detail)) =
                         ((rule.places)(&outlook), (rule.detail)(&outlook))
                 {
@@ -209,7 +258,7 @@ impl Analysis {
     }
 
     /// What is suspended is not in the drawing.
-    fn is_there(&self, drawing: &Drawing, key: ContourKey) -> bool {
+    pub(super) fn is_there(&self, drawing: &Drawing, key: ContourKey) -> bool {
         let first = self.chains.first_of(key);
         first.is_some_and(|first| drawing.get(first).is_some())
     }
@@ -256,55 +305,43 @@ impl Analysis {
         }
     }
 
-    /// Arcs below the correction in one contour.
+    /// Arcs below the correction in one contour, which have been counted.
     fn report_small_radii(
         &mut self,
         drawing: &Drawing,
         key: ContourKey,
-        wire_side: Option<Side>,
+        counted: &Counted,
         report: &mut Report,
     ) {
-        let says_the_fit = self.says_the_fit(drawing, key, wire_side);
-        let known = self.notable.get(&key).and_then(|it| it.faults.as_ref());
-        let known = known.filter(|faults| faults.side == wire_side);
-        if let Some(faults) = known
-            && !says_the_fit
-            && self.limits.last_correction == self.limits.correction
-            && report.is_full(Rule::SmallRadius, None)
-        {
-            report.count(Rule::SmallRadius, None, faults.count);
-            return;
-        }
-        let each: Arc<[(Place, SmallRadius)]> = match known.and_then(|it| it.each.clone()) {
-            Some(each) => each,
-            None => self.small_radii(drawing, key, wire_side),
-        };
+        let says_the_fit = self.says_the_fit(drawing, key, counted.side);
+        let known = counted.arcs.clone();
+        let each = known.unwrap_or_else(|| self.small_radii(drawing, key, counted.side));
         for (place, numbers) in each.iter() {
-            let is_mild = numbers.taken_by_skims || says_the_fit;
-            let mildest = is_mild.then_some(Severity::Warning);
-            if report.counts(Rule::SmallRadius, mildest) {
-                let index = place.entity().and_then(|(entity, segment)| {
-                    let (_, index) = self.chains.index_of(entity, segment?)?;
-                    Some(index)
-                });
-                let numbers = SmallRadius {
-                    no_fix: index.and_then(|index| self.answer(drawing, key, index)),
-                    ..numbers.clone()
-                };
-                report.add(
-                    Rule::SmallRadius,
-                    mildest,
-                    place.clone(),
-                    Detail::SmallRadius(Box::new(numbers)),
-                    Vec::new(),
-                );
+            let mildest = mildest(is_mild(numbers, says_the_fit));
+            if report.is_full(Rule::SmallRadius, mildest) {
+                continue;
             }
+            let index = place.entity().and_then(|(entity, segment)| {
+                let (_, index) = self.chains.index_of(entity, segment?)?;
+                Some(index)
+            });
+            let numbers = SmallRadius {
+                no_fix: index.and_then(|index| self.answer(drawing, key, index)),
+                ..numbers.clone()
+            };
+            report.add(
+                Rule::SmallRadius,
+                mildest,
+                place.clone(),
+                Detail::SmallRadius(Box::new(numbers)),
+                Vec::new(),
+            );
         }
     }
 
-    /// The arcs of a contour that are below the correction with the wire on a side: kept, where they are few.
+    /// The arcs of a contour that are below the correction with the wire on a side.
     fn small_radii(
-        &mut self,
+        &self,
         drawing: &Drawing,
         key: ContourKey,
         wire_side: Option<Side>,
@@ -315,14 +352,45 @@ impl Analysis {
             let (segment, numbers) = self.fault(drawing, key, index, wire_side)?;
             Some((Place::from(&segment), numbers))
         };
-        let each: Arc<[(Place, SmallRadius)]> = tight.filter_map(fault).collect();
-        if let Some(notable) = self.notable.get_mut(&key) {
-            notable.faults = Some(Faults {
-                side: wire_side,
-                count: each.len(),
-                each: (each.len() <= MOST_KEPT).then(|| each.clone()),
-            });
+        tight.filter_map(fault).collect()
+    }
+}
+
+/// True for an arc below the correction that may be one.
+fn is_mild(numbers: &SmallRadius, says_the_fit: bool) -> bool {
+    numbers.taken_by_skims || says_the_fit
+}
+
+fn mildest(is_mild: bool) -> Option<Severity> {
+    is_mild.then_some(Severity::Warning)
+}
+
+fn holds(rule: &ContourRule, outlook: &Outlook) -> bool {
+    (outlook.contour.pieces.len() > 1 || !outlook.contour.closed) && (rule.holds)(outlook)
+}
+
+/// Counts all findings of some contours, and has those of each told until no more are shown.
+fn tell<'a>(
+    sums: &BTreeMap<Kind, usize>,
+    contours: impl Iterator<Item = (ContourKey, &'a Counted, &'a [(Kind, usize)])>,
+    report: &mut Report,
+    mut tell: impl FnMut(ContourKey, &Counted, &mut Report),
+) {
+    for (&(rule, mildest), &count) in sums {
+        report.count(rule, mildest, count);
+    }
+    let mut left = sums.clone();
+    for (key, counted, counts) in contours.filter(|(.., counts)| !counts.is_empty()) {
+        left.retain(|&(rule, mildest), _| !report.is_full(rule, mildest));
+        if left.is_empty() {
+            return;
         }
-        each
+        for (kind, count) in counts {
+            if let Some(left) = left.get_mut(kind) {
+                *left -= count;
+            }
+        }
+        left.retain(|_, count| *count > 0);
+        tell(key, counted, report);
     }
 }

@@ -1,10 +1,11 @@
 //! The knowledge of one contour: its index, its stated role, the observations of the local rules.
 
+use super::notable::Kind;
 use super::report::Report;
 use crate::drawing::{Contour, ContourIndex, Drawing, RUN, Role};
 use crate::finding::{Finding, Severity, Side};
 use crate::rules::lost_pocket::Lost;
-use crate::rules::{AtHand, LOCAL_RULES, Limits, Observation, Outlook};
+use crate::rules::{AtHand, LOCAL_RULES, Limits, LocalRule, Observation, Outlook};
 use crate::settings::Effective;
 use std::iter::once;
 use std::ops::Range;
@@ -138,71 +139,104 @@ impl Known {
         !self.observations.iter().flatten().all(Vec::is_empty)
     }
 
-    /// Adds the findings of the local rules in this contour, rule by rule, in order of travel.
+    /// Rule by rule how many findings there are of each kind. `open_is_an_error` where an open contour is told of as one.
+    pub(crate) fn counts(
+        &self,
+        outlook: &Outlook,
+        wire_side: Option<Side>,
+        open_is_an_error: bool,
+    ) -> Vec<(Kind, usize)> {
+        let of_rules = self.of_rules(outlook, wire_side, open_is_an_error);
+        let counts = of_rules.filter(|of_rule| of_rule.count > 0);
+        counts
+            .map(|of_rule| {
+                let count = if of_rule.is_one { 1 } else { of_rule.count };
+                ((of_rule.rule.rule, of_rule.mildest), count)
+            })
+            .collect()
+    }
+
+    /// Adds the findings of the local rules in this contour, which have been counted, rule by rule, in order of travel.
     pub(crate) fn report(&self, outlook: &Outlook, wire_side: Option<Side>, report: &mut Report) {
-        // An open contour is not cut: a finding that only spoils a cut is a hint until it is closed.
-        let waits = !outlook.contour.closed && wire_side.is_none() && report.open_is_an_error();
-        let of_rules = LOCAL_RULES.iter().zip(&self.observations);
-        for ((rule, observations), counts) in of_rules.zip(&self.counts) {
-            // An observation at the start of a closed contour is checked again.
-            let holds = |observation: &Observation| {
-                observation.index > 0
-                    || !outlook.contour.closed
-                    || (rule.holds)(outlook, *observation)
-            };
-            let concerned =
-                |observation: &&Observation| is_of(wire_side, observation) && holds(observation);
-            let at_the_beginning = observations.first().into_iter().flatten();
-            let fallen = at_the_beginning
-                .filter(|observation| is_of(wire_side, observation) && !holds(observation))
-                .count();
-            let count = counts.of(wire_side) - fallen;
-            let mut observations = observations.iter().flatten().filter(concerned);
-            if rule.one_hint_when_side_unknown && wire_side.is_none() {
-                let Some(&first) = observations.next() else {
-                    continue;
-                };
-                let mildest = Some(Severity::Hint);
-                if report.counts(rule.rule, mildest)
-                    && let (Some(place), Some(detail)) = (
-                        outlook.place(first.index as usize),
-                        (rule.detail)(outlook, first, Some(count)),
-                    )
-                {
-                    let related = if count == 1 {
-                        (rule.related)(outlook, first)
-                    } else {
-                        Vec::new()
-                    };
-                    report.add(rule.rule, mildest, place, detail, related);
-                }
-                continue;
-            }
-            let mildest = if waits {
-                Some(Severity::Hint)
-            } else {
-                rule.mildest
-            };
-            report.count(rule.rule, mildest, count);
-            for &observation in observations {
+        let open_is_an_error = report.open_is_an_error();
+        for of_rule in self.of_rules(outlook, wire_side, open_is_an_error) {
+            let OfRule {
+                rule,
+                mildest,
+                count,
+                is_one,
+                observations,
+            } = of_rule;
+            let concerned = observations.iter().flatten().filter(|observation| {
+                is_of(wire_side, observation) && holds(rule, outlook, observation)
+            });
+            for &observation in concerned.take(if is_one { 1 } else { usize::MAX }) {
                 if report.is_full(rule.rule, mildest) {
                     break;
                 }
                 if let (Some(place), Some(detail)) = (
                     outlook.place(observation.index as usize),
-                    (rule.detail)(outlook, observation, None),
+                    (rule.detail)(outlook, observation, is_one.then_some(count)),
                 ) {
-                    report.add(
-                        rule.rule,
-                        mildest,
-                        place,
-                        detail,
-                        (rule.related)(outlook, observation),
-                    );
+                    let is_told_alone = !is_one || count == 1;
+                    let related = if is_told_alone {
+                        (rule.related)(outlook, observation)
+                    } else {
+                        Vec::new()
+                    };
+                    report.add(rule.rule, mildest, place, detail, related);
                 }
             }
         }
     }
+
+    fn of_rules<'a>(
+        &'a self,
+        outlook: &'a Outlook,
+        wire_side: Option<Side>,
+        open_is_an_error: bool,
+    ) -> impl Iterator<Item = OfRule<'a>> {
+        // An open contour is not cut: a finding that only spoils a cut is a hint until it is closed.
+        let waits = !outlook.contour.closed && wire_side.is_none() && open_is_an_error;
+        let of_rules = LOCAL_RULES.iter().zip(&self.observations);
+        of_rules
+            .zip(&self.counts)
+            .map(move |((rule, observations), counts)| {
+                let at_the_beginning = observations.first().into_iter().flatten();
+                let fallen = at_the_beginning
+                    .filter(|observation| {
+                        is_of(wire_side, observation) && !holds(rule, outlook, observation)
+                    })
+                    .count();
+                let is_one = rule.one_hint_when_side_unknown && wire_side.is_none();
+                OfRule {
+                    rule,
+                    mildest: if is_one || waits {
+                        Some(Severity::Hint)
+                    } else {
+                        rule.mildest
+                    },
+                    count: counts.of(wire_side) - fallen,
+                    is_one,
+                    observations,
+                }
+            })
+    }
+}
+
+/// What a local rule has to tell of a contour.
+struct OfRule<'a> {
+    rule: &'a LocalRule,
+    mildest: Option<Severity>,
+    /// The number of its observations, for which one finding stands where it `is_one`.
+    count: usize,
+    is_one: bool,
+    observations: &'a [Vec<Observation>],
+}
+
+/// An observation at the start of a closed contour is checked again.
+fn holds(rule: &LocalRule, outlook: &Outlook, observation: &Observation) -> bool {
+    observation.index > 0 || !outlook.contour.closed || (rule.holds)(outlook, *observation)
 }
 
 /// True for an observation on this side of the wire, or on any where the side is not known.

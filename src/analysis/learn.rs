@@ -3,7 +3,8 @@
 use super::compare::RunId;
 use super::contours::role_of;
 use super::known::Known;
-use super::{Analysis, MANY, Notability, Notable};
+use super::notable::{Notability, Notable};
+use super::{Analysis, MANY};
 use crate::drawing::{ContourIndex, ContourKey, Drawing, EntityId, RUN, stated_role};
 use crate::fit;
 use crate::rules::{CONTOUR_RULES, NEIGHBOURS, Outlook, units};
@@ -12,18 +13,21 @@ use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
 use std::iter::once;
 use std::ops::Range;
+use std::sync::Arc;
 
 impl Analysis {
-    pub(super) fn enter_known(&mut self, key: ContourKey, known: Known) {
+    pub(super) fn enter_known(&mut self, key: ContourKey, known: Arc<Known>) {
         self.segments += known.index.len();
         self.stated += usize::from(known.stated.is_some());
+        self.enter_vicinity(key, &known.index);
         self.known.insert(key, known);
     }
 
-    pub(super) fn take_known(&mut self, key: ContourKey) -> Option<Known> {
+    pub(super) fn take_known(&mut self, key: ContourKey) -> Option<Arc<Known>> {
         let known = self.known.remove(&key)?;
         self.segments -= known.index.len();
         self.stated -= usize::from(known.stated.is_some());
+        self.leave_vicinity(key, &known.index);
         Some(known)
     }
 
@@ -41,10 +45,10 @@ impl Analysis {
             first,
             what: Notability {
                 has_tight_arcs: known.is_some_and(|known| known.index.tight().next().is_some()),
-                has_observations: known.is_some_and(Known::has_observations),
+                has_observations: known.is_some_and(|known| known.has_observations()),
                 as_a_whole: self.outlook(drawing, key).is_some_and(of_contour),
             },
-            faults: None,
+            counted: None,
         });
         let has_something = |Notable { what, .. }: &Notable| {
             what.has_tight_arcs || what.has_observations || what.as_a_whole
@@ -56,8 +60,8 @@ impl Analysis {
 
     fn take_down(&mut self, key: ContourKey, (notable, is_vast): (Option<Notable>, bool)) {
         match notable {
-            Some(notable) => drop(self.notable.insert(key, notable)),
-            None => drop(self.notable.remove(&key)),
+            Some(notable) => self.notable.insert(key, notable),
+            None => self.notable.remove(key),
         }
         match is_vast {
             true => self.vast.insert(key),
@@ -84,7 +88,7 @@ impl Analysis {
                 &self.settings,
                 0..contour.len(),
             );
-            Some(known)
+            Some(Arc::new(known))
         });
         let mut runs = Vec::new();
         for (&key, known) in keys.iter().zip(learned) {
@@ -135,10 +139,11 @@ impl Analysis {
         }
         self.lost.remove(&key);
         self.forget_fits(key);
-        let (Some(piece), Some(mut known)) = (self.chains.piece_of(entity), self.take_known(key))
+        let (Some(piece), Some(known)) = (self.chains.piece_of(entity), self.take_known(key))
         else {
             return false;
         };
+        let mut known = Arc::unwrap_or_clone(known);
         let Some(contour) = self.chains.get(key) else {
             return false;
         };
@@ -240,7 +245,7 @@ impl Analysis {
             .filter(|&run| run < count)
             .map(|run| (key, run as u32));
         let runs: BTreeSet<RunId> = runs.collect();
-        self.enter_known(key, known);
+        self.enter_known(key, Arc::new(known));
         self.note(drawing, key);
         let runs: Vec<RunId> = runs.into_iter().chain(beginnings).collect();
         self.look_at_pairs(drawing, &runs);

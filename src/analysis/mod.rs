@@ -10,11 +10,13 @@ mod fixes;
 mod judge;
 mod known;
 mod learn;
+mod notable;
 mod pair_findings;
 mod pairs;
 mod pockets;
 mod repair;
 mod report;
+mod seen;
 mod suppressed;
 mod told;
 mod within;
@@ -25,13 +27,14 @@ pub(crate) use contours::is_cut;
 use crate::drawing::{
     Chains, Contour, ContourKey, Delta, Drawing, EntityId, Outline, RUN, Role, Touched,
 };
-use crate::finding::{Finding, NoFix, Place, Side, SmallRadius};
-use crate::geometry::Bounds;
+use crate::finding::{Finding, NoFix};
+use crate::geometry::{Bounds, Grid};
 use crate::rules::{Limits, Outlook};
 use crate::settings::Effective;
 use aside::{AsideEntities, LoneLines};
 use contours::set_aside;
 use known::{Answer, Known};
+use notable::Notables;
 use pairs::Pairs;
 use report::Tally;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -43,43 +46,16 @@ const FEW: usize = 16;
 /// Where an edit takes more contours than these apart, and a good part of all, everything is looked at anew.
 const MANY: usize = 256;
 
-/// A contour that has something to tell.
-#[derive(Clone, Debug)]
-struct Notable {
-    /// The first of its entities in machining order.
-    first: EntityId,
-    what: Notability,
-    /// Its arcs below the correction, once they have been counted.
-    faults: Option<Faults>,
-}
-
-/// What is asked of such a contour at every report, so that those beyond the limit of a report are not looked at.
-#[derive(Clone, Copy, Debug)]
-struct Notability {
-    has_tight_arcs: bool,
-    has_observations: bool,
-    /// A rule on whole contours holds.
-    as_a_whole: bool,
-}
-
-/// The arcs of a contour that are below the correction with the wire on a side.
-#[derive(Clone, Debug)]
-struct Faults {
-    side: Option<Side>,
-    count: usize,
-    /// Each of them, where they are few.
-    each: Option<Arc<[(Place, SmallRadius)]>>,
-}
-
 /// What is known of one drawing under one set of settings.
 #[derive(Clone, Debug)]
 pub struct Analysis {
     settings: Arc<Effective>,
     limits: Limits,
     chains: Chains,
-    known: FxHashMap<ContourKey, Known>,
+    /// Shared with copies, which a repair that is tried makes.
+    known: FxHashMap<ContourKey, Arc<Known>>,
     /// Contours that have something to tell without a look at others: most have not.
-    notable: FxHashMap<ContourKey, Notable>,
+    notable: Notables,
     /// Contours larger than any machine.
     vast: FxHashSet<ContourKey>,
     /// How many segments the known contours have.
@@ -88,6 +64,9 @@ pub struct Analysis {
     stated: usize,
     /// Lines that stand alone, and which of them are not cut: nothing else is known of those.
     lone: LoneLines,
+    /// Once a lone line has been asked about others: the reaches of such lines, and the boxes of known contours of several
+    /// runs.
+    vicinity: Option<Grid<ContourKey>>,
     /// What is not cut by its linetype or its layer.
     aside: AsideEntities,
     /// An entity that was removed and may come back nearly as it was, as one does in whose text a number is being typed: all
@@ -119,11 +98,12 @@ impl Analysis {
             limits,
             chains,
             known: FxHashMap::default(),
-            notable: FxHashMap::default(),
+            notable: Notables::default(),
             vast: FxHashSet::default(),
             segments: 0,
             stated: 0,
             lone: LoneLines::default(),
+            vicinity: None,
             aside: AsideEntities::default(),
             suspended: None,
             pairs: Pairs::default(),
@@ -160,6 +140,12 @@ impl Analysis {
         analysis.learn(drawing, &lone);
         analysis.pairs.settle();
         analysis
+    }
+
+    /// Makes ready what the first edit needs.
+    pub(crate) fn make_ready(&mut self) {
+        self.chains.make_ready();
+        self.know_vicinity();
     }
 
     /// Looks again at what `delta` touched. Same result as a fresh [`Analysis::new`].
@@ -254,7 +240,7 @@ impl Analysis {
         for key in &rechained.gone {
             changed.extend(self.box_of(*key).filter(|_| !self.lone.is_empty()));
             self.forget(*key);
-            self.lone.remove(key);
+            self.forget_lone(*key);
         }
         let gone: FxHashSet<ContourKey> = rechained.gone.into_iter().collect();
         self.answers.retain(|(key, _), _| !gone.contains(key));
@@ -272,7 +258,7 @@ impl Analysis {
         self.lost.remove(&key);
         self.forget_fits(key);
         self.parts.retain(|(of, _), _| *of != key);
-        self.notable.remove(&key);
+        self.notable.remove(key);
         self.vast.remove(&key);
         if let Some(known) = self.take_known(key) {
             self.pairs.forget(key, &known.index);

@@ -20,28 +20,16 @@ pub(crate) type FacingWalls = ([usize; 2], Option<Side>);
 impl Pairs {
     /// Contours that have something of `rule` between two of their own segments.
     pub(crate) fn contours_with(&self, rule: Rule) -> FxHashSet<ContourKey> {
-        let own = |each: &&Observed| {
-            PAIR_RULES[each.rule].rule == rule && each.one.0 == each.other.0 && !each.blocked
-        };
-        self.seen
-            .values()
-            .flatten()
-            .filter(own)
-            .map(|each| each.one.0)
-            .collect()
+        let own = |each: &&Observed| each.one.0 == each.other.0 && !each.blocked;
+        let own = self.seen.of(rule).filter(own);
+        own.map(|each| each.one.0).collect()
     }
 
     /// What `narrow-slot` tells of one contour: the two segments, and the disc between them.
     pub(crate) fn slots_of(&self, key: ContourKey) -> Vec<Slot> {
-        let own = |each: &&Observed| {
-            PAIR_RULES[each.rule].rule == Rule::NarrowSlot
-                && each.one.0 == key
-                && each.other.0 == key
-                && !each.blocked
-        };
+        let own = |each: &&Observed| each.one.0 == key && each.other.0 == key && !each.blocked;
         self.seen
-            .values()
-            .flatten()
+            .of(Rule::NarrowSlot)
             .filter(own)
             .map(|each| ([each.one.1, each.other.1], each.disc))
             .collect()
@@ -50,11 +38,8 @@ impl Pairs {
     /// The walls that `narrow-slot` has seen face each other in one contour, with their side of travel, by contour.
     pub(crate) fn slots(&self) -> FxHashMap<ContourKey, Vec<FacingWalls>> {
         let mut slots: FxHashMap<ContourKey, Vec<FacingWalls>> = FxHashMap::default();
-        for each in self.seen.values().flatten() {
-            if PAIR_RULES[each.rule].rule == Rule::NarrowSlot
-                && each.one.0 == each.other.0
-                && !each.blocked
-            {
+        for each in self.seen.of(Rule::NarrowSlot) {
+            if each.one.0 == each.other.0 && !each.blocked {
                 slots
                     .entry(each.one.0)
                     .or_default()
@@ -66,20 +51,14 @@ impl Pairs {
 
     /// What `lost-pocket` has seen between two segments of one contour, in no order.
     pub(crate) fn dead_ends(&mut self) -> impl Iterator<Item = &mut Observed> {
-        let of_rule =
-            |each: &&mut Observed| PAIR_RULES[each.rule].rule == Rule::LostPocket && !each.blocked;
-        self.seen.values_mut().flatten().filter(of_rule)
+        let of_rule = self.seen.of_mut(Rule::LostPocket);
+        of_rule.filter(|each| !each.blocked)
     }
 
     /// Entities that lie in the same place as another.
     pub(crate) fn doubled(&self, outlook: Outlooks) -> FxHashSet<EntityId> {
         let mut doubled = FxHashSet::default();
-        for seen in self
-            .seen
-            .values()
-            .flatten()
-            .filter(|seen| PAIR_RULES[seen.rule].rule == Rule::DuplicateEntity)
-        {
+        for seen in self.seen.of(Rule::DuplicateEntity) {
             for (key, index) in [seen.one, seen.other] {
                 let id = outlook(key).and_then(|outlook| outlook.segment_id(index));
                 doubled.extend(id.map(|(entity, _)| entity));
@@ -108,7 +87,7 @@ impl Pairs {
         wire_side: &dyn Fn(ContourKey) -> Option<Side>,
         report: &mut Report,
     ) {
-        let told = match self.told.take().filter(|told| told.holds(wire_side)) {
+        let told = match self.made.told.take().filter(|told| told.holds(wire_side)) {
             Some(told) => told,
             None => Arc::new(self.told(drawing, outlook, wire_side, report)),
         };
@@ -166,7 +145,7 @@ impl Pairs {
                 report.add(rule.rule, mildest, place, detail, related);
             }
         }
-        self.told = Some(told);
+        self.made.told = Some(told);
     }
 
     /// What there is to tell of all that has been seen.
@@ -183,12 +162,8 @@ impl Pairs {
             uncompared: self.first_uncompared(drawing, outlook),
             ..Told::default()
         };
-        for key in self
-            .seen
-            .values()
-            .flatten()
-            .flat_map(|each| [each.one.0, each.other.0])
-        {
+        let keys = self.seen.all();
+        for key in keys.flat_map(|each| [each.one.0, each.other.0]) {
             told.sides.entry(key).or_insert_with(|| wire_side(key));
         }
         let side_of = |key: ContourKey| told.sides.get(&key).copied().flatten();
@@ -200,7 +175,7 @@ impl Pairs {
             outlook(key).is_some_and(|it| report.settings.goes_along_middle(it.contour.closed))
         };
         let mut seen: Vec<(usize, Ends, &Observed)> = Vec::new();
-        for each in self.seen.values().flatten() {
+        for each in self.seen.all() {
             let ends = |(key, index): SegmentId| outlook(key)?.segment_id(index);
             if !each.blocked
                 && PAIR_RULES[each.rule].pair_by_pair

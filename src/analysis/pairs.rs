@@ -1,7 +1,8 @@
 //! The observations of the rules on pairs of segments, by the runs of the two segments.
 
 use super::compare::{Comparison, Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId, passes};
-use super::told::Told;
+use super::seen::Seen;
+use super::told::Made;
 use crate::drawing::{ContourIndex, ContourKey};
 use crate::finding::Rule;
 use crate::geometry::{Bounds, Grid, Point};
@@ -9,7 +10,6 @@ use crate::rules::{Limits, PAIR_RULES, PairRule};
 use crate::settings::{Budget, Effective};
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
 
 /// One look of the budget: the comparison of two segments, or of this many boxes of the grid.
@@ -24,8 +24,8 @@ const SHARE: usize = 64;
 /// The runs of all contours by place, and the observations between them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pairs {
-    grid: Grid<RunId>,
-    pub(super) seen: FxHashMap<(RunId, RunId), Vec<Observed>>,
+    pub(super) grid: Grid<RunId>,
+    pub(super) seen: Seen,
     partners: FxHashMap<RunId, Vec<RunId>>,
     /// Runs near which something has come or gone: whether their discs are empty must be checked again.
     stale: FxHashSet<RunId>,
@@ -45,8 +45,10 @@ pub(crate) struct Pairs {
     /// whether something has changed that the compared ones may see.
     untold: FxHashSet<RunId>,
     is_disturbed: bool,
-    /// The findings from all observations, while these stay.
-    pub(super) told: Option<Arc<Told>>,
+    /// What was made of all observations, while these stay.
+    pub(super) made: Made,
+    /// Runs that were forgotten since.
+    pub(super) forgotten: FxHashSet<RunId>,
     /// There are workpieces, which do not meet.
     are_parts: bool,
 }
@@ -71,6 +73,11 @@ impl Pairs {
         (self.left, self.left_to_ask) = (self.granted, self.granted);
     }
 
+    /// The looks since they were granted, or reset.
+    pub(crate) fn looks(&self) -> u64 {
+        (self.granted - self.left).saturating_add(self.granted - self.left_to_ask)
+    }
+
     /// True while the observations, edit by edit, equal those of a full comparison.
     pub(crate) fn is_as_fresh(&self) -> bool {
         self.is_within_budget() || self.is_settled()
@@ -78,7 +85,7 @@ impl Pairs {
 
     /// Segments have other numbers, or entities another order.
     pub(crate) fn renumber(&mut self) {
-        self.told = None;
+        self.made = Made::default();
     }
 
     /// Everything has been compared, in the order of the drawing.
@@ -119,7 +126,7 @@ impl Pairs {
         };
         self.uncompared.is_empty()
             && self.seen_count < self.most_seen
-            && !self.seen.values().flatten().any(depends)
+            && !self.seen.all().any(depends)
     }
 
     /// Forgets a contour as it was at the last comparison.
@@ -132,6 +139,9 @@ impl Pairs {
     /// Forgets a run with its box at the last comparison.
     pub(crate) fn forget_run(&mut self, run: RunId, bounds: &Bounds) {
         self.grid.remove(run, bounds);
+        if self.made.ends.is_some() {
+            self.forgotten.insert(run);
+        }
         if self.is_left_out(&run) {
             self.untold.insert(run);
         } else {
@@ -140,7 +150,7 @@ impl Pairs {
         self.uncompared.remove(&run);
         self.disturb(bounds);
         for partner in self.partners.remove(&run).unwrap_or_default() {
-            self.told = None;
+            self.made = Made::default();
             let gone = self.seen.remove(&ordered(run, partner));
             self.seen_count -= gone.map_or(0, |gone| gone.len());
             if let Some(of_partner) = self.partners.get_mut(&partner) {
@@ -290,7 +300,7 @@ impl Pairs {
             if found.iter().any(|seen| seen.disc.is_some()) {
                 self.stale.insert(run);
             }
-            self.told = None;
+            self.made = Made::default();
             self.seen.insert(ordered(run, other), found);
             self.partners.entry(run).or_default().push(other);
             if other != run {
@@ -298,7 +308,7 @@ impl Pairs {
             }
         }
         if self.is_disturbed && !self.uncompared.is_empty() {
-            self.told = None;
+            self.made = Made::default();
         }
         self.ask_again(&mut kept, limits);
     }
@@ -351,7 +361,7 @@ impl Pairs {
                         )
                 });
                 if each.blocked != was_blocked {
-                    self.told = None;
+                    self.made = Made::default();
                 }
             }
             if left == 0 && seen.iter().any(|each| each.disc.is_some()) {

@@ -88,12 +88,14 @@ impl Analysis {
     /// True when an edit that makes an arc larger leaves fewer tight arcs, no more errors, and no new open end,
     /// overlap, crossing or crumb. Of two identical lines only one is moved: then the contour falls apart.
     ///
-    /// An arc that keeps its ends leaves as much as before, whatever rule reports it then: that one is `spared`.
+    /// An arc that keeps its ends leaves as much as before, whatever rule reports it then: that one is `spared`. The looks that it took are
+    /// added to `looks`.
     pub(super) fn enlarges(
         &self,
         drawing: &Drawing,
         edit: &DrawingEdit,
         spared: Option<Rule>,
+        looks: &mut u64,
     ) -> bool {
         let mut edited = drawing.clone();
         let Ok(delta) = edited.apply(edit) else {
@@ -103,10 +105,9 @@ impl Analysis {
         if self.tight(&edited, &touched) >= self.tight(drawing, &touched) {
             return false;
         }
-        let (before, after) = (
-            self.tallied(drawing),
-            self.updated(&edited, &delta).tally(&edited),
-        );
+        let mut tried = self.updated(&edited, &delta);
+        let (before, after) = (self.tallied(drawing), tried.tally(&edited));
+        *looks = looks.saturating_add(tried.pairs.looks());
         after.of(Rule::SmallRadius) < before.of(Rule::SmallRadius)
             && after.spoils_nothing(before, spared)
     }

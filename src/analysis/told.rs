@@ -1,11 +1,20 @@
 //! The findings from observations between segments.
 
-use super::compare::{Observed, SegmentId};
+use super::compare::{Observed, RunId, SegmentId};
 use crate::drawing::{ContourKey, EntityId};
 use crate::finding::{Detail, Place, Severity, Side};
 use crate::rules::PAIR_RULES;
+use crate::rules::dead_end::Left;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// What was made of the observations.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Made {
+    pub(super) told: Option<Arc<Told>>,
+    pub(super) ends: Option<Arc<DeadEnds>>,
+}
 
 /// The findings of the observed pairs, while none comes or goes and the wire stays on its sides.
 #[derive(Debug, Default)]
@@ -33,6 +42,30 @@ pub(super) struct ToldPair {
     pub(super) other: SegmentId,
     /// The duplicates in a contour.
     pub(super) others: Option<Doubles>,
+}
+
+/// The contour, the two walls that the wire comes to, and what it leaves.
+pub(super) type LeftBetween = (ContourKey, [usize; 2], Left);
+
+/// Rank of an entity, its segment, and whether the wire runs on the left of it.
+pub(super) type Farthest = (u64, usize, bool);
+
+/// What is left beyond the dead ends of all contours, while the wire stays on its sides and what they hang on stays.
+#[derive(Debug, Default)]
+pub(super) struct DeadEnds {
+    /// In the order of the entity and the segment that the wire stays farthest from.
+    pub(super) left: Vec<(Farthest, LeftBetween)>,
+    /// The side of the wire at each of the contours.
+    pub(super) sides: FxHashMap<ContourKey, Option<Side>>,
+    /// The runs, and the contours as a whole, that they hang on beside those with the two walls.
+    pub(super) runs: FxHashSet<RunId>,
+    pub(super) contours: FxHashSet<ContourKey>,
+}
+
+impl DeadEnds {
+    pub(super) fn hang_on(&self, run: &RunId) -> bool {
+        self.runs.contains(run) || self.contours.contains(&run.0)
+    }
 }
 
 /// Entities of one contour that are duplicated.

@@ -26,7 +26,7 @@ impl Analysis {
             return;
         }
         let closed = ordered.iter().zip(sides).filter_map(|(key, side)| {
-            let (contour, known) = (self.chains.get(*key)?, self.known.get(key)?);
+            let (contour, known) = (self.chains.get(*key)?, &**self.known.get(key)?);
             let is_punch = side.is_some_and(|it| it.sign() * known.index.twice_area() < 0.0);
             contour.closed.then_some((contour, known, is_punch))
         });

@@ -19,6 +19,7 @@ use crate::geometry::Point;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Up to this many entities are sorted without a look at all others.
 const FEW: usize = 16;
@@ -43,7 +44,8 @@ pub struct Chains {
     ends: Option<Buckets>,
     /// The free ends of each open entity, by entity id; [`NO_ENDS`] for all others.
     ends_of: Vec<Ends>,
-    contours: FxHashMap<Key, Chain>,
+    /// Shared with copies.
+    contours: FxHashMap<Key, Arc<Chain>>,
     /// The contour of each entity, by entity id; [`NO_KEY`] for entities in none.
     contour_of: Vec<Key>,
     /// The place of each entity among the pieces of its contour, by entity id.
@@ -177,12 +179,13 @@ impl Chains {
 
     /// Tells that the number of segments of an entity has changed: its contour counts them again.
     pub(crate) fn recount(&mut self, drawing: &Drawing, entity: EntityId) {
-        let Some(Chain { contour, .. }) = self
+        let Some(chain) = self
             .contour_of(entity)
             .and_then(|key| self.contours.get_mut(&key))
         else {
             return;
         };
+        let contour = &mut Arc::make_mut(chain).contour;
         let pieces = contour.pieces.iter();
         *contour = Contour {
             double_of: contour.double_of,
@@ -272,7 +275,7 @@ impl Chains {
                     continue;
                 };
                 rechained.gone.push(key);
-                for id in chain.contour.pieces.into_iter().map(|piece| piece.entity) {
+                for id in chain.contour.pieces.iter().map(|piece| piece.entity) {
                     if drawing.get(id).is_some() && is_cut(id) {
                         entities.insert(id);
                     }
@@ -291,6 +294,13 @@ impl Chains {
         self.ends_of.resize(bound, NO_ENDS);
         self.contour_of.resize(bound, NO_KEY);
         self.piece_of.resize(bound, 0);
+    }
+
+    /// Sorts the free ends by cell, unless that is done: the first edit needs it.
+    pub(crate) fn make_ready(&mut self) {
+        if self.ends.is_none() {
+            self.ends = Some(self.sorted_ends());
+        }
     }
 
     /// All ends by cell.
@@ -355,32 +365,29 @@ impl Chains {
     /// Makes contours of entities with these joints.
     fn link(&mut self, drawing: &Drawing, entities: &[EntityId], joints: &Joints) -> Vec<Key> {
         let linked = Linked::new(drawing, entities, &self.ends_of, joints);
-        let contour = |way: &Way| {
+        let chain = |way: &Way| {
             let pieces = linked.pieces[way.range.clone()]
                 .iter()
                 .map(|&(at, reversed)| (entities[at as usize], reversed));
             let mut contour = Contour::new(drawing, pieces, way.closed);
             contour.double_of = way.double_of.map(|kept| entities[kept as usize]);
-            contour
+            Arc::new(Chain {
+                contour,
+                first: entities[way.first as usize],
+                by_ends: way.by_ends,
+            })
         };
         let ways = linked.ways.par_iter().with_min_len(SHARE);
-        let contours: Vec<Contour> = ways.map(contour).collect();
-        let mut new = Vec::with_capacity(contours.len());
-        self.contours.reserve(contours.len());
-        for (way, contour) in linked.ways.iter().zip(contours) {
+        let chains: Vec<Arc<Chain>> = ways.map(chain).collect();
+        let mut new = Vec::with_capacity(chains.len());
+        self.contours.reserve(chains.len());
+        for chain in chains {
             let key = self.fresh_key();
-            for (place, piece) in (0..).zip(&contour.pieces) {
+            for (place, piece) in (0..).zip(&chain.contour.pieces) {
                 self.contour_of[piece.entity.0 as usize] = key;
                 self.piece_of[piece.entity.0 as usize] = place;
             }
-            self.contours.insert(
-                key,
-                Chain {
-                    contour,
-                    first: entities[way.first as usize],
-                    by_ends: way.by_ends,
-                },
-            );
+            self.contours.insert(key, chain);
             new.push(key);
         }
         new

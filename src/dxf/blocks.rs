@@ -226,6 +226,29 @@ impl Blocks {
             }));
         }
         self.drawn += all;
+        let drawn = self.drawn_by(insert, block, tolerance, states);
+        self.mark_used(block);
+        Ok(drawn)
+    }
+
+    /// What a reference draws now that has been drawn with other numbers, its block and its copies the same.
+    pub(super) fn redraw(
+        &self,
+        insert: &Insert,
+        tolerance: f64,
+        states: &mut LayerStates,
+    ) -> Option<Drawn> {
+        let block = *self.by_name.get(&insert.block)?;
+        Some(self.drawn_by(insert, block, tolerance, states))
+    }
+
+    fn drawn_by(
+        &self,
+        insert: &Insert,
+        block: usize,
+        tolerance: f64,
+        states: &mut LayerStates,
+    ) -> Drawn {
         let mut drawn = Drawn::default();
         let inherited = Inherited::from(insert, &insert.layer, None, states);
         self.draw(
@@ -239,8 +262,7 @@ impl Blocks {
                 drawn: &mut drawn,
             },
         );
-        self.mark_used(block);
-        Ok(drawn)
+        drawn
     }
 
     /// Counts a block. `path` holds the blocks around it.

@@ -54,7 +54,9 @@ impl Document {
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> Delta {
         let end = range.end.min(self.text.len());
         let range = range.start.min(end)..end;
+        self.read_last = 0..0;
         let vertex = self.vertex_zone(&range);
+        let reference = self.reference_zone(&range, replacement);
         let suspended = self.suspended_about(&range);
         let zone = self
             .item_zone(&range)
@@ -77,6 +79,11 @@ impl Document {
                 && let Some(delta) = self
                     .reread_vertex(&zone, &range, lines, bytes)
                     .or_else(|| self.suspend(&zone, &range, lines, bytes))
+            {
+                return delta;
+            }
+            if let Some(zone) = reference
+                && let Some(delta) = self.reread_reference(&zone, &range, bytes)
             {
                 return delta;
             }
@@ -115,21 +122,7 @@ impl Document {
         let inside = range.start > self.text.line_start(zone.start)
             && range.end < self.text.line_start(zone.end)
             && zone.end < lines.count();
-        // A fault near by was judged by the lines behind it.
-        let near = self.text.line_start(zone.start.saturating_sub(LOOKBACK));
-        let behind = self
-            .findings
-            .partition_point(|finding| range_key(finding).0 < self.text.line_start(zone.end));
-        let faults = self
-            .findings
-            .iter()
-            .take(behind)
-            .skip(behind.saturating_sub(3))
-            .any(|finding| {
-                matches!(&finding.place, Place::Text { range } if range.end >= near)
-                    && finding.rule == Rule::Syntax
-            });
-        if !inside || faults {
+        if !inside || self.is_at_fault(&zone) {
             return None;
         }
         let (_, others) = plain_vertex(lines, zone.clone())?;
@@ -140,6 +133,23 @@ impl Document {
             lines: zone,
             others,
         })
+    }
+
+    /// True where a fault in some lines, or near before them, was judged by them.
+    pub(super) fn is_at_fault(&self, lines: &Range<usize>) -> bool {
+        let near = self.text.line_start(lines.start.saturating_sub(LOOKBACK));
+        let end = self.text.line_start(lines.end);
+        let behind = self
+            .findings
+            .partition_point(|finding| range_key(finding).0 < end);
+        self.findings
+            .iter()
+            .take(behind)
+            .skip(behind.saturating_sub(3))
+            .any(|finding| {
+                matches!(&finding.place, Place::Text { range } if range.end >= near)
+                    && finding.rule == Rule::Syntax
+            })
     }
 
     fn reread_vertex(

@@ -32,6 +32,7 @@ mod plain;
 mod reader;
 mod reading;
 mod record;
+mod reference;
 mod shape;
 mod space;
 mod strings;
@@ -45,7 +46,7 @@ mod write;
 
 pub use write::write;
 
-use crate::drawing::{Drawing, Unit};
+use crate::drawing::{Drawing, EntityId, Unit};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::Tolerances;
 use crate::text::SourceText;
@@ -54,6 +55,7 @@ use code_page::CodePage;
 use layer_table::LayerStates;
 use layers::Layers;
 use reading::{Reading, is_fitted};
+use std::ops::Range;
 use std::sync::Arc;
 use table::Table;
 pub(crate) use unit::unit_of;
@@ -68,6 +70,8 @@ pub struct Document {
     table: Box<Table>,
     layers: Box<Layers>,
     suspended: Option<Box<suspended::Suspended>>,
+    /// Records that the last edit has had read again, unless it was all or one vertex.
+    read_last: Range<usize>,
     is_binary: bool,
     /// The largest distance of arcs from the curves that they replace, in mm; the default where unset.
     arc_fit: Option<f64>,
@@ -176,6 +180,12 @@ impl Document {
         &self.drawing
     }
 
+    /// The entities in the records that the last edit has had read again, also where they are as before.
+    pub(crate) fn read_last(&self) -> impl Iterator<Item = EntityId> + '_ {
+        let items = self.table.items.get(self.read_last.clone());
+        items.into_iter().flatten().flat_map(|item| item.entities())
+    }
+
     /// Faults of the text and what of it is not cut, in the order of the text.
     pub fn findings(&self) -> &[Finding] {
         &self.findings
@@ -219,7 +229,9 @@ impl Document {
         if !any_record {
             return self.is_no_dxf(say!(the_text_has_no_dxf_records));
         }
-        self.table.used = known.unwrap_or(blocks).used;
+        let mut blocks = known.unwrap_or(blocks);
+        self.table.used = std::mem::take(&mut blocks.used);
+        self.table.blocks = Arc::new(blocks);
         drawing.unit = unit.and_then(unit_of);
         if let Some(unit) = self.assumed_unit {
             drawing.assume_unit(unit);

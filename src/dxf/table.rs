@@ -1,9 +1,11 @@
 //! The records of the text in their order: where each begins, and what it became.
 
+use super::blocks::Blocks;
 use super::entity::VertexLines;
 use super::layer_table::{LayerEntry, LayerStates};
 use crate::drawing::EntityId;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::sync::Arc;
 
 /// The section in which a record stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,6 +137,8 @@ pub(crate) struct Table {
     pub(crate) named_anew: usize,
     /// Blocks that are drawn somewhere, in the order of the text.
     pub(crate) used: Vec<bool>,
+    /// The blocks themselves, for references that are drawn again.
+    pub(super) blocks: Arc<Blocks>,
     /// Arcs that the curves take beyond their free allowance, and whether a curve was left out since all would take too
     /// many.
     pub(crate) curve_arcs: u64,

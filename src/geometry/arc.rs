@@ -131,14 +131,16 @@ impl Arc {
         match share {
             s if s <= 0.0 => self.start,
             s if s >= 1.0 => self.end,
-            s if self.is_shallow() => {
-                let half = self.sweep * s / 2.0;
-                self.start
-                    + left_normal(direction(self.start_angle + half))
-                        * (2.0 * self.radius * half.sin())
-            }
+            s if self.is_shallow() => self.point_from_start(s),
             s => self.center + direction(self.start_angle + self.sweep * s) * self.radius,
         }
+    }
+
+    #[cold]
+    fn point_from_start(&self, share: f64) -> Point {
+        let half = self.sweep * share / 2.0;
+        let along = left_normal(direction(self.start_angle + half));
+        self.start + along * (2.0 * self.radius * half.sin())
     }
 
     /// Unit tangent in the direction of travel at `share` (0 … 1) of the sweep.
@@ -257,6 +259,7 @@ impl Arc {
 
     /// Twice the signed area between the chord and the arc, `r² (sweep − sin sweep)`: the arc's share of the shoelace
     /// sum.
+    #[inline(never)]
     pub(crate) fn twice_cap_area(&self) -> f64 {
         let sweep = self.sweep;
         // The series of sin is more accurate where the sweep is small.

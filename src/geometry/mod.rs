@@ -51,6 +51,9 @@ pub fn left_normal(v: Vector) -> Vector {
 }
 
 /// The unit vector at `angle` radians from the +X axis.
+///
+/// Never inlined: the compiler takes sines to be cheap, and works them out beside branches that do not need them.
+#[inline(never)]
 pub fn direction(angle: f64) -> Vector {
     let (sin, cos) = angle.sin_cos();
     Vector::new(cos, sin)

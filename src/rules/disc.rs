@@ -1,10 +1,10 @@
 //! A disc beside the walls of a contour: where it touches them, and where its centre may lie so that it does.
 
 use super::Limits;
-use super::wall::{Corner, Wall};
+use super::wall::Wall;
 use crate::finding::Side;
 use crate::geometry::Locus;
-use crate::geometry::{Point, Segment, Vector, left_normal, turn};
+use crate::geometry::{Point, Segment, Vector, left_normal};
 
 /// Two segments that turn by less than this (radians) are one wall.
 const SMOOTH: f64 = 1e-6;
@@ -33,23 +33,13 @@ pub(super) fn loci(wall: &Wall, side: Side, radius: f64) -> [Option<Locus>; 2] {
     );
     [
         along,
-        start_of(wall)
-            .filter(|corner| is_tip(corner, side))
-            .map(|corner| Locus::about(corner.at, radius)),
+        starts_in_tip(wall, side).then(|| Locus::about(wall.geometry().start(), radius)),
     ]
 }
 
-/// The start vertex of a wall.
-fn start_of(wall: &Wall) -> Option<Corner> {
-    wall.corners().next()
-}
-
-/// True for a vertex where the contour turns away from the wire.
-fn is_tip(corner: &Corner, side: Side) -> bool {
-    let (Some(incoming), Some(outgoing)) = (corner.incoming, corner.outgoing) else {
-        return false;
-    };
-    turn(incoming.end_tangent(), outgoing.start_tangent()) * side.sign() < -SMOOTH
+/// True for a wall that begins where the contour turns away from the wire.
+fn starts_in_tip(wall: &Wall, side: Side) -> bool {
+    wall.turn.is_some_and(|turn| turn * side.sign() < -SMOOTH)
 }
 
 /// How a disc on one side of a wall touches it, if it does.
@@ -71,7 +61,10 @@ pub(super) fn touch(wall: &Wall, side: Side, center: Point, radius: f64) -> Opti
             normal: away / away.norm(),
         });
     }
-    let corner = start_of(wall).filter(|corner| is_tip(corner, side))?;
+    let corner = wall
+        .corners()
+        .next()
+        .filter(|_| starts_in_tip(wall, side))?;
     let away = center - corner.at;
     let normal = away.try_normalize(0.0)?;
     (touches(away.norm()) && corner.is_nearest(normal)).then_some(Touch {

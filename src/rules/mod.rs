@@ -21,7 +21,7 @@ pub(crate) mod small_radius;
 pub(crate) mod units;
 mod wall;
 
-pub(crate) use wall::Wall;
+pub(crate) use wall::{Wall, part_for_good};
 
 use crate::drawing::{Contour, ContourIndex, ContourSegment, Drawing, EntityId};
 use crate::finding::{Detail, Fix, Place, Rule, Severity, Side};
@@ -304,6 +304,8 @@ pub(crate) struct PairRule {
     pub(crate) one_per_place: bool,
     /// Silent for two entities that are duplicates of each other as a whole.
     pub(crate) silent_for_doubles: bool,
+    /// Silent for neighbours that part for good at their joint, as most do.
+    pub(crate) silent_where_they_part: bool,
     /// At most a warning where the wire side is not known.
     pub(crate) warning_when_side_unknown: bool,
     /// Each observed pair is a finding; otherwise the caller makes the findings.
@@ -320,6 +322,7 @@ impl PairRule {
         fixes: |_, _| Vec::new(),
         one_per_place: false,
         silent_for_doubles: false,
+        silent_where_they_part: false,
         warning_when_side_unknown: false,
         pair_by_pair: true,
     };

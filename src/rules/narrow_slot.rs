@@ -5,7 +5,7 @@
 //! corner is not a slot: between its walls the disc can always shrink. The mouth of a run of arcs below the correction
 //! is left to `small-radius`.
 
-use super::wall::{Corner, Joints, Wall, parts_for_good, side_of};
+use super::wall::{Corner, Joints, Wall, side_of};
 use super::{Limits, NEIGHBOURS, PairObservation, PairRule, small_radius};
 use crate::finding::{Detail, Rule, Side};
 use crate::geometry::{Point, Segment, curvature, facing, foot_inside};
@@ -35,6 +35,7 @@ pub(crate) const RULE: PairRule = PairRule {
         })
     },
     one_per_place: true,
+    silent_where_they_part: true,
     warning_when_side_unknown: true,
     ..PairRule::PLAIN
 };
@@ -52,9 +53,6 @@ fn narrowest(one: &Wall, other: &Wall, same_contour: bool) -> Option<Slot> {
     let limits = one.outlook.limits;
     let tolerances = &limits.tolerances;
     let joints = Joints::of(one, other, same_contour, tolerances.touch);
-    if joints.neighbours && parts_for_good(one, other) {
-        return None;
-    }
     let (a, b) = (one.geometry(), other.geometry());
     let mut best: Option<Slot> = None;
     let mut consider =

@@ -4,7 +4,7 @@
 //! an error. Touching is an error too between closed outlines; where an open contour ends on another one, as a drawn
 //! lead-in does, it is a warning. Segments that run along each other are `overlap`.
 
-use super::wall::{Corner, Joints, Wall, parts_for_good};
+use super::wall::{Corner, Joints, Wall};
 use super::{PairObservation, PairRule};
 use crate::finding::{Detail, Rule, Severity};
 use crate::geometry::{
@@ -30,6 +30,7 @@ pub(crate) const RULE: PairRule = PairRule {
         Some(Detail::SelfIntersection { at, touches })
     },
     silent_for_doubles: true,
+    silent_where_they_part: true,
     ..PairRule::PLAIN
 };
 
@@ -50,9 +51,7 @@ fn contact(one: &Wall, other: &Wall, same_contour: bool) -> Option<Contact> {
         return None;
     }
     let joints = Joints::of(one, other, same_contour, tolerances.join);
-    if joints.neighbours && parts_for_good(one, other)
-        || shared_length(a, b, tolerances.same_place) > tolerances.same_place
-    {
+    if shared_length(a, b, tolerances.same_place) > tolerances.same_place {
         return None;
     }
     let near = Near {
@@ -77,7 +76,7 @@ fn contact(one: &Wall, other: &Wall, same_contour: bool) -> Option<Contact> {
             .map(|(p, _)| p)
             .collect(),
     };
-    let mut anchors = [ends_of(a, b), ends_of(b, a), joints.points.clone()].concat();
+    let mut anchors = [ends_of(a, b), ends_of(b, a), joints.points.to_vec()].concat();
     anchors.extend(&tangential);
     if let Some(at) = meetings(a, b).into_iter().find(|&point| {
         !at_joint(point) && !anchors.iter().any(|&anchor| near.all_along(point, anchor))

@@ -3,7 +3,7 @@
 use super::{NEIGHBOURS, Outlook};
 use crate::drawing::ContourSegment;
 use crate::finding::Side;
-use crate::geometry::{Point, Segment, Vector, cross, turn};
+use crate::geometry::{Few, Point, Segment, Vector, cross, turn};
 use std::f64::consts::PI;
 
 /// A segment of a contour in the contour's direction of travel.
@@ -14,6 +14,8 @@ pub(crate) struct Wall<'a> {
     pub(crate) segment: ContourSegment,
     /// The segment before it.
     pub(crate) before: Option<Segment>,
+    /// The angle by which the contour turns between the two.
+    pub(crate) turn: Option<f64>,
 }
 
 /// A vertex of a contour: where one segment ends and the next begins. One of the two is missing at the end of an open
@@ -27,14 +29,27 @@ pub(crate) struct Corner {
 
 impl<'a> Wall<'a> {
     pub(crate) fn new(outlook: &Outlook<'a>, index: usize) -> Option<Wall<'a>> {
-        Some(Wall {
+        let before = outlook.segment(index as isize - 1);
+        let before = before.map(|segment| segment.geometry);
+        let segment = outlook.segment(index as isize)?;
+        Some(Wall::behind(before, outlook, index, segment))
+    }
+
+    /// The segment at an index behind the one before it, both of which are known.
+    pub(crate) fn behind(
+        before: Option<Segment>,
+        outlook: &Outlook<'a>,
+        index: usize,
+        segment: ContourSegment,
+    ) -> Wall<'a> {
+        let starts = segment.geometry.start_tangent();
+        Wall {
             outlook: *outlook,
             index,
-            segment: outlook.segment(index as isize)?,
-            before: outlook
-                .segment(index as isize - 1)
-                .map(|segment| segment.geometry),
-        })
+            segment,
+            before,
+            turn: before.map(|before| turn(before.end_tangent(), starts)),
+        }
     }
 
     pub(crate) fn geometry(&self) -> &Segment {
@@ -82,7 +97,7 @@ impl<'a> Wall<'a> {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Joints {
     /// The ends of the two that are one joint, or have only short segments between them.
-    pub(crate) points: Vec<Point>,
+    pub(crate) points: Few<Point, 4>,
     /// One directly follows the other, at one end only.
     pub(crate) neighbours: bool,
 }
@@ -100,11 +115,12 @@ impl Joints {
             let Some(steps) = from.steps_to(to) else {
                 continue;
             };
-            let between: f64 = (1..steps as isize)
-                .filter_map(|step| from.beside(step))
-                .map(|segment| segment.length())
-                .sum();
-            if steps == 1 || between <= short {
+            let mut between = 0.0;
+            let is_short = |step| {
+                between += from.beside(step).map_or(0.0, |segment| segment.length());
+                between <= short
+            };
+            if (1..steps as isize).all(is_short) {
                 joints
                     .points
                     .extend([from.geometry().end(), to.geometry().start()]);
@@ -123,17 +139,17 @@ impl Joints {
     }
 }
 
-/// True when two neighbours turn so little together that they cannot come near each other again.
-pub(crate) fn parts_for_good(one: &Wall, other: &Wall) -> bool {
-    let (a, b) = (one.geometry(), other.geometry());
-    let sweep = |segment: &Segment| segment.as_arc().map_or(0.0, |arc| arc.sweep.abs());
-    let swept = sweep(a) + sweep(b);
-    if swept >= 0.999 * PI {
+/// True for two segments of one contour of which one directly follows the other, at one end only, and that turn so
+/// little together that they cannot come near each other again.
+pub(crate) fn part_for_good(one: &Wall, other: &Wall, same_contour: bool) -> bool {
+    let follows = |from: &Wall, to: &Wall| from.steps_to(to) == Some(1);
+    if !same_contour || follows(one, other) == follows(other, one) {
         return false;
     }
-    let forward = one.steps_to(other) == Some(1);
-    let (from, to) = if forward { (a, b) } else { (b, a) };
-    swept + turn(from.end_tangent(), to.start_tangent()).abs() < 0.999 * PI
+    let sweep = |wall: &Wall| wall.geometry().as_arc().map_or(0.0, |arc| arc.sweep.abs());
+    let swept = sweep(one) + sweep(other);
+    let behind = if follows(one, other) { other } else { one };
+    swept < 0.999 * PI && swept + behind.turn.unwrap_or(0.0).abs() < 0.999 * PI
 }
 
 impl Corner {

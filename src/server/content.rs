@@ -147,6 +147,17 @@ impl Content {
         *document.beside() != beside && Arc::make_mut(document).set_beside(beside)
     }
 
+    /// Makes ready what the first edit needs, unless somebody reads it.
+    pub(crate) fn make_ready(&mut self) {
+        if let Content::Read(document) = self
+            && let Some(document) = Arc::get_mut(document)
+            && let Err(panic) = catch_unwind(AssertUnwindSafe(|| document.make_ready()))
+        {
+            report(&*panic);
+            self.forget();
+        }
+    }
+
     /// The data for comparing others with it.
     pub fn form(&self) -> Option<Form> {
         let Content::Read(document) = self else {

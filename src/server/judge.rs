@@ -38,6 +38,8 @@ pub(super) enum Task {
     Rebuild,
     /// What lies beside it may have changed, or be another.
     Beside,
+    /// It has been read and shown: what its first edit needs is made ready.
+    Ready,
 }
 
 /// A document on its way through its pending changes.
@@ -102,7 +104,7 @@ impl Job {
                         .all(|change| is_small_text(change.text.as_bytes()))
             }
             Task::ChangeDrawing { changes, .. } => changes.len() <= FEW,
-            Task::Settings | Task::Rebuild | Task::Beside => true,
+            Task::Settings | Task::Rebuild | Task::Beside | Task::Ready => true,
         };
         let is_at_hand = self.beside.as_ref().is_none_or(Wanted::is_at_hand);
         is_at_hand
@@ -184,6 +186,10 @@ impl Job {
                 Task::Rebuild => content.forget(),
                 Task::Beside => {
                     is_other |= wants_form && !has_form;
+                    continue;
+                }
+                Task::Ready => {
+                    content.make_ready();
                     continue;
                 }
             }

@@ -1,9 +1,9 @@
-//! The findings that a client is shown, kept as JSON: an unchanged finding is copied with its present range, and only
-//! new or changed ones are rendered.
+//! The findings that a client is shown, kept as JSON: an unchanged finding is copied, its range moved with its lines, and
+//! only new or changed ones are rendered.
 
 use super::convert::{PUBLISH_LIMIT, diagnostic, ranges_of, written};
 use super::transport::Written;
-use crate::document::Document;
+use crate::document::{Document, Since};
 use crate::finding::{Finding, Place};
 use crate::job;
 use crate::protocol::{FindingData, Range};
@@ -11,7 +11,9 @@ use crate::settings::Effective;
 use crate::text::Encoding;
 use memchr::memmem::Finder;
 use rustc_hash::FxHasher;
+use std::cell::OnceCell;
 use std::hash::{Hash, Hasher};
+use std::io::Write as _;
 use std::sync::Arc;
 
 /// The findings of one publish: at most [`PUBLISH_LIMIT`], errors first, then one that counts the others. And how many
@@ -25,6 +27,7 @@ pub(super) fn publish_of(
     shown: &mut Shown,
 ) -> (Written, usize) {
     let (findings, count) = job::check(document, PUBLISH_LIMIT);
+    shown.follow(&document.take_changes());
     let told = shown.render(document, findings, encoding, uri);
     (told, count)
 }
@@ -51,6 +54,10 @@ struct Kept {
     /// With ranges in their places, and where these begin.
     json: Box<[u8]>,
     places: Box<[usize]>,
+    /// The ranges themselves.
+    ranges: Box<[Range]>,
+    /// What it is about may have changed: the data and the ranges are not sure.
+    is_in_doubt: bool,
 }
 
 /// A range as it is written in the kept text.
@@ -63,6 +70,13 @@ const MOST_ALIKE: usize = 16;
 const MOST_GONE: usize = 256;
 
 impl Shown {
+    /// Takes down what has changed since the last publish, so that what is about other things stays as it is.
+    fn follow(&mut self, since: &Since) {
+        for kept in self.kept.iter_mut().flatten() {
+            kept.is_in_doubt |= !kept.follow(since);
+        }
+    }
+
     /// The findings as a JSON array; with the document's `uri` their other places, too.
     pub(crate) fn render(
         &mut self,
@@ -85,18 +99,31 @@ impl Shown {
         let needle = format!("\"range\":{PLACE}");
         let ranges_in = Finder::new(&needle);
         for (finding, &mark) in findings.into_iter().zip(&marks) {
-            let data = FindingData::of(document, &finding, &mut whereabouts);
+            let data = OnceCell::new();
+            let mut data_now =
+                || &*data.get_or_init(|| FindingData::of(document, &finding, &mut whereabouts));
             let known = self.find(mark, next, |old| {
-                says_the_same(&old.finding, &finding) && old.data == data
+                says_the_same(&old.finding, &finding)
+                    && (!old.is_in_doubt || old.data == *data_now())
             });
             let own = match known.and_then(|at| self.kept.get_mut(at)?.take().zip(Some(at + 1))) {
                 Some((old, behind)) => {
                     if behind <= self.count {
                         next = behind;
                     }
-                    Kept { finding, ..old }
+                    let ranges = match old.is_in_doubt {
+                        true => ranges_of(document, &finding, encoding, uri.is_some()).collect(),
+                        false => old.ranges,
+                    };
+                    Kept {
+                        finding,
+                        ranges,
+                        is_in_doubt: false,
+                        ..old
+                    }
                 }
                 None => {
+                    let data = data_now().clone();
                     let mut rendered = diagnostic(document, &finding, data.clone(), encoding, uri);
                     rendered.range = Range::default();
                     for related in rendered.related_information.iter_mut().flatten() {
@@ -106,18 +133,19 @@ impl Shown {
                     let found = ranges_in.find_iter(&json);
                     let places = found.map(|at| at + "\"range\":".len());
                     Kept {
-                        finding,
                         data,
                         places: places.collect(),
                         json: json.into(),
+                        ranges: ranges_of(document, &finding, encoding, uri.is_some()).collect(),
+                        finding,
+                        is_in_doubt: false,
                     }
                 }
             };
             if shown.len() > 1 {
                 shown.push(b',');
             }
-            let ranges = ranges_of(document, &own.finding, encoding, uri.is_some());
-            own.write(ranges, &mut shown);
+            own.write(&mut shown);
             kept.push(Some(own));
         }
         shown.push(b']');
@@ -133,7 +161,7 @@ impl Shown {
 
     /// The index of a kept finding. They come in about their earlier order, so the search goes on from `next`, then
     /// before it.
-    fn find(&self, mark: u64, next: usize, is_it: impl Fn(&Kept) -> bool) -> Option<usize> {
+    fn find(&self, mark: u64, next: usize, mut is_it: impl FnMut(&Kept) -> bool) -> Option<usize> {
         let behind = (next..self.marks.len()).chain(0..next.min(self.marks.len()));
         behind
             .filter(|&at| self.marks.get(at) == Some(&mark))
@@ -143,9 +171,31 @@ impl Shown {
 }
 
 impl Kept {
-    fn write(&self, ranges: impl Iterator<Item = Range>, shown: &mut Vec<u8>) {
+    /// Moves the ranges with their lines; false where what the finding is about has changed.
+    fn follow(&mut self, since: &Since) -> bool {
+        let mut places = std::iter::once(&self.finding.place).chain(&self.finding.related);
+        let stays = |place: &Place| {
+            let entity = place.entity();
+            entity.is_some_and(|(entity, _)| !since.has_changed(entity))
+        };
+        if !places.all(stays) {
+            return false;
+        }
+        self.ranges.iter_mut().all(|range| {
+            [&mut range.start.line, &mut range.end.line]
+                .into_iter()
+                .all(|line| {
+                    let now = since.line(*line as usize);
+                    let now = now.and_then(|now| u32::try_from(now).ok());
+                    *line = now.unwrap_or(*line);
+                    now.is_some()
+                })
+        })
+    }
+
+    fn write(&self, shown: &mut Vec<u8>) {
         let mut from = 0;
-        for (&at, Range { start, end }) in self.places.iter().zip(ranges) {
+        for (&at, Range { start, end }) in self.places.iter().zip(&self.ranges) {
             shown.extend_from_slice(self.json.get(from..at).unwrap_or_default());
             for (label, number) in [
                 (r#"{"start":{"line":"#, start.line),
@@ -154,7 +204,8 @@ impl Kept {
                 (r#","character":"#, end.character),
             ] {
                 shown.extend_from_slice(label.as_bytes());
-                shown.extend_from_slice(number.to_string().as_bytes());
+                // A list of bytes takes all that is written.
+                let _ = write!(shown, "{number}");
             }
             shown.extend_from_slice(b"}}");
             from = at + PLACE.len();
@@ -233,12 +284,20 @@ mod tests {
                 f64::from(x + 8) - 0.1,
             );
         }
+        // Lines that run on for each other, and cross the first square.
+        for line in 0..4 {
+            let _ = write!(
+                text,
+                "0\nLINE\n5\nB{line}\n8\n0\n10\n{line}\n20\n4\n11\n{}\n21\n4.{line}\n",
+                line + 2
+            );
+        }
         text + "0\nENDSEC\n0\nEOF\n"
     }
 
     fn edits() -> impl Strategy<Value = Vec<(usize, usize, &'static str)>> {
         let text = prop::sample::select(vec!["1", "0", "-", "", ".5", "\n", "9\n10\n4\n20\n8"]);
-        prop::collection::vec((0usize..100, 0usize..3, text), 1..12)
+        prop::collection::vec((0usize..280, 0usize..3, text), 1..12)
     }
 
     /// Edits of a drawing, also of its unit and of handles.

@@ -434,6 +434,11 @@ impl State {
                 _ => diagnostics,
             };
             let owed = !std::mem::replace(&mut open.published, true);
+            let has_drawing =
+                |open: &Open| open.document().is_some_and(|it| it.drawing().is_some());
+            if owed && has_drawing(open) && !open.content.is_small() {
+                open.tasks.push(Task::Ready);
+            }
             self.client.writer().publish(Publish {
                 uri: uri.clone(),
                 version: Some(version),

@@ -101,6 +101,10 @@ impl Bytes {
     ) {
         self.whole = OnceLock::new();
         let more = replacement.len().saturating_sub(range.len());
+        if self.gap.is_empty() {
+            // What is before the first gap need not move.
+            self.gap = next..next;
+        }
         if self.gap.len() < more {
             let (old, room) = (self.buffer.len(), more + ROOM);
             self.buffer.reserve_exact(room);

@@ -2,7 +2,8 @@
 
 use super::apart::{are_apart, distance_between};
 use super::cores::{each, sum};
-use crate::geometry::{Bounds, Point, Segment, Vector};
+use super::offset::Wall;
+use crate::geometry::{Bounds, Point, Segment, Vector, left_normal};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -47,6 +48,10 @@ struct About {
 }
 
 impl Walls {
+    pub(super) fn of(walls: &[Wall]) -> Walls {
+        Walls::new(each(walls.len(), AT_A_TIME, |index| walls[index].geometry))
+    }
+
     pub(crate) fn new(segments: Vec<Segment>) -> Walls {
         let boxes = each(segments.len(), AT_A_TIME, |index| segments[index].bounds());
         Walls::within(segments, boxes)
@@ -88,10 +93,7 @@ impl Walls {
 
     /// Of each segment its directions at both ends.
     pub(crate) fn tangents(&self) -> &[[Vector; 2]] {
-        let ends = |index: usize| {
-            let segment = &self.segments[index];
-            [segment.start_tangent(), segment.end_tangent()]
-        };
+        let ends = |index: usize| tangents_of(&self.segments[index]);
         match self.tangents.get() {
             Some(known) => known,
             None => {
@@ -323,6 +325,22 @@ impl Walls {
                 let within = first..(first + FAN).min(below);
                 self.find_in(level - 1, within, reach, is_it)
             })
+    }
+}
+
+/// The directions of a segment at its ends; of an arc by where they lie about its centre, if that is known well.
+fn tangents_of(segment: &Segment) -> [Vector; 2] {
+    match segment {
+        Segment::Line(line) => [line.direction(); 2],
+        Segment::Arc(arc) if !arc.is_shallow() && arc.radius > 0.0 => {
+            let sense = arc.sweep.signum();
+            let at = |end: Point| {
+                let out = (end - arc.center).try_normalize(0.0);
+                left_normal(out.unwrap_or_else(Vector::zeros)) * sense
+            };
+            [at(arc.start), at(arc.end)]
+        }
+        arc => [arc.start_tangent(), arc.end_tangent()],
     }
 }
 

@@ -35,18 +35,6 @@ pub(super) fn extend<Made: Send>(
     }
 }
 
-/// The same where two things come of each.
-pub(super) fn each_two<One: Send, Other: Send>(
-    count: usize,
-    at_a_time: usize,
-    made: impl Fn(usize) -> (One, Other) + Sync + Send,
-) -> (Vec<One>, Vec<Other>) {
-    match count <= at_a_time {
-        true => (0..count).map(made).unzip(),
-        false => over_cores(count, at_a_time).map(made).unzip(),
-    }
-}
-
 /// The sum of so many numbers, the same one whatever the cores are.
 pub(super) fn sum(count: usize, of: impl Fn(usize) -> f64 + Sync + Send) -> f64 {
     let parts = each(count.div_ceil(STEP), 2, |part| {

@@ -4,13 +4,13 @@
 //! two are cut where they meet. What is used up by that is left out and its neighbours are cut with each other. That is quick, and
 //! right on most contours: `proof` says whether it is, and `loops` finds the path where it is not. `tips` in place of rolls come last.
 
-use super::cores::{each, each_two};
+use super::cores::each;
 use super::offset::{Offset, Wall, offset};
 use super::path::Source;
 use crate::geometry::{
     Arc, Few, Point, Segment, Vector, circle_circle, cross, left_normal, line_circle, line_line,
 };
-use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::ops::Range;
 
 /// One core takes so many elements at a time.
 const AT_A_TIME: usize = 2048;
@@ -54,104 +54,183 @@ pub(super) enum Joint {
     CrossNear(Point),
 }
 
-/// The offsets of all walls and the ways round their convex corners in the order of the contour, before anything is cut.
-pub(super) struct Raw {
-    /// Those that the wire's centre cannot follow at all are points.
-    pub(crate) elements: Vec<Element>,
-    /// Behind each element.
-    pub(super) joints: Vec<Joint>,
+/// The offsets of all walls and the ways round their convex corners in the order of the contour, before anything is cut. Each is made
+/// when it is asked for: that takes less time than to fetch it from memory.
+pub(super) struct Raw<'a> {
+    walls: &'a [Wall],
+    /// Of each wall at its ends.
+    tangents: &'a [[Vector; 2]],
+    joining: Joining,
+    /// Of each element twice its wall, and one more for the way round the end of that.
+    of: Vec<u32>,
     /// Elements that the wire's centre cannot follow, with the place that stands for them.
     pub(super) tight: Vec<(usize, Point)>,
 }
 
-impl Raw {
+impl<'a> Raw<'a> {
     /// `tangents` are those of each wall at its ends.
-    pub(crate) fn new(walls: &[Wall], tangents: &[[Vector; 2]], joining: &Joining) -> Raw {
-        let way = |wall: usize| {
-            let behind = if wall + 1 == walls.len() { 0 } else { wall + 1 };
-            let turn = [tangents[wall][1], tangents[behind][0]];
-            corner(walls[wall].geometry.end(), turn, joining)
+    pub(crate) fn new(
+        walls: &'a [Wall],
+        tangents: &'a [[Vector; 2]],
+        joining: &Joining,
+    ) -> Raw<'a> {
+        let mut raw = Raw {
+            walls,
+            tangents,
+            joining: *joining,
+            of: Vec::with_capacity(2 * walls.len()),
+            tight: Vec::new(),
         };
-        let shifted = |wall: usize| {
-            let geometry = &walls[wall].geometry;
-            offset(
-                geometry,
-                joining.correction,
-                joining.side,
-                joining.tolerance,
-            )
-        };
-        let rolls = each(walls.len(), AT_A_TIME, |wall| {
-            matches!(way(wall), Way::Roll(_))
+        let kinds = each(walls.len(), AT_A_TIME, |wall| {
+            let is_tight = matches!(raw.shifted(wall), Offset::TooTight { .. });
+            (matches!(raw.way(wall), Way::Roll(_)), is_tight)
         });
-        // Of each element its wall, and whether it leads round the end of that.
-        let mut of = Vec::with_capacity(2 * walls.len());
-        for (wall, &is_roll) in rolls.iter().enumerate() {
-            of.push((wall as u32, false));
+        for (wall, (is_roll, is_tight)) in kinds.into_iter().enumerate() {
+            if is_tight && let Offset::TooTight { center } = raw.shifted(wall) {
+                raw.tight.push((raw.of.len(), center));
+            }
+            raw.of.push(2 * wall as u32);
             if is_roll {
-                of.push((wall as u32, true));
+                raw.of.push(2 * wall as u32 + 1);
             }
         }
-        let is_any_tight = AtomicBool::new(false);
-        let element = |at: usize| {
-            let (index, is_roll) = (of[at].0 as usize, of[at].1);
-            let wall = &walls[index];
-            let (geometry, source, joint) = match (way(index), is_roll) {
-                (Way::Roll([from, to]), true) => {
-                    let arc = Arc::about(wall.geometry.end(), from, to, joining.side < 0.0);
-                    let arc = Arc {
-                        radius: joining.correction,
-                        ..arc
-                    };
-                    let source = match wall.source {
-                        Source::Segment { entity, segment } => Source::Corner { entity, segment },
-                        other => other,
-                    };
-                    (Segment::Arc(arc), source, Joint::At(to))
-                }
-                (way, _) => {
-                    let geometry = match shifted(index) {
-                        Offset::Runs(geometry) => geometry,
-                        Offset::TooTight { center } => {
-                            is_any_tight.store(true, Relaxed);
-                            Segment::line(center, center)
-                        }
-                    };
-                    let joint = match way {
-                        Way::Through(joint) => joint,
-                        Way::Roll([from, _]) => Joint::At(from),
-                    };
-                    (geometry, wall.source, joint)
-                }
-            };
-            let element = Element {
-                geometry,
-                source,
-                wall: index,
-            };
-            (element, joint)
+        raw
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.of.len()
+    }
+
+    /// The wall that an element is of; the one before it, for the way round a corner.
+    pub(crate) fn wall(&self, index: usize) -> usize {
+        self.of[index] as usize / 2
+    }
+
+    /// True for the way round a corner.
+    pub(super) fn is_roll(&self, index: usize) -> bool {
+        self.of[index] % 2 == 1
+    }
+
+    /// The way behind a wall.
+    fn way(&self, wall: usize) -> Way {
+        let behind = if wall + 1 == self.walls.len() {
+            0
+        } else {
+            wall + 1
         };
-        let (elements, joints) = each_two(of.len(), AT_A_TIME, element);
-        let tight = |(at, &(wall, is_roll)): (usize, &(u32, bool))| match shifted(wall as usize) {
-            Offset::TooTight { center } if !is_roll => Some((at, center)),
-            _ => None,
-        };
-        let tight = match is_any_tight.into_inner() {
-            true => of.iter().enumerate().filter_map(tight).collect(),
-            false => Vec::new(),
-        };
-        Raw {
-            elements,
-            joints,
-            tight,
+        let turn = [self.tangents[wall][1], self.tangents[behind][0]];
+        corner(self.walls[wall].geometry.end(), turn, &self.joining)
+    }
+
+    fn shifted(&self, wall: usize) -> Offset {
+        let Joining {
+            correction,
+            side,
+            tolerance,
+            ..
+        } = self.joining;
+        match &self.walls[wall].geometry {
+            Segment::Line(line) => {
+                let shift = left_normal(self.tangents[wall][0]) * (side * correction);
+                Offset::Runs(Segment::line(line.start + shift, line.end + shift))
+            }
+            arc => offset(arc, correction, side, tolerance),
         }
+    }
+
+    /// Those that the wire's centre cannot follow at all are points.
+    pub(crate) fn geometry(&self, index: usize) -> Segment {
+        let wall = self.wall(index);
+        if self.is_roll(index) {
+            let [from, to] = self.ends(index);
+            let vertex = self.walls[wall].geometry.end();
+            return Segment::Arc(Arc {
+                radius: self.joining.correction,
+                ..Arc::about(vertex, from, to, self.joining.side < 0.0)
+            });
+        }
+        match self.shifted(wall) {
+            Offset::Runs(geometry) => geometry,
+            Offset::TooTight { center } => Segment::line(center, center),
+        }
+    }
+
+    /// Where an element begins and where it ends.
+    pub(super) fn ends(&self, index: usize) -> [Point; 2] {
+        let wall = self.wall(index);
+        if self.is_roll(index)
+            && let Way::Roll(ends) = self.way(wall)
+        {
+            return ends;
+        }
+        match self.shifted(wall) {
+            Offset::Runs(geometry) => [geometry.start(), geometry.end()],
+            Offset::TooTight { center } => [center, center],
+        }
+    }
+
+    /// The same with what is known of an element, in another form.
+    pub(super) fn element(&self, index: usize, geometry: Segment) -> Element {
+        let wall = self.wall(index);
+        let source = match self.walls[wall].source {
+            Source::Segment { entity, segment } if self.is_roll(index) => {
+                Source::Corner { entity, segment }
+            }
+            source => source,
+        };
+        Element {
+            geometry,
+            source,
+            wall,
+        }
+    }
+
+    /// What is behind an element.
+    pub(super) fn joint(&self, index: usize) -> Joint {
+        match (self.way(self.wall(index)), self.is_roll(index)) {
+            (Way::Through(joint), _) => joint,
+            (Way::Roll([from, _]), false) => Joint::At(from),
+            (Way::Roll([_, to]), true) => Joint::At(to),
+        }
+    }
+
+    /// The geometry of all.
+    pub(super) fn geometries(&self) -> Vec<Segment> {
+        each(self.len(), AT_A_TIME, |index| self.geometry(index))
+    }
+
+    /// The elements of a wall.
+    pub(super) fn of_wall(&self, wall: usize) -> Range<usize> {
+        let own = 2 * wall as u32;
+        let first = self.of.partition_point(|of| *of < own);
+        let is_roll = self.of.get(first + 1) == Some(&(own + 1));
+        first..first + if is_roll { 2 } else { 1 }
+    }
+
+    /// True for a piece of the way round a corner that is seen to be all of it but for half of `rounding` at its ends. False says nothing.
+    pub(super) fn is_all_of_roll(&self, index: usize, piece: &Segment, rounding: f64) -> bool {
+        let Segment::Arc(arc) = piece else {
+            return false;
+        };
+        if !self.is_roll(index)
+            || arc.center != self.walls[self.wall(index)].geometry.end()
+            || arc.radius != self.joining.correction
+            || arc.sweep * self.joining.side >= 0.0
+            || !arc.is_minor()
+        {
+            return false;
+        }
+        let [from, to] = self.ends(index);
+        let most = rounding / 2.0;
+        (arc.start - from).norm_squared() <= most * most
+            && (arc.end - to).norm_squared() <= most * most
     }
 
     /// Of an open contour that is gone there and back, so many walls either way: the element that leads round its end. Those before it
     /// lie on the side of the wire.
     pub(crate) fn end_roll(&self, walls: usize) -> usize {
-        self.elements
-            .partition_point(|element| element.wall < walls)
+        self.of
+            .partition_point(|of| (of / 2) < walls as u32)
             .saturating_sub(1)
     }
 }

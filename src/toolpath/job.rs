@@ -1,8 +1,9 @@
 //! The common data of all contours of one request.
 
+use super::offset::{Wall, walls};
 use super::order::Pick;
 use super::path::Refusal;
-use crate::drawing::{Drawing, Outline};
+use crate::drawing::{Contour, Drawing, Outline};
 use crate::settings::Effective;
 use rustc_hash::FxHashMap;
 
@@ -31,6 +32,13 @@ impl Job<'_> {
         } else {
             Err(Refusal::Cancelled)
         }
+    }
+
+    /// The walls of a contour.
+    pub(crate) fn walls(&self, contour: &Contour) -> Vec<Wall> {
+        let segment = |at: usize| contour.segment(self.drawing, at);
+        let zero_length = self.units(self.settings.tolerances.zero_length);
+        walls(contour.len(), segment, contour.closed, zero_length)
     }
 
     /// mm in drawing units.

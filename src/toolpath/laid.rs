@@ -17,8 +17,12 @@ use crate::drawing::ContourSegment;
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::Point;
 use crate::settings::Corner;
+use rayon::iter::{IndexedParallelIterator, ParallelIterator};
+use rayon::slice::ParallelSlice;
 use std::borrow::Cow;
-use std::sync::OnceLock;
+
+/// One core takes so many pieces at a time.
+const AT_A_TIME: usize = 2048;
 
 /// Walls up to this long, mm, are left out where there is no path otherwise.
 const CRUMB: f64 = 4e-6;
@@ -70,16 +74,17 @@ pub(super) enum Fault {
 impl Job<'_> {
     /// The walls of a contour with the wire on the side of that sign, and the path along them, proved. Where there is none because
     /// of crumbs, they are left out: their neighbours move by less than what any control can follow.
-    pub(crate) fn along<Segments: Iterator<Item = ContourSegment>>(
+    pub(crate) fn along(
         &self,
-        segments: impl Fn() -> Segments,
+        count: usize,
+        segment: impl Fn(usize) -> Option<ContourSegment> + Sync + Send,
         side: f64,
         correction: f64,
         closed: bool,
     ) -> Result<(Vec<Wall>, Walls, Outcome), Refusal> {
         let of = |shortest: f64| {
-            let walls = walls(segments(), closed, self.units(shortest));
-            let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
+            let walls = walls(count, &segment, closed, self.units(shortest));
+            let own = Walls::of(&walls);
             (walls, own)
         };
         let (walls, own) = of(self.settings.tolerances.zero_length);
@@ -169,7 +174,6 @@ impl Job<'_> {
             side,
             rounding,
             closed,
-            near_raw: OnceLock::new(),
         };
         let tipped = |path: Vec<(usize, Element)>| {
             let path: Vec<Element> = path.into_iter().map(|(_, element)| element).collect();
@@ -181,8 +185,12 @@ impl Job<'_> {
             })
         };
         self.go_on()?;
-        let found = match &raw.elements[..] {
-            [circle] if circle.geometry.length() > 0.0 => Some(vec![(0, *circle)]),
+        let circle = || {
+            let circle = raw.geometry(0);
+            (circle.length() > 0.0).then(|| vec![(0, raw.element(0, circle))])
+        };
+        let found = match raw.len() {
+            1 => circle(),
             _ => trimmed(&raw),
         };
         let found = match closed {
@@ -206,7 +214,7 @@ impl Job<'_> {
             Found::Nothing => return Ok(Err(Fault::Nothing)),
             Found::Torn(raw_element) => {
                 return Ok(Err(Fault::Unproved {
-                    wall: raw.elements[raw_element].wall,
+                    wall: raw.wall(raw_element),
                 }));
             }
             Found::Cancelled => return Err(Refusal::Cancelled),
@@ -293,12 +301,12 @@ impl Job<'_> {
             return Ok(Ok(()));
         }
         let share = |(raw, piece): &(usize, Element)| {
-            proof.raw.elements[*raw]
-                .geometry
-                .share_of(piece.geometry.start())
+            let whole = proof.raw.geometry(*raw);
+            whole.share_of(piece.geometry.start())
         };
         let mut by_raw = Cow::Borrowed(path);
-        if !path.is_sorted_by(|a, b| a.0 < b.0) {
+        let neighbours = path.par_windows(2).with_min_len(AT_A_TIME);
+        if !neighbours.all(|pair| pair[0].0 < pair[1].0) {
             let by_share = |a: &_, b: &_| share(a).total_cmp(&share(b));
             (by_raw.to_mut()).sort_by(|a, b| a.0.cmp(&b.0).then_with(|| by_share(a, b)));
         }

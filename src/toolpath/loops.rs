@@ -5,6 +5,7 @@
 //! from end to end in the order of the contour. The result is the edges of all regions in which the
 //! wire's centre may be.
 
+use super::clearance::Walls;
 use super::corners::{Element, between, close_up};
 use super::proof::Proof;
 use crate::geometry::{Point, Segment};
@@ -52,12 +53,13 @@ pub(super) fn find(proof: &Proof, goes_on: &dyn Fn() -> bool) -> Found {
             .is_none()
     };
     let mut stand = None;
-    for (raw, element) in proof.raw.elements.iter().enumerate() {
+    let all = Walls::new(proof.raw.geometries());
+    for raw in 0..proof.raw.len() {
         if raw % STEP == 0 && !goes_on() {
             return Found::Cancelled;
         }
-        let geometry = &element.geometry;
-        let cuts = proof.cuts(raw, geometry);
+        let geometry = all.segment(raw);
+        let cuts = proof.cuts(raw, geometry, Some(&all));
         let mut last = nodes.at(geometry.start());
         let mut share = 0.0;
         for &cut in &cuts[1..] {
@@ -90,7 +92,7 @@ pub(super) fn find(proof: &Proof, goes_on: &dyn Fn() -> bool) -> Found {
     }
     let middle = |stretch: &Stretch| {
         let ends = [nodes.points[stretch.from], nodes.points[stretch.to]];
-        between(&proof.raw.elements[stretch.raw].geometry, ends[0], ends[1]).point_at(0.5)
+        between(all.segment(stretch.raw), ends[0], ends[1]).point_at(0.5)
     };
     once(&mut stretches, |a, b| {
         (middle(a) - middle(b)).norm() <= proof.rounding
@@ -204,7 +206,7 @@ fn followed(proof: &Proof, stretches: &[Stretch], nodes: &Nodes) -> Result<Loops
 
 /// Adds a stretch of a raw element, to the last piece where that is the stretch before it.
 fn append(proof: &Proof, pieces: &mut Vec<(usize, Element)>, raw: usize, start: Point, end: Point) {
-    let element = proof.raw.elements[raw];
+    let whole = proof.raw.geometry(raw);
     let start = match pieces.last() {
         Some((last, piece)) if *last == raw && piece.geometry.end() == start => {
             let begun = piece.geometry.start();
@@ -213,17 +215,11 @@ fn append(proof: &Proof, pieces: &mut Vec<(usize, Element)>, raw: usize, start: 
         }
         _ => start,
     };
-    let geometry = match element.geometry {
-        Segment::Arc(arc) if arc.is_full_turn() && start == end => element.geometry,
+    let geometry = match whole {
+        Segment::Arc(arc) if arc.is_full_turn() && start == end => whole,
         whole => between(&whole, start, end),
     };
-    pieces.push((
-        raw,
-        Element {
-            geometry,
-            ..element
-        },
-    ));
+    pieces.push((raw, proof.raw.element(raw, geometry)));
 }
 
 /// Points that are only distinct when they are further from each other than rounding.

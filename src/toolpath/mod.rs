@@ -282,9 +282,10 @@ pub(crate) fn misfit(
         goes_on: &|| true,
     };
     let correction = job.units(settings.correction);
-    let segments = || outline.contour.segments(drawing);
+    let contour = &outline.contour;
+    let segment = |at: usize| contour.segment(drawing, at);
     let (walls, _, laid) = job
-        .along(segments, side, correction, outline.contour.closed)
+        .along(contour.len(), segment, side, correction, contour.closed)
         .ok()?;
     match laid {
         Ok(Laid::Path(_)) => None,

@@ -172,7 +172,7 @@ mod tests {
             [10.0, 4.0, 0.0],
             [0.0, 4.0, 0.0],
         ]);
-        let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
+        let own = Walls::of(&walls);
         let laid = |correction: f64| {
             let joining = Joining {
                 correction,

@@ -1,8 +1,10 @@
 //! The offset of one segment, with its source. Corners join them, see `corners`.
 
+use super::cores::each;
 use super::path::Source;
 use crate::drawing::ContourSegment;
 use crate::geometry::{Arc, Line, Point, Segment, Vector, left_normal};
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// A segment of a contour as it is cut: without gaps to its neighbours, in the direction of the cut.
 #[derive(Clone, Copy, Debug)]
@@ -11,24 +13,45 @@ pub(super) struct Wall {
     pub(crate) source: Source,
 }
 
-/// The walls of a contour. Both neighbours close a gap within the join tolerance half way, and segments without length
-/// are left out.
+/// One core takes so many walls at a time.
+const AT_A_TIME: usize = 2048;
+
+/// What stands for a segment without length until it is left out.
+const NO_WALL: Wall = Wall {
+    geometry: Segment::Line(Line {
+        start: Point::new(0.0, 0.0),
+        end: Point::new(0.0, 0.0),
+    }),
+    source: Source::Tab,
+};
+
+/// The walls of a contour of so many segments. Both neighbours close a gap within the join tolerance half way, and segments without
+/// length are left out.
 pub(super) fn walls(
-    segments: impl IntoIterator<Item = ContourSegment>,
+    count: usize,
+    segment: impl Fn(usize) -> Option<ContourSegment> + Sync + Send,
     closed: bool,
     zero_length: f64,
 ) -> Vec<Wall> {
-    let mut walls: Vec<Wall> = segments
-        .into_iter()
-        .filter(|segment| segment.geometry.length() > zero_length)
-        .map(|segment| Wall {
+    let is_any_short = AtomicBool::new(false);
+    let is_long = |wall: &Wall| wall.geometry.length() > zero_length;
+    let mut walls = each(count, AT_A_TIME, |at| {
+        let wall = segment(at).map(|segment| Wall {
             geometry: segment.geometry,
             source: Source::Segment {
                 entity: segment.entity,
                 segment: segment.segment,
             },
+        });
+        let wall = wall.filter(is_long);
+        wall.unwrap_or_else(|| {
+            is_any_short.store(true, Relaxed);
+            NO_WALL
         })
-        .collect();
+    });
+    if is_any_short.into_inner() {
+        walls.retain(is_long);
+    }
     let count = walls.len();
     if count < 2 {
         if let (true, Some(wall)) = (closed, walls.first_mut())
@@ -50,7 +73,7 @@ pub(super) fn walls(
         return walls;
     }
     for index in 0..if closed { count } else { count - 1 } {
-        let next = (index + 1) % count;
+        let next = if index + 1 == count { 0 } else { index + 1 };
         let (end, start) = (walls[index].geometry.end(), walls[next].geometry.start());
         if end != start {
             let middle = end + (start - end) * 0.5;

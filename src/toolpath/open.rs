@@ -49,7 +49,7 @@ pub(super) fn one_side(
     if let Some(again) = path[length..].iter().find(|piece| is_own(piece)) {
         return Err(lost(again));
     }
-    if !is_roll(path.last(), raw.elements.len() - 1) {
+    if !is_roll(path.last(), raw.len() - 1) {
         return Err(lost(&path[0]));
     }
     if !is_roll(path.get(length), end) {

@@ -8,7 +8,7 @@ use super::corners::{Element, elements};
 use super::job::Job;
 use super::kept::{Kept, follows};
 use super::laid::{Along, Known, Laid};
-use super::offset::{Wall, walls};
+use super::offset::Wall;
 use super::path::{Refusal, Source};
 use super::skim::Rough;
 use crate::drawing::{Contour, Drawing, EntityId};
@@ -116,7 +116,7 @@ pub(crate) fn part(
             source: drawn[element.wall].source,
         })
         .collect();
-    let near_path = Walls::new(beside.iter().map(|wall| wall.geometry).collect());
+    let near_path = Walls::of(&beside);
     if let [Segment::Line(stand)] = beside
         .iter()
         .map(|wall| wall.geometry)
@@ -210,8 +210,7 @@ impl Job<'_> {
             && rough > last
             && settings.corrections.len() > 1;
         if last <= self.units(super::job::ROUNDING) {
-            let zero_length = self.units(settings.tolerances.zero_length);
-            let walls = walls(contour.segments(self.drawing), true, zero_length);
+            let walls = self.walls(contour);
             let path = elements(&walls);
             return Ok((walls, path, false));
         }
@@ -222,8 +221,8 @@ impl Job<'_> {
             return Ok((walls, path, true));
         }
         let first = if is_beside_rough { rough } else { last };
-        let segments = || contour.segments(self.drawing);
-        let (walls, own, laid) = self.along(segments, side.sign(), first, true)?;
+        let segment = |at: usize| contour.segment(self.drawing, at);
+        let (walls, own, laid) = self.along(contour.len(), segment, side.sign(), first, true)?;
         let laid = match (laid, is_beside_rough) {
             (Ok(Laid::Path(path)), true) => {
                 let rough = Rough {
@@ -262,9 +261,8 @@ impl Job<'_> {
         correction: f64,
         before: &Part,
     ) -> Result<Option<WallsAndPath>, Refusal> {
-        let zero_length = self.units(self.settings.tolerances.zero_length);
-        let walls = walls(contour.segments(self.drawing), true, zero_length);
-        let own = Walls::new(walls.iter().map(|wall| wall.geometry).collect());
+        let walls = self.walls(contour);
+        let own = Walls::of(&walls);
         let then: Vec<&Segment> = before.drawn.iter().map(|wall| &wall.geometry).collect();
         let now = own.segments();
         let Some(kept) = Kept::new(&then, now, &before.path, &before.path_follows) else {

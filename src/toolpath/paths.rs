@@ -9,7 +9,7 @@ use super::finished::{Finished, Kerf, finished};
 use super::job::{Job, ROUNDING};
 use super::laid::{Along, Fault, Laid};
 use super::leads::{Contours, Kerfs, fault};
-use super::offset::{Wall, walls};
+use super::offset::Wall;
 use super::order::{begin_at, directed, name};
 use super::path::{Refusal, Source, WirePath};
 use super::wanted::Wanted;
@@ -316,9 +316,8 @@ impl Job<'_> {
     /// The contour itself as the wire's path.
     fn as_drawn(&self, index: usize, wanted: &Wanted) -> Result<WirePath, Refusal> {
         let outline = &self.outlines[index];
-        let zero_length = self.units(self.settings.tolerances.zero_length);
         let (contour, _) = self.towards(index, wanted)?;
-        let walls = walls(contour.segments(self.drawing), contour.closed, zero_length);
+        let walls = self.walls(&contour);
         let handle = name(self.drawing, outline);
         let empty = || Refusal::Sentence(say!(contour_has_no_length, handle));
         let path = if contour.closed {
@@ -357,8 +356,8 @@ impl Job<'_> {
         let corrections = settings.each_correction().into_iter();
         let corrections: Vec<f64> = corrections.map(|mm| self.units(mm)).collect();
         let rough = corrections.iter().copied().fold(0.0, f64::max);
-        let segments = || contour.segments(self.drawing);
-        let (walls, own, first) = self.along(segments, side, rough, closed)?;
+        let segment = |at: usize| contour.segment(self.drawing, at);
+        let (walls, own, first) = self.along(contour.len(), segment, side, rough, closed)?;
         let along = Along {
             side,
             correction: rough,
@@ -452,11 +451,7 @@ impl Job<'_> {
         let side = outline
             .wire_side()
             .map(|side| if turned { side.reversed() } else { side });
-        let walls = walls(
-            contour.segments(self.drawing),
-            contour.closed,
-            self.units(self.settings.tolerances.zero_length),
-        );
+        let walls = self.walls(&contour);
         if !contour.closed {
             return Ok((elements(&walls), side));
         }

@@ -11,12 +11,11 @@ use super::nest::{Beside, Nest};
 use super::offset::Wall;
 use crate::drawing::winding_of;
 use crate::geometry::{Arc, Bounds, Line, Point, Segment, Vector, cross};
-use std::sync::OnceLock;
 
 /// What the offset of one contour is held against. Lengths in drawing units.
 pub(super) struct Proof<'a> {
     pub(crate) walls: &'a [Wall],
-    pub(crate) raw: &'a Raw,
+    pub(crate) raw: &'a Raw<'a>,
     /// The walls once more, to ask what is near.
     pub(crate) own: &'a Walls,
     pub(crate) correction: f64,
@@ -26,8 +25,6 @@ pub(super) struct Proof<'a> {
     pub(crate) rounding: f64,
     /// False for the walls there and back along an open contour.
     pub(crate) closed: bool,
-    /// The raw elements, to ask what is near.
-    pub(crate) near_raw: OnceLock<Walls>,
 }
 
 /// The path cannot be vouched for, near this wall.
@@ -47,7 +44,7 @@ impl Proof<'_> {
     /// How many of the raw elements the path follows: of an open contour those on the side of the wire.
     pub(crate) fn followed(&self) -> usize {
         match self.closed {
-            true => self.raw.elements.len(),
+            true => self.raw.len(),
             false => self.raw.end_roll(self.walls.len() / 2),
         }
     }
@@ -155,14 +152,19 @@ impl Proof<'_> {
     ) -> Result<(), Unproved> {
         let mut next = by_raw.partition_point(|(raw, _)| *raw < range.start);
         for index in range {
-            let element = &self.raw.elements[index];
             let first = next;
             while by_raw.get(next).is_some_and(|(raw, _)| *raw == index) {
                 next += 1;
             }
-            if let [(_, piece)] = &by_raw[first..next]
-                && self.is_whole(&piece.geometry, &element.geometry)
-            {
+            let only = match &by_raw[first..next] {
+                [(_, piece)] => Some(&piece.geometry),
+                _ => None,
+            };
+            if only.is_some_and(|piece| self.raw.is_all_of_roll(index, piece, self.rounding)) {
+                continue;
+            }
+            let raw = &self.raw.geometry(index);
+            if only.is_some_and(|piece| self.is_whole(piece, raw)) {
                 continue;
             }
             let beside = [
@@ -173,7 +175,6 @@ impl Proof<'_> {
             ];
             let beside = beside.map(|place| by_raw.get(place).map(|(_, element)| element));
             let [before, behind] = beside;
-            let raw = &element.geometry;
             let length = raw.length();
             let shares = |piece: &(usize, Element)| {
                 let share = |point| raw.share_of(point).clamp(0.0, 1.0);
@@ -206,7 +207,9 @@ impl Proof<'_> {
                         &by_raw[first..next],
                     )
                 {
-                    return Err(Unproved { wall: element.wall });
+                    return Err(Unproved {
+                        wall: self.raw.wall(index),
+                    });
                 }
                 done = to;
             }
@@ -239,11 +242,9 @@ impl Proof<'_> {
     ) -> bool {
         // Most is cut off at a corner, by the wall that comes next.
         let takes_all = |element: &&Element| {
-            is_all_within(
-                &stretch,
-                &self.walls[element.wall].geometry,
-                self.correction,
-            )
+            let wall = &self.walls[element.wall].geometry;
+            is_all_about_foot(&stretch, wall, self.correction)
+                || is_all_within(&stretch, wall, self.correction)
         };
         if beside.iter().flatten().any(takes_all) {
             return false;
@@ -256,7 +257,7 @@ impl Proof<'_> {
             let mut distances = of_path.map(|element| element.geometry.distance_to(point));
             distances.any(|distance| distance <= 2.0 * self.rounding)
         };
-        let cuts = self.cuts(index, &stretch);
+        let cuts = self.cuts(index, &stretch, None);
         cuts.windows(2).any(|pair| {
             let middle = stretch.point_at((pair[0] + pair[1]) / 2.0);
             (pair[1] - pair[0]) * stretch.length() > 2.0 * self.rounding
@@ -268,19 +269,18 @@ impl Proof<'_> {
     }
 
     /// Shares of a stretch of a raw element at which other raw elements cross it or end on it, with 0 and 1, rising. Between two of
-    /// them either all places keep clear of the walls or none.
-    pub(crate) fn cuts(&self, index: usize, stretch: &Segment) -> Vec<f64> {
-        let length = stretch.length();
+    /// them either all places keep clear of the walls or none. Who asks for many hands in all raw elements.
+    pub(crate) fn cuts(&self, index: usize, stretch: &Segment, all: Option<&Walls>) -> Vec<f64> {
         let mut cuts = vec![0.0, 1.0];
         let slack = self.rounding * 1e-2;
+        let area = stretch.bounds().grown(slack);
         let is_on = |segment: &Segment, point: Point| {
             let is_at = |end: Point| (point - end).norm() <= slack;
             segment.spans(point) || is_at(segment.start()) || is_at(segment.end())
         };
-        let mut cut_by = |other: usize| {
-            let segment = &self.raw.elements[other].geometry;
+        let mut cut_by = |other: usize, segment: &Segment| {
             if other == index || segment.length() == 0.0 {
-                return false;
+                return;
             }
             let crossings = meetings(stretch, segment)
                 .into_iter()
@@ -290,20 +290,31 @@ impl Proof<'_> {
                 .filter(|&end| stretch.distance_to(end) <= slack);
             let points = crossings.chain(ends).filter(|&point| is_on(stretch, point));
             cuts.extend(points.map(|point| stretch.share_of(point).clamp(0.0, 1.0)));
-            false
         };
-        let near_raw = self.near_raw.get_or_init(|| {
-            // Those that hold other pieces may wait for it.
-            Walls::by_one_core(
-                self.raw
-                    .elements
-                    .iter()
-                    .map(|element| element.geometry)
-                    .collect(),
-            )
-        });
-        if length > 0.0 {
-            near_raw.find(&stretch.bounds().grown(slack), &mut cut_by);
+        match all {
+            _ if stretch.length() <= 0.0 => {}
+            Some(all) => {
+                all.find(&area, |other| {
+                    cut_by(other, all.segment(other));
+                    false
+                });
+            }
+            None => {
+                // A raw element is as far as the correction from its wall.
+                let reach = area.grown(self.correction + self.rounding);
+                self.own.find(&reach, |wall| {
+                    let back = (!self.closed).then(|| self.walls.len() - 1 - wall);
+                    for other in [Some(wall), back].into_iter().flatten() {
+                        for other in self.raw.of_wall(other) {
+                            let segment = self.raw.geometry(other);
+                            if segment.bounds().touches(&area) {
+                                cut_by(other, &segment);
+                            }
+                        }
+                    }
+                    false
+                });
+            }
         }
         cuts.sort_by(f64::total_cmp);
         cuts
@@ -384,22 +395,56 @@ fn runs_beside(segment: &Segment, wall: &Segment, [least, most]: [f64; 2]) -> bo
     }
 }
 
+/// The corners of what a stretch of a raw element lies within, and its middle. `None` for an arc that turns too far.
+fn hull(stretch: &Segment) -> Option<([Point; 3], Point)> {
+    let (start, end) = (stretch.start(), stretch.end());
+    match stretch {
+        Segment::Line(_) => Some(([start, end, start], start + (end - start) * 0.5)),
+        Segment::Arc(arc) if arc.sweep.abs() > 2.0 => None,
+        Segment::Arc(arc) => {
+            let half_way = middle(stretch);
+            let out = half_way - arc.center;
+            let apex = arc.center + out * (out.norm_squared() / out.dot(&(start - arc.center)));
+            Some(([start, end, apex], half_way))
+        }
+    }
+}
+
+/// True when a stretch is seen to lie within `distance` of the place of a wall that is nearest to one of its ends, all but its ends nearer
+/// than that: so it is at most corners. False says nothing.
+fn is_all_about_foot(stretch: &Segment, wall: &Segment, distance: f64) -> bool {
+    let Some((corners, half_way)) = hull(stretch) else {
+        return false;
+    };
+    let (least, most) = (distance * (1.0 - 1e-7), distance * (1.0 + 1e-9));
+    let is_about = |foot: Point| {
+        let is_within = |corner: &Point| (corner - foot).norm_squared() <= most * most;
+        (half_way - foot).norm_squared() < least * least && corners.iter().all(is_within)
+    };
+    let foot_of = |end: Point| match wall {
+        Segment::Line(line) => {
+            let share = line.share_of(end).clamp(0.0, 1.0);
+            Some(line.start + (line.end - line.start) * share)
+        }
+        Segment::Arc(arc) if arc.is_shallow() || !arc.spans(end) => None,
+        Segment::Arc(arc) => {
+            let out = (end - arc.center).try_normalize(0.0)?;
+            Some(arc.center + out * arc.radius)
+        }
+    };
+    let mut feet = [corners[0], corners[1]].into_iter().filter_map(foot_of);
+    feet.any(is_about)
+}
+
 /// True when a stretch is seen to lie within `distance` of a wall, all but its ends nearer than that. False says nothing.
 ///
 /// The distance from a line is convex: it is nowhere larger than at the corners of what the stretch lies within. Beside an arc of no more than
 /// a half turn these corners lie in its sector, which is convex, too: there only how far they are from the centre counts.
 fn is_all_within(stretch: &Segment, wall: &Segment, distance: f64) -> bool {
-    let (start, end) = (stretch.start(), stretch.end());
-    let half_way = middle(stretch);
-    let apex = match stretch {
-        Segment::Line(_) => start,
-        Segment::Arc(arc) if arc.sweep.abs() > 2.0 => return false,
-        Segment::Arc(arc) => {
-            let out = half_way - arc.center;
-            arc.center + out * (out.norm_squared() / out.dot(&(start - arc.center)))
-        }
+    let Some((corners, half_way)) = hull(stretch) else {
+        return false;
     };
-    let corners = [start, end, apex];
+    let [start, end, apex] = corners;
     let most = distance * (1.0 + 1e-9);
     let is_within = |point: &Point| wall.distance_to(*point) <= most;
     if wall.distance_to(half_way) >= distance * (1.0 - 1e-7) || !corners.iter().all(is_within) {

@@ -18,25 +18,22 @@ pub(super) fn trimmed(raw: &Raw) -> Option<Vec<(usize, Element)>> {
 
 /// The elements round a contour, from which what is used up is taken out.
 struct Ring<'a> {
-    elements: &'a [Element],
+    raw: &'a Raw<'a>,
     /// Behind each element.
     joints: Vec<Joint>,
-    /// Elements that the wire's centre cannot follow at all, with the place that stands for them.
-    tight: &'a [(usize, Point)],
     before: Vec<u32>,
     after: Vec<u32>,
     alive: Vec<bool>,
     count: usize,
 }
 
-impl Ring<'_> {
-    fn new(raw: &Raw) -> Ring<'_> {
-        let count = raw.elements.len();
+impl<'a> Ring<'a> {
+    fn new(raw: &'a Raw<'a>) -> Ring<'a> {
+        let count = raw.len();
         let last = count.saturating_sub(1) as u32;
         Ring {
-            elements: &raw.elements,
-            joints: raw.joints.clone(),
-            tight: &raw.tight,
+            raw,
+            joints: each(count, AT_A_TIME, |index| raw.joint(index)),
             before: std::iter::once(last).chain(0..last).collect(),
             after: (1..=last).chain([0]).collect(),
             alive: vec![true; count],
@@ -65,8 +62,7 @@ impl Ring<'_> {
         if self.count < 2 {
             return None;
         }
-        let tight = self.tight;
-        for &(index, center) in tight {
+        for &(index, center) in &self.raw.tight {
             self.remove(index, center)?;
         }
         Some(())
@@ -83,10 +79,10 @@ impl Ring<'_> {
             let ends = settled(self.before(index)).zip(settled(index));
             ends.is_some_and(|(start, end)| !self.runs_backwards(index, start, end))
         };
-        let is_fine = each(self.elements.len(), AT_A_TIME, |index| {
+        let is_fine = each(self.raw.len(), AT_A_TIME, |index| {
             !self.alive[index] || runs_forward(index)
         });
-        let all = (0..self.elements.len()).rev();
+        let all = (0..self.raw.len()).rev();
         all.filter(|&index| !is_fine[index]).collect()
     }
 
@@ -101,7 +97,7 @@ impl Ring<'_> {
                 (Ok(start), Ok(end)) if self.runs_backwards(index, start, end) => index,
                 _ => continue,
             };
-            let near = self.elements[gone].geometry.point_at(0.5);
+            let near = self.raw.geometry(gone).point_at(0.5);
             let (before, after) = (self.before(gone), self.after(gone));
             self.remove(gone, near)?;
             waiting.extend([after, before, index]);
@@ -122,7 +118,7 @@ impl Ring<'_> {
     /// The points behind all elements, where they meet the next.
     fn settle_all(&mut self) {
         let Ring {
-            elements,
+            raw,
             joints,
             after,
             alive,
@@ -133,8 +129,8 @@ impl Ring<'_> {
             if let Joint::CrossNear(near) = *joint
                 && alive[index]
             {
-                let next = &elements[after[index] as usize].geometry;
-                if let Some(point) = meeting(&elements[index].geometry, next, near) {
+                let next = raw.geometry(after[index] as usize);
+                if let Some(point) = meeting(&raw.geometry(index), &next, near) {
                     *joint = Joint::At(point);
                 }
             }
@@ -148,18 +144,19 @@ impl Ring<'_> {
             Joint::CrossNear(near) => near,
         };
         let next = self.after(index);
-        let (a, b) = (
-            &self.elements[index].geometry,
-            &self.elements[next].geometry,
-        );
+        let (a, b) = (self.raw.geometry(index), self.raw.geometry(next));
         let shorter = if a.length() < b.length() { index } else { next };
-        let point = meeting(a, b, near).ok_or(shorter)?;
+        let point = meeting(&a, &b, near).ok_or(shorter)?;
         self.joints[index] = Joint::At(point);
         Ok(point)
     }
 
     fn runs_backwards(&self, index: usize, start: Point, end: Point) -> bool {
-        let geometry = &self.elements[index].geometry;
+        let is_roll = self.raw.is_roll(index);
+        if is_roll && self.raw.ends(index) == [start, end] {
+            return false;
+        }
+        let geometry = &self.raw.geometry(index);
         if let Segment::Line(line) = geometry {
             let along = line.end - line.start;
             let forward = (end - start).dot(&along);
@@ -172,28 +169,35 @@ impl Ring<'_> {
             && (share_on(geometry, end) - share_on(geometry, start)) * length < -1e-9
     }
 
-    fn pieces(mut self) -> Option<Vec<(usize, Element)>> {
-        let alive = 0..self.elements.len();
-        let alive: Vec<usize> = alive.filter(|&index| self.alive[index]).collect();
-        let ends: Option<Vec<Point>> = (alive.iter())
-            .map(|&index| self.settle(index).ok())
-            .collect();
-        let ends = ends?;
-        let is_any_point = AtomicBool::new(false);
+    fn pieces(self) -> Option<Vec<(usize, Element)>> {
+        let is_alive = |&index: &usize| self.alive[index];
+        let alive: Vec<usize> = match self.count == self.raw.len() {
+            true => Vec::new(),
+            false => (0..self.raw.len()).filter(is_alive).collect(),
+        };
+        let nth = |at: usize| alive.get(at).copied().unwrap_or(at);
+        let (is_torn, is_any_point) = (AtomicBool::new(false), AtomicBool::new(false));
+        let settled = |index: usize| match self.joints[index] {
+            Joint::At(point) => point,
+            Joint::CrossNear(near) => {
+                is_torn.store(true, Relaxed);
+                near
+            }
+        };
         let piece = |at: usize| {
-            let (index, start) = (alive[at], ends[if at == 0 { ends.len() } else { at } - 1]);
-            let element = self.elements[index];
-            let geometry = between(&element.geometry, start, ends[at]);
-            let piece = Element {
-                geometry,
-                ..element
-            };
+            let index = nth(at);
+            let start = settled(nth(if at == 0 { self.count } else { at } - 1));
+            let geometry = between(&self.raw.geometry(index), start, settled(index));
+            let piece = self.raw.element(index, geometry);
             if is_point(&piece) {
                 is_any_point.store(true, Relaxed);
             }
             (index, piece)
         };
-        let mut path = each(alive.len(), AT_A_TIME, piece);
+        let mut path = each(self.count, AT_A_TIME, piece);
+        if is_torn.into_inner() {
+            return None;
+        }
         if is_any_point.into_inner() {
             path = without_points(path);
         }
@@ -208,20 +212,28 @@ impl Ring<'_> {
     }
 }
 
-/// Where two elements that follow each other meet, of several places the one nearest to a point.
+/// Where two elements that follow each other meet, of several places on both the one nearest to a point.
 fn meeting(a: &Segment, b: &Segment, near: Point) -> Option<Point> {
-    let rank = |point: &Point| {
-        let is_beside = |segment: &&Segment| {
-            !segment.spans(*point) && !(-1e-9..=1.0 + 1e-9).contains(&segment.share_of(*point))
-        };
-        let beside = [a, b].iter().any(is_beside);
-        (beside, (point - near).norm())
+    let is_on = |segment: &Segment, point: Point| {
+        segment.spans(point) || (-1e-9..=1.0 + 1e-9).contains(&segment.share_of(point))
     };
-    let best = meetings(a, b).into_iter().min_by(|p, q| {
-        let ((p_beside, p_away), (q_beside, q_away)) = (rank(p), rank(q));
-        p_beside.cmp(&q_beside).then(p_away.total_cmp(&q_away))
-    });
-    best.filter(|point| point.x.is_finite() && point.y.is_finite())
+    let is_on_both = |point: &Point| is_on(a, *point) && is_on(b, *point);
+    let away = |point: &Point| (point - near).norm_squared();
+    let met = meetings(a, b);
+    let best = match met[..] {
+        [one, other] => {
+            let (nearer, farther) = match away(&other) < away(&one) {
+                true => (other, one),
+                false => (one, other),
+            };
+            match !is_on_both(&nearer) && is_on_both(&farther) {
+                true => farther,
+                false => nearer,
+            }
+        }
+        _ => *met.first()?,
+    };
+    (best.x.is_finite() && best.y.is_finite()).then_some(best)
 }
 
 /// A piece of a path that is no more than a point of it.
@@ -313,7 +325,7 @@ mod tests {
             let mut one_by_one = Ring::new(&raw);
             let one_by_one = match one_by_one.remove_tight() {
                 Some(()) => {
-                    let all = (0..raw.elements.len()).rev().collect();
+                    let all = (0..raw.len()).rev().collect();
                     one_by_one.resolve_beside(all)
                 }
                 None => None,

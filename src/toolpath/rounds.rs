@@ -30,8 +30,8 @@ pub(crate) fn rounds(
         goes_on: &|| true,
     };
     let rough = job.units(corrections.iter().copied().fold(0.0, f64::max));
-    let Ok((walls, own, first)) = job.along(|| segments.iter().copied(), side, rough, closed)
-    else {
+    let segment = |at: usize| segments.get(at).copied();
+    let Ok((walls, own, first)) = job.along(segments.len(), segment, side, rough, closed) else {
         return Vec::new();
     };
     let mut first = Some(first);

@@ -85,7 +85,7 @@ impl Job<'_> {
                 source: element.source,
             })
             .collect();
-        let near = Walls::new(beside.iter().map(|wall| wall.geometry).collect());
+        let near = Walls::of(&beside);
         let back = Along {
             side: -along.side,
             correction: by,

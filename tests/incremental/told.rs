@@ -290,3 +290,35 @@ fn a_contour_that_goes_back_on_itself_has_no_side_wherever_its_area_is_summed_fr
         );
     }
 }
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: cases(400), failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Whether an arc that is too tight can be replaced hangs on all of its run, and on what the run meets.
+    #[test]
+    fn what_crowded_arcs_are_told_is_told_as_if_afresh(
+        bulges in proptest::collection::vec(prop_oneof![Just(0.9), Just(0.3), Just(0.0), -1.0..1.0f64], 2..9),
+        size in prop_oneof![Just(0.04), Just(0.1), Just(0.3)],
+        edits in proptest::collection::vec((0..9usize, prop_oneof![Just(0.0), Just(0.05), Just(0.5), -1.0..1.0f64]), 1..4),
+    ) {
+        let count = bulges.len();
+        let at = |index: usize, bulge: f64| {
+            let (sine, cosine) = (index as f64 / count as f64 * std::f64::consts::TAU).sin_cos();
+            let away = size * [1.0, 0.7][index % 2];
+            Vertex::new(away * cosine, away * sine, bulge)
+        };
+        let vertices = bulges.iter().enumerate().map(|(index, &bulge)| at(index, bulge)).collect();
+        let mut drawing = Drawing::new(None);
+        let polyline = drawing.push(entity(Geometry::Polyline { closed: true, vertices }, None));
+        let settings = Arc::new(Effective::default());
+        let mut analysis = Analysis::new(&drawing, settings.clone());
+        analysis.findings(&drawing, usize::MAX);
+        for (index, bulge) in edits {
+            let index = index % count;
+            let touched = drawing.splice(polyline, index, 1, &[at(index, bulge)]).unwrap();
+            analysis.update(&drawing, &Delta { touched: vec![touched] });
+            let mut fresh = Analysis::new(&drawing, settings.clone());
+            prop_assert_eq!(analysis.findings(&drawing, usize::MAX), fresh.findings(&drawing, usize::MAX));
+        }
+    }
+}

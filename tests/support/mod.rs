@@ -234,6 +234,14 @@ impl Client {
         }
     }
 
+    /// Throws away what has come, as a client does that reads on.
+    #[allow(dead_code)]
+    pub fn pass_over(&mut self) {
+        self.seen.clear();
+        let inbox = self.inbox.as_ref().expect("somebody reads");
+        inbox.try_iter().for_each(drop);
+    }
+
     /// Everything that has come by the time the server has answered one more request.
     pub fn settle(&mut self) -> &[Value] {
         let _ = self.request("wedm/settled", json!({}));

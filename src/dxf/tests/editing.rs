@@ -225,10 +225,17 @@ fn an_edit_beside_blocks_touches_no_more_than_it_must() {
         [Touched::Entity { entity: ellipse }]
     );
     assert!(!document.drawing().is_editable(ellipse));
-    assert_eq!(
-        replace(&mut document, "A2\n", "50\n30", "50\n60"),
-        [Touched::All]
-    );
+    let is_part = |(_, entity): &(EntityId, &crate::drawing::Entity)| &*entity.handle == "A2";
+    let parts = document.drawing().entities().filter(is_part);
+    let parts: Vec<Touched> = parts
+        .map(|(entity, _)| Touched::Entity { entity })
+        .collect();
+    assert_eq!(parts.len(), 2);
+    assert_eq!(replace(&mut document, "A2\n", "30", "30.0"), []);
+    assert_eq!(replace(&mut document, "A2\n", "30.0", "45"), parts);
+    for (what, by) in [("50\n45", "41\n2"), ("2\nB", "2\nC"), ("10\n1", "10\nx")] {
+        assert_eq!(replace(&mut document, "A2\n", what, by), [Touched::All]);
+    }
     assert_eq!(
         replace(&mut document, "BLOCKS\n", "11\n3", "11\n5"),
         [Touched::All]

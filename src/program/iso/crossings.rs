@@ -5,6 +5,7 @@ use super::cuts::way_of;
 use super::document::{Crossings, Document};
 use crate::finding::Finding;
 use crate::program::path::{Found, HasCuts};
+use rustc_hash::FxHashSet;
 use std::sync::Arc;
 
 impl Crossings {
@@ -23,10 +24,16 @@ impl Crossings {
         );
     }
 
-    /// Whether a cut that crosses itself runs through a stretch.
-    pub(crate) fn touch(&self, stretch: usize) -> bool {
-        let mut places = self.found.iter().flat_map(|(places, _)| places);
-        places.any(|(index, _)| *index == stretch)
+    /// The stretches through which cuts run that cross themselves.
+    pub(crate) fn touched(&self) -> FxHashSet<usize> {
+        let places = self.found.iter().flat_map(|(places, _)| places);
+        places.map(|(stretch, _)| *stretch).collect()
+    }
+
+    /// The first part of each of those cuts.
+    pub(crate) fn begins(&self) -> FxHashSet<(usize, usize)> {
+        let first = |(places, _): &(Vec<_>, _)| places.first().copied();
+        self.found.iter().filter_map(first).collect()
     }
 
     /// The findings, in the order in which the cuts run.

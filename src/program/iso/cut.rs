@@ -30,6 +30,8 @@ pub(crate) struct JoinedCut {
     stops: usize,
     /// Moves before the stop at its tab.
     pub(crate) before_tab: Option<u32>,
+    /// The last stretch on whose lines it depends.
+    pub(crate) reach: usize,
     /// Where the wire was first sent to the other side, and the line that did so.
     pub(crate) flip: Option<(Place, Range<usize>)>,
 }
@@ -51,6 +53,7 @@ impl JoinedCut {
             stop: None,
             stops: 0,
             before_tab: None,
+            reach: stretch,
         };
         cut.stopped(its.stop, stretch);
         Some(cut)
@@ -78,6 +81,7 @@ impl JoinedCut {
         self.sum.append(&next.sum);
         self.last_range = next.last_range;
         self.parts.extend(next.parts);
+        self.reach = self.reach.max(next.reach);
         (self.stop, self.stops) = (next.stop, next.stops);
     }
 
@@ -89,6 +93,13 @@ impl JoinedCut {
     pub(crate) fn places(&self) -> Vec<(usize, usize)> {
         let place = |at: &PartAt| (at.stretch, at.part);
         self.parts.iter().map(place).collect()
+    }
+
+    /// Its first stretch, and its part in there.
+    pub(crate) fn begin(&self) -> (usize, usize) {
+        self.parts
+            .first()
+            .map_or((0, 0), |at| (at.stretch, at.part))
     }
 
     /// The stretch that holds all of it, and its part in it.

@@ -11,6 +11,7 @@ use crate::program::path::{
     self, BehindStops, Blocks, Ends, HasCuts, HeldWay, Lay, Node, PartedWay, Way, Writing, goes_on,
     mixed, pieces_of,
 };
+use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::ops::Range;
 
@@ -26,9 +27,9 @@ impl HasCuts for Document {
         cut.sum.twice_area as f64 / 1e6
     }
 
-    fn only_lay(&self, cut: &JoinedCut) -> Option<&Lay> {
+    fn only_lay<'a>(&'a self, cut: &JoinedCut) -> Option<Cow<'a, Lay>> {
         let (stretch, part) = cut.only_place()?;
-        self.stretches().get(stretch)?.lays.get(part)
+        self.stretches().get(stretch)?.lay(part).map(Cow::Borrowed)
     }
 
     fn way<'a>(&'a self, cut: &JoinedCut) -> PartedWay<'a> {
@@ -39,7 +40,7 @@ impl HasCuts for Document {
     }
 
     fn mark(&self, cut: &JoinedCut) -> u64 {
-        let lay = |at: &PartAt| self.stretches().get(at.stretch)?.lays.get(at.part);
+        let lay = |at: &PartAt| self.stretches().get(at.stretch)?.lay(at.part);
         let stop = cut.before_tab.map_or(0, |moves| u64::from(moves) + 1);
         let marks = cut.parts.iter().filter_map(lay).map(|lay| lay.mark);
         marks.fold(stop, mixed)
@@ -84,14 +85,17 @@ impl Document {
     }
 }
 
-/// The cuts in the order in which they run; `None` stands for sound cuts within one stretch.
+/// The cuts in the order in which they run; `None` stands for sound cuts.
 fn cuts(document: &Document) -> Vec<Option<JoinedCut>> {
     let mut cuts = Vec::new();
     // The last one, while it may still grow.
     let mut open: Option<JoinedCut> = None;
+    // The last stretch of a sound one.
+    let mut sound_up_to: Option<usize> = None;
     for (index, placed) in document.placed().enumerate() {
         let stretch = placed.stretch;
         if let Some(cut) = open.as_mut().filter(|cut| cut.sum.open) {
+            cut.reach = index;
             cut.sum.faulty |= stretch.faulty_before;
             if let Some(whole) = stretch.ends_cut_before {
                 cut.sum.whole &= whole;
@@ -102,20 +106,19 @@ fn cuts(document: &Document) -> Vec<Option<JoinedCut>> {
             cut.stopped(stretch.stop_before, index);
             cut.sum.ends_open |= stretch.ends_open_before;
         }
-        let skipped = if stretch.is_clean {
-            stretch.inner()
-        } else {
-            0..0
-        };
-        let before = (0..skipped.start).map(Some);
-        let clean = (!skipped.is_empty()).then_some(None);
-        let behind = (skipped.end..stretch.part_count()).map(Some);
-        for part in before.chain(clean).chain(behind) {
-            let Some(part) = part else {
-                cuts.extend(open.take().map(Some));
-                cuts.push(None);
+        let inner = stretch.inner();
+        let continues = sound_up_to.is_some_and(|last| index <= last);
+        for part in 0..stretch.part_count() {
+            let is_last = part + 1 == stretch.part_count();
+            let is_sound = (part == 0 && continues && inner.start > 0)
+                || (stretch.is_clean && inner.contains(&part))
+                || (is_last && stretch.sound_over.is_some());
+            if is_sound {
+                if let Some(before) = open.take() {
+                    cuts.extend([Some(before), None]);
+                }
                 continue;
-            };
+            }
             let Some(own) = JoinedCut::of(&placed, index, part) else {
                 continue;
             };
@@ -124,6 +127,7 @@ fn cuts(document: &Document) -> Vec<Option<JoinedCut>> {
                 _ => cuts.extend(open.replace(own).map(Some)),
             }
         }
+        sound_up_to = stretch.sound_over.map(|over| index + over).or(sound_up_to);
     }
     cuts.extend(open.map(Some));
     cuts
@@ -250,7 +254,7 @@ pub(super) fn way_of(
     let part = |place: &(usize, usize)| {
         let (start, moves, arcs) = extent(place)?;
         Some(path::Part {
-            lay: document.stretches().get(place.0)?.lays.get(place.1)?,
+            lay: Cow::Borrowed(document.stretches().get(place.0)?.lay(place.1)?),
             blocks: moves as usize,
             arcs: arcs as usize,
             start: apart(start, begin),

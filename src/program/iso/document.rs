@@ -132,9 +132,10 @@ impl Document {
 
     /// Forgets which cuts are sound.
     fn look_at_all(&mut self) {
-        self.stretches
-            .iter_mut()
-            .for_each(|stretch| stretch.is_clean = false);
+        let again = self.stretches.iter_mut().map(Stretch::look_again);
+        if !again.fold(true, |all, is_held| all & is_held) {
+            self.run_stretches();
+        }
     }
 
     /// A line's bytes, without its end.
@@ -233,7 +234,24 @@ impl Document {
         let control = self.control();
         self.stretches
             .edit(&control, &mut self.text, range, replacement);
+        self.forget_touched();
         self.settle();
+    }
+
+    /// A cut is not known to be sound any more where a stretch that it runs through has been read again.
+    fn forget_touched(&mut self) {
+        let mut last: Option<(usize, usize)> = None;
+        for index in 0..self.stretches.len() {
+            if self.stretches[index].is_fresh
+                && let Some((begin, end)) = last
+                && index <= end
+            {
+                self.stretches[begin].sound_over = None;
+            }
+            if let Some(over) = self.stretches[index].sound_over {
+                last = Some((index, index + over));
+            }
+        }
     }
 
     /// A first guess of the meaning of numbers, from the beginning of the text: it saves running everything twice.
@@ -309,14 +327,23 @@ impl Document {
         crossings.look(self);
         self.crossings = crossings;
         for index in self.clean() {
-            self.stretches[index].is_clean = true;
+            self.stretches[index].let_go();
         }
+        for (begin, reach) in self.sound_cuts() {
+            self.stretches[begin].sound_over = Some(reach - begin);
+        }
+        self.stretches
+            .iter_mut()
+            .for_each(|stretch| stretch.is_fresh = false);
         let stretches = &self.stretches;
         self.contours.retain(|cut| {
-            let is_clean = |(stretch, part): (usize, usize)| {
-                stretches[stretch].is_clean && stretches[stretch].inner().contains(&part)
+            let (stretch, part) = cut.begin();
+            let own = &stretches[stretch];
+            let is_sound = match cut.only_place() {
+                Some(_) => own.is_clean && own.inner().contains(&part),
+                None => own.sound_over.is_some() && part + 1 == own.part_count(),
             };
-            !cut.only_place().is_some_and(is_clean)
+            !is_sound
         });
         self.contours.shrink_to_fit();
     }

@@ -170,15 +170,21 @@ impl Ways {
         self.0.push(step);
     }
 
-    /// How the part lies relative to itself.
-    pub(crate) fn lay(self, reading: &Reading) -> Lay {
+    /// How the part lies relative to itself, where it is known how those before it lie.
+    pub(crate) fn lay(self, reading: &Reading, is_whole: bool, before: &[Lay]) -> Lay {
+        let mark = self.mark(reading);
+        let known = Lay::known(before.iter().rev(), mark, is_whole);
+        known.unwrap_or_else(|| Lay::of(&self.way(reading), mark, is_whole))
+    }
+
+    fn way(&self, reading: &Reading) -> HeldWay {
         let start = self.0.first().map_or([0, 0], |step| step.from);
         let mut way = HeldWay::from(Node::at(Point::origin()), reading.writing());
         for step in &self.0 {
             let piece = step.seen_from(start).segment(reading);
             way.push(piece, step.is_arc(), Node::at(piece.end()));
         }
-        Lay::of(&way, self.mark(reading))
+        way
     }
 
     fn mark(&self, reading: &Reading) -> u64 {

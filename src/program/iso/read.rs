@@ -61,6 +61,7 @@ impl Stretch {
             after: before,
             reading,
             numbers_rise: true,
+            is_fresh: true,
             ..Stretch::default()
         };
         for left in (0..count).rev() {
@@ -379,7 +380,8 @@ impl Stretch {
         match self.parts.last_mut() {
             Some(part) if part.open => part.push(made, cap, range),
             last => {
-                let continues = last.is_none() && self.ends_cut_before.is_none();
+                let is_first = last.is_none() && self.ends_cut_before.is_none();
+                let continues = is_first && self.before.trail.last[0].is_some();
                 self.parts
                     .push(Part::begin(made, cap, range, continues, !torn));
             }

@@ -13,7 +13,7 @@ use super::part::{Part, WireSide};
 use super::plain::word_at;
 use super::repair::found::Repair;
 use super::repair::{is_trouble, line_of};
-use super::stretch::{Placed, Stretch};
+use super::stretch::Stretch;
 use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity, Side};
 use crate::geometry::cross;
 use crate::program::path::{HasCuts, tolerance};
@@ -29,6 +29,9 @@ const SWITCH_REACH: usize = 1_000;
 
 /// Twice the area of anything more than a line there and back, nm².
 const LEAST_TWICE_AREA: u128 = 2_000_000;
+
+/// A cut of fewer moves has no ways in and out of two blocks each.
+const LONGEST_LEADS: u32 = 6;
 
 /// Of further spurs it is not asked whether they are ways out and in again.
 const MOST_SPURS: usize = 32;
@@ -97,12 +100,36 @@ impl Document {
     /// Further stretches whose cuts are sound: those that begin and end there have no fault as a whole.
     pub(super) fn clean(&self) -> Vec<usize> {
         let mut report = Report::new(self);
+        let touched = self.crossings().touched();
         let placed = self.placed().enumerate();
         let not_known = placed.filter(|(_, placed)| !placed.stretch.is_clean);
         not_known
-            .filter(|(index, placed)| report.is_clean(placed, *index))
+            .filter(|(index, placed)| {
+                let inner = placed.stretch.inner();
+                inner.is_empty()
+                    || !touched.contains(index)
+                        && inner.into_iter().all(|part| {
+                            JoinedCut::of(placed, *index, part)
+                                .is_none_or(|cut| report.is_sound(&cut))
+                        })
+            })
             .map(|(index, _)| index)
             .collect()
+    }
+
+    /// The first and the last stretch of each cut through several that is sound as a whole.
+    pub(super) fn sound_cuts(&self) -> Vec<(usize, usize)> {
+        let mut report = Report::new(self);
+        let crossing = self.crossings().begins();
+        let sound = self.contours().iter().filter(|cut| {
+            cut.only_place().is_none()
+                && cut.before_tab.is_none()
+                && self.goes_round(cut)
+                && !crossing.contains(&cut.begin())
+                && report.is_sound(cut)
+        });
+        let stretches = sound.map(|cut| (cut.begin().0, cut.reach));
+        stretches.collect()
     }
 }
 
@@ -266,25 +293,36 @@ impl<'a> Report<'a> {
             .is_none_or(|order| order.left_out.is_none())
     }
 
-    /// Whether the cuts that begin and end in a stretch are sound, each as a whole.
-    fn is_clean(&mut self, placed: &Placed<'_>, index: usize) -> bool {
+    /// Whether a cut is sound as a whole, and nothing to be held against others.
+    fn is_sound(&mut self, cut: &JoinedCut) -> bool {
         // Passes to and fro close by themselves, and may belong to the next or to the one before.
-        let may_be_tab = |part: usize| {
-            let lay = placed.stretch.lays.get(part);
-            lay.is_some_and(|lay| lay.closes && !lay.goes_round)
-        };
-        if self.document.crossings().touch(index) || placed.stretch.inner().any(may_be_tab) {
+        let only = self.document.only_lay(cut);
+        let may_be_tab = only.is_some_and(|lay| lay.closes && !lay.goes_round);
+        if may_be_tab || self.may_lack_its_tab(&cut.sum) {
             return false;
         }
         let known = self.findings.len();
-        for part in placed.stretch.inner() {
-            if let Some(cut) = JoinedCut::of(placed, index, part) {
-                self.judge(&cut, &[]);
-            }
-        }
-        let is_clean = self.findings.len() == known;
+        self.judge(cut, &[]);
+        let is_sound = self.findings.len() == known;
         self.findings.truncate(known);
-        is_clean
+        is_sound
+    }
+
+    /// Whether a cut beside which the wire runs leads back to the thread hole from elsewhere than where it came.
+    fn may_lack_its_tab(&self, sum: &Part) -> bool {
+        let tolerance = tolerance(sum.arcs as usize).max(self.reading.writing().slack);
+        let meet = |one: Spot, other: Spot| distance(one, other) / 1e3 <= tolerance;
+        let [[first, second], [before, last]] = [sum.first, sum.last];
+        let mut closes = meet(first.to, last.from) || meet(first.to, last.to);
+        if sum.moves >= LONGEST_LEADS {
+            let longer = [
+                (second.to, before.from),
+                (first.to, before.from),
+                (second.to, last.from),
+            ];
+            closes |= longer.into_iter().any(|(one, other)| meet(one, other));
+        }
+        matches!(sum.side, WireSide::One(_)) && !closes
     }
 
     /// Checks a cut as a whole: does it close, does the wire run on the right side, is an arc too tight. `all` are

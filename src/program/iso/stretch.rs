@@ -31,10 +31,13 @@ impl Pathless {
     pub(crate) fn with_paths(self) -> Stretch {
         let Pathless { mut stretch, ways } = self;
         stretch.parts.shrink_to_fit();
-        stretch.lays = ways
-            .into_iter()
-            .map(|ways| ways.lay(&stretch.reading))
-            .collect();
+        let inner = stretch.inner();
+        for (index, ways) in ways.into_iter().enumerate() {
+            let is_whole = inner.contains(&index);
+            let lay = ways.lay(&stretch.reading, is_whole, &stretch.lays);
+            stretch.lays.push(lay);
+        }
+        stretch.lays.shrink_to_fit();
         let own = stretch.parts.iter().zip(&stretch.lays);
         let placed = own.map(|(part, lay)| lay.bounds.moved(micrometres(part.start()).coords));
         stretch.bounds = placed.reduce(|one, other| one.merged(&other));
@@ -83,6 +86,12 @@ pub(crate) struct Stretch {
     pub(crate) bounds: Option<Bounds>,
     /// The parts that begin and end here are known to be sound as a whole.
     pub(crate) is_clean: bool,
+    /// Those of them that are not held any more: it has been enough to know that they are sound.
+    pub(crate) gone: Range<usize>,
+    /// The cut that its last part begins is known to be sound as a whole, up to this many stretches further on.
+    pub(crate) sound_over: Option<usize>,
+    /// Nothing is known yet about the cuts that run through it.
+    pub(crate) is_fresh: bool,
     pub(crate) foreign: Vec<Foreign>,
     pub(crate) definitions: Vec<Definition>,
     /// The first lengths without a decimal point that are not 0, and the first with one.
@@ -149,36 +158,73 @@ impl Stretch {
 
     /// A cut begins or ends in here: the lines behind do not depend on those before.
     pub(crate) fn bounds_cuts(&self) -> bool {
-        self.ends_cut_before.is_some() || self.parts.iter().any(|part| !part.continues)
+        self.ends_cut_before.is_some()
+            || !self.gone.is_empty()
+            || self.parts.iter().any(|part| !part.continues)
     }
 
     pub(crate) fn part_count(&self) -> usize {
-        self.parts.len()
+        self.parts.len() + self.gone.len()
     }
 
-    /// A part at its place.
+    /// Where a part is held; `None` for one that is gone.
+    fn held(&self, index: usize) -> Option<usize> {
+        match index.checked_sub(self.gone.start) {
+            Some(behind) => Some(self.gone.start + behind.checked_sub(self.gone.len())?),
+            None => Some(index),
+        }
+    }
+
+    /// A part at its place; `None` for one that is gone.
     pub(crate) fn part_at(&self, index: usize) -> Option<Part> {
-        let mut part = *self.parts.get(index)?;
+        let mut part = *self.parts.get(self.held(index)?)?;
         part.shift(self.moved);
         Some(part)
     }
 
+    /// Those that are held.
     pub(crate) fn parts(&self) -> impl Iterator<Item = Part> + '_ {
-        (0..self.parts.len()).filter_map(|index| self.part_at(index))
+        (0..self.part_count()).filter_map(|index| self.part_at(index))
+    }
+
+    pub(crate) fn lay(&self, index: usize) -> Option<&Lay> {
+        self.lays.get(self.held(index)?)
     }
 
     /// The start of a part, its number of moves and of arcs.
     pub(crate) fn extent(&self, index: usize) -> Option<(Place, u32, u32)> {
-        self.parts
-            .get(index)
-            .map(|part| (added(part.start(), self.moved), part.moves, part.arcs))
+        let part = self.parts.get(self.held(index)?)?;
+        Some((added(part.start(), self.moved), part.moves, part.arcs))
     }
 
     /// The parts that begin and end here.
     pub(crate) fn inner(&self) -> Range<usize> {
         let first = usize::from(self.parts.first().is_some_and(|part| part.continues));
-        let end = self.parts.len() - usize::from(self.parts.last().is_some_and(|part| part.open));
-        first..end.max(first)
+        let open = usize::from(self.parts.last().is_some_and(|part| part.open));
+        first..(self.part_count() - open).max(first)
+    }
+
+    /// Takes the parts that begin and end here for sound, and lets go of them.
+    pub(crate) fn let_go(&mut self) {
+        self.is_clean = true;
+        if !self.gone.is_empty() {
+            return;
+        }
+        let gone = self.inner();
+        self.parts.drain(gone.clone());
+        self.lays.drain(gone.clone());
+        self.tight
+            .retain(|tight| !gone.contains(&(tight.part as usize)));
+        self.parts.shrink_to_fit();
+        self.lays.shrink_to_fit();
+        self.tight.shrink_to_fit();
+        self.gone = gone;
+    }
+
+    /// Forgets what is known to be sound; false where its lines must be run again for that.
+    pub(crate) fn look_again(&mut self) -> bool {
+        (self.is_clean, self.sound_over) = (false, None);
+        self.gone.is_empty()
     }
 
     /// The arcs of a part that may be tighter than a correction, at their places.

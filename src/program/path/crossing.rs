@@ -5,6 +5,7 @@
 //! four ends are apart; it crosses if they alternate round the place. The drift of a counting machine makes no
 //! crossing: anything within [`margin`] is only a touch.
 
+use super::boxes::Boxes;
 use crate::geometry::{Bounds, Point, Segment, Vector, meetings, positive_angle};
 use std::cell::Cell;
 
@@ -64,65 +65,47 @@ pub(in crate::program) struct Tangle<'a> {
 
 /// The crossings of a way that is held as a whole.
 pub(in crate::program) fn crossings(pieces: &[Segment], arcs: usize) -> Vec<Crossing> {
-    crossings_beside(pieces, arcs, 0.0)
-}
-
-/// The same for a way whose tab is cut this far beside it.
-pub(super) fn crossings_beside(pieces: &[Segment], arcs: usize, aside: f64) -> Vec<Crossing> {
     let way = Tangle {
-        aside,
+        aside: 0.0,
         piece: &|index| pieces.get(index).copied(),
         count: pieces.len(),
         margin: margin(arcs),
         steps: Cell::new(0),
     };
-    let boxes: Vec<Bounds> = pieces.iter().map(Segment::bounds).collect();
-    let mut near = Vec::new();
-    near_each_other(pieces, &boxes, &mut |first, second| {
-        near.push((first, second))
-    });
-    way.crossings(near).0
+    way.all_crossings().0
 }
 
-/// Pairs of pieces that come near each other, the earlier first; neighbours are left out.
-pub(in crate::program) fn near_each_other(
-    pieces: &[Segment],
-    boxes: &[Bounds],
-    found: &mut dyn FnMut(usize, usize),
-) {
-    // Along the axis on which they spread.
-    let whole = boxes
-        .iter()
-        .fold(Bounds::EMPTY, |whole, part| whole.merged(part));
-    let by_x = whole.width() >= whole.height();
-    let low = |index: usize| {
-        if by_x {
-            boxes[index].min.x
-        } else {
-            boxes[index].min.y
-        }
-    };
-    let high = |index: usize| {
-        if by_x {
-            boxes[index].max.x
-        } else {
-            boxes[index].max.y
-        }
-    };
-    let mut order: Vec<usize> = (0..boxes.len().min(pieces.len())).collect();
-    order.sort_by(|&a, &b| low(a).total_cmp(&low(b)));
-    for (nth, &one) in order.iter().enumerate() {
-        for &other in order[nth + 1..]
-            .iter()
-            .take_while(|&&other| low(other) <= high(one) + NEARLY_ON)
-        {
-            let (first, second) = (one.min(other), one.max(other));
-            let (a, b) = (&pieces[first], &pieces[second]);
-            if second > first + 1 && come_near(a, &boxes[first], b, &boxes[second]) {
-                found(first, second);
+/// The most boxes that are held against each other among this many pieces. A way that does not coincide with itself
+/// takes a few for each.
+pub(super) fn most_looks(pieces: usize) -> usize {
+    500_000 + 32 * pieces
+}
+
+/// Pairs of pieces that come near each other, without neighbours, in the order of the later one: as many as `most` and
+/// those of one more piece; and whether there are no more.
+pub(super) fn near_each_other(
+    pieces: impl Iterator<Item = Segment>,
+    most: usize,
+) -> (Vec<(usize, usize)>, bool) {
+    let (mut near, mut looks) = (Vec::new(), 0);
+    let (mut boxes, mut before) = (Boxes::default(), Vec::new());
+    for (second, piece) in pieces.enumerate() {
+        let own = piece.bounds();
+        let mut look = |first: usize| {
+            let (other, bounds): &(Segment, Bounds) = &before[first];
+            if come_near(other, bounds, &piece, &own) {
+                near.push((first, second));
             }
+        };
+        let end = second.saturating_sub(1);
+        looks += boxes.touching(&own.grown(NEARLY_ON), end, &mut look);
+        boxes.push(own);
+        before.push((piece, own));
+        if near.len() > most || looks > most_looks(second) {
+            return (near, false);
         }
     }
+    (near, true)
 }
 
 /// True where two pieces have a place in common, or nearly.
@@ -149,6 +132,14 @@ impl Tangle<'_> {
 
     fn is_exhausted(&self) -> bool {
         self.steps.get() > MOST_STEPS
+    }
+
+    /// The crossings of the way, and whether all of it was looked at: no more of it than is needed.
+    pub(crate) fn all_crossings(&self) -> (Vec<Crossing>, bool) {
+        let pieces = (0..self.count).map_while(|index| (self.piece)(index));
+        let (near, is_all) = near_each_other(pieces, MOST_PAIRS);
+        let (found, are_followed) = self.crossings(near);
+        (found, is_all && are_followed)
     }
 
     /// The crossings among pairs of pieces that come near each other, in the order of the way; and whether all pairs were looked at.

@@ -5,11 +5,13 @@
 //! an edit only changes the pairs of the part that it touched, and of parts that moved relative to it. The whole way
 //! then decides which pieces cross, so that the division into parts does not matter.
 
-use super::crossing::{Crossing, MOST_PAIRS, Tangle, come_near, crossings_beside, margin};
-use super::lay::keep_first;
+use super::boxes::Boxes;
+use super::crossing::{
+    Crossing, MOST_PAIRS, Tangle, come_near, margin, most_looks, near_each_other,
+};
 use super::parted::{Part, PartedWay, micrometres};
-use super::passes::{BESIDE, Before, passes};
-use super::way::Way;
+use super::passes::{BESIDE, Before, MOST_PASSES, passes};
+use super::way::{HeldWay, Way};
 use crate::finding::{Detail, Fault, Finding, NotJudged, Place, Rule, Severity};
 use crate::geometry::{Bounds, Segment, Vector};
 use crate::text::SourceText;
@@ -65,7 +67,7 @@ impl Known {
 
     fn search(&mut self, way: &PartedWay<'_>) -> Found {
         if let [one] = &way.parts[..]
-            && one.lay.near.is_empty()
+            && !one.lay.may_cross()
         {
             return Found::default();
         }
@@ -82,7 +84,7 @@ impl Known {
         let aside = aside_at_stop(way);
         let own = own.map(|pass| crossings_of_pass(way, pass, aside));
         crossings.splice(first..crossings.len() - last, own);
-        let placed = |(pass, crossings): (&Range<usize>, &Vec<Crossing>)| {
+        let placed = |(pass, (crossings, _)): (&Range<usize>, &OfPass)| {
             let begin = pass.start;
             let placed = |one: &Crossing| Crossing {
                 first: one.first + begin,
@@ -92,15 +94,19 @@ impl Known {
             crossings.iter().map(placed).collect::<Vec<_>>()
         };
         let all = passes.all.iter().zip(&crossings).flat_map(placed).collect();
+        let is_left_out = |(_, is_all): &OfPass| !is_all;
+        let is_crowded = passes.all.len() == MOST_PASSES || crossings.iter().any(is_left_out);
         self.passed = Some(Box::new(Passed {
             parts: parts_of(way),
+            blocks: way.count(),
             tolerance: way.tolerance(),
             passes: passes.all,
             crossings,
         }));
         Found {
             crossings: all,
-            ..Found::default()
+            is_crowded,
+            pairs: 0,
         }
     }
 
@@ -116,6 +122,9 @@ impl Known {
     }
 }
 
+/// The crossings of one pass, relative to its start, and whether all of it was looked at.
+type OfPass = (Vec<Crossing>, bool);
+
 /// A part by its way, its blocks and its start.
 type PartMark = (u64, usize, [i64; 2]);
 
@@ -128,10 +137,10 @@ fn parts_of(way: &PartedWay<'_>) -> Vec<PartMark> {
 #[derive(Clone, Debug)]
 struct Passed {
     parts: Vec<PartMark>,
+    blocks: usize,
     tolerance: f64,
     passes: Vec<Range<usize>>,
-    /// The crossings of each, relative to its start.
-    crossings: Vec<Vec<Crossing>>,
+    crossings: Vec<OfPass>,
 }
 
 impl Passed {
@@ -147,6 +156,7 @@ impl Passed {
         let same = [self.parts.get(..first)?, own.get(own.len() - last..)?].map(blocks);
         (self.tolerance == way.tolerance()).then_some(Before {
             passes: &self.passes,
+            blocks: self.blocks,
             same,
         })
     }
@@ -201,12 +211,6 @@ impl Found {
     }
 }
 
-/// The most pairs of boxes compared in a cut with this many blocks. A cut that does not coincide with itself takes a
-/// few for each block.
-fn most_looks(blocks: usize) -> usize {
-    500_000 + 32 * blocks
-}
-
 /// The most pairs of touching parts that are compared, for this many parts.
 fn most_touching(parts: usize) -> usize {
     1024 + 256 * parts
@@ -228,12 +232,11 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
     let prepared: Vec<OnceLock<Prepared>> = parts.iter().map(|_| OnceLock::new()).collect();
     let prepared =
         |index: usize| prepared[index].get_or_init(|| Prepared::of(blocks.pieces(index)));
-    let levels = levels_over(
-        parts
-            .iter()
-            .map(|part| part.placed().grown(SLACK))
-            .collect(),
-    );
+    let placed: Vec<Bounds> = parts
+        .iter()
+        .map(|part| part.placed().grown(SLACK))
+        .collect();
+    let boxes = Boxes::of(placed.iter().copied());
     let apart = |a: usize, b: usize| {
         [0, 1].map(|axis| parts[b].start[axis].wrapping_sub(parts[a].start[axis]))
     };
@@ -259,7 +262,9 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
         // found.
         let (mut some, mut next) = (Vec::new(), behind);
         while next < parts.len() && some.len() < at_once && left > 0 {
-            touching(&levels, next, &mut some);
+            boxes.touching(&placed[next], next, &mut |earlier| {
+                some.push((earlier, next))
+            });
             next += 1;
         }
         if left == 0 {
@@ -279,13 +284,16 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
             unknown.iter().map(look).collect()
         };
         known.pairs.extend(found);
-        for (part, first) in parts[behind..next].iter().zip(&firsts[behind..next]) {
-            near.extend(
-                part.lay
-                    .near
-                    .iter()
-                    .map(|&(a, b)| (first + a as usize, first + b as usize)),
-            );
+        for index in behind..next {
+            let (first, lay) = (firsts[index], &parts[index].lay);
+            let own = lay.near.iter();
+            near.extend(own.map(|&(a, b)| (first + a as usize, first + b as usize)));
+            if lay.is_tangled && near.len() <= MOST_PAIRS {
+                let pieces = prepared(index).pieces.iter().copied();
+                let (found, is_all) = near_each_other(pieces, MOST_PAIRS);
+                near.extend(found.into_iter().map(|(a, b)| (first + a, first + b)));
+                is_crowded |= !is_all;
+            }
         }
         for &(a, b) in &some {
             // Earlier results count as well: they must not change how much of a cut is searched.
@@ -335,12 +343,42 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
     }
 }
 
-/// The crossings of one pass of a cut, relative to its start: it may coincide with another, and ways in and out cross
-/// others.
-fn crossings_of_pass(way: &PartedWay<'_>, pass: &Range<usize>, aside: f64) -> Vec<Crossing> {
-    let own: Vec<Segment> = pass.clone().filter_map(|index| way.piece(index)).collect();
-    let arcs = own.iter().filter(|piece| piece.as_arc().is_some()).count();
-    crossings_beside(&own, arcs, aside)
+/// Whether a way that is a whole cut crosses itself, or too much lies on one place to tell.
+pub(super) fn crosses_itself(way: &HeldWay) -> bool {
+    let (pieces, passes) = (way.pieces(), passes(way, None).all);
+    let is_arc = |piece: &&Segment| piece.as_arc().is_some();
+    let crosses = |own: &[Segment], arcs: usize| {
+        let (found, is_all) = Tangle {
+            piece: &|index| own.get(index).copied(),
+            count: own.len(),
+            margin: margin(arcs),
+            aside: 0.0,
+            steps: Cell::new(0),
+        }
+        .all_crossings();
+        !found.is_empty() || !is_all
+    };
+    if passes.is_empty() {
+        return crosses(pieces, way.arcs());
+    }
+    passes.len() == MOST_PASSES
+        || passes.iter().any(|pass| {
+            let own = pieces.get(pass.clone()).unwrap_or_default();
+            crosses(own, own.iter().filter(is_arc).count())
+        })
+}
+
+/// The crossings of one pass of a cut: it may coincide with another, and ways in and out cross others.
+fn crossings_of_pass(way: &PartedWay<'_>, pass: &Range<usize>, aside: f64) -> OfPass {
+    let pass = pass.start..pass.end.min(way.count());
+    Tangle {
+        piece: &|index| way.piece(pass.start + index).filter(|_| index < pass.len()),
+        count: pass.len(),
+        margin: margin(way.arcs_in(&pass)),
+        aside,
+        steps: Cell::new(0),
+    }
+    .all_crossings()
 }
 
 /// The step to the side behind the stop, to cut the tab in another pass than the one before, µm; 0 where there is none.
@@ -358,32 +396,27 @@ fn aside_at_stop(way: &PartedWay<'_>) -> f64 {
     across().unwrap_or(0.0)
 }
 
-/// The pieces of a part from the origin, with boxes about them, about pairs of boxes, and so on up to one.
+/// The pieces of a part from the origin, with boxes about them.
 struct Prepared {
     pieces: Vec<Segment>,
-    levels: Vec<Vec<Bounds>>,
+    boxes: Boxes,
 }
 
 impl Prepared {
     fn of(pieces: Vec<Segment>) -> Prepared {
-        let levels = levels_over(
-            pieces
-                .iter()
-                .map(|piece| piece.bounds().grown(SLACK))
-                .collect(),
-        );
-        Prepared { pieces, levels }
+        let boxes = Boxes::of(pieces.iter().map(|piece| piece.bounds().grown(SLACK)));
+        Prepared { pieces, boxes }
     }
 
     /// The pieces of two parts that come near each other, where the other one begins at `by`; it may begin where this one ends.
     fn near(&self, other: &Prepared, by: Vector, is_next: bool) -> Near {
         let mut found = Vec::new();
         let mut cost = 16;
-        let mut waiting = vec![((self.levels.len() - 1, 0), (other.levels.len() - 1, 0))];
+        let mut waiting = vec![((self.boxes.top(), 0), (other.boxes.top(), 0))];
         while let Some(((level_a, a), (level_b, b))) = waiting.pop() {
             cost += 1;
             let (Some(ours), Some(theirs)) =
-                (self.levels[level_a].get(a), other.levels[level_b].get(b))
+                (self.boxes.get(level_a, a), other.boxes.get(level_b, b))
             else {
                 continue;
             };
@@ -410,39 +443,13 @@ impl Prepared {
     }
 }
 
+/// Keeps the pairs whose later block comes first along the way: one more than are used, to show that there are more.
+fn keep_first(near: &mut Vec<(u32, u32)>) {
+    if near.len() > MOST_PAIRS + 1 {
+        near.sort_unstable_by_key(|&(first, second)| (second, first));
+        near.truncate(MOST_PAIRS + 1);
+    }
+}
+
 /// The enlargement of boxes, µm: places are rounded to nm.
 const SLACK: f64 = 1.0;
-
-/// Boxes about pairs of boxes, and so on up to one.
-fn levels_over(boxes: Vec<Bounds>) -> Vec<Vec<Bounds>> {
-    let mut levels = vec![boxes];
-    while let Some(last) = levels.last().filter(|level| level.len() > 1) {
-        let next = last
-            .chunks(2)
-            .map(|pair| {
-                pair.iter()
-                    .fold(Bounds::EMPTY, |whole, part| whole.merged(part))
-            })
-            .collect();
-        levels.push(next);
-    }
-    levels
-}
-
-/// The earlier parts whose boxes touch that of a later one, each with it.
-fn touching(levels: &[Vec<Bounds>], part: usize, found: &mut Vec<(usize, usize)>) {
-    let Some(own) = levels.first().and_then(|boxes| boxes.get(part)) else {
-        return;
-    };
-    let mut waiting = vec![(levels.len() - 1, 0)];
-    while let Some((level, at)) = waiting.pop() {
-        let touches = |bounds: &Bounds| bounds.touches(own);
-        if at << level >= part || !levels[level].get(at).is_some_and(touches) {
-            continue;
-        }
-        match level.checked_sub(1) {
-            None => found.push((at, part)),
-            Some(below) => waiting.extend([(below, 2 * at + 1), (below, 2 * at)]),
-        }
-    }
-}

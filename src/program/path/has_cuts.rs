@@ -5,7 +5,7 @@ use super::crossings::{Found, Known};
 use super::lay::Lay;
 use super::parted::PartedWay;
 use crate::finding::{Finding, Severity};
-use std::borrow::Borrow;
+use std::borrow::{Borrow, Cow};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ pub(crate) trait HasCuts {
     fn twice_area(&self, cut: &Self::Cut) -> f64;
 
     /// The lay of a cut that is one part.
-    fn only_lay(&self, cut: &Self::Cut) -> Option<&Lay>;
+    fn only_lay<'a>(&'a self, cut: &Self::Cut) -> Option<Cow<'a, Lay>>;
 
     fn way<'a>(&'a self, cut: &Self::Cut) -> PartedWay<'a>;
 
@@ -71,7 +71,7 @@ pub(crate) trait HasCuts {
         self.ends(cut).blocks <= FRAGMENT
     }
 
-    /// Searches cuts for crossings, reusing known results. `each` gets every cut that was searched.
+    /// Searches cuts for crossings, reusing known results. `each` gets every cut that had to be searched.
     fn look_through<C: Borrow<Self::Cut>>(
         &self,
         known: &mut Known,
@@ -81,7 +81,9 @@ pub(crate) trait HasCuts {
         known.begin();
         for cut in cuts {
             let own = cut.borrow();
-            if self.ends(own).blocks < FEWEST_CROSSING || self.is_doubtful(own) {
+            let is_short = self.ends(own).blocks < FEWEST_CROSSING;
+            let crosses_nothing = || self.only_lay(own).is_some_and(|lay| !lay.may_cross());
+            if is_short || self.is_doubtful(own) || crosses_nothing() {
                 continue;
             }
             let found = known.crossings(self.mark(own), self.part_count(own), || self.way(own));

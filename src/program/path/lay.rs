@@ -1,9 +1,17 @@
 //! How consecutive blocks lie relative to themselves: an edit elsewhere does not change it.
 
 use super::contour::{closing, goes_round};
-use super::crossing::{MOST_PAIRS, near_each_other};
+use super::crossing::near_each_other;
+use super::crossings::crosses_itself;
 use super::way::HeldWay;
 use crate::geometry::{Bounds, Segment};
+
+/// More pairs of a part that come near each other are sought when they are asked for: then a few such parts show all
+/// that counts.
+const KEPT: usize = 64;
+
+/// Holes of one shape follow each other: so many parts back one is looked for that lies as the next.
+const LOOKED_BACK: usize = 8;
 
 /// The properties of a part of a cut by itself.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,40 +20,59 @@ pub(crate) struct Lay {
     pub(crate) mark: u64,
     /// µm, relative to its beginning.
     pub(crate) bounds: Bounds,
-    /// Blocks of it that come near each other, by their number in the part, except neighbours: as many as
-    /// [`keep_first`] keeps.
+    /// Blocks of it that come near each other, by their number in the part, except neighbours: none where it is tangled.
     pub(crate) near: Box<[(u32, u32)]>,
+    /// More than [`KEPT`] pairs do.
+    pub(crate) is_tangled: bool,
+    /// For a part that is a cut by itself, if two of its blocks come near each other: whether it crosses itself, or too
+    /// much lies on one place to tell.
+    crosses: Option<bool>,
     /// It holds a closed contour, and one that encloses something.
     pub(crate) closes: bool,
     pub(crate) goes_round: bool,
 }
 
 impl Lay {
-    /// For a way that begins at the origin.
-    pub(crate) fn of(way: &HeldWay, mark: u64) -> Lay {
-        let boxes: Vec<Bounds> = way.pieces().iter().map(Segment::bounds).collect();
-        let mut near = Vec::new();
-        near_each_other(way.pieces(), &boxes, &mut |first, second| {
-            near.push((first as u32, second as u32))
-        });
-        keep_first(&mut near);
-        let whole = |whole: Bounds, part: &Bounds| whole.merged(part);
+    /// One of the last of these with a mark.
+    pub(crate) fn known<'a>(
+        before: impl Iterator<Item = &'a Lay>,
+        mark: u64,
+        is_whole: bool,
+    ) -> Option<Lay> {
+        let mut known = before.take(LOOKED_BACK).filter(|lay| lay.mark == mark);
+        known
+            .find(|lay| !is_whole || !lay.may_cross() || lay.crosses.is_some())
+            .cloned()
+    }
+
+    /// For a way that begins at the origin, and may be a cut by itself.
+    pub(crate) fn of(way: &HeldWay, mark: u64, is_whole: bool) -> Lay {
+        let (near, is_all) = match way.pieces().len() {
+            // Of fewer all are neighbours.
+            ..3 => (Vec::new(), true),
+            _ => near_each_other(way.pieces().iter().copied(), KEPT),
+        };
+        let pair = |(first, second)| (first as u32, second as u32);
+        let comes_near = !near.is_empty() || !is_all;
+        let crosses = (is_whole && comes_near).then(|| crosses_itself(way));
+        let near = near.into_iter().filter(|_| is_all).map(pair);
+        let whole = |whole: Bounds, piece: &Segment| whole.merged(&piece.bounds());
         let closes = closing(way).is_some_and(|closing| closing.closed);
         Lay {
             mark,
-            bounds: boxes.iter().fold(Bounds::EMPTY, whole),
-            near: near.into(),
+            bounds: way.pieces().iter().fold(Bounds::EMPTY, whole),
+            near: near.collect(),
+            is_tangled: !is_all,
+            crosses,
             closes,
             goes_round: closes && goes_round(way) == Some(true),
         }
     }
-}
 
-/// Keeps the pairs whose later block comes first along the way: one more than are used, to show that there are more.
-pub(super) fn keep_first(near: &mut Vec<(u32, u32)>) {
-    if near.len() > MOST_PAIRS + 1 {
-        near.sort_unstable_by_key(|&(first, second)| (second, first));
-        near.truncate(MOST_PAIRS + 1);
+    /// As a cut by itself it may cross itself, as far as is known.
+    pub(crate) fn may_cross(&self) -> bool {
+        self.crosses
+            .unwrap_or(self.is_tangled || !self.near.is_empty())
     }
 }
 

@@ -3,13 +3,14 @@
 use super::lay::Lay;
 use super::way::{Node, Way, Writing};
 use crate::geometry::{Bounds, Point, Segment, Vector};
+use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::ops::Range;
 
 /// Blocks of a way that are held together: an edit elsewhere leaves them alone.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Part<'a> {
-    pub(crate) lay: &'a Lay,
+    pub(crate) lay: Cow<'a, Lay>,
     pub(crate) blocks: usize,
     pub(crate) arcs: usize,
     /// Its start relative to the beginning of the way, nm.
@@ -96,6 +97,27 @@ impl<'a> PartedWay<'a> {
     pub(crate) fn range(&self, index: usize) -> Option<Range<usize>> {
         let part = self.part_of(index)?;
         self.blocks.range(part, index - self.firsts.get(part)?)
+    }
+
+    /// How many blocks of a range are arcs. Costs the blocks of the parts at its ends.
+    pub(crate) fn arcs_in(&self, range: &Range<usize>) -> usize {
+        let parts = self.parts.iter().zip(&self.firsts).enumerate();
+        let of_part = |(index, (part, first)): (usize, (&Part<'_>, &usize))| {
+            let [begin, end] =
+                [range.start, range.end].map(|at| at.clamp(*first, first + part.blocks));
+            if end - begin == part.blocks {
+                return part.arcs;
+            }
+            if begin == end || part.arcs == 0 {
+                return 0;
+            }
+            let own = self
+                .pieces(index)
+                .and_then(|all| all.get(begin - first..end - first));
+            let is_arc = |piece: &&Segment| piece.as_arc().is_some();
+            own.unwrap_or_default().iter().filter(is_arc).count()
+        };
+        parts.map(of_part).sum()
     }
 
     fn part_of(&self, index: usize) -> Option<usize> {

@@ -11,6 +11,9 @@ const BETWEEN: usize = 6;
 /// differ.
 pub(super) const BESIDE: f64 = 1_000.0;
 
+/// The most passes of a way that are looked at.
+pub(super) const MOST_PASSES: usize = 64;
+
 /// The passes of a way, the ways in and out with the first and the last of them; empty for a way with a single round.
 #[derive(Default)]
 pub(crate) struct Passes {
@@ -22,6 +25,8 @@ pub(crate) struct Passes {
 /// The known passes of a similar way.
 pub(crate) struct Before<'a> {
     pub(crate) passes: &'a [Range<usize>],
+    /// Of the whole way.
+    pub(crate) blocks: usize,
     /// How many of its first and of its last blocks equal those of this one.
     pub(crate) same: [usize; 2],
 }
@@ -50,37 +55,28 @@ fn may_have_passes(way: &dyn Way) -> Option<()> {
 }
 
 fn found(way: &dyn Way, before: Option<Before<'_>>) -> Passes {
-    let mut pieces = Ahead {
-        way,
-        first: 0,
-        held: Vec::new(),
-    };
     let mut known = [0, 0];
     let tolerance = way.tolerance();
     let mut passes: Vec<Range<usize>> = Vec::new();
     let mut first_box: Option<Bounds> = None;
     let mut from = 0;
-    loop {
-        // The way in and out may return to their own start, behind all passes.
-        let rounds = (from..=from + BETWEEN)
-            .filter_map(|start| round_from(&mut pieces, start, tolerance, first_box.as_ref()));
-        let Some((round, bounds)) = rounds.min_by_key(|(round, _)| round.end) else {
+    while passes.len() < MOST_PASSES {
+        let Some((end, bounds)) = round_from(way, from, tolerance, first_box.as_ref()) else {
             break;
         };
         first_box.get_or_insert(bounds);
-        from = round.end;
+        from = end;
         // The way between two passes belongs to the next.
-        passes.push(passes.last().map_or(0, |before| before.end)..round.end);
+        passes.push(passes.last().map_or(0, |before| before.end)..end);
         let Some(before) = &before else { continue };
         if passes.len() == 1 {
             known[0] = before.at_the_begin(&passes);
             passes.extend_from_slice(before.passes.get(1..known[0]).unwrap_or_default());
             from = passes.last().map_or(0, |last| last.end);
-            pieces.go_to(from);
         }
         // The other passes depend on the first, and on the rest of the way.
         if known[0] > 0
-            && let Some(rest) = before.from(from, way.count())
+            && let Some(rest) = before.from(from, way.count(), passes.len())
         {
             let own = passes.len();
             passes.extend(rest);
@@ -88,7 +84,8 @@ fn found(way: &dyn Way, before: Option<Before<'_>>) -> Passes {
             break;
         }
     }
-    if let Some(last) = passes.last_mut() {
+    let is_all = passes.len() < MOST_PASSES;
+    if let Some(last) = passes.last_mut().filter(|_| is_all) {
         last.end = way.count();
     }
     Passes { all: passes, known }
@@ -105,43 +102,27 @@ impl Before<'_> {
         }
     }
 
-    /// Its passes from a block of this way on, if one begins there and both ways go on alike.
-    fn from(&self, from: usize, count: usize) -> Option<impl Iterator<Item = Range<usize>>> {
-        let its_count = self.passes.last()?.end;
+    /// Its passes from a block of this way on, behind `known` ones, if one begins there, both ways go on alike, and as
+    /// many of them are looked at.
+    fn from(
+        &self,
+        from: usize,
+        count: usize,
+        known: usize,
+    ) -> Option<impl Iterator<Item = Range<usize>>> {
         let behind = count
             .checked_sub(from)
             .filter(|behind| *behind <= self.same[1])?;
-        let its_from = its_count.checked_sub(behind)?;
+        let its_from = self.blocks.checked_sub(behind)?;
         let at = self
             .passes
             .binary_search_by_key(&its_from, |pass| pass.start);
-        let rest = self.passes.get(at.ok()?..)?.iter();
+        let at = at.ok()?;
+        let rest = self.passes.get(at..)?;
+        let is_all = self.passes.len() < MOST_PASSES && known + rest.len() < MOST_PASSES;
         let moved = move |at: usize| at - its_from + from;
-        Some(rest.map(move |pass| moved(pass.start)..moved(pass.end)))
-    }
-}
-
-/// The pieces of a way from one on, fetched as far as needed.
-struct Ahead<'a> {
-    way: &'a dyn Way,
-    first: usize,
-    held: Vec<Segment>,
-}
-
-impl Ahead<'_> {
-    fn piece(&mut self, index: usize) -> Option<Segment> {
-        let index = index.checked_sub(self.first)?;
-        while self.held.len() <= index {
-            self.held
-                .push(self.way.piece(self.first + self.held.len())?);
-        }
-        self.held.get(index).copied()
-    }
-
-    /// Forgets the pieces before one.
-    fn go_to(&mut self, first: usize) {
-        self.held.drain(..(first - self.first).min(self.held.len()));
-        self.first = first;
+        let rest = rest.iter();
+        (is_all || at == known).then(|| rest.map(move |pass| moved(pass.start)..moved(pass.end)))
     }
 }
 
@@ -161,30 +142,56 @@ pub(crate) fn lie_beside(one: &Bounds, other: &Bounds) -> bool {
     apart(one.min, other.min) <= BESIDE && apart(one.max, other.max) <= BESIDE
 }
 
-/// From a piece on, the first way round that returns to its start, and its box, which is that of the first pass.
+/// A way that may come back to its start.
+struct Begun {
+    first: Segment,
+    pieces: usize,
+    bounds: Bounds,
+}
+
+/// Of the ways round that begin with one of the next pieces, the end of the one that first returns to its start, and its
+/// box, which is that of the first pass: the way in and out may return to their own start, behind all passes.
 fn round_from(
-    pieces: &mut Ahead<'_>,
-    start: usize,
+    way: &dyn Way,
+    from: usize,
     tolerance: f64,
     first_box: Option<&Bounds>,
-) -> Option<(Range<usize>, Bounds)> {
-    let first = pieces.piece(start)?;
-    let begin = first.start();
-    let mut bounds = Bounds::EMPTY;
-    for index in start.. {
-        let piece = pieces.piece(index)?;
-        bounds.merge(&piece.bounds());
-        let is_back = (piece.end() - begin).norm() <= tolerance;
-        let goes_round = match index - start {
-            0 => piece.as_arc().is_some_and(|arc| arc.is_full_turn()),
-            1 => [first, piece].iter().any(|piece| piece.as_arc().is_some()),
-            _ => true,
-        };
-        let is_large = bounds.width().min(bounds.height()) > 4.0 * tolerance;
-        if is_back && goes_round && is_large {
-            return first_box
-                .is_none_or(|first| lie_beside(first, &bounds))
-                .then_some((start..index + 1, bounds));
+) -> Option<(usize, Bounds)> {
+    let around = first_box.map(|first| first.grown(BESIDE + 1.0));
+    let mut begun: Vec<Begun> = Vec::with_capacity(BETWEEN + 1);
+    for index in from.. {
+        let piece = way.piece(index)?;
+        if index <= from + BETWEEN {
+            begun.push(Begun {
+                first: piece,
+                pieces: 0,
+                bounds: Bounds::EMPTY,
+            });
+        }
+        let (own, mut found) = (piece.bounds(), None);
+        begun.retain_mut(|round| {
+            round.pieces += 1;
+            round.bounds.merge(&own);
+            let is_back = (piece.end() - round.first.start()).norm() <= tolerance;
+            let goes_round = match round.pieces {
+                1 => piece.as_arc().is_some_and(|arc| arc.is_full_turn()),
+                2 => [round.first, piece]
+                    .iter()
+                    .any(|piece| piece.as_arc().is_some()),
+                _ => true,
+            };
+            let is_large = round.bounds.width().min(round.bounds.height()) > 4.0 * tolerance;
+            let is_round = is_back && goes_round && is_large;
+            if is_round && first_box.is_none_or(|first| lie_beside(first, &round.bounds)) {
+                found.get_or_insert(round.bounds);
+            }
+            !is_round && around.is_none_or(|around| around.holds(&round.bounds))
+        });
+        if let Some(bounds) = found {
+            return Some((index + 1, bounds));
+        }
+        if begun.is_empty() && index >= from + BETWEEN {
+            return None;
         }
     }
     None
@@ -316,6 +323,34 @@ mod tests {
         // Two contours of which one cuts through the other.
         let aside: Vec<[f64; 2]> = star(0.0).into_iter().map(|[x, y]| [x + 6.0, y]).collect();
         assert!(crossings(&[&star(0.0)[..], &aside, &[[16.0, 9.0]]].concat()) > 0);
+    }
+
+    #[test]
+    fn of_many_passes_the_first_are_looked_at_and_it_is_said() {
+        let told = |rounds: usize| {
+            let way = [&star(0.0)[..1], &star(0.0)[1..].repeat(rounds)[..]].concat();
+            let line = |[x, y]: &[f64; 2]| format!("G01 X{x:.3} Y{y:.3}\n");
+            let text = format!(
+                "G92 X0. Y0.\nG90\n{}M02\n",
+                way.iter().map(line).collect::<String>()
+            );
+            let document = Document::read(Language::Iso, text.into(), &Effective::default());
+            let (findings, _) = document.findings(&Effective::default(), usize::MAX);
+            findings.iter().any(|one| one.rule.name() == "not-judged")
+        };
+        assert!(!told(super::MOST_PASSES - 2));
+        assert!(told(super::MOST_PASSES + 2));
+    }
+
+    #[test]
+    fn passes_that_part_from_the_first_are_not_held_against_each_other_without_bound() {
+        let squares = "B9000B0B9000GXL1\nB0B9000B9000GYL2\nB9000B0B9000GXL3\nB0B9000B9000GYL4\n";
+        let (before, behind) = (squares.repeat(3), squares.repeat(3_000));
+        let turned = squares.replacen("GYL2", "GYL4", 1);
+        let text = format!("{before}{turned}{behind}DD\n");
+        let document = Document::read(Language::ThreeB, text.into(), &Effective::default());
+        let (findings, _) = document.findings(&Effective::default(), usize::MAX);
+        assert!(findings.iter().any(|one| one.rule.name() == "not-judged"));
     }
 
     /// A way with a stop behind the first `before` of its places.

@@ -15,7 +15,8 @@ mod way;
 
 use super::entry::Entry;
 use super::rules::Limits;
-use super::stretch::{Stretch, Sum};
+use super::stretch::Stretch;
+use super::sum::Sum;
 use super::words::Words;
 use crate::finding::Finding;
 use crate::geometry::Point;
@@ -79,6 +80,9 @@ pub(crate) struct JoinedCut {
     is_jump: bool,
     /// Blocks before its first stop, where it goes on behind that.
     stop: Option<usize>,
+    /// It is known to enclose something, and not to cross itself: as long as none of its lines is read again.
+    goes_round: bool,
+    crosses_nothing: bool,
 }
 
 /// The properties of the program as a whole.
@@ -192,9 +196,10 @@ impl Document {
                     .binary_search_by_key(part, |(_, part)| *part)
                     .is_ok()
             };
-            stretch
-                .into_iter()
-                .for_each(|stretch| stretch.may_cross.retain(|part| !is_clean(part)));
+            if let Some(stretch) = stretch {
+                stretch.may_cross.retain(|part| !is_clean(part));
+                stretch.let_go();
+            }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The content of a line of a 3B program, and the end of a block.
 
 use super::around::StatedPoint;
-use super::block::{self, Block, Motion, PartArc};
+use super::block::{self, Block, CountingAxis, Motion, PartArc};
 use super::decode::meant;
 use super::machine::travel;
 use super::words::Word;
@@ -57,19 +57,23 @@ impl Move {
     }
 }
 
-/// A block as it stands in the text, and its displacement.
+/// A block as it stands in the text.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct BlockEntry {
-    pub(crate) block: Block,
-    pub(crate) travel: Move,
+    /// X, Y and J; those of a block with larger ones are in `extra`.
+    numbers: [u32; 3],
+    axis: CountingAxis,
+    motion: Motion,
     /// Parts that only some blocks have.
-    pub(crate) extra: Option<Box<Extra>>,
+    extra: Option<Box<Extra>>,
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Extra {
-    pub(crate) part: Option<PartArc>,
-    pub(crate) stated_end: Option<StatedPoint>,
+struct Extra {
+    part: Option<PartArc>,
+    stated_end: Option<StatedPoint>,
+    /// X, Y and J.
+    large: Option<Box<[i64; 3]>>,
 }
 
 impl BlockEntry {
@@ -78,13 +82,38 @@ impl BlockEntry {
         part: Option<PartArc>,
         stated_end: Option<StatedPoint>,
     ) -> BlockEntry {
-        let extra =
-            (part.is_some() || stated_end.is_some()).then(|| Box::new(Extra { part, stated_end }));
+        let written = [block.x, block.y, block.j];
+        let numbers = written.map(|number| u32::try_from(number).unwrap_or(0));
+        let large = (numbers.map(i64::from) != written).then(|| Box::new(written));
+        let is_plain = part.is_none() && stated_end.is_none() && large.is_none();
+        let extra = Extra {
+            part,
+            stated_end,
+            large,
+        };
         BlockEntry {
-            block,
-            travel: travel_of(&block),
-            extra,
+            numbers,
+            axis: block.axis,
+            motion: block.motion,
+            extra: (!is_plain).then(|| Box::new(extra)),
         }
+    }
+
+    pub(crate) fn block(&self) -> Block {
+        let large = self.extra.as_ref().and_then(|extra| extra.large.as_deref());
+        let [x, y, j] = large.copied().unwrap_or(self.numbers.map(i64::from));
+        Block {
+            x,
+            y,
+            j,
+            axis: self.axis,
+            motion: self.motion,
+        }
+    }
+
+    /// Its displacement.
+    pub(crate) fn travel(&self) -> Move {
+        travel_of(&self.block())
     }
 
     /// The additional part of a 4B block.
@@ -97,7 +126,7 @@ impl BlockEntry {
     }
 
     pub(crate) fn is_line(&self) -> bool {
-        matches!(self.block.motion, Motion::Line(_))
+        matches!(self.motion, Motion::Line(_))
     }
 }
 

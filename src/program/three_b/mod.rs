@@ -22,6 +22,7 @@ mod repair;
 mod rules;
 mod scan;
 mod stretch;
+mod sum;
 #[cfg(test)]
 mod tests;
 mod tokens;

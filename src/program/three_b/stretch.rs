@@ -4,20 +4,20 @@
 //! Places count from the stretch's first byte and line, so that an edit elsewhere changes nothing here.
 
 use super::around::StatedPoint;
-use super::block::{Block, Motion};
+use super::block::Block;
 use super::decode::meant;
-use super::entry::{BlockEntry, Entry, Move, NO_NUMBER, What};
+use super::entry::{BlockEntry, Entry, Move, NO_NUMBER, What, travel_of};
 use super::fault::Flaw;
 use super::parse::{Item, read_line};
 use super::rules::block_number::Numbering;
 use super::rules::position_mismatch::Positions;
 use super::rules::{self, Counts, Limits, Spot};
+use super::sum::{Sum, is_jump, may_cross_itself};
 use super::words::{Word, Words};
 use crate::finding::{Detail, Fault, Rule};
 use crate::geometry::{Bounds, Point, Segment, Vector};
-use crate::program::path::{
-    Ends, FEWEST_CROSSING, HeldWay, Lay, Node, Writing, may_be_odd, mixed, odd_joint, tolerance,
-};
+use crate::program::path::{HeldWay, Lay, Node, Writing, may_be_odd, odd_joint};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// A finding at bytes of the stretch.
@@ -32,123 +32,31 @@ pub(super) struct Local {
     pub(crate) part: usize,
 }
 
-/// The totals of blocks without a word between them.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Sum {
-    pub(crate) blocks: usize,
-    pub(crate) arcs: usize,
-    pub(crate) travel: Move,
-    /// Twice the area between the way and its chord, µm²; only its sign is used.
-    pub(crate) twice_area: f64,
-    /// Faults that change where the way leads.
-    pub(crate) errors: usize,
-    /// Unreadable blocks: the end of the way is unknown.
-    pub(crate) unread: usize,
-    /// Tells two of them apart: equal ways have equal marks.
-    pub(crate) mark: u64,
-    pub(crate) first: Option<Move>,
-    pub(crate) second: Option<Move>,
-    pub(crate) last: Option<Move>,
-}
-
-impl Sum {
-    /// These blocks and then the next.
-    pub(crate) fn then(&self, next: &Sum) -> Sum {
-        if next.blocks == 0 {
-            return Sum {
-                errors: self.errors + next.errors,
-                unread: self.unread + next.unread,
-                ..*self
-            };
-        }
-        let (a, b) = (self.travel.meant_um(), next.travel.meant_um());
-        Sum {
-            blocks: self.blocks + next.blocks,
-            arcs: self.arcs + next.arcs,
-            travel: self.travel.plus(next.travel),
-            twice_area: self.twice_area + next.twice_area + a[0] * b[1] - a[1] * b[0],
-            errors: self.errors + next.errors,
-            unread: self.unread + next.unread,
-            mark: self
-                .mark
-                .wrapping_mul(POLYNOMIAL.wrapping_pow(next.blocks as u32))
-                .wrapping_add(next.mark),
-            first: self.first.or(next.first),
-            second: self.second.or(if self.blocks == 1 {
-                next.first
-            } else if self.blocks == 0 {
-                next.second
-            } else {
-                None
-            }),
-            last: next.last.or(self.last),
-        }
-    }
-
-    pub(crate) fn ends(&self) -> Ends {
-        let first = self.first.unwrap_or_default();
-        let second = first.plus(self.second.unwrap_or_default());
-        let last = self.travel.minus(self.last.unwrap_or_default());
-        Ends {
-            begin: [Move::default(), first, second].map(|at| at.node()),
-            end: [last, self.travel].map(|at| at.node()),
-            blocks: self.blocks,
-            tolerance: tolerance(self.arcs),
-        }
-    }
-
-    fn push(&mut self, entry: &BlockEntry, segment: Option<&Segment>) {
-        let origin = Point::origin();
-        let one = Sum {
-            blocks: 1,
-            arcs: usize::from(!entry.is_line()),
-            travel: entry.travel,
-            twice_area: segment
-                .and_then(Segment::as_arc)
-                .map_or(0.0, |arc| Segment::Arc(*arc).twice_area(origin)),
-            errors: 0,
-            unread: 0,
-            mark: mark_of(entry),
-            first: Some(entry.travel),
-            second: None,
-            last: Some(entry.travel),
-        };
-        *self = self.then(&one);
-    }
-}
-
-const POLYNOMIAL: u64 = 0x9e37_79b9_7f4a_7c15;
-
-fn mark_of(entry: &BlockEntry) -> u64 {
-    let Block {
-        x,
-        y,
-        j,
-        axis,
-        motion,
-    } = entry.block;
-    let (kind, quadrant) = match motion {
-        Motion::Line(quadrant) => (0, quadrant),
-        Motion::Clockwise(quadrant) => (1, quadrant),
-        Motion::CounterClockwise(quadrant) => (2, quadrant),
-    };
-    let fields = [
-        x as u64,
-        y as u64,
-        j as u64,
-        axis as u64 * 16 + kind * 4 + u64::from(quadrant.number()),
-    ];
-    fields.into_iter().fold(POLYNOMIAL, mixed)
-}
-
 /// Blocks up to a word or to the end of the stretch.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Part {
-    pub(crate) entries: Range<usize>,
-    pub(crate) sum: Sum,
-    /// The word behind it, at `entries.end`.
+    entries: (u32, u32),
+    /// The word behind it, at the end of its entries.
     pub(crate) word: Option<(Word, bool)>,
-    pub(crate) lay: Lay,
+    /// There is a block in it, readable or not.
+    pub(crate) has_blocks: bool,
+    /// Between two pauses it is the way from one contour to the next, perhaps.
+    pub(crate) may_be_jump: bool,
+    /// Of one that is sound by itself nothing is held: its blocks tell it.
+    whole: Option<Box<Whole>>,
+}
+
+/// What the blocks of a part come to.
+#[derive(Clone, Debug, PartialEq)]
+struct Whole {
+    sum: Sum,
+    lay: Lay,
+}
+
+impl Part {
+    pub(crate) fn entries(&self) -> Range<usize> {
+        self.entries.0 as usize..self.entries.1 as usize
+    }
 }
 
 /// The curve of a block from the origin; none where it is unknown.
@@ -195,16 +103,18 @@ impl Open {
         }
     }
 
-    fn push(&mut self, entry: &BlockEntry) {
-        let segment = meant(&entry.block, Point::origin());
+    fn push(&mut self, block: &Block) {
+        let segment = meant(block, Point::origin());
         self.join(segment.unwrap_or_else(nowhere));
         let [x, y] = self.sum.travel.meant_um();
         let (start, by) = (Point::new(x, y), Vector::new(x, y));
         let way = segment
             .as_ref()
             .map_or(Segment::line(start, start), |segment| segment.moved(by));
-        self.sum.push(entry, segment.as_ref());
-        self.way.push(way, !entry.is_line(), self.sum.travel.node());
+        let arcs = self.sum.arcs;
+        self.sum.push(block, travel_of(block), segment.as_ref());
+        let is_arc = self.sum.arcs > arcs;
+        self.way.push(way, is_arc, self.sum.travel.node());
     }
 
     /// Checks the joint at which the last block begins, now that the next block is known.
@@ -228,13 +138,23 @@ impl Open {
         self.trail = [Some(next), made, before];
     }
 
-    /// The part up to an entry, with the word there.
-    fn closed(self, end: usize, word: Option<(Word, bool)>) -> Part {
+    /// The part up to an entry, with the word there, where it is known how some parts before it lie.
+    fn closed<'a>(
+        self,
+        end: usize,
+        word: Option<(Word, bool)>,
+        is_whole: bool,
+        known: impl Iterator<Item = &'a Lay>,
+    ) -> Part {
+        let sum = self.sum;
+        let lay = Lay::known(known, sum.mark, is_whole)
+            .unwrap_or_else(|| Lay::of(&self.way, sum.mark, is_whole));
         Part {
-            entries: self.first..end,
-            lay: Lay::of(&self.way, self.sum.mark),
-            sum: self.sum,
+            entries: (self.first as u32, end as u32),
             word,
+            has_blocks: sum.blocks + sum.unread > 0,
+            may_be_jump: is_jump(&sum),
+            whole: Some(Box::new(Whole { sum, lay })),
         }
     }
 }
@@ -271,21 +191,6 @@ pub(super) struct Stretch {
     pub(crate) edges: [Option<Edge>; 2],
 }
 
-/// A way of at most this many lines between two pauses leads from one contour to the next.
-const JUMP_BLOCKS: usize = 3;
-
-/// True for the way between two pauses from one contour to the next. A way that returns to its start is not one: that
-/// is how a tab is cut off, from and to the thread hole.
-pub(super) fn is_jump(sum: &Sum) -> bool {
-    let is_way = (1..=JUMP_BLOCKS).contains(&sum.blocks) && sum.arcs == 0;
-    is_way && sum.travel.machine != [0, 0]
-}
-
-/// True for a part that is searched for crossings: behind a faulty block the path is not the intended one.
-pub(super) fn may_cross_itself(sum: &Sum) -> bool {
-    sum.blocks >= FEWEST_CROSSING && sum.errors == 0
-}
-
 impl Stretch {
     /// Reads lines that begin at `offset` of the text. `lines` are ranges of the text without line ends, `bytes` all of it.
     pub(crate) fn read(
@@ -318,8 +223,15 @@ impl Stretch {
         }
         self.edges[1] = open.edges[1];
         let odd = std::mem::take(&mut open.odd);
-        let part = open.closed(end, word);
-        let own = self.entries.get(part.entries.clone()).unwrap_or_default();
+        // A part between two words is a cut by itself.
+        let is_whole = word.is_some() && !self.parts.is_empty() && may_cross_itself(&open.sum);
+        let wholes = self
+            .parts
+            .iter()
+            .rev()
+            .filter_map(|part| part.whole.as_ref());
+        let part = open.closed(end, word, is_whole, wholes.map(|whole| &whole.lay));
+        let own = self.entries.get(part.entries()).unwrap_or_default();
         let blocks = || own.iter().filter(|entry| entry.block().is_some());
         for (nth, fault) in odd {
             let range = blocks().nth(nth).map_or(0..0, Entry::range);
@@ -338,27 +250,73 @@ impl Stretch {
     fn sum_up(&mut self) {
         let last = self.parts.len().saturating_sub(1);
         for (index, part) in self.parts.iter().enumerate() {
-            if part.sum.blocks > 0 {
+            let Some(Whole { sum, lay }) = part.whole.as_deref() else {
+                continue;
+            };
+            if sum.blocks > 0 {
                 let [x, y] = self.travel.meant_um();
-                let placed = part.lay.bounds.moved(Vector::new(x, y));
+                let placed = lay.bounds.moved(Vector::new(x, y));
                 let known = self.bounds.get_or_insert(placed);
                 known.merge(&placed);
             }
-            self.travel = self.travel.plus(part.sum.travel);
-            self.arcs += part.sum.arcs;
+            self.travel = self.travel.plus(sum.travel);
+            self.arcs += sum.arcs;
             if let Some((word, is_own)) = part.word {
                 self.words += 1;
-                self.last_word = Some(part.entries.end);
+                let end = part.entries().end;
+                self.last_word = Some(end);
                 if word == Word::End {
-                    self.own_end = self.own_end.or(is_own.then_some(part.entries.end));
-                    self.last_end = Some(part.entries.end);
+                    self.own_end = self.own_end.or(is_own.then_some(end));
+                    self.last_end = Some(end);
                 }
             }
             if index > 0 && index < last {
                 self.open
-                    .extend((!is_jump(&part.sum) && !part.lay.goes_round).then_some(index));
-                let may_cross = !part.lay.near.is_empty() && may_cross_itself(&part.sum);
+                    .extend((!is_jump(sum) && !lay.goes_round).then_some(index));
+                let may_cross = lay.may_cross() && may_cross_itself(sum);
                 self.may_cross.extend(may_cross.then_some(index));
+            }
+        }
+        self.let_go();
+    }
+
+    /// Of parts that are sound by themselves nothing is held.
+    pub(crate) fn let_go(&mut self) {
+        let last = self.parts.len().saturating_sub(1);
+        for index in 1..last {
+            let has_fault = self.faults.iter().any(|fault| fault.part == index);
+            let is_told =
+                has_fault || self.open.contains(&index) || self.may_cross.contains(&index);
+            let part = &mut self.parts[index];
+            let is_read = |whole: &mut Box<Whole>| whole.sum.errors + whole.sum.unread == 0;
+            part.whole.take_if(|whole| !is_told && is_read(whole));
+        }
+    }
+
+    /// The blocks of a part once more.
+    fn read_again(&self, part: &Part) -> Open {
+        let mut open = Open::at(part.entries().start);
+        let own = self.entries.get(part.entries()).unwrap_or_default();
+        let blocks = own.iter().filter_map(Entry::block);
+        blocks.for_each(|block| open.push(&block.block()));
+        open
+    }
+
+    /// The totals of a part.
+    pub(crate) fn sum(&self, part: &Part) -> Sum {
+        match &part.whole {
+            Some(whole) => whole.sum,
+            None => self.read_again(part).sum,
+        }
+    }
+
+    /// How a part lies relative to itself.
+    pub(crate) fn lay<'a>(&self, part: &'a Part) -> Cow<'a, Lay> {
+        match &part.whole {
+            Some(whole) => Cow::Borrowed(&whole.lay),
+            None => {
+                let open = self.read_again(part);
+                Cow::Owned(Lay::of(&open.way, open.sum.mark, false))
             }
         }
     }
@@ -398,7 +356,7 @@ impl Stretch {
                     });
                 }
                 self.stated += usize::from(entry.stated_end().is_some());
-                open.push(&entry);
+                open.push(&block);
                 self.positions
                     .block(self.blocks, self.entries.len(), &entry);
                 self.blocks += 1;
@@ -476,5 +434,35 @@ impl Stretch {
             number: number.unwrap_or(NO_NUMBER),
             what,
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::Effective;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn what_a_part_comes_to_is_told_by_its_blocks_once_it_is_let_go(
+            blocks in prop::collection::vec("B[0-9]{1,4}B[0-9]{1,4}B[0-9]{1,10}G[XY](L|SR|NR)[1-4]|D|D|;", 0..40),
+        ) {
+            let text = blocks.join("\n");
+            let limits = Limits::of(&Effective::default());
+            let mut from = 0;
+            let lines = text.split('\n').map(|line| {
+                from += line.len() + 1;
+                from - 1 - line.len()..from - 1
+            });
+            let stretch = Stretch::read(text.as_bytes(), 0, lines, &Words::default(), &limits);
+            for part in &stretch.parts {
+                let held = Part { whole: None, ..part.clone() };
+                let [own, told] = [part, &held].map(|part| stretch.sum(part));
+                prop_assert_eq!(Sum { errors: 0, unread: 0, ..own }, told);
+                let [own, told] = [part, &held].map(|part| stretch.lay(part).into_owned());
+                prop_assert_eq!((own.mark, own.bounds, own.near, own.goes_round), (told.mark, told.bounds, told.near, told.goes_round));
+            }
+        }
     }
 }

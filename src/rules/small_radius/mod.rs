@@ -7,6 +7,7 @@
 //! boundary of the morphological opening of the wire's region by a disc of radius R; outside nothing changes.
 
 mod edit;
+mod in_the_way;
 mod refillet;
 mod run;
 mod travel;

@@ -1,10 +1,12 @@
 //! The new arc of a run: where its centre lies, whether it fits, and how far it moves the contour.
 
 use super::Travel;
+use super::in_the_way::{InTheWay, Meets};
 use crate::finding::NoFix;
 use crate::geometry::Locus;
 use crate::geometry::{Arc, Bounds, Point, Segment, positive_angle};
 use crate::rules::Limits;
+use rustc_hash::FxHashMap;
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
@@ -130,6 +132,11 @@ struct Search<'a> {
     limits: &'a Limits,
     run: RangeInclusive<isize>,
     region: Bounds,
+    /// The segments looked at so far, by position.
+    seen: FxHashMap<isize, Option<Segment>>,
+    in_the_way: InTheWay,
+    /// Some disc met nothing but rounding.
+    met_rounding: bool,
     would_seal: bool,
     /// Whether a neighbour may be left too short to cut, and whether one would have been.
     leaves_crumbs: bool,
@@ -149,6 +156,9 @@ impl<'a> Search<'a> {
             limits,
             run,
             region: Bounds::EMPTY,
+            seen: FxHashMap::default(),
+            in_the_way: InTheWay::default(),
+            met_rounding: false,
             would_seal: false,
             leaves_crumbs: true,
             would_leave_crumb: false,
@@ -176,14 +186,6 @@ impl<'a> Search<'a> {
     fn search(&mut self) -> Result<Replacement, NoFix> {
         let (first, last) = (*self.run.start(), *self.run.end());
         let count = self.travel.len() as isize;
-        if self.arcs as isize >= count {
-            // A hole, or an outline of tight arcs only, has no neighbour to be tangent to.
-            return Err(if self.travel.contour.closed {
-                NoFix::NarrowSlot
-            } else {
-                NoFix::NoNeighbour
-            });
-        }
         let mut longest = 0.0;
         for position in self.run.clone() {
             if let Some(Segment::Arc(arc)) = self.look_at(position)
@@ -192,6 +194,14 @@ impl<'a> Search<'a> {
                 (longest, self.old_center) = (arc.length(), arc.center);
             }
         }
+        if self.arcs as isize >= count {
+            // A hole, or an outline of tight arcs only, has no neighbour to be tangent to.
+            return Err(if self.travel.contour.closed {
+                NoFix::NarrowSlot
+            } else {
+                NoFix::NoNeighbour
+            });
+        }
         if self.look_at(first - 1).is_none() || self.look_at(last + 1).is_none() {
             return Err(NoFix::NoNeighbour);
         }
@@ -199,15 +209,16 @@ impl<'a> Search<'a> {
         // at their ends, and the replaced segments may stick out by as much. A neighbour is swallowed if only a crumb
         // of it would be left.
         self.leaves_crumbs = false;
-        let exact = self.search_outward(first, last, count);
-        self.slack = self.limits.tolerances.arc_fit;
-        exact
-            .or_else(|| self.search_outward(first, last, count))
-            .ok_or(match () {
-                () if self.would_leave_crumb => NoFix::ShortSegment,
-                () if self.would_seal => NoFix::SealsContour,
-                () => NoFix::NarrowSlot,
-            })
+        let mut found = self.search_outward(first, last, count);
+        if found.is_none() && self.met_rounding {
+            self.slack = self.limits.tolerances.arc_fit;
+            found = self.search_outward(first, last, count);
+        }
+        found.ok_or(match () {
+            () if self.would_leave_crumb => NoFix::ShortSegment,
+            () if self.would_seal => NoFix::SealsContour,
+            () => NoFix::NarrowSlot,
+        })
     }
 
     /// Tries the neighbours themselves, then swallows one more segment at either end each time.
@@ -251,9 +262,15 @@ impl<'a> Search<'a> {
 
     /// The segment at a position, which also enters the region that the answer depends on.
     fn look_at(&mut self, position: isize) -> Option<Segment> {
-        let segment = self.travel.segment(position)?.geometry;
-        self.region.merge(&segment.bounds());
-        Some(segment)
+        if let Some(seen) = self.seen.get(&position) {
+            return *seen;
+        }
+        let segment = self.travel.segment(position).map(|place| place.geometry);
+        if let Some(segment) = &segment {
+            self.region.merge(&segment.bounds());
+        }
+        self.seen.insert(position, segment);
+        segment
     }
 
     /// The valid replacement between two neighbours that lies nearest to the old arc.
@@ -406,22 +423,18 @@ impl<'a> Search<'a> {
             .sum()
     }
 
-    /// True when the disc of the new arc keeps clear of the contour. Replaced segments may come as near as rounding
-    /// noise.
-    fn is_clear(&self, arc: &Arc, before: isize, after: isize) -> bool {
+    /// True when the disc of the new arc keeps clear of the contour. Replaced segments may come as near as the slack.
+    fn is_clear(&mut self, arc: &Arc, before: isize, after: isize) -> bool {
         let tolerances = &self.limits.tolerances;
-        let count = self.travel.len() as isize;
-        let is_replaced = |position: isize| {
-            let beyond = (position - before).rem_euclid(count);
-            beyond > 0 && beyond < after - before
-        };
-        self.travel.keeps_clear(
-            arc.center,
-            arc.radius,
-            tolerances.clearance,
-            self.slack,
-            &is_replaced,
-        )
+        let met = self
+            .in_the_way
+            .met_by(arc, self.travel, tolerances, [before, after]);
+        self.met_rounding |= met == Meets::Rounding;
+        match met {
+            Meets::Nothing => true,
+            Meets::Rounding => self.slack > tolerances.clearance,
+            Meets::Something => false,
+        }
     }
 
     /// Largest distance of the replaced part, with the cut-off ends of the neighbours, from the new arc.

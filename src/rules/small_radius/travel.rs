@@ -2,7 +2,7 @@
 
 use crate::drawing::{Contour, ContourIndex, ContourSegment, Drawing};
 use crate::finding::Side;
-use crate::geometry::{Bounds, Point};
+use crate::geometry::{Bounds, Segment};
 
 /// A contour seen in the direction that has the wire on its left: arcs concave to the wire turn left.
 ///
@@ -58,30 +58,17 @@ impl Travel<'_> {
         })
     }
 
-    /// True when every segment keeps a distance of at least `radius` less a slack from `center`. The slack is `loose`
-    /// for segments at positions where `is_replaced` holds, else `strict`.
-    pub(crate) fn keeps_clear(
+    /// The first segment that reaches into a disc, for which `reaches` holds of its place in the contour and itself.
+    /// Only those whose boxes touch the box of the disc are asked.
+    pub(crate) fn first_within(
         &self,
-        center: Point,
-        radius: f64,
-        strict: f64,
-        loose: f64,
-        is_replaced: &dyn Fn(isize) -> bool,
-    ) -> bool {
-        let disc = Bounds::of_disc(center, radius);
-        self.index.near(&disc).flatten().all(|index| {
-            let Some(segment) = self.contour.segment(self.drawing, index) else {
-                return true;
-            };
-            if !segment.geometry.bounds().touches(&disc) {
-                return true;
-            }
-            let slack = if is_replaced(self.position_of(index)) {
-                loose
-            } else {
-                strict
-            };
-            segment.geometry.distance_to(center) >= radius - slack
+        disc: &Bounds,
+        mut reaches: impl FnMut(usize, &Segment) -> bool,
+    ) -> Option<(usize, Segment)> {
+        self.index.near(disc).flatten().find_map(|index| {
+            let segment = self.contour.segment(self.drawing, index)?.geometry;
+            let is_near = segment.bounds().touches(disc);
+            (is_near && reaches(index, &segment)).then_some((index, segment))
         })
     }
 }

@@ -239,6 +239,34 @@ proptest! {
     }
 
     #[test]
+    fn an_edit_among_long_contours_leaves_them_as_read_afresh(
+        contours in prop::collection::vec((1_i32..30, any::<bool>(), prop::sample::select(vec!["", "M00\n", "M00\nM00\n", "G41 D1\n"])), 1..24),
+        edits in prop::collection::vec((0_usize..20_000, 0_usize..3, prop::sample::select(vec!["", "5", "1", "\n", "M00\n", "G42 D1\n", "X", "G91\n", "H1=80\n"])), 1..6),
+    ) {
+        // Squares in steps of 1 mm: of some the way runs through many stretches.
+        let contour = |(nth, (steps, is_relative, before)): (usize, &(i32, bool, &str))| {
+            let begin = 40 * nth as i32;
+            let mut text = format!("G90\n{before}G00 X{begin}. Y0.\n{}\n", if *is_relative { "G91" } else { "G90" });
+            let mut at = [0, 0];
+            for [x, y] in [[1, 0], [0, 1], [-1, 0], [0, -1]] {
+                for _ in 0..*steps {
+                    at = [at[0] + x, at[1] + y];
+                    let [x, y] = if *is_relative { [x, y] } else { [begin + at[0], at[1]] };
+                    text += &format!("G01 X{x}. Y{y}.\n");
+                }
+            }
+            text
+        };
+        let mut document = read(&(contours.iter().enumerate().map(contour).collect::<String>() + "M02\n"));
+        for (start, length, replacement) in edits {
+            document.edit(start..start + length, replacement);
+            let fresh = Document::read(document.text().bytes().to_vec());
+            prop_assert_eq!(document.findings(), fresh.findings());
+            prop_assert_eq!(document.trace(), fresh.trace());
+        }
+    }
+
+    #[test]
     fn any_bytes_are_read(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
         let document = Document::read(bytes);
         let trace = document.trace();

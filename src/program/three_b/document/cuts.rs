@@ -1,7 +1,8 @@
 //! The division of a program into contours and the ways between them: the blocks from one word to the next.
 
 use super::super::entry::{BlockEntry, Entry};
-use super::super::stretch::{Stretch, Sum, is_jump};
+use super::super::stretch::Stretch;
+use super::super::sum::{Sum, is_jump};
 use super::{At, Document, JoinedCut, PartAt, View};
 use crate::program::chunks::Reread;
 use std::ops::Range;
@@ -85,7 +86,7 @@ impl Document {
                 if end.is_some_and(|end| {
                     end < At {
                         stretch,
-                        entry: part.entries.start,
+                        entry: part.entries().start,
                     }
                 }) {
                     return cut;
@@ -95,14 +96,16 @@ impl Document {
                     sum: Sum::default(),
                     is_jump: false,
                     stop: None,
+                    goes_round: false,
+                    crosses_nothing: false,
                 });
                 own.parts[1] = (stretch, nth);
-                own.sum = own.sum.then(&part.sum);
+                own.sum = own.sum.then(&of.sum(part));
                 if part.word.is_some() {
                     let is_end = end
                         == Some(At {
                             stretch,
-                            entry: part.entries.end,
+                            entry: part.entries().end,
                         });
                     own.is_jump = start != (0, 0)
                         && self.is_behind_word(start)
@@ -132,11 +135,11 @@ impl Document {
         let (mut stretch, mut index) = self.part_behind(part);
         while let Some(of) = self.stretches.get(stretch) {
             for part in of.parts.iter().skip(index) {
-                if part.sum.blocks + part.sum.unread > 0 {
+                if part.has_blocks {
                     return false;
                 }
                 if part.word.is_some() {
-                    let entry = part.entries.end;
+                    let entry = part.entries().end;
                     return Some(At { stretch, entry }) != end;
                 }
             }
@@ -269,6 +272,11 @@ impl Document {
     }
 
     pub(super) fn is_jump(&self, part: PartAt) -> bool {
+        let parts = self.stretches.get(part.0).map_or(&[][..], |of| &of.parts);
+        let is_inner = part.1 > 0 && part.1 + 1 < parts.len();
+        if is_inner && parts.get(part.1).is_some_and(|own| !own.may_be_jump) {
+            return false;
+        }
         self.cut_of_part(&self.view, part)
             .is_some_and(|cut| cut.is_jump)
     }
@@ -309,7 +317,7 @@ impl Document {
                 .stretches
                 .get(stretch)
                 .and_then(|of| of.parts.get(part));
-            parts.map_or(0..0, |part| part.entries.clone())
+            parts.map_or(0..0, |part| part.entries())
         };
         let (first, last) = (
             entries((first_stretch, first_part)),
@@ -344,7 +352,7 @@ impl Document {
     pub(super) fn part_of(&self, at: At) -> usize {
         self.stretches.get(at.stretch).map_or(0, |of| {
             of.parts
-                .partition_point(|part| part.entries.end <= at.entry)
+                .partition_point(|part| part.entries().end <= at.entry)
         })
     }
 }
@@ -356,6 +364,8 @@ pub(super) fn joined(cut: JoinedCut, behind: &JoinedCut) -> JoinedCut {
         sum: cut.sum.then(&behind.sum),
         is_jump: false,
         stop: cut.stop.or(Some(cut.sum.blocks)),
+        goes_round: false,
+        crosses_nothing: false,
     }
 }
 

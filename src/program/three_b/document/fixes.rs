@@ -11,7 +11,7 @@ use super::super::rules::position_mismatch::Mismatched;
 use super::super::rules::{
     self, Site, TextFix, block_number, missing_end, position_mismatch, text_after_end,
 };
-use super::super::stretch::Sum;
+use super::super::sum::Sum;
 use super::{At, Document};
 use crate::finding::{Detail, Fault, Finding, FixKind, Place};
 use crate::program::alike::{Alike, alike};
@@ -59,7 +59,7 @@ impl Document {
         let before = self.stated_before(at)?;
         let next = self
             .next_block(at)
-            .and_then(|next| Some((next.stated_end()?, next.travel)));
+            .and_then(|next| Some((next.stated_end()?, next.travel())));
         let goes_on =
             next.map(|(end, travel)| position_mismatch::mismatch(&stated, &travel, &end).is_none());
         let line = self.text.line_range(self.text.line_of(own.start));
@@ -74,7 +74,7 @@ impl Document {
         let cut = self.cut_of(at)?;
         Some(position_mismatch::fixes(&Mismatched {
             text: self.text.bytes(),
-            block: entry.block,
+            block: entry.block(),
             fields: fields_of(self.text.bytes(), own)?,
             coordinates,
             before,
@@ -127,7 +127,7 @@ impl Document {
             },
             line: self.text.whole_line(line),
             fields,
-            block: entry.block,
+            block: entry.block(),
             largest: self.limits.largest(),
             closes_with: &|blocks| self.closes_with(at, entry, blocks),
         };
@@ -144,7 +144,7 @@ impl Document {
             .map(travel_of)
             .fold(Move::default(), Move::plus);
         let mut sum = Sum {
-            travel: cut.sum.travel.minus(entry.travel).plus(new),
+            travel: cut.sum.travel.minus(entry.travel()).plus(new),
             ..cut.sum
         };
         if self.blocks_of(&cut).next() == Some(at) {

@@ -50,7 +50,7 @@ impl Document {
             return Vec::new();
         };
         let first = At { stretch, entry };
-        let placed = |(at, entry): (At, &Entry)| Some((at, shape(&entry.block()?.block)));
+        let placed = |(at, entry): (At, &Entry)| Some((at, shape(&entry.block()?.block())));
         let is_word = |entry: &Entry| matches!(entry.what, What::Word { .. });
         let before = self.before(first).take_while(|(_, entry)| !is_word(entry));
         let mut blocks: Vec<(At, Segment)> = before.filter_map(placed).take(REACH).collect();
@@ -103,7 +103,7 @@ impl Document {
             .iter()
             .take(at.entry)
             .filter_map(Entry::block);
-        let by = travels.map(|block| block.travel.machine);
+        let by = travels.map(|block| block.travel().machine);
         let begin = view.begins.get(at.stretch).copied().unwrap_or_default();
         by.fold(begin, |at, [x, y]| at + Vector::new(x as f64, y as f64))
     }
@@ -136,8 +136,8 @@ impl Document {
             .find(|(_, entry)| entry.block().is_some())?;
         let both = before
             .block()?
-            .travel
-            .plus(self.entry(back)?.block()?.travel);
+            .travel()
+            .plus(self.entry(back)?.block()?.travel());
         let (mut edit, mut found) = (Vec::new(), Vec::new());
         for at in [out, back] {
             let line = self.text.line_of(self.range_of(at).start);

@@ -129,7 +129,14 @@ impl Document {
             .inner_cuts(view.end, |stretch| &stretch.open)
             .filter(is_open)
             .collect();
-        candidates.extend(view.outer.iter().filter(|cut| is_open(cut)).cloned());
+        for cut in view
+            .outer
+            .iter_mut()
+            .filter(|cut| !cut.is_jump && !cut.goes_round)
+        {
+            cut.goes_round = self.goes_round(cut);
+            candidates.extend((!cut.goes_round).then(|| cut.clone()));
+        }
         // Between two pauses this would be a way to the next contour; before the end it is not.
         let last = view.end.and_then(|end| {
             Some((
@@ -138,7 +145,7 @@ impl Document {
                     .get(end.stretch)?
                     .parts
                     .iter()
-                    .position(|part| part.entries.end == end.entry)?,
+                    .position(|part| part.entries().end == end.entry)?,
             ))
         });
         candidates.extend(
@@ -179,7 +186,7 @@ impl Document {
             let part = of.parts.get(last.1)?;
             part.word.map(|_| At {
                 stretch: last.0,
-                entry: part.entries.end,
+                entry: part.entries().end,
             })
         });
         word.is_some() && word != view.end && self.stops_again(last, view.end)
@@ -275,17 +282,26 @@ impl Document {
         let mut findings = Vec::new();
         let may_cross = self.inner_cuts(view.end, |stretch| &stretch.may_cross);
         let may_cross = may_cross.filter(|cut| !is_held(cut)).map(Cow::Owned);
-        let outer = view.outer.iter().filter(|cut| !is_held(cut)).chain(&held);
+        let is_open_question = |cut: &&JoinedCut| !cut.crosses_nothing && !is_held(cut);
+        let outer = view.outer.iter().filter(is_open_question).chain(&held);
+        let mut clear: Vec<PartAt> = Vec::new();
         let cuts = may_cross.chain(outer.map(Cow::Borrowed));
         self.look_through(known, cuts, |cut, found| {
             if found.is_clean() {
                 let is_inner = matches!(cut, Cow::Owned(_));
                 clean.extend(is_inner.then_some(cut.parts[0]));
+                clear.extend((!is_inner && cut.stop.is_none()).then_some(cut.parts[0]));
             } else if !self.is_odd(view, &cut) {
                 findings.extend(found.findings(&self.way(&cut), &self.text));
             }
         });
         view.findings.extend(findings);
+        for begin in clear {
+            let index = view.outer.partition_point(|cut| cut.parts[0] < begin);
+            if let Some(cut) = view.outer.get_mut(index) {
+                cut.crosses_nothing = true;
+            }
+        }
     }
 
     /// `missing-end` and `text-after-end`.

@@ -186,8 +186,8 @@ impl Document {
                         item: Item {
                             stated: block.stated_end(),
                             number: entry.number(),
-                            is_faulty: !is_sound(&block.block, &self.limits),
-                            ..Item::of(&block.block)
+                            is_faulty: !is_sound(&block.block(), &self.limits),
+                            ..Item::of(&block.block())
                         },
                         loose: None,
                         digits: [&fields.x, &fields.y, &fields.j].map(digits),

@@ -3,7 +3,7 @@
 use super::super::around::StatedPoint;
 use super::super::decode::meant;
 use super::super::entry::{Entry, What};
-use super::super::stretch::is_jump;
+use super::super::sum::is_jump;
 use super::{At, Document};
 use crate::geometry::{Point, Vector};
 use crate::program::path::{Kind, Step, Trace, Writing};
@@ -105,7 +105,8 @@ impl Program for Document {
             true => 0,
             false => tabs_before(stretch + 1) - tabs_before(stretch),
         };
-        let may_be_jump = of.words == 0 && of.parts.first().is_some_and(|part| is_jump(&part.sum));
+        let may_be_jump =
+            of.words == 0 && of.parts.first().is_some_and(|part| is_jump(&of.sum(part)));
         let is_rapid = may_be_jump && self.is_jump((stretch, 0));
         Sum {
             moves: of.blocks,
@@ -133,14 +134,14 @@ impl Program for Document {
             }
             let (kind, end, ideal) = match &what.what {
                 What::Block(block) => {
-                    let [x, y] = block.travel.machine;
+                    let [x, y] = block.travel().machine;
                     let kind = match block.is_line() {
                         _ if is_jump => Kind::Rapid,
                         true => Kind::Line,
                         false => Kind::Arc,
                     };
                     let end = start + Vector::new(x as f64, y as f64);
-                    (kind, end, meant(&block.block, start))
+                    (kind, end, meant(&block.block(), start))
                 }
                 What::Word { .. } if self.view.end == Some(own) => (Kind::End, start, None),
                 What::Word { .. } => (Kind::Pause, start, None),

@@ -1,10 +1,11 @@
 //! The properties of a program's cuts, and their blocks as ways.
 
 use super::super::decode::meant;
-use super::super::entry::{BlockEntry, Entry, Move};
+use super::super::entry::{BlockEntry, Entry, Move, travel_of};
 use super::{At, Document, JoinedCut};
 use crate::geometry::{Point, Segment};
 use crate::program::path::{Blocks, Ends, HasCuts, Lay, Node, Part, PartedWay, Writing, mixed};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// The blocks of a cut as its stretches hold them.
@@ -31,13 +32,13 @@ impl HasCuts for Document {
         cut.sum.twice_area
     }
 
-    fn only_lay(&self, cut: &JoinedCut) -> Option<&Lay> {
+    fn only_lay<'a>(&'a self, cut: &JoinedCut) -> Option<Cow<'a, Lay>> {
         let [(stretch, part), last] = cut.parts;
         let of = self
             .stretches
             .get(stretch)
             .filter(|_| (stretch, part) == last)?;
-        of.parts.get(part).map(|part| &part.lay)
+        of.parts.get(part).map(|part| of.lay(part))
     }
 
     fn way<'a>(&'a self, cut: &JoinedCut) -> PartedWay<'a> {
@@ -55,19 +56,20 @@ impl HasCuts for Document {
                 if stretch == last_stretch && index > last_part {
                     break;
                 }
-                if part.sum.blocks > 0 {
+                let sum = of.sum(part);
+                if sum.blocks > 0 {
                     held.push(HeldPart {
                         stretch,
-                        entries: part.entries.clone(),
+                        entries: part.entries(),
                         start: at,
                     });
                     parts.push(Part {
-                        lay: &part.lay,
-                        blocks: part.sum.blocks,
-                        arcs: part.sum.arcs,
+                        lay: of.lay(part),
+                        blocks: sum.blocks,
+                        arcs: sum.arcs,
                         start: at.meant,
                     });
-                    at = at.plus(part.sum.travel);
+                    at = at.plus(sum.travel);
                 }
             }
         }
@@ -112,9 +114,10 @@ impl Blocks for Held<'_> {
         let mut at = Move::default();
         let piece = |entry: &BlockEntry| {
             let [x, y] = at.meant_um();
-            at = at.plus(entry.travel);
+            let block = entry.block();
+            at = at.plus(travel_of(&block));
             let start = Point::new(x, y);
-            meant(&entry.block, start).unwrap_or(Segment::line(start, start))
+            meant(&block, start).unwrap_or(Segment::line(start, start))
         };
         self.entries(part).map(piece).collect()
     }
@@ -122,7 +125,7 @@ impl Blocks for Held<'_> {
     fn node(&self, part: usize, nth: usize) -> Option<Node> {
         let start = self.parts.get(part)?.start;
         let before = self.entries(part).take(nth);
-        let at = before.fold(start, |at, entry| at.plus(entry.travel));
+        let at = before.fold(start, |at, entry| at.plus(entry.travel()));
         Some(at.node())
     }
 

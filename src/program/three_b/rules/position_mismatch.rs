@@ -60,9 +60,9 @@ impl Positions {
             (Some(Some(before)), Some(stated)) => {
                 self.compared += 1;
                 self.off
-                    .extend(mismatch(&before, &block.travel, &stated).map(|by| (nth, entry, by)));
+                    .extend(mismatch(&before, &block.travel(), &stated).map(|by| (nth, entry, by)));
             }
-            (None, Some(stated)) => self.first = Some((entry, stated, block.travel)),
+            (None, Some(stated)) => self.first = Some((entry, stated, block.travel())),
             _ => {}
         }
         self.anchor = Some(stated);

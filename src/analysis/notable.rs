@@ -1,0 +1,182 @@
+//! The contours that have something to tell by themselves, in machining order, and how many findings of which kind each
+//! has: kept from one report to the next, so that those beyond the limit of a report are not looked at. Knows nothing of
+//! what the findings say.
+
+use crate::drawing::{ContourKey, EntityId};
+use crate::finding::{Place, Rule, Severity, Side, SmallRadius};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Up to one in this many is put among the others one by one; of more all are sorted.
+const FEW: usize = 8;
+
+/// A rule, and the severity that the case has at most.
+pub(super) type Kind = (Rule, Option<Severity>);
+
+/// A contour that has something to tell.
+#[derive(Clone, Debug)]
+pub(super) struct Notable {
+    /// The first of its entities in machining order.
+    pub(super) first: EntityId,
+    pub(super) what: Notability,
+    /// How much it has to tell, once that has been counted.
+    pub(super) counted: Option<Counted>,
+}
+
+/// What is asked of such a contour.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Notability {
+    pub(super) has_tight_arcs: bool,
+    pub(super) has_observations: bool,
+    /// A rule on whole contours holds.
+    pub(super) as_a_whole: bool,
+}
+
+/// How many findings a contour has with the wire on a side.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Counted {
+    pub(super) side: Option<Side>,
+    pub(super) counts: Counts<Vec<(Kind, usize)>>,
+    /// Each arc below the correction, where they are few.
+    pub(super) arcs: Option<Arc<[(Place, SmallRadius)]>>,
+}
+
+/// Numbers of findings: of arcs below the correction, of local rules, of rules on whole contours.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Counts<T> {
+    pub(super) arcs: T,
+    pub(super) local: T,
+    pub(super) whole: T,
+}
+
+/// The sums over many contours.
+pub(super) type Sums = Counts<BTreeMap<Kind, usize>>;
+
+impl Sums {
+    pub(super) fn add(&mut self, counted: &Counted) {
+        self.change(counted, |sum, count| *sum += count);
+    }
+
+    pub(super) fn take(&mut self, counted: &Counted) {
+        self.change(counted, |sum, count| *sum -= count);
+    }
+
+    fn change(&mut self, counted: &Counted, change: impl Fn(&mut usize, usize)) {
+        for (sums, counts) in [
+            (&mut self.arcs, &counted.counts.arcs),
+            (&mut self.local, &counted.counts.local),
+            (&mut self.whole, &counted.counts.whole),
+        ] {
+            for &(kind, count) in counts {
+                let sum = sums.entry(kind).or_default();
+                change(sum, count);
+                if *sum == 0 {
+                    sums.remove(&kind);
+                }
+            }
+        }
+    }
+}
+
+/// All of them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Notables {
+    of: FxHashMap<ContourKey, Notable>,
+    /// In machining order: without those that are `fresh`, and with those that are `gone`.
+    sorted: Vec<ContourKey>,
+    fresh: FxHashSet<ContourKey>,
+    gone: FxHashSet<ContourKey>,
+    /// The sums over all that are not `uncounted`; `None` while the sides of some hang on other contours.
+    sums: Option<Sums>,
+    uncounted: FxHashSet<ContourKey>,
+}
+
+impl Notables {
+    pub(super) fn get(&self, key: ContourKey) -> Option<&Notable> {
+        self.of.get(&key)
+    }
+
+    pub(super) fn insert(&mut self, key: ContourKey, notable: Notable) {
+        self.remove(key);
+        self.of.insert(key, notable);
+        self.fresh.insert(key);
+        self.uncounted.insert(key);
+    }
+
+    pub(super) fn remove(&mut self, key: ContourKey) {
+        let Some(old) = self.of.remove(&key) else {
+            return;
+        };
+        if !self.fresh.remove(&key) {
+            self.gone.insert(key);
+        }
+        if !self.uncounted.remove(&key)
+            && let (Some(sums), Some(counted)) = (&mut self.sums, &old.counted)
+        {
+            sums.take(counted);
+        }
+    }
+
+    /// All in machining order.
+    pub(super) fn in_order(&mut self, rank: impl Fn(EntityId) -> u64) -> Arc<[ContourKey]> {
+        let Notables {
+            of,
+            sorted,
+            fresh,
+            gone,
+            ..
+        } = self;
+        if !gone.is_empty() {
+            sorted.retain(|key| !gone.contains(key));
+            gone.clear();
+        }
+        let place = |key: ContourKey| (of.get(&key).map(|it| rank(it.first)), key);
+        if fresh.len() > sorted.len() / FEW {
+            sorted.extend(fresh.drain());
+            sorted.sort_by_cached_key(|&key| place(key));
+        }
+        for key in fresh.drain() {
+            let at = sorted.partition_point(|&other| place(other) < place(key));
+            sorted.insert(at, key);
+        }
+        sorted.as_slice().into()
+    }
+
+    /// How many findings of which kind there are in all, but for a contour that is `suspended`. Where `sides_stay`, the side
+    /// of a contour hangs on nothing else, and only those that have come since are counted.
+    pub(super) fn sums(
+        &mut self,
+        sides_stay: bool,
+        suspended: Option<ContourKey>,
+        side_of: impl Fn(ContourKey) -> Option<Side>,
+        count: impl Fn(ContourKey, Notability, Option<Side>) -> Counted,
+    ) -> Sums {
+        let known = self.sums.take().filter(|_| sides_stay);
+        if known.is_none() {
+            self.uncounted = self.of.keys().copied().collect();
+        }
+        let mut sums = known.unwrap_or_default();
+        let asked: Vec<ContourKey> = self.uncounted.drain().collect();
+        self.uncounted
+            .extend(suspended.filter(|key| asked.contains(key)));
+        for key in asked.into_iter().filter(|&key| Some(key) != suspended) {
+            let side = side_of(key);
+            let Some(notable) = self.of.get_mut(&key) else {
+                continue;
+            };
+            let known = notable.counted.take().filter(|known| known.side == side);
+            let counted = known.unwrap_or_else(|| count(key, notable.what, side));
+            sums.add(notable.counted.insert(counted));
+        }
+        if sides_stay {
+            self.sums = Some(sums.clone());
+        }
+        if let Some(key) = suspended.filter(|key| !self.uncounted.contains(key))
+            && let Some(counted) = self.of.get(&key).and_then(|it| it.counted.as_ref())
+        {
+            sums.take(counted);
+        }
+        sums
+    }
+}

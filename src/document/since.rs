@@ -1,0 +1,134 @@
+//! What edits have changed since the findings were last shown: entities, and where lines went. Knows nothing of findings.
+
+use crate::drawing::{EntityId, Touched};
+use crate::dxf;
+use crate::text::SourceText;
+use rustc_hash::FxHashSet;
+use std::ops::Range;
+
+/// More edits than this are not told apart.
+const MOST_EDITS: usize = 64;
+
+/// The changes of a document since somebody last took them.
+#[derive(Clone, Debug)]
+pub(crate) struct Since {
+    is_all: bool,
+    /// Entities that are another, or whose text has been read again.
+    entities: FxHashSet<EntityId>,
+    /// In their order.
+    edits: Vec<EditedLines>,
+}
+
+/// The lines that an edit touched, by their numbers before it, and by how much it moved those behind.
+#[derive(Clone, Debug)]
+pub(crate) struct EditedLines {
+    touched: Range<usize>,
+    by: isize,
+}
+
+impl Default for Since {
+    /// Everything.
+    fn default() -> Since {
+        Since {
+            is_all: true,
+            entities: FxHashSet::default(),
+            edits: Vec::new(),
+        }
+    }
+}
+
+impl EditedLines {
+    /// Those of an edit that is about to be made; how far the lines behind move is not known yet.
+    pub(super) fn before(text: &SourceText, range: &Range<usize>) -> EditedLines {
+        // The end of the line before may become another.
+        let first = text.line_of(range.start).saturating_sub(1);
+        EditedLines {
+            touched: first..text.line_of(range.end) + 1,
+            by: -(text.line_count() as isize),
+        }
+    }
+}
+
+impl Since {
+    /// Hands the changes on; none are left.
+    pub(super) fn take(&mut self) -> Since {
+        let none = Since {
+            is_all: false,
+            ..Since::default()
+        };
+        std::mem::replace(self, none)
+    }
+
+    /// Adds an edit of a text, which has been made.
+    pub(super) fn add_edit(
+        &mut self,
+        mut lines: EditedLines,
+        document: &dxf::Document,
+        touched: &[Touched],
+    ) {
+        lines.by += document.text().line_count() as isize;
+        self.edits.push(lines);
+        self.entities.extend(document.read_last());
+        self.add_touched(touched);
+        if self.is_all || self.edits.len() > MOST_EDITS {
+            *self = Since::default();
+        }
+    }
+
+    /// Adds what an edit touched in a drawing.
+    pub(super) fn add_touched(&mut self, touched: &[Touched]) {
+        for touched in touched {
+            match *touched {
+                Touched::Vertices { entity, .. }
+                | Touched::Entity { entity }
+                | Touched::Removed { entity } => _ = self.entities.insert(entity),
+                Touched::All => *self = Since::default(),
+            }
+        }
+    }
+
+    /// True where an entity may be another, or may stand elsewhere in its text than its lines tell.
+    pub(crate) fn has_changed(&self, entity: EntityId) -> bool {
+        self.is_all || self.entities.contains(&entity)
+    }
+
+    /// Where a line is now; `None` where an edit has touched it.
+    pub(crate) fn line(&self, line: usize) -> Option<usize> {
+        let moved = |line: usize, edit: &EditedLines| match line {
+            line if line < edit.touched.start => Some(line),
+            line if line >= edit.touched.end => line.checked_add_signed(edit.by),
+            _ => None,
+        };
+        self.edits
+            .iter()
+            .try_fold(line, moved)
+            .filter(|_| !self.is_all)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_go_where_edits_move_them() {
+        let mut since = Since::default();
+        assert_eq!(since.line(3), None);
+        since.take();
+        let edit = |touched: Range<usize>, by| EditedLines { touched, by };
+        since.edits = vec![edit(4..6, 2), edit(9..11, -1)];
+        for (before, now) in [
+            (3, Some(3)),
+            (4, None),
+            (5, None),
+            (6, Some(8)),
+            (7, None),
+            (8, None),
+            (9, Some(10)),
+        ] {
+            assert_eq!(since.line(before), now, "line {before}");
+        }
+        since.add_touched(&[Touched::All]);
+        assert_eq!(since.line(3), None);
+    }
+}
