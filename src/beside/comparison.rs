@@ -73,12 +73,13 @@ pub(super) fn looked_at(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     // The start of a contour in 4B decides how its transitions are rounded, and it is not known to the micrometre.
     let is_rounding = |unlike: &Unlike| unlike.off <= ROUNDED;
     let is_loose = traced.four_b && near.is_clean() && own.unlike.iter().all(is_rounding);
-    if own.is_own() && !is_loose {
+    // Under settings that are not those of the drawing, a difference may be meant.
+    let is_meant = |tried: &Tried| tried.is_guess && !tried.is_clean() && !tried.is_one_change();
+    if own.is_own() && !is_loose && !is_meant(&own) {
         return own.told(traced);
     }
     let near = near.surely(traced);
-    // Under settings that are not those of the drawing, a difference may be meant.
-    if near.is_guess && !near.is_clean() && !near.is_one_change() {
+    if is_meant(&near) {
         return None;
     }
     near.told(traced)
@@ -177,6 +178,7 @@ fn along(
     let tabs = tabs(drawn);
     let mut walked = Walk::new(traced, &rounds, pose).go(&tabs);
     let mut foreign = foreign(traced, &walked);
+    let mut is_guess = false;
     // A pass at a correction that the settings do not have.
     let of_passes = !traced.four_b
         && courses
@@ -211,9 +213,12 @@ fn along(
         if left.len() >= foreign.len() {
             break;
         }
-        (walked, foreign) = (again, left);
+        (walked, foreign, is_guess) = (again, left, true);
     }
-    Tried::of(traced, walked, &foreign, (Rc::new(rounds), pose))
+    Tried {
+        is_guess,
+        ..Tried::of(traced, walked, &foreign, (Rc::new(rounds), pose))
+    }
 }
 
 /// All blocks of a program, each with its place on the drawing; and by how much they miss their places together, µm.
@@ -365,7 +370,10 @@ impl Tried {
         }
         let walked = Walk::new(traced, &rounds, pose).go(&tabs(drawn));
         let foreign = foreign(traced, &walked);
-        Tried::of(traced, walked, &foreign, (rounds, pose))
+        Tried {
+            is_guess: self.is_guess,
+            ..Tried::of(traced, walked, &foreign, (rounds, pose))
+        }
     }
 
     /// It is as we write it, except for what somebody has changed.

@@ -19,6 +19,7 @@ use crate::settings::{
     Compensation, Corner, Direction, Effective, Lead, LengthSetting, Order, Sequence, SkimCorner,
 };
 use rustc_hash::FxHashMap;
+use std::cmp::Ordering;
 
 /// Blocks that are written anew under guessed settings, at most; where a program was searched before that is the same but for a few
 /// blocks; and what one guess costs at least.
@@ -29,8 +30,12 @@ const LEAST_COST: usize = 60;
 const OURS: f64 = 0.5;
 /// By how much a block at a stop is off where a tab was guessed wrong, mm.
 const FAR: f64 = 0.05;
+/// By how much less a guess of the sides may be like the program than another one and still be the right one.
+const LESS: f64 = 0.05;
 /// What is off by less may be so because a guess is not that of the program, mm.
 const CHANGED: f64 = 3e-3;
+/// The same where all the other blocks are as the guess has them.
+const SLIGHTLY: f64 = 2.5e-3;
 /// A correction may have four places: it is so many steps of 0.1 µm away from one that was found, at most.
 const STEPS: i32 = 12;
 /// A way in or out that is off by more is set otherwise, mm; and where it hangs on what is not known.
@@ -54,23 +59,44 @@ pub(super) fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Told> {
     {
         return Some(without_leads(traced, told));
     }
-    let mut best: Option<Search> = None;
+    let mut searches: Vec<Search> = Vec::new();
     for &sides in drawn.sides() {
         let mut search = Search::of(drawn, traced, sides)?;
         if is_near {
             search.fuel = MOST_AGAIN;
         }
         search.begin();
-        if best.as_ref().is_none_or(|best| best.score < search.score) {
-            best = Some(search);
-        }
-        if best.as_ref().is_some_and(Search::is_done) {
+        searches.push(search);
+        if searches.last().is_some_and(Search::is_done) {
             break;
         }
     }
-    let mut search = best?;
-    search.all();
-    let (told, under) = search.told.unzip();
+    // The most likely side first, and any other that is hardly less so.
+    searches.sort_by(|one, other| {
+        let key = |search: &Search| (search.is_done(), search.score);
+        key(other).partial_cmp(&key(one)).unwrap_or(Ordering::Equal)
+    });
+    let least = searches.first()?.score - LESS;
+    searches.retain(|search| search.score >= least);
+    let (mut told, mut fuel) = (None, MOST_TRIED);
+    for search in &mut searches {
+        search.fuel = search.fuel.min(fuel);
+        search.all();
+        fuel = search.fuel;
+        let is_done = search.is_done();
+        let own = search.told.take();
+        let is_better = |own: &(Told, Under), told: &(Told, Under)| rank(&own.0) < rank(&told.0);
+        if told
+            .as_ref()
+            .is_none_or(|told| own.as_ref().is_some_and(|own| is_better(own, told)))
+        {
+            told = own;
+        }
+        if is_done {
+            break;
+        }
+    }
+    let (told, under) = told.unzip();
     let told = told.map(|told| without_leads(traced, told));
     let differences = |told: &Told| told.comparison.differences.len();
     let left = told.as_ref().map_or(0, differences);
@@ -91,18 +117,38 @@ fn is_certain(traced: &Traced, told: &Told) -> bool {
         [] => told.is_exact(),
         // Hardly any setting has one way alone elsewhere by so little.
         [one] if one.kind == Kind::Lead => told.is_exact() && one.off <= SLIGHT,
-        [one] if told.is_exact() && !told.has_gap && one.kind == Kind::Block => {
-            let is_one = |block: &Block| block.range == one.range;
-            let blocks = &traced.blocks;
-            let at = blocks.iter().position(is_one).unwrap_or(0);
-            let about = at.saturating_sub(ABOUT)..=at + ABOUT;
-            let is_cut = |index: &usize| {
-                let block = blocks.get(*index);
-                block.is_some_and(|block| block.segment().is_some())
-            };
-            at >= ABOUT && about.clone().filter(is_cut).count() == about.count()
+        [one]
+            if told.is_exact()
+                && !told.has_gap
+                && one.kind == Kind::Block
+                && one.off >= SLIGHTLY =>
+        {
+            is_amid(traced, one)
         }
         _ => false,
+    }
+}
+
+/// Neither the wire stops near a block, nor does it come or go.
+fn is_amid(traced: &Traced, one: &Difference) -> bool {
+    let is_one = |block: &Block| block.range == one.range;
+    let blocks = &traced.blocks;
+    let at = blocks.iter().position(is_one).unwrap_or(0);
+    let about = at.saturating_sub(ABOUT)..=at + ABOUT;
+    let is_cut = |index: &usize| {
+        let block = blocks.get(*index);
+        block.is_some_and(|block| block.segment().is_some())
+    };
+    at >= ABOUT && about.clone().filter(is_cut).count() == about.count()
+}
+
+/// Of those that are not the program's own the nearest first: one that is farther off may hide a change. They go before one of which blocks
+/// are lost or too many: these may be an overlap.
+fn rank(told: &Told) -> ((bool, usize, bool), f64) {
+    match told.is_exact() {
+        true if told.has_gap => ((true, 0, true), told.mean),
+        true => (told.doubt(), told.mean),
+        false => ((true, 0, false), told.mean),
     }
 }
 
@@ -112,6 +158,20 @@ fn is_told(traced: &Traced, told: &Told) -> bool {
     let all = &told.comparison.differences;
     // Several that are far off are so because the guess goes another way.
     let is_little = |one: &Difference| one.off <= FAR || one.kind == Kind::Stated;
+    // Of so few that are alike none speaks for the guess; and what is off by little is so by a tenth of a micrometre of a correction.
+    let is_slight = |one: &Difference| one.kind == Kind::Block && one.off < SLIGHTLY;
+    // Coordinates that stand behind a block are others where the wire comes from elsewhere.
+    let is_of_ways = |one: &Difference| one.kind == Kind::Stated && told.ways > 0;
+    // At a stop or an end another tab, overlap or hole is as likely, but none of them loses a block or leaves each in its place.
+    let may_be_set = told.strays && !told.has_gap;
+    let is_set =
+        |one: &Difference| one.kind == Kind::Block && one.off > FAR && !is_amid(traced, one);
+    if told.is_mostly_unlike()
+        || all.iter().any(|one| is_slight(one) || is_of_ways(one))
+        || may_be_set && all.iter().any(is_set)
+    {
+        return false;
+    }
     let is_ours = match told.is_exact() {
         true => all.len() < 2 || all.len() <= FEW && all.iter().all(is_little),
         false => {
@@ -268,13 +328,6 @@ impl<'a> Search<'a> {
             let told = own(self.drawn, self.traced, &guess);
             let told = told.filter(|told| is_told(self.traced, told));
             if let Some(told) = told {
-                // Of those that are not the program's own the nearest: one that is farther off may hide a change. They go before one of
-                // which blocks are lost or too many: these may be an overlap.
-                let rank = |told: &Told| match told.is_exact() {
-                    true if told.has_gap => ((true, 0, true), told.mean),
-                    true => (told.doubt(), told.mean),
-                    false => ((true, 0, false), told.mean),
-                };
                 let is_better = |(other, _): &(Told, Under)| rank(&told) < rank(other);
                 if self.told.as_ref().is_none_or(is_better) {
                     self.told = Some((told, guess.clone()));
@@ -312,11 +365,18 @@ impl<'a> Search<'a> {
     fn of_corrections(&self) -> Vec<Under> {
         let mut guesses = vec![self.best.clone()];
         for corrections in corrections(self.drawn, self.traced) {
+            let skim_corners = match corrections.len() {
+                0..2 => vec![None],
+                _ => vec![None, Some(SkimCorner::ConstantStock)],
+            };
             for corner in [Corner::Arc, Corner::Intersection] {
-                guesses.push(self.with(|settings| {
-                    correct(settings, &corrections);
-                    settings.corner = corner;
-                }));
+                for &skim_corner in &skim_corners {
+                    guesses.push(self.with(|settings| {
+                        correct(settings, &corrections);
+                        settings.corner = corner;
+                        settings.passes.skim_corner = skim_corner;
+                    }));
+                }
             }
         }
         guesses
@@ -348,12 +408,15 @@ impl<'a> Search<'a> {
 
     /// The wire may be threaded at the deepest place of an opening.
     fn of_holes(&self) -> Vec<Under> {
-        let of = |hole| self.with(|settings| settings.start_hole = hole);
         let others = [None, Some(HOLE)].into_iter();
-        others
-            .filter(|hole| hole.is_some() != self.best.settings.start_hole.is_some())
-            .map(of)
-            .collect()
+        let others =
+            others.filter(|hole| hole.is_some() != self.best.settings.start_hole.is_some());
+        let of = |hole| {
+            [Lead::Perpendicular, Lead::Straight, Lead::Arc].map(|lead| {
+                self.with(|settings| (settings.start_hole, settings.lead) = (hole, lead))
+            })
+        };
+        others.flat_map(of).collect()
     }
 
     /// The wire may be threaded anywhere: where the program has it.

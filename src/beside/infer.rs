@@ -34,6 +34,29 @@ pub(super) fn corrections<'a>(
     scale: f64,
     blocks: &[Segment],
 ) -> Vec<f64> {
+    most(votes(contours, scale, blocks))
+}
+
+/// The same of the first of several passes, each of which runs so much nearer to the wall than that, µm: all of them vote.
+pub(super) fn of_passes(
+    contours: &[Contour],
+    scale: f64,
+    passes: &[Vec<Segment>],
+    steps: &[f64],
+) -> Vec<f64> {
+    let all = passes.iter().zip(steps).flat_map(|(pass, step)| {
+        let own = votes(contours.iter(), scale, pass);
+        own.into_iter().map(move |vote| vote + step)
+    });
+    most(all.collect())
+}
+
+/// What each block has to say of its correction, µm.
+fn votes<'a>(
+    contours: impl Iterator<Item = &'a Contour>,
+    scale: f64,
+    blocks: &[Segment],
+) -> Vec<f64> {
     let program = turned(blocks, false);
     let mut votes = Vec::new();
     let mut box_of_program = Bounds::EMPTY;
@@ -67,6 +90,11 @@ pub(super) fn corrections<'a>(
             votes.extend(program.iter().filter_map(|block| vote(own, block)));
         }
     }
+    votes
+}
+
+/// What most speak for, mm.
+fn most(mut votes: Vec<f64>) -> Vec<f64> {
     votes.retain(|vote| (LEAST..=MOST).contains(vote));
     votes.sort_by(f64::total_cmp);
     let mut found: Vec<(usize, f64)> = Vec::new();

@@ -1,7 +1,7 @@
 //! What can be measured in a program that is ours: which contours it cuts, how it comes to them, what it leaves standing.
 
 use super::drawn::Drawn;
-use super::traced::Traced;
+use super::traced::{Block, Traced};
 use crate::geometry::{Bounds, Segment, Vector, left_normal};
 use std::ops::Range;
 
@@ -9,6 +9,10 @@ use std::ops::Range;
 const BESIDE: f64 = 1_000.0;
 /// Places of one line lie so near to another that runs beside it, µm.
 const PARALLEL: f64 = 3.0;
+/// Arcs about one centre: where the machine counts, it drifts along a contour, µm.
+const CONCENTRIC: f64 = 20.0;
+/// Blocks of a pass that are held against those of the first, at most.
+const VOTERS: usize = 400;
 /// Pairs of boxes that are compared, at most.
 const MOST: usize = 2_000_000;
 /// Cuts that are asked how they begin, and how far they go on past their start, at most.
@@ -23,7 +27,10 @@ fn cuts(traced: &Traced) -> impl Iterator<Item = Range<usize>> {
 }
 
 fn segments(traced: &Traced, blocks: Range<usize>) -> impl Iterator<Item = &Segment> {
-    let blocks = traced.blocks.get(blocks).unwrap_or_default();
+    segments_of(traced.blocks.get(blocks).unwrap_or_default())
+}
+
+fn segments_of(blocks: &[Block]) -> impl Iterator<Item = &Segment> {
     blocks.iter().filter_map(|block| block.segment())
 }
 
@@ -108,8 +115,8 @@ pub(super) fn contours(drawn: &Drawn, traced: &Traced) -> Option<Vec<String>> {
     Some(names.collect())
 }
 
-/// The blocks of the longest contour, those of each pass by themselves where the wire stops between them.
-pub(super) fn rounds(traced: &Traced) -> Vec<Vec<Segment>> {
+/// The passes of the longest contour, each from stop to stop; the pieces that cut off its tab are none.
+pub(super) fn passes(traced: &Traced) -> Vec<Vec<Segment>> {
     let Some(longest) = cuts(traced).max_by_key(|cut| cut.len()) else {
         return Vec::new();
     };
@@ -118,83 +125,87 @@ pub(super) fn rounds(traced: &Traced) -> Vec<Vec<Segment>> {
         let other = bounds(traced, cut.clone());
         (other.min - own.min).amax() <= BESIDE && (other.max - own.max).amax() <= BESIDE
     });
-    beside
-        .map(|cut| segments(traced, cut).copied().collect())
-        .collect()
+    let mut passes: Vec<Vec<Segment>> = Vec::new();
+    for cut in beside {
+        let blocks = traced.blocks.get(cut).unwrap_or_default();
+        let pieces = blocks.split(|block| block.segment().is_none());
+        passes.extend(pieces.map(|piece| segments_of(piece).copied().collect()));
+    }
+    let length = |pass: &Vec<Segment>| pass.iter().map(Segment::length).sum::<f64>();
+    let longest = passes.iter().map(length).fold(0.0, f64::max);
+    passes.retain(|pass| 2.0 * length(pass) > longest);
+    passes
 }
 
-/// The same of all passes together.
-pub(super) fn first(traced: &Traced) -> Vec<Segment> {
-    rounds(traced).concat()
-}
-
-/// How much nearer to the wall each pass of the longest contour runs than the first, mm: along its longest line, or about its largest arc.
-pub(super) fn steps(traced: &Traced) -> Vec<f64> {
-    let blocks = first(traced);
-    let longest = |is_arc: bool| {
-        let own = blocks.iter().filter(|it| it.as_arc().is_some() == is_arc);
-        own.max_by(|one, other| one.length().total_cmp(&other.length()))
-    };
-    let beside = |along: &Segment| -> Vec<f64> {
-        let of = |block: &Segment| match (along.as_arc(), block.as_arc()) {
-            (Some(one), Some(other)) => {
-                let is_about = (one.center - other.center).norm() <= PARALLEL;
-                is_about.then_some(other.radius - one.radius)
-            }
-            (None, None) if 2.0 * block.length() > along.length() => {
-                let middle = along.share_of(block.point_at(0.5));
-                if !(0.0..=1.0).contains(&middle) {
-                    return None;
-                }
-                let [from, to] = [block.start(), block.end()]
-                    .map(|place| left_normal(along.start_tangent()).dot(&(place - along.start())));
-                ((to - from).abs() <= PARALLEL).then_some((from + to) / 2.0)
-            }
-            _ => None,
+/// How much nearer to the wall each pass runs than the first, µm: what most of its length speaks for where it runs beside the first.
+/// `None` where they do not come nearer one after the other.
+pub(super) fn steps(passes: &[Vec<Segment>]) -> Option<Vec<f64>> {
+    let first = passes.first()?;
+    let mut steps = vec![0.0];
+    for pass in &passes[1..] {
+        let blocks = pass.iter().take(VOTERS);
+        let pairs = blocks.flat_map(|block| first.iter().take(VOTERS).map(move |own| (own, block)));
+        let votes = pairs.filter_map(|(own, block)| Some((aside(own, block)?, block.length())));
+        let mut votes: Vec<(f64, f64)> = votes
+            .filter(|(away, _)| (PARALLEL / 2.0..=BESIDE).contains(&away.abs()))
+            .collect();
+        votes.sort_by(|one, other| one.0.total_cmp(&other.0));
+        let about = |from: usize| {
+            let near = votes[from..].iter();
+            let near = near.take_while(|vote| vote.0 - votes[from].0 <= PARALLEL);
+            near.fold((0.0, 0.0), |(sum, weight), (away, length)| {
+                (sum + away * length, weight + length)
+            })
         };
-        let near = |away: &f64| away.abs() <= BESIDE;
-        let mut all: Vec<f64> = Vec::new();
-        for away in blocks.iter().filter_map(of).filter(near) {
-            if all.iter().all(|known| (known - away).abs() > PARALLEL) {
-                all.push(away);
-            }
-        }
-        let first = all.first().copied().unwrap_or_default();
-        all.into_iter()
-            .map(|away| (away - first).abs() / 1e3)
-            .collect()
-    };
-    let lines = longest(false).map(beside);
-    let falls = |steps: &Vec<f64>| steps.len() > 1 && steps.is_sorted();
-    let found = lines.filter(falls).or_else(|| longest(true).map(beside));
-    found.filter(falls).unwrap_or_default()
+        let all = (0..votes.len()).map(about);
+        let (sum, weight) = all.max_by(|one, other| one.1.total_cmp(&other.1))?;
+        steps.push((sum / weight).abs());
+    }
+    steps.is_sorted().then_some(steps)
 }
 
-/// How often a place on the way round is passed at most, nearly: how many passes there may be.
-pub(super) fn passes(traced: &Traced) -> usize {
-    let blocks = first(traced);
-    let Some(middle) = blocks
-        .iter()
-        .max_by(|one, other| one.length().total_cmp(&other.length()))
-    else {
-        return 0;
-    };
-    let at = middle.point_at(0.5);
-    let near = |segment: &&Segment| segment.distance_to(at) <= BESIDE / 2.0;
-    blocks.iter().filter(near).count()
+/// How far to its left a line or arc has another one that runs beside it, µm.
+fn aside(own: &Segment, other: &Segment) -> Option<f64> {
+    match (own.as_arc(), other.as_arc()) {
+        (Some(own), Some(other)) => {
+            let is_about = (own.center - other.center).norm() <= CONCENTRIC;
+            is_about.then_some((own.radius - other.radius) * own.sweep.signum())
+        }
+        (None, None) => {
+            let middle = own.share_of(other.point_at(0.5));
+            let normal = left_normal(own.start_tangent());
+            let [from, to] =
+                [other.start(), other.end()].map(|place| normal.dot(&(place - own.start())));
+            let is_beside = (0.0..=1.0).contains(&middle) && (to - from).abs() <= PARALLEL;
+            is_beside.then_some((from + to) / 2.0)
+        }
+        _ => None,
+    }
 }
 
 /// How long the ways in may be set to be, mm, the longest first: where there is no room, one is shorter. And whether that is stated: then it
 /// counts from the path, else from the contour.
 pub(super) fn leads(traced: &Traced, correction: f64) -> Vec<(f64, Option<f64>)> {
+    // From the hole to the contour, whichever way the wire goes: an arc ends tangent to the contour, and looks like a part of it.
     let lead = |[all, contour]: &[Range<usize>; 2]| -> f64 {
-        let lead = segments(traced, all.start..contour.start.max(all.start + 1));
-        lead.map(Segment::length).sum()
+        let mut blocks = segments(traced, all.clone()).skip(1);
+        let by_arc = blocks.next().is_some_and(|next| next.as_arc().is_some());
+        let is_circle = segments(traced, all.clone()).count() < 4;
+        let least = if by_arc && !is_circle { 2 } else { 1 };
+        let mut lead = segments(traced, all.start..contour.start.max(all.start + least));
+        let Some(first) = lead.next() else {
+            return 0.0;
+        };
+        (lead.last().unwrap_or(first).end() - first.start()).norm()
     };
     let mut lengths: Vec<f64> = traced.cuts.iter().take(ASKED).map(lead).collect();
+    let first = lengths.first().copied();
     lengths.sort_by(|one, other| other.total_cmp(one));
     lengths.dedup_by(|one, other| (*one - *other).abs() <= 2.0);
     lengths.truncate(LEADS);
+    // Passes behind the first come nearer to the wall.
+    lengths.extend(first);
+    lengths.dedup();
     let is_offset = traced.blocks.iter().any(|block| block.is_offset);
     let of = |um: f64| {
         let unstated = hundredths(um + correction * 1e3);
@@ -238,7 +249,7 @@ pub(super) fn overlaps(traced: &Traced) -> Vec<f64> {
         let own: Vec<&Segment> = segments(traced, cut).collect();
         for ways_out in 1..=2 {
             let mut sum = 0.0;
-            for segment in own.iter().rev().skip(ways_out).take(2) {
+            for segment in own.iter().rev().skip(ways_out).take(3) {
                 sum += segment.length();
                 note(&mut found, sum);
             }
@@ -249,7 +260,7 @@ pub(super) fn overlaps(traced: &Traced) -> Vec<f64> {
 }
 
 /// What the control may add, mm, where the wire goes aside at a tab to have it switched: the shortest block is longer by a hundredth.
-pub(super) fn aside(traced: &Traced) -> Option<f64> {
+pub(super) fn switching(traced: &Traced) -> Option<f64> {
     let lengths = traced
         .blocks
         .iter()

@@ -20,6 +20,8 @@ const ROUNDED: f64 = 1.5;
 const SAME: f64 = 1e-2;
 /// A larger deviation of a way in or out, or between contours, is meant: its hole is elsewhere, µm.
 const SLIP: f64 = 50.0;
+/// For each block that is unlike so many others have to be as they are meant, or it is not known under which settings they would be.
+const LIKE: usize = 4;
 /// The most blocks that may be lost or superfluous in one place.
 const LOST: usize = 3;
 
@@ -33,6 +35,12 @@ pub(super) struct Told {
     pub has_gap: bool,
     /// Ways in and out that are moved so far that it is meant.
     pub elsewhere: usize,
+    /// One of the named blocks ends as far from where it is meant to.
+    pub strays: bool,
+    /// Ways in and out that are not just as they are meant.
+    pub ways: usize,
+    /// The same of blocks of contours, and how many there are of both.
+    unlike: [usize; 2],
 }
 
 impl Told {
@@ -41,13 +49,19 @@ impl Told {
         self.mean < SAME
     }
 
-    /// Several moved ways in and out are set otherwise, and so is one that is moved by more than `most`, mm; somebody
-    /// has changed any other.
+    /// Hardly any more blocks are as they are meant than are not.
+    pub(crate) fn is_mostly_unlike(&self) -> bool {
+        let [unlike, all] = self.unlike;
+        LIKE * unlike >= all
+    }
+
+    /// Several moved ways in and out are set otherwise, whether or not they are one change, and so is one that is moved by more than
+    /// `most`, mm; somebody has changed any other.
     pub(crate) fn without_leads(mut self, most: f64) -> Told {
         let is_lead = |one: &Difference| one.kind == Kind::Lead;
         let all = &mut self.comparison.differences;
         let leads = || all.iter().filter(|one| is_lead(one));
-        if leads().count() > 1 || leads().any(|one| one.off > most) {
+        if self.ways > 1 || leads().any(|one| one.off > most) {
             self.elsewhere += leads().count();
             all.retain(|one| !is_lead(one));
         }
@@ -260,7 +274,8 @@ impl<'a> Pairs<'a> {
             return None;
         }
         let most = FEW.min(traced.blocks.len() / 3);
-        let (mut found, mut stated, mut elsewhere) = (Vec::new(), Vec::new(), 0);
+        let (mut found, mut stated) = (Vec::new(), Vec::new());
+        let (mut elsewhere, mut ways, mut unlike, mut strays) = (0, 0, 0, false);
         // Of the last that is named: its number, and whether the program is elsewhere since.
         let mut run: Option<(usize, bool)> = None;
         for (number, (pair, (off, is_behind))) in self.pairs.iter().zip(&all).enumerate() {
@@ -280,6 +295,9 @@ impl<'a> Pairs<'a> {
                 }
                 continue;
             }
+            let source = anew.source_of(&meant.motion);
+            ways += usize::from(source.is_none());
+            unlike += usize::from(source.is_some());
             let goes_on = run.is_some_and(|(last, is_elsewhere)| {
                 number - last <= FEW && is_elsewhere
                     || last + 1 == number && self.are_exchanged(last)
@@ -294,7 +312,7 @@ impl<'a> Pairs<'a> {
                 run = None;
                 continue;
             }
-            let (segment, kind) = match anew.source_of(&meant.motion) {
+            let (segment, kind) = match source {
                 Some(segment) => (Some(segment), Kind::Block),
                 None if *off <= SLIP => (None, Kind::Lead),
                 // The hole is elsewhere, and so is how the wire comes from it.
@@ -306,6 +324,7 @@ impl<'a> Pairs<'a> {
             if found.len() == most {
                 return None;
             }
+            strays |= !self.ends_near(number, from, SLIP);
             found.push(named(own, segment, *off, kind));
         }
         if stated.len() <= FEW {
@@ -338,6 +357,9 @@ impl<'a> Pairs<'a> {
             mean,
             has_gap: self.gap.is_some(),
             elsewhere,
+            strays,
+            ways,
+            unlike: [unlike, moving],
         })
     }
 
@@ -355,11 +377,15 @@ impl<'a> Pairs<'a> {
 
     /// Whether a block ends where it is meant to.
     fn is_placed(&self, number: usize, from: Vector) -> bool {
+        self.ends_near(number, from, ROUNDED)
+    }
+
+    fn ends_near(&self, number: usize, from: Vector, most: f64) -> bool {
         let Some(pair) = self.pairs.get(number) else {
             return true;
         };
         match (ends_of(&pair.own.motion), ends_of(&pair.meant.motion)) {
-            (Some([_, end]), Some([_, meant])) => (end - from - meant).norm() <= ROUNDED,
+            (Some([_, end]), Some([_, meant])) => (end - from - meant).norm() <= most,
             _ => true,
         }
     }

@@ -3,46 +3,27 @@
 use super::drawn::Drawn;
 use super::traced::Traced;
 use super::{infer, measure};
-use std::cmp::Reverse;
 
-/// Corrections that mean the same one, mm; and of the first of several passes how many are tried.
-const NEAR: f64 = 2e-3;
-const FIRST: usize = 6;
 /// Passes that are thought of, at most.
 const PASSES: usize = 8;
+/// How far beside its place among the passes one may speak for itself, mm.
+const NEAR: f64 = 8e-3;
+/// What somebody sets is a round number, mm.
+const ROUND: [f64; 3] = [5e-3, 1e-3, 1e-4];
 
-/// What the first pass may have, mm, where each of the others runs so much nearer, that which most corrections speak for first.
-fn first_of(speaks_for: &[f64], steps: &[f64]) -> Vec<f64> {
-    let mut found: Vec<(usize, f64)> = Vec::new();
-    let last = steps.last().copied().unwrap_or(f64::INFINITY);
-    for first in speaks_for
-        .iter()
-        .flat_map(|mm| steps.iter().map(move |step| mm + step))
-    {
-        match found
-            .iter_mut()
-            .find(|(_, known)| (*known - first).abs() <= NEAR)
-        {
-            Some((count, _)) => *count += 1,
-            None if first > last => found.push((1, first)),
-            None => {}
-        }
-    }
-    found.sort_by_key(|(count, _)| Reverse(*count));
-    let round = |mm: f64| [(mm * 200.0).round() / 200.0, (mm * 1e3).round() / 1e3];
-    let mut all: Vec<f64> = Vec::new();
-    for mm in found.into_iter().take(FIRST).flat_map(|(_, mm)| round(mm)) {
-        if !all.contains(&mm) {
-            all.push(mm);
-        }
-    }
-    all
+fn rounded(mm: f64, to: f64) -> f64 {
+    ((mm / to).round() * to * 1e4).round() / 1e4
 }
 
 /// Corrections that a program may have been written with, mm, those of several passes falling.
 pub(super) fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<Vec<f64>> {
     let scale = drawn.unit_mm * 1e3;
-    let speaks_for = infer::corrections(drawn.contours().iter(), scale, &measure::first(traced));
+    let mut passes = measure::passes(traced);
+    passes.truncate(PASSES);
+    let steps = measure::steps(&passes).filter(|steps| steps.len() > 1);
+    let first = [0.0];
+    let known = steps.as_deref().unwrap_or(&first);
+    let speaks_for = infer::of_passes(drawn.contours(), scale, &passes, known);
     let arcs = traced
         .blocks
         .iter()
@@ -52,54 +33,77 @@ pub(super) fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<Vec<f64>> {
         .map(|arc| arc.radius / 1e3)
         .fold(f64::INFINITY, f64::min);
     let least = least.is_finite().then_some([least, least - 1e-3]);
-    let places = |mm: f64| (mm * 1e3).round() / 1e3;
     // A way in whose length is counted from the contour is shorter by the correction.
     let leads = measure::leads(traced, 0.0).into_iter();
     let leads = leads.map(|(length, _)| drawn.settings.lead_in - length);
     let lead = leads.take(1).filter(|mm| (0.0..1.0).contains(mm));
-    let rounded = speaks_for.iter().copied().take(2).chain(lead);
-    let rounded = rounded.chain(least.into_iter().flatten());
-    let near = |mm: f64| [0.0, -1e-3, 1e-3].map(|by| places(mm + by));
+    let likely = speaks_for.iter().copied().take(2).chain(lead);
+    let likely = likely.chain(least.into_iter().flatten());
+    let near = |mm: f64| [0.0, -1e-3, 1e-3].map(|by| rounded(mm + by, 1e-3));
     let mut single: Vec<f64> = Vec::new();
-    for mm in rounded.flat_map(near).filter(|mm| *mm > 0.0) {
+    for mm in likely.flat_map(near).filter(|mm| *mm > 0.0) {
         if !single.contains(&mm) {
             single.push(mm);
         }
     }
     // A shorter number first.
-    let steps = |mm: &f64| (*mm * 1e3).round() as i64;
-    single.sort_by_key(|mm| (steps(mm) % 5 != 0, steps(mm) % 10 != 0));
+    let places = |mm: &f64| (*mm * 1e3).round() as i64;
+    single.sort_by_key(|mm| (places(mm) % 5 != 0, places(mm) % 10 != 0));
     let mut all: Vec<Vec<f64>> = single.into_iter().map(|mm| vec![mm]).collect();
     let own = drawn.settings.each_correction();
     if own.len() == 1 {
         all.insert(0, own);
     }
-    let count = measure::passes(traced).min(PASSES);
-    if count > 1 {
+    if passes.len() > 1 {
         let of_control = traced.four_b || traced.blocks.iter().any(|block| block.is_offset);
         let falling = |from: f64| {
             let of = |pass: usize| from * (1.0 - 0.1 * pass as f64);
-            (0..count).map(of).collect()
+            (0..passes.len()).map(of).collect()
         };
         // Where the control adds the correction, all passes are one way.
         let mut lists: Vec<Vec<f64>> = match of_control {
             true => {
-                let single = all.iter().take(4).map(|list| list[0]);
-                let aside = measure::aside(traced);
-                aside.into_iter().chain(single).map(falling).collect()
+                let mut single = all.iter().take(4).map(|list| list[0]);
+                let own = single.next();
+                let aside = measure::switching(traced);
+                let radii = least.into_iter().flatten().rev();
+                let radii = radii.map(|mm| rounded(mm, 1e-3)).filter(|mm| *mm > 0.0);
+                // Where several are alike as likely, the drawing's own.
+                let first = aside.into_iter().chain(own).chain(radii).chain(single);
+                first.map(falling).collect()
             }
             false => Vec::new(),
         };
-        let steps = measure::steps(traced);
-        for first in first_of(&speaks_for, &steps) {
-            let fifths = |mm: f64| (mm * 200.0).round() / 200.0;
-            lists.push(
-                steps
-                    .iter()
-                    .map(|step| places(first - fifths(*step)))
-                    .collect(),
-            );
-            lists.push(steps.iter().map(|step| places(first - step)).collect());
+        // What each pass speaks for by itself is not moved where the machine counts; what it is beside the first says which of it is meant.
+        let each: Vec<Vec<f64>> = passes
+            .iter()
+            .map(|pass| infer::corrections(drawn.contours().iter(), scale, pass))
+            .collect();
+        let by_itself = |pass: usize, mm: f64| {
+            let all = each.get(pass).into_iter().flatten().copied();
+            all.filter(|own| (own - mm).abs() <= NEAR)
+                .min_by(|one, other| (one - mm).abs().total_cmp(&(other - mm).abs()))
+                .unwrap_or(mm)
+        };
+        let rounds = ROUND.map(|to| [(to, true), (to, false)]).concat();
+        for (first, (to, is_by_itself)) in speaks_for
+            .iter()
+            .flat_map(|mm| rounds.iter().map(|round| (*mm, *round)))
+        {
+            let of = |(pass, step): (usize, &f64)| {
+                let mm = first - step / 1e3;
+                let mm = if is_by_itself {
+                    by_itself(pass, mm)
+                } else {
+                    mm
+                };
+                rounded(mm, to)
+            };
+            let list: Vec<f64> = known.iter().enumerate().map(of).collect();
+            let falls = list.windows(2).all(|two| two[0] > two[1]);
+            if falls && list.iter().all(|mm| *mm > 0.0) && !lists.contains(&list) {
+                lists.push(list);
+            }
         }
         all.splice(0..0, lists);
     }

@@ -43,8 +43,8 @@ pub(super) fn tabs(drawn: &Drawn, traced: &Traced, anew: &Anew, corrections: &[f
     let Some(walls) = walls else { return found };
     let entries = |of: &Traced| -> Vec<(usize, f64)> {
         let cuts = of.cuts.iter().filter_map(|[all, contour]| {
-            let start = of.blocks.get(contour.start)?.segment()?.start();
-            walls.foot(start + laid(of, all, anew)?)
+            let by = laid(of, all, anew)?;
+            entry(of, contour, |place| walls.foot(place + by))
         });
         cuts.collect()
     };
@@ -103,10 +103,8 @@ pub(super) fn threads(
     let (mut threads, mut entries) = (BTreeMap::new(), BTreeMap::new());
     for [all, contour] in &traced.cuts {
         let segment = |index: usize| traced.blocks.get(index)?.segment();
-        let (Some(begin), Some(entry)) = (segment(all.start), segment(contour.start)) else {
-            continue;
-        };
-        let Some((index, along)) = walls.foot(entry.start()) else {
+        let entry = entry(traced, contour, |place| walls.foot(place));
+        let (Some(begin), Some((index, along))) = (segment(all.start), entry) else {
             continue;
         };
         let wall = walls.at(index, along)?;
@@ -173,6 +171,18 @@ impl Walls {
         }
         best.map(|(_, index, at)| (index, at))
     }
+}
+
+/// Where a cut comes to its wall: with its first block, or with one of the next, behind an arc that leads there.
+fn entry(
+    traced: &Traced,
+    contour: &Range<usize>,
+    foot: impl Fn(Point) -> Option<(usize, f64)>,
+) -> Option<(usize, f64)> {
+    let blocks = traced.blocks.get(contour.clone())?.iter().take(ABOUT);
+    blocks
+        .filter_map(|block| block.segment())
+        .find_map(|own| foot(own.start()))
 }
 
 /// Where a tab may begin: at the ends of blocks about the stops of a cut, and about its own ends.

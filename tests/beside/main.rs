@@ -3,6 +3,7 @@
 mod blocks;
 mod changes;
 mod edited;
+mod inferred;
 mod long;
 mod numbers;
 mod passes;

@@ -1,0 +1,172 @@
+//! Programs without settings that were once said to differ from their drawings, or to have nothing in common with them.
+
+use super::changes::{changed, line_of};
+use super::{Shape, document, program_of, settings_of, traced};
+use wedm::beside::compare;
+use wedm::drawing::Role;
+use wedm::program::Format;
+
+/// A shape, its role, the format and the settings that its program was written with, and whether the drawing must be found in it.
+type Row = (Shape, Role, Format, &'static str, bool);
+
+fn slot([x, y]: [f64; 2], [width, height]: [f64; 2]) -> Shape {
+    Shape::Polyline(vec![
+        [x, y, 0.0],
+        [x + width, y, 1.0],
+        [x + width, y + height, 0.0],
+        [x, y + height, 1.0],
+    ])
+}
+
+fn rows() -> Vec<Row> {
+    vec![
+        // A lead of another length was taken for another correction, under which most of so few blocks are off.
+        (
+            slot(
+                [-4.747529631944, -0.90338012992],
+                [8.0737788806725, 5.8067602598],
+            ),
+            Role::Opening,
+            Format::Iso,
+            "correction = 0.2\n[program]\ndirection = \"cw\"\nlead-in = 2.25\nlead = \"straight\"\n",
+            false,
+        ),
+        (
+            Shape::Circle([1.292642767415071, -6.7817777375241945], 12.0),
+            Role::Punch,
+            Format::ThreeB,
+            "correction = 0.2\n[program]\ncorner = \"intersection\"\nlead-in = 2.25\nlead = \"straight\"\n",
+            false,
+        ),
+        (
+            Shape::Circle([2.342, 1.507], 5.827),
+            Role::Punch,
+            Format::Iso,
+            "correction = 0.0875\n[program]\ndirection = \"cw\"\nlead-in = 2.25\nprofile = \"fast-wire\"\n",
+            false,
+        ),
+        (
+            slot(
+                [0.165108794916, -1.1572462014564],
+                [7.90582800118, 6.3144924029],
+            ),
+            Role::Opening,
+            Format::ThreeB,
+            "correction = 0.1\n[program]\ndirection = \"cw\"\nlead-in = 2.25\n",
+            false,
+        ),
+        // Both ways of the wire were elsewhere by as much, and one of them was named.
+        (
+            slot([2.55, 0.017], [4.856, 3.966]),
+            Role::Opening,
+            Format::Iso,
+            "correction = 0.1\n[program]\ndirection = \"cw\"\nlead = \"straight\"\nstart-hole = 1\nprofile = \"robofil\"\n",
+            false,
+        ),
+        // A tenth of a micrometre of a correction moved one block by 2 µm.
+        (
+            Shape::Polyline(vec![
+                [16.299, 6.377, 0.0],
+                [4.336, 22.079, 0.3406281459922267],
+                [-9.039, 16.837, 0.0],
+                [-24.574, 13.613, -0.23831596161175478],
+                [-18.942, -5.444, 0.0],
+                [-7.244, -16.574, 0.013002918165090416],
+                [5.186, -15.055, 0.0],
+                [12.559, -4.712, 0.0],
+            ]),
+            Role::Opening,
+            Format::Iso,
+            "correction = 0.0875\n[program]\nlead = \"straight\"\n",
+            true,
+        ),
+        (
+            Shape::Polyline(vec![
+                [11.717, 30.339, 0.2418669730101125],
+                [-10.289, 26.028, -0.03664512491589955],
+                [-17.576, -3.779, -0.08187434425774542],
+                [12.648, -12.253, 0.0],
+            ]),
+            Role::Opening,
+            Format::ThreeB,
+            "[passes]\ncorrections = [0.191, 0.1212]\n[program]\nclosing-overlap = 1.5\nlead-in = 1.7\nlead = \"arc\"\nlayout = \"checking\"\n",
+            false,
+        ),
+        // Nothing was alike: passes with corners of their own, a lead along an arc, passes of 4B.
+        (
+            Shape::Polyline(vec![
+                [25.098, 3.855, 0.0],
+                [11.06, 28.532, -0.21878160802245838],
+                [-2.825, 24.247, -0.043259302697842006],
+                [-18.051, 8.123, 0.0],
+                [-26.08, -8.158, 0.03250074970580208],
+                [-8.93, -11.268, -0.00019490514964853878],
+                [3.319, -12.121, 0.2571577425769228],
+                [16.63, -0.888, 0.0],
+            ]),
+            Role::Opening,
+            Format::ThreeB,
+            "[passes]\ncorrections = [0.215, 0.17, 0.14]\nskim-corner = \"constant-stock\"\n[program]\nlead-in = 1.7\nlayout = \"checking\"\n",
+            true,
+        ),
+        (
+            Shape::Circle([-9.948, -2.234], 8.0),
+            Role::Punch,
+            Format::ThreeB,
+            "correction = 0.155\n[program]\nlead-in = 1.7\nlead = \"arc\"\n",
+            true,
+        ),
+        (
+            Shape::Polyline(vec![
+                [18.256, 8.487, 0.0],
+                [-5.678, 20.419, 0.0],
+                [-24.99, 5.371, 0.0],
+                [-3.074, -16.905, 0.0],
+                [8.155, -8.637, 0.0],
+            ]),
+            Role::Opening,
+            Format::FourB,
+            "[passes]\ncorrections = [0.2159, 0.1626, 0.1473]\nsequence = \"one-way\"\n[program]\ndirection = \"cw\"\n",
+            true,
+        ),
+        (
+            Shape::Polyline(vec![
+                [31.23, 6.548, 0.18450159153775525],
+                [23.958, 24.479, -0.10726212617736716],
+                [-8.389, 29.065, 0.0],
+                [-14.085, 16.129, 0.15661429962085127],
+                [-21.884, -10.724, -0.03401110287891734],
+                [-2.746, -13.733, 0.0],
+                [12.328, -11.415, 0.24073837660976682],
+                [23.164, -11.989, 0.0],
+            ]),
+            Role::Opening,
+            Format::Iso,
+            "[passes]\ncorrections = [0.2, 0.15]\nskim-corner = \"constant-stock\"\n[program]\nlead = \"arc\"\n",
+            true,
+        ),
+    ]
+}
+
+/// Of what is unchanged nothing is said; where the drawing is found in it, a block in its middle that is changed by 3 µm is named, and no other.
+#[test]
+fn without_settings_what_a_program_shows_is_taken_for_its_settings() {
+    let settings = settings_of("");
+    for (shape, role, format, written, is_found) in rows() {
+        let made = document(&[(shape.clone(), role)], &settings_of(written));
+        let text = program_of(&made, format).unwrap();
+        let drawn = document(&[(shape, Role::Both)], &settings);
+        let drawn = drawn.drawn().unwrap();
+        let found = compare(&drawn, &traced(&text, format, &settings));
+        assert!(found.is_some() || !is_found, "{written}\n{text}");
+        let Some(found) = found else { continue };
+        assert_eq!(found.differences, [], "{written}\n{text}");
+        let block = &found.follows[found.follows.len() / 2];
+        if let Some(wrong) = changed(&text, block, 3, 0).filter(|_| is_found) {
+            let told = compare(&drawn, &traced(&wrong, format, &settings));
+            let lines = told.iter().flat_map(|told| &told.differences);
+            let lines: Vec<usize> = lines.map(|one| one.line).collect();
+            assert_eq!(lines, [line_of(&text, block.start)], "{written}\n{wrong}");
+        }
+    }
+}
