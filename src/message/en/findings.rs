@@ -194,7 +194,7 @@ declare! {
     has_no_decimal_point(word) => "{word} has no decimal point, the other numbers have: it is read in whole units, a control may read it in its finest steps";
     several_have_no_decimal_point(word, count) => "{word} and others ({count} in all) have no decimal point, the rest have: they are read in whole units, a control may read them in its finest steps";
     has_a_decimal_point(word) => "{word} has a decimal point, the other numbers have none: it is read in whole units, they in the finest steps";
-    has_other_decimals_than_the_others(word, usual) => "{word} has not {usual} decimals as all other numbers have: a digit may be lost, or one too many";
+    has_other_decimals_than_the_others(word, usual) => "{word} has another number of decimals than all other numbers, which have {usual}: a digit may be lost, or one too many";
     the_program_does_not_say_its_unit(size) => "the program does not say its unit (G20, G21) and is read in mm: then the part is {size} mm long or wide, which speaks for inches (program.units)";
     the_program_is_meant_in_another_unit(size, what) => "the program is {size} mm long or wide, {what}: its numbers are meant in another unit";
     hangs_on_an_empty_place_of_the_table(word) => "{word} hangs on a place of the control's table that the program does not fill: it is not followed";
