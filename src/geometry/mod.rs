@@ -33,7 +33,7 @@ pub use side::Side;
 pub(crate) use spline::{Spline, SplineCurve};
 pub(crate) use tolerances::Tolerances;
 pub(crate) use xy::Xy;
-pub(crate) use xy::{serialize_degrees, told};
+pub(crate) use xy::serialize_degrees;
 
 /// A point of the plane, in drawing units.
 pub type Point = nalgebra::Point2<f64>;

@@ -27,11 +27,6 @@ impl Xy {
     }
 }
 
-/// A point as sentences have it, to three decimals: none says −0.000.
-pub(crate) fn told(point: Point) -> Point {
-    point.map(|along| (along * 1e3).round() / 1e3 + 0.0)
-}
-
 /// Radians as degrees.
 pub(crate) fn serialize_degrees<S: Serializer>(angle: &f64, to: S) -> Result<S::Ok, S::Error> {
     to.serialize_f64(angle.to_degrees())

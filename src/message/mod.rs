@@ -9,7 +9,7 @@
 //! a room     say!(no_drawing)                                      a `&'static str`
 //! ```
 //!
-//! - What a sentence takes is shown as `format!` shows it, `{layer:?}` and `{length:.3}` included. Where the wording hangs on a number or
+//! - What a sentence takes is shown as `format!` shows it, `{layer:?}` and `{length:.3}` included, but that nothing is −0.000. Where the wording hangs on a number or
 //!   on a choice (a plural, a case), the row is a function: `errors(count: usize) => { … }`. Words that are no text of ours (keys, names
 //!   of rules, file endings, letters of a program) are handed in and never translated.
 //! - `en/` says which sentences there are (`declare!`), a file for each room. Another language is a folder with the same rows under
@@ -33,7 +33,7 @@ pub(crate) use language::{Asker, Language, speak, spoken};
 pub(crate) use readable::lengths;
 pub(crate) use readable::{columns, is_hidden, readable};
 
-use std::fmt::{Debug, Display};
+use std::fmt::{self, Debug, Display, Formatter};
 
 fn help_of(language: Language) -> &'static [(&'static str, &'static str)] {
     match language {
@@ -77,5 +77,72 @@ pub(crate) fn help_beside(shown: String) -> String {
 }
 
 /// What a sentence may speak of: whatever can be shown.
-pub(crate) trait Shown: Display + Debug {}
-impl<T: Display + Debug> Shown for T {}
+pub(crate) trait Shown {
+    fn show(&self, formatter: &mut Formatter<'_>) -> fmt::Result;
+    fn quote(&self, formatter: &mut Formatter<'_>) -> fmt::Result;
+}
+
+impl<T: Display + Debug> Shown for T {
+    fn show(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        Display::fmt(self, formatter)
+    }
+
+    fn quote(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        Debug::fmt(self, formatter)
+    }
+}
+
+struct AsItIs<'a>(&'a dyn Shown);
+
+impl Display for AsItIs<'_> {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        self.0.show(formatter)
+    }
+}
+
+/// A number to so many decimals is no negative zero: no sentence says −0.000.
+impl Display for dyn Shown + '_ {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        let Some(decimals) = formatter.precision() else {
+            return self.show(formatter);
+        };
+        let as_it_is = AsItIs(self);
+        let text = match formatter.sign_plus() {
+            true => format!("{as_it_is:+.decimals$}"),
+            false => format!("{as_it_is:.decimals$}"),
+        };
+        match text.strip_prefix('-') {
+            Some(zero) if zero.bytes().all(|digit| matches!(digit, b'0' | b'.')) => {
+                let sign = if formatter.sign_plus() { "+" } else { "" };
+                write!(formatter, "{sign}{zero}")
+            }
+            _ => formatter.write_str(&text),
+        }
+    }
+}
+
+impl Debug for dyn Shown + '_ {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        self.quote(formatter)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn no_sentence_says_that_nothing_is_negative() {
+        let of = |x: f64, y: f64| say!(no_tab_fits_at, x, y);
+        assert!(
+            of(-1e-9, -0.0).contains("(0.000, 0.000)"),
+            "{}",
+            of(-1e-9, -0.0)
+        );
+        assert!(
+            of(-0.0006, 1.0).contains("(-0.001, 1.000)"),
+            "{}",
+            of(-0.0006, 1.0)
+        );
+        let off = say!(the_cut_does_not_close, 0.5, -1e-9, -0.5);
+        assert!(off.contains("X +0.000, Y -0.500"), "{off}");
+    }
+}

@@ -13,7 +13,7 @@ use super::wanted::Wanted;
 use super::way::{Landing, Way};
 use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
-use crate::geometry::{Point, Segment, told};
+use crate::geometry::{Point, Segment};
 use crate::settings::{Effective, Lead};
 use std::sync::OnceLock;
 
@@ -150,7 +150,6 @@ impl Surroundings<'_> {
         let (place, does) = obstacle
             .map(|obstacle| self.told(&obstacle, walls, correction))
             .unwrap_or_default();
-        let (thread, begin) = (told(thread), told(begin));
         let sentence = match self.lead {
             Lead::Arc => say!(
                 no_arc_leads_from_to,

@@ -16,7 +16,7 @@ use super::wanted::Wanted;
 use super::way::Landing;
 use crate::drawing::{Contour, Role};
 use crate::finding::{Finding, Rule, Severity};
-use crate::geometry::{Point, Segment, Side, told};
+use crate::geometry::{Point, Segment, Side};
 use crate::settings::Jumps;
 use rustc_hash::FxHashMap;
 
@@ -86,7 +86,7 @@ impl Job<'_> {
                 && let Some(wall) = self.crossed(&lead, contours, Some(index))
             {
                 let crossed = name(self.drawing, &self.outlines[contours.outline_of(wall)]);
-                let (from, to) = (told(lead.start()), told(lead.end()));
+                let (from, to) = (lead.start(), lead.end());
                 let sentence = say!(
                     the_lead_in_cuts_through_contour,
                     from.x,

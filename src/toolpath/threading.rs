@@ -11,7 +11,7 @@ use super::paths::{Pass, Unled};
 use super::wanted::Wanted;
 use crate::drawing::Role;
 use crate::finding::Finding;
-use crate::geometry::{Point, Segment, told};
+use crate::geometry::{Point, Segment};
 use crate::settings::{Compensation, Lead};
 
 impl Job<'_> {
@@ -141,7 +141,6 @@ impl Job<'_> {
             return Ok(());
         };
         let wall = nearest(walls, thread, join).map_or(0, |(entry, _)| entry.wall);
-        let (thread, point) = (told(thread), told(point));
         let sentence = say!(
             the_thread_hole_comes_nearer_to_the_contour,
             thread.x,
