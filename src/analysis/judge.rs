@@ -148,8 +148,11 @@ impl Analysis {
             |key| side_of(self, key),
             |key, what, side| self.count(drawing, key, (what, side), open_is_an_error),
         );
-        let in_order = notable.in_order(|id| drawing.rank(id));
-        let told = in_order.iter().filter(|&&key| Some(key) != suspended);
+        notable.put_in_order(|id| drawing.rank(id));
+        let told = notable
+            .in_order()
+            .iter()
+            .filter(|&&key| Some(key) != suspended);
         let told = told.filter_map(|&key| Some((key, notable.get(key)?.counted.as_ref()?)));
         let of_arcs = told.clone().map(|(key, it)| (key, it, &it.counts.arcs[..]));
         tell(&sums.arcs, of_arcs, report, |key, counted, report| {

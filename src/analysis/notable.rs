@@ -118,8 +118,12 @@ impl Notables {
         }
     }
 
-    /// All in machining order.
-    pub(super) fn in_order(&mut self, rank: impl Fn(EntityId) -> u64) -> Arc<[ContourKey]> {
+    /// All in machining order, once they have been put in it.
+    pub(super) fn in_order(&self) -> &[ContourKey] {
+        &self.sorted
+    }
+
+    pub(super) fn put_in_order(&mut self, rank: impl Fn(EntityId) -> u64) {
         let Notables {
             of,
             sorted,
@@ -140,7 +144,6 @@ impl Notables {
             let at = sorted.partition_point(|&other| place(other) < place(key));
             sorted.insert(at, key);
         }
-        sorted.as_slice().into()
     }
 
     /// How many findings of which kind there are in all, but for a contour that is `suspended`. Where `sides_stay`, the side
