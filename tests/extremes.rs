@@ -163,9 +163,11 @@ fn said(document: &mut Document) -> Vec<(&'static str, String)> {
 
 #[test]
 fn what_lies_side_by_side_by_the_thousand_is_compared_within_bounds_and_what_was_not_is_said() {
-    let lines = |count: usize| {
-        let line =
-            |number: usize| format!("0\nLINE\n10\n{number}\n20\n0\n11\n{number}\n21\n7000\n");
+    let lines = |count: usize, slant: usize| {
+        let line = |number: usize| {
+            let end = number + slant;
+            format!("0\nLINE\n10\n{number}\n20\n0\n11\n{end}\n21\n7000\n")
+        };
         // A twentieth of what a drawing is granted, so that a tenth of the lines is too many.
         let granted = Budget::default();
         let budget = Budget {
@@ -183,11 +185,42 @@ fn what_lies_side_by_side_by_the_thousand_is_compared_within_bounds_and_what_was
             .map(|(_, sentence)| sentence)
             .collect::<Vec<_>>()
     };
-    assert_eq!(lines(500), [""; 0]);
-    let [sentence] = &lines(2_400)[..] else {
+    assert_eq!(lines(500, 0), [""; 0]);
+    // Each is found among all beside it.
+    assert_eq!(lines(2_400, 0), [""; 0]);
+    // The box of each holds a part of all others.
+    let [sentence] = &lines(2_400, 7000)[..] else {
         panic!("one finding is expected")
     };
     assert!(sentence.contains("not compared"), "{sentence}");
+}
+
+#[test]
+fn outlines_within_each_other_are_all_compared() {
+    let circle = |radius: f64| format!("0\nCIRCLE\n10\n0\n20\n0\n40\n{radius}\n");
+    let square = |half: f64| {
+        let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
+        let corners = corners.map(|(x, y)| format!("10\n{x}\n20\n{y}\n"));
+        format!("0\nLWPOLYLINE\n90\n4\n70\n1\n{}", corners.concat())
+    };
+    let granted = Budget::default();
+    let budget = Budget {
+        looks: granted.looks / 20,
+        ..granted
+    };
+    let shapes: [&dyn Fn(f64) -> String; 2] = [&circle, &square];
+    for shape in shapes {
+        let settings = Effective {
+            budget,
+            ..Effective::default()
+        };
+        // One of them comes near another.
+        let sizes = (1..3_000).map(f64::from).chain([1500.05]);
+        let mut document = drawing_under(sizes.map(shape), settings);
+        let said = said(&mut document);
+        let of = |name: &str| said.iter().any(|(rule, _)| *rule == name);
+        assert!(of("narrow-slot") && !of("not-judged"), "{said:?}");
+    }
 }
 
 /// Few lines that ask for much: what each comes to, in counted steps, and that what was left out is said.

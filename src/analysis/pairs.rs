@@ -1,12 +1,12 @@
 //! The observations of the rules on pairs of segments, by the runs of the two segments.
 
 use super::compare::{Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId};
-use super::search::{BOXES_OF_A_LOOK, Looked, Search};
+use super::search::{BOXES_OF_A_LOOK, Looked, Search, shell_of};
 use super::seen::Seen;
 use super::told::Made;
 use crate::drawing::{ContourIndex, ContourKey};
 use crate::finding::Rule;
-use crate::geometry::{Bounds, Grid, Point};
+use crate::geometry::{Bounds, Grid, Nest, Point, Shell};
 use crate::rules::{Limits, PAIR_RULES, PairRule};
 use crate::settings::{Budget, Effective};
 use rayon::prelude::*;
@@ -18,6 +18,8 @@ const BATCH: usize = 8192;
 /// From this many runs on it is worth waking other threads, each of which takes this many at a time.
 const MANY_RUNS: usize = 512;
 const SHARE: usize = 64;
+/// Runs of which it is asked how much lies near them, and how many of those come near indeed.
+const SAMPLES: usize = 32;
 
 /// The runs of all contours by place, and the observations between them.
 #[derive(Clone, Debug, Default)]
@@ -239,6 +241,7 @@ impl Pairs {
             .collect();
         let search = Search {
             grid: &self.grid,
+            nest: self.nest(outlook, runs),
             rules: &rules,
             reach: self.reach,
             new: &new,
@@ -309,6 +312,28 @@ impl Pairs {
             self.made = Made::default();
         }
         self.ask_again(&mut kept, limits);
+    }
+
+    /// All runs by how they lie within each other, where the boxes near most new ones are many and tell little.
+    fn nest(&self, outlook: Outlooks, runs: &[RunId]) -> Option<Nest<RunId>> {
+        let step = (runs.len() >= MANY_RUNS).then_some(runs.len() / SAMPLES)?;
+        let shell = |run: RunId| Some(shell_of(&outlook(run.0)?, run.1));
+        let (mut read, mut meet) = (0, 0);
+        for &run in runs.iter().step_by(step).take(SAMPLES) {
+            let own = shell(run)?;
+            let mut near = Vec::new();
+            let area = own.bounds().grown(self.reach);
+            read += self.grid.near(&area, |other| near.push(other)) as usize;
+            let tried = near.iter().step_by(near.len().div_ceil(SAMPLES).max(1));
+            let shells: Vec<Shell> = tried.filter_map(|&other| shell(other)).collect();
+            let meeting = shells.iter().filter(|it| it.may_meet(&own, self.reach));
+            meet += near.len() * meeting.count() / shells.len().max(1);
+        }
+        (read >= SAMPLES * MANY_RUNS && meet * 8 < read).then(|| {
+            let runs: Vec<RunId> = self.grid.keys().collect();
+            let shells = runs.par_iter().filter_map(|&run| Some((run, shell(run)?)));
+            Nest::new(shells.collect())
+        })
     }
 
     /// Checks whether the discs of the stale runs' observations are empty, while looks are left. The others make no

@@ -1,7 +1,8 @@
 //! The search for what comes near a run, and the comparison with each of it. Knows nothing of what was found before.
 
 use super::compare::{Comparison, Kept, LOOKS_OF_A_PAIR, Observed, RunId, Walls, passes};
-use crate::geometry::{Bounds, Grid};
+use crate::geometry::{Bounds, Grid, Nest, Segment, Shell};
+use crate::rules::Outlook;
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
 
@@ -11,6 +12,8 @@ pub(super) const BOXES_OF_A_LOOK: u64 = 4;
 /// The partners of new runs.
 pub(super) struct Search<'a> {
     pub(super) grid: &'a Grid<RunId>,
+    /// All runs once more, where the grid is crowded.
+    pub(super) nest: Option<Nest<RunId>>,
     pub(super) rules: &'a [(usize, f64)],
     pub(super) reach: f64,
     pub(super) new: &'a FxHashMap<RunId, usize>,
@@ -38,6 +41,14 @@ impl Looked {
     }
 }
 
+/// Where a run of a contour lies.
+pub(super) fn shell_of(outlook: &Outlook, run: u32) -> Shell {
+    let range = outlook.index.range_of(run as usize);
+    let segments = outlook.contour.segments_in(outlook.drawing, range);
+    let segments: Vec<Segment> = segments.map(|segment| segment.geometry).collect();
+    Shell::of(segments.iter().copied())
+}
+
 impl Search<'_> {
     /// Compares the new run at a place in their order with all that come near it, within this many looks.
     pub(super) fn look(&self, kept: &mut Kept, at: usize, run: RunId, most: u64) -> Looked {
@@ -47,12 +58,16 @@ impl Search<'_> {
         };
         let area = own.index.bounds_of_run(run.1 as usize).grown(self.reach);
         let mut near = Vec::new();
-        let boxes = self.grid.near(&area, |other| {
+        let found = |other| {
             // Two new runs are compared once.
             if self.new.get(&other).is_none_or(|&its| at <= its) {
                 near.push(other);
             }
-        });
+        };
+        let boxes = match &self.nest {
+            Some(nest) => nest.near(&shell_of(&own, run.1), self.reach, found),
+            None => self.grid.near(&area, found),
+        };
         looked.before = boxes / BOXES_OF_A_LOOK;
         if self.are_parts {
             near.retain(|other| (kept.outlook)(other.0).is_some_and(|it| it.part == own.part));

@@ -105,6 +105,14 @@ impl<K: Copy + PartialEq> Grid<K> {
         }
     }
 
+    /// The keys of all boxes, in no order.
+    pub(crate) fn keys(&self) -> impl Iterator<Item = K> + '_ {
+        let boxed = |at: u32| self.boxes.get(at as usize);
+        let firsts = self.levels.values().flat_map(FxHashMap::values);
+        let of_cell = move |&first| std::iter::successors(boxed(first), move |it| boxed(it.next));
+        firsts.flat_map(of_cell).map(|boxed| boxed.key)
+    }
+
     /// Calls `found` for each box that touches `area`, once each, in no order. Returns how many boxes and cells were
     /// read.
     pub(crate) fn near(&self, area: &Bounds, mut found: impl FnMut(K)) -> u64 {

@@ -5,8 +5,8 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
     /// The comparisons that the segments of a drawing may take, and in addition for each segment: one for a pair of
-    /// segments, one for four boxes of the grid. Thousands of circles about one point come near each other everywhere
-    /// without a finding, and would be compared for ever.
+    /// segments, one for four boxes that are looked through. Thousands of long lines whose boxes hold each other would be
+    /// compared for ever.
     pub looks: u64,
     pub looks_of_a_segment: u64,
     /// The search stops at this many: a drawing where this much lies on or across each other is not ready to cut, and
