@@ -168,15 +168,34 @@ impl Analysis {
             return Vec::new();
         }
         self.know_vicinity();
+        let is_closed = |key: &ContourKey| self.chains.get(*key).is_some_and(|it| it.closed);
+        let holds = |lone: &Lone, other: ContourKey| {
+            is_closed(&other) && self.holds_some_of(drawing, &lone.line, other)
+        };
+        // Thousands of lines may be near each other: those in no closed contour are not asked about them.
+        let closed = (keys.len() > MANY).then(|| {
+            let mut closed = Grid::default();
+            for (&key, known) in self.known.iter().filter(|(key, _)| is_closed(key)) {
+                closed.insert(key, known.index.bounds());
+            }
+            closed
+        });
+        let is_in_none = |lone: &Lone, closed: &Grid<ContourKey>| {
+            let mut near = Vec::new();
+            closed.near(&lone.reach, |key| near.push(key));
+            let mut near = near.into_iter().filter(|&key| self.is_there(drawing, key));
+            !near.any(|key| holds(lone, key))
+        };
         let judge = |&key: &ContourKey| {
             let lone = self.lone.get(&key)?;
+            if closed
+                .as_ref()
+                .is_some_and(|closed| is_in_none(lone, closed))
+            {
+                return Some((key, false));
+            }
             let near = self.contours_near(drawing, &lone.reach);
-            let is_closed = |key: &&ContourKey| self.chains.get(**key).is_some_and(|it| it.closed);
-            // A line in no closed contour is not asked further: all that it crosses may be near it.
-            let is_aside = near
-                .iter()
-                .filter(is_closed)
-                .any(|&other| self.holds_some_of(drawing, &lone.line, other))
+            let is_aside = near.iter().any(|&other| holds(lone, other))
                 && !near
                     .iter()
                     .any(|&other| other != key && self.faces(drawing, lone, other));
