@@ -105,9 +105,9 @@ impl<K: Copy + PartialEq> Grid<K> {
         }
     }
 
-    /// Calls `found` for each box that touches `area`, once each, in no order. Returns how many boxes and cells were
+    /// Calls `found` with each box that touches `area`, once each, in no order. Returns how many boxes and cells were
     /// read.
-    pub(crate) fn near(&self, area: &Bounds, mut found: impl FnMut(K)) -> u64 {
+    pub(crate) fn near(&self, area: &Bounds, mut found: impl FnMut(K, &Bounds)) -> u64 {
         let mut work = 0;
         if area.is_empty() {
             return work;
@@ -116,7 +116,7 @@ impl<K: Copy + PartialEq> Grid<K> {
             let (mut at, mut count) = (first, 0);
             while let Some(boxed) = self.boxes.get(at as usize) {
                 if boxed.bounds.touches(area) {
-                    found(boxed.key);
+                    found(boxed.key, &boxed.bounds);
                 }
                 at = boxed.next;
                 count += 1;
@@ -201,9 +201,9 @@ mod tests {
             );
         }
         let area = square(200.0, 200.0, 8.0);
-        let alone = grid.near(&area, |_| {});
+        let alone = grid.near(&area, |_, _| {});
         grid.insert(2500, square(-20.0, -20.0, 0.001));
-        let beside = grid.near(&area, |_| {});
+        let beside = grid.near(&area, |_, _| {});
         assert!(
             beside <= alone + 2,
             "{alone} looks without it, {beside} with it"
@@ -237,7 +237,7 @@ mod tests {
         }
         for area in &boxes {
             let mut found = Vec::new();
-            grid.near(area, |key| found.push(key));
+            grid.near(area, |key, _| found.push(key));
             found.sort_unstable();
             let expected: Vec<usize> = (0..500)
                 .filter(|key| key % 3 != 0 && boxes[*key].touches(area))
