@@ -172,11 +172,8 @@ impl Pairs {
 
     /// Whether runs of other contours come near these bounds of one.
     pub(crate) fn comes_near_others(&self, key: ContourKey, bounds: &Bounds) -> bool {
-        let mut others = false;
-        self.grid.near(&bounds.grown(self.reach), |(other, _), _| {
-            others |= other != key
-        });
-        others
+        let area = bounds.grown(self.reach);
+        self.grid.any_near(&area, |(other, _)| other != key)
     }
 
     /// Something has come or gone within these bounds.
