@@ -114,7 +114,7 @@ pub(crate) struct Walls<'a> {
 }
 
 impl<'a> Walls<'a> {
-    fn of(outlook: &Outlook<'a>, run: u32) -> Walls<'a> {
+    pub(crate) fn of(outlook: &Outlook<'a>, run: u32) -> Walls<'a> {
         let range = outlook.index.range_of(run as usize);
         let first = range.start;
         let segments = outlook
@@ -129,7 +129,9 @@ impl<'a> Walls<'a> {
             let wall = Wall::behind(before, outlook, first + along, segment);
             (wall, segment.geometry.bounds())
         };
-        let each: Vec<(Wall, Bounds)> = segments.map(wall).collect();
+        let mut each: Vec<(Wall, Bounds)> =
+            Vec::with_capacity(outlook.index.range_of(run as usize).len());
+        each.extend(segments.map(wall));
         let mut all = Bounds::EMPTY;
         let groups = each.chunks(GROUP).map(|group| {
             let mut bounds = Bounds::EMPTY;

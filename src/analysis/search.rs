@@ -1,8 +1,9 @@
 //! The search for what comes near a run, and the comparison with each of it. Knows nothing of what was found before.
 
-use super::compare::{Comparison, Kept, LOOKS_OF_A_PAIR, Observed, RunId, passes};
+use super::compare::{Comparison, Kept, LOOKS_OF_A_PAIR, Observed, RunId, Walls, passes};
 use crate::geometry::Grid;
 use rustc_hash::FxHashMap;
+use std::rc::Rc;
 
 /// One look of the budget: the comparison of two segments, or of this many boxes of the grid.
 pub(super) const BOXES_OF_A_LOOK: u64 = 4;
@@ -56,8 +57,14 @@ impl Search<'_> {
         if self.are_parts {
             near.retain(|(other, _)| (kept.outlook)(other.0).is_some_and(|it| it.part == own.part));
         }
-        let Some(walls) = kept.walls_of(run).filter(|_| !near.is_empty()) else {
-            return looked;
+        let walls = match near.as_slice() {
+            [] => return looked,
+            // What nothing else comes near is not needed again.
+            [(alone, _)] if *alone == run => Rc::new(Walls::of(&own, run.1)),
+            _ => match kept.walls_of(run) {
+                Some(walls) => walls,
+                None => return looked,
+            },
         };
         // A long line may have a box that holds half the drawing, and come near little of it.
         near.retain(|(other, theirs)| {
@@ -80,7 +87,8 @@ impl Search<'_> {
                 break;
             }
             let mut found = Vec::new();
-            let own = match kept.walls_of(other).filter(|_| other != run) {
+            let theirs = (other != run).then(|| kept.walls_of(other)).flatten();
+            let own = match theirs {
                 Some(theirs) => comparison(other).between(&walls, &theirs, &mut found),
                 None => comparison(other).within(&walls, &mut found),
             };
