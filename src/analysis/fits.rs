@@ -4,7 +4,7 @@ use super::Analysis;
 use super::report::Report;
 use crate::drawing::{ContourKey, Drawing, DrawingEdit, Outline, Role};
 use crate::finding::{Detail, Finding, Fix, FixKind, Misfit, Place, Rule, Severity, Side};
-use crate::fit::{self, Pair, SegmentOf, Spot};
+use crate::fit::{self, Held, SegmentOf, Spot};
 use crate::geometry::{Bounds, Grid};
 use crate::rules::small_radius::{self, Travel};
 use crate::settings::{Compensation, Partners};
@@ -19,7 +19,16 @@ const MOST_SEGMENTS: usize = 100_000;
 #[derive(Clone, Debug)]
 pub(crate) struct Answer {
     /// `None` where one of the two has no path, of which others speak.
-    pub pair: Option<Arc<Pair>>,
+    known: Option<Arc<Fitted>>,
+    /// One of the two has been edited since: what still holds need not be looked at again.
+    is_old: bool,
+}
+
+/// A punch and its plate, one laid in the other.
+#[derive(Debug)]
+pub(crate) struct Fitted {
+    parts: [Arc<Part>; 2],
+    held: Held,
 }
 
 /// What is left of a contour.
@@ -30,15 +39,23 @@ pub(crate) struct Left {
     is_old: bool,
 }
 
-/// What is left of a punch and of its plate.
-type Parts = [(Role, Arc<Part>); 2];
+/// What a punch is, and its plate.
+const ROLES: [Role; 2] = [Role::Punch, Role::Opening];
 
 impl Analysis {
-    /// Forgets what was found between a contour that is edited and its partner.
-    pub(super) fn forget_fits(&mut self, key: ContourKey) {
+    /// What was found between a contour that is edited and its partner holds no longer, but for what the edit has not touched.
+    pub(super) fn outdate_fits(&mut self, key: ContourKey) {
         for ((of, _), left) in &mut self.parts {
             left.is_old |= *of == key;
         }
+        for ((one, other), answer) in &mut self.fits {
+            answer.is_old |= *one == key || *other == key;
+        }
+    }
+
+    /// Forgets what was found of a contour that is gone.
+    pub(super) fn forget_fits(&mut self, key: ContourKey) {
+        self.parts.retain(|(of, _), _| *of != key);
         self.fits
             .retain(|(one, other), _| *one != key && *other != key);
     }
@@ -66,7 +83,8 @@ impl Analysis {
                 }
             }
             Partners::Drawn => {
-                let drawn = fit::partners(drawing, &outlines, &self.settings);
+                let beside = &mut self.beside;
+                let drawn = fit::partners(drawing, &outlines, &self.settings, beside);
                 for &[punch, plate] in &drawn.pairs {
                     let both = [punch, plate].map(|index| (keys[index], &outlines[index]));
                     self.report_pair(drawing, both, report);
@@ -76,6 +94,8 @@ impl Analysis {
                 }
             }
         }
+        // No partners any more.
+        self.fits.retain(|_, answer| !answer.is_old);
     }
 
     fn report_alone(
@@ -102,73 +122,74 @@ impl Analysis {
     }
 
     /// What is known of two partners; worked out where it is not yet.
-    pub(super) fn fit_of(
+    fn fit_of(
         &mut self,
         drawing: &Drawing,
         both: [(ContourKey, &Outline); 2],
-    ) -> Option<Arc<Pair>> {
+    ) -> Option<Arc<Fitted>> {
         let [(one, punch), (other, plate)] = both;
-        if let Some(answer) = self.fits.get(&(one, other)) {
-            return answer.pair.clone();
+        if let Some(answer) = self.fits.get(&(one, other))
+            && !answer.is_old
+        {
+            return answer.known.clone();
         }
         let is_small = punch.contour.len().max(plate.contour.len()) <= MOST_SEGMENTS;
-        let (pair, parts) = match is_small {
-            true => self.pair(drawing, both),
-            false => (None, None),
-        };
-        for ((key, _), (role, part)) in both.into_iter().zip(parts.into_iter().flatten()) {
-            let is_old = false;
-            self.parts.insert((key, role), Left { part, is_old });
+        let known = is_small.then(|| self.fitted(drawing, both)).flatten();
+        let known = known.map(Arc::new);
+        for ((key, role), known) in [one, other].into_iter().zip(ROLES).zip([&known; 2]) {
+            if let Some(known) = known {
+                let [punch, plate] = &known.parts;
+                let part = if role == ROLES[0] { punch } else { plate }.clone();
+                let is_old = false;
+                self.parts.insert((key, role), Left { part, is_old });
+            }
         }
-        let pair = pair.map(Arc::new);
-        self.fits
-            .insert((one, other), Answer { pair: pair.clone() });
-        pair
+        let answer = Answer {
+            known: known.clone(),
+            is_old: false,
+        };
+        self.fits.insert((one, other), answer);
+        known
     }
 
-    /// Two outlines, or one that is cut twice, laid in each other; and the parts that are left, for what comes next.
-    fn pair(
-        &self,
-        drawing: &Drawing,
-        both: [(ContourKey, &Outline); 2],
-    ) -> (Option<Pair>, Option<Parts>) {
+    /// Two outlines, or one that is cut twice, laid in each other. What is known of them from before an edit is not looked at again.
+    fn fitted(&self, drawing: &Drawing, both: [(ContourKey, &Outline); 2]) -> Option<Fitted> {
         let settings = &self.settings;
         let [(one, punch), (other, plate)] = both;
         let left = |key: ContourKey, role: Role| self.parts.get(&(key, role));
-        let part_of = |key: ContourKey, outline: &Outline, role: Role| {
-            let before = left(key, role);
-            if let Some(left) = before.filter(|left| !left.is_old) {
-                return Some(left.part.clone());
+        let old = self
+            .fits
+            .get(&(one, other))
+            .and_then(|answer| answer.known.as_deref());
+        let before = old.map(|old| (old.parts.each_ref().map(|part| &**part), &old.held));
+        match settings.partners()? {
+            Partners::CutTwice(_) => {
+                let before_each = ROLES.map(|role| left(one, role).map(|left| &*left.part));
+                let parts = fit::cut_twice_parts(drawing, punch, settings, before_each).ok()?;
+                let held = fit::cut_twice(drawing, parts.each_ref(), settings, false, before);
+                let parts = parts.map(Arc::new);
+                Some(Fitted { parts, held })
             }
-            let before = before.map(|left| &*left.part);
-            let part = fit::drawn_part(drawing, outline, role, settings, before);
-            part.ok().map(Arc::new)
-        };
-        let roles = [Role::Punch, Role::Opening];
-        match settings.partners() {
-            Some(Partners::CutTwice(_)) => {
-                let before = roles.map(|role| left(one, role).map(|left| &*left.part));
-                let Ok(parts) = fit::cut_twice_parts(drawing, punch, settings, before) else {
-                    return (None, None);
+            Partners::Drawn => {
+                let part_of = |key: ContourKey, outline: &Outline, role: Role| {
+                    let before = left(key, role);
+                    if let Some(left) = before.filter(|left| !left.is_old) {
+                        return Some(left.part.clone());
+                    }
+                    let before = before.map(|left| &*left.part);
+                    let part = fit::drawn_part(drawing, outline, role, settings, before);
+                    part.ok().map(Arc::new)
                 };
-                let [punch, plate] = parts.map(Arc::new);
-                let pair = fit::cut_twice(drawing, [&punch, &plate], settings, false);
-                (Some(pair), Some([(roles[0], punch), (roles[1], plate)]))
-            }
-            Some(Partners::Drawn) => {
-                let parts = rayon::join(
-                    || part_of(one, punch, Role::Punch),
-                    || part_of(other, plate, Role::Opening),
+                let (punch_part, plate_part) = rayon::join(
+                    || part_of(one, punch, ROLES[0]),
+                    || part_of(other, plate, ROLES[1]),
                 );
-                let Some((punch_part, plate_part)) = parts.0.zip(parts.1) else {
-                    return (None, None);
-                };
-                let parts = [&*punch_part, &*plate_part];
-                let pair = fit::drawn_pair(drawing, [punch, plate], parts, settings, false);
-                let kept = [(Role::Punch, punch_part), (Role::Opening, plate_part)];
-                (Some(pair), Some(kept))
+                let parts = [punch_part?, plate_part?];
+                let both = parts.each_ref().map(|part| &**part);
+                let outlines = [punch, plate];
+                let held = fit::drawn_pair(drawing, outlines, both, settings, false, before);
+                Some(Fitted { parts, held })
             }
-            None => (None, None),
         }
     }
 
@@ -183,9 +204,10 @@ impl Analysis {
         if both.iter().any(|(key, _)| crossed.contains(key)) {
             return;
         }
-        let Some(pair) = self.fit_of(drawing, both) else {
+        let Some(fitted) = self.fit_of(drawing, both) else {
             return;
         };
+        let pair = &fitted.held;
         let (rounding, wanted) = (
             self.limits.tolerances.report,
             self.settings.pair.clearance.unwrap_or(0.0) / self.limits.unit_mm,
@@ -214,9 +236,16 @@ impl Analysis {
             });
             Some(pair.spots.get(first?)?.of.clone())
         };
-        for spot in pair.spots.iter().filter(|spot| spot.clearance < -rounding) {
+        let is_binding = |spot: &&Spot| spot.clearance < -rounding;
+        let count = pair.spots.iter().filter(is_binding).count();
+        let of_each = if is_cut_twice { 1 } else { 2 };
+        report.count(Rule::DoesNotFit, None, of_each * count);
+        for spot in pair.spots.iter().filter(is_binding) {
+            if report.is_full(Rule::DoesNotFit, None) {
+                break;
+            }
             let mut add = |at: SegmentOf, other: SegmentOf, of: &Arc<str>, partner: &Arc<str>| {
-                if report.counts(Rule::DoesNotFit, None) {
+                if !report.is_full(Rule::DoesNotFit, None) {
                     let misfit = Misfit {
                         at: spot.at,
                         clearance: spot.clearance,
@@ -272,9 +301,9 @@ impl Analysis {
         };
         let (_, clearance) = self.settings.fit().ok()?;
         let before = self.pair_at(drawing, (entity, segment))?;
-        let spot = spot_at(&before.spots, (entity, segment)).filter(|spot| spot.turn > 0.0)?;
+        let spot = spot_at(&before.held.spots, (entity, segment)).filter(|spot| spot.turn > 0.0)?;
         let corner = Corner {
-            before: &before,
+            before: &before.held,
             spot,
             clearance: clearance / self.limits.unit_mm,
             is_drawn: self.chains.contour_of(spot.segment.0)
@@ -334,7 +363,7 @@ impl Analysis {
     }
 
     /// What is known of the pair that a segment is of.
-    fn pair_at(&self, drawing: &Drawing, (entity, segment): SegmentOf) -> Option<Arc<Pair>> {
+    fn pair_at(&self, drawing: &Drawing, (entity, segment): SegmentOf) -> Option<Arc<Fitted>> {
         let (key, _) = self.chains.index_of(entity, segment)?;
         let outlines = self.outlines(drawing);
         let keys = self.in_machining_order(drawing);
@@ -342,15 +371,18 @@ impl Analysis {
         let both = match self.settings.partners()? {
             Partners::CutTwice(_) => [at, at],
             Partners::Drawn => {
-                let drawn = fit::partners(drawing, outlines, &self.settings);
+                let mut beside = self.beside.clone();
+                let drawn = fit::partners(drawing, outlines, &self.settings, &mut beside);
                 drawn.pairs.into_iter().find(|pair| pair.contains(&at))?
             }
         };
-        if let Some(answer) = self.fits.get(&(keys[both[0]], keys[both[1]])) {
-            return answer.pair.clone();
+        if let Some(answer) = self.fits.get(&(keys[both[0]], keys[both[1]]))
+            && !answer.is_old
+        {
+            return answer.known.clone();
         }
         let both = both.map(|index| (keys[index], &outlines[index]));
-        self.pair(drawing, both).0.map(Arc::new)
+        self.fitted(drawing, both).map(Arc::new)
     }
 
     /// The edit that gives a corner a radius, and what is left of the clearance there behind it: at most what there should be. `None` where
@@ -452,21 +484,26 @@ impl Analysis {
         let pair = after.pair_at(&edited, place)?;
         let wide = self.wide(corner.clearance, spot.clearance);
         let near = |other: &&Spot| (other.at - spot.at).norm() <= wide;
-        let left = pair.spots.iter().filter(near).map(|spot| spot.clearance);
-        let binding = |pair: &Pair| {
-            pair.spots
+        let left = pair
+            .held
+            .spots
+            .iter()
+            .filter(near)
+            .map(|spot| spot.clearance);
+        let binding = |held: &Held| {
+            held.spots
                 .iter()
                 .filter(|spot| spot.clearance < 0.0)
                 .count()
         };
         let left = left.fold(corner.clearance, f64::min);
-        (left < 0.0 || binding(&pair) < binding(corner.before)).then_some(left)
+        (left < 0.0 || binding(&pair.held) < binding(corner.before)).then_some(left)
     }
 }
 
 /// A corner in which two parts bind.
 struct Corner<'a> {
-    before: &'a Pair,
+    before: &'a Held,
     spot: &'a Spot,
     clearance: f64,
     /// Both parts are drawn.

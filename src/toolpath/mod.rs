@@ -45,7 +45,7 @@ pub(crate) use finished::Finished;
 pub use hole::StartHole;
 pub(crate) use hole::hole_faults;
 pub use milling::{Milled, MilledContour};
-pub(crate) use part::{Cutting, Part, part};
+pub(crate) use part::{Cutting, Edge, Part, part};
 pub(crate) use path::lengths;
 pub use path::{PathSegment, Refusal, Source, WirePath};
 pub(crate) use rounds::rounds;

@@ -1,0 +1,116 @@
+//! What of two parts laid in each other holds since before an edit: an edge that is where it was, and about which nothing has changed of all
+//! that was asked, is not looked at again.
+
+use super::change::Change;
+use super::looks::{Looks, Verdict};
+use crate::geometry::{Bounds, Segment};
+use crate::toolpath::{Edge, Part};
+
+/// Where more edges and pieces have changed, all is looked at.
+const MOST_CHANGED: usize = 512;
+
+/// Two parts laid in each other as they were before an edit, under the same limits.
+pub(super) struct Since<'a> {
+    looks: &'a [Looks; 3],
+    /// Of the edges of both parts.
+    edges: [Change; 2],
+    /// The boxes of all that has changed, and the box of these.
+    changed: Vec<Bounds>,
+    all: Bounds,
+}
+
+impl<'a> Since<'a> {
+    /// `None` where too much has changed.
+    pub(super) fn new(
+        looks: &'a [Looks; 3],
+        before: [&Part; 2],
+        now: [&Part; 2],
+    ) -> Option<Since<'a>> {
+        let mut changed = Vec::new();
+        let mut edges = Vec::new();
+        for (before, now) in before.into_iter().zip(now) {
+            let of_edges = Change::of(&before.edges, &now.edges, |a, b| {
+                a.geometry == b.geometry && a.turned_about == b.turned_about
+            });
+            let edges_of = of_edges.stretches(&before.edges, &now.edges);
+            let ways = [before, now].map(|part| part.path.segments());
+            let of_way = Change::of(ways[0], ways[1], PartialEq::eq).stretches(ways[0], ways[1]);
+            let count = edges_of.map(<[Edge]>::len).iter().sum::<usize>();
+            if count + of_way.map(<[Segment]>::len).iter().sum::<usize>() > MOST_CHANGED {
+                return None;
+            }
+            let geometries = edges_of.into_iter().flatten().map(|edge| &edge.geometry);
+            let geometries = geometries.chain(of_way.into_iter().flatten());
+            changed.extend(geometries.map(Segment::bounds));
+            edges.push(of_edges);
+        }
+        let mut all = Bounds::EMPTY;
+        changed.iter().for_each(|bounds| all.merge(bounds));
+        Some(Since {
+            looks,
+            edges: [edges[0], edges[1]],
+            changed,
+            all,
+        })
+    }
+
+    /// What is known of one kind of looks, from an edge on.
+    pub(super) fn of(&self, which: usize, edge: usize) -> Known<'_> {
+        let [punch, plate] = self.edges;
+        let [own, other] = match which {
+            1 => [plate, punch],
+            _ => [punch, plate],
+        };
+        let looks = &self.looks[which];
+        let was = (edge..own.now()).find_map(|edge| own.was(edge));
+        let first = was.unwrap_or(own.before()) as u32;
+        Known {
+            since: self,
+            looks,
+            own,
+            other,
+            next: looks.verdicts.partition_point(|known| known.edge < first),
+        }
+    }
+}
+
+/// What is known of one kind of looks, edge by edge.
+pub(super) struct Known<'a> {
+    since: &'a Since<'a>,
+    looks: &'a Looks,
+    own: Change,
+    other: Change,
+    /// The verdict that comes next.
+    next: usize,
+}
+
+impl Known<'_> {
+    /// What was asked about an edge, and what came of it, where that still holds. Edges are asked for in their order.
+    pub(super) fn kept(&mut self, edge: usize) -> Option<(Bounds, Option<Verdict>)> {
+        let was = self.own.was(edge)?;
+        let asked = *self.looks.asked.get(was)?;
+        let known = &self.looks.verdicts;
+        while known
+            .get(self.next)
+            .is_some_and(|known| (known.edge as usize) < was)
+        {
+            self.next += 1;
+        }
+        let is_new = |changed: &Bounds| changed.touches(&asked);
+        if is_new(&self.since.all) && self.since.changed.iter().any(is_new) {
+            return None;
+        }
+        let verdict = known
+            .get(self.next)
+            .filter(|known| known.edge as usize == was);
+        let verdict = match verdict {
+            Some(known) => Some(Verdict {
+                edge: edge as u32,
+                other: self.other.is(known.other as usize)? as u32,
+                ..*known
+            }),
+            None => None,
+        };
+        Some((asked, verdict))
+    }
+}
