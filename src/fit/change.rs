@@ -1,61 +1,50 @@
-//! How a list went over into another by an edit: one stretch of it has changed.
+//! How a list went over into another by an edit.
 
-/// How a list went over into another: what stands before and behind the stretch that has changed.
-#[derive(Clone, Copy, Debug)]
+use crate::toolpath::{NEW, which_it_was};
+
+/// Of each which one it was before, and of each that was there which one it is, in their order.
+#[derive(Clone, Debug)]
 pub(super) struct Change {
-    front: usize,
-    back: usize,
-    before: usize,
-    now: usize,
+    was: Vec<u32>,
+    is: Vec<u32>,
 }
 
 impl Change {
-    pub(super) fn of<T>(before: &[T], now: &[T], is_same: impl Fn(&T, &T) -> bool) -> Change {
-        let most = before.len().min(now.len());
-        let same = |pair: &(&T, &T)| is_same(pair.0, pair.1);
-        let front = before.iter().zip(now).take_while(same).count();
-        let from_behind = before.iter().rev().zip(now.iter().rev());
-        let back = from_behind.take(most - front).take_while(same).count();
-        Change {
-            front,
-            back,
-            before: before.len(),
-            now: now.len(),
+    /// `None` where too much has changed.
+    pub(super) fn of<T>(
+        before: &[T],
+        now: &[T],
+        is_same: impl Fn(&T, &T) -> bool,
+    ) -> Option<Change> {
+        let was = which_it_was(before, now, is_same)?;
+        let mut is = vec![NEW; before.len()];
+        for (was, now) in was.iter().zip(0..) {
+            if let Some(is) = is.get_mut(*was as usize) {
+                *is = now;
+            }
         }
+        Some(Change { was, is })
     }
 
     /// Where one of now stood before.
     pub(super) fn was(&self, index: usize) -> Option<usize> {
-        match index {
-            _ if index < self.front => Some(index),
-            _ if index >= self.now - self.back => Some(index + self.before - self.now),
-            _ => None,
-        }
+        let was = self.was.get(index).filter(|was| **was != NEW);
+        was.map(|was| *was as usize)
     }
 
-    /// Where one that is still there stands now.
+    /// Where one that was there stands now.
     pub(super) fn is(&self, index: usize) -> Option<usize> {
-        let turned = Change {
-            before: self.now,
-            now: self.before,
-            ..*self
-        };
-        turned.was(index)
+        let is = self.is.get(index).filter(|is| **is != NEW);
+        is.map(|is| *is as usize)
     }
 
-    /// What is gone, and what is new in its place.
-    pub(super) fn stretches<'a, T>(&self, before: &'a [T], now: &'a [T]) -> [&'a [T]; 2] {
-        let gone = &before[self.front..self.before - self.back];
-        [gone, &now[self.front..self.now - self.back]]
+    /// What is gone, by where it was.
+    pub(super) fn gone(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.is.len()).filter(|was| self.is[*was] == NEW)
     }
 
-    /// How many there were.
-    pub(super) fn before(&self) -> usize {
-        self.before
-    }
-
-    /// How many there are.
-    pub(super) fn now(&self) -> usize {
-        self.now
+    /// What is new.
+    pub(super) fn new(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.was.len()).filter(|now| self.was[*now] == NEW)
     }
 }

@@ -27,9 +27,6 @@ pub struct Drawn {
     pub missing: Vec<String>,
 }
 
-/// Where more segments have changed, all are looked at.
-const MOST_CHANGED: usize = 512;
-
 /// The contours that were found to run beside each other, to ask only of what has changed since.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Beside(Vec<[Arc<Walls>; 2]>);
@@ -177,7 +174,7 @@ impl Beside {
         let (punch, plate) = rayon::join(|| walls(both[0]), || walls(both[1]));
         let keeps = |own: &Walls, other: &Walls| {
             let some = own.segments().par_chunks(AT_A_TIME);
-            some.all(|segments| are_near(segments.iter(), other, reach))
+            some.all(|segments| are_near(&mut segments.iter(), other, reach))
         };
         (keeps(&punch, &plate) && keeps(&plate, &punch)).then_some([punch, plate])
     }
@@ -190,27 +187,24 @@ fn still_beside(
     other: &Walls,
     reach: f64,
 ) -> Option<Option<Arc<Walls>>> {
-    let change = Change::of(before.segments(), now, PartialEq::eq);
-    let [gone, new] = change.stretches(before.segments(), now);
-    if gone.len() + new.len() > MOST_CHANGED {
-        return None;
-    }
+    let change = Change::of(before.segments(), now, PartialEq::eq)?;
     let mut beside_gone = Vec::new();
-    for segment in gone {
-        other.find(&segment.bounds().grown(reach), |wall| {
+    for gone in change.gone() {
+        other.find(&before.bounds_of(gone).grown(reach), |wall| {
             beside_gone.push(other.segment(wall));
             false
         });
     }
+    let mut new = change.new().map(|new| &now[new]);
     let walls = Walls::new(now.to_vec());
     let is_beside =
-        are_near(new.iter(), other, reach) && are_near(beside_gone.into_iter(), &walls, reach);
+        are_near(&mut new, other, reach) && are_near(&mut beside_gone.into_iter(), &walls, reach);
     Some(is_beside.then(|| Arc::new(walls)))
 }
 
 /// True where no end of some segments, and no place between, is farther from `other` than `reach`.
 fn are_near<'a>(
-    mut segments: impl Iterator<Item = &'a Segment>,
+    segments: &mut impl Iterator<Item = &'a Segment>,
     other: &Walls,
     reach: f64,
 ) -> bool {

@@ -3,11 +3,8 @@
 
 use super::change::Change;
 use super::looks::{Looks, Verdict};
-use crate::geometry::{Bounds, Segment};
-use crate::toolpath::{Edge, Part};
-
-/// Where more edges and pieces have changed, all is looked at.
-const MOST_CHANGED: usize = 512;
+use crate::geometry::Bounds;
+use crate::toolpath::Part;
 
 /// Two parts laid in each other as they were before an edit, under the same limits.
 pub(super) struct Since<'a> {
@@ -27,28 +24,24 @@ impl<'a> Since<'a> {
         now: [&Part; 2],
     ) -> Option<Since<'a>> {
         let mut changed = Vec::new();
-        let mut edges = Vec::new();
-        for (before, now) in before.into_iter().zip(now) {
-            let of_edges = Change::of(&before.edges, &now.edges, |a, b| {
+        let mut of_edges = |before: &Part, now: &Part| {
+            let change = Change::of(&before.edges, &now.edges, |a, b| {
                 a.geometry == b.geometry && a.turned_about == b.turned_about
-            });
-            let edges_of = of_edges.stretches(&before.edges, &now.edges);
-            let ways = [before, now].map(|part| part.path.segments());
-            let of_way = Change::of(ways[0], ways[1], PartialEq::eq).stretches(ways[0], ways[1]);
-            let count = edges_of.map(<[Edge]>::len).iter().sum::<usize>();
-            if count + of_way.map(<[Segment]>::len).iter().sum::<usize>() > MOST_CHANGED {
-                return None;
-            }
-            let geometries = edges_of.into_iter().flatten().map(|edge| &edge.geometry);
-            let geometries = geometries.chain(of_way.into_iter().flatten());
-            changed.extend(geometries.map(Segment::bounds));
-            edges.push(of_edges);
-        }
+            })?;
+            let ways = [&before.path, &now.path];
+            let of_way = Change::of(ways[0].segments(), ways[1].segments(), PartialEq::eq)?;
+            changed.extend(change.gone().map(|edge| *before.near.bounds_of(edge)));
+            changed.extend(change.new().map(|edge| *now.near.bounds_of(edge)));
+            changed.extend(of_way.gone().map(|piece| *ways[0].bounds_of(piece)));
+            changed.extend(of_way.new().map(|piece| *ways[1].bounds_of(piece)));
+            Some(change)
+        };
+        let edges = [of_edges(before[0], now[0])?, of_edges(before[1], now[1])?];
         let mut all = Bounds::EMPTY;
         changed.iter().for_each(|bounds| all.merge(bounds));
         Some(Since {
             looks,
-            edges: [edges[0], edges[1]],
+            edges,
             changed,
             all,
         })
@@ -56,14 +49,14 @@ impl<'a> Since<'a> {
 
     /// What is known of one kind of looks, from an edge on.
     pub(super) fn of(&self, which: usize, edge: usize) -> Known<'_> {
-        let [punch, plate] = self.edges;
+        let [punch, plate] = &self.edges;
         let [own, other] = match which {
             1 => [plate, punch],
             _ => [punch, plate],
         };
         let looks = &self.looks[which];
-        let was = (edge..own.now()).find_map(|edge| own.was(edge));
-        let first = was.unwrap_or(own.before()) as u32;
+        let first = (0..edge).rev().find_map(|edge| own.was(edge));
+        let first = first.map_or(0, |before| before as u32 + 1);
         Known {
             since: self,
             looks,
@@ -78,8 +71,8 @@ impl<'a> Since<'a> {
 pub(super) struct Known<'a> {
     since: &'a Since<'a>,
     looks: &'a Looks,
-    own: Change,
-    other: Change,
+    own: &'a Change,
+    other: &'a Change,
     /// The verdict that comes next.
     next: usize,
 }
