@@ -8,7 +8,9 @@ use super::Spot;
 use super::deepest::deepest;
 use super::looks::{Looks, Verdict};
 use super::since::Since;
-use crate::geometry::{Bounds, Few, Point, Segment, Vector, cross};
+use crate::geometry::{
+    Bounds, Few, Point, Segment, Vector, cross, line_circle, line_line, reached,
+};
 use crate::toolpath::Part;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use std::ops::Range;
@@ -240,26 +242,29 @@ fn farthest(
     asked.merge(&about);
     other.near.find(&about, |edge| {
         let geometry = &other.edges[edge].geometry;
-        let mut shares: Few<f64, 8> = [0.0, 1.0].into_iter().collect();
-        if !is_whole {
-            shares.extend(
+        let ends = [geometry.start(), geometry.end()];
+        let mut own: Few<Point, 8> = ends.into_iter().collect();
+        let is_far = |end: &Point| (end - turned).norm() > kept;
+        match geometry {
+            // No place of a line is farther than one of its ends.
+            Segment::Line(_) if !ends.iter().any(is_far) => return false,
+            _ if is_whole => {}
+            _ => own.extend(
                 [from, to]
                     .into_iter()
                     .flat_map(|ray| crossed(geometry, turned, ray)),
-            );
+            ),
         }
         if let Segment::Arc(round) = geometry
             && let Some(axis) = (round.center - turned).try_normalize(0.0)
         {
-            shares.extend(
-                [axis, -axis].map(|axis| round.share_of(round.center + axis * round.radius)),
+            own.extend(
+                [axis, -axis]
+                    .into_iter()
+                    .filter_map(|way| reached(round, way)),
             );
         }
-        for share in shares
-            .into_iter()
-            .filter(|share| (0.0..=1.0).contains(share))
-        {
-            let at = geometry.point_at(share);
+        for at in own {
             let far = (at - turned).norm();
             if far > kept && is_within(at - turned) {
                 places.push((far, at, edge));
@@ -275,17 +280,15 @@ fn farthest(
     places.into_iter().find(|place| is_nearest(place))
 }
 
-/// Where a segment meets a ray, as shares of the segment; some may lie beyond its ends.
-fn crossed(segment: &Segment, from: Point, ray: Vector) -> Few<f64, 2> {
+/// Where a segment meets a ray.
+fn crossed(segment: &Segment, from: Point, ray: Vector) -> Few<Point, 2> {
     let found: Few<Point, 2> = match segment {
-        Segment::Line(line) => {
-            crate::geometry::line_line(line.start, line.end - line.start, from, ray)
-                .into_iter()
-                .collect()
-        }
-        Segment::Arc(arc) => crate::geometry::line_circle(from, ray, arc.center, arc.radius),
+        Segment::Line(line) => line_line(line.start, line.end - line.start, from, ray)
+            .into_iter()
+            .collect(),
+        Segment::Arc(arc) => line_circle(from, ray, arc.center, arc.radius),
     };
-    found.into_iter().map(|at| segment.share_of(at)).collect()
+    found.into_iter().filter(|at| segment.spans(*at)).collect()
 }
 
 /// A wall of a drawn punch that lies too near to one of the plate, or runs into it. `beside` is a piece of the way of the wire that the edge

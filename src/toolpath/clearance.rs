@@ -285,7 +285,8 @@ impl Walls {
         distance: f64,
     ) -> Option<usize> {
         let count = self.segments.len();
-        let beside = last.map(|last| [last, (last + 1) % count, (last + count - 1) % count]);
+        let beside = |last: usize| [0, 1, count - 1, 2].map(|step| (last + step) % count);
+        let beside = last.map(beside);
         let is_nearer = |wall: &usize| self.segments[*wall].distance_to(point) < distance;
         let beside = beside.into_iter().flatten().find(is_nearer);
         beside.or_else(|| self.nearer(point, distance))

@@ -51,7 +51,10 @@ impl Part {
     pub(crate) fn segment_at(&self, edge: usize, at: Point) -> Option<(EntityId, usize)> {
         let [before, behind] = self.edges[edge].walls;
         let count = self.drawn.len();
-        let skipped = (behind + count - before) % count;
+        let skipped = match behind >= before {
+            true => behind - before,
+            false => behind + count - before,
+        };
         let between = (1..skipped).map(|step| (before + step) % count);
         let nearest = between.min_by(|&a, &b| {
             let away = |wall: usize| self.drawn[wall].geometry.distance_to(at);

@@ -24,9 +24,8 @@ const MOST: usize = 128;
 struct Stretch {
     first: usize,
     count: usize,
-    /// Of each wall its pieces, and whether nothing of it has gone.
-    pieces: Vec<(Range<usize>, bool)>,
-    path: Vec<(usize, Element)>,
+    /// In their order, each with its raw element.
+    pieces: Vec<(usize, Element)>,
 }
 
 /// The path beside the walls, where what is kept says most of it; `None` where it does not.
@@ -37,75 +36,63 @@ pub(super) fn spliced(kept: &Kept, walls: &[Wall], joining: &Joining) -> Option<
     }
     let (first, changed) = changed(kept, count)?;
     let stretch = Stretch::laid(walls, (first + count - ABOUT) % count, changed, joining)?;
-    let is_as_it_was = |place: usize| {
-        let wall = (stretch.first + place) % count;
-        let (pieces, is_whole) = &stretch.pieces[place];
-        let was = kept.was[wall];
-        *is_whole && was != NEW && {
-            let now = stretch.path[pieces.clone()].iter();
-            let before = of_wall(kept, was);
-            before.len() == pieces.len()
-                && now.zip(before).all(|((_, element), piece)| {
-                    element.geometry == *kept.pieces.segment(piece)
-                        && kept.follows[piece] % 2 == u32::from(is_roll(element))
-                })
-        }
-    };
-    let parts_two = |place: &usize| (place - 1..=place + 1).all(is_as_it_was);
-    let from = (2..ABOUT - 1).rev().find(parts_two)?;
-    let to = (stretch.count - ABOUT + 1..stretch.count - 2).find(parts_two)?;
-    // What goes where begin and end of the contour meet may hang on what is looked at first.
-    let goes_over_the_end = stretch.first + from < count && stretch.first + to >= count;
-    if goes_over_the_end
-        && !stretch.pieces[from..to]
-            .iter()
-            .all(|(_, is_whole)| *is_whole)
-    {
+    let on_left = |piece: &usize| (2..ABOUT - 2).contains(&stretch.place(*piece));
+    let (right_first, right_last) = (stretch.count - ABOUT + 1, stretch.count - 2);
+    let on_right = |piece: &usize| (right_first..right_last).contains(&stretch.place(*piece));
+    let parted = |piece: usize| Some((piece, stretch.parts_two(kept, count, piece)?));
+    let mut all = 1..stretch.pieces.len().checked_sub(1)?;
+    let (left, left_was) = all.clone().rev().filter(on_left).find_map(parted)?;
+    let (right, right_was) = all.find_map(|piece| parted(piece).filter(|_| on_right(&piece)))?;
+    let is_behind = |piece: usize| stretch.first + stretch.place(piece) >= count;
+    let goes_over_the_end = is_behind(right) != is_behind(left);
+    // What goes there may hang on what is looked at first.
+    if goes_over_the_end && !stretch.goes_at_once(left, right) {
         return None;
     }
-    let mut path = Vec::with_capacity(kept.follows.len() + stretch.path.len());
-    let mut next: Option<usize> = None;
-    for (wall, of) in walls.iter().enumerate() {
-        let place = (wall + count - stretch.first) % count;
-        if (from + 1..to).contains(&place) {
-            let pieces = &stretch.path[stretch.pieces[place].0.clone()];
-            path.extend(
-                pieces
-                    .iter()
-                    .map(|(_, element)| Element { wall, ..*element }),
-            );
-            next = None;
-            continue;
+    // Of the pieces between, those behind the end of the contour come first.
+    let end = (left + 1..right).find(|piece| is_behind(*piece));
+    let end = end.unwrap_or(right);
+    let mut is = vec![NEW; kept.before];
+    for (was, wall) in kept.was.iter().zip(0..) {
+        if let Some(is) = is.get_mut(*was as usize) {
+            *is = wall;
         }
-        let was = kept.was[wall];
-        let mut piece = next.unwrap_or_else(|| of_wall(kept, was).start);
-        while let Some(follows) = kept.follows.get(piece).filter(|it| *it / 2 == was) {
-            let source = match of.source {
+    }
+    let mut path = Vec::with_capacity(kept.follows.len() + stretch.pieces.len());
+    let new = |pieces: Range<usize>, path: &mut Vec<Element>| {
+        path.extend(stretch.pieces[pieces].iter().map(|(_, element)| Element {
+            wall: (stretch.first + element.wall) % count,
+            ..*element
+        }));
+    };
+    let old = |pieces: Range<usize>, path: &mut Vec<Element>| {
+        path.extend(pieces.map(|piece| {
+            let follows = kept.follows[piece];
+            let wall = is[follows as usize / 2] as usize;
+            let source = match walls.get(wall).map_or(Source::Tab, |wall| wall.source) {
                 Source::Segment { entity, segment } if follows % 2 == 1 => {
                     Source::Corner { entity, segment }
                 }
                 source => source,
             };
-            path.push(Element {
+            Element {
                 geometry: *kept.pieces.segment(piece),
                 source,
                 wall,
-            });
-            piece += 1;
-        }
-        next = Some(piece);
+            }
+        }));
+    };
+    if goes_over_the_end {
+        new(end..right, &mut path);
+        old(right_was..left_was + 1, &mut path);
+        new(left + 1..end, &mut path);
+    } else {
+        old(0..left_was + 1, &mut path);
+        new(left + 1..right, &mut path);
+        old(right_was..kept.follows.len(), &mut path);
     }
-    (path.len() >= 2).then_some(path)
-}
-
-fn is_roll(element: &Element) -> bool {
-    matches!(element.source, Source::Corner { .. })
-}
-
-/// The pieces of a wall as they were.
-fn of_wall(kept: &Kept, wall: u32) -> Range<usize> {
-    let end = |wall: u32| kept.follows.partition_point(|follows| follows / 2 < wall);
-    end(wall)..end(wall + 1)
+    let is_in_order = |pair: &[Element]| pair[0].wall <= pair[1].wall && pair[1].wall < count;
+    (path.len() >= 2 && path.windows(2).all(is_in_order)).then_some(path)
 }
 
 /// The first wall of the stretch round the contour that holds all that has changed, and how many it holds.
@@ -142,22 +129,49 @@ impl Stretch {
         let segments: Vec<Segment> = some.iter().map(|wall| wall.geometry).collect();
         let own = Walls::by_one_core(segments);
         let raw = Raw::new(&some, own.tangents(), joining);
-        let path = trimmed(&raw)?;
-        if !path.is_sorted_by_key(|(raw, _)| *raw) {
-            return None;
-        }
-        let pieces = (0..count).map(|wall| {
-            let of = raw.of_wall(wall);
-            let start = path.partition_point(|(raw, _)| *raw < of.start);
-            let end = path.partition_point(|(raw, _)| *raw < of.end);
-            let is_whole = (start..end).map(|piece| path[piece].0).eq(of);
-            (start..end, is_whole)
-        });
-        Some(Stretch {
+        let mut pieces = trimmed(&raw)?;
+        pieces.retain(|(_, piece)| piece.wall < count);
+        let is_sorted = pieces.is_sorted_by(|a, b| a.0 < b.0);
+        is_sorted.then(|| Stretch {
             first,
             count,
-            pieces: pieces.collect(),
-            path,
+            pieces,
+        })
+    }
+
+    /// The wall of a piece, from the first one on.
+    fn place(&self, piece: usize) -> usize {
+        self.pieces[piece].1.wall
+    }
+
+    /// Which piece it was that stands with its neighbours between what is before and what is behind it, now as before.
+    fn parts_two(&self, kept: &Kept, count: usize, piece: usize) -> Option<usize> {
+        let was = |piece: usize| {
+            let element = &self.pieces[piece].1;
+            let was = kept.was[(self.first + element.wall) % count];
+            let is_roll = matches!(element.source, Source::Corner { .. });
+            let follows = (was != NEW).then_some(2 * was + u32::from(is_roll))?;
+            let at = kept.follows.partition_point(|other| *other < follows);
+            let is_same = kept.follows.get(at) == Some(&follows)
+                && *kept.pieces.segment(at) == element.geometry;
+            is_same.then_some(at)
+        };
+        let (before, at, behind) = (was(piece - 1)?, was(piece)?, was(piece + 1)?);
+        let raw = self.pieces[piece].0;
+        let stand_together =
+            self.pieces[piece - 1].0 + 1 == raw && raw + 1 == self.pieces[piece + 1].0;
+        (stand_together && before + 1 == at && at + 1 == behind).then_some(at)
+    }
+
+    /// True where between two pieces elements have gone only one by one, two others between any two of them: each goes by what stands about
+    /// it, and it is all the same which is looked at first.
+    fn goes_at_once(&self, from: usize, to: usize) -> bool {
+        let mut last = 1;
+        self.pieces[from..=to].windows(2).all(|pair| {
+            let step = pair[1].0 - pair[0].0;
+            let is_fine = step == 1 || step == 2 && last == 1;
+            last = step;
+            is_fine
         })
     }
 }
