@@ -167,7 +167,7 @@ fn looks(
             asked: Vec::with_capacity(edges.len()),
             verdicts: Vec::new(),
         };
-        let (mut beside, mut known) = (None, since.map(|since| since.of(which, edges.start)));
+        let (mut beside, mut known) = (None, since.map(|since| since.of(which)));
         for edge in edges {
             let kept = known.as_mut().and_then(|known| known.kept(edge));
             let (asked, verdict) = kept.unwrap_or_else(|| {

@@ -47,22 +47,19 @@ impl<'a> Since<'a> {
         })
     }
 
-    /// What is known of one kind of looks, from an edge on.
-    pub(super) fn of(&self, which: usize, edge: usize) -> Known<'_> {
+    /// What is known of one kind of looks.
+    pub(super) fn of(&self, which: usize) -> Known<'_> {
         let [punch, plate] = &self.edges;
         let [own, other] = match which {
             1 => [plate, punch],
             _ => [punch, plate],
         };
-        let looks = &self.looks[which];
-        let first = (0..edge).rev().find_map(|edge| own.was(edge));
-        let first = first.map_or(0, |before| before as u32 + 1);
         Known {
             since: self,
-            looks,
+            looks: &self.looks[which],
             own,
             other,
-            next: looks.verdicts.partition_point(|known| known.edge < first),
+            next: 0,
         }
     }
 }
