@@ -181,10 +181,8 @@ impl Analysis {
             closed
         });
         let is_in_none = |lone: &Lone, closed: &Grid<ContourKey>| {
-            let mut near = Vec::new();
-            closed.near(&lone.reach, |key| near.push(key));
-            let mut near = near.into_iter().filter(|&key| self.is_there(drawing, key));
-            !near.any(|key| holds(lone, key))
+            let is_held = |key| self.is_there(drawing, key) && holds(lone, key);
+            !closed.any_near(&lone.reach, is_held)
         };
         let judge = |&key: &ContourKey| {
             let lone = self.lone.get(&key)?;
@@ -216,13 +214,13 @@ impl Analysis {
     fn contours_near(&self, drawing: &Drawing, area: &Bounds) -> Vec<ContourKey> {
         let mut near = Vec::new();
         // A contour of one run lies where its run does.
-        self.pairs.grid.near(area, |(key, _)| {
+        self.pairs.grid.near(area, |(key, _), _| {
             if !self.lone.contains_key(&key) {
                 near.push(key);
             }
         });
         if let Some(vicinity) = &self.vicinity {
-            vicinity.near(area, |key| near.push(key));
+            vicinity.near(area, |key, _| near.push(key));
         }
         near.sort_unstable();
         near.dedup();
@@ -350,7 +348,7 @@ impl Analysis {
             Some(vicinity) => {
                 let mut near = Vec::new();
                 for bounds in changed {
-                    vicinity.near(bounds, |key| near.push(key));
+                    vicinity.near(bounds, |key, _| near.push(key));
                 }
                 near.retain(|key| self.lone.contains_key(key));
                 near

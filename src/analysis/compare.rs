@@ -36,6 +36,13 @@ pub(crate) struct Observed {
     pub(crate) ended: Option<Option<([usize; 2], Left)>>,
 }
 
+impl Observed {
+    /// True for what is told pair by pair.
+    pub(super) fn is_told(&self) -> bool {
+        PAIR_RULES[self.rule].pair_by_pair
+    }
+}
+
 /// The cost of the rules for two segments that come near each other, in looks.
 pub(crate) const LOOKS_OF_A_PAIR: u64 = 16;
 

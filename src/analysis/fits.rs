@@ -2,11 +2,10 @@
 
 use super::Analysis;
 use super::report::Report;
-use crate::drawing::{ContourKey, Drawing, DrawingEdit, Outline, Role};
-use crate::finding::{Detail, Finding, Fix, FixKind, Misfit, Place, Rule, Severity, Side};
-use crate::fit::{self, Pair, SegmentOf, Spot};
+use crate::drawing::{ContourKey, Drawing, Outline, Role};
+use crate::finding::{Detail, Misfit, Place, Rule, Severity, Side};
+use crate::fit::{self, Held, SegmentOf, Spot};
 use crate::geometry::{Bounds, Grid};
-use crate::rules::small_radius::{self, Travel};
 use crate::settings::{Compensation, Partners};
 use crate::toolpath::Part;
 use std::cell::LazyCell;
@@ -19,7 +18,16 @@ const MOST_SEGMENTS: usize = 100_000;
 #[derive(Clone, Debug)]
 pub(crate) struct Answer {
     /// `None` where one of the two has no path, of which others speak.
-    pub pair: Option<Arc<Pair>>,
+    pub(super) known: Option<Arc<Fitted>>,
+    /// One of the two has been edited since: what still holds need not be looked at again.
+    pub(super) is_old: bool,
+}
+
+/// A punch and its plate, one laid in the other.
+#[derive(Debug)]
+pub(crate) struct Fitted {
+    parts: [Arc<Part>; 2],
+    pub(super) held: Held,
 }
 
 /// What is left of a contour.
@@ -30,15 +38,23 @@ pub(crate) struct Left {
     is_old: bool,
 }
 
-/// What is left of a punch and of its plate.
-type Parts = [(Role, Arc<Part>); 2];
+/// What a punch is, and its plate.
+const ROLES: [Role; 2] = [Role::Punch, Role::Opening];
 
 impl Analysis {
-    /// Forgets what was found between a contour that is edited and its partner.
-    pub(super) fn forget_fits(&mut self, key: ContourKey) {
+    /// What was found between a contour that is edited and its partner holds no longer, but for what the edit has not touched.
+    pub(super) fn outdate_fits(&mut self, key: ContourKey) {
         for ((of, _), left) in &mut self.parts {
             left.is_old |= *of == key;
         }
+        for ((one, other), answer) in &mut self.fits {
+            answer.is_old |= *one == key || *other == key;
+        }
+    }
+
+    /// Forgets what was found of a contour that is gone.
+    pub(super) fn forget_fits(&mut self, key: ContourKey) {
+        self.parts.retain(|(of, _), _| *of != key);
         self.fits
             .retain(|(one, other), _| *one != key && *other != key);
     }
@@ -66,7 +82,8 @@ impl Analysis {
                 }
             }
             Partners::Drawn => {
-                let drawn = fit::partners(drawing, &outlines, &self.settings);
+                let beside = &mut self.beside;
+                let drawn = fit::partners(drawing, &outlines, &self.settings, beside);
                 for &[punch, plate] in &drawn.pairs {
                     let both = [punch, plate].map(|index| (keys[index], &outlines[index]));
                     self.report_pair(drawing, both, report);
@@ -76,6 +93,8 @@ impl Analysis {
                 }
             }
         }
+        // No partners any more.
+        self.fits.retain(|_, answer| !answer.is_old);
     }
 
     fn report_alone(
@@ -102,73 +121,78 @@ impl Analysis {
     }
 
     /// What is known of two partners; worked out where it is not yet.
-    pub(super) fn fit_of(
+    fn fit_of(
         &mut self,
         drawing: &Drawing,
         both: [(ContourKey, &Outline); 2],
-    ) -> Option<Arc<Pair>> {
+    ) -> Option<Arc<Fitted>> {
         let [(one, punch), (other, plate)] = both;
-        if let Some(answer) = self.fits.get(&(one, other)) {
-            return answer.pair.clone();
+        if let Some(answer) = self.fits.get(&(one, other))
+            && !answer.is_old
+        {
+            return answer.known.clone();
         }
         let is_small = punch.contour.len().max(plate.contour.len()) <= MOST_SEGMENTS;
-        let (pair, parts) = match is_small {
-            true => self.pair(drawing, both),
-            false => (None, None),
-        };
-        for ((key, _), (role, part)) in both.into_iter().zip(parts.into_iter().flatten()) {
-            let is_old = false;
-            self.parts.insert((key, role), Left { part, is_old });
+        let known = is_small.then(|| self.fitted(drawing, both)).flatten();
+        let known = known.map(Arc::new);
+        for ((key, role), known) in [one, other].into_iter().zip(ROLES).zip([&known; 2]) {
+            if let Some(known) = known {
+                let [punch, plate] = &known.parts;
+                let part = if role == ROLES[0] { punch } else { plate }.clone();
+                let is_old = false;
+                self.parts.insert((key, role), Left { part, is_old });
+            }
         }
-        let pair = pair.map(Arc::new);
-        self.fits
-            .insert((one, other), Answer { pair: pair.clone() });
-        pair
+        let answer = Answer {
+            known: known.clone(),
+            is_old: false,
+        };
+        self.fits.insert((one, other), answer);
+        known
     }
 
-    /// Two outlines, or one that is cut twice, laid in each other; and the parts that are left, for what comes next.
-    fn pair(
+    /// Two outlines, or one that is cut twice, laid in each other. What is known of them from before an edit is not looked at again.
+    pub(super) fn fitted(
         &self,
         drawing: &Drawing,
         both: [(ContourKey, &Outline); 2],
-    ) -> (Option<Pair>, Option<Parts>) {
+    ) -> Option<Fitted> {
         let settings = &self.settings;
         let [(one, punch), (other, plate)] = both;
         let left = |key: ContourKey, role: Role| self.parts.get(&(key, role));
-        let part_of = |key: ContourKey, outline: &Outline, role: Role| {
-            let before = left(key, role);
-            if let Some(left) = before.filter(|left| !left.is_old) {
-                return Some(left.part.clone());
+        let old = self
+            .fits
+            .get(&(one, other))
+            .and_then(|answer| answer.known.as_deref());
+        let before = old.map(|old| (old.parts.each_ref().map(|part| &**part), &old.held));
+        match settings.partners()? {
+            Partners::CutTwice(_) => {
+                let before_each = ROLES.map(|role| left(one, role).map(|left| &*left.part));
+                let parts = fit::cut_twice_parts(drawing, punch, settings, before_each).ok()?;
+                let held = fit::cut_twice(drawing, parts.each_ref(), settings, false, before);
+                let parts = parts.map(Arc::new);
+                Some(Fitted { parts, held })
             }
-            let before = before.map(|left| &*left.part);
-            let part = fit::drawn_part(drawing, outline, role, settings, before);
-            part.ok().map(Arc::new)
-        };
-        let roles = [Role::Punch, Role::Opening];
-        match settings.partners() {
-            Some(Partners::CutTwice(_)) => {
-                let before = roles.map(|role| left(one, role).map(|left| &*left.part));
-                let Ok(parts) = fit::cut_twice_parts(drawing, punch, settings, before) else {
-                    return (None, None);
+            Partners::Drawn => {
+                let part_of = |key: ContourKey, outline: &Outline, role: Role| {
+                    let before = left(key, role);
+                    if let Some(left) = before.filter(|left| !left.is_old) {
+                        return Some(left.part.clone());
+                    }
+                    let before = before.map(|left| &*left.part);
+                    let part = fit::drawn_part(drawing, outline, role, settings, before);
+                    part.ok().map(Arc::new)
                 };
-                let [punch, plate] = parts.map(Arc::new);
-                let pair = fit::cut_twice(drawing, [&punch, &plate], settings, false);
-                (Some(pair), Some([(roles[0], punch), (roles[1], plate)]))
-            }
-            Some(Partners::Drawn) => {
-                let parts = rayon::join(
-                    || part_of(one, punch, Role::Punch),
-                    || part_of(other, plate, Role::Opening),
+                let (punch_part, plate_part) = rayon::join(
+                    || part_of(one, punch, ROLES[0]),
+                    || part_of(other, plate, ROLES[1]),
                 );
-                let Some((punch_part, plate_part)) = parts.0.zip(parts.1) else {
-                    return (None, None);
-                };
-                let parts = [&*punch_part, &*plate_part];
-                let pair = fit::drawn_pair(drawing, [punch, plate], parts, settings, false);
-                let kept = [(Role::Punch, punch_part), (Role::Opening, plate_part)];
-                (Some(pair), Some(kept))
+                let parts = [punch_part?, plate_part?];
+                let both = parts.each_ref().map(|part| &**part);
+                let outlines = [punch, plate];
+                let held = fit::drawn_pair(drawing, outlines, both, settings, false, before);
+                Some(Fitted { parts, held })
             }
-            None => (None, None),
         }
     }
 
@@ -179,13 +203,14 @@ impl Analysis {
         report: &mut Report,
     ) {
         let is_cut_twice = both[0].0 == both[1].0;
-        let crossed = self.pairs.contours_with(Rule::SelfIntersection);
-        if both.iter().any(|(key, _)| crossed.contains(key)) {
+        let crossed = &self.pairs.seen.crossings;
+        if both.iter().any(|(key, _)| crossed.contains_key(key)) {
             return;
         }
-        let Some(pair) = self.fit_of(drawing, both) else {
+        let Some(fitted) = self.fit_of(drawing, both) else {
             return;
         };
+        let pair = &fitted.held;
         let (rounding, wanted) = (
             self.limits.tolerances.report,
             self.settings.pair.clearance.unwrap_or(0.0) / self.limits.unit_mm,
@@ -206,17 +231,27 @@ impl Analysis {
             }
             let wide = self.wide(wanted, spot.clearance);
             let mut first: Option<usize> = None;
-            corners.near(&Bounds::of_disc(spot.at, spot.clearance.abs()), |index| {
-                let is_near = (pair.spots[index].at - spot.at).norm() <= wide;
-                if is_near && first.is_none_or(|first| index < first) {
-                    first = Some(index);
-                }
-            });
+            corners.near(
+                &Bounds::of_disc(spot.at, spot.clearance.abs()),
+                |index, _| {
+                    let is_near = (pair.spots[index].at - spot.at).norm() <= wide;
+                    if is_near && first.is_none_or(|first| index < first) {
+                        first = Some(index);
+                    }
+                },
+            );
             Some(pair.spots.get(first?)?.of.clone())
         };
-        for spot in pair.spots.iter().filter(|spot| spot.clearance < -rounding) {
+        let is_binding = |spot: &&Spot| spot.clearance < -rounding;
+        let count = pair.spots.iter().filter(is_binding).count();
+        let of_each = if is_cut_twice { 1 } else { 2 };
+        report.count(Rule::DoesNotFit, None, of_each * count);
+        for spot in pair.spots.iter().filter(is_binding) {
+            if report.is_full(Rule::DoesNotFit, None) {
+                break;
+            }
             let mut add = |at: SegmentOf, other: SegmentOf, of: &Arc<str>, partner: &Arc<str>| {
-                if report.counts(Rule::DoesNotFit, None) {
+                if !report.is_full(Rule::DoesNotFit, None) {
                     let misfit = Misfit {
                         at: spot.at,
                         clearance: spot.clearance,
@@ -264,229 +299,12 @@ impl Analysis {
         }
     }
 
-    /// The repair of a corner in which two parts bind: the least radius with which they do not, and the clearance more where the other is
-    /// drawn, too.
-    pub(super) fn fit_fix(&self, drawing: &Drawing, finding: &Finding) -> Option<Fix> {
-        let Place::Segment { entity, segment } = finding.place else {
-            return None;
-        };
-        let (_, clearance) = self.settings.fit().ok()?;
-        let before = self.pair_at(drawing, (entity, segment))?;
-        let spot = spot_at(&before.spots, (entity, segment)).filter(|spot| spot.turn > 0.0)?;
-        let corner = Corner {
-            before: &before,
-            spot,
-            clearance: clearance / self.limits.unit_mm,
-            is_drawn: self.chains.contour_of(spot.segment.0)
-                != self.chains.contour_of(spot.other.0),
-        };
-        let enough = self
-            .settings
-            .correction
-            .max(self.settings.half_kerf(0).unwrap_or(0.0));
-        let margin = self.settings.margin / self.limits.unit_mm;
-        let most = enough / self.limits.unit_mm + corner.clearance + margin;
-        let left = |radius: f64| Some(self.with_corner(drawing, &corner, radius)?.1);
-        let rounding = self.limits.tolerances.report;
-        let mut radius = most;
-        let steep = 1.0 / (spot.turn / 2.0).cos() - 1.0;
-        // What is left grows evenly with the radius between straight walls.
-        let mut found = None;
-        for _ in 0..6 {
-            let found_left = left(radius);
-            match found_left {
-                Some(more) if more.abs() <= 0.1 * rounding => {
-                    found = Some(radius);
-                    break;
-                }
-                Some(more) => radius -= more / steep,
-                None => break,
-            }
-            if !(radius > 0.0 && radius <= most) {
-                break;
-            }
-        }
-        let found = found.or_else(|| {
-            let (mut least, mut most) = (0.0, most);
-            left(most).filter(|left| *left >= 0.0)?;
-            for _ in 0..24 {
-                let middle = (least + most) / 2.0;
-                match left(middle) {
-                    Some(left) if left >= 0.0 => most = middle,
-                    _ => least = middle,
-                }
-            }
-            Some(most)
-        })?;
-        let radius = found + margin;
-        let (edit, left) = self.with_corner(drawing, &corner, radius)?;
-        let kind = FixKind::FitCorner {
-            radius,
-            other: corner.is_drawn.then_some(radius + corner.clearance),
-        };
-        (left >= -rounding).then_some(Fix {
-            kind,
-            preferred: true,
-            // As far as it moves a corner between straight walls.
-            in_fix_all: steep * radius <= self.limits.correction,
-            edit,
-        })
-    }
-
-    /// What is known of the pair that a segment is of.
-    fn pair_at(&self, drawing: &Drawing, (entity, segment): SegmentOf) -> Option<Arc<Pair>> {
-        let (key, _) = self.chains.index_of(entity, segment)?;
-        let outlines = self.outlines(drawing);
-        let keys = self.in_machining_order(drawing);
-        let at = keys.iter().position(|other| *other == key)?;
-        let both = match self.settings.partners()? {
-            Partners::CutTwice(_) => [at, at],
-            Partners::Drawn => {
-                let drawn = fit::partners(drawing, outlines, &self.settings);
-                drawn.pairs.into_iter().find(|pair| pair.contains(&at))?
-            }
-        };
-        if let Some(answer) = self.fits.get(&(keys[both[0]], keys[both[1]])) {
-            return answer.pair.clone();
-        }
-        let both = both.map(|index| (keys[index], &outlines[index]));
-        self.pair(drawing, both).0.map(Arc::new)
-    }
-
-    /// The edit that gives a corner a radius, and what is left of the clearance there behind it: at most what there should be. `None` where
-    /// it cannot be made, or where it brings errors.
-    fn with_corner(
-        &self,
-        drawing: &Drawing,
-        corner: &Corner,
-        radius: f64,
-    ) -> Option<(DrawingEdit, f64)> {
-        let of = |at: SegmentOf, radius: f64| self.corner_edits(drawing, corner, at, radius);
-        let spot = corner.spot;
-        let edits = match corner.is_drawn {
-            false => of(spot.segment, radius),
-            true => {
-                let partner = of(spot.other, radius);
-                let own = of(spot.segment, radius + corner.clearance);
-                let both = own.into_iter().flat_map(|own| {
-                    partner.clone().into_iter().map(move |partner| {
-                        let changes = own.changes.iter().cloned().chain(partner.changes);
-                        DrawingEdit {
-                            changes: changes.collect(),
-                        }
-                    })
-                });
-                both.collect()
-            }
-        };
-        let tried = edits.into_iter().filter_map(|edit| {
-            let left = self.left_behind(drawing, corner, &edit)?;
-            Some((edit, left))
-        });
-        tried.max_by(|a, b| a.1.total_cmp(&b.1))
-    }
-
-    /// Edits that may give a part of a pair a radius near one of its segments: in place of the arcs there, or at the corner where the
-    /// segment begins or ends.
-    fn corner_edits(
-        &self,
-        drawing: &Drawing,
-        corner: &Corner,
-        (entity, segment): SegmentOf,
-        radius: f64,
-    ) -> Vec<DrawingEdit> {
-        let place = || {
-            let (key, index) = self.chains.index_of(entity, segment)?;
-            Some((self.outlook(drawing, key)?, index))
-        };
-        let Some((outlook, index)) = place() else {
-            return Vec::new();
-        };
-        // Both parts are rounded about one point, which lies where the wire of the one turned.
-        let inside = match outlook.index.twice_area() > 0.0 {
-            true => Side::Left,
-            false => Side::Right,
-        };
-        let side = match corner.is_of_plate() {
-            true => inside,
-            false => inside.reversed(),
-        };
-        let travel = Travel {
-            drawing,
-            contour: outlook.contour,
-            index: outlook.index,
-            side,
-        };
-        let mut limits = self.limits;
-        limits.fix_radius = radius;
-        let position = travel.position_of(index);
-        let arcs = small_radius::run_of(&travel, position, &limits).and_then(|run| {
-            let replacement = small_radius::refillet(&travel, &run, &limits)
-                .outcome
-                .ok()?;
-            small_radius::drawing_edit(drawing, &[(travel, replacement)])
-        });
-        match arcs {
-            Some(edit) => vec![edit],
-            None => [position - 1, position]
-                .into_iter()
-                .filter_map(|before| small_radius::fillet(&travel, before, &limits))
-                .collect(),
-        }
-    }
-
     /// How far away from a spot where so much clearance is `missing` what belongs to its corner may lie.
-    fn wide(&self, clearance: f64, missing: f64) -> f64 {
+    pub(super) fn wide(&self, clearance: f64, missing: f64) -> f64 {
         2.0 * self.limits.correction.max(clearance) + missing.abs()
-    }
-
-    fn left_behind(&self, drawing: &Drawing, corner: &Corner, edit: &DrawingEdit) -> Option<f64> {
-        let mut edited = drawing.clone();
-        let delta = edited.apply(edit).ok()?;
-        let mut after = self.updated(&edited, &delta);
-        if after.tally(&edited).errors > self.tallied(drawing).errors {
-            return None;
-        }
-        let spot = corner.spot;
-        let place = (spot.segment.0, 0);
-        let pair = after.pair_at(&edited, place)?;
-        let wide = self.wide(corner.clearance, spot.clearance);
-        let near = |other: &&Spot| (other.at - spot.at).norm() <= wide;
-        let left = pair.spots.iter().filter(near).map(|spot| spot.clearance);
-        let binding = |pair: &Pair| {
-            pair.spots
-                .iter()
-                .filter(|spot| spot.clearance < 0.0)
-                .count()
-        };
-        let left = left.fold(corner.clearance, f64::min);
-        (left < 0.0 || binding(&pair) < binding(corner.before)).then_some(left)
-    }
-}
-
-/// A corner in which two parts bind.
-struct Corner<'a> {
-    before: &'a Pair,
-    spot: &'a Spot,
-    clearance: f64,
-    /// Both parts are drawn.
-    is_drawn: bool,
-}
-
-impl Corner<'_> {
-    /// It is the plate that stands too far out.
-    fn is_of_plate(&self) -> bool {
-        self.spot.is_of_plate
     }
 }
 
 fn place((entity, segment): SegmentOf) -> Place {
     Place::Segment { entity, segment }
-}
-
-/// The place that a finding speaks of, where the spots of a pair are.
-pub(super) fn spot_at(spots: &[Spot], at: SegmentOf) -> Option<&Spot> {
-    let is_there = |spot: &&Spot| spot.segment == at || spot.other == at;
-    let there = spots.iter().filter(is_there);
-    there.min_by(|a, b| a.clearance.total_cmp(&b.clearance))
 }

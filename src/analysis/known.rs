@@ -12,6 +12,8 @@ use std::ops::Range;
 
 /// Runs whose segments are at hand at once.
 const AT_ONCE: usize = 256;
+/// Of runs farther from each other than this, as at the begin and the end of a contour, those between are not at hand.
+const NEAR: usize = 4;
 /// Segments at hand before and behind them: those that rules ask for beyond are worked out.
 const ABOUT: usize = 32;
 
@@ -104,7 +106,10 @@ impl Known {
         asked.sort_unstable();
         asked.dedup();
         let mut seen = Vec::new();
-        for asked in asked.chunk_by(|(one, _), (other, _)| one / AT_ONCE == other / AT_ONCE) {
+        let at_once = |(one, _): &(usize, usize), (other, _): &(usize, usize)| {
+            one / AT_ONCE == other / AT_ONCE && other - one <= NEAR
+        };
+        for asked in asked.chunk_by(at_once) {
             let runs_at_hand = asked[0].0..asked[asked.len() - 1].0 + 1;
             let range = (runs_at_hand.start * RUN).saturating_sub(ABOUT)
                 ..(runs_at_hand.end * RUN + ABOUT).min(count);

@@ -141,7 +141,7 @@ impl Analysis {
             self.answers.retain(|(other, _), _| *other != key);
         }
         self.lost.remove(&key);
-        self.forget_fits(key);
+        self.outdate_fits(key);
         let (Some(piece), Some(known)) = (self.chains.piece_of(entity), self.take_known(key))
         else {
             return false;

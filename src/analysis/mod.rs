@@ -5,6 +5,8 @@ mod aside;
 mod compare;
 mod contours;
 mod dead_ends;
+mod ends;
+mod fit_fixes;
 mod fits;
 mod fixes;
 mod judge;
@@ -29,6 +31,7 @@ use crate::drawing::{
     Chains, Contour, ContourKey, Delta, Drawing, EntityId, Outline, RUN, Role, Touched,
 };
 use crate::finding::{Finding, NoFix};
+use crate::fit::Beside;
 use crate::geometry::{Bounds, Grid};
 use crate::rules::{Limits, Outlook};
 use crate::settings::Effective;
@@ -82,6 +85,8 @@ pub struct Analysis {
     fits: FxHashMap<(ContourKey, ContourKey), fits::Answer>,
     /// What is left of contours that are of a pair.
     parts: FxHashMap<(ContourKey, Role), fits::Left>,
+    /// Which contours run beside each other.
+    beside: Beside,
     order: OnceLock<Vec<ContourKey>>,
     outlines: OnceLock<Arc<Vec<Outline>>>,
     /// What there is to be said in all, once it has been asked for.
@@ -112,6 +117,7 @@ impl Analysis {
             lost: FxHashMap::default(),
             fits: FxHashMap::default(),
             parts: FxHashMap::default(),
+            beside: Beside::default(),
             order: OnceLock::new(),
             outlines: OnceLock::new(),
             tally: OnceLock::new(),
@@ -258,7 +264,6 @@ impl Analysis {
     fn forget(&mut self, key: ContourKey) {
         self.lost.remove(&key);
         self.forget_fits(key);
-        self.parts.retain(|(of, _), _| *of != key);
         self.notable.remove(key);
         self.vast.remove(&key);
         if let Some(known) = self.take_known(key) {

@@ -58,10 +58,10 @@ impl Search<'_> {
         };
         let area = own.index.bounds_of_run(run.1 as usize).grown(self.reach);
         let mut near = Vec::new();
-        let found = |other| {
+        let found = |other, bounds: &Bounds| {
             // Two new runs are compared once.
             if self.new.get(&other).is_none_or(|&its| at <= its) {
-                near.push(other);
+                near.push((other, *bounds));
             }
         };
         let boxes = match &self.nest {
@@ -70,30 +70,25 @@ impl Search<'_> {
         };
         looked.before = boxes / BOXES_OF_A_LOOK;
         if self.are_parts {
-            near.retain(|other| (kept.outlook)(other.0).is_some_and(|it| it.part == own.part));
+            near.retain(|(other, _)| (kept.outlook)(other.0).is_some_and(|it| it.part == own.part));
         }
         let walls = match near.as_slice() {
             [] => return looked,
             // What nothing else comes near is not needed again.
-            [alone] if *alone == run => Rc::new(Walls::of(&own, run.1)),
+            [(alone, _)] if *alone == run => Rc::new(Walls::of(&own, run.1)),
             _ => match kept.walls_of(run) {
                 Some(walls) => walls,
                 None => return looked,
             },
         };
         // A long line may have a box that holds half the drawing, and come near little of it.
-        near.retain(|&other| {
+        near.retain(|(other, theirs)| {
             looked.before += LOOKS_OF_A_PAIR + walls.each.len() as u64;
-            if other == run {
-                return true;
-            }
-            let theirs = (kept.outlook)(other.0).map_or(Bounds::EMPTY, |theirs| {
-                theirs.index.bounds_of_run(other.1 as usize)
-            });
-            walls.each.iter().any(|(wall, bounds)| {
-                bounds.grown(self.reach).touches(&theirs)
-                    && passes(wall.geometry(), &theirs, self.reach)
-            })
+            *other == run
+                || walls.each.iter().any(|(wall, bounds)| {
+                    bounds.grown(self.reach).touches(theirs)
+                        && passes(wall.geometry(), theirs, self.reach)
+                })
         });
         let comparison = |other: RunId| Comparison {
             rules: self.rules,
@@ -101,7 +96,7 @@ impl Search<'_> {
             keys: (run.0, other.0),
         };
         let mut looks = looked.before;
-        for other in near {
+        for (other, _) in near {
             if looks >= most {
                 looked.is_cut_short = true;
                 break;

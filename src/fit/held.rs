@@ -4,11 +4,16 @@
 //! walls that both wires follow the clearance is what the kerfs leave. It is missing where a wire turned in a point and left its own
 //! radius: there the farthest place of the other part that is nearest to that point says how much.
 
-use super::{Pair, Spot, segments};
-use crate::geometry::{Bounds, Few, Point, Segment, Vector, cross};
+use super::Spot;
+use super::deepest::deepest;
+use super::looks::{Looks, Verdict};
+use super::since::Since;
+use crate::geometry::{
+    Bounds, Few, Point, Segment, Vector, cross, line_circle, line_line, reached,
+};
 use crate::toolpath::Part;
-use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
-use rayon::slice::ParallelSlice;
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// What the clearance is held against. Drawing units.
@@ -21,11 +26,19 @@ pub(super) struct Limits {
     pub asks_least: bool,
 }
 
+/// What comes of two parts, one laid in the other.
+#[derive(Clone, Debug)]
+pub(crate) struct Held {
+    /// The least clearance all round.
+    pub least: f64,
+    /// Where less is left than there should be, in the order of the outline of the punch, then of that of the plate.
+    pub spots: Vec<Spot>,
+    /// Corners of the punch, those of the plate, and walls of the punch.
+    pub(super) looks: [Looks; 3],
+}
+
 /// A corner is looked round up to so many half kerfs from where the wire turned.
 const FARTHEST: f64 = 16.0;
-
-/// The most looks at one edge for how deep it stands in the other part.
-const MOST: usize = 2_000;
 
 /// Edges that one core takes at a time.
 const AT_A_TIME: usize = 256;
@@ -33,65 +46,103 @@ const AT_A_TIME: usize = 256;
 /// How often twice as much clearance is asked for to see how much is left: partners lie within five of each other.
 const DOUBLINGS: u32 = 6;
 
-/// Lays the punch in the plate. `names` are what the two are called.
-pub(super) fn held(punch: &Part, plate: &Part, names: [Arc<str>; 2], limits: &Limits) -> Pair {
-    let mut spots = corners([punch, plate], &names, false, limits);
-    let both = names.clone();
-    let [of_punch, of_plate] = names;
-    let turned = [of_plate.clone(), of_punch.clone()];
-    spots.extend(corners([plate, punch], &turned, true, limits));
+/// Of two edges that are as near as each other but for so small a share of the rounding the first one counts.
+const TIE: f64 = 1e-3;
+
+/// Lays the punch in the plate. `names` are what the two are called. What is known `since` before an edit is not looked at again.
+pub(super) fn held(
+    parts: [&Part; 2],
+    names: &[Arc<str>; 2],
+    limits: &Limits,
+    since: Option<&Since>,
+) -> Held {
+    let [punch, plate] = parts;
+    let turned = [plate, punch];
+    let looks = [
+        looks(0, since, parts, |_, edge, asked| {
+            corner(parts, edge, limits, asked)
+        }),
+        looks(1, since, turned, |_, edge, asked| {
+            corner(turned, edge, limits, asked)
+        }),
+        match limits.along_walls {
+            Some(_) => Looks::default(),
+            None => looks(2, since, parts, |beside, edge, asked| {
+                wall(parts, edge, beside, limits, asked)
+            }),
+        },
+    ];
+    let [of_punch, of_plate] = names.each_ref();
+    let mut spots = Vec::with_capacity(looks.iter().map(|looks| looks.verdicts.len()).sum());
     let mut least = limits.clearance;
-    match limits.along_walls {
-        Some(apart) if apart < limits.clearance - limits.rounding => {
-            least = apart;
-            let first = punch.edges.first().map(|edge| edge.geometry.point_at(0.5));
-            if let Some(at) = first
-                && let (Some(segment), Some(other)) =
-                    (punch.segment_at(0, at), segment_near(plate, at))
-            {
-                spots.insert(
-                    0,
-                    Spot {
-                        at,
-                        turn: 0.0,
-                        clearance: apart,
-                        is_of_plate: false,
-                        segment,
-                        of: of_punch,
-                        other,
-                        partner: of_plate,
-                    },
-                );
-            }
+    if let Some(apart) = limits.along_walls
+        && apart < limits.clearance - limits.rounding
+    {
+        least = apart;
+        let first = punch.edges.first().map(|edge| edge.geometry.point_at(0.5));
+        if let Some(at) = first
+            && let Some((_, near)) = plate.near.nearest_to(at, plate.half)
+            && let (Some(segment), Some(other)) =
+                (punch.segment_at(0, at), plate.segment_at(near, at))
+        {
+            spots.push(Spot {
+                at,
+                turn: 0.0,
+                clearance: apart,
+                is_of_plate: false,
+                segment,
+                of: of_punch.clone(),
+                other,
+                partner: of_plate.clone(),
+            });
         }
-        Some(_) => {}
-        None => spots.extend(walls(punch, plate, [of_punch, of_plate], limits)),
+    }
+    for (which, looks) in looks.iter().enumerate() {
+        let is_of_plate = which == 1;
+        let ([one, other], [of, partner]) = match is_of_plate {
+            true => (turned, [of_plate, of_punch]),
+            false => (parts, [of_punch, of_plate]),
+        };
+        let spot = |verdict: &Verdict| {
+            let edge = &one.edges[verdict.edge as usize];
+            let turn = edge.turned_about.and(edge.geometry.as_arc());
+            Some(Spot {
+                at: verdict.at,
+                turn: turn.map_or(0.0, |arc| arc.sweep.abs()),
+                clearance: verdict.clearance,
+                is_of_plate,
+                segment: one.segment_at(verdict.edge as usize, verdict.at)?,
+                of: of.clone(),
+                other: other.segment_at(verdict.other as usize, verdict.at_other)?,
+                partner: partner.clone(),
+            })
+        };
+        spots.extend(looks.verdicts.iter().filter_map(spot));
     }
     least = spots
         .iter()
         .map(|spot| spot.clearance)
         .fold(least, f64::min);
     if limits.asks_least && spots.is_empty() {
-        least = more_than_wanted(punch, plate, both, limits);
+        least = more_than_wanted(parts, names, limits);
     }
-    Pair {
+    Held {
         least,
         spots,
-        punch: segments(punch),
-        plate: segments(plate),
+        looks,
     }
 }
 
 /// How much is left where it is tightest, of parts that have the clearance everywhere: so much more is asked for that it is missing.
-fn more_than_wanted(punch: &Part, plate: &Part, names: [Arc<str>; 2], limits: &Limits) -> f64 {
+fn more_than_wanted(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &Limits) -> f64 {
     let least = |clearance: f64| {
         let more = Limits {
             clearance,
             asks_least: false,
             ..*limits
         };
-        let pair = held(punch, plate, names.clone(), &more);
-        (pair.least < clearance).then_some(pair.least)
+        let held = held(parts, names, &more, None);
+        (held.least < clearance).then_some(held.least)
     };
     match limits.along_walls {
         Some(apart) if apart > limits.clearance => least(apart).unwrap_or(apart),
@@ -103,42 +154,77 @@ fn more_than_wanted(punch: &Part, plate: &Part, names: [Arc<str>; 2], limits: &L
     }
 }
 
-/// The places where the wire turned in a point, and left less than the clearance to the other part.
-fn corners(
-    [one, other]: [&Part; 2],
-    names: &[Arc<str>; 2],
-    is_of_plate: bool,
-    limits: &Limits,
-) -> Vec<Spot> {
-    let spot = |(index, turned): (usize, Point)| {
-        let (far, at, on) = farthest(one, index, turned, other, limits)?;
-        let at_own = turned + (at - turned) * (one.half / far);
-        Some(Spot {
-            at: at_own,
-            turn: one.edges[index].geometry.as_arc()?.sweep.abs(),
-            clearance: one.half - far,
-            is_of_plate,
-            segment: one.segment_at(index, at_own)?,
-            of: names[0].clone(),
-            other: other.segment_at(on, at)?,
-            partner: names[1].clone(),
-        })
+/// What a look at each edge of `one` says, of which it is handed what the look before it has found, and the box of all that it asks.
+fn looks(
+    which: usize,
+    since: Option<&Since>,
+    [one, _]: [&Part; 2],
+    look: impl Fn(&mut Option<usize>, usize, &mut Bounds) -> Option<Verdict> + Sync,
+) -> Looks {
+    let count = one.edges.len();
+    let some = |edges: Range<usize>| {
+        let mut looks = Looks {
+            asked: Vec::with_capacity(edges.len()),
+            verdicts: Vec::new(),
+        };
+        let (mut beside, mut known) = (None, since.map(|since| since.of(which)));
+        for edge in edges {
+            let kept = known.as_mut().and_then(|known| known.kept(edge));
+            let (asked, verdict) = kept.unwrap_or_else(|| {
+                let mut asked = Bounds::EMPTY;
+                let verdict = look(&mut beside, edge, &mut asked);
+                (asked, verdict)
+            });
+            looks.asked.push(asked);
+            looks.verdicts.extend(verdict);
+        }
+        looks
     };
-    let turns = one.edges.par_iter().enumerate().with_min_len(AT_A_TIME);
-    turns
-        .filter_map(|(index, edge)| Some((index, edge.turned_about?)))
-        .filter_map(spot)
-        .collect()
+    if since.is_some() || count <= AT_A_TIME {
+        // To wake a core takes longer.
+        return some(0..count);
+    }
+    let steps = (0..count.div_ceil(AT_A_TIME)).into_par_iter();
+    let parts: Vec<Looks> = steps
+        .map(|step| some(step * AT_A_TIME..((step + 1) * AT_A_TIME).min(count)))
+        .collect();
+    let mut all = Looks {
+        asked: Vec::with_capacity(count),
+        verdicts: Vec::with_capacity(parts.iter().map(|part| part.verdicts.len()).sum()),
+    };
+    for part in parts {
+        all.asked.extend(part.asked);
+        all.verdicts.extend(part.verdicts);
+    }
+    all
+}
+
+/// A place where the wire turned in a point, and left less than the clearance to the other part.
+fn corner(
+    [one, other]: [&Part; 2],
+    edge: usize,
+    limits: &Limits,
+    asked: &mut Bounds,
+) -> Option<Verdict> {
+    let turned = one.edges[edge].turned_about?;
+    let (far, at_other, on) = farthest([one, other], edge, turned, limits, asked)?;
+    Some(Verdict {
+        edge: edge as u32,
+        at: turned + (at_other - turned) * (one.half / far),
+        clearance: one.half - far,
+        other: on as u32,
+        at_other,
+    })
 }
 
 /// Of the places of the other part that are nearest to where the wire turned the farthest: how far, where, and on which edge. `None` where
 /// the clearance is kept.
 fn farthest(
-    one: &Part,
+    [one, other]: [&Part; 2],
     index: usize,
     turned: Point,
-    other: &Part,
     limits: &Limits,
+    asked: &mut Bounds,
 ) -> Option<(f64, Point, usize)> {
     let arc = one.edges[index].geometry.as_arc()?;
     let (from, to) = (arc.start - turned, arc.end - turned);
@@ -152,28 +238,33 @@ fn farthest(
     let widest = (arc.sweep / 2.0).cos().max(1.0 / FARTHEST);
     let reach = (one.half + 2.0 * limits.clearance) / widest;
     let mut places: Vec<(f64, Point, usize)> = Vec::new();
-    other.near.find(&Bounds::of_disc(turned, reach), |edge| {
+    let about = Bounds::of_disc(turned, reach);
+    asked.merge(&about);
+    other.near.find(&about, |edge| {
         let geometry = &other.edges[edge].geometry;
-        let mut shares: Few<f64, 8> = [0.0, 1.0].into_iter().collect();
-        if !is_whole {
-            shares.extend(
+        let ends = [geometry.start(), geometry.end()];
+        let mut own: Few<Point, 8> = ends.into_iter().collect();
+        let is_far = |end: &Point| (end - turned).norm() > kept;
+        match geometry {
+            // No place of a line is farther than one of its ends.
+            Segment::Line(_) if !ends.iter().any(is_far) => return false,
+            _ if is_whole => {}
+            _ => own.extend(
                 [from, to]
                     .into_iter()
                     .flat_map(|ray| crossed(geometry, turned, ray)),
-            );
+            ),
         }
         if let Segment::Arc(round) = geometry
             && let Some(axis) = (round.center - turned).try_normalize(0.0)
         {
-            shares.extend(
-                [axis, -axis].map(|axis| round.share_of(round.center + axis * round.radius)),
+            own.extend(
+                [axis, -axis]
+                    .into_iter()
+                    .filter_map(|way| reached(round, way)),
             );
         }
-        for share in shares
-            .into_iter()
-            .filter(|share| (0.0..=1.0).contains(share))
-        {
-            let at = geometry.point_at(share);
+        for at in own {
             let far = (at - turned).norm();
             if far > kept && is_within(at - turned) {
                 places.push((far, at, edge));
@@ -182,104 +273,84 @@ fn farthest(
         false
     });
     places.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.2.cmp(&b.2)));
-    let is_nearest =
-        |&(far, at, _): &(f64, Point, usize)| one.path.nearer(at, far - limits.rounding).is_none();
-    places.into_iter().find(is_nearest)
-}
-
-/// Where a segment meets a ray, as shares of the segment; some may lie beyond its ends.
-fn crossed(segment: &Segment, from: Point, ray: Vector) -> Few<f64, 2> {
-    let found: Few<Point, 2> = match segment {
-        Segment::Line(line) => {
-            crate::geometry::line_line(line.start, line.end - line.start, from, ray)
-                .into_iter()
-                .collect()
-        }
-        Segment::Arc(arc) => crate::geometry::line_circle(from, ray, arc.center, arc.radius),
+    let mut is_nearest = |&(far, at, _): &(f64, Point, usize)| {
+        asked.merge(&Bounds::of_disc(at, far));
+        one.path.nearer(at, far - limits.rounding).is_none()
     };
-    found.into_iter().map(|at| segment.share_of(at)).collect()
+    places.into_iter().find(|place| is_nearest(place))
 }
 
-/// Walls of two drawn parts that lie too near to each other, or run into each other.
-fn walls(punch: &Part, plate: &Part, names: [Arc<str>; 2], limits: &Limits) -> Vec<Spot> {
-    let edges: Vec<usize> = (0..punch.edges.len()).collect();
-    let some = edges.par_chunks(AT_A_TIME);
-    some.flat_map_iter(|edges| walls_of(edges, punch, plate, &names, limits))
-        .collect()
+/// Where a segment meets a ray.
+fn crossed(segment: &Segment, from: Point, ray: Vector) -> Few<Point, 2> {
+    let found: Few<Point, 2> = match segment {
+        Segment::Line(line) => line_line(line.start, line.end - line.start, from, ray)
+            .into_iter()
+            .collect(),
+        Segment::Arc(arc) => line_circle(from, ray, arc.center, arc.radius),
+    };
+    found.into_iter().filter(|at| segment.spans(*at)).collect()
 }
 
-/// Those of some edges of the punch.
-fn walls_of(
-    edges: &[usize],
-    punch: &Part,
-    plate: &Part,
-    names: &[Arc<str>; 2],
+/// A wall of a drawn punch that lies too near to one of the plate, or runs into it. `beside` is a piece of the way of the wire that the edge
+/// before it lies beside.
+fn wall(
+    [punch, plate]: [&Part; 2],
+    index: usize,
+    beside: &mut Option<usize>,
     limits: &Limits,
-) -> Vec<Spot> {
-    let mut spots = Vec::new();
+    asked: &mut Bounds,
+) -> Option<Verdict> {
     let plain = |part: &Part, index: usize| part.edges[index].turned_about.is_none();
-    let mut beside = None;
-    for &index in edges.iter().filter(|index| plain(punch, **index)) {
-        let edge = &punch.edges[index];
-        let geometry = &edge.geometry;
-        let mut nearest = (limits.clearance - limits.rounding, None);
-        plate
-            .near
-            .find(&geometry.bounds().grown(limits.clearance), |other| {
-                let nearer = || plate.near.distance_below(geometry, other, nearest.0);
-                if plain(plate, other)
-                    && let Some(apart) = nearer()
-                {
-                    nearest = (apart, Some(other));
-                }
-                false
-            });
-        let depth = |at: Point| plate.path.distance_to(at, plate.half) - plate.half;
-        // What lies beyond the other's edge, or crosses it, is as deep as it is away from what the wire has cut.
-        let mut is_deep = |at: Point| {
-            beside = plate
-                .path
-                .nearer_from(beside, at, plate.half + limits.rounding);
-            beside.is_none()
-        };
-        let deepest =
-            if nearest.1.is_some() && nearest.0 <= limits.rounding || is_deep(geometry.start()) {
-                deepest(geometry, &depth, limits.rounding)
-            } else {
-                None
-            };
-        let (clearance, at, other) = match (deepest, nearest) {
-            (Some((depth, at)), (_, other)) => (-depth, at, other),
-            (None, (apart, Some(other))) => {
-                let at = nearest_place(geometry, &plate.edges[other].geometry);
-                (apart, at, Some(other))
-            }
-            (None, (_, None)) => continue,
-        };
-        let other = other.and_then(|other| plate.segment_at(other, at));
-        if let (Some(segment), Some(other)) = (
-            punch.segment_at(index, at),
-            other.or_else(|| segment_near(plate, at)),
-        ) {
-            spots.push(Spot {
-                at,
-                turn: 0.0,
-                clearance,
-                is_of_plate: false,
-                segment,
-                of: names[0].clone(),
-                other,
-                partner: names[1].clone(),
-            });
-        }
+    if !plain(punch, index) {
+        return None;
     }
-    spots
-}
-
-/// The drawn segment of the edge that is nearest to a point.
-fn segment_near(part: &Part, at: Point) -> Option<super::SegmentOf> {
-    let (_, nearest) = part.near.nearest_to(at, part.half)?;
-    part.segment_at(nearest, at)
+    let geometry = &punch.edges[index].geometry;
+    let mut nearest: (f64, Option<usize>) = (limits.clearance - limits.rounding, None);
+    let about = geometry.bounds().grown(limits.clearance);
+    asked.merge(&about);
+    plate.near.find(&about, |other| {
+        let most = nearest.0 + TIE * limits.rounding;
+        if plain(plate, other)
+            && let Some(apart) = plate.near.distance_below(geometry, other, most)
+            && (apart < nearest.0
+                || apart == nearest.0 && nearest.1.is_some_and(|known| other < known))
+        {
+            nearest = (apart, Some(other));
+        }
+        false
+    });
+    // What lies beyond the other's edge, or crosses it, is as deep as it is away from what the wire has cut.
+    let mut is_deep = |at: Point| {
+        let reach = plate.half + limits.rounding;
+        asked.merge(&Bounds::of_disc(at, reach));
+        *beside = plate.path.nearer_from(*beside, at, reach);
+        beside.is_none()
+    };
+    let is_through = nearest.1.is_some() && nearest.0 <= limits.rounding;
+    let deepest = match is_through || is_deep(geometry.start()) {
+        true => deepest(geometry, plate, limits.rounding, asked),
+        false => None,
+    };
+    let (clearance, at, other) = match (deepest, nearest) {
+        (Some((depth, at)), (_, other)) => (-depth, at, other),
+        (None, (apart, Some(other))) => {
+            let at = nearest_place(geometry, &plate.edges[other].geometry);
+            (apart, at, Some(other))
+        }
+        (None, (_, None)) => return None,
+    };
+    let nearest_edge = || {
+        let (away, edge) = plate.near.nearest_to(at, plate.half)?;
+        asked.merge(&Bounds::of_disc(at, away));
+        Some(edge)
+    };
+    Some(Verdict {
+        edge: index as u32,
+        at,
+        clearance,
+        other: other.or_else(nearest_edge)? as u32,
+        at_other: at,
+    })
 }
 
 /// The point of a segment that is nearest to another one, of the ends of both.
@@ -291,40 +362,4 @@ fn nearest_place(segment: &Segment, other: &Segment) -> Point {
     places
         .min_by(|a, b| other.distance_to(*a).total_cmp(&other.distance_to(*b)))
         .unwrap_or_else(|| segment.start())
-}
-
-/// The deepest place of a segment: `depth` changes by no more than the way along it. `None` where nothing of it is deep.
-fn deepest(
-    segment: &Segment,
-    depth: &dyn Fn(Point) -> f64,
-    tolerance: f64,
-) -> Option<(f64, Point)> {
-    let length = segment.length();
-    let mut worst: Option<(f64, Point)> = None;
-    let mut look = |share: f64| {
-        let at = segment.point_at(share);
-        let found = depth(at);
-        if found > tolerance && worst.is_none_or(|(most, _)| found > most) {
-            worst = Some((found, at));
-        }
-        (found, worst.map_or(0.0, |(most, _)| most))
-    };
-    let ends = (look(0.0).0, look(1.0).0);
-    let mut waiting = vec![(0.0, ends.0, 1.0, ends.1)];
-    for _ in 0..MOST {
-        let Some((from, at_from, to, at_to)) = waiting.pop() else {
-            break;
-        };
-        let middle = (from + to) / 2.0;
-        let (at_middle, most) = look(middle);
-        for (from, at_from, to, at_to) in [
-            (from, at_from, middle, at_middle),
-            (middle, at_middle, to, at_to),
-        ] {
-            if (at_from + at_to + (to - from) * length) / 2.0 > most + tolerance.max(1e-5) {
-                waiting.push((from, at_from, to, at_to));
-            }
-        }
-    }
-    worst
 }

@@ -3,16 +3,22 @@
 //! A contour that is cut twice is held against itself, by the corrections of its two uses. Where both parts are drawn, each contour of one
 //! workpiece is held against that of another which lies so near that it can only be its partner. Everything is in drawing units.
 
+mod change;
+mod deepest;
 mod held;
+mod looks;
 mod partners;
+mod since;
 
+pub(crate) use held::Held;
 pub use partners::Drawn;
-pub(crate) use partners::partners;
+pub(crate) use partners::{Beside, partners};
 
 use crate::drawing::{Contour, Drawing, EntityId, Outline, Role, wire_side};
 use crate::geometry::{Point, Segment, Side};
 use crate::settings::{Effective, Partners, Use};
 use crate::toolpath::{Cutting, Part, Refusal, part};
+use since::Since;
 use std::sync::Arc;
 
 /// A segment of a drawing.
@@ -63,6 +69,22 @@ pub struct Fit {
     pub rounding: f64,
 }
 
+impl Pair {
+    fn of(held: Held, parts: [&Part; 2]) -> Pair {
+        let [punch, plate] =
+            parts.map(|part| part.edges.iter().map(|edge| edge.geometry).collect());
+        Pair {
+            least: held.least,
+            spots: held.spots,
+            punch,
+            plate,
+        }
+    }
+}
+
+/// Two parts laid in each other before an edit, under the same settings, and what came of it.
+pub(crate) type Before<'a> = ([&'a Part; 2], &'a Held);
+
 impl Fit {
     pub fn least(&self) -> f64 {
         let all = self.pairs.iter().map(|pair| pair.least);
@@ -103,12 +125,13 @@ pub fn fit(
                 if !goes_on() {
                     return Err(Refusal::Cancelled);
                 }
-                fit.pairs
-                    .push(cut_twice(drawing, [&parts[0], &parts[1]], settings, true));
+                let parts = parts.each_ref();
+                let held = cut_twice(drawing, parts, settings, true, None);
+                fit.pairs.push(Pair::of(held, parts));
             }
         }
         Partners::Drawn => {
-            let drawn = partners(drawing, outlines, settings);
+            let drawn = partners(drawing, outlines, settings, &mut Beside::default());
             for &[punch, plate] in &drawn.pairs {
                 let (punch, plate) = (&outlines[punch], &outlines[plate]);
                 let parts = rayon::join(
@@ -119,8 +142,8 @@ pub fn fit(
                     return Err(Refusal::Cancelled);
                 }
                 let parts = [&parts.0?, &parts.1?];
-                let pair = drawn_pair(drawing, [punch, plate], parts, settings, true);
-                fit.pairs.push(pair);
+                let held = drawn_pair(drawing, [punch, plate], parts, settings, true, None);
+                fit.pairs.push(Pair::of(held, parts));
             }
             let first = |index: &usize| {
                 let segment = outlines[*index].contour.segment(drawing, 0)?;
@@ -170,10 +193,11 @@ pub(crate) fn cut_twice_parts(
 /// The two, one laid in the other. `asks_least`: how much is left where nothing is missing, too.
 pub(crate) fn cut_twice(
     drawing: &Drawing,
-    [punch, plate]: [&Part; 2],
+    parts: [&Part; 2],
     settings: &Effective,
     asks_least: bool,
-) -> Pair {
+    before: Option<Before>,
+) -> Held {
     let names = [Use::Punch.name().into(), Use::Plate.name().into()];
     let unit_mm = settings.unit_of(drawing).mm;
     let clearance = settings.pair.clearance.unwrap_or(0.0) / unit_mm;
@@ -185,7 +209,8 @@ pub(crate) fn cut_twice(
         along_walls: Some(along_walls),
         asks_least,
     };
-    held::held(punch, plate, names, &limits)
+    let since = before.and_then(|(before, held)| Since::new(&held.looks, before, parts));
+    held::held(parts, &names, &limits, since.as_ref())
 }
 
 /// How far apart the walls of the two parts lie that are cut along one contour, mm.
@@ -219,10 +244,11 @@ pub(crate) fn drawn_part(
 pub(crate) fn drawn_pair(
     drawing: &Drawing,
     outlines: [&Outline; 2],
-    [punch, plate]: [&Part; 2],
+    parts: [&Part; 2],
     settings: &Effective,
     asks_least: bool,
-) -> Pair {
+    before: Option<Before>,
+) -> Held {
     let names = outlines.map(|it| name_of(drawing, &it.contour, settings));
     let unit_mm = settings.unit_of(drawing).mm;
     let limits = held::Limits {
@@ -231,7 +257,8 @@ pub(crate) fn drawn_pair(
         along_walls: None,
         asks_least,
     };
-    held::held(punch, plate, names, &limits)
+    let since = before.and_then(|(before, held)| Since::new(&held.looks, before, parts));
+    held::held(parts, &names, &limits, since.as_ref())
 }
 
 fn side_of(outline: &Outline, role: Role) -> Result<Side, Refusal> {
@@ -249,9 +276,4 @@ pub(crate) fn workpiece_of(drawing: &Drawing, contour: &Contour, settings: &Effe
 pub(crate) fn name_of(drawing: &Drawing, contour: &Contour, settings: &Effective) -> Arc<str> {
     let number = workpiece_of(drawing, contour, settings);
     settings.workpieces.name(number).unwrap_or_default().into()
-}
-
-/// The outlines of a part as segments.
-fn segments(part: &Part) -> Vec<Segment> {
-    part.edges.iter().map(|edge| edge.geometry).collect()
 }

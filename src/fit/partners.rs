@@ -1,12 +1,14 @@
 //! Which drawn contours are partners: one lies in the other, and both run beside each other everywhere.
 
+use super::change::Change;
 use super::workpiece_of;
 use crate::drawing::{Drawing, Outline};
-use crate::geometry::{Bounds, Point};
+use crate::geometry::{Bounds, Point, Segment};
 use crate::settings::Effective;
 use crate::toolpath::Walls;
 use rayon::iter::ParallelIterator;
 use rayon::slice::ParallelSlice;
+use std::sync::Arc;
 
 /// One core takes so many segments at a time.
 const AT_A_TIME: usize = 1024;
@@ -25,16 +27,27 @@ pub struct Drawn {
     pub missing: Vec<String>,
 }
 
+/// The contours that were found to run beside each other, to ask only of what has changed since.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Beside(Vec<[Arc<Walls>; 2]>);
+
 /// One contour that may have a partner.
 struct Candidate {
     outline: usize,
     workpiece: u16,
+    segments: Vec<Segment>,
     bounds: Bounds,
     area: f64,
 }
 
-/// The partners among the contours of workpieces. A contour has one: of several the one whose box fits best.
-pub(crate) fn partners(drawing: &Drawing, outlines: &[Outline], settings: &Effective) -> Drawn {
+/// The partners among the contours of workpieces. A contour has one: of several the one whose box fits best. What ran `beside` each other at the
+/// last question is known.
+pub(crate) fn partners(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &Effective,
+    beside: &mut Beside,
+) -> Drawn {
     let unit_mm = settings.unit_of(drawing).mm;
     let reach = FARTHEST * settings.pair.clearance.unwrap_or(0.0) / unit_mm;
     let candidates: Vec<Candidate> = outlines
@@ -47,14 +60,19 @@ pub(crate) fn partners(drawing: &Drawing, outlines: &[Outline], settings: &Effec
         })
         .filter_map(|(index, outline)| {
             let workpiece = workpiece_of(drawing, &outline.contour, settings);
+            if workpiece == 0 {
+                return None;
+            }
+            let segments = outline.contour.segments(drawing);
+            let segments: Vec<Segment> = segments.map(|segment| segment.geometry).collect();
             let mut bounds = Bounds::EMPTY;
-            outline
-                .contour
-                .segments(drawing)
-                .for_each(|segment| bounds.merge(&segment.geometry.bounds()));
-            (workpiece != 0).then_some(Candidate {
+            segments
+                .iter()
+                .for_each(|segment| bounds.merge(&segment.bounds()));
+            Some(Candidate {
                 outline: index,
                 workpiece,
+                segments,
                 bounds,
                 area: outline.twice_area.abs(),
             })
@@ -67,6 +85,7 @@ pub(crate) fn partners(drawing: &Drawing, outlines: &[Outline], settings: &Effec
         left(a).total_cmp(&left(b))
     });
     let mut found: Vec<(f64, usize, usize)> = Vec::new();
+    let mut together = Vec::new();
     for (place, &one) in by_left.iter().enumerate() {
         for &other in &by_left[place + 1..] {
             let (a, b) = (&candidates[one], &candidates[other]);
@@ -82,15 +101,14 @@ pub(crate) fn partners(drawing: &Drawing, outlines: &[Outline], settings: &Effec
             } else {
                 (other, one)
             };
-            if run_together(
-                drawing,
-                [punch, plate].map(|index| &outlines[candidates[index].outline]),
-                reach,
-            ) {
+            let both = [punch, plate].map(|index| candidates[index].segments.as_slice());
+            if let Some(walls) = beside.run_together(both, reach) {
+                together.push(walls);
                 found.push((off, punch, plate));
             }
         }
     }
+    beside.0 = together;
     let place = |index: usize| candidates[index].outline;
     found.sort_by(|a, b| {
         let by_off = a.0.total_cmp(&b.0);
@@ -131,27 +149,73 @@ fn apart(a: &Bounds, b: &Bounds) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// True where no place of the one contour is farther from the other than `reach`, as far as ends and places between them tell.
-fn run_together(drawing: &Drawing, both: [&Outline; 2], reach: f64) -> bool {
-    let walls = |outline: &Outline| {
-        let segments = outline.contour.segments(drawing);
-        Walls::new(segments.map(|segment| segment.geometry).collect())
+impl Beside {
+    /// Two contours with their walls where no place of the one is farther from the other than `reach`, as far as ends and places between
+    /// them tell.
+    fn run_together(&self, both: [&[Segment]; 2], reach: f64) -> Option<[Arc<Walls>; 2]> {
+        let is_same = |walls: &Arc<Walls>, now: &[Segment]| walls.segments() == now;
+        for known in &self.0 {
+            match [0, 1].map(|one| is_same(&known[one], both[one])) {
+                [true, true] => return Some(known.clone()),
+                [true, false] => {
+                    if let Some(walls) = still_beside(&known[1], both[1], &known[0], reach) {
+                        return walls.map(|walls| [known[0].clone(), walls]);
+                    }
+                }
+                [false, true] => {
+                    if let Some(walls) = still_beside(&known[0], both[0], &known[1], reach) {
+                        return walls.map(|walls| [walls, known[1].clone()]);
+                    }
+                }
+                [false, false] => {}
+            }
+        }
+        let walls = |segments: &[Segment]| Arc::new(Walls::new(segments.to_vec()));
+        let (punch, plate) = rayon::join(|| walls(both[0]), || walls(both[1]));
+        let keeps = |own: &Walls, other: &Walls| {
+            let some = own.segments().par_chunks(AT_A_TIME);
+            some.all(|segments| are_near(&mut segments.iter(), other, reach))
+        };
+        (keeps(&punch, &plate) && keeps(&plate, &punch)).then_some([punch, plate])
+    }
+}
+
+/// The walls of a contour that was beside another one `before` an edit, where it still is; nothing where too much of it has changed to say.
+fn still_beside(
+    before: &Walls,
+    now: &[Segment],
+    other: &Walls,
+    reach: f64,
+) -> Option<Option<Arc<Walls>>> {
+    let change = Change::of(before.segments(), now, PartialEq::eq)?;
+    let mut beside_gone = Vec::new();
+    for gone in change.gone() {
+        other.find(&before.bounds_of(gone).grown(reach), |wall| {
+            beside_gone.push(other.segment(wall));
+            false
+        });
+    }
+    let mut new = change.new().map(|new| &now[new]);
+    let walls = Walls::new(now.to_vec());
+    let is_beside =
+        are_near(&mut new, other, reach) && are_near(&mut beside_gone.into_iter(), &walls, reach);
+    Some(is_beside.then(|| Arc::new(walls)))
+}
+
+/// True where no end of some segments, and no place between, is farther from `other` than `reach`.
+fn are_near<'a>(
+    segments: &mut impl Iterator<Item = &'a Segment>,
+    other: &Walls,
+    reach: f64,
+) -> bool {
+    let mut beside = None;
+    let mut is_near = |at: Point| {
+        beside = other.nearer_from(beside, at, reach);
+        beside.is_some()
     };
-    let (punch, plate) = rayon::join(|| walls(both[0]), || walls(both[1]));
-    let keeps = |own: &Walls, other: &Walls| {
-        let some = own.segments().par_chunks(AT_A_TIME);
-        some.all(|segments| {
-            let mut beside = None;
-            let mut is_near = |at: Point| {
-                beside = other.nearer_from(beside, at, reach);
-                beside.is_some()
-            };
-            segments.iter().all(|segment| {
-                [0.0, 0.25, 0.5, 0.75]
-                    .into_iter()
-                    .all(|share| is_near(segment.point_at(share)))
-            })
-        })
-    };
-    keeps(&punch, &plate) && keeps(&plate, &punch)
+    segments.all(|segment| {
+        [0.0, 0.25, 0.5, 0.75]
+            .into_iter()
+            .all(|share| is_near(segment.point_at(share)))
+    })
 }

@@ -164,7 +164,7 @@ impl<K: Copy> Nest<K> {
     }
 
     /// Calls `found` for each shell that may come nearer to another than `reach`, once each. Returns how many were looked at.
-    pub(crate) fn near(&self, to: &Shell, reach: f64, mut found: impl FnMut(K)) -> u64 {
+    pub(crate) fn near(&self, to: &Shell, reach: f64, mut found: impl FnMut(K, &Bounds)) -> u64 {
         let (mut at, mut work) = (0, 0);
         while let Some(node) = self.nodes.get(at) {
             work += 1;
@@ -174,7 +174,7 @@ impl<K: Copy> Nest<K> {
                 work += shells.len() as u64;
                 for (key, shell) in shells {
                     if shell.may_meet(to, reach) {
-                        found(*key);
+                        found(*key, &shell.bounds);
                     }
                 }
             }
@@ -288,7 +288,7 @@ mod tests {
             let nest = Nest::new(outlines.iter().map(shell).enumerate().collect());
             for one in &outlines {
                 let mut found = vec![false; outlines.len()];
-                nest.near(&shell(one), reach, |key| found[key] = true);
+                nest.near(&shell(one), reach, |key, _| found[key] = true);
                 for (other, is_found) in outlines.iter().zip(found) {
                     prop_assert!(is_found || distance(one, other) > reach);
                 }
@@ -305,7 +305,7 @@ mod tests {
             let shell = |outline: &Vec<Segment>| Shell::of(outline.iter().copied());
             let nest = Nest::new(outlines.iter().map(shell).enumerate().collect());
             let mut near = 0;
-            let work = nest.near(&shell(&outlines[1000]), 0.3, |_| near += 1);
+            let work = nest.near(&shell(&outlines[1000]), 0.3, |_, _| near += 1);
             if kind < 2 {
                 assert!(near == 1 && work < 200, "{kind}: {near} in {work}");
             }

@@ -100,7 +100,12 @@ pub fn pair(
 /// The role of each contour that has a partner, by the handle of its first entity.
 fn roles_of_partners(snapshot: &Snapshot) -> Vec<(String, Role)> {
     let (drawing, outlines) = (&snapshot.drawing, &snapshot.outlines);
-    let drawn = fit::partners(drawing, outlines, &snapshot.settings);
+    let drawn = fit::partners(
+        drawing,
+        outlines,
+        &snapshot.settings,
+        &mut Default::default(),
+    );
     let both = drawn
         .pairs
         .iter()

@@ -133,8 +133,8 @@ impl Walls {
         self.find_near(path, distance, |_, _| true)
     }
 
-    /// The same for a path that runs beside the wall `own` no further from it than `distance` and a little: then few walls are asked, and
-    /// that one itself where `with_own`.
+    /// The same for a path that runs beside the wall `own` no further from it than `distance` and a little: where it is known what lies about
+    /// that few walls are asked, and that one itself where `with_own`.
     pub(crate) fn too_near_beside(
         &self,
         own: usize,
@@ -144,7 +144,6 @@ impl Walls {
     ) -> Option<usize> {
         let bounds = path.bounds();
         let (area, boxes) = (bounds.grown(distance), &self.levels[0]);
-        self.know_about(distance);
         let about = self.about.get().and_then(Option::as_ref);
         let few = own / FAN;
         // All that comes near to what lies in the box is among those.
@@ -286,7 +285,8 @@ impl Walls {
         distance: f64,
     ) -> Option<usize> {
         let count = self.segments.len();
-        let beside = last.map(|last| [last, (last + 1) % count, (last + count - 1) % count]);
+        let beside = |last: usize| [0, 1, count - 1, 2].map(|step| (last + step) % count);
+        let beside = last.map(beside);
         let is_nearer = |wall: &usize| self.segments[*wall].distance_to(point) < distance;
         let beside = beside.into_iter().flatten().find(is_nearer);
         beside.or_else(|| self.nearer(point, distance))
@@ -417,6 +417,7 @@ mod tests {
     fn beside_its_wall_a_path_is_near_to_what_it_is_near_to_among_all() {
         let all = scattered(300);
         let walls = Walls::new(all.clone());
+        walls.know_about(0.1);
         let mut near = 0;
         for (own, wall) in all.iter().enumerate() {
             for shift in [0.0, 0.05, 0.2, 3.0] {

@@ -2,7 +2,8 @@
 
 use super::clearance::Walls;
 use super::corners::Element;
-use crate::geometry::{Bounds, Segment};
+use super::path::Source;
+use crate::geometry::Bounds;
 
 /// Where more walls have changed, all is looked at.
 const MOST_CHANGED: usize = 64;
@@ -11,55 +12,72 @@ const MOST_CHANGED: usize = 64;
 const AHEAD: usize = 8;
 
 /// A wall that was not there before.
-const NEW: u32 = u32::MAX;
+pub(crate) const NEW: u32 = u32::MAX;
 
 /// The path beside a contour as it was before an edit, proved at the same correction on the same side.
 pub(super) struct Kept<'a> {
+    /// How many walls there were.
+    pub(super) before: usize,
     /// Of each wall which it was.
-    was: Vec<u32>,
-    pieces: &'a Walls,
-    /// Of each piece its wall, as they were.
-    follows: &'a [u32],
+    pub(super) was: Vec<u32>,
+    pub(super) pieces: &'a Walls,
+    /// Of each piece what it follows, as they were.
+    pub(super) follows: &'a [u32],
     at: usize,
 }
 
+/// Of each of `now` which one of `before` it is, in their order, or that it is new. `None` where too much has changed.
+pub(crate) fn which_it_was<Before, Now>(
+    before: &[Before],
+    now: &[Now],
+    is_same: impl Fn(&Before, &Now) -> bool,
+) -> Option<Vec<u32>> {
+    let mut was = Vec::with_capacity(now.len());
+    let (mut at, mut changed) = (0, 0);
+    let is_same = |at: usize, new: usize| {
+        let pair = before.get(at).zip(now.get(new));
+        pair.is_some_and(|(before, now)| is_same(before, now))
+    };
+    while was.len() < now.len() {
+        if is_same(at, was.len()) {
+            was.push(at as u32);
+            at += 1;
+            continue;
+        }
+        let mut steps = (1..2 * AHEAD).flat_map(|all| (0..=all).map(move |old| (old, all - old)));
+        let next = steps.find(|&(old, new)| is_same(at + old, was.len() + new));
+        let (gone, new) = next.unwrap_or((AHEAD, AHEAD));
+        at += gone;
+        changed += new;
+        if changed > MOST_CHANGED {
+            return None;
+        }
+        let new = new.min(now.len() - was.len());
+        was.extend(std::iter::repeat_n(NEW, new));
+    }
+    Some(was)
+}
+
 impl<'a> Kept<'a> {
-    /// `None` where too much has changed: `before` and `now` are the walls.
-    pub(crate) fn new<'w>(
-        before: &[&'w Segment],
-        now: &[Segment],
+    /// `was` says of each wall which it was; `follows` is what [`follows`] said of the path.
+    pub(crate) fn new(
+        before: usize,
+        was: Vec<u32>,
         pieces: &'a Walls,
         follows: &'a [u32],
-    ) -> Option<Kept<'a>> {
-        let mut was = Vec::with_capacity(now.len());
-        let (mut at, mut changed) = (0, 0);
-        while let Some(wall) = now.get(was.len()) {
-            if before.get(at).is_some_and(|before| *before == wall) {
-                was.push(at as u32);
-                at += 1;
-                continue;
-            }
-            let is_same = |&(old, new): &(usize, usize)| {
-                let pair = before.get(at + old).zip(now.get(was.len() + new));
-                pair.is_some_and(|(before, now)| *before == now)
-            };
-            let mut steps =
-                (1..2 * AHEAD).flat_map(|all| (0..=all).map(move |old| (old, all - old)));
-            let (gone, new) = steps.find(is_same).unwrap_or((AHEAD, AHEAD));
-            at += gone;
-            changed += new;
-            if changed > MOST_CHANGED {
-                return None;
-            }
-            let new = new.min(now.len() - was.len());
-            was.extend(std::iter::repeat_n(NEW, new));
-        }
-        Some(Kept {
+    ) -> Kept<'a> {
+        Kept {
+            before,
             was,
             pieces,
             follows,
             at: 0,
-        })
+        }
+    }
+
+    /// Pieces are asked for from the first on again.
+    pub(crate) fn again(&mut self) {
+        self.at = 0;
     }
 
     /// The boxes of what was not there before, among the walls as they are now, and so far about them.
@@ -71,10 +89,14 @@ impl<'a> Kept<'a> {
 
     /// True for a piece that is as proved as it was; `about` are the boxes of what is new.
     pub(crate) fn holds(&mut self, element: &Element, about: &[Bounds]) -> bool {
-        let wall = self.was[element.wall];
+        let was = self.was[element.wall];
+        if was == NEW {
+            return false;
+        }
+        let follows = 2 * was + u32::from(is_roll(element));
         let known = self.follows.len().min(self.at + AHEAD);
         let is_same = |&piece: &usize| {
-            self.follows[piece] == wall && *self.pieces.segment(piece) == element.geometry
+            self.follows[piece] == follows && *self.pieces.segment(piece) == element.geometry
         };
         let Some(piece) = (self.at..known).find(is_same) else {
             return false;
@@ -85,7 +107,12 @@ impl<'a> Kept<'a> {
     }
 }
 
-/// Of each element its wall.
+/// Of each element twice its wall, and one more for the way round the end of that.
 pub(super) fn follows(path: &[Element]) -> Vec<u32> {
-    path.iter().map(|element| element.wall as u32).collect()
+    let follows = |element: &Element| 2 * element.wall as u32 + u32::from(is_roll(element));
+    path.iter().map(follows).collect()
+}
+
+fn is_roll(element: &Element) -> bool {
+    matches!(element.source, Source::Corner { .. })
 }

@@ -10,8 +10,9 @@ use super::nest::{Before, Nest};
 use super::offset::{Wall, walls};
 use super::open::{one_side, there_and_back};
 use super::path::Refusal;
-use super::proof::{Proof, Unproved};
+use super::proof::{Beside, Proof, Unproved};
 use super::ring::trimmed;
+use super::spliced::spliced;
 use super::tips::with_tips;
 use crate::drawing::ContourSegment;
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
@@ -134,7 +135,7 @@ impl Job<'_> {
         walls: &[Wall],
         own: &Walls,
         along: Along,
-        known: Known,
+        mut known: Known,
     ) -> Result<Outcome, Refusal> {
         let Along {
             side,
@@ -156,6 +157,31 @@ impl Job<'_> {
             tolerance: self.units(self.settings.tolerances.report),
         };
         self.go_on()?;
+        let rounding = self.units(ROUNDING);
+        if let Some(kept) = &mut known.kept
+            && closed
+            && corner == Corner::Arc
+            && self.a_loop_will_do
+            && let Some(path) = spliced(kept, walls, &joining)
+            && keeps_its_side(path.len(), |piece| &path[piece], walls, own, side)
+        {
+            let place = Beside {
+                walls,
+                own,
+                correction,
+                side,
+                rounding,
+                closed,
+            };
+            let about = kept.about(own, correction);
+            if place
+                .pieces_hold(path.iter(), None, Some((kept, &about)))
+                .is_ok()
+            {
+                return Ok(Ok(Laid::Path(path)));
+            }
+            kept.again();
+        }
         let of_round = || {
             let ends = |wall: &Wall| [wall.geometry.start_tangent(), wall.geometry.end_tangent()];
             round.iter().map(ends).collect()
@@ -165,16 +191,15 @@ impl Job<'_> {
             false => Cow::Owned(of_round()),
         };
         let raw = Raw::new(&round, &tangents, &joining);
-        let rounding = self.units(ROUNDING);
-        let proof = Proof {
+        let place = Beside {
             walls: &round,
-            raw: &raw,
             own,
             correction,
             side,
             rounding,
             closed,
         };
+        let proof = Proof { place, raw: &raw };
         let tipped = |path: Vec<(usize, Element)>| {
             let path: Vec<Element> = path.into_iter().map(|(_, element)| element).collect();
             Laid::Path(match corner {
@@ -194,7 +219,9 @@ impl Job<'_> {
             _ => trimmed(&raw),
         };
         let found = match closed {
-            true => found.filter(|path| keeps_its_side(path, walls, own, side)),
+            true => found.filter(|path| {
+                keeps_its_side(path.len(), |piece| &path[piece].1, walls, own, side)
+            }),
             false => found.and_then(|path| one_side(vec![path], &raw, walls.len()).ok()),
         };
         if let Some(path) = found
@@ -249,7 +276,7 @@ impl Job<'_> {
         let Some(path) = loops.pop() else {
             return Ok(Err(Fault::Nothing));
         };
-        if !keeps_its_side(&path, walls, own, side) {
+        if !keeps_its_side(path.len(), |piece| &path[piece].1, walls, own, side) {
             return Ok(Err(Fault::Unproved { wall: 0 }));
         }
         self.vouched(&proof, path, tipped)
@@ -269,28 +296,30 @@ impl Job<'_> {
     }
 
     /// Holds a path against its proof.
-    fn holds(
+    fn holds<'p>(
         &self,
         proof: &Proof,
-        path: &[(usize, Element)],
+        path: &'p [(usize, Element)],
         known: Known,
     ) -> Result<Result<(), Unproved>, Refusal> {
         let Known { before, kept } = known;
         let go_on = || self.go_on();
-        let nest = before.map(|before| Nest::new(before, proof.walls.len()));
+        let place = &proof.place;
+        let nest = before.map(|before| Nest::new(before, place.walls.len()));
+        let pieces = |pieces: &'p [(usize, Element)]| pieces.iter().map(|(_, element)| element);
         let held = match kept {
             // Little of it is looked at.
             Some(mut kept) => {
                 self.go_on()?;
-                let about = kept.about(proof.own, proof.correction);
-                proof.pieces_hold(path, nest.as_ref(), Some((&mut kept, &about)))
+                let about = kept.about(place.own, place.correction);
+                place.pieces_hold(pieces(path), nest.as_ref(), Some((&mut kept, &about)))
             }
             None => {
-                if proof.closed {
-                    proof.own.know_about(proof.correction - proof.rounding);
+                if place.closed {
+                    place.own.know_about(place.correction - place.rounding);
                 }
                 first_fault(path.len(), go_on, |range| {
-                    proof.pieces_hold(&path[range], nest.as_ref(), None)
+                    place.pieces_hold(pieces(&path[range]), nest.as_ref(), None)
                 })?
             }
         };
@@ -375,19 +404,23 @@ pub(super) fn goes_out_and_back(path: &[Element]) -> bool {
 }
 
 /// True when a path runs round as its contour does, inside an opening and outside a punch. Out and back along a line is no way round.
-fn keeps_its_side(path: &[(usize, Element)], walls: &[Wall], own: &Walls, side: f64) -> bool {
+fn keeps_its_side<'a>(
+    count: usize,
+    piece: impl Fn(usize) -> &'a Element + Sync + Send,
+    walls: &[Wall],
+    own: &Walls,
+    side: f64,
+) -> bool {
     let Some(origin) = walls.first().map(|wall| wall.geometry.start()) else {
         return false;
     };
     let contour = own.twice_area();
-    let area = sum(path.len(), |piece| {
-        path[piece].1.geometry.twice_area(origin)
-    });
+    let area = sum(count, |at| piece(at).geometry.twice_area(origin));
     let grows = (area - contour) * contour.signum();
     let inside = grows * side * contour.signum() <= 0.0;
     // To the left of a counter-clockwise contour lies its inside.
     let is_out_and_back = || {
-        let elements: Vec<Element> = path.iter().map(|(_, element)| *element).collect();
+        let elements: Vec<Element> = (0..count).map(|at| *piece(at)).collect();
         goes_out_and_back(&elements)
     };
     inside && (area * contour > 0.0 || is_out_and_back())

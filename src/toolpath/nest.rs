@@ -16,7 +16,7 @@ pub(super) struct Before<'a> {
 
 /// How the later path runs beside one wall.
 #[derive(Clone, Copy)]
-pub(super) struct Beside {
+pub(super) struct BesideWall {
     pub(crate) wall: Segment,
     pub(crate) side: f64,
     pub(crate) correction: f64,
@@ -45,7 +45,11 @@ impl<'a> Nest<'a> {
     }
 
     /// What of a piece reaches beyond the piece of the earlier path beside the same wall. `None` where there is none, or that is not known.
-    pub(crate) fn beyond(&self, beside: Beside, element: &Element) -> Option<[Option<Segment>; 2]> {
+    pub(crate) fn beyond(
+        &self,
+        beside: BesideWall,
+        element: &Element,
+    ) -> Option<[Option<Segment>; 2]> {
         let Before { path, correction } = self.before;
         let is_roll = |element: &Element| matches!(element.source, Source::Corner { .. });
         let first = *self.first.get(element.wall)? as usize;
@@ -187,7 +191,7 @@ mod tests {
                 .collect::<Vec<_>>()
         };
         let (outer, inner) = (laid(0.3), laid(0.1));
-        let beside = |element: &Element| Beside {
+        let beside = |element: &Element| BesideWall {
             wall: walls[element.wall].geometry,
             side: 1.0,
             correction: 0.1,

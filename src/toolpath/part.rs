@@ -6,7 +6,7 @@
 use super::clearance::Walls;
 use super::corners::{Element, elements};
 use super::job::Job;
-use super::kept::{Kept, follows};
+use super::kept::{Kept, follows, which_it_was};
 use super::laid::{Along, Known, Laid};
 use super::offset::Wall;
 use super::path::{Refusal, Source};
@@ -51,7 +51,10 @@ impl Part {
     pub(crate) fn segment_at(&self, edge: usize, at: Point) -> Option<(EntityId, usize)> {
         let [before, behind] = self.edges[edge].walls;
         let count = self.drawn.len();
-        let skipped = (behind + count - before) % count;
+        let skipped = match behind >= before {
+            true => behind - before,
+            false => behind + count - before,
+        };
         let between = (1..skipped).map(|step| (before + step) % count);
         let nearest = between.min_by(|&a, &b| {
             let away = |wall: usize| self.drawn[wall].geometry.distance_to(at);
@@ -147,9 +150,14 @@ pub(crate) fn part(
         closed: true,
     };
     let kept = before.and_then(|before| {
-        let then: Vec<&Segment> = before.path.segments().iter().collect();
-        let now = near_path.segments();
-        Kept::new(&then, now, &before.near, &before.edges_follow)
+        let (then, now) = (before.path.segments(), near_path.segments());
+        let was = which_it_was(then, now, PartialEq::eq)?;
+        Some(Kept::new(
+            then.len(),
+            was,
+            &before.near,
+            &before.edges_follow,
+        ))
     });
     let known = Known {
         kept,
@@ -263,11 +271,11 @@ impl Job<'_> {
     ) -> Result<Option<WallsAndPath>, Refusal> {
         let walls = self.walls(contour);
         let own = Walls::of(&walls);
-        let then: Vec<&Segment> = before.drawn.iter().map(|wall| &wall.geometry).collect();
-        let now = own.segments();
-        let Some(kept) = Kept::new(&then, now, &before.path, &before.path_follows) else {
+        let is_same = |before: &Wall, now: &Wall| before.geometry == now.geometry;
+        let Some(was) = which_it_was(&before.drawn, &walls, is_same) else {
             return Ok(None);
         };
+        let kept = Kept::new(before.drawn.len(), was, &before.path, &before.path_follows);
         let along = Along {
             side: side.sign(),
             correction,

@@ -7,15 +7,29 @@
 use super::clearance::Walls;
 use super::corners::{Element, Raw, meetings};
 use super::kept::Kept;
-use super::nest::{Beside, Nest};
+use super::nest::{BesideWall, Nest};
 use super::offset::Wall;
 use crate::drawing::winding_of;
 use crate::geometry::{Arc, Bounds, Line, Point, Segment, Vector, cross};
+use std::ops::Deref;
 
-/// What the offset of one contour is held against. Lengths in drawing units.
+/// What the offset of one contour is held against.
 pub(super) struct Proof<'a> {
-    pub(crate) walls: &'a [Wall],
+    pub(crate) place: Beside<'a>,
     pub(crate) raw: &'a Raw<'a>,
+}
+
+impl<'a> Deref for Proof<'a> {
+    type Target = Beside<'a>;
+
+    fn deref(&self) -> &Beside<'a> {
+        &self.place
+    }
+}
+
+/// Where the path of one contour runs. Lengths in drawing units.
+pub(super) struct Beside<'a> {
+    pub(crate) walls: &'a [Wall],
     /// The walls once more, to ask what is near.
     pub(crate) own: &'a Walls,
     pub(crate) correction: f64,
@@ -33,20 +47,12 @@ pub(super) struct Unproved {
     pub(crate) wall: usize,
 }
 
-impl Proof<'_> {
+impl Beside<'_> {
     /// True where the wire runs, beside the contour. Costs a look at every wall.
     pub(crate) fn is_on_wire_side(&self, point: Point) -> bool {
         !self.closed
             || (winding_of(self.walls.iter().map(|wall| wall.geometry), point) != 0)
                 == self.is_inside()
-    }
-
-    /// How many of the raw elements the path follows: of an open contour those on the side of the wire.
-    pub(crate) fn followed(&self) -> usize {
-        match self.closed {
-            true => self.raw.len(),
-            false => self.raw.end_roll(self.walls.len() / 2),
-        }
     }
 
     /// True where the wire runs inside of the contour.
@@ -66,22 +72,22 @@ impl Proof<'_> {
         twice_area * self.side > 0.0
     }
 
-    /// Some pieces of a path: nowhere nearer to a wall than the correction, and at it from their own. What is `kept` is asked with the
+    /// Pieces of a path: nowhere nearer to a wall than the correction, and at it from their own. What is `kept` is asked with the
     /// boxes of what has changed.
-    pub(crate) fn pieces_hold(
+    pub(crate) fn pieces_hold<'p>(
         &self,
-        pieces: &[(usize, Element)],
+        pieces: impl Iterator<Item = &'p Element>,
         nest: Option<&Nest>,
         mut kept: Option<(&mut Kept, &[Bounds])>,
     ) -> Result<(), Unproved> {
-        for (_, element) in pieces {
+        for element in pieces {
             if let Some((kept, about)) = &mut kept
                 && kept.holds(element, about)
             {
                 continue;
             }
             let beyond = nest.and_then(|nest| {
-                let beside = Beside {
+                let beside = BesideWall {
                     wall: self.walls[element.wall].geometry,
                     side: self.side,
                     correction: self.correction,
@@ -140,6 +146,16 @@ impl Proof<'_> {
         match places.into_iter().any(is_off) {
             true => Err(Unproved { wall }),
             false => Ok(()),
+        }
+    }
+}
+
+impl Proof<'_> {
+    /// How many of the raw elements the path follows: of an open contour those on the side of the wire.
+    pub(crate) fn followed(&self) -> usize {
+        match self.closed {
+            true => self.raw.len(),
+            false => self.raw.end_roll(self.walls.len() / 2),
         }
     }
 

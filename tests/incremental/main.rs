@@ -2,6 +2,7 @@
 
 mod drawings;
 mod left_out;
+mod pairs;
 mod random;
 mod told;
 use proptest::prelude::*;

@@ -1,0 +1,237 @@
+//! Repairs of corners in which a punch and its plate bind.
+
+use super::Analysis;
+use super::fits::Fitted;
+use crate::drawing::{Drawing, DrawingEdit};
+use crate::finding::{Finding, Fix, FixKind, Place, Side};
+use crate::fit::{self, Held, SegmentOf, Spot};
+use crate::rules::small_radius::{self, Travel};
+use crate::settings::Partners;
+use std::sync::Arc;
+
+impl Analysis {
+    /// The repair of a corner in which two parts bind: the least radius with which they do not, and the clearance more where the other is
+    /// drawn, too.
+    pub(super) fn fit_fix(&self, drawing: &Drawing, finding: &Finding) -> Option<Fix> {
+        let Place::Segment { entity, segment } = finding.place else {
+            return None;
+        };
+        let (_, clearance) = self.settings.fit().ok()?;
+        let before = self.pair_at(drawing, (entity, segment))?;
+        let spot = spot_at(&before.held.spots, (entity, segment)).filter(|spot| spot.turn > 0.0)?;
+        let corner = Corner {
+            before: &before.held,
+            spot,
+            clearance: clearance / self.limits.unit_mm,
+            is_drawn: self.chains.contour_of(spot.segment.0)
+                != self.chains.contour_of(spot.other.0),
+        };
+        let enough = self
+            .settings
+            .correction
+            .max(self.settings.half_kerf(0).unwrap_or(0.0));
+        let margin = self.settings.margin / self.limits.unit_mm;
+        let most = enough / self.limits.unit_mm + corner.clearance + margin;
+        let left = |radius: f64| Some(self.with_corner(drawing, &corner, radius)?.1);
+        let rounding = self.limits.tolerances.report;
+        let mut radius = most;
+        let steep = 1.0 / (spot.turn / 2.0).cos() - 1.0;
+        // What is left grows evenly with the radius between straight walls.
+        let mut found = None;
+        for _ in 0..6 {
+            let found_left = left(radius);
+            match found_left {
+                Some(more) if more.abs() <= 0.1 * rounding => {
+                    found = Some(radius);
+                    break;
+                }
+                Some(more) => radius -= more / steep,
+                None => break,
+            }
+            if !(radius > 0.0 && radius <= most) {
+                break;
+            }
+        }
+        let found = found.or_else(|| {
+            let (mut least, mut most) = (0.0, most);
+            left(most).filter(|left| *left >= 0.0)?;
+            for _ in 0..24 {
+                let middle = (least + most) / 2.0;
+                match left(middle) {
+                    Some(left) if left >= 0.0 => most = middle,
+                    _ => least = middle,
+                }
+            }
+            Some(most)
+        })?;
+        let radius = found + margin;
+        let (edit, left) = self.with_corner(drawing, &corner, radius)?;
+        let kind = FixKind::FitCorner {
+            radius,
+            other: corner.is_drawn.then_some(radius + corner.clearance),
+        };
+        (left >= -rounding).then_some(Fix {
+            kind,
+            preferred: true,
+            // As far as it moves a corner between straight walls.
+            in_fix_all: steep * radius <= self.limits.correction,
+            edit,
+        })
+    }
+
+    /// What is known of the pair that a segment is of.
+    fn pair_at(&self, drawing: &Drawing, (entity, segment): SegmentOf) -> Option<Arc<Fitted>> {
+        let (key, _) = self.chains.index_of(entity, segment)?;
+        let outlines = self.outlines(drawing);
+        let keys = self.in_machining_order(drawing);
+        let at = keys.iter().position(|other| *other == key)?;
+        let both = match self.settings.partners()? {
+            Partners::CutTwice(_) => [at, at],
+            Partners::Drawn => {
+                let mut beside = self.beside.clone();
+                let drawn = fit::partners(drawing, outlines, &self.settings, &mut beside);
+                drawn.pairs.into_iter().find(|pair| pair.contains(&at))?
+            }
+        };
+        if let Some(answer) = self.fits.get(&(keys[both[0]], keys[both[1]]))
+            && !answer.is_old
+        {
+            return answer.known.clone();
+        }
+        let both = both.map(|index| (keys[index], &outlines[index]));
+        self.fitted(drawing, both).map(Arc::new)
+    }
+
+    /// The edit that gives a corner a radius, and what is left of the clearance there behind it: at most what there should be. `None` where
+    /// it cannot be made, or where it brings errors.
+    fn with_corner(
+        &self,
+        drawing: &Drawing,
+        corner: &Corner,
+        radius: f64,
+    ) -> Option<(DrawingEdit, f64)> {
+        let of = |at: SegmentOf, radius: f64| self.corner_edits(drawing, corner, at, radius);
+        let spot = corner.spot;
+        let edits = match corner.is_drawn {
+            false => of(spot.segment, radius),
+            true => {
+                let partner = of(spot.other, radius);
+                let own = of(spot.segment, radius + corner.clearance);
+                let both = own.into_iter().flat_map(|own| {
+                    partner.clone().into_iter().map(move |partner| {
+                        let changes = own.changes.iter().cloned().chain(partner.changes);
+                        DrawingEdit {
+                            changes: changes.collect(),
+                        }
+                    })
+                });
+                both.collect()
+            }
+        };
+        let tried = edits.into_iter().filter_map(|edit| {
+            let left = self.left_behind(drawing, corner, &edit)?;
+            Some((edit, left))
+        });
+        tried.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// Edits that may give a part of a pair a radius near one of its segments: in place of the arcs there, or at the corner where the
+    /// segment begins or ends.
+    fn corner_edits(
+        &self,
+        drawing: &Drawing,
+        corner: &Corner,
+        (entity, segment): SegmentOf,
+        radius: f64,
+    ) -> Vec<DrawingEdit> {
+        let place = || {
+            let (key, index) = self.chains.index_of(entity, segment)?;
+            Some((self.outlook(drawing, key)?, index))
+        };
+        let Some((outlook, index)) = place() else {
+            return Vec::new();
+        };
+        // Both parts are rounded about one point, which lies where the wire of the one turned.
+        let inside = match outlook.index.twice_area() > 0.0 {
+            true => Side::Left,
+            false => Side::Right,
+        };
+        let side = match corner.is_of_plate() {
+            true => inside,
+            false => inside.reversed(),
+        };
+        let travel = Travel {
+            drawing,
+            contour: outlook.contour,
+            index: outlook.index,
+            side,
+        };
+        let mut limits = self.limits;
+        limits.fix_radius = radius;
+        let position = travel.position_of(index);
+        let arcs = small_radius::run_of(&travel, position, &limits).and_then(|run| {
+            let replacement = small_radius::refillet(&travel, &run, &limits)
+                .outcome
+                .ok()?;
+            small_radius::drawing_edit(drawing, &[(travel, replacement)])
+        });
+        match arcs {
+            Some(edit) => vec![edit],
+            None => [position - 1, position]
+                .into_iter()
+                .filter_map(|before| small_radius::fillet(&travel, before, &limits))
+                .collect(),
+        }
+    }
+
+    fn left_behind(&self, drawing: &Drawing, corner: &Corner, edit: &DrawingEdit) -> Option<f64> {
+        let mut edited = drawing.clone();
+        let delta = edited.apply(edit).ok()?;
+        let mut after = self.updated(&edited, &delta);
+        if after.tally(&edited).errors > self.tallied(drawing).errors {
+            return None;
+        }
+        let spot = corner.spot;
+        let place = (spot.segment.0, 0);
+        let pair = after.pair_at(&edited, place)?;
+        let wide = self.wide(corner.clearance, spot.clearance);
+        let near = |other: &&Spot| (other.at - spot.at).norm() <= wide;
+        let left = pair
+            .held
+            .spots
+            .iter()
+            .filter(near)
+            .map(|spot| spot.clearance);
+        let binding = |held: &Held| {
+            held.spots
+                .iter()
+                .filter(|spot| spot.clearance < 0.0)
+                .count()
+        };
+        let left = left.fold(corner.clearance, f64::min);
+        (left < 0.0 || binding(&pair.held) < binding(corner.before)).then_some(left)
+    }
+}
+
+/// A corner in which two parts bind.
+struct Corner<'a> {
+    before: &'a Held,
+    spot: &'a Spot,
+    clearance: f64,
+    /// Both parts are drawn.
+    is_drawn: bool,
+}
+
+impl Corner<'_> {
+    /// It is the plate that stands too far out.
+    fn is_of_plate(&self) -> bool {
+        self.spot.is_of_plate
+    }
+}
+
+/// The place that a finding speaks of, where the spots of a pair are.
+fn spot_at(spots: &[Spot], at: SegmentOf) -> Option<&Spot> {
+    let is_there = |spot: &&Spot| spot.segment == at || spot.other == at;
+    let there = spots.iter().filter(is_there);
+    there.min_by(|a, b| a.clearance.total_cmp(&b.clearance))
+}

@@ -1,0 +1,50 @@
+//! How a list went over into another by an edit.
+
+use crate::toolpath::{NEW, which_it_was};
+
+/// Of each which one it was before, and of each that was there which one it is, in their order.
+#[derive(Clone, Debug)]
+pub(super) struct Change {
+    was: Vec<u32>,
+    is: Vec<u32>,
+}
+
+impl Change {
+    /// `None` where too much has changed.
+    pub(super) fn of<T>(
+        before: &[T],
+        now: &[T],
+        is_same: impl Fn(&T, &T) -> bool,
+    ) -> Option<Change> {
+        let was = which_it_was(before, now, is_same)?;
+        let mut is = vec![NEW; before.len()];
+        for (was, now) in was.iter().zip(0..) {
+            if let Some(is) = is.get_mut(*was as usize) {
+                *is = now;
+            }
+        }
+        Some(Change { was, is })
+    }
+
+    /// Where one of now stood before.
+    pub(super) fn was(&self, index: usize) -> Option<usize> {
+        let was = self.was.get(index).filter(|was| **was != NEW);
+        was.map(|was| *was as usize)
+    }
+
+    /// Where one that was there stands now.
+    pub(super) fn is(&self, index: usize) -> Option<usize> {
+        let is = self.is.get(index).filter(|is| **is != NEW);
+        is.map(|is| *is as usize)
+    }
+
+    /// What is gone, by where it was.
+    pub(super) fn gone(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.is.len()).filter(|was| self.is[*was] == NEW)
+    }
+
+    /// What is new.
+    pub(super) fn new(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.was.len()).filter(|now| self.was[*now] == NEW)
+    }
+}

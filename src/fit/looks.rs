@@ -1,0 +1,24 @@
+//! What was seen of the edges of a part that lies in another, and what that hangs on.
+
+use crate::geometry::{Bounds, Point};
+
+/// What was seen of the edges of a part, in their order.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Looks {
+    /// Of each edge the box of all that was asked about it; an empty one where nothing was.
+    pub asked: Vec<Bounds>,
+    /// Of those that stand too far out.
+    pub verdicts: Vec<Verdict>,
+}
+
+/// An edge that stands too far out, by indices and places: whose segments these are is told anew each time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Verdict {
+    pub edge: u32,
+    /// On the edge.
+    pub at: Point,
+    pub clearance: f64,
+    /// The edge of the other part there, and the place that is told of it.
+    pub other: u32,
+    pub at_other: Point,
+}

@@ -1,0 +1,177 @@
+//! The path beside a contour of which an edit has changed a stretch: as it was, but for the pieces beside that stretch.
+//!
+//! Neighbours are cut with each other, and what they use up goes: where three elements that follow each other are all there, what goes on one
+//! side of them does not hang on the other side. So the stretch is laid by itself, with some walls about it, from three such elements to
+//! three others that are what they were.
+
+use super::clearance::Walls;
+use super::corners::{Element, Joining, Raw};
+use super::kept::{Kept, NEW};
+use super::offset::Wall;
+use super::open::there_and_back;
+use super::path::Source;
+use super::ring::trimmed;
+use crate::geometry::Segment;
+use std::ops::Range;
+
+/// Walls that are laid anew about what has changed.
+const ABOUT: usize = 16;
+
+/// Where what has changed lies so many walls apart, or of a contour of so few, all is laid anew.
+const MOST: usize = 128;
+
+/// Some walls that are laid anew, round a contour from the first on.
+struct Stretch {
+    first: usize,
+    count: usize,
+    /// In their order, each with its raw element.
+    pieces: Vec<(usize, Element)>,
+}
+
+/// The path beside the walls, where what is kept says most of it; `None` where it does not.
+pub(super) fn spliced(kept: &Kept, walls: &[Wall], joining: &Joining) -> Option<Vec<Element>> {
+    let count = walls.len();
+    if count <= MOST + 4 * ABOUT || !kept.follows.is_sorted() {
+        return None;
+    }
+    let (first, changed) = changed(kept, count)?;
+    let stretch = Stretch::laid(walls, (first + count - ABOUT) % count, changed, joining)?;
+    let on_left = |piece: &usize| (2..ABOUT - 2).contains(&stretch.place(*piece));
+    let (right_first, right_last) = (stretch.count - ABOUT + 1, stretch.count - 2);
+    let on_right = |piece: &usize| (right_first..right_last).contains(&stretch.place(*piece));
+    let parted = |piece: usize| Some((piece, stretch.parts_two(kept, count, piece)?));
+    let mut all = 1..stretch.pieces.len().checked_sub(1)?;
+    let (left, left_was) = all.clone().rev().filter(on_left).find_map(parted)?;
+    let (right, right_was) = all.find_map(|piece| parted(piece).filter(|_| on_right(&piece)))?;
+    let is_behind = |piece: usize| stretch.first + stretch.place(piece) >= count;
+    let goes_over_the_end = is_behind(right) != is_behind(left);
+    // What goes there may hang on what is looked at first.
+    if goes_over_the_end && !stretch.goes_at_once(left, right) {
+        return None;
+    }
+    // Of the pieces between, those behind the end of the contour come first.
+    let end = (left + 1..right).find(|piece| is_behind(*piece));
+    let end = end.unwrap_or(right);
+    let mut is = vec![NEW; kept.before];
+    for (was, wall) in kept.was.iter().zip(0..) {
+        if let Some(is) = is.get_mut(*was as usize) {
+            *is = wall;
+        }
+    }
+    let mut path = Vec::with_capacity(kept.follows.len() + stretch.pieces.len());
+    let new = |pieces: Range<usize>, path: &mut Vec<Element>| {
+        path.extend(stretch.pieces[pieces].iter().map(|(_, element)| Element {
+            wall: (stretch.first + element.wall) % count,
+            ..*element
+        }));
+    };
+    let old = |pieces: Range<usize>, path: &mut Vec<Element>| {
+        path.extend(pieces.map(|piece| {
+            let follows = kept.follows[piece];
+            let wall = is[follows as usize / 2] as usize;
+            let source = match walls.get(wall).map_or(Source::Tab, |wall| wall.source) {
+                Source::Segment { entity, segment } if follows % 2 == 1 => {
+                    Source::Corner { entity, segment }
+                }
+                source => source,
+            };
+            Element {
+                geometry: *kept.pieces.segment(piece),
+                source,
+                wall,
+            }
+        }));
+    };
+    if goes_over_the_end {
+        new(end..right, &mut path);
+        old(right_was..left_was + 1, &mut path);
+        new(left + 1..end, &mut path);
+    } else {
+        old(0..left_was + 1, &mut path);
+        new(left + 1..right, &mut path);
+        old(right_was..kept.follows.len(), &mut path);
+    }
+    let is_in_order = |pair: &[Element]| pair[0].wall <= pair[1].wall && pair[1].wall < count;
+    (path.len() >= 2 && path.windows(2).all(is_in_order)).then_some(path)
+}
+
+/// The first wall of the stretch round the contour that holds all that has changed, and how many it holds.
+fn changed(kept: &Kept, count: usize) -> Option<(usize, usize)> {
+    let leads_on = |wall: usize| {
+        let (was, next) = (
+            kept.was[wall],
+            kept.was[if wall + 1 == count { 0 } else { wall + 1 }],
+        );
+        was != NEW && (next == was + 1 || next == 0 && was as usize + 1 == kept.before)
+    };
+    let breaks: Vec<usize> = (0..count).filter(|&wall| !leads_on(wall)).collect();
+    let (Some(&first), Some(&last)) = (breaks.first(), breaks.last()) else {
+        return Some((0, 1));
+    };
+    // The longest way from one to the next is the one that has not changed.
+    let longest = breaks.windows(2).max_by_key(|pair| pair[1] - pair[0]);
+    let over_the_end = first + count - last;
+    let (first, last) = match longest {
+        Some(pair) if pair[1] - pair[0] > over_the_end => (pair[1], pair[0] + count),
+        _ => (first, last),
+    };
+    let changed = last + 2 - first;
+    (changed <= MOST).then_some((first, changed))
+}
+
+impl Stretch {
+    /// Lays so many walls that have changed, with those about them.
+    fn laid(walls: &[Wall], first: usize, changed: usize, joining: &Joining) -> Option<Stretch> {
+        let count = changed + 2 * ABOUT;
+        let some = (first..first + count).map(|wall| walls[wall % walls.len()]);
+        // Back on the other side, so that the ends are not joined to each other.
+        let some = there_and_back(&some.collect::<Vec<Wall>>());
+        let segments: Vec<Segment> = some.iter().map(|wall| wall.geometry).collect();
+        let own = Walls::by_one_core(segments);
+        let raw = Raw::new(&some, own.tangents(), joining);
+        let mut pieces = trimmed(&raw)?;
+        pieces.retain(|(_, piece)| piece.wall < count);
+        let is_sorted = pieces.is_sorted_by(|a, b| a.0 < b.0);
+        is_sorted.then(|| Stretch {
+            first,
+            count,
+            pieces,
+        })
+    }
+
+    /// The wall of a piece, from the first one on.
+    fn place(&self, piece: usize) -> usize {
+        self.pieces[piece].1.wall
+    }
+
+    /// Which piece it was that stands with its neighbours between what is before and what is behind it, now as before.
+    fn parts_two(&self, kept: &Kept, count: usize, piece: usize) -> Option<usize> {
+        let was = |piece: usize| {
+            let element = &self.pieces[piece].1;
+            let was = kept.was[(self.first + element.wall) % count];
+            let is_roll = matches!(element.source, Source::Corner { .. });
+            let follows = (was != NEW).then_some(2 * was + u32::from(is_roll))?;
+            let at = kept.follows.partition_point(|other| *other < follows);
+            let is_same = kept.follows.get(at) == Some(&follows)
+                && *kept.pieces.segment(at) == element.geometry;
+            is_same.then_some(at)
+        };
+        let (before, at, behind) = (was(piece - 1)?, was(piece)?, was(piece + 1)?);
+        let raw = self.pieces[piece].0;
+        let stand_together =
+            self.pieces[piece - 1].0 + 1 == raw && raw + 1 == self.pieces[piece + 1].0;
+        (stand_together && before + 1 == at && at + 1 == behind).then_some(at)
+    }
+
+    /// True where between two pieces elements have gone only one by one, two others between any two of them: each goes by what stands about
+    /// it, and it is all the same which is looked at first.
+    fn goes_at_once(&self, from: usize, to: usize) -> bool {
+        let mut last = 1;
+        self.pieces[from..=to].windows(2).all(|pair| {
+            let step = pair[1].0 - pair[0].0;
+            let is_fine = step == 1 || step == 2 && last == 1;
+            last = step;
+            is_fine
+        })
+    }
+}
