@@ -40,7 +40,7 @@ impl<'a> Lines<'a> {
         }
     }
 
-    fn slice(&self, range: Range<usize>) -> &'a [u8] {
+    pub(crate) fn slice(&self, range: Range<usize>) -> &'a [u8] {
         match self.head.get(range.clone()) {
             Some(bytes) => bytes,
             None => self.text.slice(range).unwrap_or_default(),

@@ -3,6 +3,7 @@
 //!
 //! Knows nothing of texts or of how tokens are found.
 
+use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -18,6 +19,9 @@ const WIDE: u64 = u64::MAX;
 
 /// Numbers of a token in the protocol.
 const FIELDS: usize = 5;
+
+/// Of more tokens than this several cores write the text, each so many at a time.
+const AT_ONCE: usize = 1 << 15;
 
 /// The tokens of a document, eight bytes each.
 #[derive(Debug, Default)]
@@ -55,24 +59,22 @@ impl Packed {
     /// The numbers of some tokens as a JSON array; of all, where some are wide.
     pub(crate) fn write(&self, range: Range<usize>, json: &mut Vec<u8>) {
         let words = self.words.get(range).unwrap_or_default();
-        json.reserve(words.len() * 10 + 2);
         json.push(b'[');
-        let mut wide = self.wide.iter();
-        for &word in words {
-            let mut rest = word;
-            let mut fields = [0; 4];
-            for (field, bits) in fields.iter_mut().zip(BITS).rev() {
-                *field = (rest & ((1 << bits) - 1)) as u32;
-                rest >>= bits;
-            }
-            if word == WIDE {
-                fields = wide.next().copied().unwrap_or(fields);
-            }
-            for field in fields {
-                push_number(json, field);
-                json.push(b',');
-            }
-            json.extend_from_slice(b"0,");
+        if self.wide.is_empty() && words.len() > AT_ONCE {
+            let pieces: Vec<Vec<u8>> = words
+                .par_chunks(AT_ONCE)
+                .map(|words| {
+                    let mut piece = Vec::new();
+                    push_tokens(words, &[], &mut piece);
+                    piece
+                })
+                .collect();
+            json.reserve(pieces.iter().map(Vec::len).sum::<usize>() + 1);
+            pieces
+                .iter()
+                .for_each(|piece| json.extend_from_slice(piece));
+        } else {
+            push_tokens(words, &self.wide, json);
         }
         if !words.is_empty() {
             json.pop();
@@ -81,13 +83,38 @@ impl Packed {
     }
 }
 
-/// Nearly all have one digit or two.
-fn push_number(json: &mut Vec<u8>, number: u32) {
-    let digit = |number: u32| b'0' + (number % 10) as u8;
-    match number {
-        0..10 => json.push(digit(number)),
-        10..100 => json.extend_from_slice(&[digit(number / 10), digit(number)]),
-        _ => json.extend_from_slice(number.to_string().as_bytes()),
+/// The numbers of some tokens, with a comma behind each; `wide` are those of the tokens that are wide.
+fn push_tokens(words: &[u64], wide: &[Fields], json: &mut Vec<u8>) {
+    json.reserve(words.len() * 10 + 1);
+    let mut wide = wide.iter();
+    for &word in words {
+        let mut rest = word;
+        let mut fields = [0; 4];
+        for (field, bits) in fields.iter_mut().zip(BITS).rev() {
+            *field = (rest & ((1 << bits) - 1)) as u32;
+            rest >>= bits;
+        }
+        if word == WIDE {
+            fields = wide.next().copied().unwrap_or(fields);
+        }
+        // Nearly all numbers have one digit or two.
+        if fields.iter().all(|field| *field < 100) {
+            let (mut token, mut length) = ([b','; 14], 0);
+            for field in fields {
+                if field >= 10 {
+                    token[length] = b'0' + (field / 10) as u8;
+                    length += 1;
+                }
+                token[length] = b'0' + (field % 10) as u8;
+                length += 2;
+            }
+            token[length] = b'0';
+            json.extend_from_slice(&token[..length + 2]);
+        } else {
+            let numbers = fields.map(|field| field.to_string());
+            json.extend_from_slice(numbers.join(",").as_bytes());
+            json.extend_from_slice(b",0,");
+        }
     }
 }
 
@@ -206,6 +233,17 @@ mod tests {
             let expected: Vec<u32> = tokens.iter().flat_map(|&[a, b, c, d]| [a, b, c, d, 0]).collect();
             prop_assert_eq!(written(&packed(&tokens), 0..tokens.len()), expected);
         }
+    }
+
+    #[test]
+    fn many_tokens_are_written_as_few_are() {
+        let numbers = |at: usize| [1, at as u32 % 13, at as u32 % 1_000, 2];
+        let tokens: Vec<Fields> = (0..2 * AT_ONCE + 3).map(numbers).collect();
+        let expected: Vec<u32> = tokens
+            .iter()
+            .flat_map(|&[a, b, c, d]| [a, b, c, d, 0])
+            .collect();
+        assert_eq!(written(&packed(&tokens), 0..tokens.len()), expected);
     }
 
     #[test]

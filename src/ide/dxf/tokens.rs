@@ -72,15 +72,16 @@ fn collect(
     let mut told = from;
     while let Some(tag) = lexer.next() {
         lexer.findings.clear();
-        let value = lines.trimmed(tag.value_line());
+        let code = lines.trimmed_range(tag.line);
+        let of_value = lines.trimmed_range(tag.value_line());
+        let value = lines.slice(of_value.clone());
         if tag.code == 0 {
             is_style = value == b"DIMSTYLE";
         }
-        for (line, kind) in [
-            (tag.line, code_kind(tag)),
-            (tag.value_line(), value_kind(tag, value, is_style)),
+        for (line, range, kind) in [
+            (tag.line, code, code_kind(tag)),
+            (tag.value_line(), of_value, value_kind(tag, value, is_style)),
         ] {
-            let range = lines.trimmed_range(line);
             if range.is_empty() || line < told {
                 continue;
             }
