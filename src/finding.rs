@@ -157,10 +157,11 @@ pub enum Detail {
     NearTangent {
         turn: f64,
     },
-    /// Segments cross, or only touch, at a point.
+    /// Segments cross, or only touch, at a point: the first of `count` along one of the two, where that meets many.
     SelfIntersection {
         at: Point,
         touches: bool,
+        count: usize,
     },
     /// `chords` lines in a row lie on one circle, within `deviation`.
     ArcAsChords {

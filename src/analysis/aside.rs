@@ -197,13 +197,13 @@ impl Analysis {
     fn contours_near(&self, drawing: &Drawing, area: &Bounds) -> Vec<ContourKey> {
         let mut near = Vec::new();
         // A contour of one run lies where its run does.
-        self.pairs.grid.near(area, |(key, _)| {
+        self.pairs.grid.near(area, |(key, _), _| {
             if !self.lone.contains_key(&key) {
                 near.push(key);
             }
         });
         if let Some(vicinity) = &self.vicinity {
-            vicinity.near(area, |key| near.push(key));
+            vicinity.near(area, |key, _| near.push(key));
         }
         near.sort_unstable();
         near.dedup();
@@ -331,7 +331,7 @@ impl Analysis {
             Some(vicinity) => {
                 let mut near = Vec::new();
                 for bounds in changed {
-                    vicinity.near(bounds, |key| near.push(key));
+                    vicinity.near(bounds, |key, _| near.push(key));
                 }
                 near.retain(|key| self.lone.contains_key(key));
                 near

@@ -36,6 +36,13 @@ pub(crate) struct Observed {
     pub(crate) ended: Option<Option<([usize; 2], Left)>>,
 }
 
+impl Observed {
+    /// True for what is told pair by pair.
+    pub(super) fn is_told(&self) -> bool {
+        PAIR_RULES[self.rule].pair_by_pair
+    }
+}
+
 /// The cost of the rules for two segments that come near each other, in looks.
 pub(crate) const LOOKS_OF_A_PAIR: u64 = 16;
 
@@ -107,7 +114,7 @@ pub(crate) struct Walls<'a> {
 }
 
 impl<'a> Walls<'a> {
-    fn of(outlook: &Outlook<'a>, run: u32) -> Walls<'a> {
+    pub(crate) fn of(outlook: &Outlook<'a>, run: u32) -> Walls<'a> {
         let range = outlook.index.range_of(run as usize);
         let first = range.start;
         let segments = outlook
@@ -122,7 +129,9 @@ impl<'a> Walls<'a> {
             let wall = Wall::behind(before, outlook, first + along, segment);
             (wall, segment.geometry.bounds())
         };
-        let each: Vec<(Wall, Bounds)> = segments.map(wall).collect();
+        let mut each: Vec<(Wall, Bounds)> =
+            Vec::with_capacity(outlook.index.range_of(run as usize).len());
+        each.extend(segments.map(wall));
         let mut all = Bounds::EMPTY;
         let groups = each.chunks(GROUP).map(|group| {
             let mut bounds = Bounds::EMPTY;

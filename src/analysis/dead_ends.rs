@@ -1,110 +1,119 @@
 //! What the wire leaves beyond its dead ends: `lost-pocket`.
 
 use super::Analysis;
+use super::ends::{EndsOf, Runs};
 use super::pair_findings::FacingWalls;
 use super::pairs::Pairs;
 use super::report::Report;
-use super::told::{DeadEnds, Farthest, LeftBetween};
 use crate::drawing::{ContourKey, Drawing, RUN};
 use crate::finding::{Detail, Rule, Severity, Side};
 use crate::rules::arc_as_chords::REACH;
 use crate::rules::dead_end::{DeadEnd, holds};
-use crate::rules::{NEIGHBOURS, Outlook, Wall};
+use crate::rules::{NEIGHBOURS, Outlook, PAIR_RULES, Wall};
 use rustc_hash::FxHashMap;
-use std::ops::Range;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
+/// What a dead end hangs on lies within so many runs of its walls, or counts as all of the contour.
+const FEW: usize = 8;
+
+/// Of a contour, what must be looked at again.
+enum Asked {
+    All,
+    /// What hangs on these runs.
+    About(BTreeSet<u32>),
+}
+
 impl Analysis {
-    /// The dead ends of all contours on the sides that the wire may run on. Where two walls are `narrow-slot`, that says it; and a contour
-    /// that crosses itself has no sides.
-    pub(super) fn dead_ends(
+    /// Brings the dead ends of all contours, on the sides that the wire may run on, up to what has been seen. Where two walls are
+    /// `narrow-slot`, that says it.
+    pub(super) fn find_dead_ends(
         &self,
         drawing: &Drawing,
         pairs: &mut Pairs,
         side_of: &dyn Fn(ContourKey) -> Option<Side>,
-    ) -> Arc<DeadEnds> {
-        let forgotten = std::mem::take(&mut pairs.forgotten);
-        let known = pairs.made.ends.take();
+    ) {
+        let changed = std::mem::take(&mut pairs.changed);
+        let known = pairs.ends.take();
         if self.settings.severity(Rule::LostPocket).is_none() || !pairs.seen.has(Rule::LostPocket) {
-            return Arc::default();
-        }
-        let holds = |known: &Arc<DeadEnds>| {
-            let mut sides = known.sides.iter();
-            sides.all(|(&key, &side)| side_of(key) == side)
-                && !forgotten.iter().any(|run| known.hang_on(run))
-        };
-        let ends = known.filter(holds);
-        let ends = ends.unwrap_or_else(|| Arc::new(self.dead_ends_anew(drawing, pairs, side_of)));
-        pairs.made.ends = Some(ends.clone());
-        ends
-    }
-
-    fn dead_ends_anew(
-        &self,
-        drawing: &Drawing,
-        pairs: &mut Pairs,
-        side_of: &dyn Fn(ContourKey) -> Option<Side>,
-    ) -> DeadEnds {
-        let mut ends = DeadEnds::default();
-        let mut left = FxHashMap::default();
-        let crossed = pairs.contours_with(Rule::SelfIntersection);
-        let slots = pairs.slots();
-        for each in pairs.dead_ends() {
-            let (key, one, other) = (each.one.0, each.one.1, each.other.1);
-            let wire = *ends.sides.entry(key).or_insert_with(|| side_of(key));
-            let (Some(side), Some((center, _)), Some(outlook)) =
-                (each.sides.0, each.disc, self.outlook(drawing, key))
-            else {
-                continue;
-            };
-            if crossed.contains(&key) || wire.is_some_and(|known| known != side) {
-                continue;
-            }
-            let count = outlook.contour.len();
-            let ended = each.ended.unwrap_or_else(|| {
-                let walls = Wall::new(&outlook, one).zip(Wall::new(&outlook, other));
-                let end =
-                    walls.and_then(|(one, other)| DeadEnd::between(&one, &other, side, center));
-                let ended = end.and_then(|end| Some((end.walls(), end.left(&outlook)?)));
-                let is_forward = end.is_none_or(|end| end.walls().is_sorted());
-                each.ended = (is_forward && hangs_on_runs(one, other, count)).then_some(ended);
-                if each.ended.is_none() {
-                    match runs_about(one, other, count).filter(|_| is_forward) {
-                        Some(runs) => ends.runs.extend(runs.map(|run| (key, run as u32))),
-                        None => _ = ends.contours.insert(key),
-                    }
-                }
-                ended
-            });
-            let Some((walls, beyond)) = ended else {
-                continue;
-            };
-            let is_told = |of: &[FacingWalls]| {
-                of.iter().any(|(facing, of_side)| {
-                    of_side.is_none_or(|of_side| of_side == side) && holds(walls, count, *facing)
-                })
-            };
-            if slots.get(&key).is_none_or(|of| !is_told(of)) {
-                enter(&mut left, &outlook, (key, walls, beyond), side);
-            }
-        }
-        ends.left = left.into_iter().collect();
-        ends.left.sort_unstable_by_key(|(place, _)| *place);
-        ends
-    }
-
-    /// Adds a finding for each place that the wire does not reach.
-    pub(super) fn report_dead_ends(&self, drawing: &Drawing, ends: &DeadEnds, report: &mut Report) {
-        // Where the contour is the wire's own path, it is followed.
-        let mildest = report.is_for_a_path().then_some(Severity::Warning);
-        report.count(Rule::LostPocket, mildest, ends.left.len());
-        if report.is_full(Rule::LostPocket, mildest) {
             return;
         }
+        let mut asked: FxHashMap<ContourKey, Asked> = FxHashMap::default();
+        match &known {
+            Some(known) => {
+                for (key, run) in changed {
+                    let about = asked.entry(key).or_insert(Asked::About(BTreeSet::new()));
+                    if let Asked::About(runs) = about {
+                        runs.insert(run);
+                    }
+                }
+                let turned = known
+                    .of
+                    .iter()
+                    .filter(|(key, of)| of.side != side_of(**key));
+                asked.extend(turned.map(|(&key, _)| (key, Asked::All)));
+            }
+            None => {
+                let own = pairs
+                    .seen
+                    .with_ends()
+                    .filter(|(one, other)| one.0 == other.0);
+                asked.extend(own.map(|(one, _)| (one.0, Asked::All)));
+            }
+        }
+        let has_slots =
+            |key: ContourKey| pairs.seen.slots.contains_key(&key) && asked.contains_key(&key);
+        let slots = pairs.slots(has_slots).into_iter();
+        let slots: FxHashMap<ContourKey, Slots> =
+            slots.map(|(key, each)| (key, Slots::of(&each))).collect();
+        let mut ends = known.unwrap_or_default();
+        let mut of_all: FxHashMap<ContourKey, Vec<Runs>> = FxHashMap::default();
+        if asked.values().any(|asked| matches!(asked, Asked::All)) {
+            for (one, other) in pairs.seen.with_ends() {
+                of_all.entry(one.0).or_default().push([one.1, other.1]);
+            }
+        }
+        for (key, asked) in asked {
+            let (mut of, runs) = match asked {
+                Asked::All => (EndsOf::default(), of_all.remove(&key).unwrap_or_default()),
+                Asked::About(about) => {
+                    let mut of = ends
+                        .of
+                        .remove(&key)
+                        .map(Arc::unwrap_or_clone)
+                        .unwrap_or_default();
+                    let count = self.known.get(&key).map_or(0, |it| it.index.run_count());
+                    let runs = leave(pairs, key, &mut of, &about, count);
+                    (of, runs)
+                }
+            };
+            of.side = side_of(key);
+            if let Some(outlook) = self.outlook(drawing, key) {
+                let slots = slots.get(&key);
+                enter(pairs, (key, &outlook), (&mut of, slots), &runs);
+            }
+            if of.is_empty() {
+                ends.of.remove(&key);
+            } else {
+                ends.of.insert(key, Arc::new(of));
+            }
+        }
+        pairs.ends = Some(ends);
+    }
+
+    /// Adds a finding for each place that the wire does not reach. A contour that crosses itself has no sides.
+    pub(super) fn report_dead_ends(&self, drawing: &Drawing, report: &mut Report) {
+        let Some(ends) = &self.pairs.ends else {
+            return;
+        };
+        let has_sides = |key: ContourKey| !self.pairs.seen.crossings.contains_key(&key);
+        // Where the contour is the wire's own path, it is followed.
+        let mildest = report.is_for_a_path().then_some(Severity::Warning);
+        report.count(Rule::LostPocket, mildest, ends.count(has_sides));
         // Only the first are told, of however many.
         let most = report.room(Rule::LostPocket, mildest);
-        for (_, (key, walls, left)) in ends.left.iter().take(most) {
-            if let Some(outlook) = self.outlook(drawing, *key)
+        for (key, walls, left) in ends.first(most, has_sides) {
+            if let Some(outlook) = self.outlook(drawing, key)
                 && let Some(place) = outlook.place(left.index)
             {
                 let related = walls
@@ -127,6 +136,87 @@ impl Analysis {
     }
 }
 
+/// Takes out what hangs on some runs of a contour of `count` runs, or is far from any; returns the pairs of runs that
+/// must be looked at for it.
+fn leave(
+    pairs: &Pairs,
+    key: ContourKey,
+    of: &mut EndsOf,
+    changed: &BTreeSet<u32>,
+    count: usize,
+) -> Vec<Runs> {
+    const REACHED: u32 = FEW as u32;
+    let mut runs: BTreeSet<Runs> = of.far.iter().copied().collect();
+    let mut about = BTreeSet::new();
+    for &run in changed {
+        let (first, last) = (run.saturating_sub(REACHED), run.saturating_add(REACHED));
+        about.extend(first..=last);
+        // A closed contour goes on at its beginning.
+        let last_run = (count as u32).saturating_sub(1);
+        about.extend(
+            (last > last_run)
+                .then(|| 0..=last - last_run)
+                .into_iter()
+                .flatten(),
+        );
+        let before = (run < REACHED).then(|| (last_run + run).saturating_sub(REACHED)..=last_run);
+        about.extend(before.into_iter().flatten());
+    }
+    for &run in &about {
+        let others = pairs.partners_of((key, run)).filter(|other| other.0 == key);
+        runs.extend(others.map(|other| [run.min(other.1), run.max(other.1)]));
+        let from = of.seen_from(run.saturating_sub(REACHED), run);
+        runs.extend(from.filter(|runs| runs.contains(&run)));
+    }
+    runs.iter().for_each(|runs| of.remove(runs));
+    runs.into_iter().collect()
+}
+
+/// Adds what has been seen between these pairs of runs of a contour, but for what its slots tell.
+fn enter(
+    pairs: &mut Pairs,
+    (key, outlook): (ContourKey, &Outlook),
+    (of, slots): (&mut EndsOf, Option<&Slots>),
+    runs: &[Runs],
+) {
+    let count = outlook.contour.len();
+    let is_told = |walls, side| slots.is_some_and(|slots| slots.lie_between(walls, count, side));
+    for &runs in runs {
+        let [one, other] = runs.map(|run| (key, run));
+        for each in pairs.seen.ends_between(&(one, other)) {
+            if PAIR_RULES[each.rule].rule != Rule::LostPocket || each.blocked {
+                continue;
+            }
+            let (one, other) = (each.one.1, each.other.1);
+            let (Some(side), Some((center, _))) = (each.sides.0, each.disc) else {
+                continue;
+            };
+            if of.side.is_some_and(|known| known != side) {
+                continue;
+            }
+            let ended = each.ended.unwrap_or_else(|| {
+                let walls = Wall::new(outlook, one).zip(Wall::new(outlook, other));
+                let end =
+                    walls.and_then(|(one, other)| DeadEnd::between(&one, &other, side, center));
+                let ended = end.and_then(|end| Some((end.walls(), end.left(outlook)?)));
+                let is_forward = end.is_none_or(|end| end.walls().is_sorted());
+                each.ended = (is_forward && hangs_on_runs(one, other, count)).then_some(ended);
+                if each.ended.is_none() && !(is_forward && is_near(one, other, count)) {
+                    of.far.insert(runs);
+                }
+                ended
+            });
+            if let Some((walls, left)) = ended
+                && !is_told(walls, side)
+                && let Some((entity, segment)) = outlook.segment_id(left.index)
+            {
+                let place = (outlook.drawing.rank(entity), segment, side == Side::Left);
+                of.insert(runs, place, walls, left);
+            }
+        }
+    }
+}
+
 /// True where what a rule sees between two segments of a contour, and about them, lies in their runs: these are looked at anew, and what
 /// has been seen between them with them, where something in them changes, or [`NEIGHBOURS`] segments about them.
 fn hangs_on_runs(one: usize, other: usize, count: usize) -> bool {
@@ -139,34 +229,43 @@ fn hangs_on_runs(one: usize, other: usize, count: usize) -> bool {
         && (last + ABOUT) / RUN == last / RUN
 }
 
-/// The runs that hold two segments of a contour and those about them; `None` where these are many, or go round its end.
-fn runs_about(one: usize, other: usize, count: usize) -> Option<Range<usize>> {
-    const FEW: usize = 8;
-    let first = one.min(other).checked_sub(REACH)? / RUN;
+/// True where the runs that hold two segments of a contour and those about them are few, and do not go round its end.
+fn is_near(one: usize, other: usize, count: usize) -> bool {
     let last = one.max(other) + REACH;
-    let runs = first..last / RUN + 1;
-    (last < count && runs.len() <= FEW).then_some(runs)
+    let first = one.min(other).checked_sub(REACH);
+    first.is_some_and(|first| last < count && last / RUN - first / RUN < FEW)
 }
 
-/// Adds what is left, by its place.
-fn enter(
-    left_at: &mut FxHashMap<Farthest, LeftBetween>,
-    outlook: &Outlook,
-    new: LeftBetween,
-    side: Side,
-) {
-    let (_, _, left) = new;
-    let Some((entity, segment)) = outlook.segment_id(left.index) else {
-        return;
-    };
-    let place = (outlook.drawing.rank(entity), segment, side == Side::Left);
-    // One place is told once: of discs that touch the same walls within rounding the first.
-    let known = left_at.entry(place).or_insert(new);
-    let order = |(_, walls, left): &LeftBetween| (left.depth, *walls);
-    if order(&new)
-        .partial_cmp(&order(known))
-        .is_some_and(std::cmp::Ordering::is_lt)
-    {
-        *known = new;
+/// The slots between walls of one contour, for the wire on either side: the two walls, in the order of the first, and with each
+/// the least second wall of it and of all behind.
+struct Slots([Vec<([usize; 2], usize)>; 2]);
+
+impl Slots {
+    fn of(slots: &[FacingWalls]) -> Slots {
+        Slots([Side::Left, Side::Right].map(|on| {
+            let on_side = slots
+                .iter()
+                .filter(|(_, side)| side.is_none_or(|side| side == on));
+            let ordered = on_side.map(|([one, other], _)| [*one.min(other), *one.max(other)]);
+            let mut each: Vec<_> = ordered.map(|walls| (walls, walls[1])).collect();
+            each.sort_unstable();
+            let mut least = usize::MAX;
+            for (_, second) in each.iter_mut().rev() {
+                least = least.min(*second);
+                *second = least;
+            }
+            each
+        }))
+    }
+
+    /// True where one lies between two walls of a dead end.
+    fn lie_between(&self, walls: [usize; 2], count: usize, side: Side) -> bool {
+        let of = &self.0[usize::from(side == Side::Right)];
+        let [from, to] = walls;
+        if from > to {
+            return of.iter().any(|(slot, _)| holds(walls, count, *slot));
+        }
+        let first = of.partition_point(|(slot, _)| slot[0] < from);
+        of.get(first).is_some_and(|(_, least)| *least <= to)
     }
 }

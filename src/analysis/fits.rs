@@ -203,8 +203,8 @@ impl Analysis {
         report: &mut Report,
     ) {
         let is_cut_twice = both[0].0 == both[1].0;
-        let crossed = self.pairs.contours_with(Rule::SelfIntersection);
-        if both.iter().any(|(key, _)| crossed.contains(key)) {
+        let crossed = &self.pairs.seen.crossings;
+        if both.iter().any(|(key, _)| crossed.contains_key(key)) {
             return;
         }
         let Some(fitted) = self.fit_of(drawing, both) else {
@@ -231,12 +231,15 @@ impl Analysis {
             }
             let wide = self.wide(wanted, spot.clearance);
             let mut first: Option<usize> = None;
-            corners.near(&Bounds::of_disc(spot.at, spot.clearance.abs()), |index| {
-                let is_near = (pair.spots[index].at - spot.at).norm() <= wide;
-                if is_near && first.is_none_or(|first| index < first) {
-                    first = Some(index);
-                }
-            });
+            corners.near(
+                &Bounds::of_disc(spot.at, spot.clearance.abs()),
+                |index, _| {
+                    let is_near = (pair.spots[index].at - spot.at).norm() <= wide;
+                    if is_near && first.is_none_or(|first| index < first) {
+                        first = Some(index);
+                    }
+                },
+            );
             Some(pair.spots.get(first?)?.of.clone())
         };
         let is_binding = |spot: &&Spot| spot.clearance < -rounding;

@@ -91,7 +91,7 @@ impl Analysis {
         let side_of =
             |analysis: &Analysis, key: ContourKey| analysis.wire_side(key, role_of(analysis, key));
         let mut pairs = std::mem::take(&mut self.pairs);
-        let ends = self.dead_ends(drawing, &mut pairs, &|key| side_of(self, key));
+        self.find_dead_ends(drawing, &mut pairs, &|key| side_of(self, key));
         self.pairs = pairs;
         self.report_notable(drawing, nested.is_none(), &side_of, &mut report);
         self.report_size(drawing, &mut report);
@@ -104,7 +104,7 @@ impl Analysis {
         );
         self.pairs = pairs;
         self.report_fits(drawing, &mut report);
-        self.report_dead_ends(drawing, &ends, &mut report);
+        self.report_dead_ends(drawing, &mut report);
         self.report_set_aside(drawing, &mut report);
         if self.settings.side != SideSetting::Both || self.stated > 0 {
             let ordered = self.in_machining_order(drawing).to_vec();
@@ -190,6 +190,7 @@ impl Analysis {
         if what.has_tight_arcs && !is_middle {
             let arcs = self.small_radii(drawing, key, side);
             let says_the_fit = self.says_the_fit(drawing, key, side);
+            counted.says_the_fit = says_the_fit;
             let is_mild = |(_, numbers): &&(Place, SmallRadius)| is_mild(numbers, says_the_fit);
             let mild = arcs.iter().filter(is_mild).count();
             let counts = [(arcs.len() - mild, false), (mild, true)].into_iter();
@@ -316,11 +317,10 @@ impl Analysis {
         counted: &Counted,
         report: &mut Report,
     ) {
-        let says_the_fit = self.says_the_fit(drawing, key, counted.side);
         let known = counted.arcs.clone();
         let each = known.unwrap_or_else(|| self.small_radii(drawing, key, counted.side));
         for (place, numbers) in each.iter() {
-            let mildest = mildest(is_mild(numbers, says_the_fit));
+            let mildest = mildest(is_mild(numbers, counted.says_the_fit));
             if report.is_full(Rule::SmallRadius, mildest) {
                 continue;
             }

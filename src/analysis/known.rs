@@ -45,7 +45,7 @@ impl Known {
     }
 
     /// Runs every local rule on the segments of `changed` and as far about as it reaches; on all behind when the number
-    /// of segments has changed.
+    /// of segments has changed. `all` is the whole contour, where that is at hand.
     pub(crate) fn check(
         &mut self,
         drawing: &Drawing,
@@ -53,6 +53,7 @@ impl Known {
         limits: &Limits,
         settings: &Effective,
         changed: Range<usize>,
+        mut all: Option<AtHand>,
     ) {
         let outlook = Outlook {
             drawing,
@@ -110,13 +111,11 @@ impl Known {
         };
         for asked in asked.chunk_by(at_once) {
             let runs_at_hand = asked[0].0..asked[asked.len() - 1].0 + 1;
-            let at_hand = AtHand::of(
-                drawing,
-                contour,
-                limits,
-                (runs_at_hand.start * RUN).saturating_sub(ABOUT)
-                    ..(runs_at_hand.end * RUN + ABOUT).min(count),
-            );
+            let range = (runs_at_hand.start * RUN).saturating_sub(ABOUT)
+                ..(runs_at_hand.end * RUN + ABOUT).min(count);
+            let at_hand = all
+                .take()
+                .unwrap_or_else(|| AtHand::of(drawing, contour, limits, range));
             let outlook = Outlook {
                 at_hand: Some(&at_hand),
                 ..outlook

@@ -7,7 +7,7 @@ use super::notable::{Notability, Notable};
 use super::{Analysis, MANY};
 use crate::drawing::{ContourIndex, ContourKey, Drawing, EntityId, RUN, stated_role};
 use crate::fit;
-use crate::rules::{CONTOUR_RULES, NEIGHBOURS, Outlook, units};
+use crate::rules::{AtHand, CONTOUR_RULES, NEIGHBOURS, Outlook, units};
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
@@ -74,20 +74,23 @@ impl Analysis {
         let tight = self.limits.correction - self.limits.tolerances.report;
         let learned = each_of(keys, |key| {
             let contour = self.chains.get(key)?;
-            let index = ContourIndex::new(drawing, contour, tight);
+            // Most contours are short: their segments are worked out once.
+            let all = 0..contour.len();
+            let at_hand = (1..=RUN)
+                .contains(&all.len())
+                .then(|| AtHand::of(drawing, contour, &self.limits, all.clone()))
+                .filter(|at_hand| !at_hand.segments().is_empty());
+            let index = match &at_hand {
+                Some(at_hand) => ContourIndex::of_one_run(at_hand.segments(), tight),
+                None => ContourIndex::new(drawing, contour, tight),
+            };
             let stated = stated_role(contour, &|id| role_of(drawing, &self.settings, id));
             let mut known = Known::new(
                 index,
                 stated,
                 fit::workpiece_of(drawing, contour, &self.settings),
             );
-            known.check(
-                drawing,
-                contour,
-                &self.limits,
-                &self.settings,
-                0..contour.len(),
-            );
+            known.check(drawing, contour, &self.limits, &self.settings, all, at_hand);
             Some(Arc::new(known))
         });
         let mut runs = Vec::new();
@@ -235,6 +238,7 @@ impl Analysis {
                 &self.limits,
                 &self.settings,
                 range.clone(),
+                None,
             );
             self.answers
                 .retain(|(other, _), (_, region)| *other != key || !region.touches(&changed));

@@ -5,6 +5,7 @@ mod aside;
 mod compare;
 mod contours;
 mod dead_ends;
+mod ends;
 mod fit_fixes;
 mod fits;
 mod fixes;

@@ -38,6 +38,8 @@ pub(super) struct Notability {
 pub(super) struct Counted {
     pub(super) side: Option<Side>,
     pub(super) counts: Counts<Vec<(Kind, usize)>>,
+    /// Whether what its arcs leave says the fit.
+    pub(super) says_the_fit: bool,
     /// Each arc below the correction, where they are few.
     pub(super) arcs: Option<Arc<[(Place, SmallRadius)]>>,
 }

@@ -3,7 +3,7 @@
 use super::compare::{Observed, Outlooks, SegmentId};
 use super::pairs::Pairs;
 use super::report::Report;
-use super::told::{Doubles, Told, ToldPair, merged};
+use super::told::{Doubles, Told, ToldPair, gather_crossings, merged};
 use crate::drawing::{ContourKey, Drawing, EntityId};
 use crate::finding::{Detail, NotJudged, Place, Rule, Severity, Side};
 use crate::geometry::Point;
@@ -18,13 +18,6 @@ pub(crate) type Slot = ([usize; 2], Option<(Point, f64)>);
 pub(crate) type FacingWalls = ([usize; 2], Option<Side>);
 
 impl Pairs {
-    /// Contours that have something of `rule` between two of their own segments.
-    pub(crate) fn contours_with(&self, rule: Rule) -> FxHashSet<ContourKey> {
-        let own = |each: &&Observed| each.one.0 == each.other.0 && !each.blocked;
-        let own = self.seen.of(rule).filter(own);
-        own.map(|each| each.one.0).collect()
-    }
-
     /// What `narrow-slot` tells of one contour: the two segments, and the disc between them.
     pub(crate) fn slots_of(&self, key: ContourKey) -> Vec<Slot> {
         let own = |each: &&Observed| each.one.0 == key && each.other.0 == key && !each.blocked;
@@ -35,11 +28,18 @@ impl Pairs {
             .collect()
     }
 
-    /// The walls that `narrow-slot` has seen face each other in one contour, with their side of travel, by contour.
-    pub(crate) fn slots(&self) -> FxHashMap<ContourKey, Vec<FacingWalls>> {
+    /// The walls that `narrow-slot` has seen face each other in one contour, with their side of travel, by contour, of those
+    /// that are asked for.
+    pub(super) fn slots(
+        &self,
+        is_asked: impl Fn(ContourKey) -> bool,
+    ) -> FxHashMap<ContourKey, Vec<FacingWalls>> {
         let mut slots: FxHashMap<ContourKey, Vec<FacingWalls>> = FxHashMap::default();
+        if !self.seen.slots.keys().any(|&key| is_asked(key)) {
+            return slots;
+        }
         for each in self.seen.of(Rule::NarrowSlot) {
-            if each.one.0 == each.other.0 && !each.blocked {
+            if each.one.0 == each.other.0 && !each.blocked && is_asked(each.one.0) {
                 slots
                     .entry(each.one.0)
                     .or_default()
@@ -47,12 +47,6 @@ impl Pairs {
             }
         }
         slots
-    }
-
-    /// What `lost-pocket` has seen between two segments of one contour, in no order.
-    pub(crate) fn dead_ends(&mut self) -> impl Iterator<Item = &mut Observed> {
-        let of_rule = self.seen.of_mut(Rule::LostPocket);
-        of_rule.filter(|each| !each.blocked)
     }
 
     /// Entities that lie in the same place as another.
@@ -87,9 +81,9 @@ impl Pairs {
         wire_side: &dyn Fn(ContourKey) -> Option<Side>,
         report: &mut Report,
     ) {
-        let told = match self.made.told.take().filter(|told| told.holds(wire_side)) {
+        let told = match self.told.take().filter(|told| told.holds(wire_side)) {
             Some(told) => told,
-            None => Arc::new(self.told(drawing, outlook, wire_side, report)),
+            None => Arc::new(self.tell(drawing, outlook, wire_side, report)),
         };
         if !self.uncompared.is_empty()
             && report.counts(Rule::NotJudged, None)
@@ -131,25 +125,33 @@ impl Pairs {
                     Wall::new(&own, each.one.1),
                     Wall::new(&theirs, each.other.1),
                 )
-                && let (Some(place), Some(related)) =
+                && let (Some(mut place), Some(other_place)) =
                     (own.place(each.one.1), theirs.place(each.other.1))
-                && let Some(detail) = match &each.others {
+                && let Some(mut detail) = match &each.others {
                     Some(doubles) => Some(doubles.detail()),
                     None => (rule.detail)(&one, &other, each.one.0 == each.other.0),
                 }
             {
-                let related = match &each.others {
-                    Some(doubles) => doubles.places.clone(),
-                    None => vec![related],
-                };
+                let mut related = vec![other_place];
+                if let Some(doubles) = &each.others {
+                    related.clone_from(&doubles.places);
+                }
+                if let Some(crossings) = &each.crossings {
+                    let place_of = |&(key, index): &SegmentId| outlook(key)?.place(index);
+                    place = place_of(&crossings.of).unwrap_or(place);
+                    related = crossings.others.iter().filter_map(place_of).collect();
+                    if let Detail::SelfIntersection { count, .. } = &mut detail {
+                        *count = crossings.count;
+                    }
+                }
                 report.add(rule.rule, mildest, place, detail, related);
             }
         }
-        self.made.told = Some(told);
+        self.told = Some(told);
     }
 
     /// What there is to tell of all that has been seen.
-    fn told(
+    fn tell(
         &self,
         drawing: &Drawing,
         outlook: Outlooks,
@@ -162,7 +164,7 @@ impl Pairs {
             uncompared: self.first_uncompared(drawing, outlook),
             ..Told::default()
         };
-        let keys = self.seen.all();
+        let keys = self.seen.told();
         for key in keys.flat_map(|each| [each.one.0, each.other.0]) {
             told.sides.entry(key).or_insert_with(|| wire_side(key));
         }
@@ -175,10 +177,9 @@ impl Pairs {
             outlook(key).is_some_and(|it| report.settings.goes_along_middle(it.contour.closed))
         };
         let mut seen: Vec<(usize, Ends, &Observed)> = Vec::new();
-        for each in self.seen.all() {
+        for each in self.seen.told() {
             let ends = |(key, index): SegmentId| outlook(key)?.segment_id(index);
             if !each.blocked
-                && PAIR_RULES[each.rule].pair_by_pair
                 && !(PAIR_RULES[each.rule].rule == Rule::NarrowSlot
                     && (is_middle(each.one.0) || is_middle(each.other.0)))
                 && concerned(each.one.0, each.sides.0)
@@ -270,7 +271,6 @@ impl Pairs {
                 *told.absorbed.entry((*number, mildest)).or_default() += 1;
                 continue;
             }
-            *told.counts.entry((*number, mildest)).or_default() += 1;
             told.pairs.push(ToldPair {
                 rule: *number,
                 mildest,
@@ -278,7 +278,14 @@ impl Pairs {
                 one: each.one,
                 other: each.other,
                 others,
+                crossings: None,
             });
+        }
+        for kind in gather_crossings(&mut told.pairs) {
+            *told.absorbed.entry(kind).or_default() += 1;
+        }
+        for pair in &told.pairs {
+            *told.counts.entry((pair.rule, pair.mildest)).or_default() += 1;
         }
         for pair in &mut told.pairs {
             pair.kind = told.counts.range(..(pair.rule, pair.mildest)).count();

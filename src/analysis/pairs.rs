@@ -1,9 +1,10 @@
 //! The observations of the rules on pairs of segments, by the runs of the two segments.
 
 use super::compare::{Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId};
+use super::ends::DeadEnds;
 use super::search::{BOXES_OF_A_LOOK, Looked, Search};
 use super::seen::Seen;
-use super::told::Made;
+use super::told::Told;
 use crate::drawing::{ContourIndex, ContourKey};
 use crate::finding::Rule;
 use crate::geometry::{Bounds, Grid, Point};
@@ -11,6 +12,7 @@ use crate::rules::{Limits, PAIR_RULES, PairRule};
 use crate::settings::{Budget, Effective};
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
 
 /// Runs that are compared in parallel: results beyond the bounds are dropped.
@@ -43,10 +45,11 @@ pub(crate) struct Pairs {
     /// whether something has changed that the compared ones may see.
     untold: FxHashSet<RunId>,
     is_disturbed: bool,
-    /// What was made of all observations, while these stay.
-    pub(super) made: Made,
-    /// Runs that were forgotten since.
-    pub(super) forgotten: FxHashSet<RunId>,
+    /// What is told of the observed pairs, while these stay.
+    pub(super) told: Option<Arc<Told>>,
+    /// The dead ends, and the runs about which something has come or gone since these were found.
+    pub(super) ends: Option<DeadEnds>,
+    pub(super) changed: FxHashSet<RunId>,
     /// There are workpieces, which do not meet.
     are_parts: bool,
 }
@@ -83,7 +86,7 @@ impl Pairs {
 
     /// Segments have other numbers, or entities another order.
     pub(crate) fn renumber(&mut self) {
-        self.made = Made::default();
+        (self.told, self.ends) = (None, None);
     }
 
     /// Everything has been compared, in the order of the drawing.
@@ -137,9 +140,7 @@ impl Pairs {
     /// Forgets a run with its box at the last comparison.
     pub(crate) fn forget_run(&mut self, run: RunId, bounds: &Bounds) {
         self.grid.remove(run, bounds);
-        if self.made.ends.is_some() {
-            self.forgotten.insert(run);
-        }
+        self.disturb_ends(run);
         if self.is_left_out(&run) {
             self.untold.insert(run);
         } else {
@@ -148,9 +149,11 @@ impl Pairs {
         self.uncompared.remove(&run);
         self.disturb(bounds);
         for partner in self.partners.remove(&run).unwrap_or_default() {
-            self.made = Made::default();
-            let gone = self.seen.remove(&ordered(run, partner));
-            self.seen_count -= gone.map_or(0, |gone| gone.len());
+            let gone = self.seen.remove(&ordered(run, partner)).unwrap_or_default();
+            self.seen_count -= gone.len();
+            if gone.iter().any(Observed::is_told) {
+                self.told = None;
+            }
             if let Some(of_partner) = self.partners.get_mut(&partner) {
                 of_partner.retain(|other| *other != run);
             }
@@ -169,11 +172,8 @@ impl Pairs {
 
     /// Whether runs of other contours come near these bounds of one.
     pub(crate) fn comes_near_others(&self, key: ContourKey, bounds: &Bounds) -> bool {
-        let mut others = false;
-        self.grid.near(&bounds.grown(self.reach), |(other, _)| {
-            others |= other != key
-        });
-        others
+        let area = bounds.grown(self.reach);
+        self.grid.any_near(&area, |(other, _)| other != key)
     }
 
     /// Something has come or gone within these bounds.
@@ -184,7 +184,7 @@ impl Pairs {
         let (partners, stale) = (&self.partners, &mut self.stale);
         let (uncompared, untold) = (&self.uncompared, &self.untold);
         let mut is_seen = false;
-        self.grid.near(&bounds.grown(self.reach), |run| {
+        self.grid.near(&bounds.grown(self.reach), |run, _| {
             if partners.contains_key(&run) {
                 stale.insert(run);
                 is_seen = true;
@@ -192,6 +192,18 @@ impl Pairs {
             is_seen |= !uncompared.contains(&run) && !untold.contains(&run);
         });
         self.is_disturbed |= is_seen;
+    }
+
+    /// Dead ends that hang on a run must be looked at again.
+    fn disturb_ends(&mut self, run: RunId) {
+        if self.ends.is_some() {
+            self.changed.insert(run);
+        }
+    }
+
+    /// Runs with observations in common with this one.
+    pub(super) fn partners_of(&self, run: RunId) -> impl Iterator<Item = RunId> {
+        self.partners.get(&run).into_iter().flatten().copied()
     }
 
     /// Compares new runs with each other and with all that come near them.
@@ -229,6 +241,7 @@ impl Pairs {
         let is_known = |run| self.untold.contains(run);
         self.is_disturbed |= !runs.iter().all(is_known);
         for run in runs {
+            self.disturb_ends(*run);
             self.untold.remove(run);
         }
         // Their order is that of the contours, whatever their keys.
@@ -298,7 +311,9 @@ impl Pairs {
             if found.iter().any(|seen| seen.disc.is_some()) {
                 self.stale.insert(run);
             }
-            self.made = Made::default();
+            if found.iter().any(Observed::is_told) {
+                self.told = None;
+            }
             self.seen.insert(ordered(run, other), found);
             self.partners.entry(run).or_default().push(other);
             if other != run {
@@ -306,7 +321,7 @@ impl Pairs {
             }
         }
         if self.is_disturbed && !self.uncompared.is_empty() {
-            self.made = Made::default();
+            self.told = None;
         }
         self.ask_again(&mut kept, limits);
     }
@@ -359,7 +374,8 @@ impl Pairs {
                         )
                 });
                 if each.blocked != was_blocked {
-                    self.made = Made::default();
+                    self.told = None;
+                    self.disturb_ends(pair.0);
                 }
             }
             if left == 0 && seen.iter().any(|each| each.disc.is_some()) {
@@ -382,7 +398,7 @@ impl Pairs {
         let radius = radius - (1e-6 * radius).max(limits.tolerances.clearance);
         let area = Bounds::of_disc(center, radius);
         let mut near = Vec::new();
-        let looked = self.grid.near(&area, |run| {
+        let looked = self.grid.near(&area, |run, _| {
             if run.0 == of || !is_own {
                 near.push(run);
             }

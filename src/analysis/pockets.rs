@@ -27,15 +27,14 @@ impl Analysis {
             return;
         }
         // Without the rules that find them, a neck is assumed, and a crossing is not.
-        let necks = is_on(Rule::NarrowSlot).then(|| self.pairs.contours_with(Rule::NarrowSlot));
-        let crossed = self.pairs.contours_with(Rule::SelfIntersection);
+        let necks_are_told = is_on(Rule::NarrowSlot);
         for (&key, &side) in ordered.iter().zip(sides) {
-            let Some(side) = side.filter(|_| !crossed.contains(&key)) else {
+            let Some(side) = side.filter(|_| !self.pairs.seen.crossings.contains_key(&key)) else {
                 continue;
             };
             let asked = (
                 side,
-                necks.as_ref().is_none_or(|necks| necks.contains(&key)),
+                !necks_are_told || self.pairs.seen.slots.contains_key(&key),
             );
             if self
                 .lost
@@ -73,7 +72,7 @@ impl Analysis {
                 continue;
             };
             let misfit = misfit.iter().flatten().next();
-            let slots = if lost.is_empty() && misfit.is_none() || necks.is_none() {
+            let slots = if lost.is_empty() && misfit.is_none() || !necks_are_told {
                 Vec::new()
             } else {
                 self.pairs.slots_of(key)

@@ -1,8 +1,9 @@
 //! The search for what comes near a run, and the comparison with each of it. Knows nothing of what was found before.
 
-use super::compare::{Comparison, Kept, LOOKS_OF_A_PAIR, Observed, RunId, passes};
-use crate::geometry::{Bounds, Grid};
+use super::compare::{Comparison, Kept, LOOKS_OF_A_PAIR, Observed, RunId, Walls, passes};
+use crate::geometry::Grid;
 use rustc_hash::FxHashMap;
+use std::rc::Rc;
 
 /// One look of the budget: the comparison of two segments, or of this many boxes of the grid.
 pub(super) const BOXES_OF_A_LOOK: u64 = 4;
@@ -46,29 +47,32 @@ impl Search<'_> {
         };
         let area = own.index.bounds_of_run(run.1 as usize).grown(self.reach);
         let mut near = Vec::new();
-        let boxes = self.grid.near(&area, |other| {
+        let boxes = self.grid.near(&area, |other, bounds| {
             // Two new runs are compared once.
             if self.new.get(&other).is_none_or(|&its| at <= its) {
-                near.push(other);
+                near.push((other, *bounds));
             }
         });
         looked.before = boxes / BOXES_OF_A_LOOK;
         if self.are_parts {
-            near.retain(|other| (kept.outlook)(other.0).is_some_and(|it| it.part == own.part));
+            near.retain(|(other, _)| (kept.outlook)(other.0).is_some_and(|it| it.part == own.part));
         }
-        let Some(walls) = kept.walls_of(run).filter(|_| !near.is_empty()) else {
-            return looked;
+        let walls = match near.as_slice() {
+            [] => return looked,
+            // What nothing else comes near is not needed again.
+            [(alone, _)] if *alone == run => Rc::new(Walls::of(&own, run.1)),
+            _ => match kept.walls_of(run) {
+                Some(walls) => walls,
+                None => return looked,
+            },
         };
         // A long line may have a box that holds half the drawing, and come near little of it.
-        near.retain(|&other| {
+        near.retain(|(other, theirs)| {
             looked.before += LOOKS_OF_A_PAIR + walls.each.len() as u64;
-            let theirs = (kept.outlook)(other.0).map_or(Bounds::EMPTY, |theirs| {
-                theirs.index.bounds_of_run(other.1 as usize)
-            });
-            other == run
+            *other == run
                 || walls.each.iter().any(|(wall, bounds)| {
-                    bounds.grown(self.reach).touches(&theirs)
-                        && passes(wall.geometry(), &theirs, self.reach)
+                    bounds.grown(self.reach).touches(theirs)
+                        && passes(wall.geometry(), theirs, self.reach)
                 })
         });
         let comparison = |other: RunId| Comparison {
@@ -77,13 +81,14 @@ impl Search<'_> {
             keys: (run.0, other.0),
         };
         let mut looks = looked.before;
-        for other in near {
+        for (other, _) in near {
             if looks >= most {
                 looked.is_cut_short = true;
                 break;
             }
             let mut found = Vec::new();
-            let own = match kept.walls_of(other).filter(|_| other != run) {
+            let theirs = (other != run).then(|| kept.walls_of(other)).flatten();
+            let own = match theirs {
                 Some(theirs) => comparison(other).between(&walls, &theirs, &mut found),
                 None => comparison(other).within(&walls, &mut found),
             };

@@ -1,49 +1,100 @@
 //! What has been observed between segments, by their two runs, and how much of each rule there is.
 
 use super::compare::{Observed, RunId};
+use crate::drawing::ContourKey;
 use crate::finding::Rule;
 use crate::rules::PAIR_RULES;
 use rustc_hash::FxHashMap;
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Seen {
+    /// What is told pair by pair.
     between: FxHashMap<(RunId, RunId), Vec<Observed>>,
+    /// What is told by its place, of which there may be more than of all else.
+    ends: FxHashMap<(RunId, RunId), Vec<Observed>>,
     /// How many there are of each of the rules.
     counts: [usize; PAIR_RULES.len()],
+    /// How many crossings of its own a contour has, and how many slots that nothing reaches into, where there are any.
+    pub(super) crossings: FxHashMap<ContourKey, usize>,
+    pub(super) slots: FxHashMap<ContourKey, usize>,
 }
 
 impl Seen {
     pub(super) fn insert(&mut self, pair: (RunId, RunId), found: Vec<Observed>) {
         self.remove(&pair);
-        found.iter().for_each(|each| self.counts[each.rule] += 1);
-        self.between.insert(pair, found);
+        for each in &found {
+            self.counts[each.rule] += 1;
+            if let Some(of) = self.own_of(each) {
+                *of.entry(each.one.0).or_default() += 1;
+            }
+        }
+        let (told, ends) = match found.iter().all(Observed::is_told) {
+            true => (found, Vec::new()),
+            false => found.into_iter().partition(Observed::is_told),
+        };
+        if !told.is_empty() {
+            self.between.insert(pair, told);
+        }
+        if !ends.is_empty() {
+            self.ends.insert(pair, ends);
+        }
     }
 
     pub(super) fn remove(&mut self, pair: &(RunId, RunId)) -> Option<Vec<Observed>> {
-        let gone = self.between.remove(pair)?;
-        gone.iter().for_each(|each| self.counts[each.rule] -= 1);
+        let gone = match (self.between.remove(pair), self.ends.remove(pair)) {
+            (Some(told), Some(ends)) => [told, ends].concat(),
+            (told, ends) => told.or(ends)?,
+        };
+        for each in &gone {
+            self.counts[each.rule] -= 1;
+            if let Some(of) = self.own_of(each)
+                && let Some(count) = of.get_mut(&each.one.0)
+            {
+                *count -= 1;
+                if *count == 0 {
+                    of.remove(&each.one.0);
+                }
+            }
+        }
         Some(gone)
+    }
+
+    fn own_of(&mut self, each: &Observed) -> Option<&mut FxHashMap<ContourKey, usize>> {
+        if each.one.0 != each.other.0 || each.blocked {
+            return None;
+        }
+        match PAIR_RULES[each.rule].rule {
+            Rule::SelfIntersection => Some(&mut self.crossings),
+            Rule::NarrowSlot => Some(&mut self.slots),
+            _ => None,
+        }
     }
 
     /// All observations, in no order.
     pub(super) fn all(&self) -> impl Iterator<Item = &Observed> {
+        self.told().chain(self.ends.values().flatten())
+    }
+
+    /// Those that are told pair by pair, in no order.
+    pub(super) fn told(&self) -> impl Iterator<Item = &Observed> {
         self.between.values().flatten()
     }
 
-    /// Those of one rule; where there are none, without a look at the others.
+    /// Those of one rule that is told pair by pair; where there are none, without a look at the others.
     pub(super) fn of(&self, rule: Rule) -> impl Iterator<Item = &Observed> {
         let of_rule = move |each: &&Observed| PAIR_RULES[each.rule].rule == rule;
         let between = self.has(rule).then(|| self.between.values().flatten());
         between.into_iter().flatten().filter(of_rule)
     }
 
-    pub(super) fn of_mut(&mut self, rule: Rule) -> impl Iterator<Item = &mut Observed> {
-        let of_rule = move |each: &&mut Observed| PAIR_RULES[each.rule].rule == rule;
-        let between = match self.has(rule) {
-            true => Some(self.between.values_mut().flatten()),
-            false => None,
-        };
-        between.into_iter().flatten().filter(of_rule)
+    /// The pairs of runs with dead ends.
+    pub(super) fn with_ends(&self) -> impl Iterator<Item = &(RunId, RunId)> {
+        self.ends.keys()
+    }
+
+    /// The dead ends between two runs.
+    pub(super) fn ends_between(&mut self, pair: &(RunId, RunId)) -> &mut [Observed] {
+        self.ends.get_mut(pair).map_or(&mut [], Vec::as_mut_slice)
     }
 
     pub(super) fn has(&self, rule: Rule) -> bool {

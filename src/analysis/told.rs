@@ -1,20 +1,11 @@
 //! The findings from observations between segments.
 
-use super::compare::{Observed, RunId, SegmentId};
+use super::compare::{Observed, SegmentId};
 use crate::drawing::{ContourKey, EntityId};
-use crate::finding::{Detail, Place, Severity, Side};
+use crate::finding::{Detail, Place, Rule, Severity, Side};
 use crate::rules::PAIR_RULES;
-use crate::rules::dead_end::Left;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
-use std::sync::Arc;
-
-/// What was made of the observations.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Made {
-    pub(super) told: Option<Arc<Told>>,
-    pub(super) ends: Option<Arc<DeadEnds>>,
-}
 
 /// The findings of the observed pairs, while none comes or goes and the wire stays on its sides.
 #[derive(Debug, Default)]
@@ -42,30 +33,77 @@ pub(super) struct ToldPair {
     pub(super) other: SegmentId,
     /// The duplicates in a contour.
     pub(super) others: Option<Doubles>,
+    pub(super) crossings: Option<Crossings>,
 }
 
-/// The contour, the two walls that the wire comes to, and what it leaves.
-pub(super) type LeftBetween = (ContourKey, [usize; 2], Left);
-
-/// Rank of an entity, its segment, and whether the wire runs on the left of it.
-pub(super) type Farthest = (u64, usize, bool);
-
-/// What is left beyond the dead ends of all contours, while the wire stays on its sides and what they hang on stays.
-#[derive(Debug, Default)]
-pub(super) struct DeadEnds {
-    /// In the order of the entity and the segment that the wire stays farthest from.
-    pub(super) left: Vec<(Farthest, LeftBetween)>,
-    /// The side of the wire at each of the contours.
-    pub(super) sides: FxHashMap<ContourKey, Option<Side>>,
-    /// The runs, and the contours as a whole, that they hang on beside those with the two walls.
-    pub(super) runs: FxHashSet<RunId>,
-    pub(super) contours: FxHashSet<ContourKey>,
+/// What a segment meets that crosses or touches many others: it is told once, at that segment.
+#[derive(Debug)]
+pub(super) struct Crossings {
+    pub(super) of: SegmentId,
+    pub(super) count: usize,
+    /// The first of the others.
+    pub(super) others: Vec<SegmentId>,
 }
 
-impl DeadEnds {
-    pub(super) fn hang_on(&self, run: &RunId) -> bool {
-        self.runs.contains(run) || self.contours.contains(&run.0)
+/// A segment that crosses or touches more others than this is told once for all of them.
+const MANY: usize = 16;
+
+/// So many of those are named.
+const NAMED: usize = 8;
+
+/// Tells the crossings of each segment that has many as one: the first stays. Returns the rule and severity of those that
+/// it stands for.
+pub(super) fn gather_crossings(pairs: &mut Vec<ToldPair>) -> Vec<(usize, Option<Severity>)> {
+    let is_crossing = |pair: &&ToldPair| PAIR_RULES[pair.rule].rule == Rule::SelfIntersection;
+    let mut counts: FxHashMap<(SegmentId, Option<Severity>), usize> = FxHashMap::default();
+    for pair in pairs.iter().filter(is_crossing) {
+        for of in [pair.one, pair.other] {
+            *counts.entry((of, pair.mildest)).or_default() += 1;
+        }
     }
+    counts.retain(|_, count| *count > MANY);
+    if counts.is_empty() {
+        return Vec::new();
+    }
+    // Where two such segments meet, the one with more stands for it.
+    let of = |pair: &ToldPair| {
+        let count = |of: SegmentId| counts.get(&(of, pair.mildest)).copied();
+        let (one, other) = (count(pair.one), count(pair.other));
+        let longer = if one >= other { pair.one } else { pair.other };
+        one.or(other).map(|_| (longer, pair.mildest))
+    };
+    let mut own: FxHashMap<(SegmentId, Option<Severity>), Crossings> = FxHashMap::default();
+    for pair in pairs.iter().filter(is_crossing) {
+        let Some(key) = of(pair) else { continue };
+        let crossings = own.entry(key).or_insert_with(|| Crossings {
+            of: key.0,
+            count: 0,
+            others: Vec::new(),
+        });
+        crossings.count += 1;
+        if crossings.others.len() < NAMED {
+            let is_one = pair.one == key.0;
+            crossings
+                .others
+                .push(if is_one { pair.other } else { pair.one });
+        }
+    }
+    let few: FxHashSet<(SegmentId, Option<Severity>)> = own
+        .iter()
+        .filter(|(_, crossings)| crossings.count <= MANY)
+        .map(|(&key, _)| key)
+        .collect();
+    let mut gone = Vec::new();
+    pairs.retain_mut(|pair| {
+        let key = of(pair).filter(|key| is_crossing(&&*pair) && !few.contains(key));
+        let Some(key) = key else { return true };
+        pair.crossings = own.remove(&key);
+        if pair.crossings.is_none() {
+            gone.push((pair.rule, pair.mildest));
+        }
+        pair.crossings.is_some()
+    });
+    gone
 }
 
 /// Entities of one contour that are duplicated.

@@ -333,7 +333,7 @@ impl Rounds {
         let farthest = all.map(f64::abs).fold(0.0, f64::max) + reach;
         let mut found = Vec::new();
         self.index
-            .near(&Bounds::of_disc(point, farthest), |(round, piece)| {
+            .near(&Bounds::of_disc(point, farthest), |(round, piece), _| {
                 let (round, piece) = (round as usize, piece as usize);
                 let segment = &self.rounds[round].pieces[piece].segment;
                 let share = segment.share_of(point);
@@ -361,7 +361,7 @@ impl Rounds {
     pub fn near(&self, point: Point, reach: f64) -> Vec<Spot> {
         let mut found = Vec::new();
         self.index
-            .near(&Bounds::of_disc(point, reach), |(round, piece)| {
+            .near(&Bounds::of_disc(point, reach), |(round, piece), _| {
                 let (round, piece) = (round as usize, piece as usize);
                 let own = &self.rounds[round].pieces[piece];
                 if own.segment.distance_to(point) > reach {

@@ -1,7 +1,7 @@
 //! A contour cut into runs of consecutive segments, each with its box, its share of the area and its tight arcs. An
 //! edit that keeps the count touches one run, however long the contour is.
 
-use super::{Contour, Drawing};
+use super::{Contour, ContourSegment, Drawing};
 use crate::geometry::{Bounds, Point};
 use std::ops::Range;
 
@@ -48,6 +48,24 @@ impl ContourIndex {
         index
     }
 
+    /// The same of a contour of one run, whose segments are at hand.
+    pub(crate) fn of_one_run(segments: &[ContourSegment], threshold: f64) -> ContourIndex {
+        let mut index = ContourIndex {
+            runs: Vec::with_capacity(1),
+            tight: Vec::new(),
+            segments: segments.len(),
+            origin: segments
+                .first()
+                .map_or_else(Point::origin, |first| first.geometry.start()),
+            threshold,
+        };
+        let mut tight = Vec::new();
+        let looked = index.look(0, segments.iter().copied(), &mut tight);
+        index.runs.push(looked);
+        index.tight = tight;
+        index
+    }
+
     /// Reads the segments of `changed` again; everything behind its start when the count has changed too.
     pub(crate) fn update(&mut self, drawing: &Drawing, contour: &Contour, changed: Range<usize>) {
         let first = changed.start / RUN;
@@ -60,7 +78,8 @@ impl ContourIndex {
         }
         for run in first..changed.end.div_ceil(RUN).min(self.runs.len()) {
             let mut tight = Vec::new();
-            self.runs[run] = self.look(drawing, contour, run, &mut tight);
+            let segments = contour.segments_in(drawing, self.range_of(run));
+            self.runs[run] = self.look(run, segments, &mut tight);
             let old = self.tight_before(run * RUN)..self.tight_before((run + 1) * RUN);
             self.tight.splice(old, tight);
         }
@@ -79,19 +98,24 @@ impl ContourIndex {
     fn extend(&mut self, drawing: &Drawing, contour: &Contour) {
         for run in self.runs.len()..self.segments.div_ceil(RUN) {
             let mut tight = Vec::new();
-            let looked = self.look(drawing, contour, run, &mut tight);
+            let segments = contour.segments_in(drawing, self.range_of(run));
+            let looked = self.look(run, segments, &mut tight);
             self.runs.push(looked);
             self.tight.append(&mut tight);
         }
     }
 
-    fn look(&self, drawing: &Drawing, contour: &Contour, run: usize, tight: &mut Vec<u32>) -> Run {
+    fn look(
+        &self,
+        run: usize,
+        segments: impl Iterator<Item = ContourSegment>,
+        tight: &mut Vec<u32>,
+    ) -> Run {
         let mut found = Run {
             bounds: Bounds::EMPTY,
             twice_area: 0.0,
         };
-        let range = self.range_of(run);
-        for (index, segment) in range.clone().zip(contour.segments_in(drawing, range)) {
+        for (index, segment) in self.range_of(run).zip(segments) {
             found.bounds.merge(&segment.geometry.bounds());
             found.twice_area += segment.geometry.twice_area(self.origin);
             if segment

@@ -35,7 +35,7 @@ pub(crate) fn nesting_depths(
         };
         let point = first.geometry.point_at(0.5);
         let mut depth = 0;
-        grid.near(&Bounds::of_points(&[point]), |outer| {
+        grid.near(&Bounds::of_points(&[point]), |outer, _| {
             let theirs = &boxes[outer];
             let holds_box = theirs.merged(own) == *theirs && theirs != own;
             depth += usize::from(holds_box && winding(drawing, contours[outer].0, point) != 0);

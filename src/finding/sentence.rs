@@ -154,6 +154,18 @@ fn said(finding: &Finding, telling: Telling) -> String {
         Detail::NearTangent { turn } => {
             say!(contour_kinks_by_degrees, turn.abs().to_degrees(), tool)
         }
+        Detail::SelfIntersection { touches, count, .. } if *count > 1 => {
+            say!(
+                the_wire_would_cut_into_the_part_each_time,
+                if *touches {
+                    say!(touches_itself_or_another)
+                } else {
+                    say!(crosses_itself_or_another)
+                },
+                count,
+                tool
+            )
+        }
         Detail::SelfIntersection { touches, .. } => {
             say!(
                 the_wire_would_cut_into_the_part,

@@ -53,7 +53,7 @@ impl Change {
     }
 
     /// What is new.
-    pub(super) fn new(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(super) fn come(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.was.len()).filter(|now| self.was[*now] == NEW)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Bounds;
 use rustc_hash::FxHashMap;
+use std::ops::ControlFlow;
 
 /// Boxes by key. Each lies in the level whose cells are just larger than it, in the cell of its lower left corner, so
 /// it reaches into the next column and row at most; a query reads a few cells of each level in use. Adding, removing
@@ -105,23 +106,45 @@ impl<K: Copy + PartialEq> Grid<K> {
         }
     }
 
-    /// Calls `found` for each box that touches `area`, once each, in no order. Returns how many boxes and cells were
+    /// Calls `found` with each box that touches `area`, once each, in no order. Returns how many boxes and cells were
     /// read.
-    pub(crate) fn near(&self, area: &Bounds, mut found: impl FnMut(K)) -> u64 {
+    pub(crate) fn near(&self, area: &Bounds, mut found: impl FnMut(K, &Bounds)) -> u64 {
         let mut work = 0;
+        let _ = self.look(area, &mut work, |key, bounds| {
+            found(key, bounds);
+            ControlFlow::Continue(())
+        });
+        work
+    }
+
+    /// True where a box that touches `area` is one that is sought.
+    pub(crate) fn any_near(&self, area: &Bounds, is_it: impl Fn(K) -> bool) -> bool {
+        let seek = |key: K, _: &Bounds| match is_it(key) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        };
+        self.look(area, &mut 0, seek).is_break()
+    }
+
+    fn look(
+        &self,
+        area: &Bounds,
+        work: &mut u64,
+        mut found: impl FnMut(K, &Bounds) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
         if area.is_empty() {
-            return work;
+            return ControlFlow::Continue(());
         }
-        let mut look = |first: u32| {
-            let (mut at, mut count) = (first, 0);
+        let mut look = |first: u32, work: &mut u64| {
+            let mut at = first;
             while let Some(boxed) = self.boxes.get(at as usize) {
                 if boxed.bounds.touches(area) {
-                    found(boxed.key);
+                    found(boxed.key, &boxed.bounds)?;
                 }
                 at = boxed.next;
-                count += 1;
+                *work += 1;
             }
-            count
+            ControlFlow::Continue(())
         };
         for (&level, cells) in &self.levels {
             let size = cell_size(level);
@@ -135,26 +158,25 @@ impl<K: Copy + PartialEq> Grid<K> {
             let rows = (i64::from(top) - i64::from(bottom) + 1) as u64;
             // A few small boxes do not make large areas expensive.
             if columns.saturating_mul(rows) > cells.len() as u64 {
-                work += cells.len() as u64;
+                *work += cells.len() as u64;
                 let is_near = |&(&(x, y), _): &(&Cell, &u32)| {
                     (left..=right).contains(&x) && (bottom..=top).contains(&y)
                 };
-                cells
-                    .iter()
-                    .filter(is_near)
-                    .for_each(|(_, &first)| work += look(first));
+                for (_, &first) in cells.iter().filter(is_near) {
+                    look(first, work)?;
+                }
                 continue;
             }
-            work += columns * rows;
+            *work += columns * rows;
             for x in left..=right {
                 for y in bottom..=top {
                     if let Some(&first) = cells.get(&(x, y)) {
-                        work += look(first);
+                        look(first, work)?;
                     }
                 }
             }
         }
-        work
+        ControlFlow::Continue(())
     }
 }
 
@@ -201,9 +223,9 @@ mod tests {
             );
         }
         let area = square(200.0, 200.0, 8.0);
-        let alone = grid.near(&area, |_| {});
+        let alone = grid.near(&area, |_, _| {});
         grid.insert(2500, square(-20.0, -20.0, 0.001));
-        let beside = grid.near(&area, |_| {});
+        let beside = grid.near(&area, |_, _| {});
         assert!(
             beside <= alone + 2,
             "{alone} looks without it, {beside} with it"
@@ -237,7 +259,7 @@ mod tests {
         }
         for area in &boxes {
             let mut found = Vec::new();
-            grid.near(area, |key| found.push(key));
+            grid.near(area, |key, _| found.push(key));
             found.sort_unstable();
             let expected: Vec<usize> = (0..500)
                 .filter(|key| key % 3 != 0 && boxes[*key].touches(area))

@@ -70,7 +70,12 @@ pub(crate) fn radians(degrees: f64) -> f64 {
 
 /// Signed angle from `a` to `b` in (−π, π], positive counter-clockwise; 0 when either is zero.
 pub fn turn(a: Vector, b: Vector) -> f64 {
-    cross(a, b).atan2(a.dot(&b))
+    let (sine, cosine) = (cross(a, b), a.dot(&b));
+    // As most joints do not turn at all; the difference is below rounding.
+    if sine.abs() < 1e-9 * cosine {
+        return sine / cosine;
+    }
+    sine.atan2(cosine)
 }
 
 /// `angle` brought into [0, 2π).

@@ -145,13 +145,14 @@ impl<C: Send> Chunks<C> {
         Chunks { list, places }
     }
 
-    /// Replaces a range of bytes of the text and rereads what that touched.
+    /// Replaces a range of bytes of the text and rereads what that touched; each chunk that goes or changes is handed to
+    /// `gone` before.
     pub(crate) fn edit<L: ChunkReader<Chunk = C>>(
         &mut self,
         language: &L,
         text: &mut SourceText,
-        range: Range<usize>,
-        replacement: &str,
+        (range, replacement): (Range<usize>, &str),
+        mut gone: impl FnMut(&C),
     ) -> Reread {
         let end = range.end.min(text.len());
         let start = range.start.min(end);
@@ -192,7 +193,9 @@ impl<C: Send> Chunks<C> {
         let (fresh, places) = read(language, text, pieces::<L>(lines), before);
         let first_behind = from + fresh.len();
         let mut next = first_behind;
-        self.list.splice(from..to, fresh);
+        self.list
+            .splice(from..to, fresh)
+            .for_each(|chunk| gone(&chunk));
         self.places.splice(from..to, places);
         for place in self.places.iter_mut().skip(next) {
             *place = Lines::of(text, moved(place.lines.start)..moved(place.lines.end));
@@ -203,6 +206,7 @@ impl<C: Send> Chunks<C> {
             && let Some(place) = self.places.get(next)
             && L::before(chunk) != before
         {
+            gone(chunk);
             if !L::take_on(chunk, before) {
                 let (begun, _) = language.run(text, place.lines.clone(), before);
                 *chunk = language.finish(text, begun);

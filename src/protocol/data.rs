@@ -163,7 +163,10 @@ impl FindingData {
             }
             Detail::Size { size } => data.length = Some(*size),
             Detail::NearTangent { turn } => data.turn = Some(turn.to_degrees()),
-            Detail::SelfIntersection { at, .. } => data.at = Some((*at).into()),
+            Detail::SelfIntersection { at, count, .. } => {
+                data.at = Some((*at).into());
+                data.count = (*count > 1).then_some(*count);
+            }
             Detail::ArcAsChords {
                 chords,
                 center,

@@ -9,7 +9,7 @@
 use super::arc_as_chords::are_between_chords;
 use super::disc::{Touch, loci, slack, touch};
 use super::sharp_corner::inner_side;
-use super::wall::Wall;
+use super::wall::{Wall, parting};
 use super::{Limits, NEIGHBOURS, Outlook, PairObservation, PairRule, small_radius};
 use crate::finding::{Rule, Side};
 use crate::geometry::{Point, Segment, cross, turn};
@@ -69,7 +69,11 @@ fn check(one: &Wall, other: &Wall, same_contour: bool) -> Vec<PairObservation> {
     if !same_contour || radius <= limits.tolerances.touch || run_on(one, other, radius) {
         return observations;
     }
+    let parting = parting(one, other);
     for side in [Side::Left, Side::Right] {
+        if parting.is_some_and(|(before, behind)| let_pass(before, behind, side, radius)) {
+            continue;
+        }
         let of_one = loci(one, side, radius);
         for locus in loci(other, side, radius).iter().flatten() {
             for center in of_one.iter().flatten().flat_map(|own| own.meet(locus)) {
@@ -89,6 +93,20 @@ fn check(one: &Wall, other: &Wall, same_contour: bool) -> Vec<PairObservation> {
         }
     }
     observations
+}
+
+/// True for neighbours that part for good, where every disc on a side that touches both gets past their joint: they meet without a
+/// corner, or both are straight. Only a tip at the start of the first may yet hold a disc against the second.
+fn let_pass(before: &Wall, behind: &Wall, side: Side, radius: f64) -> bool {
+    let limits = before.outlook.limits;
+    let (first, second) = (before.geometry(), behind.geometry());
+    let are_joined_lines = || {
+        let is_line = |segment: &Segment| matches!(segment, Segment::Line(_));
+        let gap = (second.start() - first.end()).norm();
+        is_line(first) && is_line(second) && gap <= limits.tolerances.resolution
+    };
+    let is_far = || second.distance_to(first.start()) > 2.0 * (radius + slack(limits, radius));
+    (behind.starts_smoothly() || are_joined_lines()) && (!before.starts_in_tip(side) || is_far())
 }
 
 /// Two lines may continue each other up to this turn (as the distance of unit vectors).

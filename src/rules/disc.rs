@@ -6,9 +6,6 @@ use crate::finding::Side;
 use crate::geometry::Locus;
 use crate::geometry::{Point, Segment, Vector, left_normal};
 
-/// Two segments that turn by less than this (radians) are one wall.
-const SMOOTH: f64 = 1e-6;
-
 /// A wall that a disc touches: at a place of it, or at its start vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Touch {
@@ -33,13 +30,9 @@ pub(super) fn loci(wall: &Wall, side: Side, radius: f64) -> [Option<Locus>; 2] {
     );
     [
         along,
-        starts_in_tip(wall, side).then(|| Locus::about(wall.geometry().start(), radius)),
+        wall.starts_in_tip(side)
+            .then(|| Locus::about(wall.geometry().start(), radius)),
     ]
-}
-
-/// True for a wall that begins where the contour turns away from the wire.
-fn starts_in_tip(wall: &Wall, side: Side) -> bool {
-    wall.turn.is_some_and(|turn| turn * side.sign() < -SMOOTH)
 }
 
 /// How a disc on one side of a wall touches it, if it does.
@@ -61,10 +54,7 @@ pub(super) fn touch(wall: &Wall, side: Side, center: Point, radius: f64) -> Opti
             normal: away / away.norm(),
         });
     }
-    let corner = wall
-        .corners()
-        .next()
-        .filter(|_| starts_in_tip(wall, side))?;
+    let corner = wall.corners().next().filter(|_| wall.starts_in_tip(side))?;
     let away = center - corner.at;
     let normal = away.try_normalize(0.0)?;
     (touches(away.norm()) && corner.is_nearest(normal)).then_some(Touch {

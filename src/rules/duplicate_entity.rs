@@ -56,8 +56,26 @@ fn are_doubles(one: &Wall, other: &Wall) -> Option<bool> {
         one.outlook.limits.tolerances.same_place,
     );
     let flat = one.outlook.drawing.flat();
-    let forward = || b.segment == 0 && run_together(first, second, false, tolerance, flat);
-    let backward = || b.segment + 1 == count && run_together(first, second, true, tolerance, flat);
+    // In the entities' own directions; most pairs have no end in common.
+    let [(start, _), (their_start, their_end)] = [a, b].map(|segment| {
+        let ends = (segment.geometry.start(), segment.geometry.end());
+        if segment.reversed {
+            (ends.1, ends.0)
+        } else {
+            ends
+        }
+    });
+    let begins_at = |point: Point| (point - start).norm() <= tolerance;
+    let forward = || {
+        b.segment == 0
+            && begins_at(their_start)
+            && run_together(first, second, false, tolerance, flat)
+    };
+    let backward = || {
+        b.segment + 1 == count
+            && begins_at(their_end)
+            && run_together(first, second, true, tolerance, flat)
+    };
     let rings = || {
         first.is_closed()
             && second.is_closed()

@@ -103,7 +103,8 @@ impl AtHand {
     ) -> AtHand {
         let first = range.start;
         let count = range.len();
-        let mut segments: Vec<ContourSegment> = contour.segments_in(drawing, range).collect();
+        let mut segments: Vec<ContourSegment> = Vec::with_capacity(count);
+        segments.extend(contour.segments_in(drawing, range));
         // Where an entity is missing, the numbers are not those of the contour.
         if segments.len() != count {
             segments.clear();
@@ -117,6 +118,10 @@ impl AtHand {
             segments,
             turns,
         }
+    }
+
+    pub(crate) fn segments(&self) -> &[ContourSegment] {
+        &self.segments
     }
 
     fn segment(&self, index: usize) -> Option<ContourSegment> {

@@ -27,7 +27,11 @@ pub(crate) const RULE: PairRule = PairRule {
     },
     detail: |one, other, same_contour| {
         let Contact { at, touches } = contact(one, other, same_contour)?;
-        Some(Detail::SelfIntersection { at, touches })
+        Some(Detail::SelfIntersection {
+            at,
+            touches,
+            count: 1,
+        })
     },
     silent_for_doubles: true,
     silent_where_they_part: true,

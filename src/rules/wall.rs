@@ -3,8 +3,11 @@
 use super::{NEIGHBOURS, Outlook};
 use crate::drawing::ContourSegment;
 use crate::finding::Side;
-use crate::geometry::{Few, Point, Segment, Vector, cross, turn};
-use std::f64::consts::PI;
+use crate::geometry::{Few, Point, Segment, Vector, cross};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Two segments that turn by less than this (radians) are one wall.
+const SMOOTH: f64 = 1e-6;
 
 /// A segment of a contour in the contour's direction of travel.
 #[derive(Clone, Copy, Debug)]
@@ -14,8 +17,8 @@ pub(crate) struct Wall<'a> {
     pub(crate) segment: ContourSegment,
     /// The segment before it.
     pub(crate) before: Option<Segment>,
-    /// The angle by which the contour turns between the two.
-    pub(crate) turn: Option<f64>,
+    /// The cosine and the sine of the angle by which the contour turns between the two; both 0 beside a line without length.
+    turned: Option<Vector>,
 }
 
 /// A vertex of a contour: where one segment ends and the next begins. One of the two is missing at the end of an open
@@ -43,13 +46,33 @@ impl<'a> Wall<'a> {
         segment: ContourSegment,
     ) -> Wall<'a> {
         let starts = segment.geometry.start_tangent();
+        let turned = |before: Segment| {
+            let ends = before.end_tangent();
+            Vector::new(ends.dot(&starts), cross(ends, starts))
+        };
         Wall {
             outlook: *outlook,
             index,
             segment,
             before,
-            turn: before.map(|before| turn(before.end_tangent(), starts)),
+            turned: before.map(turned),
         }
+    }
+
+    /// The angle by which the contour turns where the segment starts.
+    fn turn(&self) -> Option<f64> {
+        self.turned.map(|turned| turned.y.atan2(turned.x))
+    }
+
+    /// True where the segment goes on from the one before it without a corner that counts.
+    pub(crate) fn starts_smoothly(&self) -> bool {
+        self.turned
+            .is_some_and(|turned| turned.y.abs() <= SMOOTH * turned.x)
+    }
+
+    /// True where the contour turns away from what lies on a side, in a corner that counts.
+    pub(crate) fn starts_in_tip(&self, side: Side) -> bool {
+        !self.starts_smoothly() && self.turn().is_some_and(|turn| turn * side.sign() < -SMOOTH)
     }
 
     pub(crate) fn geometry(&self) -> &Segment {
@@ -142,14 +165,31 @@ impl Joints {
 /// True for two segments of one contour of which one directly follows the other, at one end only, and that turn so
 /// little together that they cannot come near each other again.
 pub(crate) fn part_for_good(one: &Wall, other: &Wall, same_contour: bool) -> bool {
+    same_contour && parting(one, other).is_some()
+}
+
+/// Two segments of one contour that part for good, in the order of travel.
+pub(super) fn parting<'w, 'a>(
+    one: &'w Wall<'a>,
+    other: &'w Wall<'a>,
+) -> Option<(&'w Wall<'a>, &'w Wall<'a>)> {
     let follows = |from: &Wall, to: &Wall| from.steps_to(to) == Some(1);
-    if !same_contour || follows(one, other) == follows(other, one) {
-        return false;
-    }
+    let (before, behind) = match (follows(one, other), follows(other, one)) {
+        (true, false) => (one, other),
+        (false, true) => (other, one),
+        _ => return None,
+    };
     let sweep = |wall: &Wall| wall.geometry().as_arc().map_or(0.0, |arc| arc.sweep.abs());
     let swept = sweep(one) + sweep(other);
-    let behind = if follows(one, other) { other } else { one };
-    swept < 0.999 * PI && swept + behind.turn.unwrap_or(0.0).abs() < 0.999 * PI
+    // Most turn by less than a quarter turn in their joint.
+    let turns_less = |most: f64| match behind.turned {
+        Some(turned) if turned.x < 0.0 || most <= FRAC_PI_2 => {
+            turned.y.atan2(turned.x).abs() < most
+        }
+        _ => true,
+    };
+    let most = 0.999 * PI - swept;
+    (most > 0.0 && turns_less(most)).then_some((before, behind))
 }
 
 impl Corner {

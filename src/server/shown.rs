@@ -41,9 +41,10 @@ pub(super) struct Shown {
     marks: Vec<u64>,
     /// Behind those of the last publish the most recently removed ones: often a key removes a finding and the next
     /// brings it back.
-    kept: Vec<Option<Kept>>,
-    /// The number of findings of the last publish.
+    kept: Vec<Option<Box<Kept>>>,
+    /// The number of findings of the last publish, and of their bytes.
     count: usize,
+    length: usize,
 }
 
 /// A finding as it was rendered.
@@ -51,9 +52,9 @@ struct Kept {
     /// The source of the text, except the ranges.
     finding: Finding,
     data: FindingData,
-    /// With ranges in their places, and where these begin.
+    /// As it is shown, and where its ranges begin and end in that.
     json: Box<[u8]>,
-    places: Box<[usize]>,
+    places: Box<[[usize; 2]]>,
     /// The ranges themselves.
     ranges: Box<[Range]>,
     /// What it is about may have changed: the data and the ranges are not sure.
@@ -93,7 +94,8 @@ impl Shown {
         }
         let mut whereabouts = document.whereabouts();
         let mut marks: Vec<u64> = findings.iter().map(mark).collect();
-        let (mut shown, mut kept, mut next) = (Vec::new(), Vec::with_capacity(marks.len()), 0);
+        let (mut kept, mut next) = (Vec::with_capacity(marks.len()), 0);
+        let mut shown = Vec::with_capacity(self.length + PLACE.len());
         shown.push(b'[');
         // No text within a string looks like this: its quotes are escaped.
         let needle = format!("\"range\":{PLACE}");
@@ -107,20 +109,17 @@ impl Shown {
                     && (!old.is_in_doubt || old.data == *data_now())
             });
             let own = match known.and_then(|at| self.kept.get_mut(at)?.take().zip(Some(at + 1))) {
-                Some((old, behind)) => {
+                Some((mut old, behind)) => {
                     if behind <= self.count {
                         next = behind;
                     }
-                    let ranges = match old.is_in_doubt {
-                        true => ranges_of(document, &finding, encoding, uri.is_some()).collect(),
-                        false => old.ranges,
-                    };
-                    Kept {
-                        finding,
-                        ranges,
-                        is_in_doubt: false,
-                        ..old
+                    if std::mem::take(&mut old.is_in_doubt) {
+                        old.ranges =
+                            ranges_of(document, &finding, encoding, uri.is_some()).collect();
+                        old.write();
                     }
+                    old.finding = finding;
+                    old
                 }
                 None => {
                     let data = data_now().clone();
@@ -130,29 +129,30 @@ impl Shown {
                         related.location.range = Range::default();
                     }
                     let json = written(&rendered).into_json();
-                    let found = ranges_in.find_iter(&json);
-                    let places = found.map(|at| at + "\"range\":".len());
-                    Kept {
+                    let found = ranges_in.find_iter(&json).map(|at| at + "\"range\":".len());
+                    let mut new = Kept {
                         data,
-                        places: places.collect(),
+                        places: found.map(|at| [at, at + PLACE.len()]).collect(),
                         json: json.into(),
                         ranges: ranges_of(document, &finding, encoding, uri.is_some()).collect(),
                         finding,
                         is_in_doubt: false,
-                    }
+                    };
+                    new.write();
+                    Box::new(new)
                 }
             };
             if shown.len() > 1 {
                 shown.push(b',');
             }
-            own.write(&mut shown);
+            shown.extend_from_slice(&own.json);
             kept.push(Some(own));
         }
         shown.push(b']');
-        self.count = kept.len();
+        (self.count, self.length) = (kept.len(), shown.len());
         let old = self.marks.drain(..).zip(self.kept.drain(..));
         let gone = old.filter(|(_, kept)| kept.is_some()).take(MOST_GONE);
-        let (gone_marks, gone): (Vec<u64>, Vec<Option<Kept>>) = gone.unzip();
+        let (gone_marks, gone): (Vec<u64>, Vec<Option<Box<Kept>>>) = gone.unzip();
         marks.extend(gone_marks);
         kept.extend(gone);
         (self.marks, self.kept) = (marks, kept);
@@ -181,36 +181,45 @@ impl Kept {
         if !places.all(stays) {
             return false;
         }
-        self.ranges.iter_mut().all(|range| {
-            [&mut range.start.line, &mut range.end.line]
-                .into_iter()
-                .all(|line| {
-                    let now = since.line(*line as usize);
-                    let now = now.and_then(|now| u32::try_from(now).ok());
-                    *line = now.unwrap_or(*line);
-                    now.is_some()
-                })
-        })
+        let mut has_moved = false;
+        for range in &mut self.ranges {
+            for line in [&mut range.start.line, &mut range.end.line] {
+                let now = since.line(*line as usize);
+                let Some(now) = now.and_then(|now| u32::try_from(now).ok()) else {
+                    return false;
+                };
+                has_moved |= std::mem::replace(line, now) != now;
+            }
+        }
+        if has_moved {
+            self.write();
+        }
+        true
     }
 
-    fn write(&self, shown: &mut Vec<u8>) {
+    /// Puts the ranges in their places of the text.
+    fn write(&mut self) {
+        let mut json = Vec::with_capacity(self.json.len() + PLACE.len());
         let mut from = 0;
-        for (&at, Range { start, end }) in self.places.iter().zip(&self.ranges) {
-            shown.extend_from_slice(self.json.get(from..at).unwrap_or_default());
+        for (place, Range { start, end }) in self.places.iter_mut().zip(&self.ranges) {
+            json.extend_from_slice(self.json.get(from..place[0]).unwrap_or_default());
+            from = place[1];
+            place[0] = json.len();
             for (label, number) in [
                 (r#"{"start":{"line":"#, start.line),
                 (r#","character":"#, start.character),
                 (r#"},"end":{"line":"#, end.line),
                 (r#","character":"#, end.character),
             ] {
-                shown.extend_from_slice(label.as_bytes());
+                json.extend_from_slice(label.as_bytes());
                 // A list of bytes takes all that is written.
-                let _ = write!(shown, "{number}");
+                let _ = write!(json, "{number}");
             }
-            shown.extend_from_slice(b"}}");
-            from = at + PLACE.len();
+            json.extend_from_slice(b"}}");
+            place[1] = json.len();
         }
-        shown.extend_from_slice(self.json.get(from..).unwrap_or_default());
+        json.extend_from_slice(self.json.get(from..).unwrap_or_default());
+        self.json = json.into();
     }
 }
 

@@ -36,7 +36,7 @@ impl Nesting {
             };
             let point = first.geometry.point_at(0.5);
             let holders: &mut Vec<usize> = &mut around[inner];
-            grid.near(&Bounds::of_points(&[point]), |outer| holders.push(outer));
+            grid.near(&Bounds::of_points(&[point]), |outer, _| holders.push(outer));
             holders.retain(|&outer| {
                 boxes[outer] != boxes[inner]
                     && boxes[outer].merged(&boxes[inner]) == boxes[outer]

@@ -246,6 +246,47 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig { cases: cases(4), failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Of many runs, in rows over each other, with teeth that are pointed or square: what hangs on runs that an edit does not reach
+    /// is kept, also while a vertex that is thrown across them makes the contour cross itself.
+    #[test]
+    fn dead_ends_of_many_runs_are_told_as_if_afresh(
+        closed in any::<bool>(),
+        side in prop::sample::select(vec![SideSetting::Both, SideSetting::Opening, SideSetting::Auto]),
+        square in any::<bool>(),
+        row in prop::sample::select(vec![130usize, 400, 2_000]),
+        edits in proptest::collection::vec(
+            (0..900usize, prop_oneof![3 => -0.1..0.1f64, 1 => -30.0..30.0f64], prop_oneof![3 => -0.8..0.8f64, 1 => -6.0..6.0f64], prop_oneof![8 => Just(0), 1 => Just(1)]),
+            1..5,
+        ),
+    ) {
+        let at = |index: usize, (x, y): (f64, f64)| {
+            let (line, step) = (index / row, index % row);
+            let along = if line % 2 == 0 { step } else { row - 1 - step };
+            let (across, tooth) = if square { (along / 2, (along + 1) / 2 % 2) } else { (along, along % 2) };
+            Vertex::new(across as f64 * 0.08 + x, line as f64 * 3.0 + tooth as f64 * 1.5 + y, 0.0)
+        };
+        let settings = Arc::new(Effective::of(&Settings { side: Some(side), ..Settings::default() }));
+        let vertices = (0..900).map(|index| at(index, (0.0, 0.0))).collect();
+        let mut drawing = Drawing::new(None);
+        let polyline = drawing.push(entity(Geometry::Polyline { closed, vertices }, None));
+        let mut analysis = Analysis::new(&drawing, settings.clone());
+        analysis.findings(&drawing, 500);
+        for (index, x, y, removed) in edits {
+            for moved in [(x, y), (0.0, 0.0)] {
+                let Ok(touched) = drawing.splice(polyline, index, 1 + removed, &[at(index, moved)]) else {
+                    continue;
+                };
+                analysis.update(&drawing, &Delta { touched: vec![touched] });
+                let mut fresh = Analysis::new(&drawing, settings.clone());
+                prop_assert_eq!(analysis.findings(&drawing, usize::MAX), fresh.findings(&drawing, usize::MAX));
+            }
+        }
+    }
+}
+
 #[test]
 fn a_contour_that_goes_back_on_itself_has_no_side_wherever_its_area_is_summed_from() {
     let settings = Arc::new(Effective::of(&Settings {

@@ -97,7 +97,7 @@ proptest! {
         let drawing = drawing_of(&vertices, Role::Both);
         let found = findings(&drawing, 0.2);
         let contacts: Vec<(Point, bool)> = found.iter().filter_map(|finding| match finding.detail {
-            Detail::SelfIntersection { at, touches } => Some((at, touches)),
+            Detail::SelfIntersection { at, touches, .. } => Some((at, touches)),
             _ => None,
         }).collect();
         let judged = judged(&vertices);

@@ -38,6 +38,7 @@ declare! {
     segment_has_no_length => "segment has no length: it is a point, and is not cut";
     the_segment_is_too_short(length) => "segment is only {length} mm long: controllers stumble over it";
     contour_kinks_by_degrees(turn, tool) => "contour kinks by {turn:.2}° where it looks tangent: {tool} leaves a mark";
+    the_wire_would_cut_into_the_part_each_time(touches, count, tool) => "contour {touches} {count} times along this segment: {tool} would cut into the part";
     the_wire_would_cut_into_the_part(touches, tool) => "contour {touches} here: {tool} would cut into the part";
     within_mm(deviation) => ", within {deviation} mm";
     chords_lie_on_one_arc(chords, radius, within, tool) => "{chords} chords lie on one arc of R {radius} mm{within}: {tool} leaves facets";

@@ -38,6 +38,7 @@ translate! {
     segment_has_no_length => "此段没有长度：是一个点，不切割";
     the_segment_is_too_short(length) => "此段只有 {length} mm 长：控制器容易出错";
     contour_kinks_by_degrees(turn, tool) => "轮廓看似相切，实际折了 {turn:.2}°：{tool}会留下切痕";
+    the_wire_would_cut_into_the_part_each_time(touches, count, tool) => "轮廓沿此段{touches} {count} 次：{tool}会切入工件";
     the_wire_would_cut_into_the_part(touches, tool) => "轮廓在此{touches}：{tool}会切入工件";
     within_mm(deviation) => "，误差不超过 {deviation} mm";
     chords_lie_on_one_arc(chords, radius, within, tool) => "{chords} 段短直线在同一圆弧 R {radius} mm 上{within}：{tool}会切出棱面";

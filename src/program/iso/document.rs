@@ -232,8 +232,15 @@ impl Document {
             return self.run_all();
         }
         let control = self.control();
-        self.stretches
-            .edit(&control, &mut self.text, range, replacement);
+        let evidence = &mut self.evidence;
+        let reread = self
+            .stretches
+            .edit(&control, &mut self.text, (range, replacement), |gone| {
+                evidence.take(&gone.evidence)
+            });
+        let read = &self.stretches[reread.chunks];
+        read.iter()
+            .for_each(|stretch| evidence.add(&stretch.evidence));
         self.forget_touched();
         self.settle();
     }
@@ -282,7 +289,7 @@ impl Document {
 
     fn summed(&self, stretches: &[Stretch]) -> Evidence {
         let mut evidence = Evidence {
-            inch: self.limits.inch,
+            inches: u32::from(self.limits.inch),
             ..Evidence::default()
         };
         stretches
@@ -304,6 +311,7 @@ impl Document {
             None => Chunks::read(&control, text, 0..text.line_count()),
             Some(order) => Chunks::read_in_order(&control, text, &order.lines),
         };
+        self.evidence = self.summed(&self.stretches);
     }
 
     /// Compares the reading with the evidence of the whole program, and runs it again where it suggests another one:
@@ -353,8 +361,10 @@ impl Document {
             self.order = Some(order(&self.text));
             self.run_stretches();
         }
+        debug_assert_eq!(self.evidence, self.summed(&self.stretches));
+        // What an arc shows depends on the unit and the step, and these on neither: the evidence behind two runs leads to no
+        // other reading.
         for _ in 0..2 {
-            self.evidence = self.summed(&self.stretches);
             let reading = self.evidence.reading(self.limits.center);
             if reading == self.reading {
                 return;
@@ -362,7 +372,5 @@ impl Document {
             self.reading = reading;
             self.run_stretches();
         }
-        // What an arc shows depends on the unit and the step, and these on neither: this evidence leads to no other.
-        self.evidence = self.summed(&self.stretches);
     }
 }

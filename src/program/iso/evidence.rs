@@ -25,14 +25,12 @@ const LONG: i64 = 1_000;
 /// Beyond this many numbers without a point among others, the first stands for all.
 pub(crate) const FEW_BARE: u32 = 20;
 
-/// Counts over some lines of a program. They add up in any order.
+/// Counts over some lines of a program. They add up in any order, and can be taken out again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Evidence {
     /// Coordinates, and those of them with a decimal point.
     pub(crate) numbers: u32,
     pub(crate) with_point: u32,
-    /// The most decimals of a coordinate.
-    pub(crate) decimals: u8,
     /// Numbers that are not 0 without a point, and those of them that no machine travels in mm.
     pub(crate) bare: u32,
     pub(crate) long: u32,
@@ -40,9 +38,9 @@ pub(crate) struct Evidence {
     pub(crate) places: [u32; 8],
     /// Numbers that have four decimals or more.
     pub(crate) fine: u32,
-    pub(crate) inch: bool,
-    /// Whether it states inches or mm.
-    pub(crate) says_unit: bool,
+    /// How many lines state inches, and how many inches or mm.
+    pub(crate) inches: u32,
+    pub(crate) units: u32,
     pub(crate) absolute: Arcs,
     pub(crate) incremental: Arcs,
 }
@@ -71,8 +69,8 @@ const RULES: [CenterRule; 3] = [
 const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
 impl Arcs {
-    fn add(&mut self, other: &Arcs) {
-        self.all += other.all;
+    fn change(&mut self, other: &Arcs, change: fn(&mut u32, u32)) {
+        change(&mut self.all, other.all);
         let counts = self
             .off
             .iter_mut()
@@ -81,7 +79,7 @@ impl Arcs {
             .chain(&mut self.far);
         let others = other.off.into_iter().chain(other.unclear);
         for (count, more) in counts.zip(others.chain(other.wide).chain(other.far)) {
-            *count += more;
+            change(count, more);
         }
     }
 
@@ -121,20 +119,39 @@ impl Arcs {
 
 impl Evidence {
     pub(crate) fn add(&mut self, other: &Evidence) {
-        self.numbers += other.numbers;
-        self.with_point += other.with_point;
-        self.decimals = self.decimals.max(other.decimals);
-        self.inch |= other.inch;
-        self.fine += other.fine;
-        self.bare += other.bare;
+        self.change(other, |count, more| *count += more);
+    }
+
+    /// Takes out what has been added.
+    pub(crate) fn take(&mut self, other: &Evidence) {
+        self.change(other, |count, less| *count -= less);
+    }
+
+    fn change(&mut self, other: &Evidence, change: fn(&mut u32, u32)) {
+        for (count, by) in [
+            (&mut self.numbers, other.numbers),
+            (&mut self.with_point, other.with_point),
+            (&mut self.bare, other.bare),
+            (&mut self.long, other.long),
+            (&mut self.fine, other.fine),
+            (&mut self.inches, other.inches),
+            (&mut self.units, other.units),
+        ] {
+            change(count, by);
+        }
+        for (count, by) in self.places.iter_mut().zip(other.places) {
+            change(count, by);
+        }
+        self.absolute.change(&other.absolute, change);
+        self.incremental.change(&other.incremental, change);
+    }
+
+    /// The most decimals of a number, up to 7.
+    pub(super) fn decimals(&self) -> u8 {
         self.places
-            .iter_mut()
-            .zip(other.places)
-            .for_each(|(count, more)| *count += more);
-        self.long += other.long;
-        self.says_unit |= other.says_unit;
-        self.absolute.add(&other.absolute);
-        self.incremental.add(&other.incremental);
+            .iter()
+            .rposition(|count| *count > 0)
+            .unwrap_or(0) as u8
     }
 
     /// Counts a line's numbers.
@@ -145,7 +162,6 @@ impl Evidence {
         {
             self.numbers += 1;
             self.with_point += u32::from(number.point);
-            self.decimals = self.decimals.max(number.decimals);
             self.fine += u32::from(number.decimals >= 4);
             if number.point {
                 self.places[usize::from(number.decimals).min(7)] += 1;
@@ -153,8 +169,8 @@ impl Evidence {
             self.bare += u32::from(!number.point && number.mantissa != 0);
             self.long += u32::from(!number.point && number.mantissa.abs() >= LONG);
         }
-        self.says_unit |= block.inch.is_some();
-        self.inch |= block.inch == Some(true);
+        self.units += u32::from(block.inch.is_some());
+        self.inches += u32::from(block.inch == Some(true));
     }
 
     /// Counts an arc; false where it has no centre in words, so that it tells nothing.
@@ -205,12 +221,11 @@ impl Evidence {
         } else {
             absolute
         };
-        let step = match (whole_numbers_are_fine, self.inch) {
+        let step = match (whole_numbers_are_fine, self.inches > 0) {
             (true, false) => MICROMETRE,
             (true, true) => 2_540,
             (false, inch) => {
-                (if inch { 25_400_000 } else { 1_000_000 })
-                    / 10_i64.pow(u32::from(self.decimals.min(7)))
+                (if inch { 25_400_000 } else { 1_000_000 }) / 10_i64.pow(u32::from(self.decimals()))
             }
         };
         Reading {

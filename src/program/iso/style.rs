@@ -35,7 +35,7 @@ impl Style {
         let unit = usize::from(inch);
         let decimals = document
             .evidence()
-            .decimals
+            .decimals()
             .clamp(LEAST_DECIMALS[unit], MOST_DECIMALS[unit]);
         let (mut looked_at, mut padded) = (0, true);
         for line in 0..document.text().line_count() {

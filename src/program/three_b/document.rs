@@ -163,7 +163,7 @@ impl Document {
         };
         let reread = self
             .stretches
-            .edit(&reader, &mut self.text, range, replacement);
+            .edit(&reader, &mut self.text, (range, replacement), |_| {});
         self.judge_again(Some(reread));
     }
 

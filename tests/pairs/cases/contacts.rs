@@ -14,7 +14,7 @@ fn check_contacts(name: &str, entities: &[Geometry], expected: &[([f64; 2], bool
     let mut contacts: Vec<([f64; 2], bool, Severity)> = findings
         .iter()
         .map(|finding| match finding.detail {
-            Detail::SelfIntersection { at, touches } => {
+            Detail::SelfIntersection { at, touches, .. } => {
                 let rounded = |number: f64| (number * 1e3).round() / 1e3 + 0.0;
                 ([rounded(at.x), rounded(at.y)], touches, finding.severity)
             }

@@ -273,7 +273,7 @@ impl Report<'_> {
         let evidence = self.document.evidence();
         // Millimetres are written to the thousandth; in inches that would be 25 µm.
         let has_micrometres = evidence.places[3] == evidence.with_point;
-        let is_said = evidence.says_unit || self.limits.has_unit;
+        let is_said = evidence.units > 0 || self.limits.has_unit;
         if is_said || evidence.with_point == 0 || has_micrometres {
             return false;
         }

@@ -1,0 +1,110 @@
+//! What the wire leaves beyond the dead ends of contours, kept from one report to the next by the two runs that they were
+//! seen between. Knows nothing of how they are found.
+
+use crate::drawing::ContourKey;
+use crate::finding::Side;
+use crate::rules::dead_end::Left;
+use rustc_hash::FxHashMap;
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
+use std::sync::Arc;
+
+/// Two runs of a contour, the smaller number first.
+pub(super) type Runs = [u32; 2];
+
+/// Rank of an entity, its segment, and whether the wire runs on the left of it: the place that the wire stays farthest
+/// from.
+pub(super) type Farthest = (u64, usize, bool);
+
+/// A place, and what makes one of several ends there the one that is told: the least depth, by its bits, then the walls.
+type Order = (Farthest, u64, [usize; 2]);
+
+/// The dead ends of all contours that have any.
+#[derive(Clone, Debug, Default)]
+pub(super) struct DeadEnds {
+    pub(super) of: FxHashMap<ContourKey, Arc<EndsOf>>,
+}
+
+/// Those of one contour, while the wire stays on its side.
+#[derive(Clone, Debug, Default)]
+pub(super) struct EndsOf {
+    pub(super) side: Option<Side>,
+    ends: BTreeMap<Order, Left>,
+    /// The number of places among them: each is told once.
+    places: usize,
+    of_runs: BTreeMap<Runs, Vec<Order>>,
+    /// Those that hang on more of the contour than the runs about the two.
+    pub(super) far: BTreeSet<Runs>,
+}
+
+/// A dead end that is told: its contour, the two walls that the wire comes to, and what it leaves.
+pub(super) type Told = (ContourKey, [usize; 2], Left);
+
+impl EndsOf {
+    /// Adds what is left between two walls, seen between two runs. Of ends at one place that are told alike the first stays.
+    pub(super) fn insert(&mut self, runs: Runs, place: Farthest, walls: [usize; 2], left: Left) {
+        self.places += usize::from(!self.has(place));
+        // Depths are not negative: their bits are in their order.
+        let order = (place, left.depth.to_bits(), walls);
+        self.ends.entry(order).or_insert(left);
+        self.of_runs.entry(runs).or_default().push(order);
+    }
+
+    /// Forgets what was seen between two runs.
+    pub(super) fn remove(&mut self, runs: &Runs) {
+        self.far.remove(runs);
+        for order in self.of_runs.remove(runs).unwrap_or_default() {
+            if self.ends.remove(&order).is_some() {
+                self.places -= usize::from(!self.has(order.0));
+            }
+        }
+    }
+
+    /// The runs that ends were seen between, the first of which lies between two numbers.
+    pub(super) fn seen_from(&self, first: u32, last: u32) -> impl Iterator<Item = Runs> {
+        let range = [first, 0]..=[last, u32::MAX];
+        self.of_runs.range(range).map(|(runs, _)| *runs)
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.of_runs.is_empty() && self.far.is_empty()
+    }
+
+    fn has(&self, place: Farthest) -> bool {
+        let range = (place, 0, [0; 2])..=(place, u64::MAX, [usize::MAX; 2]);
+        self.ends.range(range).next().is_some()
+    }
+}
+
+impl DeadEnds {
+    /// The number of places of the contours that count.
+    pub(super) fn count(&self, counts: impl Fn(ContourKey) -> bool) -> usize {
+        let of = self.of.iter().filter(|(key, _)| counts(**key));
+        of.map(|(_, of)| of.places).sum()
+    }
+
+    /// The first of these contours' places, in machining order.
+    pub(super) fn first(&self, most: usize, counts: impl Fn(ContourKey) -> bool) -> Vec<Told> {
+        let of = self.of.iter().filter(|(key, _)| counts(**key));
+        let mut each: Vec<_> = of
+            .map(|(&key, of)| (key, of.ends.iter().peekable()))
+            .collect();
+        let mut next: BinaryHeap<Reverse<(Order, usize)>> = each
+            .iter_mut()
+            .enumerate()
+            .filter_map(|(at, (_, ends))| Some(Reverse((*ends.peek()?.0, at))))
+            .collect();
+        let mut told = Vec::new();
+        let mut last = None;
+        while let Some(Reverse((_, at))) = next.pop().filter(|_| told.len() < most) {
+            let (key, ends) = &mut each[at];
+            if let Some((&(place, _, walls), &left)) = ends.next()
+                && last.replace(place) != Some(place)
+            {
+                told.push((*key, walls, left));
+            }
+            next.extend(ends.peek().map(|(order, _)| Reverse((**order, at))));
+        }
+        told
+    }
+}
