@@ -5,6 +5,7 @@
 //!
 //! Invariant: after any sequence of edits a document equals a fresh reading of its text, except for its entity ids.
 
+mod ahead;
 mod binary;
 mod blocks;
 mod change;

@@ -1,5 +1,6 @@
 //! Reads the whole text from its beginning: entities into the drawing, blocks drawn at their references.
 
+use super::ahead;
 use super::blocks::{Blocks, Drawn, Part, Undrawn};
 use super::entity::{Appearance, Insert, Outcome, Paint, Read};
 use super::inherited::stroke;
@@ -37,6 +38,16 @@ pub(super) struct Reading {
 impl Document {
     /// Reads all items. Blocks are `known` from an earlier reading where their references stand before them.
     pub(super) fn read_items(&mut self, known: Option<Blocks>) -> Reading {
+        let stretch = ahead::stretch_of(Lines::new(&self.text));
+        self.read_items_ahead(known, stretch)
+    }
+
+    /// The same, with so many lines of each stretch that is read ahead, if any.
+    pub(super) fn read_items_ahead(
+        &mut self,
+        known: Option<Blocks>,
+        mut stretch: Option<usize>,
+    ) -> Reading {
         let lines = Lines::new(&self.text);
         self.table.fit_tolerance = fit_tolerance(self.arc_fit, None);
         let mut pass = Pass {
@@ -57,6 +68,12 @@ impl Document {
         ) {
             context = read.after;
             pass.take(read);
+            // Once: what lies in later sections of that name is read in order.
+            if context == Context::Entities
+                && let Some(lines) = stretch.take()
+            {
+                context = pass.take_stretches(lines, &mut self.layers);
+            }
         }
         self.findings = pass.lexer.findings;
         pass.reading
@@ -64,15 +81,15 @@ impl Document {
 }
 
 /// One pass over the text that records everything read.
-struct Pass<'a> {
-    lexer: Lexer<'a>,
+pub(super) struct Pass<'a> {
+    pub(super) lexer: Lexer<'a>,
     arc_fit: Option<f64>,
-    table: &'a mut Table,
+    pub(super) table: &'a mut Table,
     reading: Reading,
 }
 
 impl Pass<'_> {
-    fn take(&mut self, read: ReadItem) {
+    pub(super) fn take(&mut self, read: ReadItem) {
         let ReadItem {
             line,
             context,

@@ -1,5 +1,6 @@
 //! Tests of the module as a whole.
 
+mod ahead;
 mod aside;
 mod blocks;
 mod curves;
