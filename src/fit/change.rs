@@ -26,6 +26,15 @@ impl Change {
         Some(Change { was, is })
     }
 
+    /// That of so many, none of which has changed.
+    pub(super) fn none(count: usize) -> Change {
+        let all: Vec<u32> = (0..count as u32).collect();
+        Change {
+            was: all.clone(),
+            is: all,
+        }
+    }
+
     /// Where one of now stood before.
     pub(super) fn was(&self, index: usize) -> Option<usize> {
         let was = self.was.get(index).filter(|was| **was != NEW);
@@ -44,7 +53,7 @@ impl Change {
     }
 
     /// What is new.
-    pub(super) fn new(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(super) fn come(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.was.len()).filter(|now| self.was[*now] == NEW)
     }
 }

@@ -195,7 +195,7 @@ fn still_beside(
             false
         });
     }
-    let mut new = change.new().map(|new| &now[new]);
+    let mut new = change.come().map(|new| &now[new]);
     let walls = Walls::new(now.to_vec());
     let is_beside =
         are_near(&mut new, other, reach) && are_near(&mut beside_gone.into_iter(), &walls, reach);

@@ -25,15 +25,18 @@ impl<'a> Since<'a> {
     ) -> Option<Since<'a>> {
         let mut changed = Vec::new();
         let mut of_edges = |before: &Part, now: &Part| {
+            if std::ptr::eq(before, now) {
+                return Some(Change::none(now.edges.len()));
+            }
             let change = Change::of(&before.edges, &now.edges, |a, b| {
                 a.geometry == b.geometry && a.turned_about == b.turned_about
             })?;
             let ways = [&before.path, &now.path];
             let of_way = Change::of(ways[0].segments(), ways[1].segments(), PartialEq::eq)?;
             changed.extend(change.gone().map(|edge| *before.near.bounds_of(edge)));
-            changed.extend(change.new().map(|edge| *now.near.bounds_of(edge)));
+            changed.extend(change.come().map(|edge| *now.near.bounds_of(edge)));
             changed.extend(of_way.gone().map(|piece| *ways[0].bounds_of(piece)));
-            changed.extend(of_way.new().map(|piece| *ways[1].bounds_of(piece)));
+            changed.extend(of_way.come().map(|piece| *ways[1].bounds_of(piece)));
             Some(change)
         };
         let edges = [of_edges(before[0], now[0])?, of_edges(before[1], now[1])?];

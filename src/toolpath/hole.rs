@@ -46,6 +46,7 @@ pub(crate) fn hole_faults(
         unit_mm: settings.unit_of(drawing).mm,
         finishes: false,
         a_loop_will_do: false,
+        searched: Default::default(),
         goes_on: &|| true,
     };
     job.hole_faults().unwrap_or_default()

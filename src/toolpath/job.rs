@@ -6,6 +6,7 @@ use super::path::Refusal;
 use crate::drawing::{Contour, Drawing, Outline};
 use crate::settings::Effective;
 use rustc_hash::FxHashMap;
+use std::sync::atomic::AtomicBool;
 
 /// How much nearer than the correction a path may come by rounding, mm.
 pub(super) const ROUNDING: f64 = 1e-6;
@@ -22,6 +23,8 @@ pub(super) struct Job<'a> {
     pub(crate) finishes: bool,
     /// A loop that is everywhere at its distance is enough: whether the offset has others is not asked.
     pub(crate) a_loop_will_do: bool,
+    /// For a path neighbours cut with each other were not enough: it was looked for among all crossings.
+    pub(crate) searched: AtomicBool,
     pub(crate) goes_on: &'a (dyn Fn() -> bool + Sync),
 }
 

@@ -23,6 +23,8 @@ pub(super) struct Kept<'a> {
     pub(super) pieces: &'a Walls,
     /// Of each piece what it follows, as they were.
     pub(super) follows: &'a [u32],
+    /// The path is that of neighbours cut with each other, and was not looked for among all crossings.
+    pub(super) is_by_neighbours: bool,
     at: usize,
 }
 
@@ -65,12 +67,14 @@ impl<'a> Kept<'a> {
         was: Vec<u32>,
         pieces: &'a Walls,
         follows: &'a [u32],
+        is_by_neighbours: bool,
     ) -> Kept<'a> {
         Kept {
             before,
             was,
             pieces,
             follows,
+            is_by_neighbours,
             at: 0,
         }
     }

@@ -21,6 +21,7 @@ use crate::settings::Corner;
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use rayon::slice::ParallelSlice;
 use std::borrow::Cow;
+use std::sync::atomic::Ordering::Relaxed;
 
 /// One core takes so many pieces at a time.
 const AT_A_TIME: usize = 2048;
@@ -229,6 +230,7 @@ impl Job<'_> {
         {
             return Ok(Ok(tipped(path)));
         }
+        self.searched.store(true, Relaxed);
         let mut loops = match loops::find(&proof, self.goes_on) {
             Found::Loops(loops) => loops,
             Found::Point(point) => return Ok(Ok(Laid::Point(point))),

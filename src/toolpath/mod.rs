@@ -197,6 +197,7 @@ pub(crate) fn plan_while(
         unit_mm: settings.unit_of(drawing).mm,
         finishes,
         a_loop_will_do: false,
+        searched: Default::default(),
         goes_on,
     };
     job.go_on()?;
@@ -281,6 +282,7 @@ pub(crate) fn misfit(
         unit_mm: settings.unit_of(drawing).mm,
         finishes: false,
         a_loop_will_do: false,
+        searched: Default::default(),
         goes_on: &|| true,
     };
     let correction = job.units(settings.correction);

@@ -15,6 +15,7 @@ use crate::drawing::{Contour, Drawing, EntityId};
 use crate::geometry::{Arc, Point, Segment, Side};
 use crate::settings::{Corner, Effective, SkimCorner};
 use rustc_hash::FxHashMap;
+use std::sync::atomic::Ordering::Relaxed;
 
 /// One edge of the outline of a part.
 #[derive(Clone, Copy, Debug)]
@@ -43,6 +44,8 @@ pub(crate) struct Part {
     path_follows: Vec<u32>,
     /// Of each edge the piece of the path; nothing where it is not the offset of the path.
     edges_follow: Vec<u32>,
+    /// The path, and the outline, are those of neighbours cut with each other.
+    is_by_neighbours: [bool; 2],
 }
 
 impl Part {
@@ -98,6 +101,7 @@ pub(crate) fn part(
         unit_mm: settings.unit_of(drawing).mm,
         finishes: false,
         a_loop_will_do: true,
+        searched: Default::default(),
         goes_on,
     };
     let passes = settings.each_correction();
@@ -108,6 +112,7 @@ pub(crate) fn part(
     let (last, half) = (job.units(last), job.units(half));
     let away = if is_other { side.reversed() } else { side };
     let (drawn, path, is_proved) = job.last_path(contour, away, last, before)?;
+    let is_path_by_neighbours = !job.searched.swap(false, Relaxed);
     let path_follows = match is_proved {
         true => follows(&path),
         false => Vec::new(),
@@ -141,6 +146,7 @@ pub(crate) fn part(
             drawn,
             path_follows: Vec::new(),
             edges_follow: Vec::new(),
+            is_by_neighbours: [false; 2],
         });
     }
     let back = Along {
@@ -157,6 +163,7 @@ pub(crate) fn part(
             was,
             &before.near,
             &before.edges_follow,
+            before.is_by_neighbours[1],
         ))
     });
     let known = Known {
@@ -173,6 +180,7 @@ pub(crate) fn part(
             return Err(Refusal::Findings(vec![job.no_path(&fault, &beside, half)]));
         }
     };
+    let is_by_neighbours = [is_path_by_neighbours, !job.searched.load(Relaxed)];
     let edge = |element: &Element| {
         let is_turn = matches!(element.source, Source::Corner { .. });
         let next = (element.wall + 1) % path.len();
@@ -196,6 +204,7 @@ pub(crate) fn part(
         drawn,
         path_follows,
         edges_follow: follows(&outline),
+        is_by_neighbours,
     })
 }
 
@@ -275,7 +284,13 @@ impl Job<'_> {
         let Some(was) = which_it_was(&before.drawn, &walls, is_same) else {
             return Ok(None);
         };
-        let kept = Kept::new(before.drawn.len(), was, &before.path, &before.path_follows);
+        let kept = Kept::new(
+            before.drawn.len(),
+            was,
+            &before.path,
+            &before.path_follows,
+            before.is_by_neighbours[0],
+        );
         let along = Along {
             side: side.sign(),
             correction,

@@ -27,6 +27,7 @@ pub(crate) fn rounds(
         unit_mm,
         finishes: false,
         a_loop_will_do: false,
+        searched: Default::default(),
         goes_on: &|| true,
     };
     let rough = job.units(corrections.iter().copied().fold(0.0, f64::max));

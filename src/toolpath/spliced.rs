@@ -31,7 +31,7 @@ struct Stretch {
 /// The path beside the walls, where what is kept says most of it; `None` where it does not.
 pub(super) fn spliced(kept: &Kept, walls: &[Wall], joining: &Joining) -> Option<Vec<Element>> {
     let count = walls.len();
-    if count <= MOST + 4 * ABOUT || !kept.follows.is_sorted() {
+    if !kept.is_by_neighbours || count <= MOST + 4 * ABOUT || !kept.follows.is_sorted() {
         return None;
     }
     let (first, changed) = changed(kept, count)?;
@@ -132,7 +132,7 @@ impl Stretch {
         let mut pieces = trimmed(&raw)?;
         pieces.retain(|(_, piece)| piece.wall < count);
         let is_sorted = pieces.is_sorted_by(|a, b| a.0 < b.0);
-        is_sorted.then(|| Stretch {
+        is_sorted.then_some(Stretch {
             first,
             count,
             pieces,
