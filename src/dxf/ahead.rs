@@ -8,10 +8,8 @@ use super::layers::Layers;
 use super::lexer::Lexer;
 use super::lines::Lines;
 use super::reader::{ReadItem, Said, read_item};
-use super::reading::Pass;
 use super::table::Context;
 use crate::finding::Finding;
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Lines of one stretch: hundreds of entities, some hundred kilobytes with what is read of them.
@@ -27,13 +25,18 @@ pub(super) fn stretch_of(lines: Lines) -> Option<usize> {
 
 /// What was read ahead: each item with its faults, and the line behind the last.
 #[derive(Default)]
-struct Stretch {
-    items: Vec<(ReadItem, Vec<Finding>)>,
-    end: usize,
+pub(super) struct Stretch {
+    pub(super) items: Vec<(ReadItem, Vec<Finding>)>,
+    pub(super) end: usize,
 }
 
 impl Stretch {
-    fn read(lines: Lines, range: Range<usize>, tolerance: f64, mut layers: Layers) -> Stretch {
+    pub(super) fn read(
+        lines: Lines,
+        range: Range<usize>,
+        tolerance: f64,
+        mut layers: Layers,
+    ) -> Stretch {
         let mut stretch = Stretch::default();
         // What follows a POLYLINE or an INSERT is a part of it.
         let is_whole = |lexer: &Lexer| {
@@ -60,79 +63,8 @@ impl Stretch {
     }
 }
 
-impl Pass<'_> {
-    /// Takes the text from a record in the section ENTITIES on, up to the end of a stretch in which that section ends. Returns the
-    /// section there.
-    pub(super) fn take_stretches(&mut self, stretch: usize, layers: &mut Layers) -> Context {
-        let (lines, tolerance) = (self.lexer.lines, self.table.fit_tolerance);
-        let at_once = 4 * rayon::current_num_threads();
-        let empty = layers.empty();
-        let read = |from: usize| {
-            let each = (0..at_once)
-                .into_par_iter()
-                .map(|nth| from + nth * stretch)
-                .filter(|first| *first < lines.count());
-            let of = |first| Stretch::read(lines, first..first + stretch, tolerance, empty.clone());
-            each.map(of).collect::<Vec<Stretch>>()
-        };
-        let mut from = self.lexer.at();
-        let mut context = Context::Entities;
-        let mut next = read(from);
-        while context == Context::Entities && !next.is_empty() {
-            from += at_once * stretch;
-            let here = std::mem::take(&mut next);
-            let take = || {
-                let mut stretches = here.into_iter();
-                stretches.try_fold(context, |context, stretch| {
-                    self.take_stretch(stretch, context, layers)
-                })
-            };
-            let (taken, following) = rayon::join(take, || read(from));
-            (context, next) = (taken.unwrap_or(Context::Outside), following);
-        }
-        context
-    }
-
-    /// Takes the text up to the end of a stretch; `None` where the text ends.
-    fn take_stretch(
-        &mut self,
-        stretch: Stretch,
-        mut context: Context,
-        layers: &mut Layers,
-    ) -> Option<Context> {
-        while self.lexer.at() < stretch.end {
-            let at = self.lexer.at();
-            let found = stretch
-                .items
-                .binary_search_by_key(&at, |(item, _)| item.line);
-            if let Ok(first) = found
-                && stretch
-                    .items
-                    .get(first)
-                    .is_some_and(|(item, _)| item.context == context)
-            {
-                let mut items = stretch.items.into_iter().skip(first).peekable();
-                while let Some((mut item, mut findings)) = items.next() {
-                    context = item.after;
-                    share_names(&mut item, layers);
-                    let end = items.peek().map_or(stretch.end, |(next, _)| next.line);
-                    self.lexer.begin_item(end);
-                    self.lexer.findings.append(&mut findings);
-                    self.take(item);
-                }
-                break;
-            }
-            let tolerance = self.table.fit_tolerance;
-            let item = read_item(&mut self.lexer, context, tolerance, layers)?;
-            context = item.after;
-            self.take(item);
-        }
-        Some(context)
-    }
-}
-
 /// Puts the one copy of each name in the place of those that were decoded ahead.
-fn share_names(item: &mut ReadItem, layers: &mut Layers) {
+pub(super) fn share_names(item: &mut ReadItem, layers: &mut Layers) {
     let (layer, appearance) = match &mut item.said {
         Said::Entity(Outcome::Entity(read)) => (&mut read.layer, &mut read.appearance),
         Said::Entity(Outcome::Insert(insert)) => (&mut insert.layer, &mut insert.appearance),

@@ -5,6 +5,7 @@ use super::blocks::{Blocks, Drawn, Part, Undrawn};
 use super::entity::{Appearance, Insert, Outcome, Paint, Read};
 use super::inherited::stroke;
 use super::layer_table::{LayerEntry, LayerStates};
+use super::layers::Layers;
 use super::lexer::Lexer;
 use super::lines::Lines;
 use super::reader::{ReadItem, Said, read_item};
@@ -14,6 +15,7 @@ use super::unit::{fit_tolerance, unit_of};
 use super::{Document, fault, frame};
 use crate::drawing::{Drawing, Entity, EntityId, Handle, Kind, Visibility};
 use crate::finding::NotJudged;
+use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 use std::sync::Arc;
 
@@ -86,6 +88,79 @@ pub(super) struct Pass<'a> {
     arc_fit: Option<f64>,
     pub(super) table: &'a mut Table,
     reading: Reading,
+}
+
+impl Pass<'_> {
+    /// Takes the text from a record in the section ENTITIES on, up to the end of a stretch in which that section ends. Returns the
+    /// section there.
+    fn take_stretches(&mut self, stretch: usize, layers: &mut Layers) -> Context {
+        let (lines, tolerance) = (self.lexer.lines, self.table.fit_tolerance);
+        let at_once = 4 * rayon::current_num_threads();
+        let empty = layers.empty();
+        let read = |from: usize| {
+            let each = (0..at_once)
+                .into_par_iter()
+                .map(|nth| from + nth * stretch)
+                .filter(|first| *first < lines.count());
+            let of = |first| {
+                ahead::Stretch::read(lines, first..first + stretch, tolerance, empty.clone())
+            };
+            each.map(of).collect::<Vec<ahead::Stretch>>()
+        };
+        let mut from = self.lexer.at();
+        let mut context = Context::Entities;
+        let mut next = read(from);
+        while context == Context::Entities && !next.is_empty() {
+            from += at_once * stretch;
+            let here = std::mem::take(&mut next);
+            let take = || {
+                let mut stretches = here.into_iter();
+                stretches.try_fold(context, |context, stretch| {
+                    self.take_stretch(stretch, context, layers)
+                })
+            };
+            let (taken, following) = rayon::join(take, || read(from));
+            (context, next) = (taken.unwrap_or(Context::Outside), following);
+        }
+        context
+    }
+
+    /// Takes the text up to the end of a stretch; `None` where the text ends.
+    fn take_stretch(
+        &mut self,
+        stretch: ahead::Stretch,
+        mut context: Context,
+        layers: &mut Layers,
+    ) -> Option<Context> {
+        while self.lexer.at() < stretch.end {
+            let at = self.lexer.at();
+            let found = stretch
+                .items
+                .binary_search_by_key(&at, |(item, _)| item.line);
+            if let Ok(first) = found
+                && stretch
+                    .items
+                    .get(first)
+                    .is_some_and(|(item, _)| item.context == context)
+            {
+                let mut items = stretch.items.into_iter().skip(first).peekable();
+                while let Some((mut item, mut findings)) = items.next() {
+                    context = item.after;
+                    ahead::share_names(&mut item, layers);
+                    let end = items.peek().map_or(stretch.end, |(next, _)| next.line);
+                    self.lexer.begin_item(end);
+                    self.lexer.findings.append(&mut findings);
+                    self.take(item);
+                }
+                break;
+            }
+            let tolerance = self.table.fit_tolerance;
+            let item = read_item(&mut self.lexer, context, tolerance, layers)?;
+            context = item.after;
+            self.take(item);
+        }
+        Some(context)
+    }
 }
 
 impl Pass<'_> {

@@ -150,7 +150,10 @@ impl Stretch {
             let element = &self.pieces[piece].1;
             let was = kept.was[(self.first + element.wall) % count];
             let is_roll = matches!(element.source, Source::Corner { .. });
-            let follows = (was != NEW).then_some(2 * was + u32::from(is_roll))?;
+            if was == NEW {
+                return None;
+            }
+            let follows = 2 * was + u32::from(is_roll);
             let at = kept.follows.partition_point(|other| *other < follows);
             let is_same = kept.follows.get(at) == Some(&follows)
                 && *kept.pieces.segment(at) == element.geometry;
