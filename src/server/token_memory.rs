@@ -97,24 +97,19 @@ fn push_tokens(words: &[u64], wide: &[Fields], json: &mut Vec<u8>) {
         if word == WIDE {
             fields = wide.next().copied().unwrap_or(fields);
         }
-        // Nearly all numbers have one digit or two.
-        if fields.iter().all(|field| *field < 100) {
-            let (mut token, mut length) = ([b','; 14], 0);
-            for field in fields {
-                if field >= 10 {
-                    token[length] = b'0' + (field / 10) as u8;
-                    length += 1;
+        let digit = |number: u32| b'0' + (number % 10) as u8;
+        for field in fields {
+            // Nearly all numbers have one digit or two.
+            match field {
+                0..10 => json.extend_from_slice(&[digit(field), b',']),
+                10..100 => json.extend_from_slice(&[digit(field / 10), digit(field), b',']),
+                _ => {
+                    json.extend_from_slice(field.to_string().as_bytes());
+                    json.push(b',');
                 }
-                token[length] = b'0' + (field % 10) as u8;
-                length += 2;
             }
-            token[length] = b'0';
-            json.extend_from_slice(&token[..length + 2]);
-        } else {
-            let numbers = fields.map(|field| field.to_string());
-            json.extend_from_slice(numbers.join(",").as_bytes());
-            json.extend_from_slice(b",0,");
         }
+        json.extend_from_slice(b"0,");
     }
 }
 

@@ -265,7 +265,7 @@ proptest! {
         let at = |index: usize, (x, y): (f64, f64)| {
             let (line, step) = (index / row, index % row);
             let along = if line % 2 == 0 { step } else { row - 1 - step };
-            let (across, tooth) = if square { (along / 2, (along + 1) / 2 % 2) } else { (along, along % 2) };
+            let (across, tooth) = if square { (along / 2, along.div_ceil(2) % 2) } else { (along, along % 2) };
             Vertex::new(across as f64 * 0.08 + x, line as f64 * 3.0 + tooth as f64 * 1.5 + y, 0.0)
         };
         let settings = Arc::new(Effective::of(&Settings { side: Some(side), ..Settings::default() }));
