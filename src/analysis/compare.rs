@@ -116,7 +116,7 @@ pub(crate) struct Walls<'a> {
 impl<'a> Walls<'a> {
     pub(crate) fn of(outlook: &Outlook<'a>, run: u32) -> Walls<'a> {
         let range = outlook.index.range_of(run as usize);
-        let first = range.start;
+        let (first, count) = (range.start, range.len());
         let segments = outlook
             .contour
             .segments_in(outlook.drawing, range)
@@ -129,8 +129,7 @@ impl<'a> Walls<'a> {
             let wall = Wall::behind(before, outlook, first + along, segment);
             (wall, segment.geometry.bounds())
         };
-        let mut each: Vec<(Wall, Bounds)> =
-            Vec::with_capacity(outlook.index.range_of(run as usize).len());
+        let mut each: Vec<(Wall, Bounds)> = Vec::with_capacity(count);
         each.extend(segments.map(wall));
         let mut all = Bounds::EMPTY;
         let groups = each.chunks(GROUP).map(|group| {

@@ -61,40 +61,40 @@ impl Analysis {
                 asked.extend(own.map(|(one, _)| (one.0, Asked::All)));
             }
         }
+        if asked.is_empty() {
+            pairs.ends = known;
+            return;
+        }
         let has_slots =
             |key: ContourKey| pairs.seen.slots.contains_key(&key) && asked.contains_key(&key);
         let slots = pairs.slots(has_slots).into_iter();
         let slots: FxHashMap<ContourKey, Slots> =
             slots.map(|(key, each)| (key, Slots::of(&each))).collect();
         let mut ends = known.unwrap_or_default();
-        let mut of_all: FxHashMap<ContourKey, Vec<Runs>> = FxHashMap::default();
+        let mut of_all: FxHashMap<ContourKey, BTreeSet<Runs>> = FxHashMap::default();
         if asked.values().any(|asked| matches!(asked, Asked::All)) {
             for (one, other) in pairs.seen.with_ends() {
-                of_all.entry(one.0).or_default().push([one.1, other.1]);
+                of_all.entry(one.0).or_default().insert([one.1, other.1]);
             }
         }
         for (key, asked) in asked {
+            let known = ends.of.remove(&key);
+            let Some(outlook) = self.outlook(drawing, key) else {
+                continue;
+            };
+            let is_known = known.is_some();
             let (mut of, runs) = match asked {
                 Asked::All => (EndsOf::default(), of_all.remove(&key).unwrap_or_default()),
                 Asked::About(about) => {
-                    let mut of = ends
-                        .of
-                        .remove(&key)
-                        .map(Arc::unwrap_or_clone)
-                        .unwrap_or_default();
-                    let count = self.known.get(&key).map_or(0, |it| it.index.run_count());
-                    let runs = leave(pairs, key, &mut of, &about, count);
+                    let mut of = known.map(Arc::unwrap_or_clone).unwrap_or_default();
+                    let runs = leave(pairs, key, &mut of, &about);
                     (of, runs)
                 }
             };
             of.side = side_of(key);
-            if let Some(outlook) = self.outlook(drawing, key) {
-                let slots = slots.get(&key);
-                enter(pairs, (key, &outlook), (&mut of, slots), &runs);
-            }
-            if of.is_empty() {
-                ends.of.remove(&key);
-            } else {
+            let has_any = enter(pairs, (key, &outlook), (&mut of, slots.get(&key)), &runs);
+            // Where none counts on this side of the wire it may on the other.
+            if is_known || has_any {
                 ends.of.insert(key, Arc::new(of));
             }
         }
@@ -136,54 +136,43 @@ impl Analysis {
     }
 }
 
-/// Takes out what hangs on some runs of a contour of `count` runs, or is far from any; returns the pairs of runs that
-/// must be looked at for it.
+/// Takes out what hangs on some runs of a contour, or is far from any; returns the pairs of runs that must be looked at for it. What goes
+/// round the end of a contour counts as far.
 fn leave(
     pairs: &Pairs,
     key: ContourKey,
     of: &mut EndsOf,
     changed: &BTreeSet<u32>,
-    count: usize,
-) -> Vec<Runs> {
+) -> BTreeSet<Runs> {
     const REACHED: u32 = FEW as u32;
-    let mut runs: BTreeSet<Runs> = of.far.iter().copied().collect();
-    let mut about = BTreeSet::new();
-    for &run in changed {
-        let (first, last) = (run.saturating_sub(REACHED), run.saturating_add(REACHED));
-        about.extend(first..=last);
-        // A closed contour goes on at its beginning.
-        let last_run = (count as u32).saturating_sub(1);
-        about.extend(
-            (last > last_run)
-                .then(|| 0..=last - last_run)
-                .into_iter()
-                .flatten(),
-        );
-        let before = (run < REACHED).then(|| (last_run + run).saturating_sub(REACHED)..=last_run);
-        about.extend(before.into_iter().flatten());
-    }
-    for &run in &about {
+    let mut runs = of.far.clone();
+    let about = changed
+        .iter()
+        .flat_map(|run| run.saturating_sub(REACHED)..=run.saturating_add(REACHED));
+    for run in about.collect::<BTreeSet<u32>>() {
         let others = pairs.partners_of((key, run)).filter(|other| other.0 == key);
         runs.extend(others.map(|other| [run.min(other.1), run.max(other.1)]));
         let from = of.seen_from(run.saturating_sub(REACHED), run);
         runs.extend(from.filter(|runs| runs.contains(&run)));
     }
     runs.iter().for_each(|runs| of.remove(runs));
-    runs.into_iter().collect()
+    runs
 }
 
-/// Adds what has been seen between these pairs of runs of a contour, but for what its slots tell.
+/// Adds what has been seen between these pairs of runs of a contour, but for what its slots tell. False where nothing has been.
 fn enter(
     pairs: &mut Pairs,
     (key, outlook): (ContourKey, &Outlook),
     (of, slots): (&mut EndsOf, Option<&Slots>),
-    runs: &[Runs],
-) {
+    runs: &BTreeSet<Runs>,
+) -> bool {
     let count = outlook.contour.len();
     let is_told = |walls, side| slots.is_some_and(|slots| slots.lie_between(walls, count, side));
+    let mut has_any = false;
     for &runs in runs {
         let [one, other] = runs.map(|run| (key, run));
         for each in pairs.seen.ends_between(&(one, other)) {
+            has_any = true;
             if PAIR_RULES[each.rule].rule != Rule::LostPocket || each.blocked {
                 continue;
             }
@@ -215,6 +204,7 @@ fn enter(
             }
         }
     }
+    has_any
 }
 
 /// True where what a rule sees between two segments of a contour, and about them, lies in their runs: these are looked at anew, and what

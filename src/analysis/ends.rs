@@ -66,10 +66,6 @@ impl EndsOf {
         self.of_runs.range(range).map(|(runs, _)| *runs)
     }
 
-    pub(super) fn is_empty(&self) -> bool {
-        self.of_runs.is_empty() && self.far.is_empty()
-    }
-
     fn has(&self, place: Farthest) -> bool {
         let range = (place, 0, [0; 2])..=(place, u64::MAX, [usize::MAX; 2]);
         self.ends.range(range).next().is_some()

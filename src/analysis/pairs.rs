@@ -7,7 +7,7 @@ use super::seen::Seen;
 use super::told::Told;
 use crate::drawing::{ContourIndex, ContourKey};
 use crate::finding::Rule;
-use crate::geometry::{Bounds, Grid, Nest, Point, Shell};
+use crate::geometry::{Bounds, Grid, Point, Shell, Shells};
 use crate::rules::{Limits, PAIR_RULES, PairRule};
 use crate::settings::{Budget, Effective};
 use rayon::prelude::*;
@@ -254,7 +254,7 @@ impl Pairs {
             .collect();
         let search = Search {
             grid: &self.grid,
-            nest: self.nest(outlook, runs),
+            shells: self.shells(outlook, runs),
             rules: &rules,
             reach: self.reach,
             new: &new,
@@ -330,7 +330,7 @@ impl Pairs {
     }
 
     /// All runs by how they lie within each other, where the boxes near most new ones are many and tell little.
-    fn nest(&self, outlook: Outlooks, runs: &[RunId]) -> Option<Nest<RunId>> {
+    fn shells(&self, outlook: Outlooks, runs: &[RunId]) -> Option<Shells<RunId>> {
         let step = (runs.len() >= MANY_RUNS).then_some(runs.len() / SAMPLES)?;
         let shell = |run: RunId| Some(shell_of(&outlook(run.0)?, run.1));
         let (mut read, mut meet) = (0, 0);
@@ -347,7 +347,7 @@ impl Pairs {
         (read >= SAMPLES * MANY_RUNS && meet * 8 < read).then(|| {
             let runs: Vec<RunId> = self.grid.keys().collect();
             let shells = runs.par_iter().filter_map(|&run| Some((run, shell(run)?)));
-            Nest::new(shells.collect())
+            Shells::new(shells.collect())
         })
     }
 

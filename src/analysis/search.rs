@@ -1,7 +1,7 @@
 //! The search for what comes near a run, and the comparison with each of it. Knows nothing of what was found before.
 
 use super::compare::{Comparison, Kept, LOOKS_OF_A_PAIR, Observed, RunId, Walls, passes};
-use crate::geometry::{Bounds, Grid, Nest, Segment, Shell};
+use crate::geometry::{Bounds, Grid, Segment, Shell, Shells};
 use crate::rules::Outlook;
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
@@ -13,7 +13,7 @@ pub(super) const BOXES_OF_A_LOOK: u64 = 4;
 pub(super) struct Search<'a> {
     pub(super) grid: &'a Grid<RunId>,
     /// All runs once more, where the grid is crowded.
-    pub(super) nest: Option<Nest<RunId>>,
+    pub(super) shells: Option<Shells<RunId>>,
     pub(super) rules: &'a [(usize, f64)],
     pub(super) reach: f64,
     pub(super) new: &'a FxHashMap<RunId, usize>,
@@ -64,8 +64,8 @@ impl Search<'_> {
                 near.push((other, *bounds));
             }
         };
-        let boxes = match &self.nest {
-            Some(nest) => nest.near(&shell_of(&own, run.1), self.reach, found),
+        let boxes = match &self.shells {
+            Some(shells) => shells.near(&shell_of(&own, run.1), self.reach, found),
             None => self.grid.near(&area, found),
         };
         looked.before = boxes / BOXES_OF_A_LOOK;

@@ -1,7 +1,7 @@
 //! Reads stretches of a long text ahead of their turn, on all cores, as if each began in the section ENTITIES at a record.
 //!
-//! A stretch is taken from where one of its records begins just where the reading in order has come to; before that, and where this
-//! never happens, the text is read in order. So the result is that of the reading in order.
+//! The reading in order (`reading`) takes a stretch from where one of its records begins just where it has come to itself; before that, and
+//! where this never happens, it reads the text. So the result is that of the reading in order.
 
 use super::entity::{Outcome, Stroke};
 use super::layers::Layers;

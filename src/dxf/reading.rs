@@ -83,10 +83,10 @@ impl Document {
 }
 
 /// One pass over the text that records everything read.
-pub(super) struct Pass<'a> {
-    pub(super) lexer: Lexer<'a>,
+struct Pass<'a> {
+    lexer: Lexer<'a>,
     arc_fit: Option<f64>,
-    pub(super) table: &'a mut Table,
+    table: &'a mut Table,
     reading: Reading,
 }
 
@@ -164,7 +164,7 @@ impl Pass<'_> {
 }
 
 impl Pass<'_> {
-    pub(super) fn take(&mut self, read: ReadItem) {
+    fn take(&mut self, read: ReadItem) {
         let ReadItem {
             line,
             context,

@@ -1,6 +1,6 @@
 //! How a list went over into another by an edit.
 
-use crate::toolpath::{NEW, which_it_was};
+use crate::toolpath::{NEW, which_it_is, which_it_was};
 
 /// Of each which one it was before, and of each that was there which one it is, in their order.
 #[derive(Clone, Debug)]
@@ -17,12 +17,7 @@ impl Change {
         is_same: impl Fn(&T, &T) -> bool,
     ) -> Option<Change> {
         let was = which_it_was(before, now, is_same)?;
-        let mut is = vec![NEW; before.len()];
-        for (was, now) in was.iter().zip(0..) {
-            if let Some(is) = is.get_mut(*was as usize) {
-                *is = now;
-            }
-        }
+        let is = which_it_is(&was, before.len());
         Some(Change { was, is })
     }
 

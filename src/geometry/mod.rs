@@ -12,8 +12,8 @@ mod few;
 mod grid;
 mod intersection;
 mod locus;
-mod nest;
 mod segment;
+mod shells;
 mod side;
 mod spline;
 mod tolerances;
@@ -28,14 +28,13 @@ pub(crate) use few::Few;
 pub(crate) use grid::Grid;
 pub(crate) use intersection::{circle_circle, line_circle, line_line};
 pub(crate) use locus::Locus;
-pub(crate) use nest::{Nest, Shell};
 pub(crate) use segment::Line;
 pub use segment::Segment;
+pub(crate) use shells::{Shell, Shells};
 pub use side::Side;
 pub(crate) use spline::{Spline, SplineCurve};
 pub(crate) use tolerances::Tolerances;
-pub(crate) use xy::Xy;
-pub(crate) use xy::serialize_degrees;
+pub(crate) use xy::{Xy, serialize_degrees};
 
 /// A point of the plane, in drawing units.
 pub type Point = nalgebra::Point2<f64>;

@@ -60,6 +60,17 @@ pub(crate) fn which_it_was<Before, Now>(
     Some(was)
 }
 
+/// Of each that was there before which one it is now, or that it is gone, [`NEW`]: what [`which_it_was`] says, turned round.
+pub(crate) fn which_it_is(was: &[u32], before: usize) -> Vec<u32> {
+    let mut is = vec![NEW; before];
+    for (was, now) in was.iter().zip(0..) {
+        if let Some(is) = is.get_mut(*was as usize) {
+            *is = now;
+        }
+    }
+    is
+}
+
 impl<'a> Kept<'a> {
     /// `was` says of each wall which it was; `follows` is what [`follows`] said of the path.
     pub(crate) fn new(
@@ -91,13 +102,17 @@ impl<'a> Kept<'a> {
             .collect()
     }
 
+    /// What an element beside a wall followed before the edit; `None` beside a new one.
+    pub(super) fn followed(&self, element: &Element, wall: usize) -> Option<u32> {
+        let was = self.was[wall];
+        (was != NEW).then(|| follows_of(was, element))
+    }
+
     /// True for a piece that is as proved as it was; `about` are the boxes of what is new.
     pub(crate) fn holds(&mut self, element: &Element, about: &[Bounds]) -> bool {
-        let was = self.was[element.wall];
-        if was == NEW {
+        let Some(follows) = self.followed(element, element.wall) else {
             return false;
-        }
-        let follows = 2 * was + u32::from(is_roll(element));
+        };
         let known = self.follows.len().min(self.at + AHEAD);
         let is_same = |&piece: &usize| {
             self.follows[piece] == follows && *self.pieces.segment(piece) == element.geometry
@@ -113,8 +128,12 @@ impl<'a> Kept<'a> {
 
 /// Of each element twice its wall, and one more for the way round the end of that.
 pub(super) fn follows(path: &[Element]) -> Vec<u32> {
-    let follows = |element: &Element| 2 * element.wall as u32 + u32::from(is_roll(element));
+    let follows = |element: &Element| follows_of(element.wall as u32, element);
     path.iter().map(follows).collect()
+}
+
+fn follows_of(wall: u32, element: &Element) -> u32 {
+    2 * wall + u32::from(is_roll(element))
 }
 
 fn is_roll(element: &Element) -> bool {

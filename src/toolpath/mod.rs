@@ -45,7 +45,7 @@ pub(crate) use clearance::Walls;
 pub(crate) use finished::Finished;
 pub use hole::StartHole;
 pub(crate) use hole::hole_faults;
-pub(crate) use kept::{NEW, which_it_was};
+pub(crate) use kept::{NEW, which_it_is, which_it_was};
 pub use milling::{Milled, MilledContour};
 pub(crate) use part::{Cutting, Part, part};
 pub(crate) use path::lengths;

@@ -6,7 +6,7 @@
 
 use super::clearance::Walls;
 use super::corners::{Element, Joining, Raw};
-use super::kept::{Kept, NEW};
+use super::kept::{Kept, NEW, which_it_is};
 use super::offset::Wall;
 use super::open::there_and_back;
 use super::path::Source;
@@ -52,12 +52,7 @@ pub(super) fn spliced(kept: &Kept, walls: &[Wall], joining: &Joining) -> Option<
     // Of the pieces between, those behind the end of the contour come first.
     let end = (left + 1..right).find(|piece| is_behind(*piece));
     let end = end.unwrap_or(right);
-    let mut is = vec![NEW; kept.before];
-    for (was, wall) in kept.was.iter().zip(0..) {
-        if let Some(is) = is.get_mut(*was as usize) {
-            *is = wall;
-        }
-    }
+    let is = which_it_is(&kept.was, kept.before);
     let mut path = Vec::with_capacity(kept.follows.len() + stretch.pieces.len());
     let new = |pieces: Range<usize>, path: &mut Vec<Element>| {
         path.extend(stretch.pieces[pieces].iter().map(|(_, element)| Element {
@@ -148,12 +143,7 @@ impl Stretch {
     fn parts_two(&self, kept: &Kept, count: usize, piece: usize) -> Option<usize> {
         let was = |piece: usize| {
             let element = &self.pieces[piece].1;
-            let was = kept.was[(self.first + element.wall) % count];
-            let is_roll = matches!(element.source, Source::Corner { .. });
-            if was == NEW {
-                return None;
-            }
-            let follows = 2 * was + u32::from(is_roll);
+            let follows = kept.followed(element, (self.first + element.wall) % count)?;
             let at = kept.follows.partition_point(|other| *other < follows);
             let is_same = kept.follows.get(at) == Some(&follows)
                 && *kept.pieces.segment(at) == element.geometry;

@@ -287,6 +287,53 @@ proptest! {
     }
 }
 
+/// A notch that tapers leaves something of itself to a wire outside of the contour alone: which side that is hangs on the contour about it.
+#[test]
+fn dead_ends_are_told_where_another_contour_turns_the_wire_to_their_side() {
+    let settings = Arc::new(Effective::of(&Settings {
+        side: Some(SideSetting::Auto),
+        ..Settings::default()
+    }));
+    let ring = |corners: &[[f64; 2]]| {
+        let vertices = corners.iter().map(|[x, y]| Vertex::new(*x, *y, 0.0));
+        let vertices = vertices.collect();
+        entity(
+            Geometry::Polyline {
+                closed: true,
+                vertices,
+            },
+            None,
+        )
+    };
+    let mut drawing = Drawing::new(None);
+    drawing.push(ring(&[
+        [0.0, 0.0],
+        [10.0, 0.0],
+        [10.0, 10.0],
+        [5.15, 10.0],
+        [5.05, 9.0],
+        [4.95, 9.0],
+        [4.85, 10.0],
+        [0.0, 10.0],
+    ]));
+    let about = |far: f64| ring(&[[-far, -far], [20.0, -far], [20.0, 20.0], [-far, 20.0]]);
+    let other = drawing.push(about(5.0));
+    let mut analysis = Analysis::new(&drawing, settings.clone());
+    let mut told = Vec::new();
+    for far in [5.0, -15.0, 5.0, -15.0] {
+        drawing.replace(other, about(far));
+        let touched = vec![Touched::Entity { entity: other }];
+        analysis.update(&drawing, &Delta { touched });
+        let now = analysis.findings(&drawing, usize::MAX);
+        let mut fresh = Analysis::new(&drawing, settings.clone());
+        assert_eq!(now, fresh.findings(&drawing, usize::MAX), "{far}");
+        let lost =
+            |finding: &&wedm::finding::Finding| finding.rule == wedm::finding::Rule::LostPocket;
+        told.push(now.0.iter().filter(lost).count());
+    }
+    assert!(told.contains(&0) && told.contains(&1), "{told:?}");
+}
+
 #[test]
 fn a_contour_that_goes_back_on_itself_has_no_side_wherever_its_area_is_summed_from() {
     let settings = Arc::new(Effective::of(&Settings {

@@ -92,7 +92,7 @@ fn clear_of(core: &Bounds, about: Point, other: &Bounds) -> Bounds {
 
 /// Shells by key, in a tree of those that lie and measure alike. It does not change.
 #[derive(Debug)]
-pub(crate) struct Nest<K> {
+pub(crate) struct Shells<K> {
     shells: Vec<(K, Shell)>,
     nodes: Vec<Node>,
 }
@@ -119,17 +119,17 @@ struct Alike {
 /// Shells that are looked at one by one.
 const FEW: usize = 8;
 
-impl<K: Copy> Nest<K> {
-    pub(crate) fn new(shells: Vec<(K, Shell)>) -> Nest<K> {
-        let mut nest = Nest {
+impl<K: Copy> Shells<K> {
+    pub(crate) fn new(shells: Vec<(K, Shell)>) -> Shells<K> {
+        let mut all = Shells {
             shells,
             nodes: Vec::new(),
         };
-        let count = nest.shells.len();
+        let count = all.shells.len();
         if count > 0 {
-            nest.divide(0, count);
+            all.divide(0, count);
         }
-        nest
+        all
     }
 
     fn divide(&mut self, first: usize, end: usize) {
@@ -285,10 +285,10 @@ mod tests {
                 .map(|(x, y, size, kind)| outline(f64::from(x) * 0.5, f64::from(y) * 0.5, f64::from(size) * 0.5, kind))
                 .collect();
             let shell = |outline: &Vec<Segment>| Shell::of(outline.iter().copied());
-            let nest = Nest::new(outlines.iter().map(shell).enumerate().collect());
+            let shells = Shells::new(outlines.iter().map(shell).enumerate().collect());
             for one in &outlines {
                 let mut found = vec![false; outlines.len()];
-                nest.near(&shell(one), reach, |key, _| found[key] = true);
+                shells.near(&shell(one), reach, |key, _| found[key] = true);
                 for (other, is_found) in outlines.iter().zip(found) {
                     prop_assert!(is_found || distance(one, other) > reach);
                 }
@@ -303,9 +303,9 @@ mod tests {
                 .map(|size| outline(0.0, 0.0, f64::from(size), kind))
                 .collect();
             let shell = |outline: &Vec<Segment>| Shell::of(outline.iter().copied());
-            let nest = Nest::new(outlines.iter().map(shell).enumerate().collect());
+            let shells = Shells::new(outlines.iter().map(shell).enumerate().collect());
             let mut near = 0;
-            let work = nest.near(&shell(&outlines[1000]), 0.3, |_, _| near += 1);
+            let work = shells.near(&shell(&outlines[1000]), 0.3, |_, _| near += 1);
             if kind < 2 {
                 assert!(near == 1 && work < 200, "{kind}: {near} in {work}");
             }
