@@ -298,7 +298,9 @@ impl<'a> Report<'a> {
         // Passes to and fro close by themselves, and may belong to the next or to the one before.
         let only = self.document.only_lay(cut);
         let may_be_tab = only.is_some_and(|lay| lay.closes && !lay.goes_round);
-        if may_be_tab || self.may_lack_its_tab(&cut.sum) {
+        // So may what ends open.
+        let is_open = cut.sum.whole && !self.document.is_closed(cut);
+        if may_be_tab || is_open || self.may_lack_its_tab(&cut.sum) {
             return false;
         }
         let known = self.findings.len();
