@@ -2,7 +2,7 @@
 
 use crate::drawing::{ContourKey, ContourSegment};
 use crate::finding::{Severity, Side};
-use crate::geometry::{Bounds, Point, Segment, left_normal};
+use crate::geometry::{Bounds, Line, Point, Segment, left_normal};
 use crate::rules::dead_end::Left;
 use crate::rules::{Outlook, PAIR_RULES, PairObservation, Wall, part_for_good};
 use rustc_hash::FxHashMap;
@@ -66,6 +66,25 @@ pub(crate) fn passes(segment: &Segment, bounds: &Bounds, reach: f64) -> bool {
             ((center - arc.center).norm() - arc.radius).abs() <= half_diagonal + reach * 2.0
         }
     }
+}
+
+/// False for two segments of which one passes the other, or its box, at more than `reach`.
+fn may_meet(one: &(Wall, Bounds), other: &(Wall, Bounds), reach: f64) -> bool {
+    match (one.0.geometry(), other.0.geometry()) {
+        (Segment::Line(one), Segment::Line(other)) => {
+            !lies_beside(one, other, reach) && !lies_beside(other, one, reach)
+        }
+        (own, theirs) => passes(own, &other.1, reach) && passes(theirs, &one.1, reach),
+    }
+}
+
+fn lies_beside(line: &Line, other: &Line, reach: f64) -> bool {
+    let normal = left_normal(line.direction());
+    let (from, to) = (
+        normal.dot(&(other.start - line.start)),
+        normal.dot(&(other.end - line.start)),
+    );
+    from.min(to) > reach * 2.0 || from.max(to) < reach * -2.0
 }
 
 /// The walls of some runs, which their neighbours need again and again.
@@ -183,9 +202,10 @@ impl Comparison<'_> {
                     .enumerate()
                     .skip(group * GROUP)
                     .take(GROUP);
-                for (_, other) in
-                    others.filter(|(other, (_, bounds))| *other > at && area.touches(bounds))
-                {
+                let near = |(place, other): &(usize, &(Wall, Bounds))| {
+                    *place > at && area.touches(&other.1) && may_meet(one, other, self.reach)
+                };
+                for (_, other) in others.filter(near) {
                     looks += LOOKS_OF_A_PAIR;
                     self.at(one, other, found);
                 }
@@ -209,7 +229,7 @@ impl Comparison<'_> {
                 .filter(|(_, bounds)| area.touches(bounds))
             {
                 let near = |other: &&(Wall, Bounds)| {
-                    area.touches(&other.1) && passes(one.0.geometry(), &other.1, self.reach)
+                    area.touches(&other.1) && may_meet(one, other, self.reach)
                 };
                 for other in group.iter().filter(near) {
                     looks += LOOKS_OF_A_PAIR;

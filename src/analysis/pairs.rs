@@ -252,11 +252,13 @@ impl Pairs {
             .enumerate()
             .map(|(at, &run)| (run, at))
             .collect();
+        let shells = self.shells(outlook, runs);
         let search = Search {
             grid: &self.grid,
-            shells: self.shells(outlook, runs),
+            shells: shells.as_ref(),
             rules: &rules,
             reach: self.reach,
+            most_seen: self.most_seen,
             new: &new,
             are_parts: self.are_parts,
         };
@@ -326,7 +328,7 @@ impl Pairs {
         if self.is_disturbed && !self.uncompared.is_empty() {
             self.told = None;
         }
-        self.ask_again(&mut kept, limits);
+        self.ask_again(&mut kept, limits, shells.as_ref());
     }
 
     /// All runs by how they lie within each other, where the boxes near most new ones are many and tell little.
@@ -353,7 +355,7 @@ impl Pairs {
 
     /// Checks whether the discs of the stale runs' observations are empty, while looks are left. The others make no
     /// findings.
-    fn ask_again(&mut self, kept: &mut Kept, limits: &Limits) {
+    fn ask_again(&mut self, kept: &mut Kept, limits: &Limits, shells: Option<&Shells<RunId>>) {
         let mut left = self.left_to_ask;
         let stale = std::mem::take(&mut self.stale);
         let partners = stale
@@ -391,7 +393,7 @@ impl Pairs {
                 each.blocked = each.disc.is_some_and(|disc| {
                     left == 0
                         || self.reaches_into(
-                            kept,
+                            (kept, shells),
                             limits,
                             disc,
                             (each.one.0, each.own_disc),
@@ -414,7 +416,7 @@ impl Pairs {
     /// True when some segment, of one contour alone or of all of its workpiece, reaches into a disc by more than rounding.
     fn reaches_into(
         &self,
-        kept: &mut Kept,
+        (kept, shells): (&mut Kept, Option<&Shells<RunId>>),
         limits: &Limits,
         (center, radius): (Point, f64),
         (of, is_own): (ContourKey, bool),
@@ -423,11 +425,15 @@ impl Pairs {
         let radius = radius - (1e-6 * radius).max(limits.tolerances.clearance);
         let area = Bounds::of_disc(center, radius);
         let mut near = Vec::new();
-        let looked = self.grid.near(&area, |run, _| {
+        let found = |run: RunId, _: &Bounds| {
             if run.0 == of || !is_own {
                 near.push(run);
             }
-        });
+        };
+        let looked = match shells {
+            Some(shells) => shells.near(&Shell::of_disc(center, radius), 0.0, found),
+            None => self.grid.near(&area, found),
+        };
         if self.are_parts {
             let part = |key: ContourKey| (kept.outlook)(key).map(|it| it.part);
             let own = part(of);

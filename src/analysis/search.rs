@@ -13,9 +13,11 @@ pub(super) const BOXES_OF_A_LOOK: u64 = 4;
 pub(super) struct Search<'a> {
     pub(super) grid: &'a Grid<RunId>,
     /// All runs once more, where the grid is crowded.
-    pub(super) shells: Option<Shells<RunId>>,
+    pub(super) shells: Option<&'a Shells<RunId>>,
     pub(super) rules: &'a [(usize, f64)],
     pub(super) reach: f64,
+    /// Observations beyond so many are dropped.
+    pub(super) most_seen: usize,
     pub(super) new: &'a FxHashMap<RunId, usize>,
     pub(super) are_parts: bool,
 }
@@ -27,7 +29,7 @@ pub(super) struct Looked {
     pub(super) before: u64,
     /// Each of those, the looks that it took, and the observations.
     pub(super) each: Vec<(RunId, u64, Vec<Observed>)>,
-    /// There were no looks left for the others.
+    /// There were no looks left for the others, or enough has been observed.
     pub(super) is_cut_short: bool,
 }
 
@@ -95,9 +97,9 @@ impl Search<'_> {
             reach: self.reach,
             keys: (run.0, other.0),
         };
-        let mut looks = looked.before;
+        let (mut looks, mut count) = (looked.before, 0);
         for (other, _) in near {
-            if looks >= most {
+            if looks >= most || count >= self.most_seen {
                 looked.is_cut_short = true;
                 break;
             }
@@ -108,6 +110,7 @@ impl Search<'_> {
                 None => comparison(other).within(&walls, &mut found),
             };
             looks += own;
+            count += found.len();
             looked.each.push((other, own, found));
         }
         looked

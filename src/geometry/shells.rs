@@ -1,13 +1,14 @@
-//! Finds what comes near an outline where outlines lie within each other, so that the boxes of all touch.
+//! Finds what comes near an outline where the boxes of all touch: outlines lie within each other, or long ones side by side askew.
 
-use super::{Bounds, Point, Segment, Vector};
+use super::{Bounds, Point, Segment, Slant, Vector};
 
-/// Where something lies: in a box but not in its core, and between two circles about one point.
+/// Where something lies: in a box but not in its core, in one that is turned, and between two circles about one point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shell {
     bounds: Bounds,
     /// A box that it does not reach into; empty where none is known.
     core: Bounds,
+    slant: Slant,
     center: Point,
     inner: f64,
     outer: f64,
@@ -27,6 +28,7 @@ impl Shell {
         let mut shell = Shell {
             bounds,
             core: bounds,
+            slant: Slant::ANYWHERE,
             center,
             inner: f64::INFINITY,
             outer: 0.0,
@@ -41,7 +43,7 @@ impl Shell {
                 ..shell
             };
         }
-        for segment in segments {
+        for segment in segments.clone() {
             let farthest = match &segment {
                 Segment::Line(line) => (line.start - center).norm().max((line.end - center).norm()),
                 Segment::Arc(arc) => (arc.center - center).norm() + arc.radius,
@@ -50,7 +52,20 @@ impl Shell {
             shell.inner = shell.inner.min(segment.distance_to(center));
             shell.core = clear_of(&shell.core, middle, &segment.bounds());
         }
+        shell.slant = Slant::of(segments);
         shell
+    }
+
+    pub(crate) fn of_disc(center: Point, radius: f64) -> Shell {
+        let bounds = Bounds::of_disc(center, radius);
+        Shell {
+            bounds,
+            core: Bounds::EMPTY,
+            slant: Slant::of_box(&bounds),
+            center,
+            inner: 0.0,
+            outer: radius,
+        }
     }
 
     pub(crate) fn bounds(&self) -> &Bounds {
@@ -59,7 +74,7 @@ impl Shell {
 
     /// False where another comes nowhere nearer than `reach`.
     pub(crate) fn may_meet(&self, other: &Shell, reach: f64) -> bool {
-        Alike::of(&[((), *self)]).may_meet(other, reach)
+        Alike::one(self).may_meet(other, reach)
     }
 
     /// How far numbers are rounded here.
@@ -107,13 +122,23 @@ struct Node {
     all: Alike,
 }
 
+/// Shells whose box, core and circles are the widest and the least of some.
 #[derive(Clone, Copy, Debug)]
 struct Alike {
     bounds: Bounds,
     core: Bounds,
+    slant: Slant,
     centers: Bounds,
     inner: f64,
     outer: f64,
+}
+
+/// What shells are divided by.
+#[derive(Clone, Copy)]
+enum Spread {
+    Along,
+    Across,
+    Inside,
 }
 
 /// Shells that are looked at one by one.
@@ -144,15 +169,11 @@ impl<K: Copy> Shells<K> {
             all,
         });
         if !is_leaf {
-            let least = shells
-                .iter()
-                .map(|(_, shell)| shell.outer)
-                .fold(f64::INFINITY, f64::min);
-            let spreads = [all.centers.width(), all.centers.height(), all.outer - least];
-            let by = |(_, shell): &(K, Shell)| match spreads {
-                [x, y, size] if size >= x && size >= y => shell.outer,
-                [x, y, _] if x >= y => shell.center.x,
-                _ => shell.center.y,
+            let spread = all.spread(shells);
+            let by = |(_, shell): &(K, Shell)| match spread {
+                Spread::Along => all.slant.within(shell.slant.middle.coords).x,
+                Spread::Across => all.slant.within(shell.slant.middle.coords).y,
+                Spread::Inside => shell.inner,
             };
             let middle = shells.len() / 2;
             shells.select_nth_unstable_by(middle, |one, other| by(one).total_cmp(&by(other)));
@@ -188,18 +209,21 @@ impl<K: Copy> Shells<K> {
 }
 
 impl Alike {
+    fn one(shell: &Shell) -> Alike {
+        Alike {
+            bounds: shell.bounds,
+            core: shell.core,
+            slant: shell.slant,
+            centers: Bounds::of_points(&[shell.center]),
+            inner: shell.inner,
+            outer: shell.outer,
+        }
+    }
+
+    /// What holds of each of some shells, of one at the least.
     fn of<K>(shells: &[(K, Shell)]) -> Alike {
-        let mut all = Alike {
-            bounds: Bounds::EMPTY,
-            core: Bounds {
-                min: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
-                max: Point::new(f64::INFINITY, f64::INFINITY),
-            },
-            centers: Bounds::EMPTY,
-            inner: f64::INFINITY,
-            outer: 0.0,
-        };
-        for (_, shell) in shells {
+        let mut all = Alike::one(&shells[0].1);
+        for (_, shell) in &shells[1..] {
             all.bounds.merge(&shell.bounds);
             all.centers.include(shell.center);
             all.inner = all.inner.min(shell.inner);
@@ -207,7 +231,33 @@ impl Alike {
             all.core.min = all.core.min.sup(&shell.core.min);
             all.core.max = all.core.max.inf(&shell.core.max);
         }
+        all.slant = Slant::of_all(shells.iter().map(|(_, shell)| &shell.slant));
         all
+    }
+
+    /// In what these differ most: where their middles lie, beyond what the longest and the widest cover anyhow, or how much
+    /// they leave clear inside.
+    fn spread<K>(&self, shells: &[(K, Shell)]) -> Spread {
+        let (mut low, mut high) = (
+            Vector::repeat(f64::INFINITY),
+            Vector::repeat(f64::NEG_INFINITY),
+        );
+        let (mut largest, mut widest) = (Vector::zeros(), 0f64);
+        for (_, shell) in shells {
+            let middle = self.slant.within(shell.slant.middle.coords);
+            (low, high) = (low.inf(&middle), high.sup(&middle));
+            largest = largest.sup(&shell.slant.half);
+            widest = widest.max(shell.inner);
+        }
+        let [along, across] = (high - low - largest * 2.0).into();
+        let inside = widest - self.inner;
+        if inside >= along && inside >= across {
+            Spread::Inside
+        } else if along >= across {
+            Spread::Along
+        } else {
+            Spread::Across
+        }
     }
 
     /// False where none of these comes nearer to a shell than `reach`.
@@ -217,6 +267,7 @@ impl Alike {
         if !grown.touches(&self.bounds)
             || self.core.holds(&grown)
             || to.core.holds(&self.bounds.grown(reach))
+            || to.slant.is_apart(&self.slant, reach)
         {
             return false;
         }
@@ -309,6 +360,35 @@ mod tests {
             if kind < 2 {
                 assert!(near == 1 && work < 200, "{kind}: {near} in {work}");
             }
+        }
+    }
+
+    #[test]
+    fn lines_side_by_side_are_not_all_looked_at() {
+        let slanted = |at: f64| (Point::new(at, 0.0), Point::new(at + 1600.0, 1200.0));
+        // Of one direction and many lengths, in no order.
+        let chord = |at: f64| {
+            let angle = at * 0.618_033_988_749_895 * std::f64::consts::TAU;
+            let end = |angle: f64| Point::new(2000.0 * angle.cos(), 2000.0 * angle.sin());
+            (end(angle), end(1.0 - angle))
+        };
+        // From one centre, each turned a little against the next.
+        let ray = |at: f64| {
+            let way = Vector::new((at * 0.003).cos(), (at * 0.003).sin());
+            (Point::from(way * 500.0), Point::from(way * 2000.0))
+        };
+        for ends in [&slanted as &dyn Fn(f64) -> (Point, Point), &chord, &ray] {
+            let shell = |at: usize| {
+                let (start, end) = ends(at as f64);
+                (at, Shell::of(std::iter::once(Segment::line(start, end))))
+            };
+            let all: Vec<(usize, Shell)> = (0..2000).map(shell).collect();
+            let shells = Shells::new(all.clone());
+            let (mut near, mut work) = (0, 0);
+            for (_, shell) in &all {
+                work += shells.near(shell, 0.3, |_, _| near += 1);
+            }
+            assert!(near < 3000 && work < 2000 * 200, "{near} in {work}");
         }
     }
 }
