@@ -65,37 +65,47 @@ pub(super) fn by_place(drawing: &Drawing, one: EntityId, other: EntityId) -> Ord
         return one.cmp(&other);
     };
     let flat = drawing.flat();
-    let numbers = |geometry: &Geometry| {
+    let ends = |geometry: &Geometry| {
         let (start, end) = geometry
             .ends()
             .unwrap_or((Point::origin(), Point::origin()));
-        let turned = by_coordinates(&end, &start).is_lt();
-        let (low, high) = if turned { (end, start) } else { (start, end) };
+        match by_coordinates(&end, &start).is_lt() {
+            true => ([end, start], true),
+            false => ([start, end], false),
+        }
+    };
+    // What lies between is worked out where the ends do not tell them apart.
+    let ((of_a, turned_a), (of_b, turned_b)) = (ends(&a.geometry), ends(&b.geometry));
+    let between = |geometry: &Geometry, low: Point, turned: bool| {
         let count = geometry.segment_count();
         let shares = if turned {
             [0.75, 0.5, 0.25]
         } else {
             [0.25, 0.5, 0.75]
         };
-        let middle = shares.map(|share| {
+        shares.map(|share| {
             // The segment at a share of the whole, and the share within it.
             let along = share * count as f64;
             let index = (along as usize).min(count.saturating_sub(1));
             geometry
                 .segment_of(index, flat)
                 .map_or(low, |segment| segment.point_at(along - index as f64))
-        });
-        [low, high, middle[0], middle[1], middle[2]]
+        })
     };
-    let (of_a, of_b) = (numbers(&a.geometry), numbers(&b.geometry));
-    let differs = of_a
-        .iter()
-        .zip(&of_b)
-        .map(|(p, q)| by_coordinates(p, q))
-        .find(|order| order.is_ne());
+    let compare = |one: &[Point], other: &[Point]| {
+        let mut orders = one.iter().zip(other).map(|(p, q)| by_coordinates(p, q));
+        orders
+            .find(|order| order.is_ne())
+            .unwrap_or(Ordering::Equal)
+    };
     let count = |geometry: &Geometry| geometry.segment_count();
-    differs
-        .unwrap_or(Ordering::Equal)
+    compare(&of_a, &of_b)
+        .then_with(|| {
+            compare(
+                &between(&a.geometry, of_a[0], turned_a),
+                &between(&b.geometry, of_b[0], turned_b),
+            )
+        })
         .then_with(|| count(&a.geometry).cmp(&count(&b.geometry)))
         .then_with(|| {
             a.handle

@@ -267,7 +267,6 @@ impl Alike {
         if !grown.touches(&self.bounds)
             || self.core.holds(&grown)
             || to.core.holds(&self.bounds.grown(reach))
-            || to.slant.is_apart(&self.slant, reach)
         {
             return false;
         }
@@ -283,6 +282,7 @@ impl Alike {
         nearest <= self.outer + to.outer + reach
             && farthest + to.outer + reach >= self.inner
             && farthest + self.outer + reach >= to.inner
+            && !to.slant.is_apart(&self.slant, reach)
     }
 }
 
