@@ -7,6 +7,7 @@
 
 use super::Analysis;
 use super::contours::{role_of, role_of_linetype, set_aside};
+use super::faced::Faced;
 use super::report::Report;
 use super::suppressed::own_role;
 use crate::drawing::{
@@ -22,22 +23,23 @@ use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Two ends of lines belong together within this share of a line's length.
-const SHARE: f64 = 0.25;
+pub(super) const SHARE: f64 = 0.25;
 /// They always do within this many join tolerances (1 mm), unless the other one is a lone line.
-const JOINS: f64 = 100.0;
+pub(super) const JOINS: f64 = 100.0;
 /// Lines up to this sine of their angle count as parallel: hatches, and the pieces of a broken line.
 const PARALLEL: f64 = 0.01;
 
-/// From this many questions on it pays to ask over the cores.
+/// From this many questions on it pays to ask over the cores, and from this share of all lines to sort by place what they face.
 const MANY: usize = 16;
+const FEW_OF_ALL: usize = 32;
 
 /// A contour that is one line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lone {
-    line: Line,
+    pub(super) line: Line,
     /// Nothing beyond this matters to it.
     reach: Bounds,
     pub(super) is_aside: bool,
@@ -184,6 +186,8 @@ impl Analysis {
             let is_held = |key| self.is_there(drawing, key) && holds(lone, key);
             !closed.any_near(&lone.reach, is_held)
         };
+        let faced = OnceLock::new();
+        let is_sorted = keys.len() > MANY && keys.len() * FEW_OF_ALL > self.lone.len();
         let judge = |&key: &ContourKey| {
             let lone = self.lone.get(&key)?;
             if closed
@@ -191,6 +195,15 @@ impl Analysis {
                 .is_some_and(|closed| is_in_none(lone, closed))
             {
                 return Some((key, false));
+            }
+            if is_sorted {
+                let faced = faced.get_or_init(|| Faced::of(self, drawing));
+                let is_faced = |other| {
+                    other != key
+                        && (self.lone.contains_key(&other) || self.is_there(drawing, other))
+                        && self.faces(drawing, lone, other)
+                };
+                return Some((key, !faced.any_near(lone, self.reaches_of(lone), is_faced)));
             }
             let near = self.contours_near(drawing, &lone.reach);
             let is_aside = near.iter().any(|&other| holds(lone, other))
@@ -276,26 +289,36 @@ impl Analysis {
 
     /// True where an end of the line faces one of another contour.
     fn faces(&self, drawing: &Drawing, lone: &Lone, other: ContourKey) -> bool {
-        let join = self.limits.tolerances.join;
         let line = &lone.line;
+        let (reach, join) = self.reaches_of(lone);
         if let Some(theirs) = self.lone.get(&other) {
-            return are_a_corner(line, &theirs.line, JOINS * join);
+            return are_a_corner(line, &theirs.line, join);
         }
-        let Some(contour) = self.chains.get(other).filter(|contour| !contour.closed) else {
-            return false;
-        };
-        let ends = [
-            contour
-                .segment(drawing, 0)
-                .map(|first| first.geometry.start()),
-            contour
-                .segment(drawing, contour.len().saturating_sub(1))
-                .map(|last| last.geometry.end()),
-        ];
-        let reach = (SHARE * line.length()).max(JOINS * join);
-        ends.into_iter()
-            .flatten()
+        self.ends_of(drawing, other)
             .any(|end| (end - line.start).norm() <= reach || (end - line.end).norm() <= reach)
+    }
+
+    /// How far from the ends of a line those of an open contour are faced, and those of another line always.
+    fn reaches_of(&self, lone: &Lone) -> (f64, f64) {
+        let join = JOINS * self.limits.tolerances.join;
+        ((SHARE * lone.line.length()).max(join), join)
+    }
+
+    /// The ends of an open contour.
+    pub(super) fn ends_of(
+        &self,
+        drawing: &Drawing,
+        key: ContourKey,
+    ) -> impl Iterator<Item = Point> {
+        let contour = self.chains.get(key).filter(|contour| !contour.closed);
+        let ends = contour.map(|contour| {
+            let last = contour.segment(drawing, contour.len().saturating_sub(1));
+            [
+                contour.segment(drawing, 0).map(|it| it.geometry.start()),
+                last.map(|it| it.geometry.end()),
+            ]
+        });
+        ends.into_iter().flatten().flatten()
     }
 
     /// True where a stretch of the line lies within a closed contour, and not on it.

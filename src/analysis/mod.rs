@@ -6,6 +6,7 @@ mod compare;
 mod contours;
 mod dead_ends;
 mod ends;
+mod faced;
 mod fit_fixes;
 mod fits;
 mod fixes;

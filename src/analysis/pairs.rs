@@ -20,8 +20,10 @@ const BATCH: usize = 8192;
 /// From this many runs on it is worth waking other threads, each of which takes this many at a time.
 const MANY_RUNS: usize = 512;
 const SHARE: usize = 64;
-/// Runs of which it is asked how much lies near them, and how many of those come near indeed.
+/// Runs of which it is asked how much lies near them, and how many of those come near indeed; and how
+/// many are a crowd.
 const SAMPLES: usize = 32;
+const CROWDED: usize = 64;
 
 /// The runs of all contours by place, and the observations between them.
 #[derive(Clone, Debug, Default)]
@@ -196,6 +198,18 @@ impl Pairs {
         self.is_disturbed |= is_seen;
     }
 
+    /// The same of many new runs: it is the others that are asked whether one of these has come near.
+    fn disturb_about(&mut self, outlook: Outlooks, new: &FxHashMap<RunId, usize>) {
+        let is_disturbed = |run: &&RunId| {
+            let bounds = outlook(run.0).map(|it| it.index.bounds_of_run(run.1 as usize));
+            let is_new = |other: RunId| new.contains_key(&other);
+            bounds.is_some_and(|it| self.grid.any_near(&it.grown(self.reach), is_new))
+        };
+        let disturbed = self.partners.keys().filter(is_disturbed);
+        self.stale.extend(disturbed);
+        self.is_disturbed = true;
+    }
+
     /// Dead ends that hang on a run must be looked at again.
     fn disturb_ends(&mut self, run: RunId) {
         if self.ends.is_some() {
@@ -236,7 +250,9 @@ impl Pairs {
             if let Some(outlook) = outlook(run.0) {
                 let bounds = outlook.index.bounds_of_run(run.1 as usize);
                 self.grid.insert(run, bounds);
-                self.disturb(&bounds);
+                if runs.len() < MANY_RUNS {
+                    self.disturb(&bounds);
+                }
             }
         }
         // A new run may or may not be behind the end of the comparison.
@@ -252,6 +268,9 @@ impl Pairs {
             .enumerate()
             .map(|(at, &run)| (run, at))
             .collect();
+        if runs.len() >= MANY_RUNS {
+            self.disturb_about(outlook, &new);
+        }
         let shells = self.shells(outlook, runs);
         let search = Search {
             grid: &self.grid,
@@ -333,20 +352,31 @@ impl Pairs {
 
     /// All runs by how they lie within each other, where the boxes near most new ones are many and tell little.
     fn shells(&self, outlook: Outlooks, runs: &[RunId]) -> Option<Shells<RunId>> {
-        let step = (runs.len() >= MANY_RUNS).then_some(runs.len() / SAMPLES)?;
+        let step = (runs.len() >= CROWDED).then_some(runs.len() / SAMPLES)?;
+        // It has to be worth putting all of them into a tree.
+        let samples = || runs.iter().step_by(step).take(SAMPLES);
+        let read = samples().map(|&run| {
+            let bounds = outlook(run.0).map(|it| it.index.bounds_of_run(run.1 as usize));
+            let area = bounds.unwrap_or(Bounds::EMPTY).grown(self.reach);
+            self.grid.near(&area, |_, _| {}) as usize
+        });
+        let read: usize = read.sum();
+        if read * runs.len() < SAMPLES * CROWDED * self.grid.len() {
+            return None;
+        }
         let shell = |run: RunId| Some(shell_of(&outlook(run.0)?, run.1));
-        let (mut read, mut meet) = (0, 0);
-        for &run in runs.iter().step_by(step).take(SAMPLES) {
+        let mut meet = 0;
+        for &run in samples() {
             let own = shell(run)?;
             let mut near = Vec::new();
             let area = own.bounds().grown(self.reach);
-            read += self.grid.near(&area, |other, _| near.push(other)) as usize;
+            self.grid.near(&area, |other, _| near.push(other));
             let tried = near.iter().step_by(near.len().div_ceil(SAMPLES).max(1));
             let shells: Vec<Shell> = tried.filter_map(|&other| shell(other)).collect();
             let meeting = shells.iter().filter(|it| it.may_meet(&own, self.reach));
             meet += near.len() * meeting.count() / shells.len().max(1);
         }
-        (read >= SAMPLES * MANY_RUNS && meet * 8 < read).then(|| {
+        (meet * 8 < read).then(|| {
             let runs: Vec<RunId> = self.grid.keys().collect();
             let shells = runs.par_iter().filter_map(|&run| Some((run, shell(run)?)));
             Shells::new(shells.collect())

@@ -106,6 +106,11 @@ impl<K: Copy + PartialEq> Grid<K> {
         }
     }
 
+    /// The number of boxes, with those that were removed and whose places are free.
+    pub(crate) fn len(&self) -> usize {
+        self.boxes.len()
+    }
+
     /// The keys of all boxes, in no order.
     pub(crate) fn keys(&self) -> impl Iterator<Item = K> + '_ {
         let boxed = |at: u32| self.boxes.get(at as usize);

@@ -1,6 +1,7 @@
 //! Finds what comes near an outline where the boxes of all touch: outlines lie within each other, or long ones side by side askew.
 
 use super::{Bounds, Point, Segment, Slant, Vector};
+use std::ops::ControlFlow;
 
 /// Where something lies: in a box but not in its core, in one that is turned, and between two circles about one point.
 #[derive(Clone, Copy, Debug)]
@@ -186,16 +187,40 @@ impl<K: Copy> Shells<K> {
 
     /// Calls `found` for each shell that may come nearer to another than `reach`, once each. Returns how many were looked at.
     pub(crate) fn near(&self, to: &Shell, reach: f64, mut found: impl FnMut(K, &Bounds)) -> u64 {
-        let (mut at, mut work) = (0, 0);
+        let mut work = 0;
+        let _ = self.look(to, reach, &mut work, |key, bounds| {
+            found(key, bounds);
+            ControlFlow::Continue(())
+        });
+        work
+    }
+
+    /// True where a shell that may come nearer to another than `reach` is one that is sought.
+    pub(crate) fn any_near(&self, to: &Shell, reach: f64, is_it: impl Fn(K) -> bool) -> bool {
+        let seek = |key: K, _: &Bounds| match is_it(key) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        };
+        self.look(to, reach, &mut 0, seek).is_break()
+    }
+
+    fn look(
+        &self,
+        to: &Shell,
+        reach: f64,
+        work: &mut u64,
+        mut found: impl FnMut(K, &Bounds) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let mut at = 0;
         while let Some(node) = self.nodes.get(at) {
-            work += 1;
+            *work += 1;
             let is_near = node.all.may_meet(to, reach);
             if is_near && node.is_leaf {
                 let shells = &self.shells[node.first as usize..node.end as usize];
-                work += shells.len() as u64;
+                *work += shells.len() as u64;
                 for (key, shell) in shells {
                     if shell.may_meet(to, reach) {
-                        found(*key, &shell.bounds);
+                        found(*key, &shell.bounds)?;
                     }
                 }
             }
@@ -204,7 +229,7 @@ impl<K: Copy> Shells<K> {
                 false => node.behind as usize,
             };
         }
-        work
+        ControlFlow::Continue(())
     }
 }
 

@@ -1,0 +1,60 @@
+//! What the ends of lone lines may face, by place: for many lines at once, of which a hatch has thousands side by side.
+
+use super::Analysis;
+use super::aside::{JOINS, Lone, SHARE};
+use crate::drawing::{ContourKey, Drawing};
+use crate::geometry::{Bounds, Grid, Point, Segment, Shell, Shells};
+use std::iter::once;
+
+/// Ends of the contours of a drawing.
+pub(super) struct Faced {
+    /// How far lone lines reach on at both ends: two of them face each other where these meet.
+    stubs: Shells<ContourKey>,
+    /// The ends of other open contours.
+    ends: Grid<ContourKey>,
+}
+
+impl Faced {
+    pub(super) fn of(analysis: &Analysis, drawing: &Drawing) -> Faced {
+        let stubs = analysis.lone.iter().flat_map(|(&key, lone)| {
+            let stubs = stubs_of(lone).into_iter();
+            stubs.map(move |stub| (key, stub))
+        });
+        let mut ends = Grid::default();
+        for &key in analysis.known.keys() {
+            if !analysis.lone.contains_key(&key) {
+                for end in analysis.ends_of(drawing, key) {
+                    ends.insert(key, Bounds::of_points(&[end]));
+                }
+            }
+        }
+        Faced {
+            stubs: Shells::new(stubs.collect()),
+            ends,
+        }
+    }
+
+    /// True where `is_faced` holds of another contour whose ends come near those of a line: within `reach`, of a line within
+    /// `join` of where they go on to.
+    pub(super) fn any_near(
+        &self,
+        lone: &Lone,
+        (reach, join): (f64, f64),
+        is_faced: impl Fn(ContourKey) -> bool,
+    ) -> bool {
+        let ends: [Point; 2] = [lone.line.start, lone.line.end];
+        let stubs = stubs_of(lone);
+        ends.iter()
+            .any(|&end| self.ends.any_near(&Bounds::of_disc(end, reach), &is_faced))
+            || stubs
+                .iter()
+                .any(|stub| self.stubs.any_near(stub, join, &is_faced))
+    }
+}
+
+fn stubs_of(lone: &Lone) -> [Shell; 2] {
+    let (start, end) = (lone.line.start, lone.line.end);
+    let on = (end - start) * SHARE;
+    [(start, start - on), (end, end + on)]
+        .map(|(from, to)| Shell::of(once(Segment::line(from, to))))
+}
