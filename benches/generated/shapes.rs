@@ -10,7 +10,7 @@ pub struct Shape {
 }
 
 /// All of them, with names that can be names of files.
-pub const ALL: [Shape; 21] = [
+pub const ALL: [Shape; 24] = [
     Shape {
         name: "comb",
         text: |count| polyline(&comb(count), true),
@@ -48,6 +48,23 @@ pub const ALL: [Shape; 21] = [
         text: |count| lines(hatch_slanted(count)),
     },
     Shape {
+        name: "hatch-in-plate",
+        text: |count| {
+            let size = count as f64;
+            let plate = [[-2.0, -2.0], [size, -2.0], [size, size], [-2.0, size]];
+            let upright = |number| [[number as f64, 0.0], [number as f64, size - 2.0]];
+            lines(
+                chain(&plate, true)
+                    .into_iter()
+                    .chain((1..count.saturating_sub(4)).map(upright)),
+            )
+        },
+    },
+    Shape {
+        name: "zigzag-slanted",
+        text: |count| polyline(&zigzag_slanted(count), false),
+    },
+    Shape {
         name: "nested-squares",
         text: |count| lines(nested_squares(count)),
     },
@@ -62,6 +79,10 @@ pub const ALL: [Shape; 21] = [
     Shape {
         name: "chords",
         text: |count| lines(chords(count)),
+    },
+    Shape {
+        name: "chords-across",
+        text: |count| lines(chords_across(count)),
     },
     Shape {
         name: "star",
@@ -243,6 +264,23 @@ fn hatch_slanted(count: usize) -> Vec<[Point; 2]> {
     (0..count).map(line).collect()
 }
 
+/// One long way to and fro, askew.
+fn zigzag_slanted(count: usize) -> Vec<Point> {
+    let length = count as f64 * 0.3;
+    let at = |index: usize| {
+        let (along, across) = (
+            if index.div_ceil(2).is_multiple_of(2) {
+                0.0
+            } else {
+                length
+            },
+            (index / 2) as f64 * 0.5,
+        );
+        [0.8 * along - 0.6 * across, 0.6 * along + 0.8 * across]
+    };
+    (0..count).map(at).collect()
+}
+
 /// Squares that lie in each other, one within the next.
 fn nested_squares(count: usize) -> Vec<[Point; 2]> {
     let square = |number: usize| {
@@ -266,7 +304,7 @@ fn flower(count: usize) -> Vec<(Point, f64)> {
     (0..count).map(petal).collect()
 }
 
-/// Chords of one circle in many directions, most of which cross each other.
+/// Chords of one circle that run the same way, in no order.
 fn chords(count: usize) -> Vec<[Point; 2]> {
     let radius = count as f64;
     let at = |number: usize| {
@@ -276,6 +314,24 @@ fn chords(count: usize) -> Vec<[Point; 2]> {
     };
     (0..count)
         .map(|number| [at(number), at(2 * count - number)])
+        .collect()
+}
+
+/// Chords of one circle in many directions, most of which cross each other.
+fn chords_across(count: usize) -> Vec<[Point; 2]> {
+    let radius = count as f64;
+    let at = |turns: f64| {
+        let (sine, cosine) = (turns * TAU).sin_cos();
+        [radius * cosine, radius * sine]
+    };
+    (0..count)
+        .map(|number| number as f64)
+        .map(|number| {
+            [
+                at(number * 0.618_033_988_749_895),
+                at(number * 0.754_877_666_246_693),
+            ]
+        })
         .collect()
 }
 

@@ -28,7 +28,7 @@ use std::sync::{Arc, OnceLock};
 /// Two ends of lines belong together within this share of a line's length.
 pub(super) const SHARE: f64 = 0.25;
 /// They always do within this many join tolerances (1 mm), unless the other one is a lone line.
-pub(super) const JOINS: f64 = 100.0;
+const JOINS: f64 = 100.0;
 /// Lines up to this sine of their angle count as parallel: hatches, and the pieces of a broken line.
 const PARALLEL: f64 = 0.01;
 

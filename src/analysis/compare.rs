@@ -62,19 +62,23 @@ pub(crate) fn passes(segment: &Segment, bounds: &Bounds, reach: f64) -> bool {
             normal.dot(&(center - line.start)).abs() <= half + reach * 2.0
         }
         Segment::Arc(arc) => {
-            let half_diagonal = bounds.width().hypot(bounds.height()) / 2.0;
+            let half_diagonal = (bounds.max - center).norm();
             ((center - arc.center).norm() - arc.radius).abs() <= half_diagonal + reach * 2.0
         }
     }
 }
 
 /// False for two segments of which one passes the other, or its box, at more than `reach`.
-fn may_meet(one: &(Wall, Bounds), other: &(Wall, Bounds), reach: f64) -> bool {
-    match (one.0.geometry(), other.0.geometry()) {
+fn may_meet(
+    (one, own): (&Segment, &Bounds),
+    (other, theirs): (&Segment, &Bounds),
+    reach: f64,
+) -> bool {
+    match (one, other) {
         (Segment::Line(one), Segment::Line(other)) => {
             !lies_beside(one, other, reach) && !lies_beside(other, one, reach)
         }
-        (own, theirs) => passes(own, &other.1, reach) && passes(theirs, &one.1, reach),
+        _ => passes(one, theirs, reach) && passes(other, own, reach),
     }
 }
 
@@ -124,9 +128,14 @@ impl<'a, 'b> Kept<'a, 'b> {
     }
 }
 
-/// The segments of a run with their boxes.
+/// A segment of a run with its box.
+pub(crate) type Walled<'a> = (Wall<'a>, Bounds);
+
+/// The segments of a run, or those of them that come near something.
 pub(crate) struct Walls<'a> {
-    pub(crate) each: Vec<(Wall<'a>, Bounds)>,
+    pub(crate) each: Vec<Walled<'a>>,
+    /// The number of all.
+    count: usize,
     /// The box of each [`GROUP`] of them, and that of all.
     pub(crate) groups: Vec<Bounds>,
     pub(crate) all: Bounds,
@@ -134,6 +143,24 @@ pub(crate) struct Walls<'a> {
 
 impl<'a> Walls<'a> {
     pub(crate) fn of(outlook: &Outlook<'a>, run: u32) -> Walls<'a> {
+        Walls::of_those(outlook, run, |_, _| true)
+    }
+
+    /// Those that may come nearer to one of some others than `reach`.
+    pub(crate) fn near(outlook: &Outlook<'a>, run: u32, to: &[&Walled], reach: f64) -> Walls<'a> {
+        Walls::of_those(outlook, run, |segment, bounds| {
+            to.iter().any(|(wall, own)| {
+                own.grown(reach).touches(bounds)
+                    && may_meet((wall.geometry(), own), (segment, bounds), reach)
+            })
+        })
+    }
+
+    fn of_those(
+        outlook: &Outlook<'a>,
+        run: u32,
+        is_one: impl Fn(&Segment, &Bounds) -> bool,
+    ) -> Walls<'a> {
         let range = outlook.index.range_of(run as usize);
         let (first, count) = (range.start, range.len());
         let segments = outlook
@@ -145,11 +172,13 @@ impl<'a> Walls<'a> {
             .map(|segment| segment.geometry);
         let wall = |(along, segment): (usize, ContourSegment)| {
             let before = before.replace(segment.geometry);
-            let wall = Wall::behind(before, outlook, first + along, segment);
-            (wall, segment.geometry.bounds())
+            let bounds = segment.geometry.bounds();
+            is_one(&segment.geometry, &bounds).then(|| {
+                let wall = Wall::behind(before, outlook, first + along, segment);
+                (wall, bounds)
+            })
         };
-        let mut each: Vec<(Wall, Bounds)> = Vec::with_capacity(count);
-        each.extend(segments.map(wall));
+        let each: Vec<Walled> = segments.filter_map(wall).collect();
         let mut all = Bounds::EMPTY;
         let groups = each.chunks(GROUP).map(|group| {
             let mut bounds = Bounds::EMPTY;
@@ -158,7 +187,12 @@ impl<'a> Walls<'a> {
             bounds
         });
         let groups = groups.collect();
-        Walls { each, groups, all }
+        Walls {
+            each,
+            count,
+            groups,
+            all,
+        }
     }
 
     /// True when a segment comes nearer to `center` than `radius`; `area` is the box of that disc.
@@ -202,8 +236,8 @@ impl Comparison<'_> {
                     .enumerate()
                     .skip(group * GROUP)
                     .take(GROUP);
-                let near = |(place, other): &(usize, &(Wall, Bounds))| {
-                    *place > at && area.touches(&other.1) && may_meet(one, other, self.reach)
+                let near = |(place, other): &(usize, &Walled)| {
+                    *place > at && area.touches(&other.1) && self.may_meet(one, other)
                 };
                 for (_, other) in others.filter(near) {
                     looks += LOOKS_OF_A_PAIR;
@@ -215,22 +249,20 @@ impl Comparison<'_> {
     }
 
     pub(crate) fn between(&self, walls: &Walls, others: &Walls, found: &mut Vec<Observed>) -> u64 {
-        let mut looks = (walls.each.len() + others.each.len()) as u64;
+        let mut looks = (walls.count + others.count) as u64;
         for one in &walls.each {
             let area = one.1.grown(self.reach);
             if !(area.touches(&others.all) && passes(one.0.geometry(), &others.all, self.reach)) {
                 continue;
             }
-            looks += others.groups.len() as u64;
+            looks += others.count.div_ceil(GROUP) as u64;
             for (group, _) in others
                 .each
                 .chunks(GROUP)
                 .zip(&others.groups)
                 .filter(|(_, bounds)| area.touches(bounds))
             {
-                let near = |other: &&(Wall, Bounds)| {
-                    area.touches(&other.1) && may_meet(one, other, self.reach)
-                };
+                let near = |other: &&Walled| area.touches(&other.1) && self.may_meet(one, other);
                 for other in group.iter().filter(near) {
                     looks += LOOKS_OF_A_PAIR;
                     self.at(one, other, found);
@@ -240,9 +272,17 @@ impl Comparison<'_> {
         looks
     }
 
+    fn may_meet(&self, (one, own): &Walled, (other, theirs): &Walled) -> bool {
+        may_meet(
+            (one.geometry(), own),
+            (other.geometry(), theirs),
+            self.reach,
+        )
+    }
+
     /// Runs the rules on two segments whose boxes come near each other. The one of the entity that is machined earlier
     /// comes first, so that the answer depends neither on the keys of contours nor on when an entity was drawn.
-    fn at(&self, one: &(Wall, Bounds), other: &(Wall, Bounds), found: &mut Vec<Observed>) {
+    fn at(&self, one: &Walled, other: &Walled, found: &mut Vec<Observed>) {
         let place = |wall: &Wall| {
             (
                 wall.outlook.drawing.rank(wall.segment.entity),

@@ -280,6 +280,7 @@ impl Pairs {
             most_seen: self.most_seen,
             new: &new,
             are_parts: self.are_parts,
+            keeps: runs.len() >= MANY_RUNS,
         };
         let mut kept = Kept::new(outlook);
         let mut all_seen = Vec::new();

@@ -1,6 +1,6 @@
 //! The search for what comes near a run, and the comparison with each of it. Knows nothing of what was found before.
 
-use super::compare::{Comparison, Kept, LOOKS_OF_A_PAIR, Observed, RunId, Walls, passes};
+use super::compare::{Comparison, Kept, LOOKS_OF_A_PAIR, Observed, RunId, Walled, Walls, passes};
 use crate::geometry::{Bounds, Grid, Segment, Shell, Shells};
 use crate::rules::Outlook;
 use rustc_hash::FxHashMap;
@@ -20,6 +20,8 @@ pub(super) struct Search<'a> {
     pub(super) most_seen: usize,
     pub(super) new: &'a FxHashMap<RunId, usize>,
     pub(super) are_parts: bool,
+    /// So many are compared that the walls of each are needed again.
+    pub(super) keeps: bool,
 }
 
 /// The results for one run.
@@ -84,27 +86,36 @@ impl Search<'_> {
             },
         };
         // A long line may have a box that holds half the drawing, and come near little of it.
+        let comes_near = |(wall, bounds): &Walled, theirs: &Bounds| {
+            bounds.grown(self.reach).touches(theirs) && passes(wall.geometry(), theirs, self.reach)
+        };
         near.retain(|(other, theirs)| {
-            looked.before += LOOKS_OF_A_PAIR + walls.each.len() as u64;
-            *other == run
-                || walls.each.iter().any(|(wall, bounds)| {
-                    bounds.grown(self.reach).touches(theirs)
-                        && passes(wall.geometry(), theirs, self.reach)
-                })
+            looked.before += (walls.each.len() as u64).div_ceil(BOXES_OF_A_LOOK);
+            *other == run || walls.each.iter().any(|wall| comes_near(wall, theirs))
         });
+        looked.before += LOOKS_OF_A_PAIR * near.len() as u64;
         let comparison = |other: RunId| Comparison {
             rules: self.rules,
             reach: self.reach,
             keys: (run.0, other.0),
         };
         let (mut looks, mut count) = (looked.before, 0);
-        for (other, _) in near {
+        for (other, bounds) in near {
             if looks >= most || count >= self.most_seen {
                 looked.is_cut_short = true;
                 break;
             }
             let mut found = Vec::new();
-            let theirs = (other != run).then(|| kept.walls_of(other)).flatten();
+            // Of what is not needed again only those that come near.
+            let theirs = match self.keeps {
+                _ if other == run => None,
+                true => kept.walls_of(other),
+                false => (kept.outlook)(other.0).map(|outlook| {
+                    let own = walls.each.iter().filter(|wall| comes_near(wall, &bounds));
+                    let own: Vec<&Walled> = own.collect();
+                    Rc::new(Walls::near(&outlook, other.1, &own, self.reach))
+                }),
+            };
             let own = match theirs {
                 Some(theirs) => comparison(other).between(&walls, &theirs, &mut found),
                 None => comparison(other).within(&walls, &mut found),

@@ -8,7 +8,8 @@ use super::wall::{Corner, Joints, Wall};
 use super::{PairObservation, PairRule};
 use crate::finding::{Detail, Rule, Severity};
 use crate::geometry::{
-    Point, Segment, Vector, cross, facing, foot_inside, meetings, positive_angle, shared_length,
+    Few, Point, Segment, Vector, cross, facing, foot_inside, meetings, positive_angle,
+    shared_length,
 };
 
 pub(crate) const RULE: PairRule = PairRule {
@@ -66,22 +67,22 @@ fn contact(one: &Wall, other: &Wall, same_contour: bool) -> Option<Contact> {
     };
     let at_joint = |point: Point| joints.are_at(point, tolerances.join);
     // Here the two come so near without crossing that a meeting close by is not a separate one.
-    let ends_of = |ends: &Segment, on: &Segment| {
+    let ends_of = |ends: &Segment, on: Segment| {
         [ends.start(), ends.end()]
             .into_iter()
-            .filter(|&end| on.distance_to(end) <= near.touch)
-            .collect::<Vec<_>>()
+            .filter(move |&end| on.distance_to(end) <= tolerances.touch)
     };
-    let tangential: Vec<Point> = match (a, b) {
-        (Segment::Line(_), Segment::Line(_)) => Vec::new(),
+    let tangential: Few<Point, 6> = match (a, b) {
+        (Segment::Line(_), Segment::Line(_)) => Few::default(),
         _ => facing(a, b)
             .into_iter()
             .filter(|(p, q)| (p - q).norm() <= near.touch)
             .map(|(p, _)| p)
             .collect(),
     };
-    let mut anchors = [ends_of(a, b), ends_of(b, a), joints.points.to_vec()].concat();
-    anchors.extend(&tangential);
+    let mut anchors: Few<Point, 14> = ends_of(a, *b).chain(ends_of(b, *a)).collect();
+    anchors.extend(joints.points.iter().copied());
+    anchors.extend(tangential.iter().copied());
     if let Some(at) = meetings(a, b).into_iter().find(|&point| {
         !at_joint(point) && !anchors.iter().any(|&anchor| near.all_along(point, anchor))
     }) {

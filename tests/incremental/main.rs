@@ -1,6 +1,7 @@
 //! What an analysis knows after any sequence of edits is what a fresh one knows.
 
 mod drawings;
+mod hatched;
 mod left_out;
 mod pairs;
 mod random;
