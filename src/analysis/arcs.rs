@@ -1,7 +1,7 @@
 //! Arcs below the correction, and the larger arc that replaces a run of them.
 
 use super::Analysis;
-use super::repair::{self, Wanted};
+use super::repair::{self, Tried, Wanted};
 use crate::drawing::{ContourKey, ContourSegment, Drawing, DrawingEdit, EntityId};
 use crate::finding::{Fix, FixKind, NoFix, Rule, Side, SmallRadius};
 use crate::rules::small_radius::{self, Attempt, Replacement, Travel};
@@ -93,8 +93,9 @@ impl Analysis {
             .into_iter()
             .flat_map(of_contour);
         repair::most_together(replacements, self.tries(), wanted, |together, _| {
-            small_radius::drawing_edit(drawing, together)
-                .filter(|edit| self.enlarges(drawing, edit, None, &mut 0))
+            let edit = small_radius::drawing_edit(drawing, together)
+                .filter(|edit| self.enlarges(drawing, edit, None, &mut 0));
+            Tried::of(edit)
         })
     }
 

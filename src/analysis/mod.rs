@@ -14,6 +14,7 @@ mod judge;
 mod known;
 mod learn;
 mod notable;
+mod opened;
 mod pair_findings;
 mod pairs;
 mod pockets;

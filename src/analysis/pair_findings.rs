@@ -49,16 +49,16 @@ impl Pairs {
         slots
     }
 
+    /// Two entities each that lie in the same place.
+    pub(super) fn doubles(&self, outlook: Outlooks) -> impl Iterator<Item = [EntityId; 2]> {
+        let entity_of = |(key, index): SegmentId| Some(outlook(key)?.segment_id(index)?.0);
+        let seen = self.seen.of(Rule::DuplicateEntity);
+        seen.filter_map(move |seen| Some([entity_of(seen.one)?, entity_of(seen.other)?]))
+    }
+
     /// Entities that lie in the same place as another.
     pub(crate) fn doubled(&self, outlook: Outlooks) -> FxHashSet<EntityId> {
-        let mut doubled = FxHashSet::default();
-        for seen in self.seen.of(Rule::DuplicateEntity) {
-            for (key, index) in [seen.one, seen.other] {
-                let id = outlook(key).and_then(|outlook| outlook.segment_id(index));
-                doubled.extend(id.map(|(entity, _)| entity));
-            }
-        }
-        doubled
+        self.doubles(outlook).flatten().collect()
     }
 
     /// Where the first run lies that has not been compared.

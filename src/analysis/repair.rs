@@ -20,6 +20,34 @@ const TRIES: usize = 24;
 const FEW_TRIES: usize = 6;
 const SEGMENTS: usize = 4_000_000;
 
+/// Edits that are refused by what the contours alone say, and cost as much as one look.
+const ON_SIGHT: usize = 16;
+
+/// Parts that are tried each by itself where only one is wanted, or all together do nothing.
+const ALONE: usize = 8;
+
+/// What comes of an edit that is tried.
+pub(super) enum Tried<M> {
+    Better(M),
+    /// A look at the drawing showed that it does not help.
+    Worse,
+    /// The contours alone show it.
+    PlainlyWorse,
+}
+
+impl<M> Tried<M> {
+    pub(super) fn of(better: Option<M>) -> Tried<M> {
+        better.map_or(Tried::Worse, Tried::Better)
+    }
+
+    fn better(self) -> Option<M> {
+        match self {
+            Tried::Better(made) => Some(made),
+            Tried::Worse | Tried::PlainlyWorse => None,
+        }
+    }
+}
+
 /// Whether the edit of one fix can be made in the source of the drawing; of all fixes where there is none to ask.
 pub(super) type Can<'a> = Option<&'a dyn Fn(&DrawingEdit) -> bool>;
 
@@ -42,21 +70,31 @@ impl Analysis {
         let before = self.tallied(drawing);
         fixes
             .into_iter()
-            .filter(|fix| self.mends(drawing, rule, before, &fix.edit).is_some())
+            .filter(|fix| {
+                let tried = self.mends(drawing, rule, before, &fix.edit);
+                tried.better().is_some()
+            })
             .collect()
     }
 
     /// The findings after an edit that is possible, leaves no more errors than `before`, no more errors and warnings
-    /// together, and fewer findings of `rule`; `None` for any other edit.
+    /// together, and fewer findings of `rule`.
     fn mends(
         &self,
         drawing: &Drawing,
         rule: Rule,
         before: &Tally,
         edit: &DrawingEdit,
-    ) -> Option<Tally> {
+    ) -> Tried<Tally> {
         let mut edited = drawing.clone();
-        let delta = edited.apply(edit).ok()?;
+        let Ok(delta) = edited.apply(edit) else {
+            return Tried::PlainlyWorse;
+        };
+        let is_plainly_worse =
+            rule != Rule::OpenContour && self.plainly_opens((drawing, &edited), &delta, before);
+        if is_plainly_worse && !cfg!(debug_assertions) {
+            return Tried::PlainlyWorse;
+        }
         let after = self.updated(&edited, &delta).tally(&edited);
         // Chords beyond one circle may leave a second sequence behind.
         let is_less = after.of(rule) < before.of(rule)
@@ -67,7 +105,12 @@ impl Analysis {
             Rule::OpenContour => after.is_no_worse_once_closed(before),
             _ => after.is_no_worse_than(before, rule),
         };
-        (is_less && is_no_worse).then_some(after)
+        let is_better = is_less && is_no_worse;
+        debug_assert!(!(is_plainly_worse && is_better), "{before:?} {after:?}");
+        match is_plainly_worse {
+            true => Tried::PlainlyWorse,
+            false => Tried::of(is_better.then_some(after)),
+        }
     }
 
     /// How many edits are tried.
@@ -182,11 +225,12 @@ impl Analysis {
                 changes: changes.cloned().collect(),
             };
             let mut edited = drawing.clone();
-            let delta = edited.apply(&tried).ok()?;
+            let Ok(delta) = edited.apply(&tried) else {
+                return Tried::PlainlyWorse;
+            };
             let after = self.updated(&edited, &delta).tally(&edited);
-            after
-                .spoils_nothing(before, Some(Rule::SmallRadius))
-                .then_some(tried)
+            let is_better = after.spoils_nothing(before, Some(Rule::SmallRadius));
+            Tried::of(is_better.then_some(tried))
         })
     }
 
@@ -211,13 +255,12 @@ impl Analysis {
                         .cloned()
                         .collect(),
                 };
-                let after = self.mends(
-                    drawing,
-                    rule,
-                    best.map_or(before, |(_, tally)| tally),
-                    &tried,
-                )?;
-                Some((tried, after))
+                let before = best.map_or(before, |(_, tally)| tally);
+                match self.mends(drawing, rule, before, &tried) {
+                    Tried::Better(after) => Tried::Better((tried, after)),
+                    Tried::Worse => Tried::Worse,
+                    Tried::PlainlyWorse => Tried::PlainlyWorse,
+                }
             },
         );
         most.map(|(edit, _)| edit)
@@ -227,27 +270,39 @@ impl Analysis {
 /// The result of as many parts as go together: where all of them do not, each half is tried beside those taken so far,
 /// then the halves of that half. `made` is given the parts and the result of those taken so far.
 ///
-/// Where no try succeeds, the first part is tried by itself; if one is enough, it is tried before all others.
+/// Where no try succeeds, the first [`ALONE`] are tried each by itself; if one is enough, they are tried before all others.
 pub(super) fn most_together<T: Clone, M>(
     mut parts: impl Iterator<Item = T>,
     tries: usize,
     wanted: Wanted,
-    made: impl Fn(&[T], Option<&M>) -> Option<M>,
+    made: impl Fn(&[T], Option<&M>) -> Tried<M>,
 ) -> Option<M> {
-    let first = [parts.next()?];
-    let alone = || made(&first, None);
+    let first: Vec<T> = parts.by_ref().take(ALONE).collect();
+    let alone = || first.chunks(1).find_map(|one| made(one, None).better());
     if wanted.first_will_do
-        && let Some(first) = alone()
+        && let Some(made) = alone()
     {
-        return Some(first);
+        return Some(made);
     }
     let parts: Vec<T> = first.iter().cloned().chain(parts).collect();
     let (mut taken, mut best) = (Vec::new(), None);
-    let mut waiting: Vec<&[T]> = vec![&parts];
-    for _ in 0..tries {
-        let Some(some) = waiting.pop() else { break };
+    let mut waiting: Vec<&[T]> = if parts.is_empty() {
+        vec![]
+    } else {
+        vec![&parts]
+    };
+    let mut left = tries * ON_SIGHT;
+    while left > 0
+        && let Some(some) = waiting.pop()
+    {
         let together = [&taken, some].concat();
-        if let Some(more) = made(&together, best.as_ref()) {
+        let tried = made(&together, best.as_ref());
+        let cost = match tried {
+            Tried::PlainlyWorse => 1,
+            Tried::Better(_) | Tried::Worse => ON_SIGHT,
+        };
+        left = left.saturating_sub(cost);
+        if let Some(more) = tried.better() {
             (taken, best) = (together, Some(more));
         } else if some.len() > 1 {
             let (first, second) = some.split_at(some.len() / 2);

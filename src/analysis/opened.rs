@@ -1,0 +1,93 @@
+//! What the contours alone say of an edit that is tried, before anything is compared: a look at them costs a small part of a
+//! look at the drawing.
+
+use super::Analysis;
+use super::contours::{part_of, role_of};
+use super::report::Tally;
+use crate::drawing::{
+    Contour, ContourKey, Delta, Drawing, EntityId, Piece, Role, Touched, stated_role,
+};
+use crate::finding::Rule;
+use crate::geometry::Bounds;
+use rustc_hash::FxHashSet;
+
+impl Analysis {
+    /// True where more contours than `before` are told of as open after an edit. False where only a look at the drawing can
+    /// tell.
+    ///
+    /// The two are the drawing before and after the edit, which touched `delta`. A contour of which nothing is touched stays as
+    /// it is, and what is not touched may only become a double of what is.
+    pub(super) fn plainly_opens(
+        &self,
+        (drawing, edited): (&Drawing, &Drawing),
+        delta: &Delta,
+        before: &Tally,
+    ) -> bool {
+        let Some(touched) = entities_of(delta) else {
+            return false;
+        };
+        let is_told = self.settings.severity(Rule::OpenContour).is_some();
+        if !is_told || before.unseen > 0 || !self.settings.points.is_empty() {
+            return false;
+        }
+        let mut chains = self.chains.clone();
+        let rechained =
+            chains.update_parts(edited, &touched, &|id| part_of(edited, &self.settings, id));
+        let new = rechained.new.iter().filter_map(|&key| chains.get(key));
+        let mut open = new
+            .filter(|contour| self.is_open(edited, contour))
+            .peekable();
+        if open.peek().is_none() {
+            return false;
+        }
+        let touched: FxHashSet<EntityId> = touched.into_iter().collect();
+        let outlook = |key| self.outlook(drawing, key);
+        let doubles: Vec<[EntityId; 2]> = self.pairs.doubles(&outlook).collect();
+        let all: FxHashSet<EntityId> = doubles.iter().flatten().copied().collect();
+        let was_told = |key: &&ContourKey| {
+            let open = self.chains.get(**key).filter(|contour| !contour.closed);
+            open.is_some_and(|it| it.pieces.iter().any(|piece| !all.contains(&piece.entity)))
+        };
+        let told_before = rechained.gone.iter().filter(was_told).count();
+        let stays = |pair: &&[EntityId; 2]| pair.iter().all(|id| !touched.contains(id));
+        let doubled: FxHashSet<EntityId> =
+            doubles.iter().filter(stays).flatten().copied().collect();
+        let box_of = |id: EntityId| Some(edited.get(id)?.geometry.bounds(edited.flat()));
+        let places: Vec<Bounds> = touched.iter().filter_map(|&id| box_of(id)).collect();
+        let lies_alone = |piece: &Piece| {
+            let is_apart = |own: Bounds| places.iter().all(|place| !place.touches(&own));
+            !doubled.contains(&piece.entity)
+                && !touched.contains(&piece.entity)
+                && box_of(piece.entity).is_some_and(is_apart)
+        };
+        // One piece that is no double is enough.
+        let mut plainly = open.filter(|contour| contour.pieces.iter().any(lies_alone));
+        plainly.nth(told_before).is_some()
+    }
+
+    /// True for a contour of several entities that is open and has no side on which the wire runs.
+    fn is_open(&self, drawing: &Drawing, contour: &Contour) -> bool {
+        let role = || {
+            let stated = stated_role(contour, &|id| role_of(drawing, &self.settings, id));
+            stated.or(self.settings.side.role())
+        };
+        // A line by itself may be one that is not cut.
+        contour.pieces.len() > 1
+            && !contour.closed
+            && contour.double_of.is_none()
+            && contour.has_length(drawing, self.limits.tolerances.zero_length)
+            && !matches!(role(), Some(Role::Left | Role::Right))
+    }
+}
+
+/// The entities of a change; `None` where it may be all of them, or none.
+fn entities_of(delta: &Delta) -> Option<Vec<EntityId>> {
+    let entity = |touched: &Touched| match touched {
+        Touched::Removed { entity }
+        | Touched::Entity { entity }
+        | Touched::Vertices { entity, .. } => Some(*entity),
+        Touched::All => None,
+    };
+    let entities: Option<Vec<EntityId>> = delta.touched.iter().map(entity).collect();
+    entities.filter(|entities| !entities.is_empty())
+}
