@@ -1,7 +1,7 @@
 //! What the ends of lone lines may face, by place: for many lines at once, of which a hatch has thousands side by side.
 
 use super::Analysis;
-use super::aside::{JOINS, Lone, SHARE};
+use super::aside::{Lone, SHARE};
 use crate::drawing::{ContourKey, Drawing};
 use crate::geometry::{Bounds, Grid, Point, Segment, Shell, Shells};
 use std::iter::once;
