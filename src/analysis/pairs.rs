@@ -348,6 +348,9 @@ impl Pairs {
         if self.is_disturbed && !self.uncompared.is_empty() {
             self.told = None;
         }
+        // A long line that comes or goes may make many stale that it comes nowhere near.
+        let stale: Vec<RunId> = self.stale.iter().copied().collect();
+        let shells = shells.or_else(|| self.shells(outlook, &stale));
         self.ask_again(&mut kept, limits, shells.as_ref());
     }
 
