@@ -163,9 +163,9 @@ fn said(document: &mut Document) -> Vec<(&'static str, String)> {
 
 #[test]
 fn what_lies_side_by_side_by_the_thousand_is_compared_within_bounds_and_what_was_not_is_said() {
-    let lines = |count: usize, slant: usize| {
+    let lines = |count: usize, end: &dyn Fn(usize) -> usize| {
         let line = |number: usize| {
-            let end = number + slant;
+            let end = end(number);
             format!("0\nLINE\n10\n{number}\n20\n0\n11\n{end}\n21\n7000\n")
         };
         // A twentieth of what a drawing is granted, so that a tenth of the lines is too many.
@@ -185,11 +185,13 @@ fn what_lies_side_by_side_by_the_thousand_is_compared_within_bounds_and_what_was
             .map(|(_, sentence)| sentence)
             .collect::<Vec<_>>()
     };
-    assert_eq!(lines(500, 0), [""; 0]);
+    assert_eq!(lines(500, &|number| number), [""; 0]);
     // Each is found among all beside it.
-    assert_eq!(lines(2_400, 0), [""; 0]);
+    assert_eq!(lines(2_400, &|number| number), [""; 0]);
     // The box of each holds a part of all others.
-    let [sentence] = &lines(2_400, 7000)[..] else {
+    assert_eq!(lines(2_400, &|number| number + 7000), [""; 0]);
+    // Each crosses all others.
+    let [sentence] = &lines(2_400, &|number| 2_400 - number)[..] else {
         panic!("one finding is expected")
     };
     assert!(sentence.contains("not compared"), "{sentence}");

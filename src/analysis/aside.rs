@@ -7,7 +7,7 @@
 
 use super::Analysis;
 use super::contours::{role_of, role_of_linetype, set_aside};
-use super::faced::Faced;
+use super::faced::{Faced, SHARE};
 use super::report::Report;
 use super::suppressed::own_role;
 use crate::drawing::{
@@ -25,9 +25,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
 
-/// Two ends of lines belong together within this share of a line's length.
-pub(super) const SHARE: f64 = 0.25;
-/// They always do within this many join tolerances (1 mm), unless the other one is a lone line.
+/// Two ends always belong together within this many join tolerances (1 mm), unless the other one is a lone line.
 const JOINS: f64 = 100.0;
 /// Lines up to this sine of their angle count as parallel: hatches, and the pieces of a broken line.
 const PARALLEL: f64 = 0.01;
@@ -203,7 +201,10 @@ impl Analysis {
                         && (self.lone.contains_key(&other) || self.is_there(drawing, other))
                         && self.faces(drawing, lone, other)
                 };
-                return Some((key, !faced.any_near(lone, self.reaches_of(lone), is_faced)));
+                return Some((
+                    key,
+                    !faced.any_near(&lone.line, self.reaches_of(lone), is_faced),
+                ));
             }
             let near = self.contours_near(drawing, &lone.reach);
             let is_aside = near.iter().any(|&other| holds(lone, other))

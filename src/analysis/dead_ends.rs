@@ -1,7 +1,7 @@
 //! What the wire leaves beyond its dead ends: `lost-pocket`.
 
 use super::Analysis;
-use super::ends::{EndsOf, Runs};
+use super::ends::{Asked, EndsOf, Runs};
 use super::pair_findings::FacingWalls;
 use super::pairs::Pairs;
 use super::report::Report;
@@ -17,13 +17,6 @@ use std::sync::Arc;
 /// What a dead end hangs on lies within so many runs of its walls, or counts as all of the contour.
 const FEW: usize = 8;
 
-/// Of a contour, what must be looked at again.
-enum Asked {
-    All,
-    /// What hangs on these runs.
-    About(BTreeSet<u32>),
-}
-
 impl Analysis {
     /// Brings the dead ends of all contours, on the sides that the wire may run on, up to what has been seen. Where two walls are
     /// `narrow-slot`, that says it.
@@ -38,6 +31,9 @@ impl Analysis {
         if self.settings.severity(Rule::LostPocket).is_none() || !pairs.seen.has(Rule::LostPocket) {
             return;
         }
+        // A tangle may have as many dead ends as pairs of segments, of which none is told.
+        let crossings = &pairs.seen.crossings;
+        let has_sides = |key: ContourKey| !crossings.contains_key(&key);
         let mut asked: FxHashMap<ContourKey, Asked> = FxHashMap::default();
         match &known {
             Some(known) => {
@@ -47,11 +43,14 @@ impl Analysis {
                         runs.insert(run);
                     }
                 }
-                let turned = known
-                    .of
-                    .iter()
-                    .filter(|(key, of)| of.side != side_of(**key));
-                asked.extend(turned.map(|(&key, _)| (key, Asked::All)));
+                for (&key, of) in &known.of {
+                    if of.side != side_of(key) {
+                        asked.insert(key, Asked::All);
+                    } else if let Some(waits) = of.waits.as_ref().filter(|_| has_sides(key)) {
+                        let now = asked.remove(&key).into_iter();
+                        asked.insert(key, now.fold(waits.clone(), Asked::and));
+                    }
+                }
             }
             None => {
                 let own = pairs
@@ -65,12 +64,16 @@ impl Analysis {
             pairs.ends = known;
             return;
         }
+        let mut ends = known.unwrap_or_default();
+        for (key, asked) in asked.extract_if(|&key, _| !has_sides(key)) {
+            let of = Arc::make_mut(ends.of.entry(key).or_default());
+            of.waits = Some(of.waits.take().into_iter().fold(asked, Asked::and));
+        }
         let has_slots =
             |key: ContourKey| pairs.seen.slots.contains_key(&key) && asked.contains_key(&key);
         let slots = pairs.slots(has_slots).into_iter();
         let slots: FxHashMap<ContourKey, Slots> =
             slots.map(|(key, each)| (key, Slots::of(&each))).collect();
-        let mut ends = known.unwrap_or_default();
         let mut of_all: FxHashMap<ContourKey, BTreeSet<Runs>> = FxHashMap::default();
         if asked.values().any(|asked| matches!(asked, Asked::All)) {
             for (one, other) in pairs.seen.with_ends() {
@@ -91,7 +94,7 @@ impl Analysis {
                     (of, runs)
                 }
             };
-            of.side = side_of(key);
+            (of.side, of.waits) = (side_of(key), None);
             let has_any = enter(pairs, (key, &outlook), (&mut of, slots.get(&key)), &runs);
             // Where none counts on this side of the wire it may on the other.
             if is_known || has_any {
@@ -257,5 +260,66 @@ impl Slots {
         }
         let first = of.partition_point(|(slot, _)| slot[0] < from);
         of.get(first).is_some_and(|(_, least)| *least <= to)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::{Entity, Geometry, Kind, Vertex};
+    use crate::settings::Effective;
+
+    /// The teeth of a comb leave dead ends; while one long line crosses them all, none of them is worked out.
+    #[test]
+    fn dead_ends_of_a_contour_that_crosses_itself_wait_until_it_does_not() {
+        let comb = |last: (f64, f64)| {
+            let tooth = |at: usize| {
+                let x = at as f64 * 0.3;
+                [(x, 0.0), (x + 0.1, 5.0), (x + 0.2, 0.0)]
+            };
+            let corners = (0..40).flat_map(tooth).chain([(20.0, 9.0), last]);
+            Geometry::Polyline {
+                closed: true,
+                vertices: corners.map(|(x, y)| Vertex::new(x, y, 0.0)).collect(),
+            }
+        };
+        let entity = |geometry| Entity {
+            handle: "A".into(),
+            layer: "0".into(),
+            role: None,
+            kind: Kind::LightPolyline,
+            geometry,
+        };
+        let mut drawing = Drawing::new(None);
+        let id = drawing.push(entity(comb((-9.0, 9.0))));
+        let settings = Arc::new(Effective::default());
+        let mut analysis = Analysis::new(&drawing, settings.clone());
+        let told = |analysis: &mut Analysis, drawing: &Drawing| {
+            let (findings, _) = analysis.findings(drawing, usize::MAX);
+            let lost = findings.iter().filter(|it| it.rule == Rule::LostPocket);
+            let known = analysis.pairs.ends.iter().flat_map(|ends| ends.of.values());
+            (lost.count(), known.map(|of| of.len()).sum::<usize>())
+        };
+        let (lost, known) = told(&mut analysis, &drawing);
+        assert!(lost > 30 && known >= lost, "{lost} {known}");
+        // From its first look on, and after an edit.
+        drawing.replace(id, entity(comb((-9.0, 2.0))));
+        assert_eq!(
+            told(&mut Analysis::new(&drawing, settings.clone()), &drawing),
+            (0, 0)
+        );
+        let delta = crate::drawing::Delta {
+            touched: vec![crate::drawing::Touched::Vertices {
+                entity: id,
+                start: 121,
+                removed: 1,
+                inserted: 1,
+            }],
+        };
+        analysis.update(&drawing, &delta);
+        assert_eq!(told(&mut analysis, &drawing).0, 0);
+        drawing.replace(id, entity(comb((-9.0, 9.0))));
+        analysis.update(&drawing, &delta);
+        assert_eq!(told(&mut analysis, &drawing), (lost, known));
     }
 }

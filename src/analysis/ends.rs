@@ -25,10 +25,33 @@ pub(super) struct DeadEnds {
     pub(super) of: FxHashMap<ContourKey, Arc<EndsOf>>,
 }
 
+/// Of a contour, what must be looked at again.
+#[derive(Clone, Debug)]
+pub(super) enum Asked {
+    All,
+    /// What hangs on these runs.
+    About(BTreeSet<u32>),
+}
+
+impl Asked {
+    /// This and what another says.
+    pub(super) fn and(self, other: Asked) -> Asked {
+        match (self, other) {
+            (Asked::About(mut runs), Asked::About(more)) => {
+                runs.extend(more);
+                Asked::About(runs)
+            }
+            _ => Asked::All,
+        }
+    }
+}
+
 /// Those of one contour, while the wire stays on its side.
 #[derive(Clone, Debug, Default)]
 pub(super) struct EndsOf {
     pub(super) side: Option<Side>,
+    /// A contour that crosses itself has no sides: what must be looked at once it has.
+    pub(super) waits: Option<Asked>,
     ends: BTreeMap<Order, Left>,
     /// The number of places among them: each is told once.
     places: usize,
@@ -64,6 +87,11 @@ impl EndsOf {
     pub(super) fn seen_from(&self, first: u32, last: u32) -> impl Iterator<Item = Runs> {
         let range = [first, 0]..=[last, u32::MAX];
         self.of_runs.range(range).map(|(runs, _)| *runs)
+    }
+
+    #[cfg(test)]
+    pub(super) fn len(&self) -> usize {
+        self.ends.len()
     }
 
     fn has(&self, place: Farthest) -> bool {

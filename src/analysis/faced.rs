@@ -1,10 +1,12 @@
 //! What the ends of lone lines may face, by place: for many lines at once, of which a hatch has thousands side by side.
 
 use super::Analysis;
-use super::aside::{Lone, SHARE};
 use crate::drawing::{ContourKey, Drawing};
-use crate::geometry::{Bounds, Grid, Point, Segment, Shell, Shells};
+use crate::geometry::{Bounds, Grid, Line, Point, Segment, Shell, Shells};
 use std::iter::once;
+
+/// Two ends of lines belong together within this share of a line's length.
+pub(super) const SHARE: f64 = 0.25;
 
 /// Ends of the contours of a drawing.
 pub(super) struct Faced {
@@ -17,7 +19,7 @@ pub(super) struct Faced {
 impl Faced {
     pub(super) fn of(analysis: &Analysis, drawing: &Drawing) -> Faced {
         let stubs = analysis.lone.iter().flat_map(|(&key, lone)| {
-            let stubs = stubs_of(lone).into_iter();
+            let stubs = stubs_of(&lone.line).into_iter();
             stubs.map(move |stub| (key, stub))
         });
         let mut ends = Grid::default();
@@ -38,12 +40,12 @@ impl Faced {
     /// `join` of where they go on to.
     pub(super) fn any_near(
         &self,
-        lone: &Lone,
+        line: &Line,
         (reach, join): (f64, f64),
         is_faced: impl Fn(ContourKey) -> bool,
     ) -> bool {
-        let ends: [Point; 2] = [lone.line.start, lone.line.end];
-        let stubs = stubs_of(lone);
+        let ends: [Point; 2] = [line.start, line.end];
+        let stubs = stubs_of(line);
         ends.iter()
             .any(|&end| self.ends.any_near(&Bounds::of_disc(end, reach), &is_faced))
             || stubs
@@ -52,8 +54,8 @@ impl Faced {
     }
 }
 
-fn stubs_of(lone: &Lone) -> [Shell; 2] {
-    let (start, end) = (lone.line.start, lone.line.end);
+fn stubs_of(line: &Line) -> [Shell; 2] {
+    let (start, end) = (line.start, line.end);
     let on = (end - start) * SHARE;
     [(start, start - on), (end, end + on)]
         .map(|(from, to)| Shell::of(once(Segment::line(from, to))))
