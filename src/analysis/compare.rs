@@ -178,7 +178,8 @@ impl<'a> Walls<'a> {
                 (wall, bounds)
             })
         };
-        let each: Vec<Walled> = segments.filter_map(wall).collect();
+        let mut each: Vec<Walled> = Vec::with_capacity(count);
+        each.extend(segments.filter_map(wall));
         let mut all = Bounds::EMPTY;
         let groups = each.chunks(GROUP).map(|group| {
             let mut bounds = Bounds::EMPTY;

@@ -26,7 +26,7 @@ pub(super) struct DeadEnds {
 }
 
 /// Of a contour, what must be looked at again.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum Asked {
     All,
     /// What hangs on these runs.
@@ -34,15 +34,21 @@ pub(super) enum Asked {
 }
 
 impl Asked {
-    /// This and what another says.
-    pub(super) fn and(self, other: Asked) -> Asked {
-        match (self, other) {
-            (Asked::About(mut runs), Asked::About(more)) => {
-                runs.extend(more);
-                Asked::About(runs)
-            }
-            _ => Asked::All,
+    pub(super) const NOTHING: Asked = Asked::About(BTreeSet::new());
+
+    /// Adds what another asks for.
+    pub(super) fn add(&mut self, other: &Asked) {
+        match (&mut *self, other) {
+            (Asked::About(runs), Asked::About(more)) => runs.extend(more),
+            (Asked::About(_), Asked::All) => *self = Asked::All,
+            (Asked::All, _) => {}
         }
+    }
+}
+
+impl Default for Asked {
+    fn default() -> Self {
+        Asked::NOTHING
     }
 }
 
@@ -51,7 +57,7 @@ impl Asked {
 pub(super) struct EndsOf {
     pub(super) side: Option<Side>,
     /// A contour that crosses itself has no sides: what must be looked at once it has.
-    pub(super) waits: Option<Asked>,
+    pub(super) waits: Asked,
     ends: BTreeMap<Order, Left>,
     /// The number of places among them: each is told once.
     places: usize,
@@ -87,11 +93,6 @@ impl EndsOf {
     pub(super) fn seen_from(&self, first: u32, last: u32) -> impl Iterator<Item = Runs> {
         let range = [first, 0]..=[last, u32::MAX];
         self.of_runs.range(range).map(|(runs, _)| *runs)
-    }
-
-    #[cfg(test)]
-    pub(super) fn len(&self) -> usize {
-        self.ends.len()
     }
 
     fn has(&self, place: Farthest) -> bool {

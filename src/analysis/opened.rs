@@ -5,7 +5,7 @@ use super::Analysis;
 use super::contours::{part_of, role_of};
 use super::report::Tally;
 use crate::drawing::{
-    Contour, ContourKey, Delta, Drawing, EntityId, Piece, Role, Touched, stated_role,
+    Contour, ContourKey, Delta, Drawing, EntityId, Piece, Role, Touched, stated_role, wire_side,
 };
 use crate::finding::Rule;
 use crate::geometry::Bounds;
@@ -23,7 +23,8 @@ impl Analysis {
         delta: &Delta,
         before: &Tally,
     ) -> bool {
-        let Some(touched) = entities_of(delta) else {
+        let touched: Option<Vec<EntityId>> = delta.touched.iter().map(Touched::entity).collect();
+        let Some(touched) = touched.filter(|touched| !touched.is_empty()) else {
             return false;
         };
         let is_told = self.settings.severity(Rule::OpenContour).is_some();
@@ -69,25 +70,13 @@ impl Analysis {
     fn is_open(&self, drawing: &Drawing, contour: &Contour) -> bool {
         let role = || {
             let stated = stated_role(contour, &|id| role_of(drawing, &self.settings, id));
-            stated.or(self.settings.side.role())
+            stated.or(self.settings.side.role()).unwrap_or(Role::Both)
         };
         // A line by itself may be one that is not cut.
         contour.pieces.len() > 1
             && !contour.closed
             && contour.double_of.is_none()
             && contour.has_length(drawing, self.limits.tolerances.zero_length)
-            && !matches!(role(), Some(Role::Left | Role::Right))
+            && wire_side(role(), false, 0.0).is_none()
     }
-}
-
-/// The entities of a change; `None` where it may be all of them, or none.
-fn entities_of(delta: &Delta) -> Option<Vec<EntityId>> {
-    let entity = |touched: &Touched| match touched {
-        Touched::Removed { entity }
-        | Touched::Entity { entity }
-        | Touched::Vertices { entity, .. } => Some(*entity),
-        Touched::All => None,
-    };
-    let entities: Option<Vec<EntityId>> = delta.touched.iter().map(entity).collect();
-    entities.filter(|entities| !entities.is_empty())
 }

@@ -40,6 +40,14 @@ impl<M> Tried<M> {
         better.map_or(Tried::Worse, Tried::Better)
     }
 
+    fn map<N>(self, made: impl FnOnce(M) -> N) -> Tried<N> {
+        match self {
+            Tried::Better(better) => Tried::Better(made(better)),
+            Tried::Worse => Tried::Worse,
+            Tried::PlainlyWorse => Tried::PlainlyWorse,
+        }
+    }
+
     fn better(self) -> Option<M> {
         match self {
             Tried::Better(made) => Some(made),
@@ -256,11 +264,8 @@ impl Analysis {
                         .collect(),
                 };
                 let before = best.map_or(before, |(_, tally)| tally);
-                match self.mends(drawing, rule, before, &tried) {
-                    Tried::Better(after) => Tried::Better((tried, after)),
-                    Tried::Worse => Tried::Worse,
-                    Tried::PlainlyWorse => Tried::PlainlyWorse,
-                }
+                let after = self.mends(drawing, rule, before, &tried);
+                after.map(|after| (tried, after))
             },
         );
         most.map(|(edit, _)| edit)
@@ -278,6 +283,9 @@ pub(super) fn most_together<T: Clone, M>(
     made: impl Fn(&[T], Option<&M>) -> Tried<M>,
 ) -> Option<M> {
     let first: Vec<T> = parts.by_ref().take(ALONE).collect();
+    if first.is_empty() {
+        return None;
+    }
     let alone = || first.chunks(1).find_map(|one| made(one, None).better());
     if wanted.first_will_do
         && let Some(made) = alone()
@@ -286,16 +294,16 @@ pub(super) fn most_together<T: Clone, M>(
     }
     let parts: Vec<T> = first.iter().cloned().chain(parts).collect();
     let (mut taken, mut best) = (Vec::new(), None);
-    let mut waiting: Vec<&[T]> = if parts.is_empty() {
-        vec![]
-    } else {
-        vec![&parts]
-    };
+    let all = 0..parts.len();
+    let mut waiting = vec![all];
     let mut left = tries * ON_SIGHT;
     while left > 0
         && let Some(some) = waiting.pop()
     {
-        let together = [&taken, some].concat();
+        if wanted.first_will_do && some.len() == 1 && some.end <= first.len() {
+            continue; // It has been tried by itself.
+        }
+        let together = [taken.as_slice(), &parts[some.clone()]].concat();
         let tried = made(&together, best.as_ref());
         let cost = match tried {
             Tried::PlainlyWorse => 1,
@@ -304,9 +312,12 @@ pub(super) fn most_together<T: Clone, M>(
         left = left.saturating_sub(cost);
         if let Some(more) = tried.better() {
             (taken, best) = (together, Some(more));
+            if wanted.first_will_do {
+                break;
+            }
         } else if some.len() > 1 {
-            let (first, second) = some.split_at(some.len() / 2);
-            waiting.extend([second, first]);
+            let middle = some.start + some.len() / 2;
+            waiting.extend([middle..some.end, some.start..middle]);
         }
     }
     let is_tried = wanted.first_will_do || waiting.is_empty();

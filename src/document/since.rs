@@ -78,11 +78,9 @@ impl Since {
     /// Adds what an edit touched in a drawing.
     pub(super) fn add_touched(&mut self, touched: &[Touched]) {
         for touched in touched {
-            match *touched {
-                Touched::Vertices { entity, .. }
-                | Touched::Entity { entity }
-                | Touched::Removed { entity } => _ = self.entities.insert(entity),
-                Touched::All => *self = Since::default(),
+            match touched.entity() {
+                Some(entity) => _ = self.entities.insert(entity),
+                None => *self = Since::default(),
             }
         }
     }

@@ -86,6 +86,18 @@ pub enum Touched {
     All,
 }
 
+impl Touched {
+    /// The entity that it is of; `None` where it may be any.
+    pub(crate) fn entity(&self) -> Option<EntityId> {
+        match *self {
+            Touched::Vertices { entity, .. }
+            | Touched::Entity { entity }
+            | Touched::Removed { entity } => Some(entity),
+            Touched::All => None,
+        }
+    }
+}
+
 /// The change since the last check.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Delta {

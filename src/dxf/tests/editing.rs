@@ -62,12 +62,8 @@ fn edit(document: &mut Document, range: std::ops::Range<usize>, replacement: &st
     );
     if !delta.touched.contains(&Touched::All) {
         let touched = |id: EntityId| {
-            delta.touched.iter().any(|touched| match *touched {
-                Touched::Vertices { entity, .. }
-                | Touched::Entity { entity }
-                | Touched::Removed { entity } => entity == id,
-                Touched::All => true,
-            })
+            let mut entities = delta.touched.iter().map(Touched::entity);
+            entities.any(|entity| entity.is_none_or(|entity| entity == id))
         };
         for (id, entity) in before.entities() {
             assert!(

@@ -78,14 +78,7 @@ pub(in crate::server) fn repairs(context: &RequestContext, asked: RepairsOf) -> 
 fn ghost(drawing: &Drawing, edit: &DrawingEdit) -> Option<Vec<SegmentShape>> {
     let mut after = drawing.clone();
     let delta = after.apply(edit).ok()?;
-    let mut entities: Vec<_> = delta
-        .touched
-        .iter()
-        .filter_map(|touched| match touched {
-            Touched::Vertices { entity, .. } | Touched::Entity { entity } => Some(*entity),
-            _ => None,
-        })
-        .collect();
+    let mut entities: Vec<_> = delta.touched.iter().filter_map(Touched::entity).collect();
     entities.dedup();
     let mut segments = Vec::new();
     for id in entities {
