@@ -38,6 +38,17 @@ pub(crate) struct Left {
     is_old: bool,
 }
 
+/// The contours of a drawing that are pairs, by their indices among all outlines.
+pub(super) struct Paired {
+    /// Punch and plate; one that is cut twice stands for both.
+    pub(super) pairs: Vec<[(ContourKey, usize); 2]>,
+    /// Contours of workpieces that have no partner.
+    alone: Vec<usize>,
+    /// The names of workpieces of which nothing is drawn.
+    missing: Vec<String>,
+    pub(super) outlines: Arc<Vec<Outline>>,
+}
+
 /// What a punch is, and its plate.
 const ROLES: [Role; 2] = [Role::Punch, Role::Opening];
 
@@ -63,25 +74,44 @@ impl Analysis {
 
     /// Where parts of pairs bind.
     pub(super) fn report_fits(&mut self, drawing: &Drawing, report: &mut Report) {
-        let Ok((partners, _)) = self.settings.fit() else {
-            return;
-        };
         // Fixes are held against each other by what is cheap to know.
-        if !report.shows_findings() || self.settings.severity(Rule::DoesNotFit).is_none() {
+        if !report.shows_findings() {
             return;
         }
+        let Some(paired) = self.paired(drawing) else {
+            return;
+        };
+        let of = |(key, index): (ContourKey, usize)| (key, &paired.outlines[index]);
+        for &pair in &paired.pairs {
+            self.report_pair(drawing, pair.map(of), report);
+        }
+        for &index in &paired.alone {
+            self.report_alone(drawing, &paired.outlines[index], &paired.missing, report);
+        }
+        // No partners any more.
+        self.fits.retain(|_, answer| !answer.is_old);
+    }
+
+    /// Which contours are pairs; `None` where nobody asks whether parts fit.
+    pub(super) fn paired(&mut self, drawing: &Drawing) -> Option<Paired> {
+        let (partners, _) = self.settings.fit().ok()?;
+        self.settings.severity(Rule::DoesNotFit)?;
         let outlines = self.outlines(drawing).clone();
         let keys = self.in_machining_order(drawing).to_vec();
         if keys.len() != outlines.len() {
-            return;
+            return None;
         }
+        let mut paired = Paired {
+            pairs: Vec::new(),
+            alone: Vec::new(),
+            missing: Vec::new(),
+            outlines,
+        };
+        let outlines = &paired.outlines;
         match partners {
             Partners::CutTwice(_) => {
-                for (&key, outline) in keys.iter().zip(outlines.iter()) {
-                    if fit::is_cut_twice(outline) {
-                        self.report_pair(drawing, [(key, outline); 2], report);
-                    }
-                }
+                let twice = (0..keys.len()).filter(|&index| fit::is_cut_twice(&outlines[index]));
+                paired.pairs = twice.map(|index| [(keys[index], index); 2]).collect();
             }
             Partners::Drawn => {
                 let (mut walls, beside) = (std::mem::take(&mut self.walls), &mut self.beside);
@@ -92,19 +122,14 @@ impl Analysis {
                     walls.clone()
                 };
                 let settings = &self.settings;
-                let drawn = fit::partners(drawing, &outlines, settings, &mut walls_of, beside);
+                let drawn = fit::partners(drawing, outlines, settings, &mut walls_of, beside);
                 self.walls = walls;
-                for &[punch, plate] in &drawn.pairs {
-                    let both = [punch, plate].map(|index| (keys[index], &outlines[index]));
-                    self.report_pair(drawing, both, report);
-                }
-                for &index in &drawn.alone {
-                    self.report_alone(drawing, &outlines[index], &drawn.missing, report);
-                }
+                let with_keys = |pair: [usize; 2]| pair.map(|index| (keys[index], index));
+                paired.pairs = drawn.pairs.into_iter().map(with_keys).collect();
+                (paired.alone, paired.missing) = (drawn.alone, drawn.missing);
             }
         }
-        // No partners any more.
-        self.fits.retain(|_, answer| !answer.is_old);
+        Some(paired)
     }
 
     fn report_alone(
@@ -130,12 +155,16 @@ impl Analysis {
         }
     }
 
-    /// What is known of two partners; worked out where it is not yet.
-    fn fit_of(
+    /// What is known of two partners, of which none is crossed; worked out where it is not yet.
+    pub(super) fn fit_of(
         &mut self,
         drawing: &Drawing,
         both: [(ContourKey, &Outline); 2],
     ) -> Option<Arc<Fitted>> {
+        let crossed = &self.pairs.seen.crossings;
+        if both.iter().any(|(key, _)| crossed.contains_key(key)) {
+            return None;
+        }
         let [(one, punch), (other, plate)] = both;
         if let Some(answer) = self.fits.get(&(one, other))
             && !answer.is_old
@@ -221,10 +250,6 @@ impl Analysis {
         report: &mut Report,
     ) {
         let is_cut_twice = both[0].0 == both[1].0;
-        let crossed = &self.pairs.seen.crossings;
-        if both.iter().any(|(key, _)| crossed.contains_key(key)) {
-            return;
-        }
         let Some(fitted) = self.fit_of(drawing, both) else {
             return;
         };

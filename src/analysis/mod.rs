@@ -9,6 +9,7 @@ mod ends;
 mod faced;
 mod fit_fixes;
 mod fits;
+mod fitting;
 mod fixes;
 mod judge;
 mod known;
@@ -40,6 +41,7 @@ use crate::settings::Effective;
 use crate::toolpath;
 use aside::{AsideEntities, LoneLines};
 use contours::set_aside;
+use fitting::Fitting;
 use known::{Answer, Known};
 use notable::Notables;
 use pairs::Pairs;
@@ -96,6 +98,8 @@ pub struct Analysis {
     outlines: OnceLock<Arc<Vec<Outline>>>,
     /// What there is to be said in all, once it has been asked for.
     tally: OnceLock<Tally>,
+    /// How parts of pairs lie in each other, once that has been asked for.
+    fitting: OnceLock<Option<Fitting>>,
 }
 
 impl Analysis {
@@ -127,6 +131,7 @@ impl Analysis {
             order: OnceLock::new(),
             outlines: OnceLock::new(),
             tally: OnceLock::new(),
+            fitting: OnceLock::new(),
         };
         // What is cut is not set aside.
         for (id, _) in drawing.entities() {
@@ -174,7 +179,7 @@ impl Analysis {
     }
 
     fn look_at_touched(&mut self, drawing: &Drawing, delta: &Delta) {
-        self.tally = OnceLock::new();
+        (self.tally, self.fitting) = (OnceLock::new(), OnceLock::new());
         let limits = Limits::new(&self.settings, self.settings.unit_of(drawing).mm);
         if limits != self.limits || delta.touched.contains(&Touched::All) || self.is_most(delta) {
             *self = Analysis::new(drawing, self.settings.clone());

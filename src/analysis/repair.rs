@@ -105,7 +105,8 @@ impl Analysis {
         if is_plainly_worse && !cfg!(debug_assertions) {
             return Tried::PlainlyWorse;
         }
-        let after = self.updated(&edited, &delta).tally(&edited);
+        let mut tried = self.updated(&edited, &delta);
+        let after = tried.tally(&edited);
         // Chords beyond one circle may leave a second sequence behind.
         let is_less = after.of(rule) < before.of(rule)
             || (rule == Rule::ArcAsChords && after.of(rule) <= before.of(rule))
@@ -115,7 +116,8 @@ impl Analysis {
             Rule::OpenContour => after.is_no_worse_once_closed(before),
             _ => after.is_no_worse_than(before, rule),
         };
-        let is_better = is_less && is_no_worse;
+        let is_better =
+            is_less && is_no_worse && self.keeps_fits(drawing, (&mut tried, &edited), &mut 0);
         debug_assert!(!(is_plainly_worse && is_better), "{before:?} {after:?}");
         match is_plainly_worse {
             true => Tried::PlainlyWorse,
@@ -163,6 +165,7 @@ impl Analysis {
         *looks = looks.saturating_add(tried.pairs.looks());
         after.of(Rule::SmallRadius) < before.of(Rule::SmallRadius)
             && after.spoils_nothing(before, spared)
+            && self.keeps_fits(drawing, (&mut tried, &edited), looks)
     }
 
     /// One edit that makes the safe repairs of one of the rules, as many as do not collide.
@@ -238,9 +241,15 @@ impl Analysis {
             let Ok(delta) = edited.apply(&tried) else {
                 return Tried::PlainlyWorse;
             };
-            let after = self.updated(&edited, &delta).tally(&edited);
-            let is_better = after.spoils_nothing(before, Some(Rule::SmallRadius));
-            Tried::of(is_better.then_some(tried))
+            let mut after = self.updated(&edited, &delta);
+            let spoils_nothing =
+                (after.tally(&edited)).spoils_nothing(before, Some(Rule::SmallRadius));
+            let mut fits_better = || {
+                let fitting = after.fitting(&edited, &mut 0);
+                let is_better = |before| fitting.is_some_and(|now| now.is_better_than(before));
+                self.fitting_of(drawing).is_some_and(is_better)
+            };
+            Tried::of((spoils_nothing && fits_better()).then_some(tried))
         })
     }
 

@@ -1,0 +1,88 @@
+//! How all parts of pairs lie in each other: no repair may make that worse.
+
+use super::Analysis;
+use super::fits::Paired;
+use crate::drawing::Drawing;
+
+/// Looks at pairs of segments that take as long as to lay one segment of a part in the other.
+const LOOKS_A_SEGMENT: u64 = 50;
+
+/// How the parts of all pairs lie in each other.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Fitting {
+    /// Pairs that could be laid in each other.
+    pairs: usize,
+    /// Places that bind.
+    binding: usize,
+    /// The least clearance of all, or that which there should be.
+    least: f64,
+    rounding: f64,
+}
+
+impl Fitting {
+    /// True where no pair is lost, no more places bind, and nowhere is less left than before. Where a pair has come to light, what it has to say
+    /// was there before.
+    pub(super) fn is_no_worse_than(&self, before: &Fitting) -> bool {
+        self.pairs > before.pairs
+            || self.pairs == before.pairs
+                && self.binding <= before.binding
+                && self.least >= before.least - self.rounding
+    }
+
+    /// True where nothing is worse and fewer places bind.
+    pub(super) fn is_better_than(&self, before: &Fitting) -> bool {
+        self.is_no_worse_than(before) && self.binding < before.binding
+    }
+}
+
+impl Analysis {
+    /// How the parts of all pairs lie in each other; `None` where there is no pair. The looks that it takes are added to `looks`.
+    pub(super) fn fitting(&mut self, drawing: &Drawing, looks: &mut u64) -> Option<Fitting> {
+        let Paired {
+            pairs, outlines, ..
+        } = self.paired(drawing)?;
+        let rounding = self.limits.tolerances.report;
+        let mut fitting: Option<Fitting> = None;
+        for pair in pairs {
+            let both = pair.map(|(key, index)| (key, &outlines[index]));
+            let segments: usize = both.iter().map(|(_, it)| it.contour.len()).sum();
+            *looks = looks.saturating_add(LOOKS_A_SEGMENT * segments as u64);
+            let Some(fitted) = self.fit_of(drawing, both) else {
+                continue;
+            };
+            let held = &fitted.held;
+            let binds = held.spots.iter().map(|spot| spot.clearance < -rounding);
+            let binding = binds.filter(|binds| *binds).count();
+            let known = fitting.get_or_insert(Fitting {
+                pairs: 0,
+                binding: 0,
+                least: held.least,
+                rounding,
+            });
+            known.pairs += 1;
+            known.binding += binding;
+            known.least = known.least.min(held.least);
+        }
+        fitting
+    }
+
+    /// True where an edit leaves all pairs lying in each other no worse than they do; `tried` is what holds behind it.
+    pub(super) fn keeps_fits(
+        &self,
+        drawing: &Drawing,
+        (tried, edited): (&mut Analysis, &Drawing),
+        looks: &mut u64,
+    ) -> bool {
+        let Some(before) = self.fitting_of(drawing) else {
+            return true;
+        };
+        let after = tried.fitting(edited, looks);
+        after.is_some_and(|after| after.is_no_worse_than(before))
+    }
+
+    /// How the parts of all pairs of the present drawing lie in each other.
+    pub(super) fn fitting_of(&self, drawing: &Drawing) -> Option<&Fitting> {
+        let fitting = || self.clone().fitting(drawing, &mut 0);
+        self.fitting.get_or_init(fitting).as_ref()
+    }
+}
