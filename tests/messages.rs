@@ -21,7 +21,7 @@ const NOT_FOR_PEOPLE: [&str; 13] = [
 
 /// What looks like a sentence and is a word of a format: what serde and diff say, classes of SVG, shapes of JSON, descriptions in the
 /// schema, what the standard library puts behind a reason. The examples under the help of the command line stand with its options.
-const WORDS_OF_FORMATS: [&str; 16] = [
+const WORDS_OF_FORMATS: [&str; 12] = [
     "one of ",
     "\\\\ No newline at end of file\\n",
     "wire fault",
@@ -30,11 +30,6 @@ const WORDS_OF_FORMATS: [&str; 16] = [
     "{ uri, version, changes }",
     "{ uri, factor }",
     " (os error",
-    // Keys of settings, as the command line groups them.
-    "correction passes side",
-    "drawn-as clearance stripper holder",
-    "direction corner thread entry lead-in lead start-hole tab order layout compensation digits profile end pause",
-    "end pause",
     "wedm protocol",
     "Every message of the wedm/ name space, protocol {PROTOCOL}.",
     "A vertex [x, y, bulge] of a polyline; the bulge may be left out and is 0 then.",
