@@ -2,12 +2,19 @@
 
 use crate::geometry::{Arc, Point, Segment, direction, left_normal};
 use std::f64::consts::PI;
+use std::fmt;
 
 /// A node of a program on its grid, in absolute coordinates. A step is 1 µm, except in ISO profiles with more decimals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Node {
     pub(crate) x: i64,
     pub(crate) y: i64,
+}
+
+impl fmt::Display for Node {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "({}, {})", self.x, self.y)
+    }
 }
 
 /// The grid point nearest to a point in steps; `None` beyond what a program can address exactly.
