@@ -72,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if let Some(target) = &arguments.output {
         output::say(&say!(
             the_holes_are_written,
-            styled(output::GOOD, "written"),
+            styled(output::GOOD, say!(written)),
             output::name(target),
             say!(holes, count)
         ));

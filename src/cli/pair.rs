@@ -84,7 +84,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             .collect();
         output::say(&say!(
             the_program_of_a_part_is_written,
-            styled(output::GOOD, "written"),
+            styled(output::GOOD, say!(written)),
             output::target_name(Some(target)),
             part.part,
             corrections.join(" / "),
