@@ -47,12 +47,7 @@ pub(super) struct Asked {
 
 impl Asked {
     pub fn of(traced: &Traced, under: &Under) -> Asked {
-        let format = match (traced.counts, traced.four_b) {
-            (false, _) if traced.mills => Format::Milling,
-            (false, _) => Format::Iso,
-            (true, false) => Format::ThreeB,
-            (true, true) => Format::FourB,
-        };
+        let format = traced.format();
         let mut under = under.clone();
         if traced.states_ends {
             under.settings.layout = Layout::Checking;

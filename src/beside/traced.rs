@@ -4,7 +4,7 @@ use super::BETWEEN;
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::path::{self, Kind};
 use crate::program::said::Said;
-use crate::program::{Document, Language};
+use crate::program::{Document, Format, Language};
 use crate::text::SourceText;
 use std::ops::Range;
 
@@ -21,6 +21,7 @@ pub struct Traced {
     pub(super) is_placed: bool,
     /// Arcs end where the machine stops counting: a little beside the intended place.
     pub(super) counts: bool,
+    language: Language,
     pub(super) four_b: bool,
     /// An electrode mills it, layer by layer: it is compared with our own program, and not with a wire's path.
     pub(super) mills: bool,
@@ -72,7 +73,12 @@ impl Traced {
             [cut.steps.clone(), if is_one { contour } else { 0..0 }]
         });
         let cuts = cuts.collect();
-        let (is_placed, trace) = (trace.start_is_known, trace.into_meant());
+        let language = program.language();
+        let (is_placed, counts) = match language {
+            Language::ThreeB => (trace.start_is_known, true),
+            Language::Iso => (true, false),
+        };
+        let trace = trace.into_meant();
         let blocks = trace.steps.into_iter().map(|step| Block {
             line: step.line,
             motion: match (step.kind, step.ideal) {
@@ -102,10 +108,21 @@ impl Traced {
             text,
             blocks: blocks.collect(),
             cuts,
-            is_placed: is_placed || program.language() == Language::Iso,
-            counts: program.language() == Language::ThreeB,
+            is_placed,
+            counts,
+            language,
             four_b,
             mills: program.mills(),
+        }
+    }
+
+    /// The format in which such a program is written.
+    pub(super) fn format(&self) -> Format {
+        match self.language {
+            Language::Iso if self.mills => Format::Milling,
+            Language::Iso => Format::Iso,
+            Language::ThreeB if self.four_b => Format::FourB,
+            Language::ThreeB => Format::ThreeB,
         }
     }
 
@@ -137,11 +154,7 @@ impl Traced {
 
     /// The bytes of a range of the text.
     pub(super) fn said_in(&self, range: Range<usize>) -> Said {
-        let language = match self.counts {
-            true => Language::ThreeB,
-            false => Language::Iso,
-        };
-        Said::of(language, self.text.slice(range).unwrap_or_default())
+        Said::of(self.language, self.text.slice(range).unwrap_or_default())
     }
 
     /// True where nothing is cut.

@@ -261,7 +261,7 @@ pub(super) fn is_small_text(kind: Kind, text: &[u8]) -> bool {
     let multipliers: &[&[u8]] = match kind {
         Kind::Dxf => &MULTIPLIERS_IN_DXF,
         Kind::Program(Language::Iso) => &MULTIPLIERS_IN_ISO,
-        _ => &[],
+        Kind::Program(Language::ThreeB) | Kind::Settings | Kind::Foreign => &[],
     };
     text.len() <= SMALL_TEXT
         && !multipliers

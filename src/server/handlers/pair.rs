@@ -17,10 +17,7 @@ pub(in crate::server) fn fit(context: &RequestContext, _: OptionsOf) -> Result<F
     Ok(Fit::new(drawing, &fit, svg, task.unit_mm()))
 }
 
-pub(in crate::server) fn pair(
-    context: &RequestContext,
-    params: Generate,
-) -> Result<PairPrograms> {
+pub(in crate::server) fn pair(context: &RequestContext, params: Generate) -> Result<PairPrograms> {
     let task = Task::of(context)?;
     let wanted = generate::wanted(&params, &task)?;
     let made = job::pair(&task.snapshot, &generate::findings(&task), &wanted, context);
