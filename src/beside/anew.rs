@@ -15,7 +15,7 @@ const MOST: usize = 20_000;
 /// A program that was written anew, and the ways it was written of, µm.
 #[derive(Debug)]
 pub(super) struct Anew {
-    pub traced: Traced,
+    pub(crate) traced: Traced,
     pieces: Vec<(Segment, Source)>,
     /// From its places to those of the drawing.
     shift: Vector,
@@ -24,19 +24,19 @@ pub(super) struct Anew {
 /// Under what a program is written.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Under {
-    pub settings: Effective,
+    pub(crate) settings: Effective,
     /// What the contours are that nobody has said a side of.
-    pub sides: Sides,
+    pub(crate) sides: Sides,
     /// The contours that it cuts; all where none are named.
-    pub handles: Option<Vec<String>>,
+    pub(crate) handles: Option<Vec<String>>,
 }
 
 /// What it is written of.
 pub(super) struct Of<'a> {
-    pub drawing: &'a Drawing,
-    pub outlines: &'a [Outline],
+    pub(crate) drawing: &'a Drawing,
+    pub(crate) outlines: &'a [Outline],
     /// mm of the drawing's unit.
-    pub unit_mm: f64,
+    pub(crate) unit_mm: f64,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -46,7 +46,7 @@ pub(super) struct Asked {
 }
 
 impl Asked {
-    pub fn of(traced: &Traced, under: &Under) -> Asked {
+    pub(super) fn of(traced: &Traced, under: &Under) -> Asked {
         let format = traced.format();
         let mut under = under.clone();
         if traced.states_ends {
@@ -57,7 +57,7 @@ impl Asked {
 }
 
 impl Anew {
-    pub fn of(of: &Of<'_>, Asked { format, under }: &Asked) -> Option<Anew> {
+    pub(super) fn of(of: &Of<'_>, Asked { format, under }: &Asked) -> Option<Anew> {
         let milled = match (format, under.settings.mills) {
             (Format::Milling, true) => Some(under.settings.milled().ok()?),
             (Format::Milling, false) | (_, true) => return None,
@@ -111,7 +111,7 @@ impl Anew {
     }
 
     /// A place of the program that was written lies on the way beside a wall or round a corner.
-    pub fn is_on_wall(&self, place: Point, tolerance: f64) -> bool {
+    pub(super) fn is_on_wall(&self, place: Point, tolerance: f64) -> bool {
         let at = place + self.shift;
         self.on_walls()
             .any(|piece| piece.distance_to(at) <= tolerance)

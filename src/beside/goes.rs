@@ -22,7 +22,7 @@ struct Go {
 }
 
 impl Goes {
-    pub fn cut(&mut self, round: usize, part: Range<f64>) {
+    pub(super) fn cut(&mut self, round: usize, part: Range<f64>) {
         let Some(own) = self.open.iter_mut().find(|go| go.round == round) else {
             self.open.push(Go {
                 round,
@@ -38,7 +38,7 @@ impl Goes {
     }
 
     /// The wire stops, or is taken out.
-    pub fn end(&mut self) {
+    pub(super) fn end(&mut self) {
         self.done.append(&mut self.open);
     }
 

@@ -26,20 +26,20 @@ pub(super) struct Kept {
 /// The result of the last search.
 #[derive(Clone, Debug)]
 pub(super) struct Guess {
-    pub under: Option<Under>,
+    pub(crate) under: Option<Under>,
     /// The differences of the searched program.
-    pub left: usize,
+    pub(crate) left: usize,
     of: Vec<Way>,
 }
 
 impl Guess {
-    pub fn of(traced: &Traced, under: Option<Under>, left: usize) -> Guess {
+    pub(super) fn of(traced: &Traced, under: Option<Under>, left: usize) -> Guess {
         let of = traced.blocks.iter().map(|block| way(block, true)).collect();
         Guess { under, left, of }
     }
 
     /// Whether a program is the searched one, except for a few blocks in one place.
-    pub fn is_near(&self, traced: &Traced) -> bool {
+    pub(super) fn is_near(&self, traced: &Traced) -> bool {
         let ways = || traced.blocks.iter().map(|block| way(block, true));
         let alike = |(one, other): &(Way, Way)| one == other;
         let of = self.of.iter().copied();
@@ -50,7 +50,7 @@ impl Guess {
 }
 
 impl Kept {
-    pub fn anew(&self, of: &Of<'_>, traced: &Traced, under: &Under) -> Option<Arc<Anew>> {
+    pub(super) fn anew(&self, of: &Of<'_>, traced: &Traced, under: &Under) -> Option<Arc<Anew>> {
         let asked = Asked::of(traced, under);
         let lock = || self.written.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, known)) = lock().iter().find(|(other, _)| *other == asked) {
@@ -70,12 +70,12 @@ impl Kept {
         made
     }
 
-    pub fn guess(&self) -> Option<Guess> {
+    pub(super) fn guess(&self) -> Option<Guess> {
         let guess = self.guess.lock().unwrap_or_else(PoisonError::into_inner);
         guess.clone()
     }
 
-    pub fn note(&self, guess: Guess) {
+    pub(super) fn note(&self, guess: Guess) {
         *self.guess.lock().unwrap_or_else(PoisonError::into_inner) = Some(guess);
     }
 }

@@ -13,7 +13,7 @@ const PLACES: usize = 64;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
     pub spot: Spot,
-    pub pose: Pose,
+    pub(crate) pose: Pose,
 }
 
 /// Places of the drawing that may match a block, wherever the program lies.

@@ -15,10 +15,10 @@ use crate::geometry::{Segment, Vector};
 /// The state of a program up to one of its blocks.
 #[derive(Clone)]
 pub(super) struct Members {
-    pub pose: Pose,
+    pub(crate) pose: Pose,
     /// Where the last block has led to, and where its run began.
-    pub spot: Option<Spot>,
-    pub entry: Option<Spot>,
+    pub(crate) spot: Option<Spot>,
+    pub(crate) entry: Option<Spot>,
     runs: Vec<bool>,
     /// Blocks that end where the drawing says.
     follows: Vec<usize>,
@@ -36,7 +36,7 @@ pub(super) struct Members {
 }
 
 impl Members {
-    pub fn new(traced: &Traced, pose: Pose) -> Members {
+    pub(super) fn new(traced: &Traced, pose: Pose) -> Members {
         Members {
             pose,
             spot: None,
@@ -55,7 +55,7 @@ impl Members {
     }
 
     /// Takes in one block after the other; sets `is_broken` at the first one that shows a difference.
-    pub fn take(&mut self, traced: &Traced, rounds: &Rounds, index: usize) {
+    pub(super) fn take(&mut self, traced: &Traced, rounds: &Rounds, index: usize) {
         let segment = match &traced.blocks[index].motion {
             Motion::Cut(segment) => segment,
             Motion::Stop => {
@@ -173,7 +173,7 @@ impl Members {
     }
 
     /// All of them, and by how much they miss their places together, µm; `None` where there is a difference.
-    pub fn all(traced: &Traced, rounds: &Rounds, pose: Pose) -> Option<(Walked, f64)> {
+    pub(super) fn all(traced: &Traced, rounds: &Rounds, pose: Pose) -> Option<(Walked, f64)> {
         let mut members = Members::new(traced, pose);
         for index in 0..traced.blocks.len() {
             members.take(traced, rounds, index);

@@ -28,11 +28,11 @@ const LOST: usize = 3;
 /// The verdict on a program from a rewritten one.
 #[derive(Clone, Debug)]
 pub(super) struct Told {
-    pub comparison: Comparison,
+    pub(crate) comparison: Comparison,
     /// The mean deviation of the unnamed blocks, µm.
     pub mean: f64,
     /// Blocks are lost or superfluous.
-    pub has_gap: bool,
+    pub(crate) has_gap: bool,
     /// Ways in and out that are moved so far that it is meant.
     pub elsewhere: usize,
     /// One of the named blocks ends as far from where it is meant to.

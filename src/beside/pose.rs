@@ -13,7 +13,7 @@ pub(super) struct Pose {
     /// From the drawing to the program, µm.
     pub shift: Vector,
     /// The shift is of whole µm, and so are the program's nodes.
-    pub on_grid: bool,
+    pub(crate) on_grid: bool,
     /// Blocks are compared with the output of our own writers for the drawing, without room for other writers'
     /// roundings.
     exact: bool,
@@ -65,7 +65,7 @@ const WITHIN: f64 = 1.5;
 const TIE: f64 = 1e-3;
 
 impl Pose {
-    pub fn at(shift: Vector) -> Pose {
+    pub(super) fn at(shift: Vector) -> Pose {
         Pose {
             shift,
             on_grid: false,
@@ -85,7 +85,7 @@ impl Pose {
     }
 
     /// The same for a program whose every block we might have written; `None` where the grid is unknown.
-    pub fn exactly(self) -> Option<Pose> {
+    pub(super) fn exactly(self) -> Option<Pose> {
         self.on_grid.then_some(Pose {
             exact: true,
             ..self
@@ -97,7 +97,7 @@ impl Pose {
     }
 
     /// The same where everything behind is moved by so much more.
-    pub fn moved(&self, by: Vector) -> Pose {
+    pub(super) fn moved(&self, by: Vector) -> Pose {
         let by = if self.on_grid { by.map(f64::round) } else { by };
         Pose {
             shift: self.shift + by,
@@ -120,12 +120,12 @@ impl Pose {
     }
 
     /// A place of the program in the drawing.
-    pub fn place(&self, point: Point) -> Point {
+    pub(super) fn place(&self, point: Point) -> Point {
         point + self.lag - self.shift
     }
 
     /// A place of the drawing in the program, on its grid.
-    pub fn program(&self, point: Point) -> Point {
+    pub(super) fn program(&self, point: Point) -> Point {
         let point = point + self.shift;
         let point = if self.on_grid {
             point.map(f64::round)
@@ -136,7 +136,7 @@ impl Pose {
     }
 
     /// Where a block begins, in the drawing.
-    pub fn begin(&self, block: &Block) -> Option<Point> {
+    pub(super) fn begin(&self, block: &Block) -> Option<Point> {
         match &block.motion {
             Motion::Cut(segment) => Some(self.place(segment.start())),
             Motion::Way(start, _) => Some(self.place(*start)),
@@ -145,7 +145,7 @@ impl Pose {
     }
 
     /// Goes along a round with one block, up to `entry` where the round comes back to it.
-    pub fn follow(
+    pub(super) fn follow(
         &mut self,
         rounds: &Rounds,
         traced: &Traced,

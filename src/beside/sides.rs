@@ -17,7 +17,7 @@ pub(super) enum Sides {
 
 impl Sides {
     /// What is guessed.
-    pub const GUESSED: [Sides; 3] = [
+    pub(super) const GUESSED: [Sides; 3] = [
         Sides::Nested,
         Sides::All(Role::Opening),
         Sides::All(Role::Punch),

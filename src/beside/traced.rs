@@ -35,13 +35,13 @@ pub struct Traced {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Block {
     /// Bytes of it in the text.
-    pub range: Range<usize>,
-    pub line: usize,
-    pub motion: Motion,
+    pub(crate) range: Range<usize>,
+    pub(crate) line: usize,
+    pub(crate) motion: Motion,
     /// The control offsets it.
-    pub is_offset: bool,
+    pub(crate) is_offset: bool,
     /// An invalid arc, taken as its chord.
-    pub is_lost: bool,
+    pub(crate) is_lost: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +53,7 @@ pub(super) enum Motion {
 }
 
 impl Block {
-    pub fn segment(&self) -> Option<&Segment> {
+    pub(super) fn segment(&self) -> Option<&Segment> {
         match &self.motion {
             Motion::Cut(segment) => Some(segment),
             Motion::Way(..) | Motion::Stop => None,
@@ -158,7 +158,7 @@ impl Traced {
     }
 
     /// True where nothing is cut.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.blocks.iter().all(|block| block.segment().is_none())
     }
 }

@@ -103,7 +103,7 @@ pub(super) struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    pub fn new(traced: &'a Traced, rounds: &'a Rounds, pose: Pose) -> Walk<'a> {
+    pub(super) fn new(traced: &'a Traced, rounds: &'a Rounds, pose: Pose) -> Walk<'a> {
         Walk {
             traced,
             rounds,
@@ -121,7 +121,7 @@ impl<'a> Walk<'a> {
     }
 
     /// `tabs`: the lengths of the tabs that may be left standing, µm.
-    pub fn go(mut self, tabs: &[f64]) -> Walked {
+    pub(super) fn go(mut self, tabs: &[f64]) -> Walked {
         let mut run: Option<Run> = None;
         let (mut index, mut tried) = (0, 0);
         // From each block the walk goes back once at most.

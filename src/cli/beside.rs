@@ -23,7 +23,7 @@ pub(crate) struct Folders {
 
 impl Folders {
     /// The partners of a document that was read from `path`.
-    pub fn beside(
+    pub(super) fn beside(
         &self,
         path: &Path,
         document: &Document,

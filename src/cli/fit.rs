@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 Examples:
   wedm fit washer.dxf --drawn-as punch --clearance 0.01 --wire-diameter 0.18 --gap 0.01
   wedm fit washer.dxf -o washer-fit.svg")]
-pub struct Arguments {
+pub(super) struct Arguments {
     #[arg(value_name = "PATH")]
     path: PathBuf,
     #[arg(short, long, value_name = "OUT")]
@@ -32,7 +32,7 @@ pub struct Arguments {
     common: Common,
 }
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = &arguments.path;
     if let Some(target) = &arguments.output {
         output::refuse_input(target, path)?;

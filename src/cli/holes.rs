@@ -15,7 +15,7 @@ Examples:
   wedm holes plate.dxf --side opening --start-hole 2
   wedm holes plate.dxf punch.dxf --side auto -o holes.csv
   wedm holes plate.dxf --side opening --start-hole 2 -o holes.dxf      the drawing, with the holes on the layer START-HOLES")]
-pub struct Arguments {
+pub(super) struct Arguments {
     #[arg(value_name = "PATH", required = true)]
     paths: Vec<PathBuf>,
     #[arg(short, long, value_name = "OUT")]
@@ -26,7 +26,7 @@ pub struct Arguments {
     common: Common,
 }
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let is_dxf = match &arguments.output {
         Some(target) => is_dxf(target)?,
         None => false,

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 Examples:
   wedm pair washer.dxf --drawn-as plate --clearance 0.09 --wire-diameter 0.18 --gap 0.01
   wedm pair washer.dxf --format iso -o programs        programs/washer-punch.iso and so on")]
-pub struct Arguments {
+pub(super) struct Arguments {
     #[arg(value_name = "PATH")]
     path: PathBuf,
     #[arg(long, default_value = "3b", value_parser = Format::of)]
@@ -36,7 +36,7 @@ pub struct Arguments {
     common: Common,
 }
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = &arguments.path;
     let last = arguments
         .pairing

@@ -34,7 +34,7 @@ pub struct Spot {
     /// What is left of the clearance; below 0 where the two bind.
     pub clearance: f64,
     /// It is the plate that stands too far out, not the punch.
-    pub is_of_plate: bool,
+    pub(crate) is_of_plate: bool,
     /// The drawn segment of the part that stands too far out.
     pub segment: SegmentOf,
     /// That part: `punch` or `plate`, or the name of its workpiece.

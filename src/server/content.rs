@@ -159,7 +159,7 @@ impl Content {
     }
 
     /// The data for comparing others with it.
-    pub fn form(&self) -> Option<Form> {
+    pub(super) fn form(&self) -> Option<Form> {
         let Content::Read(document) = self else {
             return None;
         };

@@ -21,7 +21,7 @@ pub(super) enum Form {
 }
 
 impl Form {
-    pub fn of(document: &Document) -> Option<Form> {
+    pub(super) fn of(document: &Document) -> Option<Form> {
         let traced = document.traced().map(Form::Traced);
         traced.or_else(|| document.drawn().map(Form::Drawn))
     }
@@ -45,7 +45,7 @@ pub(super) type Stamp = Option<(SystemTime, u64)>;
 pub(super) struct Wanted {
     pub others: Vec<Arc<str>>,
     pub partners: Vec<(Arc<str>, From)>,
-    pub is_program: bool,
+    pub(crate) is_program: bool,
 }
 
 pub(super) enum From {
@@ -59,7 +59,7 @@ pub(super) enum From {
 
 /// A file that was read for it.
 pub(super) struct Kept {
-    pub stamp: Stamp,
+    pub(crate) stamp: Stamp,
     pub form: Result<Form, String>,
 }
 
@@ -84,7 +84,7 @@ impl Wanted {
     }
 
     /// The partners of the document, and the files that were read for it.
-    pub fn read(self) -> (Beside, Vec<(PathBuf, Kept)>) {
+    pub(super) fn read(self) -> (Beside, Vec<(PathBuf, Kept)>) {
         let mut read = Vec::new();
         let mut forms = Vec::with_capacity(self.partners.len());
         for (name, from) in self.partners {

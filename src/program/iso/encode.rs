@@ -27,7 +27,7 @@ pub(super) struct Moves {
     /// A step of the grid, µm.
     pub step: f64,
     /// Full turns are written as one arc.
-    pub full_circles: bool,
+    pub(crate) full_circles: bool,
 }
 
 impl Encoder for Moves {

@@ -28,7 +28,7 @@ pub(in super::super) enum Numbering {
 }
 
 impl Numbering {
-    pub fn with(self, number: Option<u32>, is_block: bool) -> Numbering {
+    pub(crate) fn with(self, number: Option<u32>, is_block: bool) -> Numbering {
         match (self, number) {
             (same, None) if !is_block => same,
             (Numbering::Empty, Some(number)) => Numbering::Regular {
@@ -50,7 +50,7 @@ impl Numbering {
     }
 
     /// This stretch and then the next.
-    pub fn then(self, next: Numbering) -> Numbering {
+    pub(crate) fn then(self, next: Numbering) -> Numbering {
         match (self, next) {
             (Numbering::Empty, other) | (other, Numbering::Empty) => other,
             (
