@@ -3,8 +3,10 @@
 //! DXF text, drawings sent by a CAD program and programs differ here and nowhere above.
 
 mod changes;
+mod file_kind;
 mod since;
 
+pub(crate) use file_kind::FileKind;
 use since::EditedLines;
 pub(crate) use since::Since;
 

@@ -38,7 +38,7 @@ pub use drawn::Drawn;
 pub(crate) use findings::of_program;
 pub use findings::{Beside, Partner, of_drawing};
 pub use names::{Named, plain};
-pub(crate) use names::{drawing_named, head_of, name_of, programs_beside};
+pub(crate) use names::{drawing_named, head_of, is_program, name_of, programs_beside};
 pub use traced::Traced;
 
 /// How far a block may lie from where the drawing has it, µm.

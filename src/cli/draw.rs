@@ -1,9 +1,10 @@
 //! `wedm draw`: a picture of contour, faults and wire path as SVG, PNG or PDF; or contour and wire path as a new drawing.
 
-use super::files::{self, ending_of};
+use super::files;
 use super::options::{Common, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict};
+use crate::disk::ending_of;
 use crate::document::{Document, Snapshot};
 use crate::drawing::{Drawing, Entity, Geometry};
 use crate::dxf;

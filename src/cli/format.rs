@@ -4,8 +4,9 @@ use super::changes::print_diff;
 use super::options::{Common, Words, parser, row};
 use super::output::{self, STRONG, styled};
 use super::{Failure, Verdict, files};
+use crate::beside::is_program;
 use crate::finding::Rule;
-use crate::program::{self, Language};
+use crate::program;
 use crate::settings::Settings;
 use crate::text::edited;
 use clap::Args;
@@ -93,12 +94,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     }
     let differs = changed > 0 && (target.check || target.diff);
     Ok(verdict.max(Verdict::of_errors(differs)))
-}
-
-fn is_program(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| {
-        Language::of_ending(&ending.to_string_lossy().to_ascii_lowercase()).is_some()
-    })
 }
 
 /// Formats one program and delivers it; true where it was not in its layout.

@@ -1,9 +1,10 @@
 //! `wedm holes`: the start holes for the drill.
 
-use super::files::{self, ending_of};
+use super::files;
 use super::options::{Common, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, report};
+use crate::disk::ending_of;
 use crate::job::drill;
 use crate::{dxf, job};
 use clap::Args;

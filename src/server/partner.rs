@@ -2,9 +2,7 @@
 
 use crate::beside::{Beside, Drawn, Named, Partner, Traced};
 use crate::disk;
-use crate::document::{Document, Source};
-use crate::dxf;
-use crate::program::{self, Language};
+use crate::document::{Document, FileKind};
 use crate::settings::Effective;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
@@ -138,13 +136,9 @@ impl Wanted {
 fn form_of_file(path: &Path, settings: &Arc<Effective>) -> Result<Form, String> {
     let file = std::fs::File::open(path).map_err(|error| disk::plain(&error))?;
     let bytes = disk::read_at_most(&file, LARGEST)?;
-    let ending = path.extension().unwrap_or_default().to_string_lossy();
-    let language = Language::of_ending(&ending.to_ascii_lowercase());
+    let kind = FileKind::of_ending(&disk::ending_of(path)).unwrap_or(FileKind::Drawing);
     let form = catch_unwind(AssertUnwindSafe(|| {
-        let source = match language {
-            Some(language) => Source::Program(program::Document::read(language, bytes, settings)),
-            None => Source::Dxf(dxf::Document::read_file(bytes)),
-        };
+        let (source, _) = kind.read(bytes, settings);
         Form::of(&Document::new(source, settings.clone()))
     }));
     let form = form.ok().flatten();

@@ -7,6 +7,8 @@ mod page;
 use super::options::{Common, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, files};
+use crate::disk::ending_of;
+use crate::document::FileKind;
 use crate::program::Format;
 use clap::Args;
 use page::Page;
@@ -76,7 +78,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 }
 
 fn is_drawing(path: &Path) -> bool {
-    ["dxf", "dxb", "dxfb"].contains(&files::ending_of(path).as_str())
+    FileKind::of_ending(&ending_of(path)) == Some(FileKind::Drawing)
 }
 
 /// A name for the page of a drawing that no other has yet.
