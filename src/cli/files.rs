@@ -90,12 +90,16 @@ fn read(path: &Path) -> Result<(Vec<u8>, Seen), String> {
     Ok((bytes, seen))
 }
 
-/// The same for a command that makes something of the file. It refuses doubtful settings.
+/// The same for a command that makes something of the file, not in its place. It refuses doubtful settings.
 pub(crate) fn open_to_use(
     path: &Path,
+    target: Option<&Path>,
     common: &Common,
     last: &Settings,
 ) -> Result<Opened, Failure> {
+    if let Some(target) = target {
+        output::refuse_input(target, path)?;
+    }
     let opened = open(path, common, last)?;
     let faults = &opened.settings_rows;
     faults.iter().for_each(|row| output::say(&row.rendered()));
@@ -103,6 +107,18 @@ pub(crate) fn open_to_use(
         return Err(Failure(say!(nothing_is_made_with_such_settings).into()));
     }
     Ok(opened)
+}
+
+/// The same for a drawing, with the snapshot that the work is done on.
+pub(crate) fn drawing_to_use(
+    path: &Path,
+    target: Option<&Path>,
+    common: &Common,
+    last: &Settings,
+) -> Result<(Opened, Snapshot), Failure> {
+    let opened = open_to_use(path, target, common, last)?;
+    let snapshot = opened.snapshot()?;
+    Ok((opened, snapshot))
 }
 
 impl Opened {

@@ -65,9 +65,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             say!(programs, files.len())
         )));
     }
-    if let (Some(out), [file]) = (&target.output, &files[..]) {
-        output::refuse_input(out, file)?;
-    }
     let mut verdict = Verdict::Clean;
     for Failure(sentence) in &failures {
         output::complain(sentence);
@@ -107,7 +104,7 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
     }
     let layout = arguments.layout.clone().unwrap_or_default();
     let last = arguments.words.0.overlaid(&layout);
-    let opened = files::open_to_use(path, &common, &last)?;
+    let opened = files::open_to_use(path, arguments.target.output.as_deref(), &common, &last)?;
     let settings = opened.document.settings().clone();
     let program = opened.program()?;
     let text = program.text();

@@ -39,12 +39,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let mut csv = drill::HEAD.to_owned();
     let (mut drawn, mut count, mut any_errors) = (None, 0, false);
     for path in &arguments.paths {
-        if let Some(target) = &arguments.output {
-            output::refuse_input(target, path)?;
-        }
         let last = arguments.common.settings_with(&arguments.program);
-        let opened = files::open_to_use(path, &arguments.common, &last)?;
-        let snapshot = opened.snapshot()?;
+        let target = arguments.output.as_deref();
+        let (opened, snapshot) = files::drawing_to_use(path, target, &arguments.common, &last)?;
         let findings = opened.document.all_findings();
         let of_holes = findings
             .iter()

@@ -41,8 +41,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let last = arguments
         .pairing
         .beside(&arguments.common.settings_with(&arguments.program));
-    let opened = files::open_to_use(path, &arguments.common, &last)?;
-    let snapshot = opened.snapshot()?;
+    let (opened, snapshot) = files::drawing_to_use(path, None, &arguments.common, &last)?;
     let document = &opened.document;
     let wanted = Wanted {
         format: arguments.format,

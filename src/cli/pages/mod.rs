@@ -51,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let last = arguments.common.settings_with(&arguments.program);
     let (mut names, mut lines) = (HashSet::new(), Vec::new());
     for path in drawings {
-        let page = files::open_to_use(path, &arguments.common, &last)
+        let page = files::open_to_use(path, None, &arguments.common, &last)
             .and_then(|opened| Page::of(opened, arguments.format));
         match page {
             Ok(page) => {
