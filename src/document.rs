@@ -11,7 +11,7 @@ use since::EditedLines;
 pub(crate) use since::Since;
 
 use crate::analysis::Analysis;
-use crate::beside::{self, Beside, Drawn, Traced};
+use crate::beside::{self, Beside, Drawn, Form, Traced};
 use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline, Role};
 use crate::finding::{self, Detail, Edit, Finding, Fix, FixKind, Keep, Place, Rule, Telling};
 use crate::program;
@@ -119,6 +119,12 @@ impl Document {
         let program = self.program()?;
         let traced = || Arc::new(Traced::of(program));
         Some(self.asked.taken.traced.get_or_init(traced).clone())
+    }
+
+    /// The data by which others are compared with it.
+    pub(crate) fn form(&self) -> Option<Form> {
+        let traced = self.traced().map(Form::Traced);
+        traced.or_else(|| self.drawn().map(Form::Drawn))
     }
 
     /// The differences from the document beside it.

@@ -2,10 +2,9 @@
 
 use super::convert;
 use super::kind::Kind;
-use super::partner::Form;
 use super::shown::{self, Shown};
 use super::transport::{Written, panic_text};
-use crate::beside::Beside;
+use crate::beside::{Beside, Form};
 use crate::document::{Document, Source};
 use crate::drawing::Drawing;
 use crate::dxf;
@@ -163,7 +162,7 @@ impl Content {
         let Content::Read(document) = self else {
             return None;
         };
-        let form = catch_unwind(AssertUnwindSafe(|| Form::of(document)));
+        let form = catch_unwind(AssertUnwindSafe(|| document.form()));
         form.map_err(|panic| report(&*panic)).ok().flatten()
     }
 

@@ -1,6 +1,6 @@
 //! The partners of a document that is judged: the drawing of a program, the programs of a drawing.
 
-use crate::beside::{Beside, Drawn, Named, Partner, Traced};
+use crate::beside::{Beside, Form, Named};
 use crate::disk;
 use crate::document::{Document, FileKind};
 use crate::settings::Effective;
@@ -10,20 +10,6 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
-
-/// The data by which a document is compared.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Form {
-    Drawn(Arc<Drawn>),
-    Traced(Arc<Traced>),
-}
-
-impl Form {
-    pub(super) fn of(document: &Document) -> Option<Form> {
-        let traced = document.traced().map(Form::Traced);
-        traced.or_else(|| document.drawn().map(Form::Drawn))
-    }
-}
 
 /// The partner or partners of an open document.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -104,29 +90,12 @@ impl Wanted {
             };
             forms.push((name, form));
         }
-        let drawn = |(name, form): (Arc<str>, Result<Form, String>)| {
-            let made = form.and_then(|form| match form {
-                Form::Drawn(drawn) => Ok(drawn),
-                Form::Traced(_) => Err(say!(a_program_is_no_drawing).into()),
-            });
-            Partner { name, made }
-        };
-        let traced = |(name, form): (Arc<str>, Result<Form, String>)| {
-            let made = form.and_then(|form| match form {
-                Form::Traced(traced) => Ok(traced),
-                Form::Drawn(_) => Err(say!(a_drawing_is_no_program).into()),
-            });
-            Partner { name, made }
-        };
-        let beside = if self.is_program {
-            let first = forms.into_iter().next();
-            first.map_or(Beside::Nothing, |form| {
-                Beside::Drawing(drawn(form), self.others)
-            })
-        } else if forms.is_empty() {
-            Beside::Nothing
-        } else {
-            Beside::Programs(forms.into_iter().map(traced).collect())
+        let beside = match self.is_program {
+            true => match forms.into_iter().next() {
+                Some(drawing) => Beside::of_program(drawing, self.others),
+                None => Beside::Nothing,
+            },
+            false => Beside::of_drawing(forms),
         };
         (beside, read)
     }
@@ -139,7 +108,7 @@ fn form_of_file(path: &Path, settings: &Arc<Effective>) -> Result<Form, String> 
     let kind = FileKind::of_ending(&disk::ending_of(path)).unwrap_or(FileKind::Drawing);
     let form = catch_unwind(AssertUnwindSafe(|| {
         let (source, _) = kind.read(bytes, settings);
-        Form::of(&Document::new(source, settings.clone()))
+        Document::new(source, settings.clone()).form()
     }));
     let form = form.ok().flatten();
     form.ok_or_else(|| say!(internal_error_the_document_could_not_be_judged).into())
