@@ -88,8 +88,12 @@ impl Analysis {
         let both = match self.settings.partners()? {
             Partners::CutTwice(_) => [at, at],
             Partners::Drawn => {
-                let mut beside = self.beside.clone();
-                let drawn = fit::partners(drawing, outlines, &self.settings, &mut beside);
+                let mut walls_of = |index: usize| {
+                    let known = self.walls.get(&keys[index]).cloned();
+                    known.unwrap_or_else(|| fit::walls_of(drawing, &outlines[index].contour))
+                };
+                let (settings, mut beside) = (&self.settings, self.beside.clone());
+                let drawn = fit::partners(drawing, outlines, settings, &mut walls_of, &mut beside);
                 drawn.pairs.into_iter().find(|pair| pair.contains(&at))?
             }
         };

@@ -44,6 +44,7 @@ const ROLES: [Role; 2] = [Role::Punch, Role::Opening];
 impl Analysis {
     /// What was found between a contour that is edited and its partner holds no longer, but for what the edit has not touched.
     pub(super) fn outdate_fits(&mut self, key: ContourKey) {
+        self.walls.remove(&key);
         for ((of, _), left) in &mut self.parts {
             left.is_old |= *of == key;
         }
@@ -54,6 +55,7 @@ impl Analysis {
 
     /// Forgets what was found of a contour that is gone.
     pub(super) fn forget_fits(&mut self, key: ContourKey) {
+        self.walls.remove(&key);
         self.parts.retain(|(of, _), _| *of != key);
         self.fits
             .retain(|(one, other), _| *one != key && *other != key);
@@ -82,8 +84,16 @@ impl Analysis {
                 }
             }
             Partners::Drawn => {
-                let beside = &mut self.beside;
-                let drawn = fit::partners(drawing, &outlines, &self.settings, beside);
+                let (mut walls, beside) = (std::mem::take(&mut self.walls), &mut self.beside);
+                let mut walls_of = |index: usize| {
+                    let walls = walls.entry(keys[index]);
+                    let walls =
+                        walls.or_insert_with(|| fit::walls_of(drawing, &outlines[index].contour));
+                    walls.clone()
+                };
+                let settings = &self.settings;
+                let drawn = fit::partners(drawing, &outlines, settings, &mut walls_of, beside);
+                self.walls = walls;
                 for &[punch, plate] in &drawn.pairs {
                     let both = [punch, plate].map(|index| (keys[index], &outlines[index]));
                     self.report_pair(drawing, both, report);
@@ -133,6 +143,10 @@ impl Analysis {
             return answer.known.clone();
         }
         let is_small = punch.contour.len().max(plate.contour.len()) <= MOST_SEGMENTS;
+        for (key, outline) in both.into_iter().filter(|_| is_small) {
+            let walls = self.walls.entry(key);
+            walls.or_insert_with(|| fit::walls_of(drawing, &outline.contour));
+        }
         let known = is_small.then(|| self.fitted(drawing, both)).flatten();
         let known = known.map(Arc::new);
         for ((key, role), known) in [one, other].into_iter().zip(ROLES).zip([&known; 2]) {
@@ -160,6 +174,7 @@ impl Analysis {
         let settings = &self.settings;
         let [(one, punch), (other, plate)] = both;
         let left = |key: ContourKey, role: Role| self.parts.get(&(key, role));
+        let walls = |key: ContourKey| self.walls.get(&key).map(|walls| &**walls);
         let old = self
             .fits
             .get(&(one, other))
@@ -168,7 +183,9 @@ impl Analysis {
         match settings.partners()? {
             Partners::CutTwice(_) => {
                 let before_each = ROLES.map(|role| left(one, role).map(|left| &*left.part));
-                let parts = fit::cut_twice_parts(drawing, punch, settings, before_each).ok()?;
+                let walls = walls(one);
+                let parts = fit::cut_twice_parts(drawing, punch, settings, walls, before_each);
+                let parts = parts.ok()?;
                 let held = fit::cut_twice(drawing, parts.each_ref(), settings, false, before);
                 let parts = parts.map(Arc::new);
                 Some(Fitted { parts, held })
@@ -180,7 +197,8 @@ impl Analysis {
                         return Some(left.part.clone());
                     }
                     let before = before.map(|left| &*left.part);
-                    let part = fit::drawn_part(drawing, outline, role, settings, before);
+                    let part =
+                        fit::drawn_part(drawing, outline, role, settings, walls(key), before);
                     part.ok().map(Arc::new)
                 };
                 let (punch_part, plate_part) = rayon::join(

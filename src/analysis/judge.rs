@@ -1,7 +1,7 @@
 //! All that is found in a drawing: what has been seen is put together anew for each report.
 
 use super::Analysis;
-use super::notable::{Counted, Kind, Notability};
+use super::notable::{Counted, Kind, Notability, TightArc};
 use super::report::{Report, Tally};
 use crate::drawing::{ContourKey, Drawing, EntityId, Role};
 use crate::finding::{Detail, Finding, NoFix, Place, Rule, Severity, Side, SmallRadius};
@@ -191,7 +191,7 @@ impl Analysis {
             let arcs = self.small_radii(drawing, key, side);
             let says_the_fit = self.says_the_fit(drawing, key, side);
             counted.says_the_fit = says_the_fit;
-            let is_mild = |(_, numbers): &&(Place, SmallRadius)| is_mild(numbers, says_the_fit);
+            let is_mild = |arc: &&TightArc| is_mild(&arc.numbers, says_the_fit);
             let mild = arcs.iter().filter(is_mild).count();
             let counts = [(arcs.len() - mild, false), (mild, true)].into_iter();
             counted.counts.arcs = counts
@@ -319,23 +319,19 @@ impl Analysis {
     ) {
         let known = counted.arcs.clone();
         let each = known.unwrap_or_else(|| self.small_radii(drawing, key, counted.side));
-        for (place, numbers) in each.iter() {
-            let mildest = mildest(is_mild(numbers, counted.says_the_fit));
+        for arc in each.iter() {
+            let mildest = mildest(is_mild(&arc.numbers, counted.says_the_fit));
             if report.is_full(Rule::SmallRadius, mildest) {
                 continue;
             }
-            let index = place.entity().and_then(|(entity, segment)| {
-                let (_, index) = self.chains.index_of(entity, segment?)?;
-                Some(index)
-            });
             let numbers = SmallRadius {
-                no_fix: index.and_then(|index| self.answer(drawing, key, index)),
-                ..numbers.clone()
+                no_fix: self.answer(drawing, key, arc.index),
+                ..arc.numbers.clone()
             };
             report.add(
                 Rule::SmallRadius,
                 mildest,
-                place.clone(),
+                arc.place.clone(),
                 Detail::SmallRadius(Box::new(numbers)),
                 Vec::new(),
             );
@@ -348,12 +344,16 @@ impl Analysis {
         drawing: &Drawing,
         key: ContourKey,
         wire_side: Option<Side>,
-    ) -> Arc<[(Place, SmallRadius)]> {
+    ) -> Arc<[TightArc]> {
         let known = self.known.get(&key);
         let tight = known.into_iter().flat_map(|known| known.index.tight());
         let fault = |index| {
             let (segment, numbers) = self.fault(drawing, key, index, wire_side)?;
-            Some((Place::from(&segment), numbers))
+            Some(TightArc {
+                index,
+                place: Place::from(&segment),
+                numbers,
+            })
         };
         tight.filter_map(fault).collect()
     }

@@ -37,6 +37,7 @@ use crate::fit::Beside;
 use crate::geometry::{Bounds, Grid};
 use crate::rules::{Limits, Outlook};
 use crate::settings::Effective;
+use crate::toolpath;
 use aside::{AsideEntities, LoneLines};
 use contours::set_aside;
 use known::{Answer, Known};
@@ -87,6 +88,8 @@ pub struct Analysis {
     fits: FxHashMap<(ContourKey, ContourKey), fits::Answer>,
     /// What is left of contours that are of a pair.
     parts: FxHashMap<(ContourKey, Role), fits::Left>,
+    /// The segments of contours that may be of a pair, to ask what is near.
+    walls: FxHashMap<ContourKey, Arc<toolpath::Walls>>,
     /// Which contours run beside each other.
     beside: Beside,
     order: OnceLock<Vec<ContourKey>>,
@@ -119,6 +122,7 @@ impl Analysis {
             lost: FxHashMap::default(),
             fits: FxHashMap::default(),
             parts: FxHashMap::default(),
+            walls: FxHashMap::default(),
             beside: Beside::default(),
             order: OnceLock::new(),
             outlines: OnceLock::new(),

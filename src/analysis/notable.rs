@@ -41,7 +41,15 @@ pub(super) struct Counted {
     /// Whether what its arcs leave says the fit.
     pub(super) says_the_fit: bool,
     /// Each arc below the correction, where they are few.
-    pub(super) arcs: Option<Arc<[(Place, SmallRadius)]>>,
+    pub(super) arcs: Option<Arc<[TightArc]>>,
+}
+
+/// An arc below the correction, by its index in the contour.
+#[derive(Clone, Debug)]
+pub(super) struct TightArc {
+    pub(super) index: usize,
+    pub(super) place: Place,
+    pub(super) numbers: SmallRadius,
 }
 
 /// Numbers of findings: of arcs below the correction, of local rules, of rules on whole contours.

@@ -3,7 +3,7 @@
 use crate::drawing::{EntityId, Touched};
 use crate::dxf;
 use crate::text::SourceText;
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
 
 /// More edits than this are not told apart.
@@ -15,6 +15,8 @@ pub(crate) struct Since {
     is_all: bool,
     /// Entities that are another, or whose text has been read again.
     entities: FxHashSet<EntityId>,
+    /// Of a polyline that is the same but for some vertices, the segments from the first to the last that one of them bounds.
+    segments: FxHashMap<EntityId, Range<usize>>,
     /// In their order.
     edits: Vec<EditedLines>,
 }
@@ -32,6 +34,7 @@ impl Default for Since {
         Since {
             is_all: true,
             entities: FxHashSet::default(),
+            segments: FxHashMap::default(),
             edits: Vec::new(),
         }
     }
@@ -78,16 +81,33 @@ impl Since {
     /// Adds what an edit touched in a drawing.
     pub(super) fn add_touched(&mut self, touched: &[Touched]) {
         for touched in touched {
-            match touched.entity() {
-                Some(entity) => _ = self.entities.insert(entity),
-                None => *self = Since::default(),
+            match *touched {
+                // No segment has another number, and the last one does not end in the first vertex.
+                Touched::Vertices {
+                    entity,
+                    start: start @ 1..,
+                    removed,
+                    inserted,
+                } if removed == inserted => {
+                    let (first, end) = (start - 1, start + inserted);
+                    let known = self.segments.entry(entity).or_insert(first..end);
+                    *known = known.start.min(first)..known.end.max(end);
+                }
+                _ => match touched.entity() {
+                    Some(entity) => _ = self.entities.insert(entity),
+                    None => *self = Since::default(),
+                },
             }
         }
     }
 
-    /// True where an entity may be another, or may stand elsewhere in its text than its lines tell.
-    pub(crate) fn has_changed(&self, entity: EntityId) -> bool {
-        self.is_all || self.entities.contains(&entity)
+    /// True where an entity, or the segment that is named of it, may be another, or may stand elsewhere in its text than its lines tell.
+    pub(crate) fn has_changed(&self, entity: EntityId, segment: Option<usize>) -> bool {
+        let is_within =
+            |segments: &Range<usize>| segment.is_some_and(|segment| segments.contains(&segment));
+        self.is_all
+            || self.entities.contains(&entity)
+            || self.segments.get(&entity).is_some_and(is_within)
     }
 
     /// Where a line is now; `None` where an edit has touched it.
@@ -128,5 +148,35 @@ mod tests {
         }
         since.add_touched(&[Touched::All]);
         assert_eq!(since.line(3), None);
+    }
+
+    #[test]
+    fn of_a_polyline_only_what_its_vertices_bound_has_changed() {
+        let vertices = |start, removed, inserted| Touched::Vertices {
+            entity: EntityId(7),
+            start,
+            removed,
+            inserted,
+        };
+        let changed = |touched: &[Touched]| -> Vec<usize> {
+            let mut since = Since::default();
+            since.take();
+            since.add_touched(touched);
+            assert!(!since.has_changed(EntityId(8), Some(4)));
+            let has_changed = |segment: &usize| since.has_changed(EntityId(7), Some(*segment));
+            (0..9).filter(has_changed).collect()
+        };
+        assert_eq!(changed(&[vertices(4, 1, 1)]), [3, 4]);
+        assert_eq!(
+            changed(&[vertices(4, 1, 1), vertices(6, 2, 2)]),
+            [3, 4, 5, 6, 7]
+        );
+        let all: Vec<usize> = (0..9).collect();
+        assert_eq!(changed(&[vertices(4, 1, 2)]), all);
+        assert_eq!(changed(&[vertices(0, 1, 1)]), all);
+        let entity = Touched::Entity {
+            entity: EntityId(7),
+        };
+        assert_eq!(changed(&[vertices(4, 1, 1), entity]), all);
     }
 }

@@ -106,10 +106,7 @@ impl Contour {
 
     /// Segment `index` in the direction of travel, `None` past the end.
     pub(crate) fn segment(&self, drawing: &Drawing, index: usize) -> Option<ContourSegment> {
-        let piece = self.pieces.get(
-            self.pieces
-                .partition_point(|piece| piece.range().end <= index),
-        )?;
+        let piece = self.piece_of(index)?;
         segment_of(
             piece,
             &drawing.get(piece.entity)?.geometry,
@@ -118,10 +115,30 @@ impl Contour {
         )
     }
 
+    /// Segment `index` of which the geometry is known.
+    pub(crate) fn segment_with(
+        &self,
+        drawing: &Drawing,
+        index: usize,
+        geometry: Segment,
+    ) -> Option<ContourSegment> {
+        let (entity, segment) = self.segment_id(drawing, index)?;
+        Some(ContourSegment {
+            entity,
+            segment,
+            reversed: self.piece_of(index)?.reversed,
+            geometry,
+        })
+    }
+
+    fn piece_of(&self, index: usize) -> Option<&Piece> {
+        let behind = |piece: &Piece| piece.range().end <= index;
+        self.pieces.get(self.pieces.partition_point(behind))
+    }
+
     /// The entity of segment `index`, and the segment in there: without its geometry.
     pub(crate) fn segment_id(&self, drawing: &Drawing, index: usize) -> Option<(EntityId, usize)> {
-        let behind = |piece: &Piece| piece.range().end <= index;
-        let piece = self.pieces.get(self.pieces.partition_point(behind))?;
+        let piece = self.piece_of(index)?;
         let along = index - piece.first();
         let segment = match piece.reversed {
             true => piece.count().checked_sub(1 + along)?,

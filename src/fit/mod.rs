@@ -12,12 +12,13 @@ mod since;
 
 pub(crate) use held::Held;
 pub use partners::Drawn;
-pub(crate) use partners::{Beside, partners};
+pub(crate) use partners::{Beside, partners, walls_of};
 
 use crate::drawing::{Contour, Drawing, EntityId, Outline, Role, wire_side};
 use crate::geometry::{Point, Segment, Side};
 use crate::settings::{Effective, Partners, Use};
-use crate::toolpath::{Cutting, Part, Refusal, part};
+use crate::toolpath::{Cutting, Part, Refusal, Walls, part};
+use rustc_hash::FxHashMap;
 use since::Since;
 use std::sync::Arc;
 
@@ -121,7 +122,7 @@ pub fn fit(
         Partners::CutTwice(_) => {
             let twice = outlines.iter().filter(|outline| is_cut_twice(outline));
             for outline in twice {
-                let parts = cut_twice_parts(drawing, outline, settings, [None; 2])?;
+                let parts = cut_twice_parts(drawing, outline, settings, None, [None; 2])?;
                 if !goes_on() {
                     return Err(Refusal::Cancelled);
                 }
@@ -131,12 +132,23 @@ pub fn fit(
             }
         }
         Partners::Drawn => {
-            let drawn = partners(drawing, outlines, settings, &mut Beside::default());
+            let mut walls: FxHashMap<usize, Arc<Walls>> = FxHashMap::default();
+            let mut walls_of = |index: usize| {
+                let walls = walls.entry(index);
+                let walls = walls.or_insert_with(|| walls_of(drawing, &outlines[index].contour));
+                walls.clone()
+            };
+            let beside = &mut Beside::default();
+            let drawn = partners(drawing, outlines, settings, &mut walls_of, beside);
             for &[punch, plate] in &drawn.pairs {
+                let walls = [punch, plate].map(&mut walls_of);
                 let (punch, plate) = (&outlines[punch], &outlines[plate]);
+                let part_of = |outline: &Outline, role: Role, walls: &Walls| {
+                    drawn_part(drawing, outline, role, settings, Some(walls), None)
+                };
                 let parts = rayon::join(
-                    || drawn_part(drawing, punch, Role::Punch, settings, None),
-                    || drawn_part(drawing, plate, Role::Opening, settings, None),
+                    || part_of(punch, Role::Punch, &walls[0]),
+                    || part_of(plate, Role::Opening, &walls[1]),
                 );
                 if !goes_on() {
                     return Err(Refusal::Cancelled);
@@ -167,11 +179,13 @@ pub(crate) fn is_cut_twice(outline: &Outline) -> bool {
         && outline.contour.double_of.is_none()
 }
 
-/// The punch and the plate that are cut along one contour, made at once; `before` are the same before an edit.
+/// The punch and the plate that are cut along one contour, made at once; `walls` are its own, where they are known, and `before` are the same
+/// parts before an edit.
 pub(crate) fn cut_twice_parts(
     drawing: &Drawing,
     outline: &Outline,
     settings: &Effective,
+    walls: Option<&Walls>,
     before: [Option<&Part>; 2],
 ) -> Result<[Part; 2], Refusal> {
     let part_of = |of: Use, before: Option<&Part>| {
@@ -182,6 +196,7 @@ pub(crate) fn cut_twice_parts(
             side: side_of(outline, of.role())?,
             is_other,
             settings: &own,
+            walls,
         };
         part(drawing, &outline.contour, cutting, before, &|| true)
     };
@@ -224,18 +239,21 @@ fn punch_and_plate_apart(settings: &Effective) -> Option<f64> {
     Some(2.0 * half - within(Use::Punch)? - within(Use::Plate)?)
 }
 
-/// The part that all passes leave of a contour where both are drawn; `before` is the same before an edit.
+/// The part that all passes leave of a contour where both are drawn; `walls` are its own, where they are known, and `before` is the same part
+/// before an edit.
 pub(crate) fn drawn_part(
     drawing: &Drawing,
     outline: &Outline,
     role: Role,
     settings: &Effective,
+    walls: Option<&Walls>,
     before: Option<&Part>,
 ) -> Result<Part, Refusal> {
     let cutting = Cutting {
         side: side_of(outline, role)?,
         is_other: false,
         settings,
+        walls,
     };
     part(drawing, &outline.contour, cutting, before, &|| true)
 }

@@ -2,7 +2,7 @@
 
 use super::change::Change;
 use super::workpiece_of;
-use crate::drawing::{Drawing, Outline};
+use crate::drawing::{Contour, Drawing, Outline};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::settings::Effective;
 use crate::toolpath::Walls;
@@ -35,17 +35,26 @@ pub(crate) struct Beside(Vec<[Arc<Walls>; 2]>);
 struct Candidate {
     outline: usize,
     workpiece: u16,
-    segments: Vec<Segment>,
+    walls: Arc<Walls>,
     bounds: Bounds,
     area: f64,
 }
 
-/// The partners among the contours of workpieces. A contour has one: of several the one whose box fits best. What ran `beside` each other at the
-/// last question is known.
+/// The segments of a contour, to ask what is near.
+pub(crate) fn walls_of(drawing: &Drawing, contour: &Contour) -> Arc<Walls> {
+    let segments = contour.segments(drawing);
+    Arc::new(Walls::new(
+        segments.map(|segment| segment.geometry).collect(),
+    ))
+}
+
+/// The partners among the contours of workpieces. A contour has one: of several the one whose box fits best. `walls_of` hands out those of
+/// an outline, the same ones where it has not changed; what ran `beside` each other at the last question is known.
 pub(crate) fn partners(
     drawing: &Drawing,
     outlines: &[Outline],
     settings: &Effective,
+    walls_of: &mut dyn FnMut(usize) -> Arc<Walls>,
     beside: &mut Beside,
 ) -> Drawn {
     let unit_mm = settings.unit_of(drawing).mm;
@@ -63,17 +72,12 @@ pub(crate) fn partners(
             if workpiece == 0 {
                 return None;
             }
-            let segments = outline.contour.segments(drawing);
-            let segments: Vec<Segment> = segments.map(|segment| segment.geometry).collect();
-            let mut bounds = Bounds::EMPTY;
-            segments
-                .iter()
-                .for_each(|segment| bounds.merge(&segment.bounds()));
+            let walls = walls_of(index);
             Some(Candidate {
                 outline: index,
                 workpiece,
-                segments,
-                bounds,
+                bounds: walls.bounds(),
+                walls,
                 area: outline.twice_area.abs(),
             })
         })
@@ -101,9 +105,9 @@ pub(crate) fn partners(
             } else {
                 (other, one)
             };
-            let both = [punch, plate].map(|index| candidates[index].segments.as_slice());
-            if let Some(walls) = beside.run_together(both, reach) {
-                together.push(walls);
+            let both = [punch, plate].map(|index| &candidates[index].walls);
+            if beside.run_together(both, reach) {
+                together.push(both.map(Arc::clone));
                 found.push((off, punch, plate));
             }
         }
@@ -150,44 +154,32 @@ fn apart(a: &Bounds, b: &Bounds) -> f64 {
 }
 
 impl Beside {
-    /// Two contours with their walls where no place of the one is farther from the other than `reach`, as far as ends and places between
-    /// them tell.
-    fn run_together(&self, both: [&[Segment]; 2], reach: f64) -> Option<[Arc<Walls>; 2]> {
-        let is_same = |walls: &Arc<Walls>, now: &[Segment]| walls.segments() == now;
-        for known in &self.0 {
-            match [0, 1].map(|one| is_same(&known[one], both[one])) {
-                [true, true] => return Some(known.clone()),
-                [true, false] => {
-                    if let Some(walls) = still_beside(&known[1], both[1], &known[0], reach) {
-                        return walls.map(|walls| [known[0].clone(), walls]);
-                    }
-                }
-                [false, true] => {
-                    if let Some(walls) = still_beside(&known[0], both[0], &known[1], reach) {
-                        return walls.map(|walls| [walls, known[1].clone()]);
-                    }
-                }
-                [false, false] => {}
-            }
+    /// True where no place of the one contour is farther from the other than `reach`, as far as ends and places between them tell.
+    fn run_together(&self, both: [&Arc<Walls>; 2], reach: f64) -> bool {
+        let known = |[punch, plate]: &[Arc<Walls>; 2]| match [
+            Arc::ptr_eq(punch, both[0]),
+            Arc::ptr_eq(plate, both[1]),
+        ] {
+            [true, true] => Some(true),
+            [true, false] => still_beside(plate, both[1], punch, reach),
+            [false, true] => still_beside(punch, both[0], plate, reach),
+            [false, false] => None,
+        };
+        if let Some(known) = self.0.iter().find_map(known) {
+            return known;
         }
-        let walls = |segments: &[Segment]| Arc::new(Walls::new(segments.to_vec()));
-        let (punch, plate) = rayon::join(|| walls(both[0]), || walls(both[1]));
         let keeps = |own: &Walls, other: &Walls| {
             let some = own.segments().par_chunks(AT_A_TIME);
             some.all(|segments| are_near(&mut segments.iter(), other, reach))
         };
-        (keeps(&punch, &plate) && keeps(&plate, &punch)).then_some([punch, plate])
+        let [punch, plate] = both;
+        keeps(punch, plate) && keeps(plate, punch)
     }
 }
 
-/// The walls of a contour that was beside another one `before` an edit, where it still is; nothing where too much of it has changed to say.
-fn still_beside(
-    before: &Walls,
-    now: &[Segment],
-    other: &Walls,
-    reach: f64,
-) -> Option<Option<Arc<Walls>>> {
-    let change = Change::of(before.segments(), now, PartialEq::eq)?;
+/// Whether a contour that was beside another one `before` an edit still is; nothing where too much of it has changed to say.
+fn still_beside(before: &Walls, now: &Walls, other: &Walls, reach: f64) -> Option<bool> {
+    let change = Change::of(before.segments(), now.segments(), PartialEq::eq)?;
     let mut beside_gone = Vec::new();
     for gone in change.gone() {
         other.find(&before.bounds_of(gone).grown(reach), |wall| {
@@ -195,11 +187,8 @@ fn still_beside(
             false
         });
     }
-    let mut new = change.come().map(|new| &now[new]);
-    let walls = Walls::new(now.to_vec());
-    let is_beside =
-        are_near(&mut new, other, reach) && are_near(&mut beside_gone.into_iter(), &walls, reach);
-    Some(is_beside.then(|| Arc::new(walls)))
+    let mut new = change.come().map(|new| now.segment(new));
+    Some(are_near(&mut new, other, reach) && are_near(&mut beside_gone.into_iter(), now, reach))
 }
 
 /// True where no end of some segments, and no place between, is farther from `other` than `reach`.

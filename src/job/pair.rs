@@ -104,6 +104,7 @@ fn roles_of_partners(snapshot: &Snapshot) -> Vec<(String, Role)> {
         drawing,
         outlines,
         &snapshot.settings,
+        &mut |index| fit::walls_of(drawing, &outlines[index].contour),
         &mut Default::default(),
     );
     let both = drawn

@@ -176,7 +176,7 @@ impl Kept {
         let mut places = std::iter::once(&self.finding.place).chain(&self.finding.related);
         let stays = |place: &Place| {
             let entity = place.entity();
-            entity.is_some_and(|(entity, _)| !since.has_changed(entity))
+            entity.is_some_and(|(entity, segment)| !since.has_changed(entity, segment))
         };
         if !places.all(stays) {
             return false;

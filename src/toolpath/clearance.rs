@@ -124,6 +124,17 @@ impl Walls {
         &self.segments
     }
 
+    /// The box of all.
+    pub(crate) fn bounds(&self) -> Bounds {
+        let mut all = Bounds::EMPTY;
+        self.levels
+            .last()
+            .into_iter()
+            .flatten()
+            .for_each(|few| all.merge(few));
+        all
+    }
+
     pub(crate) fn bounds_of(&self, index: usize) -> &Bounds {
         &self.levels[0][index]
     }

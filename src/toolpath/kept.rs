@@ -32,19 +32,22 @@ pub(super) struct Kept<'a> {
 pub(crate) fn which_it_was<Before, Now>(
     before: &[Before],
     now: &[Now],
-    is_same: impl Fn(&Before, &Now) -> bool,
+    is_as_it_was: impl Fn(&Before, &Now) -> bool,
 ) -> Option<Vec<u32>> {
     let mut was = Vec::with_capacity(now.len());
     let (mut at, mut changed) = (0, 0);
     let is_same = |at: usize, new: usize| {
         let pair = before.get(at).zip(now.get(new));
-        pair.is_some_and(|(before, now)| is_same(before, now))
+        pair.is_some_and(|(before, now)| is_as_it_was(before, now))
     };
-    while was.len() < now.len() {
-        if is_same(at, was.len()) {
-            was.push(at as u32);
-            at += 1;
-            continue;
+    loop {
+        let rest = before.iter().skip(at).zip(now.iter().skip(was.len()));
+        let stays = rest.take_while(|(before, now)| is_as_it_was(before, now));
+        let stays = stays.count();
+        was.extend((at..at + stays).map(|stays| stays as u32));
+        at += stays;
+        if was.len() == now.len() {
+            return Some(was);
         }
         let mut steps = (1..2 * AHEAD).flat_map(|all| (0..=all).map(move |old| (old, all - old)));
         let next = steps.find(|&(old, new)| is_same(at + old, was.len() + new));
@@ -57,7 +60,6 @@ pub(crate) fn which_it_was<Before, Now>(
         let new = new.min(now.len() - was.len());
         was.extend(std::iter::repeat_n(NEW, new));
     }
-    Some(was)
 }
 
 /// Of each that was there before which one it is now, or that it is gone, [`NEW`]: what [`which_it_was`] says, turned round.

@@ -8,10 +8,10 @@ use super::corners::{Element, elements};
 use super::job::Job;
 use super::kept::{Kept, follows, which_it_was};
 use super::laid::{Along, Known, Laid};
-use super::offset::Wall;
+use super::offset::{Wall, walls};
 use super::path::{Refusal, Source};
 use super::skim::Rough;
-use crate::drawing::{Contour, Drawing, EntityId};
+use crate::drawing::{Contour, ContourSegment, Drawing, EntityId};
 use crate::geometry::{Arc, Point, Segment, Side};
 use crate::settings::{Corner, Effective, SkimCorner};
 use rustc_hash::FxHashMap;
@@ -78,6 +78,8 @@ pub(crate) struct Cutting<'a> {
     /// The wire runs on the side of the part.
     pub is_other: bool,
     pub settings: &'a Effective,
+    /// The segments of the contour, where they are known.
+    pub walls: Option<&'a Walls>,
 }
 
 /// The part that all passes leave of a closed contour; `before` is the same before an edit of the contour, under the same settings.
@@ -92,6 +94,7 @@ pub(crate) fn part(
         side,
         is_other,
         settings,
+        walls,
     } = cutting;
     let job = Job {
         drawing,
@@ -111,6 +114,14 @@ pub(crate) fn part(
     };
     let (last, half) = (job.units(last), job.units(half));
     let away = if is_other { side.reversed() } else { side };
+    let segment = |at: usize| match walls {
+        Some(walls) => contour.segment_with(drawing, at, *walls.segment(at)),
+        None => contour.segment(drawing, at),
+    };
+    let contour = Segments {
+        count: contour.len(),
+        segment: &segment,
+    };
     let (drawn, path, is_proved) = job.last_path(contour, away, last, before)?;
     let is_path_by_neighbours = !job.searched.swap(false, Relaxed);
     let path_follows = match is_proved {
@@ -211,12 +222,19 @@ pub(crate) fn part(
 /// The walls of a contour, and the path beside them.
 type WallsAndPath = (Vec<Wall>, Vec<Element>);
 
+/// The segments of a closed contour in the direction of travel.
+#[derive(Clone, Copy)]
+struct Segments<'a> {
+    count: usize,
+    segment: &'a (dyn Fn(usize) -> Option<ContourSegment> + Sync),
+}
+
 impl Job<'_> {
     /// The walls of a closed contour, the path of the last pass along them on a side, and whether it has been proved at its correction; one
     /// line without length where the wire can only stand.
     fn last_path(
         &self,
-        contour: &Contour,
+        contour: Segments,
         side: Side,
         last: f64,
         before: Option<&Part>,
@@ -227,7 +245,7 @@ impl Job<'_> {
             && rough > last
             && settings.corrections.len() > 1;
         if last <= self.units(super::job::ROUNDING) {
-            let walls = self.walls(contour);
+            let walls = self.closed_walls(contour);
             let path = elements(&walls);
             return Ok((walls, path, false));
         }
@@ -238,8 +256,8 @@ impl Job<'_> {
             return Ok((walls, path, true));
         }
         let first = if is_beside_rough { rough } else { last };
-        let segment = |at: usize| contour.segment(self.drawing, at);
-        let (walls, own, laid) = self.along(contour.len(), segment, side.sign(), first, true)?;
+        let (walls, own, laid) =
+            self.along(contour.count, contour.segment, side.sign(), first, true)?;
         let laid = match (laid, is_beside_rough) {
             (Ok(Laid::Path(path)), true) => {
                 let rough = Rough {
@@ -270,15 +288,20 @@ impl Job<'_> {
         }
     }
 
+    fn closed_walls(&self, Segments { count, segment }: Segments) -> Vec<Wall> {
+        let zero_length = self.units(self.settings.tolerances.zero_length);
+        walls(count, segment, true, zero_length)
+    }
+
     /// The same where it is plain and little has changed: what holds since before is not proved again. `None` where that does not come out.
     fn mended(
         &self,
-        contour: &Contour,
+        contour: Segments,
         side: Side,
         correction: f64,
         before: &Part,
     ) -> Result<Option<WallsAndPath>, Refusal> {
-        let walls = self.walls(contour);
+        let walls = self.closed_walls(contour);
         let own = Walls::of(&walls);
         let is_same = |before: &Wall, now: &Wall| before.geometry == now.geometry;
         let Some(was) = which_it_was(&before.drawn, &walls, is_same) else {

@@ -190,7 +190,7 @@ fn survey(arguments: &Arguments) -> Survey {
         progress.inc(1);
         checked
     };
-    let checked: Vec<Checked> = found.files.par_iter().map(check_and_count).collect();
+    let checked = largest_first(&found.files, check_and_count);
     progress.finish_and_clear();
     let mut survey = Survey {
         files: 0,
@@ -224,6 +224,18 @@ fn survey(arguments: &Arguments) -> Survey {
             || said.insert((row.path.clone(), row.line, row.message.clone()))
     });
     survey
+}
+
+/// The result for each file, in their order. The largest are begun first, over all cores: begun last, one of them alone would keep the others
+/// waiting.
+fn largest_first<T: Send>(files: &[PathBuf], of: impl Fn(&PathBuf) -> T + Sync) -> Vec<T> {
+    let size = |file: &PathBuf| std::fs::metadata(file).map_or(0, |about| about.len());
+    let mut order: Vec<usize> = (0..files.len()).collect();
+    order.sort_by_cached_key(|&index| std::cmp::Reverse(size(&files[index])));
+    let each = order.par_iter().with_max_len(1);
+    let mut made: Vec<(usize, T)> = each.map(|&index| (index, of(&files[index]))).collect();
+    made.sort_unstable_by_key(|(index, _)| *index);
+    made.into_iter().map(|(_, made)| made).collect()
 }
 
 /// The findings of a file; behind the last file the process ends.

@@ -3,15 +3,18 @@
 use std::fs::File;
 use std::io;
 
-/// Standard input and output as plain files.
+/// Standard input and output as plain files, with as much room between us and the client as the system gives.
 pub(crate) fn pipes() -> io::Result<(File, File)> {
     #[cfg(unix)]
     {
         use std::os::fd::AsFd;
-        Ok((
-            io::stdin().as_fd().try_clone_to_owned()?.into(),
-            io::stdout().as_fd().try_clone_to_owned()?.into(),
-        ))
+        let (input, output) = (
+            io::stdin().as_fd().try_clone_to_owned()?,
+            io::stdout().as_fd().try_clone_to_owned()?,
+        );
+        widen(&input);
+        widen(&output);
+        Ok((input.into(), output.into()))
     }
     #[cfg(windows)]
     {
@@ -22,6 +25,20 @@ pub(crate) fn pipes() -> io::Result<(File, File)> {
         ))
     }
 }
+
+/// All that a document has to tell goes into a pipe of this many bytes, and both ends need not take turns for it. What anybody may ask for.
+#[cfg(target_os = "linux")]
+const ROOM: libc::c_int = 1024 * 1024;
+
+#[cfg(target_os = "linux")]
+fn widen(pipe: &std::os::fd::OwnedFd) {
+    use std::os::fd::AsRawFd;
+    // SAFETY: the descriptor is open. What is no pipe, or may not grow, stays as it is.
+    unsafe { libc::fcntl(pipe.as_raw_fd(), libc::F_SETPIPE_SZ, ROOM) };
+}
+
+#[cfg(all(unix, not(target_os = "linux")))]
+fn widen(_: &std::os::fd::OwnedFd) {}
 
 /// True when the client has closed our standard input, although unread bytes may still lie in it.
 #[cfg(unix)]

@@ -73,22 +73,18 @@ impl Publish {
         self.diagnostics.json().len()
     }
 
-    /// The whole JSON body.
-    fn body(&self) -> serde_json::Result<Vec<u8>> {
+    /// The whole message, with its header.
+    fn framed(&self) -> serde_json::Result<Vec<u8>> {
         let method = "textDocument/publishDiagnostics";
         let uri = serde_json::to_string(&self.uri)?;
-        let head = format!(r#"{{"jsonrpc":"2.0","method":"{method}","params":{{"uri":{uri},"#);
         let version = self
             .version
             .map(|version| format!(r#""version":{version},"#));
-        Ok([
-            head.as_bytes(),
-            version.unwrap_or_default().as_bytes(),
-            br#""diagnostics":"#,
-            self.diagnostics.json(),
-            b"}}",
-        ]
-        .concat())
+        let head = format!(
+            r#"{{"jsonrpc":"2.0","method":"{method}","params":{{"uri":{uri},{}"diagnostics":"#,
+            version.unwrap_or_default()
+        );
+        Ok(framed(&[head.as_bytes(), self.diagnostics.json(), b"}}"]))
     }
 }
 
@@ -238,23 +234,35 @@ fn write_all(shared: &Shared, mut output: impl Write) -> std::io::Result<()> {
         };
         queue.writing = true;
         drop(queue);
-        let body = match next {
-            Next::Body(body) => body,
-            Next::Publish(publish) => publish.body().map_err(std::io::Error::other)?,
-        };
-        let mut frame = format!("Content-Length: {}\r\n\r\n", body.len()).into_bytes();
-        if body.len() <= ONE_WRITE {
+        match next {
             // One write for header and body: readers then wake once.
-            frame.extend_from_slice(&body);
-            output.write_all(&frame)?;
-        } else {
-            output.write_all(&frame)?;
-            output.write_all(&body)?;
-            drop(body);
-            super::memory::give_back();
+            Next::Body(body) if body.len() <= ONE_WRITE => output.write_all(&framed(&[&body]))?,
+            Next::Body(body) => {
+                output.write_all(header(body.len()).as_bytes())?;
+                output.write_all(&body)?;
+                drop(body);
+                super::memory::give_back();
+            }
+            Next::Publish(publish) => {
+                output.write_all(&publish.framed().map_err(std::io::Error::other)?)?
+            }
         }
         output.flush()?;
     }
+}
+
+fn header(length: usize) -> String {
+    format!("Content-Length: {length}\r\n\r\n")
+}
+
+/// The parts of a body behind their header.
+fn framed(parts: &[&[u8]]) -> Vec<u8> {
+    let length = parts.iter().map(|part| part.len()).sum();
+    let header = header(length);
+    let mut frame = Vec::with_capacity(header.len() + length);
+    frame.extend_from_slice(header.as_bytes());
+    parts.iter().for_each(|part| frame.extend_from_slice(part));
+    frame
 }
 
 enum Next {
