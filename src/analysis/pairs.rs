@@ -2,8 +2,8 @@
 
 use super::compare::{Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId};
 use super::ends::DeadEnds;
+use super::observations::Observations;
 use super::search::{BOXES_OF_A_LOOK, Looked, Search, shell_of};
-use super::seen::Seen;
 use super::told::Told;
 use crate::drawing::{ContourIndex, ContourKey};
 use crate::finding::Rule;
@@ -29,7 +29,7 @@ const CROWDED: usize = 64;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pairs {
     pub(super) grid: Grid<RunId>,
-    pub(super) seen: Seen,
+    pub(super) seen: Observations,
     partners: FxHashMap<RunId, Vec<RunId>>,
     /// Runs near which something has come or gone: whether their discs are empty must be checked again.
     stale: FxHashSet<RunId>,

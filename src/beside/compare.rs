@@ -1,9 +1,9 @@
 //! A program held against its drawing: as we write it under the drawing's settings, under others, else by how its blocks lie.
 
+use super::against_reference::against_reference;
 use super::comparison::{Comparison, looked_at};
 use super::drawn::Drawn;
 use super::guess::otherwise;
-use super::own::own;
 use super::traced::Traced;
 
 /// Of fewer blocks one that is off may speak for other settings.
@@ -18,7 +18,7 @@ const SLIP: f64 = 1e-2;
 ///
 /// A program that is ours is known block by block, and so is a change of 3 µm in it; one of another writer has room for its roundings.
 pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
-    let known = own(drawn, traced, &drawn.as_set());
+    let known = against_reference(drawn, traced, &drawn.as_set());
     if traced.mills {
         // Layers that are not there are so by other settings.
         let known = known.filter(|told| !told.has_gap);

@@ -3,13 +3,13 @@
 //! What can be measured in the program is: its contours and their order, corrections, the way in, tab and overlap. What cannot is tried.
 //! Each guess is written anew, and that which has most blocks in common with the program is bettered, one setting after the other.
 
-use super::anew::{Anew, Under};
+use super::against_reference::{Told, against_reference};
+use super::cache::Guess;
 use super::comparison::{Difference, FEW};
 use super::drawn::Drawn;
-use super::kept::Guess;
 use super::measure;
-use super::own::{Told, own};
 use super::passes::corrections;
+use super::reference::{Reference, Under};
 use super::sides::Sides;
 use super::tabs::{tabs, threads};
 use super::traced::{Block, Motion, Traced};
@@ -48,11 +48,11 @@ const HOLE: f64 = 0.5;
 
 /// What somebody has changed in a program that is ours under other settings.
 pub(super) fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Told> {
-    let kept = drawn.kept().guess();
-    let is_near = kept.as_ref().is_some_and(|kept| kept.is_near(traced));
-    if let Some(Guess { under, left, .. }) = &kept
+    let known = drawn.cache().guess();
+    let is_near = known.as_ref().is_some_and(|known| known.is_near(traced));
+    if let Some(Guess { under, left, .. }) = &known
         && let Some(under) = under
-        && let Some(told) = own(drawn, traced, under)
+        && let Some(told) = against_reference(drawn, traced, under)
         && (is_certain(traced, &told)
             || is_near && told.elsewhere == 0 && told.comparison.differences.len() <= *left)
         && is_told(traced, &told)
@@ -100,7 +100,7 @@ pub(super) fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Told> {
     let told = told.map(|told| without_leads(traced, told));
     let differences = |told: &Told| told.comparison.differences.len();
     let left = told.as_ref().map_or(0, differences);
-    drawn.kept().note(Guess::of(traced, under, left));
+    drawn.cache().note(Guess::of(traced, under, left));
     told
 }
 
@@ -318,14 +318,14 @@ impl<'a> Search<'a> {
                 return;
             }
             self.fuel -= self.cost;
-            let Some(anew) = self.drawn.anew(self.traced, &guess) else {
+            let Some(reference) = self.drawn.reference(self.traced, &guess) else {
                 continue;
             };
-            let score = self.likeness(&anew, is_directed);
+            let score = self.likeness(&reference, is_directed);
             if score <= 0.5 && self.score >= score {
                 continue;
             }
-            let told = own(self.drawn, self.traced, &guess);
+            let told = against_reference(self.drawn, self.traced, &guess);
             let told = told.filter(|told| is_told(self.traced, told));
             if let Some(told) = told {
                 let is_better = |(other, _): &(Told, Under)| rank(&told) < rank(other);
@@ -340,10 +340,10 @@ impl<'a> Search<'a> {
     }
 
     /// The share of blocks that a program has in common with ours.
-    fn likeness(&self, anew: &Anew, is_directed: bool) -> f64 {
+    fn likeness(&self, reference: &Reference, is_directed: bool) -> f64 {
         let mut left = self.ways[usize::from(is_directed)].clone();
         let mut common = 0;
-        for block in &anew.traced.blocks {
+        for block in &reference.traced.blocks {
             if let Some(count) = left.get_mut(&way(block, is_directed))
                 && *count > 0
             {
@@ -351,7 +351,7 @@ impl<'a> Search<'a> {
                 common += 1;
             }
         }
-        let both = anew.traced.blocks.len() + self.traced.blocks.len();
+        let both = reference.traced.blocks.len() + self.traced.blocks.len();
         f64::from(2 * common) / both as f64
     }
 
@@ -435,11 +435,11 @@ impl<'a> Search<'a> {
 
     fn of_tabs(&self) -> Vec<Under> {
         let without = self.with(|settings| settings.tab = LengthSetting::One(0.0));
-        let Some(anew) = self.drawn.anew(self.traced, &without) else {
+        let Some(reference) = self.drawn.reference(self.traced, &without) else {
             return Vec::new();
         };
         let corrections = self.best.settings.each_correction();
-        let lengths = tabs(self.drawn, self.traced, &anew, &corrections);
+        let lengths = tabs(self.drawn, self.traced, &reference, &corrections);
         let of = |tab| self.with(|settings| settings.tab = LengthSetting::One(tab));
         lengths.into_iter().map(of).collect()
     }

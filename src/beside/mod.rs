@@ -1,29 +1,29 @@
 //! A program beside its drawing: which blocks do not follow the drawing's contours, and by how much.
 //!
 //! [`Traced`] is all that is taken of a program, [`Drawn`] of a drawing. [`compare`] writes the drawing's program anew: one of ours is known block
-//! by block (`own`). For any other it lays the wire's ways round the contours
+//! by block (`against_reference`). For any other it lays the wire's ways round the contours
 //! (`rounds`) at the corrections that the settings give or that the program itself speaks for (`infer`), finds where the program
 //! lies on the drawing (`anchor`), and goes along both at once (`walk`); what that is unsure of is asked the other way round: does every
 //! block lie on the drawing (`members`), or all but one (`single`)? A program may leave out contours, begin anywhere, go either
 //! way round, cut in several passes and leave a tab. Everything is in µm.
 
+mod against_reference;
 mod anchor;
-mod anew;
+mod cache;
 mod compare;
 mod comparison;
+mod coverage;
 mod drawn;
 mod findings;
-mod goes;
 mod guess;
 mod infer;
-mod kept;
 mod matching;
 mod measure;
 mod members;
 mod names;
-mod own;
 mod passes;
-mod pose;
+mod placement;
+mod reference;
 mod rounds;
 mod sides;
 mod single;

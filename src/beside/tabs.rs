@@ -1,7 +1,7 @@
 //! How long the tabs of a program are, measured along the drawing's walls, and where it begins beside them.
 
-use super::anew::Anew;
 use super::drawn::Drawn;
+use super::reference::Reference;
 use super::traced::{Motion, Traced};
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::write::scaled;
@@ -30,7 +30,12 @@ const TOLD: usize = 16;
 
 /// What a program may leave standing until it is cut off, mm, by another one that was written of the drawing with the same corrections:
 /// none, and how far it is from a place where the wire stops, or begins again, to an entry.
-pub(super) fn tabs(drawn: &Drawn, traced: &Traced, anew: &Anew, corrections: &[f64]) -> Vec<f64> {
+pub(super) fn tabs(
+    drawn: &Drawn,
+    traced: &Traced,
+    reference: &Reference,
+    corrections: &[f64],
+) -> Vec<f64> {
     let mut found = vec![0.0];
     if !traced
         .blocks
@@ -43,16 +48,16 @@ pub(super) fn tabs(drawn: &Drawn, traced: &Traced, anew: &Anew, corrections: &[f
     let Some(walls) = walls else { return found };
     let entries = |of: &Traced| -> Vec<(usize, f64)> {
         let cuts = of.cuts.iter().filter_map(|[all, contour]| {
-            let by = laid(of, all, anew)?;
+            let by = laid(of, all, reference)?;
             entry(of, contour, |place| walls.foot(place + by))
         });
         cuts.collect()
     };
-    let mut all = entries(&anew.traced);
+    let mut all = entries(&reference.traced);
     all.extend(entries(traced));
     let mut lengths: Vec<f64> = Vec::new();
     for [cut, _] in &traced.cuts {
-        let Some(by) = laid(traced, cut, anew) else {
+        let Some(by) = laid(traced, cut, reference) else {
             continue;
         };
         for place in places(traced, cut) {
@@ -202,7 +207,7 @@ fn places(traced: &Traced, cut: &Range<usize>) -> Vec<Point> {
 }
 
 /// From the places of a cut to those of the drawing: where most of its blocks are pieces of the path.
-fn laid(traced: &Traced, cut: &Range<usize>, anew: &Anew) -> Option<Vector> {
+fn laid(traced: &Traced, cut: &Range<usize>, reference: &Reference) -> Option<Vector> {
     let steps = |um: f64| um.round() as i64;
     let key = |segment: &Segment| match segment {
         Segment::Line(line) => {
@@ -218,7 +223,7 @@ fn laid(traced: &Traced, cut: &Range<usize>, anew: &Anew) -> Option<Vector> {
         Segment::Arc(arc) => arc.center,
     };
     let mut pieces: FxHashMap<(i64, i64), Vec<Point>> = FxHashMap::default();
-    for piece in anew.on_walls() {
+    for piece in reference.on_walls() {
         pieces
             .entry(key(piece))
             .or_default()

@@ -2,8 +2,8 @@
 
 use super::BETWEEN;
 use crate::geometry::{Point, Segment, Vector};
+use crate::program::block_words::BlockWords;
 use crate::program::path::{self, Kind};
-use crate::program::said::Said;
 use crate::program::{Document, Format, Language};
 use crate::text::SourceText;
 use std::ops::Range;
@@ -148,13 +148,13 @@ impl Traced {
     }
 
     /// The content of a block.
-    pub(super) fn said(&self, block: &Block) -> Said {
+    pub(super) fn said(&self, block: &Block) -> BlockWords {
         self.said_in(self.range_from(block))
     }
 
     /// The bytes of a range of the text.
-    pub(super) fn said_in(&self, range: Range<usize>) -> Said {
-        Said::of(self.language, self.text.slice(range).unwrap_or_default())
+    pub(super) fn said_in(&self, range: Range<usize>) -> BlockWords {
+        BlockWords::of(self.language, self.text.slice(range).unwrap_or_default())
     }
 
     /// True where nothing is cut.

@@ -9,7 +9,7 @@ const TWICE: f64 = 0.35;
 
 /// What has been cut from stop to stop.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Goes {
+pub(super) struct Coverage {
     done: Vec<Go>,
     open: Vec<Go>,
 }
@@ -21,7 +21,7 @@ struct Go {
     parts: Vec<Range<f64>>,
 }
 
-impl Goes {
+impl Coverage {
     pub(super) fn cut(&mut self, round: usize, part: Range<f64>) {
         let Some(own) = self.open.iter_mut().find(|go| go.round == round) else {
             self.open.push(Go {

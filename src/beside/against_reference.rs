@@ -1,12 +1,12 @@
 //! A program compared with our own program for its drawing, block by block.
 //!
-//! The drawing's program is written again under the same settings (`anew`), or under inferred ones (`guess`). Where
+//! The drawing's program is written again under the same settings (`reference`), or under inferred ones (`guess`). Where
 //! that has the same blocks except a few, somebody has changed those: each of them is named, however many they are, and
 //! nothing else. Other programs are not judged here.
 
-use super::anew::{Anew, Under};
 use super::comparison::{Comparison, Difference, FEW};
 use super::drawn::Drawn;
+use super::reference::{Reference, Under};
 use super::traced::{Block, Motion, Traced};
 use super::walk::Kind;
 use crate::drawing::EntityId;
@@ -76,12 +76,12 @@ impl Told {
 }
 
 /// The changes in a program that is ours under these settings; `None` where it is not ours.
-pub(super) fn own(drawn: &Drawn, traced: &Traced, under: &Under) -> Option<Told> {
-    let anew = &*drawn.anew(traced, under)?;
-    let pairs = Pairs::of(traced, anew)?;
+pub(super) fn against_reference(drawn: &Drawn, traced: &Traced, under: &Under) -> Option<Told> {
+    let reference = &*drawn.reference(traced, under)?;
+    let pairs = Pairs::of(traced, reference)?;
     // Placed as the drawing is, or anywhere: by its start, or by most of it.
-    let anywhere = traced.begin()? - anew.traced.begin()?;
-    let as_drawn = (traced.is_placed && anew.traced.is_placed).then(Vector::zeros);
+    let anywhere = traced.begin()? - reference.traced.begin()?;
+    let as_drawn = (traced.is_placed && reference.traced.is_placed).then(Vector::zeros);
     let mut best: Option<Told> = None;
     let many = |told: &Option<Told>| {
         let told = told.as_ref();
@@ -111,7 +111,7 @@ pub(super) fn own(drawn: &Drawn, traced: &Traced, under: &Under) -> Option<Told>
 /// The blocks of a program, each beside the rewritten one.
 struct Pairs<'a> {
     traced: &'a Traced,
-    anew: &'a Anew,
+    reference: &'a Reference,
     pairs: Vec<Pair<'a>>,
     /// The block at which some are lost or too many, and one of these.
     gap: Option<(&'a Block, &'a Block)>,
@@ -137,16 +137,16 @@ struct Words {
 }
 
 impl Words {
-    fn of(traced: &Traced, own: &Block, anew: &Anew, meant: &Block) -> Words {
-        let anew = &anew.traced;
-        if traced.line_from(own) == anew.line_from(meant) {
+    fn of(traced: &Traced, own: &Block, reference: &Reference, meant: &Block) -> Words {
+        let reference = &reference.traced;
+        if traced.line_from(own) == reference.line_from(meant) {
             return Words {
                 are_same: true,
                 apart: Some(0.0),
                 stated: 0.0,
             };
         }
-        let (said, expected) = (traced.said(own), anew.said(meant));
+        let (said, expected) = (traced.said(own), reference.said(meant));
         let stated = match (said.stated, expected.stated) {
             (Some([x, y]), Some([meant_x, meant_y])) => {
                 (x - meant_x).abs().max((y - meant_y).abs())
@@ -168,8 +168,8 @@ impl Words {
 
 impl<'a> Pairs<'a> {
     /// `None` where blocks are lost or superfluous and there is any other difference, or where they are too many.
-    fn of(traced: &'a Traced, anew: &'a Anew) -> Option<Pairs<'a>> {
-        let (own, meant) = (&traced.blocks[..], &anew.traced.blocks[..]);
+    fn of(traced: &'a Traced, reference: &'a Reference) -> Option<Pairs<'a>> {
+        let (own, meant) = (&traced.blocks[..], &reference.traced.blocks[..]);
         let (more, lost) = (
             own.len().saturating_sub(meant.len()),
             meant.len().saturating_sub(own.len()),
@@ -180,7 +180,7 @@ impl<'a> Pairs<'a> {
         let pair = |(own, meant): (&'a Block, &'a Block)| Pair {
             own,
             meant,
-            words: Words::of(traced, own, anew, meant),
+            words: Words::of(traced, own, reference, meant),
             behind_gap: false,
         };
         let mut pairs: Vec<Pair> = Vec::with_capacity(own.len());
@@ -188,7 +188,7 @@ impl<'a> Pairs<'a> {
             pairs.extend(own.iter().zip(meant).map(pair));
             return Some(Pairs {
                 traced,
-                anew,
+                reference,
                 pairs,
                 gap: None,
             });
@@ -213,7 +213,7 @@ impl<'a> Pairs<'a> {
         let is_stop = of.motion == Motion::Stop;
         (!is_stop).then_some(Pairs {
             traced,
-            anew,
+            reference,
             pairs,
             gap: Some((place, of)),
         })
@@ -239,7 +239,7 @@ impl<'a> Pairs<'a> {
 
     /// The differences of a program at this distance from the rewritten one.
     fn told(&self, from: Vector) -> Option<Told> {
-        let (traced, anew) = (self.traced, self.anew);
+        let (traced, reference) = (self.traced, self.reference);
         let rewritten = self
             .pairs
             .iter()
@@ -295,7 +295,7 @@ impl<'a> Pairs<'a> {
                 }
                 continue;
             }
-            let source = anew.source_of(&meant.motion);
+            let source = reference.source_of(&meant.motion);
             ways += usize::from(source.is_none());
             unlike += usize::from(source.is_some());
             let goes_on = run.is_some_and(|(last, is_elsewhere)| {
@@ -331,7 +331,7 @@ impl<'a> Pairs<'a> {
             found.append(&mut stated);
         }
         if let Some((place, of)) = self.gap {
-            let segment = anew.source_of(&of.motion);
+            let segment = reference.source_of(&of.motion);
             let length = ends_of(&of.motion).map_or(0.0, |[start, end]| (end - start).norm());
             let kind = if segment.is_some() {
                 Kind::Block
@@ -340,9 +340,9 @@ impl<'a> Pairs<'a> {
             };
             found.push(named(place, segment, length, kind));
         }
-        found.extend(begun_elsewhere(traced, &anew.traced));
+        found.extend(begun_elsewhere(traced, &reference.traced));
         found.sort_by_key(|difference| difference.range.start);
-        let contours = anew
+        let contours = reference
             .traced
             .cuts
             .iter()
@@ -370,7 +370,9 @@ impl<'a> Pairs<'a> {
             return false;
         };
         let is = |own: &Block, meant: &Block| {
-            self.traced.said(own).is_like(&self.anew.traced.said(meant))
+            self.traced
+                .said(own)
+                .is_like(&self.reference.traced.said(meant))
         };
         is(one.own, two.meant) && is(two.own, one.meant)
     }
@@ -415,7 +417,7 @@ impl<'a> Pairs<'a> {
             (last.range == own.range && closes).then_some(entry)
         });
         let moved = entry.or(tab);
-        moved.is_some_and(|place| self.anew.is_on_wall(place - from, ROUNDED))
+        moved.is_some_and(|place| self.reference.is_on_wall(place - from, ROUNDED))
     }
 
     /// Behind this block, or one of the next few, the program is where it is meant to be.
@@ -435,7 +437,7 @@ fn named(block: &Block, segment: Option<(EntityId, usize)>, off: f64, kind: Kind
 }
 
 /// The line with which an ISO program gives its start, where that is a little beside its place.
-fn begun_elsewhere(traced: &Traced, anew: &Traced) -> Option<Difference> {
+fn begun_elsewhere(traced: &Traced, reference: &Traced) -> Option<Difference> {
     if traced.counts {
         return None;
     }
@@ -445,7 +447,7 @@ fn begun_elsewhere(traced: &Traced, anew: &Traced) -> Option<Difference> {
         let mut words = lines.map(|(line, range)| (line, range.clone(), of.said_in(range)));
         words.find(|(_, _, said)| said.sets_place())
     };
-    let ((line, range, own), (.., meant)) = (said(traced)?, said(anew)?);
+    let ((line, range, own), (.., meant)) = (said(traced)?, said(reference)?);
     let off = own
         .apart(&meant)
         .filter(|off| (ALIKE..=SLIP).contains(off))?;

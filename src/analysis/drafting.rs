@@ -7,7 +7,7 @@
 
 use super::Analysis;
 use super::contours::{role_of, role_of_linetype, set_aside};
-use super::faced::{Faced, SHARE};
+use super::end_index::{EndIndex, SHARE};
 use super::report::Report;
 use super::suppressed::own_role;
 use crate::drawing::{
@@ -195,7 +195,7 @@ impl Analysis {
                 return Some((key, false));
             }
             if is_sorted {
-                let faced = faced.get_or_init(|| Faced::of(self, drawing));
+                let faced = faced.get_or_init(|| EndIndex::of(self, drawing));
                 let is_faced = |other| {
                     other != key
                         && (self.lone.contains_key(&other) || self.is_there(drawing, other))

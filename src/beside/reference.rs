@@ -14,7 +14,7 @@ const MOST: usize = 20_000;
 
 /// A program that was written anew, and the ways it was written of, µm.
 #[derive(Debug)]
-pub(super) struct Anew {
+pub(super) struct Reference {
     pub(crate) traced: Traced,
     pieces: Vec<(Segment, Source)>,
     /// From its places to those of the drawing.
@@ -56,8 +56,8 @@ impl Asked {
     }
 }
 
-impl Anew {
-    pub(super) fn of(of: &Of<'_>, Asked { format, under }: &Asked) -> Option<Anew> {
+impl Reference {
+    pub(super) fn of(of: &Of<'_>, Asked { format, under }: &Asked) -> Option<Reference> {
         let milled = match (format, under.settings.mills) {
             (Format::Milling, true) => Some(under.settings.milled().ok()?),
             (Format::Milling, false) | (_, true) => return None,
@@ -91,7 +91,7 @@ impl Anew {
         };
         let pieces = |path: WirePath| path.segments.into_iter();
         let pieces = paths.into_iter().flat_map(pieces);
-        Some(Anew {
+        Some(Reference {
             traced,
             pieces: pieces
                 .map(|piece| (scaled(&piece.geometry, scale), piece.source))

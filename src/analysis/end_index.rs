@@ -9,15 +9,15 @@ use std::iter::once;
 pub(super) const SHARE: f64 = 0.25;
 
 /// Ends of the contours of a drawing.
-pub(super) struct Faced {
+pub(super) struct EndIndex {
     /// How far lone lines reach on at both ends: two of them face each other where these meet.
     stubs: Shells<ContourKey>,
     /// The ends of other open contours.
     ends: Grid<ContourKey>,
 }
 
-impl Faced {
-    pub(super) fn of(analysis: &Analysis, drawing: &Drawing) -> Faced {
+impl EndIndex {
+    pub(super) fn of(analysis: &Analysis, drawing: &Drawing) -> EndIndex {
         let stubs = analysis.lone.iter().flat_map(|(&key, lone)| {
             let stubs = stubs_of(&lone.line).into_iter();
             stubs.map(move |stub| (key, stub))
@@ -30,7 +30,7 @@ impl Faced {
                 }
             }
         }
-        Faced {
+        EndIndex {
             stubs: Shells::new(stubs.collect()),
             ends,
         }

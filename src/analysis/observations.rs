@@ -7,7 +7,7 @@ use crate::rules::PAIR_RULES;
 use rustc_hash::FxHashMap;
 
 #[derive(Clone, Debug, Default)]
-pub(super) struct Seen {
+pub(super) struct Observations {
     /// What is told pair by pair.
     between: FxHashMap<(RunId, RunId), Vec<Observed>>,
     /// What is told by its place, of which there may be more than of all else.
@@ -19,7 +19,7 @@ pub(super) struct Seen {
     pub(super) slots: FxHashMap<ContourKey, usize>,
 }
 
-impl Seen {
+impl Observations {
     pub(super) fn insert(&mut self, pair: (RunId, RunId), found: Vec<Observed>) {
         self.remove(&pair);
         for each in &found {

@@ -4,7 +4,7 @@
 //! A program that we write depends only on the drawing, the settings and the format, not on the program compared with
 //! it: it is kept as long as the drawing is, so that an edit of the program writes nothing.
 
-use super::anew::{Anew, Asked, Of, Under};
+use super::reference::{Asked, Of, Reference, Under};
 use super::traced::Traced;
 use super::way::{Way, way};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -16,9 +16,9 @@ const EDITED: usize = 8;
 
 /// The programs written for a drawing.
 #[derive(Debug, Default)]
-pub(super) struct Kept {
+pub(super) struct Cache {
     /// With their settings; `None` where it cannot be written.
-    written: Mutex<Vec<(Asked, Option<Arc<Anew>>)>>,
+    written: Mutex<Vec<(Asked, Option<Arc<Reference>>)>>,
     /// The settings under which a program was last found to be written.
     guess: Mutex<Option<Guess>>,
 }
@@ -49,24 +49,31 @@ impl Guess {
     }
 }
 
-impl Kept {
-    pub(super) fn anew(&self, of: &Of<'_>, traced: &Traced, under: &Under) -> Option<Arc<Anew>> {
+impl Cache {
+    pub(super) fn reference(
+        &self,
+        of: &Of<'_>,
+        traced: &Traced,
+        under: &Under,
+    ) -> Option<Arc<Reference>> {
         let asked = Asked::of(traced, under);
         let lock = || self.written.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, known)) = lock().iter().find(|(other, _)| *other == asked) {
             return known.clone();
         }
-        let made = Anew::of(of, &asked).map(Arc::new);
-        let mut kept = lock();
-        let blocks = |anew: &Option<Arc<Anew>>| {
-            100 + anew.as_ref().map_or(0, |anew| anew.traced.blocks.len())
+        let made = Reference::of(of, &asked).map(Arc::new);
+        let mut written = lock();
+        let blocks = |reference: &Option<Arc<Reference>>| {
+            100 + reference
+                .as_ref()
+                .map_or(0, |reference| reference.traced.blocks.len())
         };
-        let sum: usize = kept.iter().map(|(_, anew)| blocks(anew)).sum();
+        let sum: usize = written.iter().map(|(_, reference)| blocks(reference)).sum();
         if sum + blocks(&made) > MOST {
             // The first is the one that the settings ask for.
-            kept.truncate(1);
+            written.truncate(1);
         }
-        kept.push((asked, made.clone()));
+        written.push((asked, made.clone()));
         made
     }
 
