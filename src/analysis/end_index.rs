@@ -1,4 +1,4 @@
-//! What the ends of lone lines may face, by place: for many lines at once, of which a hatch has thousands side by side.
+//! An index of what the ends of single lines may face, for hatches of thousands of lines.
 
 use super::Analysis;
 use crate::drawing::{ContourKey, Drawing};
@@ -10,7 +10,7 @@ pub(super) const SHARE: f64 = 0.25;
 
 /// Ends of the contours of a drawing.
 pub(super) struct EndIndex {
-    /// How far lone lines reach on at both ends: two of them face each other where these meet.
+    /// The reaches of single lines beyond both ends: two lines face each other where these meet.
     stubs: Shells<ContourKey>,
     /// The ends of other open contours.
     ends: Grid<ContourKey>,
@@ -36,8 +36,8 @@ impl EndIndex {
         }
     }
 
-    /// True where `is_faced` holds of another contour whose ends come near those of a line: within `reach`, of a line within
-    /// `join` of where they go on to.
+    /// True where `is_faced` holds for another contour whose ends come near those of a line: within `reach`, or for a
+    /// line within `join` of where its ends lead on.
     pub(super) fn any_near(
         &self,
         line: &Line,

@@ -20,7 +20,7 @@ const ROUNDED: f64 = 1.5;
 const SAME: f64 = 1e-2;
 /// A larger deviation of a way in or out, or between contours, is meant: its hole is elsewhere, µm.
 const SLIP: f64 = 50.0;
-/// For each block that is unlike so many others have to be as they are meant, or it is not known under which settings they would be.
+/// For each differing block this many others must be as expected; with fewer, the settings are not known.
 const LIKE: usize = 4;
 /// The most blocks that may be lost or superfluous in one place.
 const LOST: usize = 3;
@@ -33,13 +33,13 @@ pub(super) struct Told {
     pub mean: f64,
     /// Blocks are lost or superfluous.
     pub(crate) has_gap: bool,
-    /// Ways in and out that are moved so far that it is meant.
+    /// Ways in and out that are moved so far that this is intended.
     pub elsewhere: usize,
-    /// One of the named blocks ends as far from where it is meant to.
+    /// One of the named blocks ends further from its place than [`SLIP`].
     pub strays: bool,
-    /// Ways in and out that are not just as they are meant.
+    /// Ways in and out that differ from the expected ones.
     pub ways: usize,
-    /// The same of blocks of contours, and how many there are of both.
+    /// The same for blocks of contours, and the number of both.
     unlike: [usize; 2],
 }
 
@@ -49,14 +49,14 @@ impl Told {
         self.mean < SAME
     }
 
-    /// Hardly any more blocks are as they are meant than are not.
+    /// Hardly more blocks are as expected than differ.
     pub(crate) fn is_mostly_unlike(&self) -> bool {
         let [unlike, all] = self.unlike;
         LIKE * unlike >= all
     }
 
-    /// Several moved ways in and out are set otherwise, whether or not they are one change, and so is one that is moved by more than
-    /// `most`, mm; somebody has changed any other.
+    /// Several moved ways in and out come from another setting, whether or not they are one change, and so does one
+    /// that is moved by more than `most`, mm; any other was changed by somebody.
     pub(crate) fn without_leads(mut self, most: f64) -> Told {
         let is_lead = |one: &Difference| one.kind == Kind::Lead;
         let all = &mut self.comparison.differences;
@@ -68,7 +68,7 @@ impl Told {
         self
     }
 
-    /// The evidence against it, the least first.
+    /// The evidence against it; the least evidence sorts first.
     pub(crate) fn doubt(&self) -> (bool, usize, bool) {
         let many = self.comparison.differences.len().min(2) + self.elsewhere.min(2);
         (!self.is_exact(), many, self.has_gap)
@@ -83,14 +83,13 @@ pub(super) fn against_reference(drawn: &Drawn, traced: &Traced, under: &Under) -
     let anywhere = traced.begin()? - reference.traced.begin()?;
     let as_drawn = (traced.is_placed && reference.traced.is_placed).then(Vector::zeros);
     let mut best: Option<Told> = None;
-    let many = |told: &Option<Told>| {
-        let told = told.as_ref();
-        told.map_or(usize::MAX, |told| told.comparison.differences.len())
+    let many = |told: &Option<Told>| match told {
+        Some(told) => told.comparison.differences.len(),
+        None => usize::MAX,
     };
     for (nth, enough) in [0, 0, 1].into_iter().enumerate() {
         // Where the wire is threaded elsewhere, a program that says no place lies where most of it does.
-        let is_elsewhere = |told: &Told| traced.counts && told.elsewhere > 0;
-        let is_moved = best.as_ref().is_some_and(is_elsewhere);
+        let is_moved = traced.counts && best.as_ref().is_some_and(|told| told.elsewhere > 0);
         let enough = if is_moved { 0 } else { enough };
         if many(&best) <= enough {
             break;
@@ -130,7 +129,7 @@ struct Pair<'a> {
 struct Words {
     /// They are the same.
     are_same: bool,
-    /// By how much one of the numbers differs, where all else is equal, µm.
+    /// The difference of one of the numbers, where all else is equal, µm.
     apart: Option<f64>,
     /// The same for the coordinates behind the block.
     stated: f64,
@@ -160,7 +159,7 @@ impl Words {
         }
     }
 
-    /// But for a rounding.
+    /// Equal except for rounding.
     fn are_near(&self) -> bool {
         self.apart.is_some_and(|apart| apart <= 1.0)
     }
@@ -377,7 +376,7 @@ impl<'a> Pairs<'a> {
         is(one.own, two.meant) && is(two.own, one.meant)
     }
 
-    /// Whether a block ends where it is meant to.
+    /// Whether a block ends where it should.
     fn is_placed(&self, number: usize, from: Vector) -> bool {
         self.ends_near(number, from, ROUNDED)
     }
@@ -392,8 +391,8 @@ impl<'a> Pairs<'a> {
         }
     }
 
-    /// A block with which its contour begins on a wall and that ends where it is meant to; or one that ends on a wall, where its contour
-    /// began or its tab begins.
+    /// A block that begins its contour on a wall and ends where it should; or one that ends on a wall, where its
+    /// contour began or its tab begins.
     fn is_at_its_entry(&self, number: usize, from: Vector) -> bool {
         let blocks = &self.traced.blocks;
         let Some(own) = self.pairs.get(number).map(|pair| pair.own) else {
@@ -420,7 +419,7 @@ impl<'a> Pairs<'a> {
         moved.is_some_and(|place| self.reference.is_on_wall(place - from, ROUNDED))
     }
 
-    /// Behind this block, or one of the next few, the program is where it is meant to be.
+    /// Behind this block, or one of the next few, the program is where it should be.
     fn comes_back(&self, number: usize, from: Vector) -> bool {
         (number..number + FEW).any(|number| self.is_placed(number, from))
     }
@@ -436,7 +435,7 @@ fn named(block: &Block, segment: Option<(EntityId, usize)>, off: f64, kind: Kind
     }
 }
 
-/// The line with which an ISO program gives its start, where that is a little beside its place.
+/// The line in which an ISO program states its start, where that is a little off.
 fn begun_elsewhere(traced: &Traced, reference: &Traced) -> Option<Difference> {
     if traced.counts {
         return None;
@@ -460,9 +459,9 @@ fn begun_elsewhere(traced: &Traced, reference: &Traced) -> Option<Difference> {
     })
 }
 
-/// The distance of two motions, from their starts or from the program's; `None` for two different kinds.
+/// The distance of two motions, from their starts or from the program's; `None` for different kinds.
 ///
-/// `behind` a block that ends elsewhere the radius of an arc is enough: with it, its centre is elsewhere too.
+/// `behind` a block that ends elsewhere, the radius of an arc is enough: its centre is elsewhere, too.
 fn away(own: &Motion, meant: &Motion, from: Vector, behind: bool) -> Option<f64> {
     let ends = |[start, end]: [Point; 2], [meant_start, meant_end]: [Point; 2]| {
         let counted = (end - start) - (meant_end - meant_start);
@@ -478,12 +477,9 @@ fn away(own: &Motion, meant: &Motion, from: Vector, behind: bool) -> Option<f64>
                 (Some(own), Some(meant)) if own.sweep * meant.sweep > 0.0 => {
                     let counted = (own.center - own.start) - (meant.center - meant.start);
                     let placed = own.center - from - meant.center;
-                    let radius = if behind {
-                        (own.radius - meant.radius).abs()
-                    } else {
-                        f64::INFINITY
-                    };
-                    off.max(counted.norm().min(placed.norm()).min(radius))
+                    let centers = counted.norm().min(placed.norm());
+                    let radii = (own.radius - meant.radius).abs();
+                    off.max(if behind { centers.min(radii) } else { centers })
                 }
                 (None, None) => off,
                 _ => off.max((own.point_at(0.5) - from - meant.point_at(0.5)).norm()),

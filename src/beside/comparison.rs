@@ -27,7 +27,7 @@ pub struct Difference {
     pub line: usize,
     /// The segment of the drawing that it should follow, where that is known.
     pub segment: Option<(EntityId, usize)>,
-    /// How far it is off, mm.
+    /// Its deviation, mm.
     pub off: f64,
     pub kind: Kind,
 }
@@ -45,9 +45,9 @@ pub struct Comparison {
 pub(super) const FEW: usize = 6;
 /// The deviation of a 4B block that another rounding of its transitions explains, µm.
 const ROUNDED: f64 = 2.5;
-/// One of several differing blocks is off by as much, µm.
+/// Of several differing blocks one deviates by at least this, µm.
 const CHANGED: f64 = 2.5;
-/// For each differing block this many must be as we write them: it is a change then, and not another writer's rounding.
+/// For each differing block this many must be as we write them: then it is a change, and not another writer's rounding.
 const OWN: usize = 8;
 /// The most corrections that are found for further passes.
 const FURTHER: usize = 4;
@@ -221,7 +221,7 @@ fn along(
     }
 }
 
-/// All blocks of a program, each with its place on the drawing; and by how much they miss their places together, µm.
+/// All blocks of a program, each with its place on the drawing; and the sum of their deviations, µm.
 fn sound(traced: &Traced, rounds: &Rounds, placement: Placement) -> Option<(Walked, f64)> {
     let members = Members::all(traced, rounds, placement);
     members.filter(|(walked, _)| foreign(traced, walked).is_empty())
@@ -352,7 +352,7 @@ impl Tried {
         }
     }
 
-    /// All but one block is as it is laid, and that is off by more than any rounding.
+    /// All blocks except one are as laid, and that one deviates by more than any rounding.
     fn is_one_change(&self) -> bool {
         let is_change = |one: &Unlike| one.kind == Kind::Block && one.off >= CHANGED;
         self.unlike.len() == 1 && self.is_own() && self.unlike.iter().all(is_change)
@@ -384,7 +384,7 @@ impl Tried {
         self.followed > 0 && self.followed >= own * unlike
     }
 
-    /// The walk may be wrong about a block: perhaps all of the program follows, or all but one block.
+    /// The walk may be wrong about a block: perhaps all of the program follows, or all blocks except one.
     fn surely(mut self, traced: &Traced) -> Tried {
         if self.is_sure {
             return self;

@@ -4,7 +4,7 @@ use super::COVERED;
 use super::rounds::Rounds;
 use std::ops::Range;
 
-/// The most that may be cut twice where consecutive stretches overlap, as a share of their round.
+/// The largest share of a round that may be cut twice where consecutive stretches overlap.
 const TWICE: f64 = 0.35;
 
 /// What has been cut from stop to stop.
@@ -42,7 +42,7 @@ impl Coverage {
         self.done.append(&mut self.open);
     }
 
-    /// Whether each goes all along its round, alone or with others: a tab is cut by itself.
+    /// Whether the stretches of each round cover all of it, alone or together: a tab is cut by itself.
     pub(crate) fn are_whole(mut self, rounds: &Rounds) -> bool {
         self.end();
         let mut partial: Vec<Go> = Vec::new();

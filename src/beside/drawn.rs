@@ -1,4 +1,4 @@
-//! What is taken of a drawing: its contours, by segments, and the programs that we would write for it.
+//! The data of a drawing for comparing: its contours, by segments, and the programs that we write for it.
 
 use super::cache::Cache;
 use super::reference::{Of, Reference, Under};

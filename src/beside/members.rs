@@ -28,7 +28,7 @@ pub(super) struct Members {
     contours: Vec<usize>,
     /// Blocks since the last that follows; one that follows has been left for them.
     away: usize,
-    /// How long those are together, µm.
+    /// Their length together, µm.
     skipped: f64,
     left: Option<Spot>,
     is_broken: bool,
@@ -54,7 +54,7 @@ impl Members {
         }
     }
 
-    /// Takes in one block after the other; sets `is_broken` at the first one that shows a difference.
+    /// Takes one block after the other; sets `is_broken` at the first one that shows a difference.
     pub(super) fn take(&mut self, traced: &Traced, rounds: &Rounds, index: usize) {
         let segment = match &traced.blocks[index].motion {
             Motion::Cut(segment) => segment,
@@ -172,7 +172,7 @@ impl Members {
         breaks
     }
 
-    /// All of them, and by how much they miss their places together, µm; `None` where there is a difference.
+    /// All of them, and the sum of their deviations, µm; `None` where there is a difference.
     pub(super) fn all(
         traced: &Traced,
         rounds: &Rounds,

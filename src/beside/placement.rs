@@ -96,7 +96,7 @@ impl Placement {
         self.exact
     }
 
-    /// The same where everything behind is moved by so much more.
+    /// The same where everything behind is moved by this much more.
     pub(super) fn moved(&self, by: Vector) -> Placement {
         let by = if self.on_grid { by.map(f64::round) } else { by };
         Placement {
@@ -144,7 +144,7 @@ impl Placement {
         }
     }
 
-    /// Coverage along a round with one block, up to `entry` where the round comes back to it.
+    /// Goes along a round with one block, up to `entry` where the round comes back to it.
     pub(super) fn follow(
         &mut self,
         rounds: &Rounds,

@@ -1,4 +1,4 @@
-//! The program that we would write for a drawing, and what we have written so.
+//! The program that wedm writes for a drawing, to be compared with another one.
 
 use super::sides::Sides;
 use super::traced::{Motion, Traced};
@@ -9,10 +9,10 @@ use crate::program::{Document, Format, Language};
 use crate::settings::{Effective, Layout};
 use crate::toolpath::{Source, WirePath, plan};
 
-/// Of more entities, or of contours of more segments, no program is written to hold another one against it.
+/// Of more entities, or of contours of more segments, no program is written for a comparison.
 const MOST: usize = 20_000;
 
-/// A program that was written anew, and the ways it was written of, µm.
+/// A program written for the comparison, and the paths it was written from, µm.
 #[derive(Debug)]
 pub(super) struct Reference {
     pub(crate) traced: Traced,
@@ -21,17 +21,17 @@ pub(super) struct Reference {
     shift: Vector,
 }
 
-/// Under what a program is written.
+/// The conditions under which a program is written.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Under {
     pub(crate) settings: Effective,
-    /// What the contours are that nobody has said a side of.
+    /// The sides of contours that state none.
     pub(crate) sides: Sides,
-    /// The contours that it cuts; all where none are named.
+    /// The contours that it cuts; all where none is named.
     pub(crate) handles: Option<Vec<String>>,
 }
 
-/// What it is written of.
+/// The drawing from which it is written.
 pub(super) struct Of<'a> {
     pub(crate) drawing: &'a Drawing,
     pub(crate) outlines: &'a [Outline],
@@ -100,7 +100,7 @@ impl Reference {
         })
     }
 
-    /// What the paths run of beside walls and round corners, µm.
+    /// The parts of the paths beside walls and round corners, µm.
     pub(crate) fn on_walls(&self) -> impl Iterator<Item = &Segment> {
         let is_on_wall = |source: &Source| source.place().is_some();
         let own = self
@@ -110,7 +110,7 @@ impl Reference {
         own.map(|(piece, _)| piece)
     }
 
-    /// A place of the program that was written lies on the way beside a wall or round a corner.
+    /// Whether a place of the written program lies on a path beside a wall or round a corner.
     pub(super) fn is_on_wall(&self, place: Point, tolerance: f64) -> bool {
         let at = place + self.shift;
         self.on_walls()

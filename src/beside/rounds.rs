@@ -83,7 +83,7 @@ const SAME: f64 = 6.0;
 const ALIKE: f64 = 2.9;
 
 impl Rounds {
-    /// Adds a course beside all contours, or one of them, if it is not there yet.
+    /// Adds a course beside all contours, or one of them, unless it is there.
     pub(super) fn add(&mut self, drawn: &Drawn, courses: &[Course], only: Option<usize>) {
         for (index, contour) in drawn.contours().iter().enumerate() {
             if only.is_some_and(|only| only != index) {
@@ -261,7 +261,7 @@ impl Rounds {
         piece.before + share * piece.segment.length()
     }
 
-    /// How far one spot of a round lies ahead of another in its way, µm.
+    /// The distance of one spot of a round ahead of another on its way, µm.
     pub(crate) fn ahead(&self, from: &Spot, to: &Spot) -> f64 {
         let way = self.along(to) - self.along(from);
         let way = if from.back { -way } else { way };
@@ -319,7 +319,7 @@ impl Rounds {
         found
     }
 
-    /// By how much 4B moves a contour that begins at a spot, µm; `None` where the wire runs as it is written.
+    /// The distance by which 4B moves a contour that begins at a spot, µm; `None` where the wire runs as written.
     pub(super) fn beside(&self, spot: &Spot) -> Option<Vector> {
         let round = &self.rounds[spot.round];
         let segment = &round.pieces[spot.piece].segment;
@@ -327,7 +327,7 @@ impl Rounds {
         Some(left_normal(tangent) * round.beside?)
     }
 
-    /// Spots from which 4B begins at a point, in either direction, and by how much it moves the contour there.
+    /// Spots from which 4B begins at a point, in either direction, and the vector by which it moves the contour there.
     pub(crate) fn near_beside(&self, point: Point, reach: f64) -> Vec<(Spot, Vector)> {
         let all = self.rounds.iter().filter_map(|round| round.beside);
         let farthest = all.map(f64::abs).fold(0.0, f64::max) + reach;

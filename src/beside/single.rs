@@ -24,8 +24,8 @@ const MOST_UNNAMED: f64 = 50.0;
 /// A place nearer to a node is that node, µm.
 const NODE: f64 = 1.6;
 
-/// The one block that explains it best; `None` where none does. `miss` is by how much the blocks of a program miss
-/// their places together, `None` where one does not follow.
+/// The one block that explains it best; `None` where none does. `miss` is the sum of the deviations of a program's
+/// blocks, `None` where one does not follow.
 pub(super) fn single(
     traced: &Traced,
     rounds: &Rounds,

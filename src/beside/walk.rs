@@ -22,7 +22,7 @@ use std::ops::Range;
 pub(super) struct Unlike {
     pub block: usize,
     pub source: Option<(EntityId, usize)>,
-    /// How far it is off, µm.
+    /// Its deviation, µm.
     pub off: f64,
     pub kind: Kind,
 }

@@ -200,8 +200,8 @@ impl Walk<'_> {
     }
 }
 
-/// How many blocks and how many pieces are skipped, the likeliest first: few of both, and as many of the one as of the
-/// other. Pieces without blocks are skipped only where they `may_be_missing`.
+/// The numbers of blocks and pieces to skip, the likeliest first: few of both, and as many of the one as of the other.
+/// Pieces without blocks are skipped only where they `may_be_missing`.
 fn choices(blocks: usize, pieces: usize, may_be_missing: bool) -> Vec<(usize, usize)> {
     let mut choices: Vec<(usize, usize)> = (0..=blocks)
         .flat_map(|blocks| (0..pieces).map(move |pieces| (blocks, pieces)))

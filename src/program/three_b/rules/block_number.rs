@@ -6,7 +6,7 @@ use crate::finding::Fault;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in super::super) struct Numbered {
     pub(crate) number: Option<u32>,
-    /// The first block behind a pause: counting may begin anew.
+    /// The first block behind a pause: counting may begin again.
     pub(crate) is_after_pause: bool,
     /// Unreadable: whether it has a number is unknown.
     pub(crate) is_unread: bool,
