@@ -1,7 +1,8 @@
 //! Sessions with the real server over its pipes, as an editor or a CAD program sees them: `cargo bench --bench session`.
 //!
 //! Every figure is printed beside its goal; nothing fails on a slow machine. The clock runs from before the message is
-//! written to after the answer has been read and parsed; for what an editor asks, until the answer has been read whole.
+//! written to after the answer has been read and parsed; for what an editor asks, and in rows that say "read", until the answer has been read
+//! whole.
 //! `-- --quick` makes fewer rounds; `-- NAME …` runs only the sessions whose names hold one of these: "start", "5 MB", "50 MB",
 //! "program", "3B", "ISO", "beside", "drawing", "generate".
 
@@ -100,6 +101,28 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     (result, began.elapsed())
 }
 
+/// What edits take until their diagnostics have been read whole, and until they have been parsed as well.
+#[derive(Default)]
+struct Edits {
+    read: Vec<Duration>,
+    parsed: Vec<Duration>,
+}
+
+impl Edits {
+    fn time(&mut self, client: &mut Client, uri: &str, edit: impl FnOnce(&mut Client) -> i64) {
+        let began = Instant::now();
+        let version = edit(client);
+        client.diagnostics(uri, version);
+        self.parsed.push(began.elapsed());
+        self.read.push(client.read_at().duration_since(began));
+    }
+
+    fn rows(self, name: &str, goal: &str) {
+        row(&format!("{name}, edit to diagnostics"), self.parsed, goal);
+        row(&format!("{name}, edit to diagnostics read"), self.read, "");
+    }
+}
+
 /// Resident memory of the server in bytes; `None` where the system does not tell.
 fn resident(client: &Client) -> Option<u64> {
     let status = std::fs::read_to_string(format!("/proc/{}/status", client.child.id())).ok()?;
@@ -145,24 +168,24 @@ fn large_session(name: &str, text: &str, rounds: usize) {
     let line = text[..middle].matches('\n').count();
     let dot = text[middle..].find('.').unwrap_or(0);
     let mut version = 1;
-    let edits = (0..rounds).map(|_| {
+    let mut edits = Edits::default();
+    for _ in 0..rounds {
         version += 1;
         // A digit behind the decimal point: the one entity moves a little.
-        let (end, new) = if version % 2 == 0 { (dot + 1, "1") } else { (dot + 2, "") };
+        let (end, new) = if version % 2 == 0 {
+            (dot + 1, "1")
+        } else {
+            (dot + 2, "")
+        };
         let range = json!({ "start": { "line": line, "character": dot + 1 }, "end": { "line": line, "character": end } });
         let changes = json!([{ "range": range, "text": new }]);
-        timed(|| {
+        edits.time(&mut client, uri, |client| {
             client
                 .notify("textDocument/didChange", json!({ "textDocument": { "uri": uri, "version": version }, "contentChanges": changes }));
-            client.diagnostics(uri, version)
-        })
-        .1
-    });
-    row(
-        &format!("{name}: one digit, edit to diagnostics"),
-        edits.collect(),
-        "p50 10 ms",
-    );
+            version
+        });
+    }
+    edits.rows(&format!("{name}: one digit"), "p50 10 ms");
     client.shut_down();
 }
 
@@ -197,18 +220,11 @@ fn text_session(name: &str, text: &str, rounds: usize) {
         client.notify("textDocument/didChange", json!({ "textDocument": { "uri": uri, "version": version }, "contentChanges": changes }));
         version
     };
-    let edits = (0..rounds).map(|_| {
-        timed(|| {
-            let version = change(&mut client);
-            client.diagnostics(uri, version)
-        })
-        .1
-    });
-    row(
-        &format!("{name}: one character, edit to diagnostics"),
-        edits.collect(),
-        "p50 5 ms, p99 20 ms",
-    );
+    let mut edits = Edits::default();
+    for _ in 0..rounds {
+        edits.time(&mut client, uri, &mut change);
+    }
+    edits.rows(&format!("{name}: one character"), "p50 5 ms, p99 20 ms");
     let bursts = (0..if rounds > 100 { 5 } else { 1 }).map(|_| {
         let mut last = 0;
         for _ in 0..30 {
@@ -390,32 +406,26 @@ fn program_session(program: &Program, rounds: usize) {
         .find_map(|(line, text)| Some((line, text.find(edited)? + edited.len())))
         .expect("a block in the second half");
     let mut version = 1;
+    let mut edits = Edits::default();
     let mut edit = |client: &mut Client, digit: &str| {
         version += 1;
         let comes = version % 2 == 0;
         let end = character + usize::from(!comes);
         let range = json!({ "start": { "line": line, "character": character }, "end": { "line": line, "character": end } });
         let changes = json!([{ "range": range, "text": if comes { digit } else { "" } }]);
-        timed(|| {
+        edits.time(client, uri, |client| {
             client
                 .notify("textDocument/didChange", json!({ "textDocument": { "uri": uri, "version": version }, "contentChanges": changes }));
-            client.diagnostics(uri, version)
-        })
-        .1
+            version
+        });
     };
-    let edits = (0..rounds)
-        .map(|round| {
-            edit(
-                &mut client,
-                ["1", "2", "3", "4", "5", "6", "7", "8", "9"][round / 2 % 9],
-            )
-        })
-        .collect();
-    row(
-        &format!("{name}: one character, edit to diagnostics"),
-        edits,
-        "p50 1 ms",
-    );
+    for round in 0..rounds {
+        edit(
+            &mut client,
+            ["1", "2", "3", "4", "5", "6", "7", "8", "9"][round / 2 % 9],
+        );
+    }
+    edits.rows(&format!("{name}: one character"), "p50 1 ms");
     language_rows(&mut client, name, uri, line, text.lines().count(), rounds);
     let whole = json!({ "textDocument": { "uri": uri }, "options": { "tabSize": 4, "insertSpaces": true } });
     let format =

@@ -3,9 +3,9 @@
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 /// Longer than anything here takes, even on a busy machine.
@@ -22,6 +22,8 @@ pub struct Client {
     next_id: i64,
     /// Of a result only its length is handed on: for whoever measures how long the server takes for a large one.
     pub skips_results: Arc<AtomicBool>,
+    /// When the last message had been read whole, and was not parsed yet.
+    read_at: Arc<Mutex<Instant>>,
 }
 
 /// A request of the server's, to be answered.
@@ -56,6 +58,7 @@ impl Client {
             seen: Vec::new(),
             next_id: 0,
             skips_results: Arc::default(),
+            read_at: Arc::new(Mutex::new(Instant::now())),
         }
     }
 
@@ -90,10 +93,10 @@ impl Client {
     pub fn read_on(&mut self) {
         let stdout = self.stdout.take().expect("nobody reads yet");
         let (sender, receiver) = channel();
-        let skips_results = self.skips_results.clone();
+        let (skips_results, read_at) = (self.skips_results.clone(), self.read_at.clone());
         std::thread::spawn(move || {
             let mut stdout = BufReader::new(stdout);
-            while let Some(message) = read_frame(&mut stdout, &skips_results) {
+            while let Some(message) = read_frame(&mut stdout, &skips_results, &read_at) {
                 if sender.send(message).is_err() {
                     return;
                 }
@@ -208,6 +211,11 @@ impl Client {
         }
     }
 
+    /// When the message that came last had been read whole.
+    pub fn read_at(&self) -> Instant {
+        *self.read_at.lock().expect("the reader does not panic")
+    }
+
     /// The first message that fits, which is taken out of those seen.
     pub fn wait_for(&mut self, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
         if let Some(index) = self.seen.iter().position(&fits) {
@@ -313,7 +321,11 @@ pub fn frame(body: &str) -> Vec<u8> {
     format!("Content-Length: {}\r\n\r\n{body}", body.len()).into_bytes()
 }
 
-fn read_frame(stdout: &mut impl BufRead, skips_results: &AtomicBool) -> Option<Value> {
+fn read_frame(
+    stdout: &mut impl BufRead,
+    skips_results: &AtomicBool,
+    read_at: &Mutex<Instant>,
+) -> Option<Value> {
     let mut length = 0;
     loop {
         let mut line = String::new();
@@ -328,6 +340,7 @@ fn read_frame(stdout: &mut impl BufRead, skips_results: &AtomicBool) -> Option<V
     }
     let mut body = vec![0; length];
     stdout.read_exact(&mut body).ok()?;
+    *read_at.lock().ok()? = Instant::now();
     if skips_results.load(Ordering::Acquire)
         && let Some(id) = id_of_result(&body)
     {
