@@ -50,6 +50,12 @@ pub(crate) fn read_stream_at_most(
     Ok(bytes)
 }
 
+/// The ending of a name, in lower case; empty where there is none.
+pub(crate) fn ending_of(path: &Path) -> String {
+    let ending = path.extension().unwrap_or_default();
+    ending.to_string_lossy().to_ascii_lowercase()
+}
+
 /// [`read_at_most`] for a path.
 pub(crate) fn read_path_at_most(path: &Path, cap: u64) -> Result<Vec<u8>, String> {
     read_at_most(&File::open(path).map_err(|error| plain(&error))?, cap)

@@ -3,13 +3,16 @@
 //! DXF text, drawings sent by a CAD program and programs differ here and nowhere above.
 
 mod changes;
+mod compared;
+mod file_kind;
 mod since;
 
+pub(crate) use file_kind::FileKind;
 use since::EditedLines;
 pub(crate) use since::Since;
 
 use crate::analysis::Analysis;
-use crate::beside::{self, Beside, Drawn, Traced};
+use crate::beside::{Beside, Drawn, Traced};
 use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline, Role};
 use crate::finding::{self, Detail, Edit, Finding, Fix, FixKind, Keep, Place, Rule, Telling};
 use crate::program;
@@ -82,62 +85,6 @@ impl Document {
             asked: Asked::default(),
             since: Since::default(),
         }
-    }
-
-    pub fn beside(&self) -> &Beside {
-        &self.beside
-    }
-
-    /// Sets the document beside it for comparing; true where that is another one than before.
-    pub(crate) fn set_beside(&mut self, beside: Beside) -> bool {
-        let is_new = self.beside != beside;
-        if is_new {
-            let taken = std::mem::take(&mut self.asked.taken);
-            self.beside = beside;
-            self.asked = Asked {
-                taken,
-                ..Asked::default()
-            };
-        }
-        is_new
-    }
-
-    /// The contours of a drawing, with which a program is compared.
-    pub fn drawn(&self) -> Option<Arc<Drawn>> {
-        let drawing = self.drawing()?;
-        let drawn = || {
-            let outlines = self.analysis.outlines(drawing);
-            Arc::new(Drawn::of(drawing, outlines, self.settings()))
-        };
-        Some(self.asked.taken.drawn.get_or_init(drawn).clone())
-    }
-
-    /// The blocks of a program, with which a drawing is compared.
-    pub fn traced(&self) -> Option<Arc<Traced>> {
-        let program = self.program()?;
-        let traced = || Arc::new(Traced::of(program));
-        Some(self.asked.taken.traced.get_or_init(traced).clone())
-    }
-
-    /// The differences from the document beside it.
-    fn unlike(&self) -> Arc<[Finding]> {
-        let found = || {
-            let settings = self.settings();
-            if settings.severity(finding::Rule::NotTheDrawing).is_none() {
-                return Arc::default();
-            }
-            let found = match &self.beside {
-                Beside::Nothing => None,
-                Beside::Drawing(drawing, others) => self
-                    .traced()
-                    .map(|traced| beside::of_program(&traced, drawing, others, settings)),
-                Beside::Programs(programs) => self
-                    .drawn()
-                    .map(|drawn| beside::of_drawing(&drawn, programs, settings)),
-            };
-            found.unwrap_or_default().into()
-        };
-        self.asked.beside.get_or_init(found).clone()
     }
 
     pub fn source(&self) -> &Source {

@@ -219,7 +219,7 @@ pub struct Misfit {
     pub of: Arc<str>,
     pub partner: Arc<str>,
     /// The part that protrudes in a corner; `None` where they bind along a wall, which no corner radius mends.
-    pub corner_of: Option<Arc<str>>,
+    pub(crate) corner_of: Option<Arc<str>>,
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -194,42 +194,27 @@ pub(crate) fn fix_all(document: &Document) -> Option<Repairs> {
     })
 }
 
-/// The wire's path of the contours that hold one of `handles`, or of all.
-pub(crate) fn paths(
-    snapshot: &Snapshot,
-    settings: &Effective,
-    handles: Option<&[String]>,
-    watch: &dyn Watch,
-) -> Result<Vec<WirePath>, Refusal> {
-    Ok(planned(snapshot, settings, handles, false, watch)?.paths)
-}
-
-/// The wire's path of all contours, empty where there can be none, and the picture with it, or with the reason.
+/// The wire's path of all contours, or why there is none, and the picture with it.
 pub(crate) fn picture(
     snapshot: &Snapshot,
     findings: &[Finding],
     watch: &dyn Watch,
-) -> (Planned, String) {
+) -> (Result<Planned, Refusal>, String) {
     let settings = &snapshot.settings;
-    let (planned, why) = match planned(snapshot, settings, None, false, watch) {
-        Ok(planned) => (planned, None),
-        Err(refusal) => {
-            let telling = Telling {
-                unit_mm: settings.unit_of(&snapshot.drawing).mm,
-                mills: settings.mills,
-            };
-            (
-                Planned::default(),
-                Some((refusal.severity(), refusal.sentence(telling))),
-            )
-        }
-    };
+    let planned = planned(snapshot, settings, None, false, watch);
+    let why = planned.as_ref().err().map(|refusal| {
+        let telling = Telling {
+            unit_mm: settings.unit_of(&snapshot.drawing).mm,
+            mills: settings.mills,
+        };
+        (refusal.severity(), refusal.sentence(telling))
+    });
     let view = View {
         name: settings.document.as_deref(),
         drawing: &snapshot.drawing,
         outlines: &snapshot.outlines,
         findings,
-        paths: &planned.paths,
+        paths: planned.as_ref().map_or(&[], |planned| &planned.paths),
         why: why
             .as_ref()
             .map(|(severity, why)| (*severity, why.as_str())),
@@ -260,7 +245,7 @@ pub fn fit(snapshot: &Snapshot, watch: &dyn Watch) -> Result<Fit, Refusal> {
     Ok(fit::fit(drawing, outlines, &snapshot.settings, &goes_on)?)
 }
 
-/// The same with the thread holes, and on request with the contours that all passes leave.
+/// The wire's paths of the contours that hold one of `handles`, or of all, with the thread holes, and on request with the contours that all passes leave.
 pub fn planned(
     snapshot: &Snapshot,
     settings: &Effective,

@@ -9,6 +9,7 @@
 //! list a few lines before, and properties and fuzz targets run it.
 
 #![warn(
+    unreachable_pub,
     clippy::unwrap_used,
     clippy::expect_used,
     clippy::panic,

@@ -140,7 +140,7 @@ rules! {
     NotClosed "not-closed" Warning a_cut_that_does_not_close ThreeB FourB Iso;
     MissingEnd "missing-end" Warning a_program_without_its_end ThreeB FourB Iso;
     TextAfterEnd "text-after-end" Warning text_behind_the_end_of_a_program ThreeB FourB Iso;
-    BlockNumber "block-number" Warning a_block_number_that_stands_twice ThreeB FourB Iso;
+    BlockNumber "block-number" Warning a_block_number_that_stands_twice_is_out_of_turn_or_missing ThreeB FourB Iso;
     NotTheDrawing "not-the-drawing" Error a_program_and_its_drawing_are_not_alike Drawing ThreeB FourB Iso;
     Syntax "syntax" Error the_file_is_damaged Drawing ThreeB FourB Iso;
     Settings "settings" Error a_setting_does_not_fit Settings;

@@ -21,7 +21,7 @@ const NOT_FOR_PEOPLE: [&str; 13] = [
 
 /// What looks like a sentence and is a word of a format: what serde and diff say, classes of SVG, shapes of JSON, descriptions in the
 /// schema, what the standard library puts behind a reason. The examples under the help of the command line stand with its options.
-const WORDS_OF_FORMATS: [&str; 16] = [
+const WORDS_OF_FORMATS: [&str; 12] = [
     "one of ",
     "\\\\ No newline at end of file\\n",
     "wire fault",
@@ -30,11 +30,6 @@ const WORDS_OF_FORMATS: [&str; 16] = [
     "{ uri, version, changes }",
     "{ uri, factor }",
     " (os error",
-    // Keys of settings, as the command line groups them.
-    "correction passes side",
-    "drawn-as clearance stripper holder",
-    "direction corner thread entry lead-in lead start-hole tab order layout compensation digits profile end pause",
-    "end pause",
     "wedm protocol",
     "Every message of the wedm/ name space, protocol {PROTOCOL}.",
     "A vertex [x, y, bulge] of a polyline; the bulge may be left out and is 0 then.",
@@ -140,11 +135,10 @@ fn product(text: &str) -> &str {
     tests.find(has_body).map_or(text, |at| &text[..at])
 }
 
-#[test]
-fn sentences_stand_in_the_room_of_messages() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let source = root.join("src");
-    let mut stray: Vec<String> = Vec::new();
+/// The texts of the product's files outside of `src/message`, each with its path.
+fn product_texts() -> Vec<(String, String)> {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut texts = Vec::new();
     for entry in walkdir::WalkDir::new(&source).sort_by_file_name() {
         let path = entry.unwrap().into_path();
         let within = path.strip_prefix(&source).unwrap();
@@ -157,14 +151,23 @@ fn sentences_stand_in_the_room_of_messages() {
             continue;
         }
         let text = std::fs::read_to_string(&path).unwrap();
+        texts.push((within.display().to_string(), product(&text).to_owned()));
+    }
+    texts
+}
+
+#[test]
+fn sentences_stand_in_the_room_of_messages() {
+    let mut stray: Vec<String> = Vec::new();
+    for (path, text) in product_texts() {
         let is_of_a_format = |literal: &String| {
             let first = literal.trim_start_matches("\\\n").lines().next();
             WORDS_OF_FORMATS.contains(&&**literal) || first == Some("Examples:")
         };
-        let sentences = literals(product(&text)).into_iter();
+        let sentences = literals(&text).into_iter();
         let sentences =
             sentences.filter(|literal| is_sentence(literal) && !is_of_a_format(literal));
-        stray.extend(sentences.map(|literal| format!("{}: {literal:?}", within.display())));
+        stray.extend(sentences.map(|literal| format!("{path}: {literal:?}")));
     }
     assert!(
         stray.is_empty(),
@@ -172,6 +175,57 @@ fn sentences_stand_in_the_room_of_messages() {
         stray.len(),
         stray.join("\n")
     );
+}
+
+/// What each call is handed, up to the bracket that closes it; `call` ends with the one that opens it.
+fn handed_to<'a>(text: &'a str, call: &'a str) -> impl Iterator<Item = &'a str> {
+    text.match_indices(call).map(move |(at, _)| {
+        let rest = &text[at + call.len()..];
+        let mut depth = 1;
+        let end = rest.find(|letter| {
+            depth += i32::from(letter == '(') - i32::from(letter == ')');
+            depth == 0
+        });
+        &rest[..end.unwrap_or(rest.len())]
+    })
+}
+
+/// Words that are shown as they stand: coloured, or written as what a value is called.
+fn bare_words(text: &str) -> Vec<String> {
+    // What serde says that it expects.
+    const OF_SERDE: [&str; 2] = ["a number", "a vertex [x, y] or [x, y, bulge]"];
+    let handed = ["styled(", "write_str("].into_iter();
+    let handed = handed.flat_map(|call| handed_to(text, call));
+    let words = handed.flat_map(literals);
+    let is_word = |word: &String| {
+        // One letter is one of a program.
+        let letters = unbraced(word);
+        let letters = letters.chars().filter(|letter| letter.is_alphabetic());
+        letters.count() > 1 && !OF_SERDE.contains(&&**word)
+    };
+    words.filter(is_word).collect()
+}
+
+#[test]
+fn no_word_is_shown_as_it_stands_in_the_code() {
+    for (path, text) in product_texts() {
+        let words = bare_words(&text);
+        assert!(words.is_empty(), "{path}: {words:?}: say!() them");
+    }
+    assert_eq!(bare_words("styled(GOOD, \"written\")"), ["written"]);
+    assert_eq!(bare_words("f.write_str(\"cancelled\")"), ["cancelled"]);
+    assert!(bare_words("styled(GOOD, say!(written)), \"of_a_key\"").is_empty());
+    assert!(bare_words("styled(STRONG, format!(\"{:<20}\", name()))").is_empty());
+}
+
+/// A sentence for people shows no value as a debugger does.
+#[test]
+fn no_sentence_takes_a_value_as_a_debugger_shows_it() {
+    for (path, text) in product_texts() {
+        for handed in handed_to(&text, "say!(") {
+            assert!(!handed.contains(":?"), "{path}: say!({handed})");
+        }
+    }
 }
 
 #[test]

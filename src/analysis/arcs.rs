@@ -8,8 +8,8 @@ use crate::rules::small_radius::{self, Attempt, Replacement, Travel};
 use rustc_hash::FxHashSet;
 
 impl Analysis {
-    /// The repair of an arc below the correction that replaces its run by one larger arc, where that leaves the drawing
-    /// better than it is. The looks that it took to see that are added to `looks`.
+    /// The repair of an arc below the correction that replaces its run by one larger arc, if that improves the drawing.
+    /// The looks that this takes are added to `looks`.
     pub(super) fn larger_arc(
         &self,
         drawing: &Drawing,
@@ -218,7 +218,7 @@ impl Analysis {
         answer.0
     }
 
-    /// Number of arcs below the correction in some entities.
+    /// The number of arcs below the correction in some entities.
     pub(super) fn tight(&self, drawing: &Drawing, entities: &FxHashSet<EntityId>) -> usize {
         let entities = entities.iter().filter_map(|&id| drawing.get(id));
         let arcs = entities.flat_map(|entity| entity.geometry.segments_of(drawing.flat()));

@@ -37,7 +37,7 @@ pub(crate) struct Observed {
 }
 
 impl Observed {
-    /// True for what is told pair by pair.
+    /// True if it is reported pair by pair.
     pub(super) fn is_told(&self) -> bool {
         PAIR_RULES[self.rule].pair_by_pair
     }
@@ -46,10 +46,10 @@ impl Observed {
 /// The cost of the rules for two segments that come near each other, in looks.
 pub(crate) const LOOKS_OF_A_PAIR: u64 = 16;
 
-/// Segments of a run that have one box together.
+/// The number of segments of a run that share a box.
 const GROUP: usize = 8;
 
-/// Segments that are kept at hand while runs are compared.
+/// The number of segments at hand while runs are compared.
 const KEPT: usize = 1 << 14;
 
 /// False when the line or circle of a segment passes a box at more than `reach`.
@@ -134,7 +134,7 @@ pub(crate) type Walled<'a> = (Wall<'a>, Bounds);
 /// The segments of a run, or those of them that come near something.
 pub(crate) struct Walls<'a> {
     pub(crate) each: Vec<Walled<'a>>,
-    /// The number of all.
+    /// The number of all segments.
     count: usize,
     /// The box of each [`GROUP`] of them, and that of all.
     pub(crate) groups: Vec<Bounds>,

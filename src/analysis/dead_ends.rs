@@ -1,4 +1,4 @@
-//! What the wire leaves beyond its dead ends: `lost-pocket`.
+//! `lost-pocket`: what the wire leaves beyond its dead ends.
 
 use super::Analysis;
 use super::ends::{Asked, EndsOf, Runs};
@@ -14,12 +14,11 @@ use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// What a dead end hangs on lies within so many runs of its walls, or counts as all of the contour.
+/// A dead end depends on at most this many runs about its walls, else on the whole contour.
 const FEW: usize = 8;
 
 impl Analysis {
-    /// Brings the dead ends of all contours, on the sides that the wire may run on, up to what has been seen. Where two walls are
-    /// `narrow-slot`, that says it.
+    /// Updates the dead ends of all contours, for each possible wire side. Walls reported as `narrow-slot` are skipped.
     pub(super) fn find_dead_ends(
         &self,
         drawing: &Drawing,
@@ -138,8 +137,8 @@ impl Analysis {
     }
 }
 
-/// Takes out what hangs on some runs of a contour, or is far from any; returns the pairs of runs that must be looked at for it. What goes
-/// round the end of a contour counts as far.
+/// Removes results that depend on the changed runs; returns the pairs of runs to check again. Results far from any run
+/// are removed, too, and those across the end of a contour count as far.
 fn leave(
     pairs: &Pairs,
     key: ContourKey,
@@ -161,7 +160,8 @@ fn leave(
     runs
 }
 
-/// Adds what has been seen between these pairs of runs of a contour, but for what its slots tell. False where nothing has been.
+/// Adds the observations between these pairs of runs of a contour, except where its slots report them. False where
+/// there are none.
 fn enter(
     pairs: &mut Pairs,
     (key, outlook): (ContourKey, &Outlook),
@@ -209,8 +209,8 @@ fn enter(
     has_any
 }
 
-/// True where what a rule sees between two segments of a contour, and about them, lies in their runs: these are looked at anew, and what
-/// has been seen between them with them, where something in them changes, or [`NEIGHBOURS`] segments about them.
+/// True if all that a rule sees between two segments lies in their runs, so that re-checking these is enough: they are
+/// checked again where one of their segments changes, or one of [`NEIGHBOURS`] about them.
 fn hangs_on_runs(one: usize, other: usize, count: usize) -> bool {
     const ABOUT: usize = REACH - NEIGHBOURS;
     let (first, last) = (one.min(other), one.max(other));
@@ -221,15 +221,15 @@ fn hangs_on_runs(one: usize, other: usize, count: usize) -> bool {
         && (last + ABOUT) / RUN == last / RUN
 }
 
-/// True where the runs that hold two segments of a contour and those about them are few, and do not go round its end.
+/// True where the runs of two segments and of those about them are few, and do not cross the end of the contour.
 fn is_near(one: usize, other: usize, count: usize) -> bool {
     let last = one.max(other) + REACH;
     let first = one.min(other).checked_sub(REACH);
     first.is_some_and(|first| last < count && last / RUN - first / RUN < FEW)
 }
 
-/// The slots between walls of one contour, for the wire on either side: the two walls, in the order of the first, and with each
-/// the least second wall of it and of all behind.
+/// The slots between walls of one contour, for the wire on either side: the two walls, in the order of the first, each
+/// with the least second wall from it on.
 struct Slots([Vec<([usize; 2], usize)>; 2]);
 
 impl Slots {
@@ -268,7 +268,7 @@ mod tests {
     use crate::drawing::{Entity, Geometry, Kind, Vertex};
     use crate::settings::Effective;
 
-    /// The teeth of a comb leave dead ends; while one long line crosses them all, none of them is worked out.
+    /// The teeth of a comb leave dead ends; while one long line crosses them all, none is worked out.
     #[test]
     fn dead_ends_of_a_contour_that_crosses_itself_wait_until_it_does_not() {
         let comb = |last: (f64, f64)| {

@@ -1,5 +1,4 @@
-//! What the wire leaves beyond the dead ends of contours, kept from one report to the next by the two runs that they were
-//! seen between. Knows nothing of how they are found.
+//! The dead ends of contours, kept by the two runs in which they were found. Knows nothing of how they are found.
 
 use crate::drawing::ContourKey;
 use crate::finding::Side;
@@ -12,11 +11,12 @@ use std::sync::Arc;
 /// Two runs of a contour, the smaller number first.
 pub(super) type Runs = [u32; 2];
 
-/// Rank of an entity, its segment, and whether the wire runs on the left of it: the place that the wire stays farthest
-/// from.
+/// Rank of an entity, its segment, and whether the wire runs on its left: the place from which the wire stays farthest
+/// away.
 pub(super) type Farthest = (u64, usize, bool);
 
-/// A place, and what makes one of several ends there the one that is told: the least depth, by its bits, then the walls.
+/// A place, and the order that decides which of several ends there is reported: the least depth, by its bits, then the
+/// walls.
 type Order = (Farthest, u64, [usize; 2]);
 
 /// The dead ends of all contours that have any.
@@ -25,18 +25,18 @@ pub(super) struct DeadEnds {
     pub(super) of: FxHashMap<ContourKey, Arc<EndsOf>>,
 }
 
-/// Of a contour, what must be looked at again.
+/// The part of a contour that must be checked again.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Asked {
     All,
-    /// What hangs on these runs.
+    /// What depends on these runs.
     About(BTreeSet<u32>),
 }
 
 impl Asked {
     pub(super) const NOTHING: Asked = Asked::About(BTreeSet::new());
 
-    /// Adds what another asks for.
+    /// Adds the part that another one names.
     pub(super) fn add(&mut self, other: &Asked) {
         match (&mut *self, other) {
             (Asked::About(runs), Asked::About(more)) => runs.extend(more),
@@ -52,25 +52,26 @@ impl Default for Asked {
     }
 }
 
-/// Those of one contour, while the wire stays on its side.
+/// The dead ends of one contour, while the wire stays on its side.
 #[derive(Clone, Debug, Default)]
 pub(super) struct EndsOf {
     pub(super) side: Option<Side>,
-    /// A contour that crosses itself has no sides: what must be looked at once it has.
+    /// A contour that crosses itself has no sides: the part that must be checked once it has them.
     pub(super) waits: Asked,
     ends: BTreeMap<Order, Left>,
-    /// The number of places among them: each is told once.
+    /// The number of places among them: each is reported once.
     places: usize,
     of_runs: BTreeMap<Runs, Vec<Order>>,
-    /// Those that hang on more of the contour than the runs about the two.
+    /// Those that depend on more of the contour than the runs about the two.
     pub(super) far: BTreeSet<Runs>,
 }
 
-/// A dead end that is told: its contour, the two walls that the wire comes to, and what it leaves.
+/// A reported dead end: its contour, the two walls that the wire reaches, and what it leaves.
 pub(super) type Told = (ContourKey, [usize; 2], Left);
 
 impl EndsOf {
-    /// Adds what is left between two walls, seen between two runs. Of ends at one place that are told alike the first stays.
+    /// Adds what is left between two walls, found between two runs. Of ends at one place that are reported alike the
+    /// first stays.
     pub(super) fn insert(&mut self, runs: Runs, place: Farthest, walls: [usize; 2], left: Left) {
         self.places += usize::from(!self.has(place));
         // Depths are not negative: their bits are in their order.
@@ -79,7 +80,7 @@ impl EndsOf {
         self.of_runs.entry(runs).or_default().push(order);
     }
 
-    /// Forgets what was seen between two runs.
+    /// Forgets what was found between two runs.
     pub(super) fn remove(&mut self, runs: &Runs) {
         self.far.remove(runs);
         for order in self.of_runs.remove(runs).unwrap_or_default() {
@@ -89,7 +90,7 @@ impl EndsOf {
         }
     }
 
-    /// The runs that ends were seen between, the first of which lies between two numbers.
+    /// The pairs of runs between which ends were found, where the number of the first run is in a range.
     pub(super) fn seen_from(&self, first: u32, last: u32) -> impl Iterator<Item = Runs> {
         let range = [first, 0]..=[last, u32::MAX];
         self.of_runs.range(range).map(|(runs, _)| *runs)
@@ -108,7 +109,7 @@ impl DeadEnds {
         of.map(|(_, of)| of.places).sum()
     }
 
-    /// The first of these contours' places, in machining order.
+    /// The first places of these contours, in machining order.
     pub(super) fn first(&self, most: usize, counts: impl Fn(ContourKey) -> bool) -> Vec<Told> {
         let of = self.of.iter().filter(|(key, _)| counts(**key));
         let mut each: Vec<_> = of

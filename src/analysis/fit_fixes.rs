@@ -2,7 +2,7 @@
 
 use super::Analysis;
 use super::fits::Fitted;
-use crate::drawing::{Drawing, DrawingEdit};
+use crate::drawing::{Drawing, DrawingEdit, Outline};
 use crate::finding::{Finding, Fix, FixKind, Place, Side};
 use crate::fit::{self, Held, SegmentOf, Spot};
 use crate::rules::small_radius::{self, Travel};
@@ -10,8 +10,8 @@ use crate::settings::Partners;
 use std::sync::Arc;
 
 impl Analysis {
-    /// The repair of a corner in which two parts bind: the least radius with which they do not, and the clearance more where the other is
-    /// drawn, too.
+    /// The repair of a corner in which two parts bind: the least radius with which they do not, enlarged by the
+    /// clearance where the other part is drawn, too.
     pub(super) fn fit_fix(&self, drawing: &Drawing, finding: &Finding) -> Option<Fix> {
         let Place::Segment { entity, segment } = finding.place else {
             return None;
@@ -79,7 +79,7 @@ impl Analysis {
         })
     }
 
-    /// What is known of the pair that a segment is of.
+    /// The knowledge of the pair to which a segment belongs.
     fn pair_at(&self, drawing: &Drawing, (entity, segment): SegmentOf) -> Option<Arc<Fitted>> {
         let (key, _) = self.chains.index_of(entity, segment)?;
         let outlines = self.outlines(drawing);
@@ -88,9 +88,9 @@ impl Analysis {
         let both = match self.settings.partners()? {
             Partners::CutTwice(_) => [at, at],
             Partners::Drawn => {
-                let mut walls_of = |index: usize| {
+                let mut walls_of = |index: usize, outline: &Outline| {
                     let known = self.walls.get(&keys[index]).cloned();
-                    known.unwrap_or_else(|| fit::walls_of(drawing, &outlines[index].contour))
+                    known.unwrap_or_else(|| fit::walls_of(drawing, &outline.contour))
                 };
                 let (settings, mut beside) = (&self.settings, self.beside.clone());
                 let drawn = fit::partners(drawing, outlines, settings, &mut walls_of, &mut beside);
@@ -106,8 +106,8 @@ impl Analysis {
         self.fitted(drawing, both).map(Arc::new)
     }
 
-    /// The edit that gives a corner a radius, and what is left of the clearance there behind it: at most what there should be. `None` where
-    /// it cannot be made, or where it brings errors.
+    /// The edit that gives a corner a radius, and what is then left of the clearance there: at most the clearance that
+    /// is set. `None` where it cannot be made, or brings errors.
     fn with_corner(
         &self,
         drawing: &Drawing,
@@ -227,13 +227,13 @@ struct Corner<'a> {
 }
 
 impl Corner<'_> {
-    /// It is the plate that stands too far out.
+    /// The plate protrudes, not the punch.
     fn is_of_plate(&self) -> bool {
         self.spot.is_of_plate
     }
 }
 
-/// The place that a finding speaks of, where the spots of a pair are.
+/// The place of a finding about these spots of a pair.
 fn spot_at(spots: &[Spot], at: SegmentOf) -> Option<&Spot> {
     let is_there = |spot: &&Spot| spot.segment == at || spot.other == at;
     let there = spots.iter().filter(is_there);

@@ -11,15 +11,15 @@ use crate::toolpath::Part;
 use std::cell::LazyCell;
 use std::sync::Arc;
 
-/// A contour of more segments is not held against its partner at every edit.
+/// A contour of more segments is not compared with its partner at every edit.
 const MOST_SEGMENTS: usize = 100_000;
 
-/// What is known of two contours, or of one that is cut twice.
+/// The knowledge of two contours, or of one that is cut twice.
 #[derive(Clone, Debug)]
 pub(crate) struct Answer {
-    /// `None` where one of the two has no path, of which others speak.
+    /// `None` where one of the two has no path, which other findings report.
     pub(super) known: Option<Arc<Fitted>>,
-    /// One of the two has been edited since: what still holds need not be looked at again.
+    /// One of the two has been edited since: what still holds need not be checked again.
     pub(super) is_old: bool,
 }
 
@@ -53,7 +53,8 @@ pub(super) struct Paired {
 const ROLES: [Role; 2] = [Role::Punch, Role::Opening];
 
 impl Analysis {
-    /// What was found between a contour that is edited and its partner holds no longer, but for what the edit has not touched.
+    /// The results between an edited contour and its partner hold no longer, except where the edit has not touched
+    /// them.
     pub(super) fn outdate_fits(&mut self, key: ContourKey) {
         self.walls.remove(&key);
         for ((of, _), left) in &mut self.parts {
@@ -64,7 +65,7 @@ impl Analysis {
         }
     }
 
-    /// Forgets what was found of a contour that is gone.
+    /// Forgets the results for a contour that is gone.
     pub(super) fn forget_fits(&mut self, key: ContourKey) {
         self.walls.remove(&key);
         self.parts.retain(|(of, _), _| *of != key);
@@ -115,10 +116,9 @@ impl Analysis {
             }
             Partners::Drawn => {
                 let (mut walls, beside) = (std::mem::take(&mut self.walls), &mut self.beside);
-                let mut walls_of = |index: usize| {
+                let mut walls_of = |index: usize, outline: &Outline| {
                     let walls = walls.entry(keys[index]);
-                    let walls =
-                        walls.or_insert_with(|| fit::walls_of(drawing, &outlines[index].contour));
+                    let walls = walls.or_insert_with(|| fit::walls_of(drawing, &outline.contour));
                     walls.clone()
                 };
                 let settings = &self.settings;
@@ -155,7 +155,7 @@ impl Analysis {
         }
     }
 
-    /// What is known of two partners, of which none is crossed; worked out where it is not yet.
+    /// The knowledge of two partners, neither of which is crossed; worked out if necessary.
     pub(super) fn fit_of(
         &mut self,
         drawing: &Drawing,
@@ -194,7 +194,8 @@ impl Analysis {
         known
     }
 
-    /// Two outlines, or one that is cut twice, laid in each other. What is known of them from before an edit is not looked at again.
+    /// Two outlines, or one that is cut twice, laid in each other. What still holds from before an edit is not checked
+    /// again.
     pub(super) fn fitted(
         &self,
         drawing: &Drawing,
@@ -320,7 +321,7 @@ impl Analysis {
         }
     }
 
-    /// True where whether the wire leaves too much in the arcs of a contour says the fit.
+    /// True where the fit decides whether the wire leaves too much in the arcs of a contour.
     pub(super) fn says_the_fit(
         &self,
         drawing: &Drawing,
@@ -342,7 +343,7 @@ impl Analysis {
         }
     }
 
-    /// How far away from a spot where so much clearance is `missing` what belongs to its corner may lie.
+    /// The largest distance of what belongs to a corner from its spot, where this much clearance is `missing`.
     pub(super) fn wide(&self, clearance: f64, missing: f64) -> f64 {
         2.0 * self.limits.correction.max(clearance) + missing.abs()
     }

@@ -111,7 +111,7 @@ impl Analysis {
         self.fix_all_of(drawing, Wanted::default())
     }
 
-    /// As [`Analysis::fix_all`], with those fixes for which `can` holds.
+    /// As [`Analysis::fix_all`], but only with the fixes for which `can` holds.
     pub(crate) fn fix_all_that(
         &self,
         drawing: &Drawing,

@@ -1,4 +1,4 @@
-//! All that is found in a drawing: what has been seen is put together anew for each report.
+//! All findings of a drawing, put together from the observations for each report.
 
 use super::Analysis;
 use super::notable::{Counted, Kind, Notability, TightArc};
@@ -12,18 +12,19 @@ use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Segments that are looked at to say which repairs of arcs below the correction would bring another fault.
+/// Segments that are looked at to find which repairs of arcs below the correction would cause another fault.
 const MOST_TRIED: usize = 40_000;
 
-/// And looks at pairs of them: where many arcs crowd, each try compares them all with each other.
+/// The same for looks at pairs of them: where many arcs crowd, each attempt compares all with each other.
 const MOST_LOOKS: u64 = 5_000_000;
 
 /// Arcs below the correction of one contour that are kept.
 const MOST_KEPT: usize = 16;
 
 impl Analysis {
-    /// Says of arcs whose repair would bring another fault that there is none. Each takes a look at the drawing: in one where that would be
-    /// more than [`MOST_TRIED`] segments in all, and beyond [`MOST_LOOKS`], it is found out when the repair is asked for.
+    /// Marks arcs whose repair would cause another fault as having none. Each takes a look at the drawing: where that
+    /// is more than [`MOST_TRIED`] segments in all, and beyond [`MOST_LOOKS`], it is found when the repair is asked
+    /// for.
     pub(super) fn give_reasons(&self, drawing: &Drawing, findings: &mut [Finding]) {
         let mut hopeful: Vec<(&mut SmallRadius, EntityId, usize)> = findings
             .iter_mut()
@@ -54,7 +55,7 @@ impl Analysis {
         }
     }
 
-    /// How many findings of which kind there are.
+    /// The number of findings of each kind.
     pub(super) fn tally(&mut self, drawing: &Drawing) -> Tally {
         Tally {
             unseen: self.pairs.uncompared(),
@@ -130,7 +131,7 @@ impl Analysis {
         report
     }
 
-    /// What contours have to tell by themselves. Where `sides_stay`, the side of each hangs on nothing else.
+    /// The contours' own findings. Where `sides_stay`, the side of each contour depends on nothing else.
     fn report_notable(
         &mut self,
         drawing: &Drawing,
@@ -171,7 +172,7 @@ impl Analysis {
         self.notable = notable;
     }
 
-    /// How many findings a contour has by itself with the wire on a side.
+    /// The number of a contour's own findings with the wire on a side.
     fn count(
         &self,
         drawing: &Drawing,
@@ -217,7 +218,7 @@ impl Analysis {
         counted
     }
 
-    /// What the rules on whole contours see in some, which have so many findings in all.
+    /// The findings of the rules on whole contours in some, which have this many in all.
     fn report_contours(
         &self,
         drawing: &Drawing,
@@ -261,7 +262,7 @@ impl Analysis {
         }
     }
 
-    /// What is suspended is not in the drawing.
+    /// A suspended entity is not in the drawing.
     pub(super) fn is_there(&self, drawing: &Drawing, key: ContourKey) -> bool {
         let first = self.chains.first_of(key);
         first.is_some_and(|first| drawing.get(first).is_some())
@@ -272,7 +273,7 @@ impl Analysis {
         self.vast.iter().any(|&key| self.is_there(drawing, key))
     }
 
-    /// Sizes that speak for another unit than the drawing's: of the largest contour.
+    /// The size of the largest contour, where it suggests another unit than the drawing's.
     pub(super) fn report_size(&self, drawing: &Drawing, report: &mut Report) {
         let is_there = |key| self.is_there(drawing, key);
         let bounds_of = |key: ContourKey| {
@@ -359,7 +360,7 @@ impl Analysis {
     }
 }
 
-/// True for an arc below the correction that may be one.
+/// True for an arc below the correction that may be reported.
 fn is_mild(numbers: &SmallRadius, says_the_fit: bool) -> bool {
     numbers.taken_by_skims || says_the_fit
 }
@@ -372,7 +373,7 @@ fn holds(rule: &ContourRule, outlook: &Outlook) -> bool {
     (outlook.contour.pieces.len() > 1 || !outlook.contour.closed) && (rule.holds)(outlook)
 }
 
-/// Counts all findings of some contours, and has those of each told until no more are shown.
+/// Counts all findings of some contours, and adds those of each until no more are shown.
 fn tell<'a>(
     sums: &BTreeMap<Kind, usize>,
     contours: impl Iterator<Item = (ContourKey, &'a Counted, &'a [(Kind, usize)])>,

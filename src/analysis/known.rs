@@ -12,9 +12,9 @@ use std::ops::Range;
 
 /// Runs whose segments are at hand at once.
 const AT_ONCE: usize = 256;
-/// Of runs farther from each other than this, as at the begin and the end of a contour, those between are not at hand.
+/// Between runs farther apart than this, as the first and the last of a contour, segments are not at hand.
 const NEAR: usize = 4;
-/// Segments at hand before and behind them: those that rules ask for beyond are worked out.
+/// Segments at hand before and behind them; others are worked out when a rule asks for them.
 const ABOUT: usize = 32;
 
 #[derive(Clone, Debug)]
@@ -26,7 +26,7 @@ pub(crate) struct Known {
     pub(crate) part: u16,
     /// For each local rule, for each run of the index, its observations; empty without any, as in most contours.
     observations: Vec<Vec<Vec<Observation>>>,
-    /// For each local rule how many of its observations concern which side.
+    /// For each local rule the numbers of its observations by side.
     counts: Vec<Counts>,
     /// Number of runs at the last check.
     runs: usize,
@@ -44,8 +44,8 @@ impl Known {
         }
     }
 
-    /// Runs every local rule on the segments of `changed` and as far about as it reaches; on all behind when the number
-    /// of segments has changed. `all` is the whole contour, where that is at hand.
+    /// Runs every local rule on the segments of `changed` and those within its reach; on all behind when the number of
+    /// segments has changed. `all` is the whole contour, where that is at hand.
     pub(crate) fn check(
         &mut self,
         drawing: &Drawing,
@@ -143,7 +143,7 @@ impl Known {
         !self.observations.iter().flatten().all(Vec::is_empty)
     }
 
-    /// Rule by rule how many findings there are of each kind. `open_is_an_error` where an open contour is told of as one.
+    /// The number of findings of each kind, rule by rule. `open_is_an_error` where an open contour is reported as one.
     pub(crate) fn counts(
         &self,
         outlook: &Outlook,
@@ -228,7 +228,7 @@ impl Known {
     }
 }
 
-/// What a local rule has to tell of a contour.
+/// The findings of a local rule for a contour.
 struct OfRule<'a> {
     rule: &'a LocalRule,
     mildest: Option<Severity>,
@@ -296,6 +296,6 @@ pub(crate) struct Answer {
     /// The question: the side, and whether there is a neck.
     pub(crate) asked: (Side, bool),
     pub(crate) lost: Vec<Lost>,
-    /// Why there is no path, where nothing is lost; `None` while that has not been asked.
+    /// Why there is no path, where nothing is lost; `None` until it has been asked.
     pub(crate) misfit: Option<Option<Box<Finding>>>,
 }

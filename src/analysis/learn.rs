@@ -1,4 +1,4 @@
-//! What is seen of contours for the first time, and again where an edit has touched them.
+//! The first look at contours, and the next one where an edit has touched them.
 
 use super::compare::RunId;
 use super::contours::role_of;
@@ -31,13 +31,13 @@ impl Analysis {
         Some(known)
     }
 
-    /// Takes down whether a contour has something to tell.
+    /// Records whether a contour has findings of its own.
     pub(super) fn note(&mut self, drawing: &Drawing, key: ContourKey) {
         let told = self.told_by(drawing, key);
         self.take_down(key, told);
     }
 
-    /// Whether a contour has something to tell, and is vast.
+    /// Whether a contour has findings of its own, and is larger than any machine.
     fn told_by(&self, drawing: &Drawing, key: ContourKey) -> (Option<Notable>, bool) {
         let of_contour = |outlook: Outlook| CONTOUR_RULES.iter().any(|rule| (rule.holds)(&outlook));
         let known = self.known.get(&key);
@@ -107,8 +107,8 @@ impl Analysis {
         self.look_at_pairs(drawing, &runs);
     }
 
-    /// Looks at the pairs of segments that the runs form with each other and with others; the runs are new or have been
-    /// forgotten.
+    /// Compares the pairs of segments that these runs form with each other and with others; the runs are new or have
+    /// been forgotten.
     pub(super) fn look_at_pairs(&mut self, drawing: &Drawing, runs: &[RunId]) {
         let mut pairs = std::mem::take(&mut self.pairs);
         let outlook = |key| self.outlook(drawing, key);
@@ -116,7 +116,7 @@ impl Analysis {
         self.pairs = pairs;
     }
 
-    /// Looks again at an entity whose contour still runs as it did. False where it is in none.
+    /// Checks again an entity whose contour still runs as it did. False where it is in no contour.
     pub(super) fn look_again(
         &mut self,
         drawing: &Drawing,
@@ -268,7 +268,7 @@ impl Analysis {
     }
 }
 
-/// What is asked of each of the contours: of many on several threads.
+/// Asks a question of each contour; of many contours on several threads.
 fn each_of<T: Send>(keys: &[ContourKey], ask: impl Fn(ContourKey) -> T + Sync) -> Vec<T> {
     match keys.len() {
         0..MANY => keys.iter().map(|&key| ask(key)).collect(),

@@ -1,12 +1,12 @@
-//! Drawing → contours → findings, and what of it may be reused after an edit.
+//! Drawing → contours → findings, and what can be reused after an edit.
 
 mod arcs;
-mod aside;
 mod compare;
 mod contours;
 mod dead_ends;
+mod drafting;
+mod end_index;
 mod ends;
-mod faced;
 mod fit_fixes;
 mod fits;
 mod fitting;
@@ -15,14 +15,14 @@ mod judge;
 mod known;
 mod learn;
 mod notable;
-mod opened;
+mod observations;
 mod pair_findings;
 mod pairs;
 mod pockets;
+mod quick_reject;
 mod repair;
 mod report;
 mod search;
-mod seen;
 mod suppressed;
 mod told;
 mod within;
@@ -39,8 +39,8 @@ use crate::geometry::{Bounds, Grid};
 use crate::rules::{Limits, Outlook};
 use crate::settings::Effective;
 use crate::toolpath;
-use aside::{AsideEntities, LoneLines};
 use contours::set_aside;
+use drafting::{AsideEntities, LoneLines};
 use fitting::Fitting;
 use known::{Answer, Known};
 use notable::Notables;
@@ -50,9 +50,9 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::{Arc, OnceLock};
 use suppressed::Judged;
 
-/// Up to so many touched places are looked at one by one, however small the drawing is.
+/// Up to this many touched places are checked one by one, however small the drawing is.
 const FEW: usize = 16;
-/// Where an edit takes more contours than these apart, and a good part of all, everything is looked at anew.
+/// Above this many split contours, if they are a good part of all, the drawing is analysed afresh.
 const MANY: usize = 256;
 
 /// What is known of one drawing under one set of settings.
@@ -61,42 +61,42 @@ pub struct Analysis {
     settings: Arc<Effective>,
     limits: Limits,
     chains: Chains,
-    /// Shared with copies, which a repair that is tried makes.
+    /// Shared with copies, which are made for tentative repairs.
     known: FxHashMap<ContourKey, Arc<Known>>,
-    /// Contours that have something to tell without a look at others: most have not.
+    /// Contours with findings that need no look at others: most have none.
     notable: Notables,
     /// Contours larger than any machine.
     vast: FxHashSet<ContourKey>,
-    /// How many segments the known contours have.
+    /// The number of segments of the known contours.
     segments: usize,
-    /// How many contours have a stated role.
+    /// The number of contours with a stated role.
     stated: usize,
     /// Lines that stand alone, and which of them are not cut: nothing else is known of those.
     lone: LoneLines,
-    /// Once a lone line has been asked about others: the reaches of such lines, and the boxes of known contours of several
-    /// runs.
+    /// Once the neighbours of a single line have been asked for: the reaches of such lines, and the boxes of known
+    /// contours of several runs.
     vicinity: Option<Grid<ContourKey>>,
-    /// What is not cut by its linetype or its layer.
+    /// Entities that are not cut because of their linetype or layer.
     aside: AsideEntities,
-    /// An entity that was removed and may come back nearly as it was, as one does in whose text a number is being typed: all
-    /// that is known of it is kept until the next change. Nothing of it shows, since the drawing does not hold it.
+    /// A removed entity that may come back nearly unchanged, as while a number of it is being typed: all that is known
+    /// of it is kept until the next change. Nothing of it shows, since it is not in the drawing.
     suspended: Option<EntityId>,
     pairs: Pairs,
-    /// Whether a fix was found for a fault, and the region that the answer depends on.
+    /// Whether a fix was found for a fault, and the region on which the answer depends.
     answers: FxHashMap<(ContourKey, usize), (Option<NoFix>, Bounds)>,
     /// What the offset of a contour loses, for a side and with or without a neck.
     lost: FxHashMap<ContourKey, Answer>,
-    /// What was found between partners, or of a contour that is cut twice.
+    /// What was found between partners, or for a contour that is cut twice.
     fits: FxHashMap<(ContourKey, ContourKey), fits::Answer>,
-    /// What is left of contours that are of a pair.
+    /// What the wire leaves of contours of a pair.
     parts: FxHashMap<(ContourKey, Role), fits::Left>,
-    /// The segments of contours that may be of a pair, to ask what is near.
+    /// The segments of contours that may belong to a pair, for questions about what is near.
     walls: FxHashMap<ContourKey, Arc<toolpath::Walls>>,
     /// Which contours run beside each other.
     beside: Beside,
     order: OnceLock<Vec<ContourKey>>,
     outlines: OnceLock<Arc<Vec<Outline>>>,
-    /// What there is to be said in all, once it has been asked for.
+    /// All findings, once they have been asked for.
     tally: OnceLock<Tally>,
     /// How parts of pairs lie in each other, once that has been asked for.
     fitting: OnceLock<Option<Fitting>>,
@@ -166,7 +166,7 @@ impl Analysis {
         self.know_vicinity();
     }
 
-    /// Looks again at what `delta` touched. Same result as a fresh [`Analysis::new`].
+    /// Checks again what `delta` touched. The result is that of a fresh [`Analysis::new`].
     pub fn update(&mut self, drawing: &Drawing, delta: &Delta) {
         // An edit may move an entity away from the point that gives it its role.
         let hangs_on_points = !self.settings.points.is_empty();
@@ -271,7 +271,7 @@ impl Analysis {
         self.look_at_lone(drawing, &changed, lone);
     }
 
-    /// Forgets what has been seen of a contour.
+    /// Forgets the observations of a contour.
     fn forget(&mut self, key: ContourKey) {
         self.lost.remove(&key);
         self.forget_fits(key);
@@ -282,7 +282,7 @@ impl Analysis {
         }
     }
 
-    /// Looks again at the lone lines near what has changed, of which some are `new`.
+    /// Checks again the single lines near what has changed, some of which are `new`.
     fn look_at_lone(&mut self, drawing: &Drawing, changed: &[Bounds], new: Vec<ContourKey>) {
         let asked = self.lone_near(changed);
         let answered = self.judge_lone(drawing, &asked);
@@ -303,7 +303,7 @@ impl Analysis {
         self.learn(drawing, &cut);
     }
 
-    /// True where the contour of an entity is of a workpiece, and for an entity in none.
+    /// True where the contour of an entity belongs to a workpiece, and for an entity without contour.
     fn is_of_part(&self, entity: EntityId, part: u16) -> bool {
         let known = self
             .chains
@@ -312,7 +312,7 @@ impl Analysis {
         known.is_none_or(|known| known.part == part)
     }
 
-    /// True for an entity that is a contour of its own, and in the way of nothing that has been seen of others.
+    /// True for an entity that is a contour of its own, on which no observation of others depends.
     fn may_be_suspended(&self, entity: EntityId) -> bool {
         let key = self.chains.contour_of(entity);
         let contour = key.and_then(|key| self.chains.get(key));
@@ -324,7 +324,7 @@ impl Analysis {
             })
     }
 
-    /// What holds of `drawing` once `delta` has been made to the drawing that this is of.
+    /// The analysis of `drawing`, which `delta` has made of the drawing of this one.
     fn updated(&self, drawing: &Drawing, delta: &Delta) -> Analysis {
         if self.is_most(delta) || !self.settings.points.is_empty() {
             return Analysis::new(drawing, self.settings.clone());
@@ -336,7 +336,7 @@ impl Analysis {
         analysis
     }
 
-    /// True when a look at all that is touched costs more than a look at everything.
+    /// True when checking all that is touched costs more than analysing everything.
     fn is_most(&self, delta: &Delta) -> bool {
         let touched = delta.touched.len();
         touched > FEW && touched * RUN > self.segments
@@ -347,7 +347,8 @@ impl Analysis {
         &self.settings
     }
 
-    /// At most `limit` findings, errors first, then in machining order; and how many there are in all. What is suppressed is none of them.
+    /// At most `limit` findings, errors first, then in machining order; and their number in all. Suppressed ones are
+    /// not among them.
     pub fn findings(&mut self, drawing: &Drawing, limit: usize) -> (Vec<Finding>, usize) {
         if self.settings.suppressed.is_empty()
             && self.settings.own.is_empty()

@@ -1,6 +1,5 @@
-//! The contours that have something to tell by themselves, in machining order, and how many findings of which kind each
-//! has: kept from one report to the next, so that those beyond the limit of a report are not looked at. Knows nothing of
-//! what the findings say.
+//! The contours with findings of their own, in machining order, with counts by kind: kept from one report to the next,
+//! so that contours beyond the limit of a report are not looked at. Knows nothing of what the findings say.
 
 use crate::drawing::{ContourKey, EntityId};
 use crate::finding::{Place, Rule, Severity, Side, SmallRadius};
@@ -8,23 +7,23 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Up to one in this many is put among the others one by one; of more all are sorted.
+/// Up to one new contour in this many is inserted by itself; if there are more, all are sorted.
 const FEW: usize = 8;
 
 /// A rule, and the severity that the case has at most.
 pub(super) type Kind = (Rule, Option<Severity>);
 
-/// A contour that has something to tell.
+/// A contour with findings of its own.
 #[derive(Clone, Debug)]
 pub(super) struct Notable {
     /// The first of its entities in machining order.
     pub(super) first: EntityId,
     pub(super) what: Notability,
-    /// How much it has to tell, once that has been counted.
+    /// The number of its findings, once counted.
     pub(super) counted: Option<Counted>,
 }
 
-/// What is asked of such a contour.
+/// The question about such a contour.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Notability {
     pub(super) has_tight_arcs: bool,
@@ -38,7 +37,7 @@ pub(super) struct Notability {
 pub(super) struct Counted {
     pub(super) side: Option<Side>,
     pub(super) counts: Counts<Vec<(Kind, usize)>>,
-    /// Whether what its arcs leave says the fit.
+    /// The fit says what its arcs leave.
     pub(super) says_the_fit: bool,
     /// Each arc below the correction, where they are few.
     pub(super) arcs: Option<Arc<[TightArc]>>,
@@ -97,7 +96,7 @@ pub(super) struct Notables {
     sorted: Vec<ContourKey>,
     fresh: FxHashSet<ContourKey>,
     gone: FxHashSet<ContourKey>,
-    /// The sums over all that are not `uncounted`; `None` while the sides of some hang on other contours.
+    /// The sums over all that are not `uncounted`; `None` while the sides of some depend on other contours.
     sums: Option<Sums>,
     uncounted: FxHashSet<ContourKey>,
 }
@@ -156,8 +155,8 @@ impl Notables {
         }
     }
 
-    /// How many findings of which kind there are in all, but for a contour that is `suspended`. Where `sides_stay`, the side
-    /// of a contour hangs on nothing else, and only those that have come since are counted.
+    /// The number of findings of each kind in all, except of a `suspended` contour. Where `sides_stay`, the side of a
+    /// contour depends on nothing else, and only new contours are counted.
     pub(super) fn sums(
         &mut self,
         sides_stay: bool,

@@ -1,4 +1,4 @@
-//! What has been seen between segments, as findings, and for those who make findings of it themselves.
+//! The observations between segments as findings, and for rules that make findings of them.
 
 use super::compare::{Observed, Outlooks, SegmentId};
 use super::pairs::Pairs;
@@ -18,7 +18,7 @@ pub(crate) type Slot = ([usize; 2], Option<(Point, f64)>);
 pub(crate) type FacingWalls = ([usize; 2], Option<Side>);
 
 impl Pairs {
-    /// What `narrow-slot` tells of one contour: the two segments, and the disc between them.
+    /// The `narrow-slot` findings of one contour: the two segments, and the disc between them.
     pub(crate) fn slots_of(&self, key: ContourKey) -> Vec<Slot> {
         let own = |each: &&Observed| each.one.0 == key && each.other.0 == key && !each.blocked;
         self.seen
@@ -28,8 +28,8 @@ impl Pairs {
             .collect()
     }
 
-    /// The walls that `narrow-slot` has seen face each other in one contour, with their side of travel, by contour, of those
-    /// that are asked for.
+    /// The facing walls that `narrow-slot` has found in single contours, with their side of travel, by contour, for
+    /// those asked for.
     pub(super) fn slots(
         &self,
         is_asked: impl Fn(ContourKey) -> bool,
@@ -49,7 +49,7 @@ impl Pairs {
         slots
     }
 
-    /// Two entities each that lie in the same place.
+    /// The pairs of entities that lie in the same place.
     pub(super) fn doubles(&self, outlook: Outlooks) -> impl Iterator<Item = [EntityId; 2]> {
         let entity_of = |(key, index): SegmentId| Some(outlook(key)?.segment_id(index)?.0);
         let seen = self.seen.of(Rule::DuplicateEntity);
@@ -61,7 +61,7 @@ impl Pairs {
         self.doubles(outlook).flatten().collect()
     }
 
-    /// Where the first run lies that has not been compared.
+    /// The place of the first run that has not been compared.
     fn first_uncompared(&self, drawing: &Drawing, outlook: Outlooks) -> Option<Place> {
         let first = self.uncompared.iter().filter_map(|&(key, run)| {
             outlook(key)?.place(outlook(key)?.index.range_of(run as usize).start)
@@ -150,7 +150,7 @@ impl Pairs {
         self.told = Some(told);
     }
 
-    /// What there is to tell of all that has been seen.
+    /// The findings of all observations.
     fn tell(
         &self,
         drawing: &Drawing,

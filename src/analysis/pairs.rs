@@ -2,8 +2,8 @@
 
 use super::compare::{Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId};
 use super::ends::DeadEnds;
+use super::observations::Observations;
 use super::search::{BOXES_OF_A_LOOK, Looked, Search, shell_of};
-use super::seen::Seen;
 use super::told::Told;
 use crate::drawing::{ContourIndex, ContourKey};
 use crate::finding::Rule;
@@ -17,11 +17,12 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
 
 /// Runs that are compared in parallel: results beyond the bounds are dropped.
 const BATCH: usize = 8192;
-/// From this many runs on it is worth waking other threads, each of which takes this many at a time.
+/// From this many runs on several threads are worth while.
 const MANY_RUNS: usize = 512;
+/// Runs per task.
 const SHARE: usize = 64;
-/// Runs of which it is asked how much lies near them, and how many of those come near indeed; and how
-/// many are a crowd.
+/// The sample of runs for which neighbours are counted, how many of those may really come near, and how many neighbours
+/// are a crowd.
 const SAMPLES: usize = 32;
 const CROWDED: usize = 64;
 
@@ -29,15 +30,15 @@ const CROWDED: usize = 64;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pairs {
     pub(super) grid: Grid<RunId>,
-    pub(super) seen: Seen,
+    pub(super) seen: Observations,
     partners: FxHashMap<RunId, Vec<RunId>>,
-    /// Runs near which something has come or gone: whether their discs are empty must be checked again.
+    /// Runs near which something has come or gone: their discs must be checked again for being empty.
     stale: FxHashSet<RunId>,
     /// The number of pairs in `seen`.
     seen_count: usize,
     /// Runs that have not been compared with all their neighbours because of the limit.
     pub(super) uncompared: FxHashSet<RunId>,
-    /// The farthest that a rule reaches.
+    /// The largest reach of a rule.
     reach: f64,
     /// The looks at the start of the last full comparison, and those that are left: for comparing, and for checking
     /// whether discs are empty.
@@ -45,21 +46,21 @@ pub(crate) struct Pairs {
     left: u64,
     left_to_ask: u64,
     most_seen: usize,
-    /// Set where the limit was reached: runs that had not been compared, nor met by any other, and were forgotten; and
-    /// whether something has changed that the compared ones may see.
+    /// Set where the limit was reached: forgotten runs that had neither been compared nor met by others; and whether
+    /// something has changed that the compared ones may see.
     untold: FxHashSet<RunId>,
     is_disturbed: bool,
-    /// What is told of the observed pairs, while these stay.
+    /// The findings of the observed pairs, while these stay.
     pub(super) told: Option<Arc<Told>>,
     /// The dead ends, and the runs about which something has come or gone since these were found.
     pub(super) ends: Option<DeadEnds>,
     pub(super) changed: FxHashSet<RunId>,
-    /// There are workpieces, which do not meet.
+    /// There are workpieces: those do not meet.
     are_parts: bool,
 }
 
 impl Pairs {
-    /// No observations yet, and the looks that a drawing of this many segments may take, with all later edits of it.
+    /// No observations yet, with the looks allowed for a drawing of this many segments and all later edits of it.
     pub(crate) fn new(budget: &Budget, segments: usize) -> Pairs {
         let granted = budget
             .looks
@@ -73,7 +74,7 @@ impl Pairs {
         }
     }
 
-    /// Resets the looks, for an edit that is only tried.
+    /// Resets the looks, for a tentative edit.
     pub(crate) fn refill(&mut self) {
         (self.left, self.left_to_ask) = (self.granted, self.granted);
     }
@@ -198,7 +199,7 @@ impl Pairs {
         self.is_disturbed |= is_seen;
     }
 
-    /// The same of many new runs: it is the others that are asked whether one of these has come near.
+    /// The same for many new runs: each of the others is asked whether one of these has come near.
     fn disturb_about(&mut self, outlook: Outlooks, new: &FxHashMap<RunId, usize>) {
         let is_disturbed = |run: &&RunId| {
             let bounds = outlook(run.0).map(|it| it.index.bounds_of_run(run.1 as usize));
@@ -210,7 +211,7 @@ impl Pairs {
         self.is_disturbed = true;
     }
 
-    /// Dead ends that hang on a run must be looked at again.
+    /// Dead ends that depend on a run must be checked again.
     fn disturb_ends(&mut self, run: RunId) {
         if self.ends.is_some() {
             self.changed.insert(run);
@@ -354,7 +355,7 @@ impl Pairs {
         self.ask_again(&mut kept, limits, shells.as_ref());
     }
 
-    /// All runs by how they lie within each other, where the boxes near most new ones are many and tell little.
+    /// All runs by how they lie within each other, where the boxes near most new runs are too many to tell much.
     fn shells(&self, outlook: Outlooks, runs: &[RunId]) -> Option<Shells<RunId>> {
         let step = (runs.len() >= CROWDED).then_some(runs.len() / SAMPLES)?;
         // It has to be worth putting all of them into a tree.

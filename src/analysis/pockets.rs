@@ -1,4 +1,4 @@
-//! What the offsets of contours lose, and where no path of the wire would pass its proof.
+//! What the offsets of contours lose, and where no path of the wire passes its proof.
 
 use super::Analysis;
 use super::known::Answer;

@@ -1,4 +1,4 @@
-//! Repairs of all rules but `small-radius`: each is tried before it is offered.
+//! Repairs of all rules except `small-radius`: each is tried before it is offered.
 
 use super::Analysis;
 use super::report::Tally;
@@ -13,7 +13,7 @@ use std::borrow::Cow;
 /// would be moved.
 pub(super) const FIRST: [Rule; 2] = [Rule::DuplicateEntity, Rule::Overlap];
 
-/// And the rules whose safe repairs it makes after that: of the first of them that has any.
+/// The rules whose safe repairs it makes after that: those of the first rule that has any.
 pub(super) const THEN: [Rule; 3] = [Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords];
 
 /// Edits that are tried before a rule is given up: each costs a look at the drawing. In a large one, enough to read
@@ -22,18 +22,18 @@ const TRIES: usize = 24;
 const FEW_TRIES: usize = 6;
 const SEGMENTS: usize = 4_000_000;
 
-/// Edits that are refused by what the contours alone say, and cost as much as one look.
+/// Edits that the contours alone refuse, which together cost as much as one look.
 const ON_SIGHT: usize = 16;
 
-/// Parts that are tried each by itself where only one is wanted, or all together do nothing.
+/// Parts that are tried one by one where only one is wanted, or all together do nothing.
 const ALONE: usize = 8;
 
-/// What comes of an edit that is tried.
+/// The result of a tentative edit.
 pub(super) enum Tried<M> {
     Better(M),
     /// A look at the drawing showed that it does not help.
     Worse,
-    /// The contours alone show it.
+    /// The contours alone show that it does not help.
     PlainlyWorse,
 }
 
@@ -125,7 +125,7 @@ impl Analysis {
         }
     }
 
-    /// How many edits are tried.
+    /// The number of edits that are tried.
     pub(super) fn tries(&self) -> usize {
         let most = if self.pairs.uncompared() > 0 {
             FEW_TRIES
@@ -143,8 +143,8 @@ impl Analysis {
     /// True when an edit that makes an arc larger leaves fewer tight arcs, no more errors, and no new open end,
     /// overlap, crossing or crumb. Of two identical lines only one is moved: then the contour falls apart.
     ///
-    /// An arc that keeps its ends leaves as much as before, whatever rule reports it then: that one is `spared`. The looks that it took are
-    /// added to `looks`.
+    /// An arc that keeps its ends leaves the same material even if another rule, `spared`, then reports it. The looks
+    /// that this takes are added to `looks`.
     pub(super) fn enlarges(
         &self,
         drawing: &Drawing,
@@ -168,7 +168,7 @@ impl Analysis {
             && self.keeps_fits(drawing, (&mut tried, &edited), looks)
     }
 
-    /// One edit that makes the safe repairs of one of the rules, as many as do not collide.
+    /// One edit that makes the safe repairs of one of the rules, all that do not collide.
     pub(super) fn fix_all_else(
         &self,
         drawing: &Drawing,
@@ -253,7 +253,7 @@ impl Analysis {
         })
     }
 
-    /// As many of the edits as one as go together without making anything worse.
+    /// One edit of as many of these as go together without making anything worse.
     fn most_of(
         &self,
         drawing: &Drawing,

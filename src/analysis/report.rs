@@ -5,7 +5,7 @@ use crate::settings::{Compensation, Effective};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Gathers findings. What comes first within its severity is kept.
+/// Gathers findings. The first of each severity are kept.
 #[derive(Debug)]
 pub(crate) struct Report {
     pub(super) settings: Arc<Effective>,
@@ -16,7 +16,7 @@ pub(crate) struct Report {
     unit_is_in_doubt: bool,
 }
 
-/// How many findings there are, by severity and by rule.
+/// The numbers of findings, by severity and by rule.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Tally {
     pub(crate) errors: usize,
@@ -46,23 +46,23 @@ impl Tally {
         self.of_rule.get(&rule).copied().unwrap_or(0)
     }
 
-    /// True when nothing got worse since `before`: no more errors, no more errors and warnings together, and no rule that speaks of
-    /// damage, but for `mended`, has more to say.
+    /// True when nothing got worse since `before`: no more errors, no more errors and warnings together, and no rule
+    /// that speaks of damage, except `mended`, has more findings.
     pub(crate) fn is_no_worse_than(&self, before: &Tally, mended: Rule) -> bool {
         self.errors <= before.errors
             && self.errors + self.warnings <= before.errors + before.warnings
             && self.brings_nothing_new(before, |rule| rule == mended || CORNERS.contains(&rule))
     }
 
-    /// True when there are no more errors, and nothing new but kinks and slots, which may have been beside a tight arc all the time,
-    /// and what a rule that is `spared` says.
+    /// True when there are no more errors, and nothing new except kinks, slots, which may have been beside a tight arc
+    /// all the time, and findings of a `spared` rule.
     pub(crate) fn spoils_nothing(&self, before: &Tally, spared: Option<Rule>) -> bool {
         let is_spared =
             |rule| CORNERS.contains(&rule) || SLOTS.contains(&rule) || spared == Some(rule);
         self.errors <= before.errors && self.brings_nothing_new(before, is_spared)
     }
 
-    /// Where pairs have come into observation that nobody had looked at, more findings do not mean more faults.
+    /// Where new pairs have been compared, more findings do not mean more faults.
     fn brings_nothing_new(&self, before: &Tally, is_spared: impl Fn(Rule) -> bool) -> bool {
         // Where a contour comes to be closed, an end that does not quite meet is what is left of the opening.
         let is_closed = self.of(Rule::OpenContour) < before.of(Rule::OpenContour);
@@ -74,8 +74,9 @@ impl Tally {
                 .all(|(&rule, &count)| is_spared(rule) || count <= before.of(rule))
     }
 
-    /// True when closing a contour has brought nothing new to light but corners. The wire has a side on it now: what was one hint
-    /// for all its corners is a warning for each that the wire runs inside of, and what was a warning may be an error.
+    /// True when closing a contour has added nothing except corners. The wire now has a side on it: what was one hint
+    /// for all its corners is a warning for each one inside which the wire runs, and what was a warning may be an
+    /// error.
     pub(crate) fn is_no_worse_once_closed(&self, before: &Tally) -> bool {
         let corners = self
             .of(Rule::SharpCorner)
@@ -107,13 +108,13 @@ impl Report {
         self.settings.compensation == Compensation::None
     }
 
-    /// Says that the size of the drawing speaks against its unit: what is measured in it is in doubt, and only hints until the unit is
-    /// settled. Errors stay.
+    /// Records that the size of the drawing contradicts its unit: what is measured in it is in doubt, and only a hint
+    /// until the unit is settled. Errors stay.
     pub(crate) fn doubt_unit(&mut self) {
         self.unit_is_in_doubt = true;
     }
 
-    /// True where an open contour is told of as an error, and what spoils only a cut along it can wait until it is closed.
+    /// True where an open contour is reported as an error: what only spoils a cut along it can wait until it is closed.
     pub(crate) fn open_is_an_error(&self) -> bool {
         !self.is_for_a_path() && self.severity(Rule::OpenContour, None) == Some(Severity::Error)
     }
@@ -133,7 +134,7 @@ impl Report {
         !self.is_full(rule, mildest)
     }
 
-    /// Counts so many findings, which are not added.
+    /// Counts this many findings, which are not added.
     pub(crate) fn count(&mut self, rule: Rule, mildest: Option<Severity>, count: usize) {
         let Some(severity) = self.severity(rule, mildest).filter(|_| count > 0) else {
             return;
@@ -142,7 +143,7 @@ impl Report {
         self.enter(rule, severity, count);
     }
 
-    /// What another finding stands for: it weighs where drawings are held against each other, and is not told.
+    /// Counts a finding for which another one stands: it weighs where drawings are compared, and is not reported.
     pub(crate) fn weigh(&mut self, rule: Rule, mildest: Option<Severity>, count: usize) {
         if let Some(severity) = self.severity(rule, mildest) {
             self.enter(rule, severity, count);
@@ -163,7 +164,7 @@ impl Report {
         self.room(rule, mildest) == 0
     }
 
-    /// How many findings of this severity may be added yet.
+    /// The number of findings of this severity that may still be added.
     pub(crate) fn room(&self, rule: Rule, mildest: Option<Severity>) -> usize {
         let kept = |severity| self.kept.get(&severity).map_or(0, Vec::len);
         let severity = self.severity(rule, mildest);
@@ -194,7 +195,7 @@ impl Report {
         self.tally
     }
 
-    /// The findings, the worst first, and how many there are in all.
+    /// The findings, the worst first, and their number in all.
     pub(crate) fn finish(self) -> (Vec<Finding>, usize) {
         let mut findings: Vec<Finding> = self.kept.into_values().flatten().collect();
         findings.truncate(self.limit);

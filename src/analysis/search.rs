@@ -1,4 +1,4 @@
-//! The search for what comes near a run, and the comparison with each of it. Knows nothing of what was found before.
+//! The search for the runs that come near a run, and the comparison with each. Knows nothing of what was found before.
 
 use super::compare::{Comparison, Kept, LOOKS_OF_A_PAIR, Observed, RunId, Walled, Walls, passes};
 use crate::geometry::{Bounds, Grid, Segment, Shell, Shells};
@@ -12,15 +12,15 @@ pub(super) const BOXES_OF_A_LOOK: u64 = 4;
 /// The partners of new runs.
 pub(super) struct Search<'a> {
     pub(super) grid: &'a Grid<RunId>,
-    /// All runs once more, where the grid is crowded.
+    /// All runs in another index, where the grid is crowded.
     pub(super) shells: Option<&'a Shells<RunId>>,
     pub(super) rules: &'a [(usize, f64)],
     pub(super) reach: f64,
-    /// Observations beyond so many are dropped.
+    /// Observations beyond this number are dropped.
     pub(super) most_seen: usize,
     pub(super) new: &'a FxHashMap<RunId, usize>,
     pub(super) are_parts: bool,
-    /// So many are compared that the walls of each are needed again.
+    /// Enough runs are compared that the walls of each are needed again.
     pub(super) keeps: bool,
 }
 
@@ -29,9 +29,9 @@ pub(super) struct Search<'a> {
 pub(super) struct Looked {
     /// The looks that it took to find its neighbours.
     pub(super) before: u64,
-    /// Each of those, the looks that it took, and the observations.
+    /// Each neighbour, the looks that it took, and the observations.
     pub(super) each: Vec<(RunId, u64, Vec<Observed>)>,
-    /// There were no looks left for the others, or enough has been observed.
+    /// No looks were left for the others, or enough has been observed.
     pub(super) is_cut_short: bool,
 }
 
@@ -54,7 +54,7 @@ pub(super) fn shell_of(outlook: &Outlook, run: u32) -> Shell {
 }
 
 impl Search<'_> {
-    /// Compares the new run at a place in their order with all that come near it, within this many looks.
+    /// Compares the new run with this index with all that come near it, within this many looks.
     pub(super) fn look(&self, kept: &mut Kept, at: usize, run: RunId, most: u64) -> Looked {
         let mut looked = Looked::default();
         let Some(own) = (kept.outlook)(run.0) else {

@@ -1,5 +1,5 @@
-//! The settings' and the drawing's own words for single entities: findings that somebody has suppressed, with the
-//! reason, which are listed apart; and settings of contours that do not exist.
+//! What settings and drawing say of single entities: findings that somebody has suppressed, listed apart with the
+//! reason; and settings for contours that do not exist.
 
 use super::Analysis;
 use crate::drawing::{Drawing, EntityId, Role, SUPPRESS, mark_of_layer};

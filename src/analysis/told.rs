@@ -7,7 +7,7 @@ use crate::rules::PAIR_RULES;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 
-/// The findings of the observed pairs, while none comes or goes and the wire stays on its sides.
+/// The findings of the observed pairs, valid while no pair comes or goes and the wire stays on its sides.
 #[derive(Debug, Default)]
 pub(super) struct Told {
     /// The side of the wire at each of the contours.
@@ -18,7 +18,7 @@ pub(super) struct Told {
     pub(super) pairs: Vec<ToldPair>,
     /// The number of each rule and severity.
     pub(super) counts: BTreeMap<(usize, Option<Severity>), usize>,
-    /// The number of those that other findings stand for, by their rule and severity.
+    /// The number of findings for which others stand, by their rule and severity.
     pub(super) absorbed: BTreeMap<(usize, Option<Severity>), usize>,
 }
 
@@ -36,7 +36,7 @@ pub(super) struct ToldPair {
     pub(super) crossings: Option<Crossings>,
 }
 
-/// What a segment meets that crosses or touches many others: it is told once, at that segment.
+/// The others that a segment crosses or touches, if they are many: reported once, at that segment.
 #[derive(Debug)]
 pub(super) struct Crossings {
     pub(super) of: SegmentId,
@@ -45,14 +45,14 @@ pub(super) struct Crossings {
     pub(super) others: Vec<SegmentId>,
 }
 
-/// A segment that crosses or touches more others than this is told once for all of them.
+/// A segment that crosses or touches more others than this is reported once for all of them.
 const MANY: usize = 16;
 
-/// So many of those are named.
+/// The number of others that are named.
 const NAMED: usize = 8;
 
-/// Tells the crossings of each segment that has many as one: the first stays. Returns the rule and severity of those that
-/// it stands for.
+/// Reports the crossings of each segment that has many as one: the first stays. Returns the rule and severity of those
+/// for which it stands.
 pub(super) fn gather_crossings(pairs: &mut Vec<ToldPair>) -> Vec<(usize, Option<Severity>)> {
     let is_crossing = |pair: &&ToldPair| PAIR_RULES[pair.rule].rule == Rule::SelfIntersection;
     let mut counts: FxHashMap<(SegmentId, Option<Severity>), usize> = FxHashMap::default();
@@ -139,8 +139,8 @@ impl Told {
     }
 }
 
-/// Which of `seen` another one stands for: of neighbouring pairs with one observation, all but the one with the
-/// smallest disc.
+/// Those of `seen` for which another one stands: of neighbouring pairs with one observation, all except the one with
+/// the smallest disc.
 pub(super) fn merged(
     seen: &[&Observed],
     count_of: &dyn Fn(ContourKey) -> Option<usize>,

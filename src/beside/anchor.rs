@@ -2,7 +2,7 @@
 
 use super::REACH;
 use super::matching::{Found, matching};
-use super::pose::Pose;
+use super::placement::Placement;
 use super::rounds::Rounds;
 use super::traced::{Motion, Traced};
 use super::walk::Walk;
@@ -17,8 +17,8 @@ const FAR: f64 = 1e4;
 const SURE: usize = 40;
 
 /// The place of the program, from the blocks of its cuts; `None` where nothing of it matches the drawing.
-pub(super) fn anchor(traced: &Traced, rounds: &Rounds) -> Option<Pose> {
-    let still = Pose::at(Vector::zeros());
+pub(super) fn anchor(traced: &Traced, rounds: &Rounds) -> Option<Placement> {
+    let still = Placement::at(Vector::zeros());
     let walk = Walk::new(traced, rounds, still);
     let tried = cuts(traced, 0..traced.blocks.len());
     let mut best = 0;
@@ -43,20 +43,20 @@ pub(super) fn anchor(traced: &Traced, rounds: &Rounds) -> Option<Pose> {
 }
 
 /// Other possible places of the program: one wrong block moves everything behind it, which may be most of the program.
-pub(super) fn others(traced: &Traced, rounds: &Rounds, pose: &Pose) -> Vec<Pose> {
-    let still = Pose::at(Vector::zeros());
+pub(super) fn others(traced: &Traced, rounds: &Rounds, placement: &Placement) -> Vec<Placement> {
+    let still = Placement::at(Vector::zeros());
     let walk = Walk::new(traced, rounds, still);
     let stated = traced.is_placed.then(|| still.gridded());
     let first = traced.cuts.first().and_then(|[all, _]| {
         let tried = cuts(traced, all.clone());
         found_by(traced, rounds, &walk, &tried)
     });
-    let is_another = |other: &Pose| {
-        let away = (other.shift - pose.shift).norm();
+    let is_another = |other: &Placement| {
+        let away = (other.shift - placement.shift).norm();
         away > 0.5 && away < FAR
     };
     let others = stated.into_iter().chain(first).filter(is_another);
-    match pose.is_exact() {
+    match placement.is_exact() {
         true => others.filter_map(|other| other.exactly()).collect(),
         false => others.collect(),
     }
@@ -69,12 +69,12 @@ fn cuts(traced: &Traced, among: Range<usize>) -> Vec<usize> {
 }
 
 /// The first contour decides: a wrong one moves what comes behind.
-fn found_by(traced: &Traced, rounds: &Rounds, walk: &Walk, tried: &[usize]) -> Option<Pose> {
-    let still = Pose::at(Vector::zeros());
+fn found_by(traced: &Traced, rounds: &Rounds, walk: &Walk, tried: &[usize]) -> Option<Placement> {
+    let still = Placement::at(Vector::zeros());
     let mut best: Option<(usize, Found, usize)> = None;
     for &index in tried {
         for found in matching(rounds, traced, index, &still) {
-            let (count, ends) = walk.verify(found.pose, found.spot, found.spot, index, SURE);
+            let (count, ends) = walk.verify(found.placement, found.spot, found.spot, index, SURE);
             let count = count + usize::from(ends);
             if best.as_ref().is_none_or(|(most, ..)| count > *most) {
                 best = Some((count, found, index));
@@ -89,8 +89,8 @@ fn found_by(traced: &Traced, rounds: &Rounds, walk: &Walk, tried: &[usize]) -> O
 }
 
 /// The shift by the nodes of a run: they lie on the grid of the program, and are those of the drawing rounded.
-fn refined(traced: &Traced, rounds: &Rounds, found: Found, index: usize) -> Pose {
-    let (mut pose, mut spot) = (found.pose, found.spot);
+fn refined(traced: &Traced, rounds: &Rounds, found: Found, index: usize) -> Placement {
+    let (mut placement, mut spot) = (found.placement, found.spot);
     let mut low = Vector::new(f64::INFINITY, f64::INFINITY);
     let mut high = -low;
     let mut note = |off: Vector| {
@@ -102,7 +102,7 @@ fn refined(traced: &Traced, rounds: &Rounds, found: Found, index: usize) -> Pose
         let Some(block) = traced.blocks[next].segment() else {
             break;
         };
-        let Some(reached) = pose.follow(rounds, traced, next, &spot, &found.spot) else {
+        let Some(reached) = placement.follow(rounds, traced, next, &spot, &found.spot) else {
             break;
         };
         // Behind an arc the places of a program that counts have drifted.
@@ -110,16 +110,16 @@ fn refined(traced: &Traced, rounds: &Rounds, found: Found, index: usize) -> Pose
         let (Some(further), true, false) = (reached.spot, reached.whole, drifts) else {
             break;
         };
-        note(found.pose.place(block.end()) - further.at);
+        note(found.placement.place(block.end()) - further.at);
         spot = further;
     }
-    let shift = found.pose.shift + (low + high) / 2.0;
+    let shift = found.placement.shift + (low + high) / 2.0;
     let whole = shift.map(f64::round);
     let is_whole = (whole - shift).amax() <= 0.5 - (high - low).amax() / 2.0 + 0.01
         && (high - low).amax() <= 1.02;
     if is_whole {
-        Pose::at(whole).gridded().unsurely()
+        Placement::at(whole).gridded().unsurely()
     } else {
-        Pose::at(shift)
+        Placement::at(shift)
     }
 }

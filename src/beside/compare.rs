@@ -1,24 +1,26 @@
-//! A program held against its drawing: as we write it under the drawing's settings, under others, else by how its blocks lie.
+//! Compares a program with its drawing: as we write it under the drawing's settings, under others, else by the places
+//! of its blocks.
 
+use super::against_reference::against_reference;
 use super::comparison::{Comparison, looked_at};
 use super::drawn::Drawn;
 use super::guess::otherwise;
-use super::own::own;
 use super::traced::Traced;
 
-/// Of fewer blocks one that is off may speak for other settings.
+/// In a program of fewer blocks, one deviating block may mean other settings.
 const SMALL: usize = 40;
-/// What is off by more is no rounding, mm.
+/// A larger deviation is no rounding, mm.
 const ROUNDING: f64 = 5e-3;
 
-/// One block that is off by no more is a slip, mm.
+/// One block that deviates by no more is a slip, mm.
 const SLIP: f64 = 1e-2;
 
-/// Holds a program against a drawing; `None` where it follows nothing of it.
+/// Compares a program with a drawing; `None` where it follows nothing of it.
 ///
-/// A program that is ours is known block by block, and so is a change of 3 µm in it; one of another writer has room for its roundings.
+/// A program of ours is compared block by block, so that a change of 3 µm is found; for another writer's roundings
+/// there is room.
 pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
-    let known = own(drawn, traced, &drawn.as_set());
+    let known = against_reference(drawn, traced, &drawn.as_set());
     if traced.mills {
         // Layers that are not there are so by other settings.
         let known = known.filter(|told| !told.has_gap);

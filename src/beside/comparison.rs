@@ -4,7 +4,7 @@ use super::anchor::{anchor, others};
 use super::drawn::Drawn;
 use super::infer;
 use super::members::Members;
-use super::pose::Pose;
+use super::placement::Placement;
 use super::rounds::{Course, Rounds};
 use super::single::single;
 use super::traced::{Block, Traced};
@@ -27,7 +27,7 @@ pub struct Difference {
     pub line: usize,
     /// The segment of the drawing that it should follow, where that is known.
     pub segment: Option<(EntityId, usize)>,
-    /// How far it is off, mm.
+    /// Its deviation, mm.
     pub off: f64,
     pub kind: Kind,
 }
@@ -45,9 +45,9 @@ pub struct Comparison {
 pub(super) const FEW: usize = 6;
 /// The deviation of a 4B block that another rounding of its transitions explains, µm.
 const ROUNDED: f64 = 2.5;
-/// One of several differing blocks is off by as much, µm.
+/// Of several differing blocks one deviates by at least this, µm.
 const CHANGED: f64 = 2.5;
-/// For each differing block this many must be as we write them: it is a change then, and not another writer's rounding.
+/// For each differing block this many must be as we write them: then it is a change, and not another writer's rounding.
 const OWN: usize = 8;
 /// The most corrections that are found for further passes.
 const FURTHER: usize = 4;
@@ -141,7 +141,7 @@ struct Tried {
     /// Blocks that follow.
     followed: usize,
     follows: Vec<usize>,
-    laid: Option<(Rc<Rounds>, Pose)>,
+    laid: Option<(Rc<Rounds>, Placement)>,
     /// Every block is known to follow.
     is_sure: bool,
     /// It is placed otherwise than the settings say.
@@ -152,12 +152,12 @@ struct Tried {
 fn try_with(drawn: &Drawn, traced: &Traced, courses: &[Course], exact: bool) -> Tried {
     let mut rounds = Rounds::default();
     rounds.add(drawn, courses, None);
-    let pose = anchor(traced, &rounds).and_then(|pose| match exact {
-        true => pose.exactly(),
-        false => Some(pose),
+    let placement = anchor(traced, &rounds).and_then(|placement| match exact {
+        true => placement.exactly(),
+        false => Some(placement),
     });
-    match pose {
-        Some(pose) => along(drawn, traced, courses, rounds, pose),
+    match placement {
+        Some(placement) => along(drawn, traced, courses, rounds, placement),
         None => Tried::nothing(),
     }
 }
@@ -168,15 +168,15 @@ fn along(
     traced: &Traced,
     courses: &[Course],
     mut rounds: Rounds,
-    pose: Pose,
+    placement: Placement,
 ) -> Tried {
-    if pose.is_exact()
-        && let Some(walked) = sound_somewhere(traced, &rounds, pose)
+    if placement.is_exact()
+        && let Some(walked) = sound_somewhere(traced, &rounds, placement)
     {
-        return Tried::of(traced, walked, &[], (Rc::new(rounds), pose)).sure();
+        return Tried::of(traced, walked, &[], (Rc::new(rounds), placement)).sure();
     }
     let tabs = tabs(drawn);
-    let mut walked = Walk::new(traced, &rounds, pose).go(&tabs);
+    let mut walked = Walk::new(traced, &rounds, placement).go(&tabs);
     let mut foreign = foreign(traced, &walked);
     let mut is_guess = false;
     // A pass at a correction that the settings do not have.
@@ -208,7 +208,7 @@ fn along(
         if rounds.rounds.len() == before {
             break;
         }
-        let again = Walk::new(traced, &rounds, pose).go(&tabs);
+        let again = Walk::new(traced, &rounds, placement).go(&tabs);
         let left = self::foreign(traced, &again);
         if left.len() >= foreign.len() {
             break;
@@ -217,20 +217,20 @@ fn along(
     }
     Tried {
         is_guess,
-        ..Tried::of(traced, walked, &foreign, (Rc::new(rounds), pose))
+        ..Tried::of(traced, walked, &foreign, (Rc::new(rounds), placement))
     }
 }
 
-/// All blocks of a program, each with its place on the drawing; and by how much they miss their places together, µm.
-fn sound(traced: &Traced, rounds: &Rounds, pose: Pose) -> Option<(Walked, f64)> {
-    let members = Members::all(traced, rounds, pose);
+/// All blocks of a program, each with its place on the drawing; and the sum of their deviations, µm.
+fn sound(traced: &Traced, rounds: &Rounds, placement: Placement) -> Option<(Walked, f64)> {
+    let members = Members::all(traced, rounds, placement);
     members.filter(|(walked, _)| foreign(traced, walked).is_empty())
 }
 
 /// The same from any place where the program may lie.
-fn sound_somewhere(traced: &Traced, rounds: &Rounds, pose: Pose) -> Option<Walked> {
-    let mut poses = std::iter::once(pose).chain(others(traced, rounds, &pose));
-    poses.find_map(|pose| Some(sound(traced, rounds, pose)?.0))
+fn sound_somewhere(traced: &Traced, rounds: &Rounds, placement: Placement) -> Option<Walked> {
+    let mut placements = std::iter::once(placement).chain(others(traced, rounds, &placement));
+    placements.find_map(|placement| Some(sound(traced, rounds, placement)?.0))
 }
 
 /// The lengths of the tabs that may be left standing, µm.
@@ -319,7 +319,7 @@ impl Tried {
         traced: &Traced,
         mut walked: Walked,
         foreign: &[Range<usize>],
-        laid: (Rc<Rounds>, Pose),
+        laid: (Rc<Rounds>, Placement),
     ) -> Tried {
         // Another writer of 4B may round its transitions otherwise.
         let is_loose = traced.four_b && !laid.1.is_exact();
@@ -352,7 +352,7 @@ impl Tried {
         }
     }
 
-    /// All but one block is as it is laid, and that is off by more than any rounding.
+    /// All blocks except one are as laid, and that one deviates by more than any rounding.
     fn is_one_change(&self) -> bool {
         let is_change = |one: &Unlike| one.kind == Kind::Block && one.off >= CHANGED;
         self.unlike.len() == 1 && self.is_own() && self.unlike.iter().all(is_change)
@@ -361,18 +361,19 @@ impl Tried {
     /// The same program by the output of our own writers for the drawing.
     fn exactly(&self, drawn: &Drawn, traced: &Traced) -> Tried {
         let laid = self.laid.as_ref();
-        let laid = laid.and_then(|(rounds, pose)| Some((rounds.clone(), pose.exactly()?)));
-        let Some((rounds, pose)) = laid else {
+        let laid =
+            laid.and_then(|(rounds, placement)| Some((rounds.clone(), placement.exactly()?)));
+        let Some((rounds, placement)) = laid else {
             return Tried::nothing();
         };
-        if let Some(walked) = sound_somewhere(traced, &rounds, pose) {
-            return Tried::of(traced, walked, &[], (rounds, pose)).sure();
+        if let Some(walked) = sound_somewhere(traced, &rounds, placement) {
+            return Tried::of(traced, walked, &[], (rounds, placement)).sure();
         }
-        let walked = Walk::new(traced, &rounds, pose).go(&tabs(drawn));
+        let walked = Walk::new(traced, &rounds, placement).go(&tabs(drawn));
         let foreign = foreign(traced, &walked);
         Tried {
             is_guess: self.is_guess,
-            ..Tried::of(traced, walked, &foreign, (rounds, pose))
+            ..Tried::of(traced, walked, &foreign, (rounds, placement))
         }
     }
 
@@ -383,25 +384,26 @@ impl Tried {
         self.followed > 0 && self.followed >= own * unlike
     }
 
-    /// The walk may be wrong about a block: perhaps all of the program follows, or all but one block.
+    /// The walk may be wrong about a block: perhaps all of the program follows, or all blocks except one.
     fn surely(mut self, traced: &Traced) -> Tried {
         if self.is_sure {
             return self;
         }
-        let Some((rounds, pose)) = self.laid.take() else {
+        let Some((rounds, placement)) = self.laid.take() else {
             return self;
         };
-        let miss = |traced: &Traced, pose: Pose| Some(sound(traced, &rounds, pose)?.1);
-        if miss(traced, pose).is_some() {
+        let miss =
+            |traced: &Traced, placement: Placement| Some(sound(traced, &rounds, placement)?.1);
+        if miss(traced, placement).is_some() {
             self.unlike.clear();
             return self;
         }
-        if !pose.is_exact() && self.unlike.is_empty() {
+        if !placement.is_exact() && self.unlike.is_empty() {
             return self;
         }
-        let mut poses = std::iter::once(pose).chain(others(traced, &rounds, &pose));
+        let mut placements = std::iter::once(placement).chain(others(traced, &rounds, &placement));
         if let Some(only) =
-            poses.find_map(|pose| single(traced, &rounds, pose, &self.unlike, &miss))
+            placements.find_map(|placement| single(traced, &rounds, placement, &self.unlike, &miss))
         {
             self.unlike = vec![only];
         }

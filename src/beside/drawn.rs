@@ -1,7 +1,7 @@
-//! What is taken of a drawing: its contours, by segments, and the programs that we would write for it.
+//! The data of a drawing for comparing: its contours, by segments, and the programs that we write for it.
 
-use super::anew::{Anew, Of, Under};
-use super::kept::Kept;
+use super::cache::Cache;
+use super::reference::{Of, Reference, Under};
 use super::sides::{Sides, sided};
 use super::traced::Traced;
 use crate::drawing::{ContourSegment, Drawing, EntityId, Outline};
@@ -21,7 +21,7 @@ pub struct Drawn {
     /// The outlines by each guess of their sides.
     sided: Arc<[OnceLock<Vec<Outline>>; Sides::GUESSED.len()]>,
     /// Programs that were written for it.
-    kept: Arc<Kept>,
+    cache: Arc<Cache>,
 }
 
 impl PartialEq for Drawn {
@@ -59,7 +59,7 @@ impl Drawn {
             unit_mm: settings.unit_of(drawing).mm,
             contours: Arc::default(),
             sided: Arc::default(),
-            kept: Arc::default(),
+            cache: Arc::default(),
         }
     }
 
@@ -88,13 +88,13 @@ impl Drawn {
     }
 
     /// The program that we would write for it in the form of another one.
-    pub(super) fn anew(&self, traced: &Traced, under: &Under) -> Option<Arc<Anew>> {
+    pub(super) fn reference(&self, traced: &Traced, under: &Under) -> Option<Arc<Reference>> {
         let of = Of {
             drawing: &self.drawing,
             outlines: self.outlines_by(under.sides),
             unit_mm: self.unit_mm,
         };
-        self.kept.anew(&of, traced, under)
+        self.cache.reference(&of, traced, under)
     }
 
     /// Under its own settings, all of it.
@@ -128,8 +128,8 @@ impl Drawn {
     }
 
     /// What has been guessed of a program of it.
-    pub(super) fn kept(&self) -> &Kept {
-        &self.kept
+    pub(super) fn cache(&self) -> &Cache {
+        &self.cache
     }
 
     /// What an entity is called.

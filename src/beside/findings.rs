@@ -24,6 +24,43 @@ pub struct Partner<T> {
     pub made: Result<Arc<T>, String>,
 }
 
+/// The data by which a document is compared.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Form {
+    Drawn(Arc<Drawn>),
+    Traced(Arc<Traced>),
+}
+
+/// A document by its name, and its data or why there are none.
+pub(super) type Other = (Arc<str>, Result<Form, String>);
+
+impl Beside {
+    /// What lies beside a program: its drawing, and the names of other candidates.
+    pub(crate) fn of_program((name, form): Other, others: Vec<Arc<str>>) -> Beside {
+        let made = form.and_then(|form| match form {
+            Form::Drawn(drawn) => Ok(drawn),
+            Form::Traced(_) => Err(say!(a_program_is_no_drawing).into()),
+        });
+        Beside::Drawing(Partner { name, made }, others)
+    }
+
+    /// What lies beside a drawing: its programs.
+    pub(crate) fn of_drawing(programs: impl IntoIterator<Item = Other>) -> Beside {
+        let partner = |(name, form): Other| {
+            let made = form.and_then(|form| match form {
+                Form::Traced(traced) => Ok(traced),
+                Form::Drawn(_) => Err(say!(a_drawing_is_no_program).into()),
+            });
+            Partner { name, made }
+        };
+        let partners: Vec<_> = programs.into_iter().map(partner).collect();
+        match partners.is_empty() {
+            true => Beside::Nothing,
+            false => Beside::Programs(partners),
+        }
+    }
+}
+
 /// The findings at a program.
 pub(crate) fn of_program(
     traced: &Traced,

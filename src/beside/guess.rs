@@ -1,15 +1,16 @@
-//! Under which settings a program of ours was written, where those of the drawing are others.
+//! The settings under which a program of ours was written, where they differ from those of the drawing.
 //!
-//! What can be measured in the program is: its contours and their order, corrections, the way in, tab and overlap. What cannot is tried.
-//! Each guess is written anew, and that which has most blocks in common with the program is bettered, one setting after the other.
+//! What can be measured in the program is measured: its contours and their order, corrections, the way in, tab and
+//! overlap. What cannot is tried: for each guess the program is generated; the guess that shares most blocks is
+//! refined, one setting at a time.
 
-use super::anew::{Anew, Under};
+use super::against_reference::{Told, against_reference};
+use super::cache::Guess;
 use super::comparison::{Difference, FEW};
 use super::drawn::Drawn;
-use super::kept::Guess;
 use super::measure;
-use super::own::{Told, own};
 use super::passes::corrections;
+use super::reference::{Reference, Under};
 use super::sides::Sides;
 use super::tabs::{tabs, threads};
 use super::traced::{Block, Motion, Traced};
@@ -21,38 +22,38 @@ use crate::settings::{
 use rustc_hash::FxHashMap;
 use std::cmp::Ordering;
 
-/// Blocks that are written anew under guessed settings, at most; where a program was searched before that is the same but for a few
-/// blocks; and what one guess costs at least.
+/// The most blocks that are generated under guessed settings; the same where a program was searched before that differs
+/// in a few blocks; and the least cost of a guess.
 const MOST_TRIED: usize = 300_000;
 const MOST_AGAIN: usize = 30_000;
 const LEAST_COST: usize = 60;
-/// Where the blocks of a program lie farther away than this in the mean, another writer wrote it, µm.
+/// A program whose blocks deviate by more than this in the mean is by another writer, µm.
 const OURS: f64 = 0.5;
-/// By how much a block at a stop is off where a tab was guessed wrong, mm.
+/// The deviation of a block at a stop where a tab was guessed wrong, mm.
 const FAR: f64 = 0.05;
-/// By how much less a guess of the sides may be like the program than another one and still be the right one.
+/// A guess of the sides whose score is lower by at most this may still be right.
 const LESS: f64 = 0.05;
-/// What is off by less may be so because a guess is not that of the program, mm.
+/// A smaller deviation may come from a guess that is not exact, mm.
 const CHANGED: f64 = 3e-3;
-/// The same where all the other blocks are as the guess has them.
+/// The same where all other blocks are as the guess has them.
 const SLIGHTLY: f64 = 2.5e-3;
-/// A correction may have four places: it is so many steps of 0.1 µm away from one that was found, at most.
+/// A correction may have four decimals: it is at most this many steps of 0.1 µm away from one that was found.
 const STEPS: i32 = 12;
-/// A way in or out that is off by more is set otherwise, mm; and where it hangs on what is not known.
+/// A way in or out that deviates by more has another setting, mm; and the same where it depends on unknown settings.
 const SLIP: f64 = 1e-2;
 const SLIGHT: f64 = 5e-3;
-/// A tab, an overlap or a lead of another length shows so many blocks from a stop or an end, at most.
+/// A tab, an overlap or a lead of another length shows at most this many blocks from a stop or an end.
 const ABOUT: usize = 3;
-/// A hole for the wire that has room nearly everywhere, mm.
+/// A diameter of thread holes for which there is room nearly everywhere, mm.
 const HOLE: f64 = 0.5;
 
-/// What somebody has changed in a program that is ours under other settings.
+/// The changes in a program of ours under other settings.
 pub(super) fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Told> {
-    let kept = drawn.kept().guess();
-    let is_near = kept.as_ref().is_some_and(|kept| kept.is_near(traced));
-    if let Some(Guess { under, left, .. }) = &kept
+    let known = drawn.cache().guess();
+    let is_near = known.as_ref().is_some_and(|known| known.is_near(traced));
+    if let Some(Guess { under, left, .. }) = &known
         && let Some(under) = under
-        && let Some(told) = own(drawn, traced, under)
+        && let Some(told) = against_reference(drawn, traced, under)
         && (is_certain(traced, &told)
             || is_near && told.elsewhere == 0 && told.comparison.differences.len() <= *left)
         && is_told(traced, &told)
@@ -100,17 +101,17 @@ pub(super) fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Told> {
     let told = told.map(|told| without_leads(traced, told));
     let differences = |told: &Told| told.comparison.differences.len();
     let left = told.as_ref().map_or(0, differences);
-    drawn.kept().note(Guess::of(traced, under, left));
+    drawn.cache().note(Guess::of(traced, under, left));
     told
 }
 
-/// Where the control adds the correction, the program does not say which it is, and ways in and out hang on it.
+/// Where the control adds the correction, the program does not state it, and ways in and out depend on it.
 fn without_leads(traced: &Traced, told: Told) -> Told {
     let is_offset = traced.blocks.iter().any(|block| block.is_offset);
     told.without_leads(if is_offset { SLIGHT } else { SLIP })
 }
 
-/// Nothing is unlike, or one block of a contour that no setting would change alone.
+/// Nothing differs, or one block of a contour that no setting changes by itself.
 fn is_certain(traced: &Traced, told: &Told) -> bool {
     match &told.comparison.differences[..] {
         _ if told.elsewhere > 0 => false,
@@ -129,7 +130,7 @@ fn is_certain(traced: &Traced, told: &Told) -> bool {
     }
 }
 
-/// Neither the wire stops near a block, nor does it come or go.
+/// The wire does not stop near a block, and no way in or out is near.
 fn is_amid(traced: &Traced, one: &Difference) -> bool {
     let is_one = |block: &Block| block.range == one.range;
     let blocks = &traced.blocks;
@@ -142,8 +143,8 @@ fn is_amid(traced: &Traced, one: &Difference) -> bool {
     at >= ABOUT && about.clone().filter(is_cut).count() == about.count()
 }
 
-/// Of those that are not the program's own the nearest first: one that is farther off may hide a change. They go before one of which blocks
-/// are lost or too many: these may be an overlap.
+/// Of guesses that are not exact the nearest comes first: one that is farther off may hide a change. They come before
+/// those with lost or superfluous blocks, which may be an overlap.
 fn rank(told: &Told) -> ((bool, usize, bool), f64) {
     match told.is_exact() {
         true if told.has_gap => ((true, 0, true), told.mean),
@@ -152,8 +153,8 @@ fn rank(told: &Told) -> ((bool, usize, bool), f64) {
     }
 }
 
-/// Whether what a guess leaves unlike is what somebody has changed, and nothing that another guess might have otherwise: then it speaks for
-/// a program that is ours to the last block, or for one change that is large enough to be none of a correction's.
+/// Whether the differences that a guess leaves are changes by somebody and not due to the guess: the program is ours to
+/// the last block, or has one change that is too large for a correction.
 fn is_told(traced: &Traced, told: &Told) -> bool {
     let all = &told.comparison.differences;
     // Several that are far off are so because the guess goes another way.
@@ -184,7 +185,7 @@ fn is_told(traced: &Traced, told: &Told) -> bool {
     is_ours && !parts_at_a_stop(traced, told)
 }
 
-/// What differs by much ends where the wire stops or begins there, or it is off on both sides of a stop: the tab is of another length
+/// The large differences end where the wire stops or begins, or lie on both sides of a stop: the tab has another length
 /// than was guessed, and nobody changed anything.
 fn parts_at_a_stop(traced: &Traced, told: &Told) -> bool {
     let off = |block: &Block| {
@@ -208,11 +209,11 @@ struct Search<'a> {
     fuel: usize,
     cost: usize,
     best: Under,
-    /// How much that has in common with the program, of 1.
+    /// The share of blocks that it has in common with the program.
     score: f64,
-    /// The blocks of the program, whichever way they are gone, and as they are gone.
+    /// The blocks of the program regardless of direction, and with it.
     ways: [FxHashMap<Way, i32>; 2],
-    /// What is told of the program by the best guess that leaves little to tell.
+    /// The verdict of the best guess that leaves few differences.
     told: Option<(Told, Under)>,
 }
 
@@ -268,7 +269,7 @@ impl<'a> Search<'a> {
             .is_some_and(|(told, _)| is_certain(self.traced, told))
     }
 
-    /// By corrections alone.
+    /// Guesses of corrections alone.
     fn begin(&mut self) {
         let base = self.best.clone();
         self.each(false, self.of_corrections());
@@ -287,7 +288,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The other settings, one after the other.
+    /// Guesses of the other settings, one after the other.
     fn all(&mut self) {
         self.score = -1.0;
         self.each(true, vec![self.best.clone()]);
@@ -311,21 +312,21 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Tries guesses, and keeps the one that is most like the program.
+    /// Tries guesses, and keeps the one whose program is most alike.
     fn each(&mut self, is_directed: bool, guesses: Vec<Under>) {
         for guess in guesses {
             if self.is_done() || self.fuel < self.cost {
                 return;
             }
             self.fuel -= self.cost;
-            let Some(anew) = self.drawn.anew(self.traced, &guess) else {
+            let Some(reference) = self.drawn.reference(self.traced, &guess) else {
                 continue;
             };
-            let score = self.likeness(&anew, is_directed);
+            let score = self.likeness(&reference, is_directed);
             if score <= 0.5 && self.score >= score {
                 continue;
             }
-            let told = own(self.drawn, self.traced, &guess);
+            let told = against_reference(self.drawn, self.traced, &guess);
             let told = told.filter(|told| is_told(self.traced, told));
             if let Some(told) = told {
                 let is_better = |(other, _): &(Told, Under)| rank(&told) < rank(other);
@@ -340,10 +341,10 @@ impl<'a> Search<'a> {
     }
 
     /// The share of blocks that a program has in common with ours.
-    fn likeness(&self, anew: &Anew, is_directed: bool) -> f64 {
+    fn likeness(&self, reference: &Reference, is_directed: bool) -> f64 {
         let mut left = self.ways[usize::from(is_directed)].clone();
         let mut common = 0;
-        for block in &anew.traced.blocks {
+        for block in &reference.traced.blocks {
             if let Some(count) = left.get_mut(&way(block, is_directed))
                 && *count > 0
             {
@@ -351,7 +352,7 @@ impl<'a> Search<'a> {
                 common += 1;
             }
         }
-        let both = anew.traced.blocks.len() + self.traced.blocks.len();
+        let both = reference.traced.blocks.len() + self.traced.blocks.len();
         f64::from(2 * common) / both as f64
     }
 
@@ -435,11 +436,11 @@ impl<'a> Search<'a> {
 
     fn of_tabs(&self) -> Vec<Under> {
         let without = self.with(|settings| settings.tab = LengthSetting::One(0.0));
-        let Some(anew) = self.drawn.anew(self.traced, &without) else {
+        let Some(reference) = self.drawn.reference(self.traced, &without) else {
             return Vec::new();
         };
         let corrections = self.best.settings.each_correction();
-        let lengths = tabs(self.drawn, self.traced, &anew, &corrections);
+        let lengths = tabs(self.drawn, self.traced, &reference, &corrections);
         let of = |tab| self.with(|settings| settings.tab = LengthSetting::One(tab));
         lengths.into_iter().map(of).collect()
     }
@@ -450,7 +451,7 @@ impl<'a> Search<'a> {
         lengths.into_iter().map(of).collect()
     }
 
-    /// One of the corrections by a few tenths of a micrometre more or less.
+    /// One of the corrections changed by a few tenths of a micrometre.
     fn of_steps(&self, pass: usize) -> Vec<Under> {
         let corrections = self.best.settings.each_correction();
         let steps = (1..=STEPS).flat_map(|step| [step, -step]);

@@ -14,7 +14,7 @@ const MOST: f64 = 3_000.0;
 const ASKED: usize = 400;
 /// Angles of one corner, radians.
 const ANGLE: f64 = 0.01;
-/// By how much an arc may be cut off at either end, radians.
+/// The angle by which an arc may be cut off at either end, radians.
 const CUT_OFF: f64 = 0.2;
 /// Votes for one correction lie within this, µm.
 const ONE: f64 = 2.0;
@@ -37,7 +37,8 @@ pub(super) fn corrections<'a>(
     most(votes(contours, scale, blocks))
 }
 
-/// The same of the first of several passes, each of which runs so much nearer to the wall than that, µm: all of them vote.
+/// The same for the first of several passes, each of which runs nearer to the wall than that by its distance, µm: all
+/// of them vote.
 pub(super) fn of_passes(
     contours: &[Contour],
     scale: f64,
@@ -51,7 +52,7 @@ pub(super) fn of_passes(
     most(all.collect())
 }
 
-/// What each block has to say of its correction, µm.
+/// The votes of each block for a correction, µm.
 fn votes<'a>(
     contours: impl Iterator<Item = &'a Contour>,
     scale: f64,
@@ -93,7 +94,7 @@ fn votes<'a>(
     votes
 }
 
-/// What most speak for, mm.
+/// The correction with the most votes, mm.
 fn most(mut votes: Vec<f64>) -> Vec<f64> {
     votes.retain(|vote| (LEAST..=MOST).contains(vote));
     votes.sort_by(f64::total_cmp);

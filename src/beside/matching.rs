@@ -1,7 +1,7 @@
 //! Places of a drawing that may match a block of a program.
 
 use super::REACH;
-use super::pose::Pose;
+use super::placement::Placement;
 use super::rounds::{Rounds, Spot};
 use super::traced::Traced;
 use crate::geometry::Segment;
@@ -13,15 +13,20 @@ const PLACES: usize = 64;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
     pub spot: Spot,
-    pub pose: Pose,
+    pub(crate) placement: Placement,
 }
 
 /// Places of the drawing that may match a block, wherever the program lies.
-pub(super) fn matching(rounds: &Rounds, traced: &Traced, index: usize, pose: &Pose) -> Vec<Found> {
+pub(super) fn matching(
+    rounds: &Rounds,
+    traced: &Traced,
+    index: usize,
+    placement: &Placement,
+) -> Vec<Found> {
     let Some(block) = traced.blocks[index].segment() else {
         return Vec::new();
     };
-    let begin = pose.place(block.start());
+    let begin = placement.place(block.start());
     let mut found = Vec::new();
     let meant = block.end() - block.start();
     if meant.norm() > 20.0 {
@@ -30,13 +35,13 @@ pub(super) fn matching(rounds: &Rounds, traced: &Traced, index: usize, pose: &Po
             if is_arc(&whole) == is_arc(block) && found.len() < PLACES {
                 found.push(Found {
                     spot,
-                    pose: pose.moved(begin - spot.at),
+                    placement: placement.moved(begin - spot.at),
                 });
             }
         }
     }
     if let Some(arc) = block.as_arc() {
-        let center = pose.place(arc.center);
+        let center = placement.place(arc.center);
         for (round, of) in rounds.rounds.iter().enumerate() {
             let Some((own, radius)) = of.circle else {
                 continue;
@@ -44,10 +49,13 @@ pub(super) fn matching(rounds: &Rounds, traced: &Traced, index: usize, pose: &Po
             if (radius - arc.radius).abs() > REACH || found.len() >= PLACES {
                 continue;
             }
-            let moved = pose.moved(center - own);
+            let moved = placement.moved(center - own);
             let spots = rounds.near(moved.place(block.start()), 2.0 * REACH);
             let own = spots.into_iter().filter(|spot| spot.round == round);
-            found.extend(own.map(|spot| Found { spot, pose: moved }));
+            found.extend(own.map(|spot| Found {
+                spot,
+                placement: moved,
+            }));
         }
     }
     found

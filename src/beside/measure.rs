@@ -1,26 +1,26 @@
-//! What can be measured in a program that is ours: which contours it cuts, how it comes to them, what it leaves standing.
+//! What can be measured in a program of ours: the contours that it cuts, its ways in, its tabs.
 
 use super::drawn::Drawn;
 use super::traced::{Block, Traced};
 use crate::geometry::{Bounds, Segment, Vector, left_normal};
 use std::ops::Range;
 
-/// Boxes of passes of one contour lie so near to each other, µm.
+/// The largest distance between the boxes of passes of one contour, µm.
 const BESIDE: f64 = 1_000.0;
-/// Places of one line lie so near to another that runs beside it, µm.
+/// The largest distance of places of one line from another that runs beside it, µm.
 const PARALLEL: f64 = 3.0;
 /// Arcs about one centre: where the machine counts, it drifts along a contour, µm.
 const CONCENTRIC: f64 = 20.0;
-/// Blocks of a pass that are held against those of the first, at most.
+/// The most blocks of a pass that are compared with those of the first.
 const VOTERS: usize = 400;
-/// Pairs of boxes that are compared, at most.
+/// The most pairs of boxes that are compared.
 const MOST: usize = 2_000_000;
-/// Cuts that are asked how they begin, and how far they go on past their start, at most.
+/// The most cuts of which the beginning and the overlap past their start are measured.
 const ASKED: usize = 8;
-/// Lengths of ways in that are thought of, at most.
+/// The most lengths of ways in that are considered.
 const LEADS: usize = 2;
 
-/// The blocks that cut from one threading to the next: those of one contour, or of one pass.
+/// The blocks that cut between two threadings: those of one contour, or of one pass.
 fn cuts(traced: &Traced) -> impl Iterator<Item = Range<usize>> {
     let all = traced.cuts.iter().map(|[all, _]| all.clone());
     all.filter(|blocks| segments(traced, blocks.clone()).count() > 2)
@@ -34,7 +34,7 @@ fn segments_of(blocks: &[Block]) -> impl Iterator<Item = &Segment> {
     blocks.iter().filter_map(|block| block.segment())
 }
 
-/// The box of what lies between the first block and the last.
+/// The box of all between the first block and the last.
 fn bounds(traced: &Traced, blocks: Range<usize>) -> Bounds {
     let count = segments(traced, blocks.clone()).count();
     let mut bounds = Bounds::EMPTY;
@@ -45,7 +45,7 @@ fn bounds(traced: &Traced, blocks: Range<usize>) -> Bounds {
     bounds
 }
 
-/// How far apart the middles of two boxes lie, and by how much the one is larger.
+/// The distance between the middles of two boxes, and the difference of their sizes.
 fn apart(one: &Bounds, other: &Bounds, shift: Vector) -> f64 {
     let middle = |bounds: &Bounds| (bounds.min.coords + bounds.max.coords) / 2.0;
     let away = (middle(one) - middle(other) - shift).norm();
@@ -54,8 +54,8 @@ fn apart(one: &Bounds, other: &Bounds, shift: Vector) -> f64 {
     away + (wider - higher).abs() + wider.abs().max(higher.abs()) / 8.0
 }
 
-/// The contours of the drawing that a program cuts, each by the name of one of its entities, in the order in which they are cut; `None` where
-/// that is not known, and where nothing is to be said of it.
+/// The contours of the drawing that a program cuts, each by the name of one of its entities, in the order of the cuts;
+/// `None` where that is not known or needs no setting.
 pub(super) fn contours(drawn: &Drawn, traced: &Traced) -> Option<Vec<String>> {
     let scale = drawn.unit_mm * 1e3;
     let outlines: Vec<(Bounds, &str)> = drawn
@@ -115,7 +115,7 @@ pub(super) fn contours(drawn: &Drawn, traced: &Traced) -> Option<Vec<String>> {
     Some(names.collect())
 }
 
-/// The passes of the longest contour, each from stop to stop; the pieces that cut off its tab are none.
+/// The passes of the longest contour, each from stop to stop; pieces that cut off its tab do not count.
 pub(super) fn passes(traced: &Traced) -> Vec<Vec<Segment>> {
     let Some(longest) = cuts(traced).max_by_key(|cut| cut.len()) else {
         return Vec::new();
@@ -137,8 +137,8 @@ pub(super) fn passes(traced: &Traced) -> Vec<Vec<Segment>> {
     passes
 }
 
-/// How much nearer to the wall each pass runs than the first, µm: what most of its length speaks for where it runs beside the first.
-/// `None` where they do not come nearer one after the other.
+/// How much nearer to the wall each pass runs than the first, µm: the distance that most of its length beside the first
+/// has. `None` where the passes do not come nearer one after the other.
 pub(super) fn steps(passes: &[Vec<Segment>]) -> Option<Vec<f64>> {
     let first = passes.first()?;
     let mut steps = vec![0.0];
@@ -164,7 +164,7 @@ pub(super) fn steps(passes: &[Vec<Segment>]) -> Option<Vec<f64>> {
     steps.is_sorted().then_some(steps)
 }
 
-/// How far to its left a line or arc has another one that runs beside it, µm.
+/// The distance to the left at which another line or arc runs beside one, µm.
 fn aside(own: &Segment, other: &Segment) -> Option<f64> {
     match (own.as_arc(), other.as_arc()) {
         (Some(own), Some(other)) => {
@@ -183,8 +183,8 @@ fn aside(own: &Segment, other: &Segment) -> Option<f64> {
     }
 }
 
-/// How long the ways in may be set to be, mm, the longest first: where there is no room, one is shorter. And whether that is stated: then it
-/// counts from the path, else from the contour.
+/// The possible settings of the ways' length, mm, the longest first: a way is shorter where there is no room. And
+/// whether the setting is stated: then it counts from the path, else from the contour.
 pub(super) fn leads(traced: &Traced, correction: f64) -> Vec<(f64, Option<f64>)> {
     // From the hole to the contour, whichever way the wire goes: an arc ends tangent to the contour, and looks like a part of it.
     let lead = |[all, contour]: &[Range<usize>; 2]| -> f64 {
@@ -225,10 +225,10 @@ fn hundredths(um: f64) -> f64 {
     (um / 10.0).round() / 100.0
 }
 
-/// Lengths that are thought of for one setting, at most.
+/// The most lengths that are considered for one setting.
 const LENGTHS: usize = 48;
 
-/// Adds a length, in hundredths of a millimetre, where it is another one.
+/// Adds a length, in hundredths of a millimetre, unless it is there.
 fn note(found: &mut Vec<f64>, um: f64) {
     let mm = hundredths(um);
     if mm > 0.0 && found.len() < LENGTHS && !found.contains(&mm) {
@@ -236,13 +236,13 @@ fn note(found: &mut Vec<f64>, um: f64) {
     }
 }
 
-/// Somebody sets a round number rather than another.
+/// Round numbers come first: settings are more likely round.
 fn round_first(found: &mut [f64]) {
     let hundredths = |mm: &f64| (mm * 100.0).round() as i64;
     found.sort_by_key(|mm| [50, 10, 5].map(|round| hundredths(mm) % round != 0));
 }
 
-/// How far a program may go on past its start, mm; not at all first. It does so in the blocks before its way out.
+/// How far a program may go on past its start, mm; first, not at all. It does so in the blocks before its way out.
 pub(super) fn overlaps(traced: &Traced) -> Vec<f64> {
     let mut found = vec![0.0];
     for cut in cuts(traced).take(ASKED) {
@@ -259,7 +259,8 @@ pub(super) fn overlaps(traced: &Traced) -> Vec<f64> {
     found
 }
 
-/// What the control may add, mm, where the wire goes aside at a tab to have it switched: the shortest block is longer by a hundredth.
+/// What the control may add, mm, where the wire moves aside at a tab to switch the correction: the shortest block is
+/// longer by a hundredth.
 pub(super) fn switching(traced: &Traced) -> Option<f64> {
     let lengths = traced
         .blocks

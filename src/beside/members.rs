@@ -4,8 +4,8 @@
 //! each block except the few leads and ways from pass to pass follows some piece of some round, and each round that is
 //! cut is cut as often everywhere.
 
-use super::goes::Goes;
-use super::pose::Pose;
+use super::coverage::Coverage;
+use super::placement::Placement;
 use super::rounds::{Rounds, Spot};
 use super::traced::{Motion, Traced};
 use super::walk::Walked;
@@ -15,20 +15,20 @@ use crate::geometry::{Segment, Vector};
 /// The state of a program up to one of its blocks.
 #[derive(Clone)]
 pub(super) struct Members {
-    pub pose: Pose,
+    pub(crate) placement: Placement,
     /// Where the last block has led to, and where its run began.
-    pub spot: Option<Spot>,
-    pub entry: Option<Spot>,
+    pub(crate) spot: Option<Spot>,
+    pub(crate) entry: Option<Spot>,
     runs: Vec<bool>,
     /// Blocks that end where the drawing says.
     follows: Vec<usize>,
-    goes: Goes,
+    coverage: Coverage,
     /// The place of the program, without 4B's addition at the start of a contour.
     base: Option<Vector>,
     contours: Vec<usize>,
     /// Blocks since the last that follows; one that follows has been left for them.
     away: usize,
-    /// How long those are together, µm.
+    /// Their length together, µm.
     skipped: f64,
     left: Option<Spot>,
     is_broken: bool,
@@ -36,14 +36,14 @@ pub(super) struct Members {
 }
 
 impl Members {
-    pub fn new(traced: &Traced, pose: Pose) -> Members {
+    pub(super) fn new(traced: &Traced, placement: Placement) -> Members {
         Members {
-            pose,
+            placement,
             spot: None,
             entry: None,
             runs: vec![false; traced.blocks.len()],
             follows: Vec::new(),
-            goes: Goes::default(),
+            coverage: Coverage::default(),
             base: None,
             contours: Vec::new(),
             away: 0,
@@ -54,24 +54,24 @@ impl Members {
         }
     }
 
-    /// Takes in one block after the other; sets `is_broken` at the first one that shows a difference.
-    pub fn take(&mut self, traced: &Traced, rounds: &Rounds, index: usize) {
+    /// Takes one block after the other; sets `is_broken` at the first one that shows a difference.
+    pub(super) fn take(&mut self, traced: &Traced, rounds: &Rounds, index: usize) {
         let segment = match &traced.blocks[index].motion {
             Motion::Cut(segment) => segment,
             Motion::Stop => {
                 self.left = None;
-                self.goes.end();
+                self.coverage.end();
                 return;
             }
             Motion::Way(..) => {
-                self.goes.end();
+                self.coverage.end();
                 (self.spot, self.entry, self.left, self.away) = (None, None, None, 0);
                 return;
             }
         };
         let goes_on = self.spot.zip(self.entry);
         let found = goes_on
-            .and_then(|(spot, entry)| follow(self.pose, traced, rounds, index, (spot, entry)));
+            .and_then(|(spot, entry)| follow(self.placement, traced, rounds, index, (spot, entry)));
         let found = found.or_else(|| self.begin(traced, rounds, index, segment, goes_on));
         let Some(found) = found else {
             if let Some(spot) = self.spot.take() {
@@ -80,7 +80,7 @@ impl Members {
             }
             self.skipped += segment.length();
             if traced.counts && segment.as_arc().is_some() {
-                self.pose = self.pose.unsurely();
+                self.placement = self.placement.unsurely();
             }
             self.entry = None;
             self.away += 1;
@@ -90,27 +90,27 @@ impl Members {
         let Found {
             from,
             entry,
-            pose,
+            placement,
             to,
             length,
             whole,
             miss,
         } = found;
         if self.base.is_none() {
-            self.base = rounds.beside(&from).map(|by| pose.shift - by);
+            self.base = rounds.beside(&from).map(|by| placement.shift - by);
         }
         if self.spot.is_none()
             && let Some(left) = self.left
         {
             self.is_broken |= self.goes_on_behind(rounds, &left, &from);
         }
-        (self.pose, self.spot, self.entry) = (pose, to, Some(entry));
+        (self.placement, self.spot, self.entry) = (placement, to, Some(entry));
         (self.left, self.away) = (None, 0);
         self.runs[index] = true;
         self.follows.extend(whole.then_some(index));
         self.miss += miss;
         self.contours.push(rounds.rounds[from.round].contour);
-        rounds.cover(&from, length, |part| self.goes.cut(from.round, part));
+        rounds.cover(&from, length, |part| self.coverage.cut(from.round, part));
     }
 
     /// Whether a run goes on from one spot at another as if the blocks between them were on it: no way from pass to
@@ -133,17 +133,17 @@ impl Members {
         segment: &Segment,
         goes_on: Option<(Spot, Spot)>,
     ) -> Option<Found> {
-        let near = rounds.near(self.pose.place(segment.start()), REACH);
+        let near = rounds.near(self.placement.place(segment.start()), REACH);
         let all = near.into_iter().filter_map(|spot| {
             // Where the run began divides a piece for all of it.
             let own = |(last, entry): (Spot, Spot)| {
                 ((last.round, last.back) == (spot.round, spot.back)).then_some(entry)
             };
             let entry = goes_on.and_then(own).unwrap_or(spot);
-            follow(self.pose, traced, rounds, index, (spot, entry))
+            follow(self.placement, traced, rounds, index, (spot, entry))
         });
         // 4B puts each contour where its wire begins.
-        let base = self.base.map(|base| self.pose.shifted(base));
+        let base = self.base.map(|base| self.placement.shifted(base));
         let beside = base.into_iter().flat_map(|base| {
             let near = rounds.near_beside(base.place(segment.start()), REACH);
             near.into_iter().filter_map(move |(spot, by)| {
@@ -154,8 +154,8 @@ impl Members {
     }
 
     /// Blocks about those where blocks begin to follow, or no longer do.
-    pub(crate) fn breaks(traced: &Traced, rounds: &Rounds, pose: Pose) -> Vec<usize> {
-        let mut members = Members::new(traced, pose);
+    pub(crate) fn breaks(traced: &Traced, rounds: &Rounds, placement: Placement) -> Vec<usize> {
+        let mut members = Members::new(traced, placement);
         let mut breaks = Vec::new();
         for index in 0..traced.blocks.len() {
             let is_on = members.spot.is_some();
@@ -172,16 +172,20 @@ impl Members {
         breaks
     }
 
-    /// All of them, and by how much they miss their places together, µm; `None` where there is a difference.
-    pub fn all(traced: &Traced, rounds: &Rounds, pose: Pose) -> Option<(Walked, f64)> {
-        let mut members = Members::new(traced, pose);
+    /// All of them, and the sum of their deviations, µm; `None` where there is a difference.
+    pub(super) fn all(
+        traced: &Traced,
+        rounds: &Rounds,
+        placement: Placement,
+    ) -> Option<(Walked, f64)> {
+        let mut members = Members::new(traced, placement);
         for index in 0..traced.blocks.len() {
             members.take(traced, rounds, index);
             if members.is_broken {
                 return None;
             }
         }
-        let whole = members.goes.are_whole(rounds);
+        let whole = members.coverage.are_whole(rounds);
         let walked = Walked {
             runs: members.runs,
             follows: members.follows,
@@ -193,17 +197,17 @@ impl Members {
 }
 
 fn follow(
-    mut pose: Pose,
+    mut placement: Placement,
     traced: &Traced,
     rounds: &Rounds,
     index: usize,
     (from, entry): (Spot, Spot),
 ) -> Option<Found> {
-    let reached = pose.follow(rounds, traced, index, &from, &entry)?;
+    let reached = placement.follow(rounds, traced, index, &from, &entry)?;
     Some(Found {
         from,
         entry,
-        pose,
+        placement,
         to: reached.spot,
         length: reached.length,
         whole: reached.whole,
@@ -222,7 +226,7 @@ fn whole_or_first(mut all: impl Iterator<Item = Found>) -> Option<Found> {
 struct Found {
     from: Spot,
     entry: Spot,
-    pose: Pose,
+    placement: Placement,
     to: Option<Spot>,
     length: f64,
     whole: bool,

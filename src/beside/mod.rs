@@ -1,29 +1,30 @@
 //! A program beside its drawing: which blocks do not follow the drawing's contours, and by how much.
 //!
-//! [`Traced`] is all that is taken of a program, [`Drawn`] of a drawing. [`compare`] writes the drawing's program anew: one of ours is known block
-//! by block (`own`). For any other it lays the wire's ways round the contours
-//! (`rounds`) at the corrections that the settings give or that the program itself speaks for (`infer`), finds where the program
-//! lies on the drawing (`anchor`), and goes along both at once (`walk`); what that is unsure of is asked the other way round: does every
-//! block lie on the drawing (`members`), or all but one (`single`)? A program may leave out contours, begin anywhere, go either
-//! way round, cut in several passes and leave a tab. Everything is in µm.
+//! [`Traced`] is all that is taken of a program, [`Drawn`] of a drawing. [`compare`] writes the drawing's program
+//! again: a program of ours is compared block by block (`against_reference`). For any other it lays the wire's ways
+//! round the contours (`rounds`) at the corrections from the settings or inferred from the program itself (`infer`),
+//! finds where the program lies on the drawing (`anchor`), and goes along both at once (`walk`); what that is unsure of
+//! is asked the other way round: does every block lie on the drawing (`members`), or all but one (`single`)? A program
+//! may leave out contours, begin anywhere, go either way round, cut in several passes and leave a tab. Everything is in
+//! µm.
 
+mod against_reference;
 mod anchor;
-mod anew;
+mod cache;
 mod compare;
 mod comparison;
+mod coverage;
 mod drawn;
 mod findings;
-mod goes;
 mod guess;
 mod infer;
-mod kept;
 mod matching;
 mod measure;
 mod members;
 mod names;
-mod own;
 mod passes;
-mod pose;
+mod placement;
+mod reference;
 mod rounds;
 mod sides;
 mod single;
@@ -35,17 +36,17 @@ mod way;
 pub use compare::compare;
 pub use comparison::{Comparison, Difference, DifferenceKind};
 pub use drawn::Drawn;
-pub(crate) use findings::of_program;
 pub use findings::{Beside, Partner, of_drawing};
+pub(crate) use findings::{Form, of_program};
 pub use names::{Named, plain};
-pub(crate) use names::{drawing_named, head_of, name_of, programs_beside};
+pub(crate) use names::{drawing_named, head_of, is_program, name_of, programs_beside};
 pub use traced::Traced;
 
-/// How far a block may lie from where the drawing has it, µm.
+/// The largest distance of a block from its place in the drawing, µm.
 pub(crate) const TOLERANCE: f64 = 2.0;
-/// How near a place of the program lies to the place of the drawing that it stands for, µm.
+/// The largest distance of a place of the program from its place in the drawing, µm.
 const REACH: f64 = 2.5;
-/// Blocks that lead from one pass to the next, at most.
+/// The most blocks that lead from one pass to the next.
 const BETWEEN: usize = 6;
-/// A stretch of the drawing that is shorter than this counts as cut, µm.
+/// A shorter stretch of the drawing counts as cut, µm.
 const COVERED: f64 = 5.0;

@@ -1,7 +1,10 @@
 //! Finds the drawing of a program: the one that a comment of it names, the one in the settings, else the one of its own
 //! name.
 
+use crate::disk::ending_of;
+use crate::dxf;
 use crate::program::Language;
+use crate::text::Writing;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -16,9 +19,6 @@ pub struct Named {
 
 /// Bytes of a program that are searched for the name of its drawing.
 const HEAD: usize = 4096;
-
-/// Endings of drawings, in the order in which they are looked for.
-const ENDINGS: [&str; 4] = ["dxf", "DXF", "dxb", "DXB"];
 
 /// The most programs in a folder that are read to find their drawings.
 const MOST: usize = 200;
@@ -48,7 +48,8 @@ pub(crate) fn drawing_named(
         return Some(alone(plain(&folder.join(setting))));
     }
     let mut found: Vec<PathBuf> = Vec::new();
-    for ending in ENDINGS {
+    let endings = dxf::ENDINGS.map(|ending| [ending.to_owned(), ending.to_ascii_uppercase()]);
+    for ending in endings.into_iter().flatten() {
         let path = program.with_extension(ending);
         // Where letter case does not matter, both names are of one file.
         let is_same = |other: &PathBuf| {
@@ -76,13 +77,19 @@ pub(crate) fn programs_beside(
     programs
 }
 
-/// The first bytes of a file; empty where it cannot be read.
+/// The first lines of a program's file, in UTF-8 where it is in GB 18030; empty where it cannot be read.
 pub(crate) fn head_of(path: &Path) -> Vec<u8> {
     let mut head = Vec::new();
     if let Ok(file) = std::fs::File::open(path) {
         let _ = file.take(HEAD as u64).read_to_end(&mut head);
     }
-    head
+    // A letter that is cut in two would hide the encoding.
+    if head.len() == HEAD
+        && let Some(end) = head.iter().rposition(|byte| *byte == b'\n')
+    {
+        head.truncate(end + 1);
+    }
+    Writing::read(head).0
 }
 
 /// The name of a file.
@@ -95,10 +102,7 @@ pub(crate) fn name_of(path: &Path) -> Arc<str> {
 
 /// True for a file that is a program by its ending.
 pub(crate) fn is_program(path: &Path) -> bool {
-    let ending = path
-        .extension()
-        .map(|ending| ending.to_string_lossy().to_ascii_lowercase());
-    ending.is_some_and(|ending| Language::of_ending(&ending).is_some())
+    Language::of_ending(&ending_of(path)).is_some()
 }
 
 /// Without the steps to a folder and back.
@@ -136,17 +140,12 @@ fn in_comment(head: &[u8]) -> Option<String> {
 
 fn name_in(comment: &str) -> Option<String> {
     let lower = comment.to_ascii_lowercase();
-    let end = ENDINGS
-        .iter()
-        .filter_map(|ending| {
-            Some(lower.find(&format!(".{}", ending.to_ascii_lowercase()))? + 1 + ending.len())
-        })
-        .min()?;
-    let named = comment.get(..end)?;
-    let behind = lower.get(end..)?.chars().next();
-    if behind.is_some_and(char::is_alphanumeric) {
-        return None;
-    }
+    let ends = dxf::ENDINGS.iter().filter_map(|ending| {
+        let end = lower.find(&format!(".{ending}"))? + 1 + ending.len();
+        let behind = lower.get(end..)?.chars().next();
+        (!behind.is_some_and(char::is_alphanumeric)).then_some(end)
+    });
+    let named = comment.get(..ends.min()?)?;
     // A name with spaces stands behind a word and a colon.
     let label = named.find([':', '=']).filter(|at| !is_drive(named, *at));
     let name = match label {
@@ -205,6 +204,7 @@ mod tests {
             Some("/job/other.dxf"),
         );
         check("(see other.dxfs)\n", None, &all, Some("/job/plate.dxf"));
+        check("; of b.dxfb\n", None, &["/job/b.dxfb"], Some("/job/b.dxfb"));
         check(
             "(a drawing that is gone.dxf)\n",
             None,
@@ -217,6 +217,18 @@ mod tests {
             &all,
             Some("/job/other.dxf"),
         );
+    }
+
+    #[test]
+    fn a_comment_in_gb_18030_names_its_drawing() {
+        let folder = tempfile::tempdir().unwrap();
+        let (program, drawing) = (folder.path().join("a.3b"), folder.path().join("凸模.dxf"));
+        let blocks = "B1000B0B1000GXL1\n".repeat(400);
+        let head = b"; \xcd\xb9\xc4\xa3.dxf\n; \xcd\xb9\xc4\xa3\n";
+        std::fs::write(&program, [head, blocks.as_bytes()].concat()).unwrap();
+        std::fs::write(&drawing, "").unwrap();
+        let named = drawing_named(&program, &head_of(&program), None, &Path::is_file);
+        assert_eq!(named.map(|named| named.path), Some(drawing));
     }
 
     #[test]

@@ -4,18 +4,18 @@ use super::drawn::Drawn;
 use super::traced::Traced;
 use super::{infer, measure};
 
-/// Passes that are thought of, at most.
+/// The most passes that are considered.
 const PASSES: usize = 8;
-/// How far beside its place among the passes one may speak for itself, mm.
+/// The largest deviation of a pass from its place among the passes, mm.
 const NEAR: f64 = 8e-3;
-/// What somebody sets is a round number, mm.
+/// Settings are round numbers, mm.
 const ROUND: [f64; 3] = [5e-3, 1e-3, 1e-4];
 
 fn rounded(mm: f64, to: f64) -> f64 {
     ((mm / to).round() * to * 1e4).round() / 1e4
 }
 
-/// Corrections that a program may have been written with, mm, those of several passes falling.
+/// Corrections that a program may have been written with, mm; those of several passes fall.
 pub(super) fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<Vec<f64>> {
     let scale = drawn.unit_mm * 1e3;
     let mut passes = measure::passes(traced);

@@ -38,7 +38,7 @@ pub(super) struct Round {
     pub contour: usize,
     pub closed: bool,
     /// An open one that the wire runs beside: it is cut from its one end to the other.
-    pub from_end: bool,
+    pub(crate) from_end: bool,
     pub pieces: Vec<Piece>,
     pub length: f64,
     /// Centre and radius, where it is a circle.
@@ -83,8 +83,8 @@ const SAME: f64 = 6.0;
 const ALIKE: f64 = 2.9;
 
 impl Rounds {
-    /// Adds a course beside all contours, or one of them, if it is not there yet.
-    pub fn add(&mut self, drawn: &Drawn, courses: &[Course], only: Option<usize>) {
+    /// Adds a course beside all contours, or one of them, unless it is there.
+    pub(super) fn add(&mut self, drawn: &Drawn, courses: &[Course], only: Option<usize>) {
         for (index, contour) in drawn.contours().iter().enumerate() {
             if only.is_some_and(|only| only != index) {
                 continue;
@@ -192,18 +192,18 @@ impl Rounds {
         }
     }
 
-    pub fn piece(&self, spot: &Spot) -> &Piece {
+    pub(super) fn piece(&self, spot: &Spot) -> &Piece {
         &self.rounds[spot.round].pieces[spot.piece]
     }
 
     /// A piece in the direction of a spot's way.
-    pub fn whole(&self, spot: &Spot) -> Segment {
+    pub(super) fn whole(&self, spot: &Spot) -> Segment {
         let piece = self.piece(spot);
         if spot.back { piece.back } else { piece.segment }
     }
 
     /// The rest of a spot's piece from it on.
-    pub fn rest(&self, spot: &Spot) -> Segment {
+    pub(super) fn rest(&self, spot: &Spot) -> Segment {
         let whole = self.whole(spot);
         if whole.start() == spot.at {
             return whole;
@@ -216,7 +216,7 @@ impl Rounds {
     }
 
     /// Where the next piece begins; `None` at the end of an open round.
-    pub fn next(&self, spot: &Spot) -> Option<Spot> {
+    pub(super) fn next(&self, spot: &Spot) -> Option<Spot> {
         let round = &self.rounds[spot.round];
         let count = round.pieces.len();
         let piece = match (spot.back, spot.piece) {
@@ -251,7 +251,7 @@ impl Rounds {
     }
 
     /// How far a spot lies along its round, µm.
-    pub fn along(&self, spot: &Spot) -> f64 {
+    pub(super) fn along(&self, spot: &Spot) -> f64 {
         let piece = self.piece(spot);
         let share = match &piece.segment {
             segment if segment.start() == spot.at => 0.0,
@@ -261,7 +261,7 @@ impl Rounds {
         piece.before + share * piece.segment.length()
     }
 
-    /// How far one spot of a round lies ahead of another in its way, µm.
+    /// The distance of one spot of a round ahead of another on its way, µm.
     pub(crate) fn ahead(&self, from: &Spot, to: &Spot) -> f64 {
         let way = self.along(to) - self.along(from);
         let way = if from.back { -way } else { way };
@@ -319,15 +319,15 @@ impl Rounds {
         found
     }
 
-    /// By how much 4B moves a contour that begins at a spot, µm; `None` where the wire runs as it is written.
-    pub fn beside(&self, spot: &Spot) -> Option<Vector> {
+    /// The distance by which 4B moves a contour that begins at a spot, µm; `None` where the wire runs as written.
+    pub(super) fn beside(&self, spot: &Spot) -> Option<Vector> {
         let round = &self.rounds[spot.round];
         let segment = &round.pieces[spot.piece].segment;
         let tangent = segment.tangent_at(segment.share_of(spot.at).clamp(0.0, 1.0));
         Some(left_normal(tangent) * round.beside?)
     }
 
-    /// Spots from which 4B begins at a point, in either direction, and by how much it moves the contour there.
+    /// Spots from which 4B begins at a point, in either direction, and the vector by which it moves the contour there.
     pub(crate) fn near_beside(&self, point: Point, reach: f64) -> Vec<(Spot, Vector)> {
         let all = self.rounds.iter().filter_map(|round| round.beside);
         let farthest = all.map(f64::abs).fold(0.0, f64::max) + reach;
@@ -358,7 +358,7 @@ impl Rounds {
     }
 
     /// Spots within reach of a point, in either way.
-    pub fn near(&self, point: Point, reach: f64) -> Vec<Spot> {
+    pub(super) fn near(&self, point: Point, reach: f64) -> Vec<Spot> {
         let mut found = Vec::new();
         self.index
             .near(&Bounds::of_disc(point, reach), |(round, piece), _| {

@@ -1,12 +1,12 @@
-//! What contours are whose side nobody says: a program speaks for one of a few ways.
+//! The wire sides that a program may have been written with, for contours that state none.
 
 use crate::drawing::{Drawing, Outline, Role, winding_of};
 use crate::geometry::Bounds;
 
-/// Of more contours it is not asked which lie within others: `docs/rules/not-the-drawing.md` says so.
+/// Of more contours it is not worked out which lie within others; `docs/rules/not-the-drawing.md` says so.
 const MOST: usize = 500;
 
-/// What the contours are that may be punch and opening alike.
+/// The sides of the contours that may be punch or opening.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Sides {
     AsSet,
@@ -16,15 +16,15 @@ pub(super) enum Sides {
 }
 
 impl Sides {
-    /// What is guessed.
-    pub const GUESSED: [Sides; 3] = [
+    /// The guess.
+    pub(super) const GUESSED: [Sides; 3] = [
         Sides::Nested,
         Sides::All(Role::Opening),
         Sides::All(Role::Punch),
     ];
 }
 
-/// Outlines whose unknown sides are these.
+/// The outlines with these sides in place of unknown ones.
 pub(super) fn sided(drawing: &Drawing, outlines: &[Outline], sides: Sides) -> Vec<Outline> {
     let mut all = outlines.to_vec();
     let of = |outline: &Outline| {

@@ -4,7 +4,7 @@
 //! near the named ones is tried: if it is laid as the drawing has it, does all the rest follow?
 
 use super::members::Members;
-use super::pose::{Pose, stretch};
+use super::placement::{Placement, stretch};
 use super::rounds::{Rounds, Spot};
 use super::traced::{Motion, Traced};
 use super::walk::{Kind, Unlike};
@@ -24,14 +24,14 @@ const MOST_UNNAMED: f64 = 50.0;
 /// A place nearer to a node is that node, µm.
 const NODE: f64 = 1.6;
 
-/// The one block that explains it best; `None` where none does. `miss` is by how much the blocks of a program miss
-/// their places together, `None` where one does not follow.
+/// The one block that explains it best; `None` where none does. `miss` is the sum of the deviations of a program's
+/// blocks, `None` where one does not follow.
 pub(super) fn single(
     traced: &Traced,
     rounds: &Rounds,
-    pose: Pose,
+    placement: Placement,
     named: &[Unlike],
-    miss: &dyn Fn(&Traced, Pose) -> Option<f64>,
+    miss: &dyn Fn(&Traced, Placement) -> Option<f64>,
 ) -> Option<Unlike> {
     let mut tried: Vec<usize> = Vec::new();
     for away in 0..=ABOUT {
@@ -45,14 +45,14 @@ pub(super) fn single(
             }
         }
     }
-    tried.extend(Members::breaks(traced, rounds, pose));
+    tried.extend(Members::breaks(traced, rounds, placement));
     tried.sort_unstable();
     tried.dedup();
     let mut fuel = MOST / traced.blocks.len().max(1);
     tried.sort_by_key(|index| named.iter().all(|unlike| unlike.block != *index));
     let mut order = tried.clone();
     order.sort_unstable();
-    let mut members = Members::new(traced, pose);
+    let mut members = Members::new(traced, placement);
     let mut at = 0;
     let mut before = std::collections::BTreeMap::new();
     for index in order {
@@ -64,20 +64,20 @@ pub(super) fn single(
     'tries: for index in tried {
         let members = &before[&index];
         let own = *traced.blocks[index].segment()?;
-        let near = rounds.near(members.pose.place(own.start()), 2.0 * REACH);
+        let near = rounds.near(members.placement.place(own.start()), 2.0 * REACH);
         let near = near.into_iter().map(|spot| (spot, spot));
         let goes_on = members.spot.zip(members.entry);
         for (spot, entry) in goes_on.into_iter().chain(near) {
             let all = stretches(rounds, spot, &entry);
             // To the end of a piece, or to where a tab begins.
-            let end = members.pose.place(own.end());
+            let end = members.placement.place(own.end());
             let part = all.last().and_then(|rest| {
                 let share = rest.share_of(end);
                 (share > 0.0 && share < 1.0).then(|| rest.part(0.0, share))
             });
             for meant in all.into_iter().chain(part) {
                 let is_lost = traced.blocks[index].is_lost;
-                let Some((meant, by)) = meant_by(&meant, &own, is_lost, &members.pose) else {
+                let Some((meant, by)) = meant_by(&meant, &own, is_lost, &members.placement) else {
                     continue;
                 };
                 if named.is_empty() && by.norm() > MOST_UNNAMED {
@@ -91,10 +91,9 @@ pub(super) fn single(
                     let repaired = repaired(traced, index, meant, by, how);
                     let miss = match how {
                         // Where the program lies may have been found behind the change.
-                        How::Relative => {
-                            miss(&repaired, pose).or_else(|| miss(&repaired, pose.moved(by)))
-                        }
-                        _ => miss(&repaired, pose),
+                        How::Relative => miss(&repaired, placement)
+                            .or_else(|| miss(&repaired, placement.moved(by))),
+                        _ => miss(&repaired, placement),
                     };
                     let sum = miss.map(|miss| miss + by.norm());
                     let is_better = |sum: &f64| best.as_ref().is_none_or(|(least, _)| sum < least);
@@ -157,17 +156,17 @@ fn meant_by(
     stretch: &Segment,
     own: &Segment,
     is_lost: bool,
-    pose: &Pose,
+    placement: &Placement,
 ) -> Option<(Segment, Vector)> {
     // In a program that counts from block to block, a change moves either what lies behind it or, seen from there, what
     // lies before it.
-    let aside = own.start() - pose.program(stretch.start());
+    let aside = own.start() - placement.program(stretch.start());
     let aside = if aside.norm() > NODE {
         aside
     } else {
         Vector::zeros()
     };
-    let end = pose.program(stretch.end()) + aside;
+    let end = placement.program(stretch.end()) + aside;
     let by = end - own.end();
     let is_alike = is_lost
         || stretch.as_arc().is_some() == own.as_arc().is_some()

@@ -1,7 +1,7 @@
-//! How long the tabs of a program are, measured along the drawing's walls, and where it begins beside them.
+//! The lengths of a program's tabs, measured along the drawing's walls, and where the program begins beside them.
 
-use super::anew::Anew;
 use super::drawn::Drawn;
+use super::reference::Reference;
 use super::traced::{Motion, Traced};
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::write::scaled;
@@ -13,24 +13,29 @@ use std::ops::Range;
 
 /// Blocks on either side of a stop, and at the ends of a cut, that may begin or end at a tab.
 const ABOUT: usize = 4;
-/// Blocks of a cut that are asked where it lies, and votes of each, at most.
+/// The most blocks of a cut that vote for its place, and the most votes of each.
 const ASKED: usize = 200;
 const VOTES: usize = 64;
 /// Votes for one place lie within this, µm.
 const ONE: f64 = 3.0;
-/// Walls that are measured, at most.
+/// The most walls that are measured.
 const WALLS: usize = 50_000;
-/// How near a place of the path has to lie to the distance of the path from its wall, µm.
+/// The largest deviation of a place of the path from the path's distance from its wall, µm.
 const NEAR: f64 = 4.0;
-/// A length is a round number, in µm, that is as near as this: a block that was changed by 3 µm may lie before it.
+/// A length is taken for the round number within this distance, in µm: a block before it may have been changed by 3 µm.
 const ROUND: [f64; 5] = [500.0, 100.0, 50.0, 10.0, 1.0];
 const ROUNDED: f64 = 5.0;
-/// Lengths that are told, at most.
+/// The most lengths that are returned.
 const TOLD: usize = 16;
 
-/// What a program may leave standing until it is cut off, mm, by another one that was written of the drawing with the same corrections:
-/// none, and how far it is from a place where the wire stops, or begins again, to an entry.
-pub(super) fn tabs(drawn: &Drawn, traced: &Traced, anew: &Anew, corrections: &[f64]) -> Vec<f64> {
+/// The possible lengths of a program's tabs, mm, found by another program that was written for the drawing with the
+/// same corrections: none, and the distances from a place where the wire stops or begins again to an entry.
+pub(super) fn tabs(
+    drawn: &Drawn,
+    traced: &Traced,
+    reference: &Reference,
+    corrections: &[f64],
+) -> Vec<f64> {
     let mut found = vec![0.0];
     if !traced
         .blocks
@@ -43,16 +48,16 @@ pub(super) fn tabs(drawn: &Drawn, traced: &Traced, anew: &Anew, corrections: &[f
     let Some(walls) = walls else { return found };
     let entries = |of: &Traced| -> Vec<(usize, f64)> {
         let cuts = of.cuts.iter().filter_map(|[all, contour]| {
-            let by = laid(of, all, anew)?;
+            let by = laid(of, all, reference)?;
             entry(of, contour, |place| walls.foot(place + by))
         });
         cuts.collect()
     };
-    let mut all = entries(&anew.traced);
+    let mut all = entries(&reference.traced);
     all.extend(entries(traced));
     let mut lengths: Vec<f64> = Vec::new();
     for [cut, _] in &traced.cuts {
-        let Some(by) = laid(traced, cut, anew) else {
+        let Some(by) = laid(traced, cut, reference) else {
             continue;
         };
         for place in places(traced, cut) {
@@ -85,8 +90,8 @@ pub(super) fn tabs(drawn: &Drawn, traced: &Traced, anew: &Anew, corrections: &[f
     found
 }
 
-/// Where the wire is threaded for each contour, and where its cut begins, in the drawing's unit, by handles; `None` of a program that does
-/// not say where it lies.
+/// Where the wire is threaded for each contour, and where its cut begins, in the drawing's unit, by handles; `None` for
+/// a program that does not state its place.
 pub(super) fn threads(
     drawn: &Drawn,
     traced: &Traced,
@@ -120,10 +125,11 @@ pub(super) fn threads(
     Some(by_handle)
 }
 
-/// The walls of each contour, in the direction of travel, each with the way to its begin; and how long the contour is.
+/// The walls of each contour, in the direction of travel, each with the way to its start; and the length of the
+/// contour.
 struct Walls {
     contours: Vec<(Vec<(Segment, f64)>, f64)>,
-    /// How far the path may lie from them, µm.
+    /// The largest distance of the path from them, µm.
     away: Vec<f64>,
 }
 
@@ -148,7 +154,7 @@ impl Walls {
         })
     }
 
-    /// The place so far along a contour.
+    /// The place at this distance along a contour.
     fn at(&self, contour: usize, along: f64) -> Option<Point> {
         let (segments, _) = self.contours.get(contour)?;
         let own = segments.iter().rev().find(|(_, begin)| *begin <= along);
@@ -173,7 +179,7 @@ impl Walls {
     }
 }
 
-/// Where a cut comes to its wall: with its first block, or with one of the next, behind an arc that leads there.
+/// Where a cut reaches its wall: with its first block, or with one of the next, behind an arc that leads there.
 fn entry(
     traced: &Traced,
     contour: &Range<usize>,
@@ -201,8 +207,8 @@ fn places(traced: &Traced, cut: &Range<usize>) -> Vec<Point> {
     segments.map(Segment::end).collect()
 }
 
-/// From the places of a cut to those of the drawing: where most of its blocks are pieces of the path.
-fn laid(traced: &Traced, cut: &Range<usize>, anew: &Anew) -> Option<Vector> {
+/// From the places of a cut to those of the drawing, by which most of its blocks are pieces of the path.
+fn laid(traced: &Traced, cut: &Range<usize>, reference: &Reference) -> Option<Vector> {
     let steps = |um: f64| um.round() as i64;
     let key = |segment: &Segment| match segment {
         Segment::Line(line) => {
@@ -218,7 +224,7 @@ fn laid(traced: &Traced, cut: &Range<usize>, anew: &Anew) -> Option<Vector> {
         Segment::Arc(arc) => arc.center,
     };
     let mut pieces: FxHashMap<(i64, i64), Vec<Point>> = FxHashMap::default();
-    for piece in anew.on_walls() {
+    for piece in reference.on_walls() {
         pieces
             .entry(key(piece))
             .or_default()

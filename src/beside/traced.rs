@@ -2,9 +2,9 @@
 
 use super::BETWEEN;
 use crate::geometry::{Point, Segment, Vector};
+use crate::program::block_words::BlockWords;
 use crate::program::path::{self, Kind};
-use crate::program::said::Said;
-use crate::program::{Document, Language};
+use crate::program::{Document, Format, Language};
 use crate::text::SourceText;
 use std::ops::Range;
 
@@ -21,6 +21,7 @@ pub struct Traced {
     pub(super) is_placed: bool,
     /// Arcs end where the machine stops counting: a little beside the intended place.
     pub(super) counts: bool,
+    language: Language,
     pub(super) four_b: bool,
     /// An electrode mills it, layer by layer: it is compared with our own program, and not with a wire's path.
     pub(super) mills: bool,
@@ -34,13 +35,13 @@ pub struct Traced {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Block {
     /// Bytes of it in the text.
-    pub range: Range<usize>,
-    pub line: usize,
-    pub motion: Motion,
+    pub(crate) range: Range<usize>,
+    pub(crate) line: usize,
+    pub(crate) motion: Motion,
     /// The control offsets it.
-    pub is_offset: bool,
+    pub(crate) is_offset: bool,
     /// An invalid arc, taken as its chord.
-    pub is_lost: bool,
+    pub(crate) is_lost: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +53,7 @@ pub(super) enum Motion {
 }
 
 impl Block {
-    pub fn segment(&self) -> Option<&Segment> {
+    pub(super) fn segment(&self) -> Option<&Segment> {
         match &self.motion {
             Motion::Cut(segment) => Some(segment),
             Motion::Way(..) | Motion::Stop => None,
@@ -72,7 +73,12 @@ impl Traced {
             [cut.steps.clone(), if is_one { contour } else { 0..0 }]
         });
         let cuts = cuts.collect();
-        let (is_placed, trace) = (trace.start_is_known, trace.into_meant());
+        let language = program.language();
+        let (is_placed, counts) = match language {
+            Language::ThreeB => (trace.start_is_known, true),
+            Language::Iso => (true, false),
+        };
+        let trace = trace.into_meant();
         let blocks = trace.steps.into_iter().map(|step| Block {
             line: step.line,
             motion: match (step.kind, step.ideal) {
@@ -102,10 +108,21 @@ impl Traced {
             text,
             blocks: blocks.collect(),
             cuts,
-            is_placed: is_placed || program.language() == Language::Iso,
-            counts: program.language() == Language::ThreeB,
+            is_placed,
+            counts,
+            language,
             four_b,
             mills: program.mills(),
+        }
+    }
+
+    /// The format in which such a program is written.
+    pub(super) fn format(&self) -> Format {
+        match self.language {
+            Language::Iso if self.mills => Format::Milling,
+            Language::Iso => Format::Iso,
+            Language::ThreeB if self.four_b => Format::FourB,
+            Language::ThreeB => Format::ThreeB,
         }
     }
 
@@ -131,21 +148,17 @@ impl Traced {
     }
 
     /// The content of a block.
-    pub(super) fn said(&self, block: &Block) -> Said {
+    pub(super) fn said(&self, block: &Block) -> BlockWords {
         self.said_in(self.range_from(block))
     }
 
     /// The bytes of a range of the text.
-    pub(super) fn said_in(&self, range: Range<usize>) -> Said {
-        let language = match self.counts {
-            true => Language::ThreeB,
-            false => Language::Iso,
-        };
-        Said::of(language, self.text.slice(range).unwrap_or_default())
+    pub(super) fn said_in(&self, range: Range<usize>) -> BlockWords {
+        BlockWords::of(self.language, self.text.slice(range).unwrap_or_default())
     }
 
     /// True where nothing is cut.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.blocks.iter().all(|block| block.segment().is_none())
     }
 }

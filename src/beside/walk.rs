@@ -10,7 +10,7 @@ mod enter;
 mod resume;
 mod settle;
 
-use super::pose::{Pose, Reached};
+use super::placement::{Placement, Reached};
 use super::rounds::{Rounds, Spot};
 use super::traced::{Motion, Traced};
 use crate::drawing::EntityId;
@@ -22,7 +22,7 @@ use std::ops::Range;
 pub(super) struct Unlike {
     pub block: usize,
     pub source: Option<(EntityId, usize)>,
-    /// How far it is off, µm.
+    /// Its deviation, µm.
     pub off: f64,
     pub kind: Kind,
 }
@@ -83,13 +83,13 @@ struct Loose {
     /// The first block behind it, or its last one where there is no other.
     block: usize,
     is_behind: bool,
-    pose: Pose,
+    placement: Placement,
 }
 
 pub(super) struct Walk<'a> {
     traced: &'a Traced,
     rounds: &'a Rounds,
-    pose: Pose,
+    placement: Placement,
     /// Of each round the stretches that have been cut.
     covered: Vec<Vec<Range<f64>>>,
     /// The same for all laps and passes.
@@ -103,11 +103,11 @@ pub(super) struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    pub fn new(traced: &'a Traced, rounds: &'a Rounds, pose: Pose) -> Walk<'a> {
+    pub(super) fn new(traced: &'a Traced, rounds: &'a Rounds, placement: Placement) -> Walk<'a> {
         Walk {
             traced,
             rounds,
-            pose,
+            placement,
             covered: vec![Vec::new(); rounds.rounds.len()],
             cuts: vec![Vec::new(); rounds.rounds.len()],
             loose: Vec::new(),
@@ -121,7 +121,7 @@ impl<'a> Walk<'a> {
     }
 
     /// `tabs`: the lengths of the tabs that may be left standing, µm.
-    pub fn go(mut self, tabs: &[f64]) -> Walked {
+    pub(super) fn go(mut self, tabs: &[f64]) -> Walked {
         let mut run: Option<Run> = None;
         let (mut index, mut tried) = (0, 0);
         // From each block the walk goes back once at most.
@@ -177,8 +177,9 @@ impl<'a> Walk<'a> {
 
     /// Lets a run go on by one block; false where that does not follow.
     fn step(&mut self, run: &mut Run, index: usize) -> bool {
-        let mut pose = self.pose;
-        let Some(reached) = pose.follow(self.rounds, self.traced, index, &run.spot, &run.entry)
+        let mut placement = self.placement;
+        let Some(reached) =
+            placement.follow(self.rounds, self.traced, index, &run.spot, &run.entry)
         else {
             return false;
         };
@@ -188,13 +189,13 @@ impl<'a> Walk<'a> {
             && self.rounds.piece(&run.spot).segment.as_arc().is_some();
         if !reached.whole && !run.complete && !is_chord && index >= run.split {
             let behind = self.covers_all(run, reached.length);
-            match self.split_ends(&pose, run, &reached, index) {
+            match self.split_ends(&placement, run, &reached, index) {
                 Some(end) => run.split = end,
-                None if behind || self.begins_before(&pose, run, &reached) => {}
+                None if behind || self.begins_before(&placement, run, &reached) => {}
                 None => return false,
             }
         }
-        self.pose = pose;
+        self.placement = placement;
         self.take(run, &reached, index);
         true
     }
@@ -219,7 +220,7 @@ impl<'a> Walk<'a> {
             reached.whole
                 && begins[0] == begins[1]
                 && self
-                    .verify(self.pose, run.spot, run.entry, index + 1, SURE)
+                    .verify(self.placement, run.spot, run.entry, index + 1, SURE)
                     .0
                     >= SURE
         };
@@ -260,7 +261,7 @@ impl<'a> Walk<'a> {
                 index.saturating_sub(1)
             },
             is_behind,
-            pose: self.pose,
+            placement: self.placement,
             run,
         });
     }

@@ -3,7 +3,7 @@
 use super::Failure;
 use super::files;
 use super::options::Common;
-use crate::beside::{self, Beside, Partner, head_of, name_of};
+use crate::beside::{self, Beside, head_of, name_of};
 use crate::document::Document;
 use crate::finding::Rule;
 use crate::settings::Settings;
@@ -23,7 +23,7 @@ pub(crate) struct Folders {
 
 impl Folders {
     /// The partners of a document that was read from `path`.
-    pub fn beside(
+    pub(super) fn beside(
         &self,
         path: &Path,
         document: &Document,
@@ -34,9 +34,13 @@ impl Folders {
         if settings.severity(Rule::NotTheDrawing).is_none() {
             return Beside::Nothing;
         }
-        let opened = |path: &Path| {
-            let opened = files::open(path, common, last);
-            opened.map_err(|Failure(sentence)| sentence)
+        let other = |path: &Path| {
+            let opened = files::open(path, common, last).map_err(|Failure(sentence)| sentence);
+            let form = opened.and_then(|opened| {
+                let form = opened.document.form();
+                form.ok_or_else(|| say!(a_program_is_no_drawing).into())
+            });
+            (name_of(path), form)
         };
         if let Some(program) = document.program() {
             let setting = settings.drawing.as_deref();
@@ -44,30 +48,15 @@ impl Folders {
             let Some(named) = beside::drawing_named(path, head, setting, &Path::is_file) else {
                 return Beside::Nothing;
             };
-            let made = opened(&named.path).and_then(|opened| {
-                let drawn = opened.document.drawn();
-                drawn.ok_or_else(|| say!(a_program_is_no_drawing).into())
-            });
-            let partner = Partner {
-                name: name_of(&named.path),
-                made,
-            };
             let others = named.others.iter().map(|path| name_of(path));
-            return Beside::Drawing(partner, others.collect());
+            return Beside::of_program(other(&named.path), others.collect());
         }
         let real = path.canonicalize().ok();
         let programs = self.programs(path, settings.drawing.as_deref());
         let own = programs
             .iter()
             .filter(|(_, drawing)| real.as_ref() == Some(drawing));
-        let partners = own.map(|(program, _)| Partner {
-            name: name_of(program),
-            made: opened(program).and_then(|opened| {
-                let traced = opened.document.traced();
-                traced.ok_or_else(|| say!(a_drawing_is_no_program).into())
-            }),
-        });
-        Beside::Programs(partners.collect())
+        Beside::of_drawing(own.map(|(program, _)| other(program)))
     }
 
     /// The programs in the folder of a drawing with the drawings that they belong to.

@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let common = &arguments.common;
-    let snapshot = files::open_to_use(&arguments.path, common, &common.settings())?.snapshot()?;
+    let (_, snapshot) = files::drawing_to_use(&arguments.path, None, common, &common.settings())?;
     let contours = Contours::new(&snapshot.drawing, &snapshot.outlines, &snapshot.settings);
     match arguments.output {
         Form::Text => output::print(list(&contours))?,

@@ -31,13 +31,10 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = &arguments.path;
     let target = target(arguments)?;
-    if let Some(out) = &arguments.output {
-        output::refuse_input(out, path)?;
-    }
     let last = arguments.common.settings_with(&arguments.program);
     let files::Opened {
         document, writing, ..
-    } = files::open_to_use(path, &arguments.common, &last)?;
+    } = files::open_to_use(path, arguments.output.as_deref(), &arguments.common, &last)?;
     if document.program().is_none() {
         return Err(Failure::of(
             path,

@@ -1,9 +1,10 @@
 //! `wedm draw`: a picture of contour, faults and wire path as SVG, PNG or PDF; or contour and wire path as a new drawing.
 
-use super::files::{self, ending_of};
+use super::files;
 use super::options::{Common, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict};
+use crate::disk::ending_of;
 use crate::document::{Document, Snapshot};
 use crate::drawing::{Drawing, Entity, Geometry};
 use crate::dxf;
@@ -36,23 +37,26 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if let Some(target) = &arguments.output {
         refuse_other_formats(target)?;
-        output::refuse_input(target, &arguments.path)?;
     }
     let last = arguments.common.settings_with(&arguments.program);
-    let opened = files::open_to_use(&arguments.path, &arguments.common, &last)?;
+    let target = arguments.output.as_deref();
+    let opened = files::open_to_use(&arguments.path, target, &arguments.common, &last)?;
     if opened.document.program().is_some() {
         return draw_program(arguments, &opened.document);
     }
     let snapshot = opened.snapshot()?;
     let findings = opened.document.all_findings();
-    if let Err(refusal) = job::paths(&snapshot, &snapshot.settings, None, &()) {
+    let (planned, svg) = job::picture(&snapshot, &findings, &());
+    if let Err(refusal) = &planned {
         let note = styled(output::NOTE, say!(note));
         let reason = refusal.sentence(opened.document.telling());
         output::say(&say!(drawn_without_the_path, note, readable(&reason)));
     }
-    let (planned, svg) = job::picture(&snapshot, &findings, &());
     let picture = match form_of(arguments.output.as_deref()) {
-        None => dxf::write(&with_paths(&snapshot, &planned.paths)).map_err(Failure)?,
+        None => {
+            let paths = planned.unwrap_or_default().paths;
+            dxf::write(&with_paths(&snapshot, &paths)).map_err(Failure)?
+        }
         Some(form) => form.of_svg(&svg).map_err(Failure)?,
     };
     output::write(arguments.output.as_deref(), &picture)?;

@@ -3,22 +3,19 @@
 use super::options::{Common, FileLanguage};
 use super::report::Row;
 use super::{Failure, output};
-use crate::disk::{self, Seen, plain};
-use crate::document::{Document, Snapshot, Source};
+use crate::disk::{self, Seen, ending_of, plain};
+use crate::document::{Document, FileKind, Snapshot};
 use crate::drawing::Unit;
 use crate::finding;
 use crate::finding::{Detail, Finding, Place, Severity};
 use crate::program::{self, Language};
 use crate::protocol::FindingData;
+use crate::settings;
 use crate::settings::{Effective, Settings, SettingsError};
 use crate::text::{SourceText, Writing};
-use crate::{dxf, settings};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// Name endings that a folder search accepts.
-pub(crate) const ENDINGS: [&str; 6] = ["dxf", "dxb", "3b", "4b", "iso", "nc"];
 
 /// A file that has been read.
 pub(crate) struct Opened {
@@ -32,18 +29,12 @@ pub(crate) struct Opened {
     pub(crate) settings_rows: Vec<Row>,
 }
 
-#[derive(Clone, Copy)]
-enum Kind {
-    Dxf,
-    Program(Language),
-}
-
-impl From<FileLanguage> for Kind {
-    fn from(language: FileLanguage) -> Kind {
+impl From<FileLanguage> for FileKind {
+    fn from(language: FileLanguage) -> FileKind {
         match language {
-            FileLanguage::Dxf => Kind::Dxf,
-            FileLanguage::ThreeB => Kind::Program(Language::ThreeB),
-            FileLanguage::Iso => Kind::Program(Language::Iso),
+            FileLanguage::Dxf => FileKind::Drawing,
+            FileLanguage::ThreeB => FileKind::Program(Language::ThreeB),
+            FileLanguage::Iso => FileKind::Program(Language::Iso),
         }
     }
 }
@@ -58,7 +49,7 @@ pub(crate) fn open(path: &Path, common: &Common, last: &Settings) -> Result<Open
     };
     let (settings, settings_rows) = settings_for(path, common, last)?;
     let (bytes, seen) = read(path).map_err(|reason| Failure::of(path, reason))?;
-    let (document, writing) = document(&kind, bytes, Arc::new(settings));
+    let (document, writing) = document(kind, bytes, Arc::new(settings));
     Ok(Opened {
         path: path.to_path_buf(),
         document,
@@ -80,9 +71,10 @@ pub(crate) fn open_stdin(
     let (settings, rows) = settings_for(name, common, last)?;
     let bytes = disk::read_stream_at_most(std::io::stdin().lock(), LARGEST_STREAM, Vec::new())
         .map_err(|reason| Failure::of(name, reason))?;
-    let of_content = || kind_of_content(name, &bytes).or(given.is_none().then_some(Kind::Dxf));
+    let of_content =
+        || kind_of_content(name, &bytes).or(given.is_none().then_some(FileKind::Drawing));
     let kind = kind.or_else(|failure| of_content().ok_or(failure))?;
-    Ok((document(&kind, bytes, Arc::new(settings)).0, rows))
+    Ok((document(kind, bytes, Arc::new(settings)).0, rows))
 }
 
 /// Refuses a text that is too large to hold: anything written from it would lack its end.
@@ -98,12 +90,16 @@ fn read(path: &Path) -> Result<(Vec<u8>, Seen), String> {
     Ok((bytes, seen))
 }
 
-/// The same for a command that makes something of the file. It refuses doubtful settings.
+/// The same for a command that makes something of the file, not in its place. It refuses doubtful settings.
 pub(crate) fn open_to_use(
     path: &Path,
+    target: Option<&Path>,
     common: &Common,
     last: &Settings,
 ) -> Result<Opened, Failure> {
+    if let Some(target) = target {
+        output::refuse_input(target, path)?;
+    }
     let opened = open(path, common, last)?;
     let faults = &opened.settings_rows;
     faults.iter().for_each(|row| output::say(&row.rendered()));
@@ -111,6 +107,18 @@ pub(crate) fn open_to_use(
         return Err(Failure(say!(nothing_is_made_with_such_settings).into()));
     }
     Ok(opened)
+}
+
+/// The same for a drawing, with the snapshot that the work is done on.
+pub(crate) fn drawing_to_use(
+    path: &Path,
+    target: Option<&Path>,
+    common: &Common,
+    last: &Settings,
+) -> Result<(Opened, Snapshot), Failure> {
+    let opened = open_to_use(path, target, common, last)?;
+    let snapshot = opened.snapshot()?;
+    Ok((opened, snapshot))
 }
 
 impl Opened {
@@ -140,37 +148,23 @@ fn head(path: &Path) -> Option<Vec<u8>> {
 }
 
 /// The kind of a file whose name does not tell.
-fn kind_of_content(path: &Path, bytes: &[u8]) -> Option<Kind> {
-    if ending_of(path) == "dwg" {
-        return None;
+fn kind_of_content(path: &Path, bytes: &[u8]) -> Option<FileKind> {
+    match ending_of(path) == "dwg" {
+        true => None,
+        false => FileKind::of_content(bytes),
     }
-    let mut words = bytes
-        .split(u8::is_ascii_whitespace)
-        .filter(|word| !word.is_empty());
-    if words.next() == Some(b"0") && words.next() == Some(b"SECTION") {
-        return Some(Kind::Dxf);
-    }
-    Language::of_content(bytes).map(Kind::Program)
-}
-
-/// In lower case; empty where there is none.
-pub(super) fn ending_of(path: &Path) -> String {
-    let ending = path.extension().unwrap_or_default();
-    ending.to_string_lossy().to_ascii_lowercase()
 }
 
 /// By the command line, else by the name of the file.
-fn kind_of(path: &Path, common: &Common) -> Result<Kind, Failure> {
+fn kind_of(path: &Path, common: &Common) -> Result<FileKind, Failure> {
     if let Some(language) = common.language {
         return Ok(language.into());
     }
     let ending = ending_of(path);
-    if let Some(language) = Language::of_ending(&ending) {
-        return Ok(Kind::Program(language));
+    if let Some(kind) = FileKind::of_ending(&ending) {
+        return Ok(kind);
     }
     let refusal: String = match ending.as_str() {
-        // The content decides between text and binary DXF.
-        "dxf" | "dxb" | "dxfb" => return Ok(Kind::Dxf),
         "dwg" => say!(dwg_is_not_read).into(),
         "" => say!(its_name_has_no_ending, ".dxf, .3b, .iso", ".nc"),
         ending => say!(its_name_ends_otherwise, ending),
@@ -178,28 +172,19 @@ fn kind_of(path: &Path, common: &Common) -> Result<Kind, Failure> {
     Err(Failure::of(path, refusal))
 }
 
-/// A drawing states the code page of its texts itself.
-fn document(kind: &Kind, bytes: Vec<u8>, settings: Arc<Effective>) -> (Document, Writing) {
-    let (source, writing) = match kind {
-        Kind::Dxf => (Source::Dxf(dxf::Document::read_file(bytes)), Writing::Plain),
-        Kind::Program(language) => {
-            let (text, writing) = text_of(bytes);
-            let program = program::Document::read(*language, text, &settings);
-            (Source::Program(program), writing)
-        }
-    };
+fn document(kind: FileKind, bytes: Vec<u8>, settings: Arc<Effective>) -> (Document, Writing) {
+    let (source, writing) = kind.read(bytes, &settings);
+    say_encoding(writing);
     (Document::new(source, settings), writing)
 }
 
-/// The text of a file, and its encoding; an unusual one is reported once, however many files there are.
-fn text_of(bytes: Vec<u8>) -> (Vec<u8>, Writing) {
+/// Reports an unusual encoding once, however many files there are.
+fn say_encoding(writing: Writing) {
     static SAID: AtomicBool = AtomicBool::new(false);
-    let (text, writing) = Writing::read(bytes);
     if writing == Writing::Gb18030 && !SAID.swap(true, Ordering::Relaxed) {
         let note = output::styled(output::NOTE, say!(note));
         output::say(&say!(read_as_gb_18030, note));
     }
-    (text, writing)
 }
 
 /// The settings for an input, and the faults found in settings files.
@@ -213,8 +198,10 @@ fn settings_for(
     let project = project_file(path);
     for file in project.iter().chain(&common.config) {
         let bytes = settings::read_file(file).map_err(|reason| Failure::of(file, reason))?;
-        let text = String::from_utf8(text_of(bytes).0)
-            .map_err(|_| Failure::of(file, say!(it_is_not_utf_8_text)))?;
+        let (bytes, writing) = Writing::read(bytes);
+        say_encoding(writing);
+        let text =
+            String::from_utf8(bytes).map_err(|_| Failure::of(file, say!(it_is_not_utf_8_text)))?;
         let (level, errors) = settings::from_toml(&text);
         settings = settings.overlaid(&level);
         let source = SourceText::new(text.clone().into_bytes());
@@ -381,5 +368,5 @@ fn place_of(error: &ignore::Error) -> Option<&Path> {
 }
 
 fn has_known_ending(path: &Path) -> bool {
-    ENDINGS.contains(&ending_of(path).as_str())
+    FileKind::of_ending(&ending_of(path)).is_some()
 }

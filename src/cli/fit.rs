@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 Examples:
   wedm fit washer.dxf --drawn-as punch --clearance 0.01 --wire-diameter 0.18 --gap 0.01
   wedm fit washer.dxf -o washer-fit.svg")]
-pub struct Arguments {
+pub(super) struct Arguments {
     #[arg(value_name = "PATH")]
     path: PathBuf,
     #[arg(short, long, value_name = "OUT")]
@@ -32,19 +32,16 @@ pub struct Arguments {
     common: Common,
 }
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = &arguments.path;
-    if let Some(target) = &arguments.output {
-        output::refuse_input(target, path)?;
-        if form_of(target).is_none() {
-            return Err(Failure::of(target, say!(the_fit_is_drawn_as_svg)));
-        }
+    let target = arguments.output.as_deref();
+    if let Some(target) = target.filter(|target| form_of(target).is_none()) {
+        return Err(Failure::of(target, say!(the_fit_is_drawn_as_svg)));
     }
     let last = arguments
         .pairing
         .beside(&arguments.common.settings_with(&arguments.program));
-    let opened = files::open_to_use(path, &arguments.common, &last)?;
-    let snapshot = opened.snapshot()?;
+    let (opened, snapshot) = files::drawing_to_use(path, target, &arguments.common, &last)?;
     let unit_mm = opened.document.unit_mm();
     let fit = match job::fit(&snapshot, &()) {
         Ok(fit) => fit,

@@ -63,14 +63,16 @@ const LEFT: usize = 8;
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = &arguments.path;
-    if let Some(target) = &arguments.target.output {
-        output::refuse_input(target, path)?;
-    }
     if arguments.target.in_place {
         output::refuse_irregular(path)?;
     }
     let common = &arguments.common;
-    let opened = files::open_to_use(path, common, &common.settings())?;
+    let opened = files::open_to_use(
+        path,
+        arguments.target.output.as_deref(),
+        common,
+        &common.settings(),
+    )?;
     let repair = repair(path, opened.document)?;
     deliver(arguments, &repair, &opened.seen, opened.writing)?;
     summarise(path, &repair);

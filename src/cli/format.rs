@@ -4,8 +4,9 @@ use super::changes::print_diff;
 use super::options::{Common, Words, parser, row};
 use super::output::{self, STRONG, styled};
 use super::{Failure, Verdict, files};
+use crate::beside::is_program;
 use crate::finding::Rule;
-use crate::program::{self, Language};
+use crate::program;
 use crate::settings::Settings;
 use crate::text::edited;
 use clap::Args;
@@ -64,9 +65,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             say!(programs, files.len())
         )));
     }
-    if let (Some(out), [file]) = (&target.output, &files[..]) {
-        output::refuse_input(out, file)?;
-    }
     let mut verdict = Verdict::Clean;
     for Failure(sentence) in &failures {
         output::complain(sentence);
@@ -95,12 +93,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     Ok(verdict.max(Verdict::of_errors(differs)))
 }
 
-fn is_program(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| {
-        Language::of_ending(&ending.to_string_lossy().to_ascii_lowercase()).is_some()
-    })
-}
-
 /// Formats one program and delivers it; true where it was not in its layout.
 fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
     let common = Common {
@@ -112,7 +104,7 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
     }
     let layout = arguments.layout.clone().unwrap_or_default();
     let last = arguments.words.0.overlaid(&layout);
-    let opened = files::open_to_use(path, &common, &last)?;
+    let opened = files::open_to_use(path, arguments.target.output.as_deref(), &common, &last)?;
     let settings = opened.document.settings().clone();
     let program = opened.program()?;
     let text = program.text();

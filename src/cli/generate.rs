@@ -42,12 +42,9 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = &arguments.path;
-    if let Some(target) = &arguments.output {
-        output::refuse_input(target, path)?;
-    }
     let last = arguments.common.settings_with(&arguments.program);
-    let opened = files::open_to_use(path, &arguments.common, &last)?;
-    let snapshot = opened.snapshot()?;
+    let target = arguments.output.as_deref();
+    let (opened, snapshot) = files::drawing_to_use(path, target, &arguments.common, &last)?;
     let document = &opened.document;
     let wanted = Wanted {
         format: arguments.format,

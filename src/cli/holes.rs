@@ -1,9 +1,10 @@
 //! `wedm holes`: the start holes for the drill.
 
-use super::files::{self, ending_of};
+use super::files;
 use super::options::{Common, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, report};
+use crate::disk::ending_of;
 use crate::job::drill;
 use crate::{dxf, job};
 use clap::Args;
@@ -15,7 +16,7 @@ Examples:
   wedm holes plate.dxf --side opening --start-hole 2
   wedm holes plate.dxf punch.dxf --side auto -o holes.csv
   wedm holes plate.dxf --side opening --start-hole 2 -o holes.dxf      the drawing, with the holes on the layer START-HOLES")]
-pub struct Arguments {
+pub(super) struct Arguments {
     #[arg(value_name = "PATH", required = true)]
     paths: Vec<PathBuf>,
     #[arg(short, long, value_name = "OUT")]
@@ -26,7 +27,7 @@ pub struct Arguments {
     common: Common,
 }
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let is_dxf = match &arguments.output {
         Some(target) => is_dxf(target)?,
         None => false,
@@ -38,12 +39,9 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let mut csv = drill::HEAD.to_owned();
     let (mut drawn, mut count, mut any_errors) = (None, 0, false);
     for path in &arguments.paths {
-        if let Some(target) = &arguments.output {
-            output::refuse_input(target, path)?;
-        }
         let last = arguments.common.settings_with(&arguments.program);
-        let opened = files::open_to_use(path, &arguments.common, &last)?;
-        let snapshot = opened.snapshot()?;
+        let target = arguments.output.as_deref();
+        let (opened, snapshot) = files::drawing_to_use(path, target, &arguments.common, &last)?;
         let findings = opened.document.all_findings();
         let of_holes = findings
             .iter()
@@ -72,7 +70,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if let Some(target) = &arguments.output {
         output::say(&say!(
             the_holes_are_written,
-            styled(output::GOOD, "written"),
+            styled(output::GOOD, say!(written)),
             output::name(target),
             say!(holes, count)
         ));

@@ -7,16 +7,36 @@ use std::path::PathBuf;
 use std::sync::LazyLock;
 
 /// Groups of options: their heading, the table whose keys they set, and their names.
-const GROUPS: [(&str, &str, &str); 5] = [
-    ("Settings", "", "correction passes side"),
+const GROUPS: [(&str, &str, &[&str]); 5] = [
+    ("Settings", "", &["correction", "passes", "side"]),
     (
         "Program",
         "program.",
-        "direction corner thread entry lead-in lead start-hole tab order layout compensation digits profile end pause",
+        &[
+            "direction",
+            "corner",
+            "thread",
+            "entry",
+            "lead-in",
+            "lead",
+            "start-hole",
+            "tab",
+            "order",
+            "layout",
+            "compensation",
+            "digits",
+            "profile",
+            "end",
+            "pause",
+        ],
     ),
-    ("Words", "program.", "end pause"),
-    ("Pair", "pair.", "drawn-as clearance stripper holder"),
-    ("Pair", "", "wire-diameter gap"),
+    ("Words", "program.", &["end", "pause"]),
+    (
+        "Pair",
+        "pair.",
+        &["drawn-as", "clearance", "stripper", "holder"],
+    ),
+    ("Pair", "", &["wire-diameter", "gap"]),
 ];
 
 /// `--passes` is the list of their corrections.
@@ -91,8 +111,8 @@ impl Common {
 fn options(group: usize) -> impl Iterator<Item = (&'static str, &'static Row)> {
     let (_, table, names) = GROUPS[group];
     names
-        .split(' ')
-        .map(move |name| (name, row(&format!("{table}{name}"))))
+        .iter()
+        .map(move |&name| (name, row(&format!("{table}{name}"))))
 }
 
 impl<const GROUP: usize> Args for Keys<GROUP> {

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 Examples:
   wedm pair washer.dxf --drawn-as plate --clearance 0.09 --wire-diameter 0.18 --gap 0.01
   wedm pair washer.dxf --format iso -o programs        programs/washer-punch.iso and so on")]
-pub struct Arguments {
+pub(super) struct Arguments {
     #[arg(value_name = "PATH")]
     path: PathBuf,
     #[arg(long, default_value = "3b", value_parser = Format::of)]
@@ -36,13 +36,12 @@ pub struct Arguments {
     common: Common,
 }
 
-pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = &arguments.path;
     let last = arguments
         .pairing
         .beside(&arguments.common.settings_with(&arguments.program));
-    let opened = files::open_to_use(path, &arguments.common, &last)?;
-    let snapshot = opened.snapshot()?;
+    let (opened, snapshot) = files::drawing_to_use(path, None, &arguments.common, &last)?;
     let document = &opened.document;
     let wanted = Wanted {
         format: arguments.format,
@@ -84,7 +83,7 @@ pub fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             .collect();
         output::say(&say!(
             the_program_of_a_part_is_written,
-            styled(output::GOOD, "written"),
+            styled(output::GOOD, say!(written)),
             output::target_name(Some(target)),
             part.part,
             corrections.join(" / "),

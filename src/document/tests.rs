@@ -49,7 +49,9 @@ fn what_is_said_of_one_contour_holds_for_it() {
     let snapshot = document.snapshot().unwrap();
     let roles: Vec<Role> = snapshot.outlines.iter().map(|it| it.role).collect();
     assert_eq!(roles, [Role::Opening, Role::Punch, Role::Opening]);
-    let paths = crate::job::paths(&snapshot, document.settings(), None, &()).unwrap();
+    let paths = crate::job::planned(&snapshot, document.settings(), None, false, &())
+        .unwrap()
+        .paths;
     let cut: Vec<usize> = paths.iter().map(|path| path.outline).collect();
     assert_eq!(cut, [2, 1, 0]);
     assert_eq!(paths[2].thread_hole, crate::geometry::Point::new(1.0, 0.0));
@@ -62,8 +64,15 @@ fn what_is_said_of_one_contour_holds_for_it() {
         0
     );
     let nearest = plate(&(toml.concat() + "[program]\norder = \"nearest\"\n"));
-    let paths =
-        crate::job::paths(&nearest.snapshot().unwrap(), nearest.settings(), None, &()).unwrap();
+    let paths = crate::job::planned(
+        &nearest.snapshot().unwrap(),
+        nearest.settings(),
+        None,
+        false,
+        &(),
+    )
+    .unwrap()
+    .paths;
     let cut: Vec<usize> = paths.iter().map(|path| path.outline).collect();
     assert_eq!(cut, [2, 1, 0]);
 }

@@ -1,6 +1,6 @@
 //! Turns ELLIPSE and SPLINE records into curves. Their points are world coordinates.
 
-use super::entity::{Common, Outcome, Plane, tag_of_record};
+use super::entity::{Common, Plane, Read, Refused, tag_of_record};
 use super::fault;
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
@@ -12,15 +12,15 @@ use crate::finding::Severity;
 use crate::geometry::{Point, Spline, Vector};
 use std::f64::consts::TAU;
 
-pub(super) fn read_ellipse(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
+pub(super) fn read_ellipse(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+) -> Result<Read, Refused> {
     let mut numbers = Numbers::new([10, 20, 11, 21, 40, 31, 41, 42, 30]);
     let common = numbers.gather(lexer, |_, _| {});
-    let Some([x, y, major_x, major_y, ratio]) = numbers.required(start, lexer, &common) else {
-        return Outcome::Damaged;
-    };
-    if common.paper_space {
-        return Outcome::Unsupported("ELLIPSE".into(), say!(it_lies_in_paper_space));
-    }
+    let [x, y, major_x, major_y, ratio] = numbers.required(start, lexer, &common)?;
+    common.is_in_the_model()?;
     let [.., rise, from, to, height] = numbers.values;
     let (rise, height) = (rise.unwrap_or(0.0), height.unwrap_or(0.0));
     let (from, to) = (from.unwrap_or(0.0), to.unwrap_or(TAU));
@@ -42,7 +42,7 @@ pub(super) fn read_ellipse(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -
             // In its own plane: the half axes are its coordinates.
             let along = in_space(major, rise);
             let Some(normal) = common.normal().try_normalize(0.0) else {
-                return Outcome::Unsupported("ELLIPSE".into(), say!(its_plane_is_tilted));
+                return Err(Refused::Unsupported(say!(its_plane_is_tilted)));
             };
             let plane = Space {
                 x: along,
@@ -60,15 +60,15 @@ pub(super) fn read_ellipse(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -
     if !arc.is_sound() {
         let sentence = say!(ellipse_has_no_width_or_no_length).to_owned();
         lexer.damage(start.value_line(), sentence);
-        return Outcome::Damaged;
+        return Err(Refused::Damaged);
     }
-    common.finish(
+    Ok(common.finish(
         lexer,
         layers,
         Kind::Ellipse,
         (Shape::Ellipse(arc), lies),
         None,
-    )
+    ))
 }
 
 /// Points in space in the order of the text: x opens one.
@@ -122,7 +122,11 @@ impl Points {
     }
 }
 
-pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
+pub(super) fn read_spline(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+) -> Result<Read, Refused> {
     const CLOSED: i64 = 1;
     let mut common = Common::default();
     let (mut controls, mut through) = (Points::default(), Points::default());
@@ -162,14 +166,12 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) ->
         }
     }
     if common.bad || lexer.out_of_step {
-        return Outcome::Damaged;
+        return Err(Refused::Damaged);
     }
-    if common.paper_space {
-        return Outcome::Unsupported("SPLINE".into(), say!(it_lies_in_paper_space));
-    }
+    common.is_in_the_model()?;
     if controls.points.is_empty() && through.points.is_empty() {
         missing(start, lexer, &[(10, false), (20, false)]);
-        return Outcome::Damaged;
+        return Err(Refused::Damaged);
     }
     let used = if controls.points.is_empty() {
         &mut through
@@ -179,13 +181,13 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) ->
     if used.is_bad() {
         let sentence = say!(spline_has_a_point_that_lacks_x_or_y).to_owned();
         lexer.damage(start.value_line(), sentence);
-        return Outcome::Damaged;
+        return Err(Refused::Damaged);
     }
     let mut lies = Lies::Level(used.heights.first().copied().unwrap_or(0.0));
     if used.differ_in_height() {
         let points = used.in_space();
         let Some(plane) = Space::through(&points) else {
-            return Outcome::Unsupported("SPLINE".into(), say!(its_points_differ_in_z));
+            return Err(Refused::Unsupported(say!(its_points_differ_in_z)));
         };
         used.points = points
             .into_iter()
@@ -231,16 +233,16 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) ->
         fault::push(&mut lexer.findings, name, Severity::Hint, sentence);
     }
     match spline {
-        Ok(spline) => common.finish(
+        Ok(spline) => Ok(common.finish(
             lexer,
             layers,
             Kind::Spline,
             (Shape::Spline(Box::new(spline)), lies),
             None,
-        ),
+        )),
         // An entity that is not cut anyway is reported once.
         Err(_) if matches!(lies, Lies::Aslant(..)) => {
-            Outcome::Unsupported("SPLINE".into(), say!(its_points_differ_in_z))
+            Err(Refused::Unsupported(say!(its_points_differ_in_z)))
         }
         Err(why) => {
             // A curve through less than two points has no length; otherwise a part of the outline is missing.
@@ -250,7 +252,7 @@ pub(super) fn read_spline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) ->
                 Lexer::damage
             };
             say(lexer, start.value_line(), say!(spline_it_is_not_drawn, why));
-            Outcome::Damaged
+            Err(Refused::Damaged)
         }
     }
 }

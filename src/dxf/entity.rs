@@ -91,6 +91,15 @@ pub(super) enum Outcome {
     Damaged,
 }
 
+/// Why a record is no entity that is cut.
+#[derive(Debug)]
+pub(super) enum Refused {
+    /// The reason, beside its kind.
+    Unsupported(&'static str),
+    /// A finding says what is wrong with it.
+    Damaged,
+}
+
 /// A reference to a block, as it stands in the text.
 #[derive(Clone, Debug)]
 pub(super) struct Insert {
@@ -284,20 +293,30 @@ impl Common {
         )
     }
 
-    /// The plane of an entity whose coordinates are those of its extrusion, at `height` over its plane. `None` where
+    /// What lies in paper space is not cut.
+    pub(super) fn is_in_the_model(&self) -> Result<(), Refused> {
+        match self.paper_space {
+            true => Err(Refused::Unsupported(say!(it_lies_in_paper_space))),
+            false => Ok(()),
+        }
+    }
+
+    /// The plane of an entity whose coordinates are those of its extrusion, at `height` over its plane. Refused where
     /// the extrusion has no direction.
-    pub(super) fn lies(&self, height: f64) -> Option<Lies> {
-        Some(match self.plane() {
+    pub(super) fn lies(&self, height: f64) -> Result<Lies, Refused> {
+        Ok(match self.plane() {
             Plane::Normal => Lies::Level(height),
             Plane::Mirrored => Lies::Level(0.0 - height),
             Plane::Tilted => {
-                let system = Space::of_extrusion(self.normal())?;
+                let tilted = say!(its_plane_is_tilted);
+                let system = Space::of_extrusion(self.normal());
+                let system = system.ok_or(Refused::Unsupported(tilted))?;
                 Lies::Aslant(
                     Box::new(Space {
                         origin: system.z * height,
                         ..system
                     }),
-                    say!(its_plane_is_tilted),
+                    tilted,
                 )
             }
         })
@@ -371,10 +390,10 @@ impl Common {
         kind: Kind,
         (shape, lies): (Shape, Lies),
         vertices: Option<VertexLines>,
-    ) -> Outcome {
+    ) -> Read {
         let appearance = self.appearance(lexer, layers);
         let (handle, layer) = (self.handle(lexer), self.layer(lexer, layers));
-        Outcome::Entity(Read {
+        Read {
             handle,
             layer,
             appearance,
@@ -383,7 +402,7 @@ impl Common {
             lies,
             vertices,
             frames: Vec::new(),
-        })
+        }
     }
 }
 

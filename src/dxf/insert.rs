@@ -1,6 +1,6 @@
 //! INSERT: which block it draws, where, how often, and how it is stretched.
 
-use super::entity::{Common, Insert, Outcome, Plane, pass_over_followers, value_line_of};
+use super::entity::{Common, Insert, Plane, Refused, pass_over_followers, value_line_of};
 use super::fault::quoted;
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
@@ -19,7 +19,7 @@ pub(super) fn block_key(name: &[u8]) -> String {
     }
 }
 
-pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
+pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Result<Insert, Refused> {
     let mut numbers = Numbers::new([10, 20, 41, 42, 50, 44, 45, 30, 43]);
     let (mut name, mut columns, mut rows) = (None, None, None);
     let mut common = numbers.gather(lexer, |_, tag| match tag.code {
@@ -57,16 +57,12 @@ pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcom
         count(rows, &mut common, lexer)
     };
     pass_over_followers(lexer, &[b"ATTRIB", b"SEQEND"]);
-    let Some([x, y]) = numbers.required(start, lexer, &common) else {
-        return Outcome::Damaged;
-    };
+    let [x, y] = numbers.required(start, lexer, &common)?;
     let Some(name) = name else {
         missing(start, lexer, &[(2, false)]);
-        return Outcome::Damaged;
+        return Err(Refused::Damaged);
     };
-    if common.paper_space {
-        return Outcome::Unsupported("INSERT".into(), say!(it_lies_in_paper_space));
-    }
+    common.is_in_the_model()?;
     let system = match common.plane() {
         Plane::Normal => Some(Space::IDENTITY),
         Plane::Mirrored => Some(Space {
@@ -77,7 +73,7 @@ pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcom
         Plane::Tilted => Space::of_extrusion(common.normal()),
     };
     let Some(system) = system else {
-        return Outcome::Unsupported("INSERT".into(), say!(its_plane_is_tilted));
+        return Err(Refused::Unsupported(say!(its_plane_is_tilted)));
     };
     let [
         _,
@@ -108,7 +104,7 @@ pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcom
         z: system.z * scale(z_scale),
         origin: system.vector(Vector3::new(x, y, height.unwrap_or(0.0))),
     };
-    let insert = Insert {
+    Ok(Insert {
         block: block_key(lexer.lines.trimmed(name.value_line())),
         name_line: name.value_line(),
         map,
@@ -117,8 +113,7 @@ pub(super) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcom
         handle: common.handle(lexer),
         appearance: common.appearance(lexer, layers),
         layer: common.layer(lexer, layers),
-    };
-    Outcome::Insert(Box::new(insert))
+    })
 }
 
 /// The direction of an angle in degrees, exact at quarter turns.

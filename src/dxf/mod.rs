@@ -62,6 +62,9 @@ use table::Table;
 pub(crate) use unit::unit_of;
 use unit::{about_unit, fit_tolerance};
 
+/// Endings of the names of drawings, in lower case and without their dots; the bytes tell text from binary.
+pub(crate) const ENDINGS: [&str; 3] = ["dxf", "dxb", "dxfb"];
+
 /// DXF text, the drawing that it holds, and where each number of it stands.
 #[derive(Clone, Debug, Default)]
 pub struct Document {

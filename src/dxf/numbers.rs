@@ -1,6 +1,6 @@
 //! The numbers that an entity has once each, and the finding that names the missing ones.
 
-use super::entity::{Common, tag_of_record};
+use super::entity::{Common, Refused, tag_of_record};
 use super::fault::meaning;
 use super::lexer::{Lexer, Tag};
 
@@ -60,13 +60,13 @@ impl<const N: usize> Numbers<N> {
         start: Tag,
         lexer: &mut Lexer,
         common: &Common,
-    ) -> Option<[f64; M]> {
+    ) -> Result<[f64; M], Refused> {
         if common.bad {
-            return None;
+            return Err(Refused::Damaged);
         }
-        let first = self.values.first_chunk::<M>()?;
+        let first = self.values.first_chunk::<M>().ok_or(Refused::Damaged)?;
         if first.iter().all(Option::is_some) {
-            return Some(first.map(Option::unwrap_or_default));
+            return Ok(first.map(Option::unwrap_or_default));
         }
         let there: Vec<(i16, bool)> = self
             .codes
@@ -75,6 +75,6 @@ impl<const N: usize> Numbers<N> {
             .map(|(&code, value)| (code, value.is_some()))
             .collect();
         missing(start, lexer, &there);
-        None
+        Err(Refused::Damaged)
     }
 }

@@ -19,7 +19,7 @@ pub struct SetAside {
     /// Handles of the first entities, if only handles name them; empty where a name covers them.
     pub handles: Vec<Arc<str>>,
     /// For lone lines: those of their layers on which nothing is cut.
-    pub spare_layers: Vec<Arc<str>>,
+    pub(crate) spare_layers: Vec<Arc<str>>,
 }
 
 /// At most this many handles go into a setting.

@@ -21,9 +21,9 @@ pub(super) struct Limits {
     pub clearance: f64,
     pub rounding: f64,
     /// What is left beside walls that are followed on both sides; `None` where both parts are drawn, and each place is looked at.
-    pub along_walls: Option<f64>,
+    pub(crate) along_walls: Option<f64>,
     /// It is asked how much is left where nothing is missing, too.
-    pub asks_least: bool,
+    pub(crate) asks_least: bool,
 }
 
 /// What comes of two parts, one laid in the other.

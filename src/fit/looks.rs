@@ -20,5 +20,5 @@ pub(super) struct Verdict {
     pub clearance: f64,
     /// The edge of the other part there, and the place that is told of it.
     pub other: u32,
-    pub at_other: Point,
+    pub(crate) at_other: Point,
 }

@@ -35,7 +35,7 @@ pub struct Spot {
     /// What is left of the clearance; below 0 where the two bind.
     pub clearance: f64,
     /// It is the plate that stands too far out, not the punch.
-    pub is_of_plate: bool,
+    pub(crate) is_of_plate: bool,
     /// The drawn segment of the part that stands too far out.
     pub segment: SegmentOf,
     /// That part: `punch` or `plate`, or the name of its workpiece.
@@ -133,15 +133,15 @@ pub fn fit(
         }
         Partners::Drawn => {
             let mut walls: FxHashMap<usize, Arc<Walls>> = FxHashMap::default();
-            let mut walls_of = |index: usize| {
+            let mut walls_of = |index: usize, outline: &Outline| {
                 let walls = walls.entry(index);
-                let walls = walls.or_insert_with(|| walls_of(drawing, &outlines[index].contour));
+                let walls = walls.or_insert_with(|| walls_of(drawing, &outline.contour));
                 walls.clone()
             };
             let beside = &mut Beside::default();
             let drawn = partners(drawing, outlines, settings, &mut walls_of, beside);
             for &[punch, plate] in &drawn.pairs {
-                let walls = [punch, plate].map(&mut walls_of);
+                let walls = [punch, plate].map(|index| walls_of(index, &outlines[index]));
                 let (punch, plate) = (&outlines[punch], &outlines[plate]);
                 let part_of = |outline: &Outline, role: Role, walls: &Walls| {
                     drawn_part(drawing, outline, role, settings, Some(walls), None)

@@ -54,7 +54,7 @@ pub(crate) fn partners(
     drawing: &Drawing,
     outlines: &[Outline],
     settings: &Effective,
-    walls_of: &mut dyn FnMut(usize) -> Arc<Walls>,
+    walls_of: &mut dyn FnMut(usize, &Outline) -> Arc<Walls>,
     beside: &mut Beside,
 ) -> Drawn {
     let unit_mm = settings.unit_of(drawing).mm;
@@ -72,7 +72,7 @@ pub(crate) fn partners(
             if workpiece == 0 {
                 return None;
             }
-            let walls = walls_of(index);
+            let walls = walls_of(index, outline);
             Some(Candidate {
                 outline: index,
                 workpiece,

@@ -104,7 +104,7 @@ fn roles_of_partners(snapshot: &Snapshot) -> Vec<(String, Role)> {
         drawing,
         outlines,
         &snapshot.settings,
-        &mut |index| fit::walls_of(drawing, &outlines[index].contour),
+        &mut |_, outline| fit::walls_of(drawing, &outline.contour),
         &mut Default::default(),
     );
     let both = drawn

@@ -1,8 +1,9 @@
 //! A punch in its plate, as the wire leaves them: the places where clearance is missing are marked and enlarged.
 
 use super::marks;
-use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped, named, number, path_data};
+use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, named, number, path_data};
 use super::style;
+use super::window::{Window, Windows};
 use crate::drawing::Drawing;
 use crate::finding::Severity;
 use crate::fit::{Fit, Spot};
@@ -11,11 +12,11 @@ use crate::text::head;
 
 /// The most places that are enlarged, the worst first.
 const MOST: usize = 6;
-const COLUMNS: usize = 3;
-const GAP: f64 = 16.0;
-const WIDTH: f64 = (SHEET_WIDTH - 2.0 * MARGIN - GAP * (COLUMNS as f64 - 1.0)) / COLUMNS as f64;
-const WINDOW: f64 = 200.0;
-const CAPTION: f64 = 56.0;
+const WINDOWS: Windows = Windows {
+    columns: 3,
+    height: 200.0,
+    caption: 56.0,
+};
 /// Beyond this many, places are dots without a number.
 const NUMBERED: usize = 24;
 
@@ -34,7 +35,7 @@ pub(crate) fn fit_svg(drawing: &Drawing, fit: &Fit, unit_mm: f64) -> String {
     worst.sort_by(|a, b| a.clearance.total_cmp(&b.clearance));
     let enlarged = head(&worst, MOST);
     let lenses_top = frame.bottom + 40.0;
-    let legend_top = lenses_top + enlarged.len().div_ceil(COLUMNS) as f64 * (WINDOW + CAPTION);
+    let legend_top = lenses_top + WINDOWS.height_of(enlarged.len());
     let um = |length: f64| length * unit_mm * 1e3;
     let title = match fit.fits() {
         true => say!(the_parts_fit),
@@ -78,9 +79,8 @@ pub(crate) fn fit_svg(drawing: &Drawing, fit: &Fit, unit_mm: f64) -> String {
     }
     sheet.line(format_args!("</g>"));
     for (index, spot) in enlarged.iter().enumerate() {
-        let left = MARGIN + (index % COLUMNS) as f64 * (WIDTH + GAP);
-        let top = lenses_top + (index / COLUMNS) as f64 * (WINDOW + CAPTION);
-        lens(&mut sheet, fit, spot, (index, left, top), unit_mm);
+        let window = WINDOWS.at(index, lenses_top);
+        lens(&mut sheet, fit, spot, &window, unit_mm);
     }
     sheet.line(format_args!("<g class=\"chrome\">"));
     let mut entries = vec![
@@ -122,46 +122,20 @@ fn outlines(sheet: &mut Sheet, fit: &Fit, frame: &Frame) {
     }
 }
 
-/// The number of a place that is enlarged.
-fn number_of(sheet: &mut Sheet, at: (f64, f64), index: usize) {
-    sheet.circle(r#"class="badge""#, at, 9.0, "");
-    let [x, y] = [at.0, at.1 + 4.0].map(number);
-    let count = index + 1;
-    sheet.line(format_args!(
-        r#"<text class="count" x="{x}" y="{y}">{count}</text>"#
-    ));
-}
-
 /// One place enlarged to suit its clearance, with what is left of that.
-fn lens(
-    sheet: &mut Sheet,
-    fit: &Fit,
-    spot: &Spot,
-    (index, left, top): (usize, f64, f64),
-    unit_mm: f64,
-) {
+fn lens(sheet: &mut Sheet, fit: &Fit, spot: &Spot, lens: &Window, unit_mm: f64) {
     let seen = 14.0 * fit.clearance.max((fit.clearance - spot.clearance).abs());
-    let scale = WIDTH / seen;
+    let scale = WINDOWS.width() / seen;
     if !scale.is_finite() || scale <= 0.0 {
         return;
     }
-    let frame = Frame {
-        origin: spot.at,
-        scale,
-        left: left + WIDTH / 2.0,
-        bottom: top + WINDOW / 2.0,
-    };
+    let frame = lens.frame(spot.at, scale);
     let window = Bounds {
         min: spot.at,
         max: spot.at,
     }
     .grown(seen);
-    let [x, y, width, height] = [left, top, WIDTH, WINDOW].map(number);
-    let rectangle = format!(r#"x="{x}" y="{y}" width="{width}" height="{height}" rx="6""#);
-    sheet.line(format_args!(
-        r##"<g class="lens"><clipPath id="fit{index}"><rect {rectangle}/></clipPath><g clip-path="url(#fit{index})"><rect class="ground" {rectangle}/>{}"##,
-        frame.opening()
-    ));
+    lens.open(sheet, r#"class="lens""#, "fit", "ground", &frame);
     let reaches = |segments: &[Segment]| {
         let near = |segment: &&Segment| segment.bounds().touches(&window);
         segments.iter().filter(near).copied().collect::<Vec<_>>()
@@ -175,27 +149,15 @@ fn lens(
         }
     }
     sheet.circle(r#"class="dot""#, (0.0, 0.0), 2.6, "");
-    sheet.line(format_args!(
-        r#"</g></g><rect class="window" {rectangle}/>"#
-    ));
     let figures = say!(
         um_left_of_um,
         spot.clearance * unit_mm * 1e3,
         fit.clearance * unit_mm * 1e3
     );
-    let [figures, place] =
-        [figures, say!(the_corner_of_a_part, spot.of, spot.partner)].map(|text| escaped(&text));
-    number_of(sheet, (left + 10.0, top + WINDOW + 20.0), index);
-    let [x, first, second] = [left + 26.0, top + WINDOW + 18.0, top + WINDOW + 34.0].map(number);
-    sheet.line(format_args!(
-        r#"<text class="figures" x="{x}" y="{first}">{figures}</text><text class="place" x="{x}" y="{second}">{place}</text></g>"#
-    ));
-    style::scale_bar(
-        sheet,
-        left + WIDTH - 12.0,
-        top + WINDOW - 24.0,
-        scale / unit_mm,
-    );
+    let place = say!(the_corner_of_a_part, spot.of, spot.partner);
+    lens.close(sheet, &figures, &place);
+    let (right, bottom) = lens.lower_right();
+    style::scale_bar(sheet, right - 12.0, bottom - 24.0, scale / unit_mm);
 }
 
 /// The part of a segment near a point, for viewers that lose digits when enlarging thousands of times.

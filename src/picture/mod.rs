@@ -16,6 +16,7 @@ mod program;
 mod sheet;
 mod style;
 mod subject;
+mod window;
 
 pub(crate) use export::Image;
 pub(crate) use fit::fit_svg;

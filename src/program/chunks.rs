@@ -45,7 +45,7 @@ pub(in crate::program) trait ChunkReader: Sync {
     /// The reading of a line depends on no more than this many behind it.
     const REACH: usize = 0;
 
-    /// On how many lines behind its own the reading of a chunk depends.
+    /// The number of lines behind its own on which the reading of a chunk depends.
     fn ahead(_: &Self::Chunk) -> usize {
         0
     }
@@ -104,7 +104,7 @@ impl<C> DerefMut for Chunks<C> {
     }
 }
 
-/// What an edit has put in place of what.
+/// The chunks that an edit made to be read, in place of the earlier ones.
 #[derive(Clone, Debug)]
 pub(in crate::program) struct Reread {
     /// The chunks that were read.

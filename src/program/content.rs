@@ -10,7 +10,7 @@ const WIDTH: usize = 160;
 impl Language {
     /// The language of most lines of a text; `None` where there is none.
     pub(crate) fn of_content(text: &[u8]) -> Option<Language> {
-        let (mut blocks, mut words, mut others) = (0, 0, 0);
+        let (mut lines, mut others) = ([0; Language::ALL.len()], 0);
         for line in text.split(|byte| matches!(byte, b'\n' | b'\r')).take(LINES) {
             let close: Vec<u8> = line
                 .iter()
@@ -27,18 +27,20 @@ impl Language {
                 continue;
             }
             let block = without_number(close);
-            if is_block(block) {
-                blocks += 1;
-            } else if is_line_of_words(block) {
-                words += 1;
-            } else {
-                others += 1;
-            }
+            let of = Language::ALL.iter().position(|one| one.has_line(block));
+            *of.map_or(&mut others, |of| &mut lines[of]) += 1;
         }
-        let is_most = |lines: usize| lines > 0 && lines > others;
-        match blocks >= words {
-            true => is_most(blocks).then_some(Language::ThreeB),
-            false => is_most(words).then_some(Language::Iso),
+        // Of languages with equally many lines the first one.
+        let all = Language::ALL.into_iter().zip(lines).rev();
+        let (most, lines) = all.max_by_key(|(_, lines)| *lines)?;
+        (lines > others).then_some(most)
+    }
+
+    /// True where a line, without spaces and in capitals, reads as one of it.
+    fn has_line(self, line: &[u8]) -> bool {
+        match self {
+            Language::ThreeB => is_block(line),
+            Language::Iso => is_line_of_words(line),
         }
     }
 }

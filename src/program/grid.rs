@@ -2,12 +2,19 @@
 
 use crate::geometry::{Arc, Point, Segment, direction, left_normal};
 use std::f64::consts::PI;
+use std::fmt;
 
 /// A node of a program on its grid, in absolute coordinates. A step is 1 µm, except in ISO profiles with more decimals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Node {
     pub(crate) x: i64,
     pub(crate) y: i64,
+}
+
+impl fmt::Display for Node {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "({}, {})", self.x, self.y)
+    }
 }
 
 /// The grid point nearest to a point in steps; `None` beyond what a program can address exactly.
@@ -63,21 +70,25 @@ pub(crate) fn best_center(arc: &Arc, from: Node, to: Node) -> Node {
     grid_centers(arc, from, to)[0].node
 }
 
+/// An arc as it is written: from node to node about a grid point. `None` where that is one of its ends.
+pub(crate) fn arc_about(arc: &Arc, center: Node, from: Node, to: Node) -> Option<Arc> {
+    let [middle, start, end] = [center, from, to].map(point_of);
+    (center != from && center != to).then(|| Arc::about(middle, start, end, arc.sweep > 0.0))
+}
+
+/// How much further one of two nodes is from a grid point than the other, in steps.
+pub(crate) fn radii_differ(center: Node, from: Node, to: Node) -> f64 {
+    let distance = |node: Node| (point_of(node) - point_of(center)).norm();
+    (distance(from) - distance(to)).abs()
+}
+
 /// The error of an arc about a grid point, in steps; infinite where it turns the other way.
 fn cost_of(arc: &Arc, center: Node, from: Node, to: Node) -> f64 {
-    if center == from || center == to {
+    let written = arc_about(arc, center, from, to);
+    let Some(written) = written.filter(|written| (written.sweep - arc.sweep).abs() <= PI) else {
         return f64::INFINITY;
-    }
-    let written = Arc::about(
-        point_of(center),
-        point_of(from),
-        point_of(to),
-        arc.sweep > 0.0,
-    );
-    if (written.sweep - arc.sweep).abs() > PI {
-        return f64::INFINITY;
-    }
-    let miss = (distance(from, center) - distance(to, center)).abs();
+    };
+    let miss = radii_differ(center, from, to);
     // A controller that is given the start turns about the centre at the start's distance.
     largest_distance(&Segment::Arc(written), &Segment::Arc(*arc)).max(miss)
 }
@@ -117,10 +128,6 @@ pub(crate) fn largest_distance(written: &Segment, piece: &Segment) -> f64 {
         .chain(between.into_iter().flatten())
         .map(|place| piece.distance_to(place))
         .fold(0.0, f64::max)
-}
-
-fn distance(a: Node, b: Node) -> f64 {
-    (point_of(a) - point_of(b)).norm()
 }
 
 /// Cuts `whole` into `count` pieces of equal length with snapped nodes between them; pieces without length are left out.

@@ -3,7 +3,7 @@
 //! [`Document`] is a program as the faces hold it, in any language; [`path`] is common to all languages: the machine's
 //! way. Everything about one language is in its own folder.
 
-mod alike;
+pub(crate) mod block_words;
 mod chunks;
 mod content;
 pub mod convert;
@@ -14,13 +14,13 @@ mod format;
 pub(crate) mod grid;
 pub mod iso;
 mod layout;
+mod lookalikes;
 pub mod path;
 mod profile;
 mod refactor;
 mod refactorings;
 mod repair;
 mod report;
-pub(crate) mod said;
 pub(crate) mod steps;
 pub mod three_b;
 mod whereabouts;

@@ -46,7 +46,7 @@ impl fmt::Display for ProofError {
         match self {
             ProofError::Mismatch(sentence) | ProofError::Refused(sentence) => f.write_str(sentence),
             ProofError::Unwritable(finding) => f.write_str(&sentence(finding, 1.0)),
-            ProofError::Cancelled => f.write_str("cancelled"),
+            ProofError::Cancelled => f.write_str(say!(the_path_was_given_up)),
         }
     }
 }
@@ -128,7 +128,7 @@ pub(crate) trait Writer {
     }
 }
 
-/// Walks along the paths. `step_mm` is the drawing's unit in steps of the grid. `go_on` gets the progress every few
+/// Walks along the paths. `steps` is the drawing's unit in steps of the grid, `step_um` one step in µm. `go_on` gets the progress every few
 /// thousand segments, and ends the work with `false`.
 pub(crate) fn walk(
     paths: &[WirePath],

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 /// Result of `wedm/fit`: each outline as the wire leaves it, laid in the other.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Fit {
+pub(crate) struct Fit {
     /// Nowhere do two parts of a pair bind.
     pub fits: bool,
     /// Clearance that there should be, mm a side.
@@ -48,7 +48,7 @@ pub(crate) struct FitAlone {
 }
 
 impl Fit {
-    pub fn new(drawing: &Drawing, fit: &fit::Fit, svg: String, unit_mm: f64) -> Fit {
+    pub(crate) fn new(drawing: &Drawing, fit: &fit::Fit, svg: String, unit_mm: f64) -> Fit {
         let handle = |(entity, _): fit::SegmentOf| {
             let entity = drawing.get(entity);
             entity.map_or_else(String::new, |entity| entity.handle.to_string())
@@ -90,7 +90,7 @@ pub(crate) struct PairProgram {
     /// Correction of each pass, mm.
     pub corrections: Vec<f64>,
     /// The clearance is larger than the correction: the wire runs on the other side of what is drawn.
-    pub other_side: bool,
+    pub(crate) other_side: bool,
     #[serde(flatten)]
     pub program: Program,
 }

@@ -16,7 +16,7 @@ pub(crate) struct Milling {
     /// Height of a layer.
     pub layer: f64,
     /// Height of the last one.
-    pub last_layer: f64,
+    pub(crate) last_layer: f64,
     /// The depth that is wanted.
     pub depth: f64,
     /// In the order of the cuts.
@@ -36,10 +36,10 @@ pub(crate) struct MilledContour {
     /// What each layer is fed at its begin.
     pub feed: f64,
     /// What the last one is.
-    pub last_feed: f64,
+    pub(crate) last_feed: f64,
     /// What is fed on each mm of the way, where the wear is compensated linearly.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub feed_along: Option<f64>,
+    pub(crate) feed_along: Option<f64>,
     /// Where the electrode is told to go at last.
     pub fed: f64,
     /// Simulated: mean depth of the floor along the way.
@@ -58,7 +58,7 @@ pub(crate) struct Floor {
 }
 
 impl Milling {
-    pub fn new(snapshot: &Snapshot, milled: &toolpath::Milled) -> Milling {
+    pub(crate) fn new(snapshot: &Snapshot, milled: &toolpath::Milled) -> Milling {
         let electrode = &milled.electrode;
         let contour = |milled: &toolpath::MilledContour| {
             let outline = snapshot.outlines.get(milled.outline);
@@ -89,7 +89,7 @@ impl Milling {
     }
 
     /// What a person is told: the layers, then each contour.
-    pub fn told(&self, contours: usize) -> Vec<String> {
+    pub(crate) fn told(&self, contours: usize) -> Vec<String> {
         let has_rest = self.last_layer < self.layer * (1.0 - 1e-6);
         let rest = |sentence: String| if has_rest { sentence } else { String::new() };
         let layers = say!(

@@ -92,7 +92,7 @@ pub(crate) struct Inspect {
     pub(crate) handle: Option<String>,
 }
 
-/// Params of `wedm/toolpath` and `wedm/picture`; `wedm/contours` takes the `uri` alone.
+/// Params of `wedm/toolpath`, `wedm/picture` and `wedm/fit`; `wedm/contours` takes the `uri` alone.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct OptionsOf {
     pub(crate) uri: String,

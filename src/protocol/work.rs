@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 /// Where the wire is threaded for a contour.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct StartHole {
+pub(crate) struct StartHole {
     /// Handle of the contour's first entity.
     pub contour: String,
     /// Drawing units.
@@ -94,7 +94,7 @@ fn name(drawing: &Drawing, outlines: &[Outline], outline: usize) -> String {
 }
 
 impl StartHole {
-    pub fn new(
+    pub(crate) fn new(
         drawing: &Drawing,
         outlines: &[Outline],
         settings: &Effective,
@@ -110,7 +110,7 @@ impl StartHole {
 }
 
 impl Work {
-    pub fn new(drawing: &Drawing, outlines: &[Outline], work: &toolpath::Work) -> Work {
+    pub(crate) fn new(drawing: &Drawing, outlines: &[Outline], work: &toolpath::Work) -> Work {
         let name = |outline: usize| name(drawing, outlines, outline);
         let cuts = work.cuts.iter().map(|cut| WorkCut {
             contour: name(cut.outline),
@@ -140,7 +140,7 @@ impl Work {
 }
 
 impl LargestWire {
-    pub fn new(drawing: &Drawing, largest: &toolpath::LargestWire) -> LargestWire {
+    pub(crate) fn new(drawing: &Drawing, largest: &toolpath::LargestWire) -> LargestWire {
         let entity = drawing.get(largest.entity);
         LargestWire {
             diameter: largest.diameter,

@@ -1,7 +1,7 @@
 //! The rules of the wire: a folder or file each, with its check and its fix.
 //!
-//! A rule works on geometry: it takes contours and returns findings on segments and fixes as drawing edits. It knows
-//! nothing of text, protocols, or the wording of its messages.
+//! A rule works on geometry: it takes contours and returns observations at segments, and makes of one of them a finding and its fixes as edits of the
+//! drawing. It knows nothing of text, protocols, or the wording of its messages.
 
 pub(crate) mod arc_as_chords;
 pub(crate) mod dead_end;

@@ -4,9 +4,9 @@
 use super::config;
 use super::content::Content;
 use super::judge::Task;
-use super::partner::{Form, From, Kept, Link, Wanted, stamp_of};
+use super::partner::{From, Kept, Link, Wanted, stamp_of};
 use super::state::State;
-use crate::beside::{self, Named, head_of, name_of, plain};
+use crate::beside::{self, Form, Named, head_of, name_of, plain};
 use crate::finding::Rule;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -2,10 +2,9 @@
 
 use super::convert;
 use super::kind::Kind;
-use super::partner::Form;
 use super::shown::{self, Shown};
 use super::transport::{Written, panic_text};
-use crate::beside::Beside;
+use crate::beside::{Beside, Form};
 use crate::document::{Document, Source};
 use crate::drawing::Drawing;
 use crate::dxf;
@@ -159,11 +158,11 @@ impl Content {
     }
 
     /// The data for comparing others with it.
-    pub fn form(&self) -> Option<Form> {
+    pub(super) fn form(&self) -> Option<Form> {
         let Content::Read(document) = self else {
             return None;
         };
-        let form = catch_unwind(AssertUnwindSafe(|| Form::of(document)));
+        let form = catch_unwind(AssertUnwindSafe(|| document.form()));
         form.map_err(|panic| report(&*panic)).ok().flatten()
     }
 
@@ -261,7 +260,7 @@ pub(super) fn is_small_text(kind: Kind, text: &[u8]) -> bool {
     let multipliers: &[&[u8]] = match kind {
         Kind::Dxf => &MULTIPLIERS_IN_DXF,
         Kind::Program(Language::Iso) => &MULTIPLIERS_IN_ISO,
-        _ => &[],
+        Kind::Program(Language::ThreeB) | Kind::Settings | Kind::Foreign => &[],
     };
     text.len() <= SMALL_TEXT
         && !multipliers

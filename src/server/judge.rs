@@ -4,9 +4,10 @@
 use super::content::{Content, Remains, is_small_drawing, is_small_text};
 use super::convert;
 use super::kind::Kind;
-use super::partner::{Form, Kept, Wanted};
+use super::partner::{Kept, Wanted};
 use super::shown::Shown;
 use super::transport::Written;
+use crate::beside::Form;
 use crate::drawing::Drawing;
 use crate::protocol::DrawingChange;
 use crate::settings::Effective;

@@ -1,5 +1,6 @@
 //! The kind of an open text: by the client's language id, else by its name.
 
+use crate::document::FileKind;
 use crate::program::Language;
 use crate::settings::FILE_NAME;
 
@@ -25,15 +26,14 @@ impl Kind {
         let by_name = name
             .rsplit_once('.')
             .map(|(_, extension)| extension.to_ascii_lowercase());
-        match (language, by_name.as_deref()) {
-            ("dxf", _) => Kind::Dxf,
-            (language, ending) => match (Language::of_id(language), ending) {
-                (Some(language), _) => Kind::Program(language),
-                (None, Some("dxf")) => Kind::Dxf,
-                (None, ending) => ending
-                    .and_then(Language::of_ending)
-                    .map_or(Kind::Foreign, Kind::Program),
-            },
+        if language == "dxf" {
+            return Kind::Dxf;
+        }
+        let of_language = Language::of_id(language).map(FileKind::Program);
+        match of_language.or_else(|| FileKind::of_ending(&by_name?)) {
+            Some(FileKind::Drawing) => Kind::Dxf,
+            Some(FileKind::Program(language)) => Kind::Program(language),
+            None => Kind::Foreign,
         }
     }
 }
@@ -49,6 +49,8 @@ mod tests {
         };
         check("dxf", "file:///a/b", Kind::Dxf);
         check("plaintext", "file:///a/B.DXF", Kind::Dxf);
+        check("", "file:///a/b.dxb", Kind::Dxf);
+        check("", "file:///a/b.dxfb", Kind::Dxf);
         check("", "untitled:plate.3b", Kind::Program(Language::ThreeB));
         check("3b", "file:///a/plate.txt", Kind::Program(Language::ThreeB));
         check("toml", "file:///a/wedm.toml", Kind::Settings);

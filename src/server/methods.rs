@@ -73,14 +73,14 @@ macro_rules! own_requests {
 own_requests! {
     inspect: method::INSPECT, protocol::Inspect, Document, listing_radii => inspect::inspect;
     contours: method::CONTOURS, protocol::DrawingName, Document, listing_contours => contours::contours;
-    toolpath: method::TOOLPATH, protocol::DrawingName, Document, laying_the_wires_path => toolpath::toolpath;
-    picture: method::PICTURE, protocol::DrawingName, Document, drawing_the_picture => picture::picture;
+    toolpath: method::TOOLPATH, protocol::OptionsOf, Document, laying_the_wires_path => toolpath::toolpath;
+    picture: method::PICTURE, protocol::OptionsOf, Document, drawing_the_picture => picture::picture;
     export: method::EXPORT, protocol::Export, Document, drawing_the_picture => picture::export;
     holes: method::HOLES, protocol::Holes, Document, laying_the_wires_path => toolpath::holes;
     repairs: method::REPAIRS, protocol::RepairsOf, Document, looking_for_fixes => picture::repairs;
-    generate: method::GENERATE, generate::Params, Long, generating_the_program => generate::generate;
-    fit: method::FIT, protocol::DrawingName, Document, holding_the_parts_in_each_other => pair::fit;
-    pair: method::PAIR, generate::Params, Long, generating_the_programs => pair::pair;
+    generate: method::GENERATE, protocol::Generate, Long, generating_the_program => generate::generate;
+    fit: method::FIT, protocol::OptionsOf, Document, holding_the_parts_in_each_other => pair::fit;
+    pair: method::PAIR, protocol::Generate, Long, generating_the_programs => pair::pair;
     simulate: method::SIMULATE, protocol::Simulate, Document, following_the_program => simulate::simulate;
     locate: method::LOCATE, protocol::Locate, Place, locating => locate::locate;
 }

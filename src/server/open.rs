@@ -3,9 +3,10 @@
 use super::content::Content;
 use super::judge::Task;
 use super::kind::Kind;
-use super::partner::{Form, Link};
+use super::partner::Link;
 use super::shown::Shown;
 use super::token_memory::TokenMemory;
+use crate::beside::Form;
 use crate::document::Document;
 use crate::settings::Effective;
 use crate::text::SourceText;

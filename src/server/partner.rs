@@ -1,10 +1,8 @@
 //! The partners of a document that is judged: the drawing of a program, the programs of a drawing.
 
-use crate::beside::{Beside, Drawn, Named, Partner, Traced};
+use crate::beside::{Beside, Form, Named};
 use crate::disk;
-use crate::document::{Document, Source};
-use crate::dxf;
-use crate::program::{self, Language};
+use crate::document::{Document, FileKind};
 use crate::settings::Effective;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
@@ -12,20 +10,6 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
-
-/// The data by which a document is compared.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Form {
-    Drawn(Arc<Drawn>),
-    Traced(Arc<Traced>),
-}
-
-impl Form {
-    pub fn of(document: &Document) -> Option<Form> {
-        let traced = document.traced().map(Form::Traced);
-        traced.or_else(|| document.drawn().map(Form::Drawn))
-    }
-}
 
 /// The partner or partners of an open document.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -45,7 +29,7 @@ pub(super) type Stamp = Option<(SystemTime, u64)>;
 pub(super) struct Wanted {
     pub others: Vec<Arc<str>>,
     pub partners: Vec<(Arc<str>, From)>,
-    pub is_program: bool,
+    pub(crate) is_program: bool,
 }
 
 pub(super) enum From {
@@ -59,7 +43,7 @@ pub(super) enum From {
 
 /// A file that was read for it.
 pub(super) struct Kept {
-    pub stamp: Stamp,
+    pub(crate) stamp: Stamp,
     pub form: Result<Form, String>,
 }
 
@@ -84,7 +68,7 @@ impl Wanted {
     }
 
     /// The partners of the document, and the files that were read for it.
-    pub fn read(self) -> (Beside, Vec<(PathBuf, Kept)>) {
+    pub(super) fn read(self) -> (Beside, Vec<(PathBuf, Kept)>) {
         let mut read = Vec::new();
         let mut forms = Vec::with_capacity(self.partners.len());
         for (name, from) in self.partners {
@@ -106,29 +90,12 @@ impl Wanted {
             };
             forms.push((name, form));
         }
-        let drawn = |(name, form): (Arc<str>, Result<Form, String>)| {
-            let made = form.and_then(|form| match form {
-                Form::Drawn(drawn) => Ok(drawn),
-                Form::Traced(_) => Err(say!(a_program_is_no_drawing).into()),
-            });
-            Partner { name, made }
-        };
-        let traced = |(name, form): (Arc<str>, Result<Form, String>)| {
-            let made = form.and_then(|form| match form {
-                Form::Traced(traced) => Ok(traced),
-                Form::Drawn(_) => Err(say!(a_drawing_is_no_program).into()),
-            });
-            Partner { name, made }
-        };
-        let beside = if self.is_program {
-            let first = forms.into_iter().next();
-            first.map_or(Beside::Nothing, |form| {
-                Beside::Drawing(drawn(form), self.others)
-            })
-        } else if forms.is_empty() {
-            Beside::Nothing
-        } else {
-            Beside::Programs(forms.into_iter().map(traced).collect())
+        let beside = match self.is_program {
+            true => match forms.into_iter().next() {
+                Some(drawing) => Beside::of_program(drawing, self.others),
+                None => Beside::Nothing,
+            },
+            false => Beside::of_drawing(forms),
         };
         (beside, read)
     }
@@ -138,14 +105,10 @@ impl Wanted {
 fn form_of_file(path: &Path, settings: &Arc<Effective>) -> Result<Form, String> {
     let file = std::fs::File::open(path).map_err(|error| disk::plain(&error))?;
     let bytes = disk::read_at_most(&file, LARGEST)?;
-    let ending = path.extension().unwrap_or_default().to_string_lossy();
-    let language = Language::of_ending(&ending.to_ascii_lowercase());
+    let kind = FileKind::of_ending(&disk::ending_of(path)).unwrap_or(FileKind::Drawing);
     let form = catch_unwind(AssertUnwindSafe(|| {
-        let source = match language {
-            Some(language) => Source::Program(program::Document::read(language, bytes, settings)),
-            None => Source::Dxf(dxf::Document::read_file(bytes)),
-        };
-        Form::of(&Document::new(source, settings.clone()))
+        let (source, _) = kind.read(bytes, settings);
+        Document::new(source, settings.clone()).form()
     }));
     let form = form.ok().flatten();
     form.ok_or_else(|| say!(internal_error_the_document_could_not_be_judged).into())

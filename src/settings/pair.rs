@@ -10,7 +10,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// A part that is cut along a drawn contour of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Use {
+pub(crate) enum Use {
     Punch,
     Plate,
     /// The plate that strips the strip from the punch, with a clearance of its own.
@@ -20,9 +20,9 @@ pub enum Use {
 }
 
 impl Use {
-    pub const ALL: [Use; 4] = [Use::Punch, Use::Plate, Use::Stripper, Use::Holder];
+    pub(crate) const ALL: [Use; 4] = [Use::Punch, Use::Plate, Use::Stripper, Use::Holder];
 
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Use::Punch => "punch",
             Use::Plate => "plate",
@@ -31,7 +31,7 @@ impl Use {
         }
     }
 
-    pub fn role(self) -> Role {
+    pub(crate) fn role(self) -> Role {
         match self {
             Use::Punch => Role::Punch,
             Use::Plate | Use::Stripper | Use::Holder => Role::Opening,
@@ -50,7 +50,7 @@ impl From<DrawnAs> for Use {
 
 /// The partners of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Partners {
+pub(crate) enum Partners {
     /// Each contour with the wire on both sides, as punch and as plate.
     CutTwice(DrawnAs),
     /// Contours of different workpieces.
@@ -59,11 +59,11 @@ pub enum Partners {
 
 /// The keys that a requested fit still needs.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MissingForFit(pub Vec<&'static str>);
+pub(crate) struct MissingForFit(pub Vec<&'static str>);
 
 impl MissingForFit {
     /// The keys as a person reads them.
-    pub fn listed(&self) -> String {
+    pub(crate) fn listed(&self) -> String {
         match self.0.as_slice() {
             [first @ .., last] if !first.is_empty() => first.join(say!(comma)) + say!(and) + last,
             keys => keys.concat(),
@@ -73,7 +73,7 @@ impl MissingForFit {
 
 impl Effective {
     /// The drawn part of a pair; `None` where the settings do not say.
-    pub fn partners(&self) -> Option<Partners> {
+    pub(crate) fn partners(&self) -> Option<Partners> {
         match self.pair.drawn_as {
             Some(drawn_as) => Some(Partners::CutTwice(drawn_as)),
             None if self.workpieces.names().len() > 1 => Some(Partners::Drawn),
@@ -82,7 +82,7 @@ impl Effective {
     }
 
     /// The partners and their clearance in mm, where a fit is requested and everything for it is set.
-    pub fn fit(&self) -> Result<(Partners, f64), MissingForFit> {
+    pub(crate) fn fit(&self) -> Result<(Partners, f64), MissingForFit> {
         let mut missing = Vec::new();
         let partners = self.partners();
         if partners.is_none() {
@@ -104,7 +104,7 @@ impl Effective {
     }
 
     /// The parts that are cut along each drawn contour.
-    pub fn uses(&self) -> Vec<Use> {
+    pub(crate) fn uses(&self) -> Vec<Use> {
         let is_cut = |of: &Use| match of {
             Use::Punch | Use::Plate => true,
             Use::Stripper => self.pair.stripper.is_some(),

@@ -168,7 +168,7 @@ impl Reader {
     }
 
     /// The path of a drawing.
-    pub fn path(&mut self, key: &str, node: &Node) -> Option<String> {
+    pub(super) fn path(&mut self, key: &str, node: &Node) -> Option<String> {
         let expected = say!(the_path_of_a_drawing);
         let path = self.text(key, node, expected)?;
         let lower = path.to_ascii_lowercase();

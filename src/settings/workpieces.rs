@@ -24,11 +24,11 @@ impl Workpieces {
         workpieces
     }
 
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.names.is_empty()
     }
 
-    pub fn names(&self) -> &[String] {
+    pub(crate) fn names(&self) -> &[String] {
         &self.names
     }
 
@@ -38,7 +38,7 @@ impl Workpieces {
     }
 
     /// The name of a part by its number.
-    pub fn name(&self, number: u16) -> Option<&str> {
+    pub(crate) fn name(&self, number: u16) -> Option<&str> {
         let index = usize::from(number).checked_sub(1)?;
         self.names.get(index).map(String::as_str)
     }

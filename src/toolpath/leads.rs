@@ -303,7 +303,7 @@ pub(super) struct Threading<'a> {
     /// How far a start hole is to be from the contours, drawing units, where one is to be proposed.
     pub reach: Option<f64>,
     /// True where a start hole has room.
-    pub has_room: &'a dyn Fn(Point) -> bool,
+    pub(crate) has_room: &'a dyn Fn(Point) -> bool,
 }
 
 /// The thread hole for a lead to a landing, the point of the path that belongs to `entry`. The landing itself where there is no lead.

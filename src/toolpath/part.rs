@@ -22,7 +22,7 @@ use std::sync::atomic::Ordering::Relaxed;
 pub(crate) struct Edge {
     pub geometry: Segment,
     /// Where the wire turned, and left its own radius.
-    pub turned_about: Option<Point>,
+    pub(crate) turned_about: Option<Point>,
     /// The walls that the path follows before and behind, by index.
     walls: [usize; 2],
 }

@@ -73,7 +73,13 @@ pub(super) enum Way {
 impl Way {
     /// The possible forms of a lead, the best first. `length` is the largest distance of a corner from the path;
     /// `least` is the least radius of an arc. None where the thread hole lies too near for an arc.
-    pub fn all(lead: Lead, thread: Point, landing: &Landing, length: f64, least: f64) -> Vec<Way> {
+    pub(super) fn all(
+        lead: Lead,
+        thread: Point,
+        landing: &Landing,
+        length: f64,
+        least: f64,
+    ) -> Vec<Way> {
         let way = thread - landing.at;
         match lead {
             _ if way.norm() <= least * 1e-6 => vec![Way::Straight],
@@ -99,7 +105,7 @@ impl Way {
 
     /// The lead from the thread hole to the landing: for the wire's centre, or as programmed where the control offsets
     /// it.
-    pub fn pieces(self, thread: Point, landing: &Landing, programmed: bool) -> Vec<Segment> {
+    pub(super) fn pieces(self, thread: Point, landing: &Landing, programmed: bool) -> Vec<Segment> {
         let at = if programmed { landing.path } else { landing.at };
         match self {
             _ if thread == at => Vec::new(),

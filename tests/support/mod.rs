@@ -23,7 +23,7 @@ pub struct Client {
     /// Of a result only its length is handed on: for whoever measures how long the server takes for a large one.
     pub skips_results: Arc<AtomicBool>,
     /// When the last message had been read whole, and was not parsed yet.
-    read_at: Arc<Mutex<Instant>>,
+    pub read_at: Arc<Mutex<Instant>>,
 }
 
 /// A request of the server's, to be answered.
@@ -209,11 +209,6 @@ impl Client {
                     .expect("a list");
             }
         }
-    }
-
-    /// When the message that came last had been read whole.
-    pub fn read_at(&self) -> Instant {
-        *self.read_at.lock().expect("the reader does not panic")
     }
 
     /// The first message that fits, which is taken out of those seen.

@@ -24,48 +24,19 @@ def schema(root: Path) -> dict[str, Any]:
     return loaded
 
 
-# Which type of the package stands for which of the schema, and what it leaves to the reader's own code.
-RESULTS = [
-    ("Inspection", "Inspection"),
-    ("InspectedEntity", "InspectedEntity"),
-    ("Segment", "InspectedSegment"),
-    ("Contours", "Contours"),
-    ("Contour", "ContoursContour"),
-    ("ContourPiece", "ContourPiece"),
-    ("Gap", "Gap"),
-    ("Toolpath", "Toolpath"),
-    ("WirePath", "ToolpathPath"),
-    ("PathPiece", "PathPiece"),
-    ("StartHole", "StartHole"),
-    ("Work", "Work"),
-    ("WorkCut", "WorkCut"),
-    ("Slug", "Slug"),
-    ("LargestWire", "LargestWire"),
-    ("Picture", "Picture"),
-    ("Program", "Program"),
-    ("Fit", "Fit"),
-    ("FitPlace", "FitPlace"),
-    ("FitAlone", "FitAlone"),
-    ("PairPrograms", "PairPrograms"),
-    ("PairProgram", "PairProgram"),
-    ("Closure", "Closure"),
-    ("Simulation", "Simulation"),
-    ("SimulatedBlock", "SimulatedBlock"),
-    ("Bounds", "SimulatedBounds"),
-    ("SettingsInForce", "SettingsInForce"),
-    ("FinishedPart", "FinishedPart"),
-    ("Milling", "Milling"),
-    ("MilledContour", "MilledContour"),
-    ("Floor", "Floor"),
-    ("Repairs", "Repairs"),
-    ("Repair", "Repair"),
-    ("SegmentShape", "SegmentShape"),
-]
 # Read by code of the package's own: findings and places, whose lines and columns it counts from 1, and what is handed out bare.
 READ_OTHERWISE = {
     *("Diagnostic", "CodeDescription", "FindingData", "RelatedInformation", "RelatedPlace", "Location", "Located", "Range", "Position"),
     *("Point", "RulePageText", "Refused", "Exported", "ContourSettings"),
 }
+# Types of the package that have a name of their own.
+OTHER_NAMES = {"Segment": "InspectedSegment", "Contour": "ContoursContour", "WirePath": "ToolpathPath", "Bounds": "SimulatedBounds"}
+# Which type of the package stands for which of the schema. `Fixed` is made of several answers.
+RESULTS = [
+    (name, OTHER_NAMES.get(name, name))
+    for name, kind in vars(results).items()
+    if dataclasses.is_dataclass(kind) and kind.__module__ == results.__name__ and name not in READ_OTHERWISE | {"Fixed"}
+]
 
 
 @pytest.mark.parametrize(("ours", "theirs"), RESULTS)

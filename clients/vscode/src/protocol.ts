@@ -367,7 +367,7 @@ export interface Gap {
   distance: number;
 }
 /**
- * Params of `wedm/toolpath` and `wedm/picture`; `wedm/contours` takes the `uri` alone.
+ * Params of `wedm/toolpath`, `wedm/picture` and `wedm/fit`; `wedm/contours` takes the `uri` alone.
  */
 export interface OptionsOf {
   uri: string;

@@ -1,7 +1,7 @@
 //! The start of a run: a block that lies on the drawing, with others behind it that continue there.
 
 use super::super::matching::{Found, matching};
-use super::super::pose::Pose;
+use super::super::placement::Placement;
 use super::super::rounds::Spot;
 use super::super::traced::{Block, Motion};
 use super::super::{BETWEEN, COVERED, REACH};
@@ -12,7 +12,7 @@ impl Walk<'_> {
     pub(super) fn enter(&mut self, index: usize) -> Option<Run> {
         let segment = *self.traced.blocks[index].segment()?;
         if self.comes_by_arcs(index) {
-            self.pose = self.pose.unsurely();
+            self.placement = self.placement.unsurely();
         }
         let mut best: Option<(usize, Found)> = None;
         let mut consider = |count: usize, found: Found| {
@@ -20,37 +20,47 @@ impl Walk<'_> {
                 best = Some((count, found));
             }
         };
-        for spot in self.rounds.near(self.pose.place(segment.start()), REACH) {
-            if let Some(count) = self.begins(&self.pose, &spot, index) {
+        for spot in self
+            .rounds
+            .near(self.placement.place(segment.start()), REACH)
+        {
+            if let Some(count) = self.begins(&self.placement, &spot, index) {
                 let found = Found {
                     spot,
-                    pose: self.pose,
+                    placement: self.placement,
                 };
                 consider(count, found);
             }
         }
         let (mut moved, mut is_first) = (None, false);
         if best.is_none() {
-            let found = matching(self.rounds, self.traced, index, &self.pose)
+            let found = matching(self.rounds, self.traced, index, &self.placement)
                 .into_iter()
                 .filter(|found| {
                     let (count, ends) =
-                        self.verify(found.pose, found.spot, found.spot, index, SURE);
+                        self.verify(found.placement, found.spot, found.spot, index, SURE);
                     count >= 2 || ends && self.is_circle(&found.spot)
                 })
                 .min_by(|a, b| {
-                    let away = |found: &Found| (found.pose.shift - self.pose.shift).norm();
+                    let away =
+                        |found: &Found| (found.placement.shift - self.placement.shift).norm();
                     away(a).total_cmp(&away(b))
                 });
             if let Some(found) = found {
-                let by = found.pose.shift - self.pose.shift;
+                let by = found.placement.shift - self.placement.shift;
                 // The place of the program was found from its first contour, or from one behind that.
                 is_first = self.walked.contours.is_empty();
                 moved = (by.norm() > REACH).then_some(by);
                 best = Some((0, found));
             }
         }
-        let (_, Found { mut spot, pose }) = best?;
+        let (
+            _,
+            Found {
+                mut spot,
+                placement,
+            },
+        ) = best?;
         let mut first = index;
         if moved.is_some() {
             // The blocks before looked like a lead.
@@ -61,10 +71,10 @@ impl Walk<'_> {
                 if self.walked.runs[before] {
                     break;
                 }
-                let near = self.rounds.near(pose.place(own.start()), REACH);
+                let near = self.rounds.near(placement.place(own.start()), REACH);
                 let leads = |near: &&Spot| {
                     near.round == spot.round
-                        && self.verify(pose, **near, **near, before, SURE).0 >= 2
+                        && self.verify(placement, **near, **near, before, SURE).0 >= 2
                 };
                 if let Some(near) = near.iter().find(leads) {
                     (first, spot) = (before, *near);
@@ -75,7 +85,7 @@ impl Walk<'_> {
             self.lap(spot.round);
         }
         if moved.is_some() {
-            self.pose = pose;
+            self.placement = placement;
         }
         let moved = moved.filter(|_| !is_first);
         Some(Run {
@@ -104,14 +114,14 @@ impl Walk<'_> {
 
     /// The block ends where a piece does.
     pub(super) fn is_whole(&self, spot: &Spot, index: usize) -> bool {
-        let mut pose = self.pose;
-        let reached = pose.follow(self.rounds, self.traced, index, spot, spot);
+        let mut placement = self.placement;
+        let reached = placement.follow(self.rounds, self.traced, index, spot, spot);
         reached.is_some_and(|reached| reached.whole)
     }
 
     /// The evidence for a run that begins with a block at a spot; `None` where it may be a way there, or away.
-    pub(super) fn begins(&self, pose: &Pose, spot: &Spot, index: usize) -> Option<usize> {
-        let (count, ends) = self.verify(*pose, *spot, *spot, index, SURE);
+    pub(super) fn begins(&self, placement: &Placement, spot: &Spot, index: usize) -> Option<usize> {
+        let (count, ends) = self.verify(*placement, *spot, *spot, index, SURE);
         let is_rest = || !self.is_cut(spot) && !self.covered[spot.round].is_empty();
         let is_run = count >= 2 || count >= 1 && (ends || self.is_whole(spot, index) || is_rest());
         is_run.then_some(2 * count + usize::from(ends))
@@ -125,7 +135,7 @@ impl Walk<'_> {
     /// ends behind them.
     pub(in crate::beside) fn verify(
         &self,
-        mut pose: Pose,
+        mut placement: Placement,
         from: Spot,
         entry: Spot,
         index: usize,
@@ -143,7 +153,7 @@ impl Walk<'_> {
                 Motion::Way(..) => return (count, true),
                 Motion::Cut(_) => {}
             }
-            let followed = pose.follow(self.rounds, self.traced, next, &spot, &entry);
+            let followed = placement.follow(self.rounds, self.traced, next, &spot, &entry);
             let Some(reached) = followed else {
                 return (
                     count,

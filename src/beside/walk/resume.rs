@@ -1,6 +1,6 @@
 //! Whether and where a run goes on behind a block that does not follow.
 
-use super::super::pose::{Pose, Reached, stretch};
+use super::super::placement::{Placement, Reached, stretch};
 use super::super::rounds::Spot;
 use super::super::traced::Motion;
 use super::super::{BETWEEN, REACH};
@@ -44,38 +44,38 @@ impl Walk<'_> {
             let mut spot = ways[pieces];
             if pieces > 0 && blocks > 1 {
                 // It may come back to the drawing within a piece, where a tab begins.
-                let near = self.rounds.near(self.pose.place(end), REACH);
+                let near = self.rounds.near(self.placement.place(end), REACH);
                 let within = near.iter().find(|near| {
                     (near.round, near.piece, near.back) == (spot.round, spot.piece, spot.back)
                 });
                 spot = within.copied().unwrap_or(spot);
             }
-            let miss = self.pose.place(end) - spot.at;
+            let miss = self.placement.place(end) - spot.at;
             for is_back in [true, false] {
-                let pose = match is_back {
+                let placement = match is_back {
                     true if miss.norm() > REACH => continue,
-                    true => self.pose,
-                    false => self.pose.moved(miss),
+                    true => self.placement,
+                    false => self.placement.moved(miss),
                 };
-                let (count, ends) = self.verify(pose, spot, run.entry, last, SURE);
+                let (count, ends) = self.verify(placement, spot, run.entry, last, SURE);
                 let is_back_at_stop = is_back && ends && spot.at != ways[pieces].at;
                 if count < SURE && !(ends && count >= 1 || is_back_at_stop) {
                     continue;
                 }
                 // Little speaks for it, and something for another pass or a tab.
                 if count < SURE
-                    && *turns.get_or_insert_with(|| self.turns(&self.pose, &run.spot, index))
+                    && *turns.get_or_insert_with(|| self.turns(&self.placement, &run.spot, index))
                 {
                     return None;
                 }
                 let off = match blocks {
                     1 => miss.norm(),
-                    _ => self.off(&self.pose, run, index),
+                    _ => self.off(&self.placement, run, index),
                 };
                 self.name(run, index, off, Kind::Block);
                 (index..last).for_each(|block| self.walked.runs[block] = true);
                 self.pass(run, &ways[1..=pieces], spot);
-                self.pose = pose;
+                self.placement = placement;
                 run.passed = (blocks == 0).then_some(index);
                 return Some(last);
             }
@@ -100,12 +100,12 @@ impl Walk<'_> {
     }
 
     /// The distance of a block's end from that of the piece which it should follow.
-    pub(super) fn off(&self, pose: &Pose, run: &Run, index: usize) -> f64 {
+    pub(super) fn off(&self, placement: &Placement, run: &Run, index: usize) -> f64 {
         let Some(segment) = self.traced.blocks[index].segment() else {
             return 0.0;
         };
         // It may stand for several pieces.
-        let end = pose.place(segment.end());
+        let end = placement.place(segment.end());
         let (mut spot, mut off) = (run.spot, f64::INFINITY);
         for _ in 0..4 {
             let (rest, next) = stretch(self.rounds, &spot, &run.entry);
@@ -122,12 +122,12 @@ impl Walk<'_> {
     /// where they do not reach its end, a stop or another pass.
     pub(super) fn split_ends(
         &self,
-        pose: &Pose,
+        placement: &Placement,
         run: &Run,
         reached: &Reached,
         index: usize,
     ) -> Option<usize> {
-        let (mut pose, mut spot) = (*pose, reached.spot?);
+        let (mut placement, mut spot) = (*placement, reached.spot?);
         let mut length = reached.length;
         for next in index + 1..self.traced.blocks.len().min(index + SPLIT) {
             match self.traced.blocks[next].motion {
@@ -135,9 +135,9 @@ impl Walk<'_> {
                 Motion::Way(..) => return None,
                 Motion::Cut(_) => {}
             }
-            let followed = pose.follow(self.rounds, self.traced, next, &spot, &run.entry);
+            let followed = placement.follow(self.rounds, self.traced, next, &spot, &run.entry);
             let Some(further) = followed else {
-                return self.turns(&pose, &spot, next).then_some(next);
+                return self.turns(&placement, &spot, next).then_some(next);
             };
             length += further.length;
             if further.whole || self.covers_all(run, length) {
@@ -149,7 +149,7 @@ impl Walk<'_> {
     }
 
     /// Whether another pass, or the way back, begins at a block or behind a few that lead to it.
-    pub(super) fn turns(&self, pose: &Pose, spot: &Spot, index: usize) -> bool {
+    pub(super) fn turns(&self, placement: &Placement, spot: &Spot, index: usize) -> bool {
         for next in index..self.traced.blocks.len().min(index + BETWEEN + 1) {
             let block = &self.traced.blocks[next];
             let Motion::Cut(segment) = &block.motion else {
@@ -158,12 +158,12 @@ impl Walk<'_> {
                 }
                 return false;
             };
-            let near = self.rounds.near(pose.place(segment.start()), REACH);
+            let near = self.rounds.near(placement.place(segment.start()), REACH);
             let other = |near: &&Spot| (near.round, near.back) != (spot.round, spot.back);
             if near
                 .iter()
                 .filter(other)
-                .any(|near| self.begins(pose, near, next).is_some())
+                .any(|near| self.begins(placement, near, next).is_some())
             {
                 return true;
             }
@@ -173,7 +173,12 @@ impl Walk<'_> {
 
     /// Whether a block before the run begins about where this one ends: it was the first of its contour, which returns
     /// there.
-    pub(super) fn begins_before(&self, pose: &Pose, run: &Run, reached: &Reached) -> bool {
+    pub(super) fn begins_before(
+        &self,
+        placement: &Placement,
+        run: &Run,
+        reached: &Reached,
+    ) -> bool {
         let Some(spot) = reached.spot else {
             return false;
         };
@@ -181,7 +186,7 @@ impl Walk<'_> {
         self.before(run).any(|before| {
             let start = self.traced.blocks[before]
                 .segment()
-                .map(|own| pose.place(own.start()));
+                .map(|own| placement.place(own.start()));
             start.is_some_and(|start| (start - spot.at).norm() < left.min(NEAR))
         })
     }
@@ -195,8 +200,8 @@ impl Walk<'_> {
     }
 }
 
-/// How many blocks and how many pieces are skipped, the likeliest first: few of both, and as many of the one as of the
-/// other. Pieces without blocks are skipped only where they `may_be_missing`.
+/// The numbers of blocks and pieces to skip, the likeliest first: few of both, and as many of the one as of the other.
+/// Pieces without blocks are skipped only where they `may_be_missing`.
 fn choices(blocks: usize, pieces: usize, may_be_missing: bool) -> Vec<(usize, usize)> {
     let mut choices: Vec<(usize, usize)> = (0..=blocks)
         .flat_map(|blocks| (0..pieces).map(move |pieces| (blocks, pieces)))

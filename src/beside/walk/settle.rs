@@ -14,7 +14,7 @@ impl Walk<'_> {
                 run,
                 block,
                 is_behind,
-                pose,
+                placement,
             } = loose;
             let gap = self.uncut_from(&run.spot);
             // A tab is cut behind a stop, or by hand.
@@ -40,14 +40,14 @@ impl Walk<'_> {
             } else {
                 f64::INFINITY
             };
-            let own = self.off(&pose, &run, block);
+            let own = self.off(&placement, &run, block);
             let of_block = is_behind.then_some(own);
             let before = self
                 .before(&run)
                 .filter_map(|before| {
                     let start = self.traced.blocks[before].segment()?.start();
                     let shift = run.moved.unwrap_or_default();
-                    let away = |by: Vector| (pose.place(start) + by - run.spot.at).norm();
+                    let away = |by: Vector| (placement.place(start) + by - run.spot.at).norm();
                     Some((before, away(Vector::zeros()).min(away(shift))))
                 })
                 .min_by(|a, b| a.1.total_cmp(&b.1))
@@ -137,7 +137,7 @@ impl Walk<'_> {
     }
 
     /// Among the blocks before a run, starting with the one that begins where the run returned to, the one that does
-    /// not follow, and how far it is off.
+    /// not follow, and its deviation.
     pub(super) fn first_unlike(&self, run: &Run, before: usize) -> (usize, f64) {
         let (mut spot, mut worst) = (run.spot, (before, 0.0));
         for block in before..run.first {

@@ -5,6 +5,7 @@ use crate::cli::output::{self, styled};
 use crate::cli::report::Row;
 use crate::finding::{Rule, Severity};
 use crate::message::readable;
+use crate::picture;
 use std::fmt::Write;
 
 /// `path:line:column: severity[rule]: sentence (where)`.
@@ -156,20 +157,11 @@ pub(super) fn junit(survey: &Survey) -> String {
 
 /// Text for an attribute; characters that XML forbids are replaced by a mark.
 fn xml(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for character in text.chars() {
-        match character {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\n' | '\t' => out.push(' '),
-            control if control.is_control() => out.push(char::REPLACEMENT_CHARACTER),
-            '\u{fffe}' | '\u{ffff}' => out.push(char::REPLACEMENT_CHARACTER),
-            other => out.push(other),
-        }
-    }
-    out
+    let is_forbidden = |letter: char| match letter {
+        '\n' | '\t' => false,
+        letter => letter.is_control() || matches!(letter, '\u{fffe}' | '\u{ffff}'),
+    };
+    picture::escaped(&text.replace(is_forbidden, "\u{fffd}"))
 }
 
 #[cfg(test)]

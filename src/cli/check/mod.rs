@@ -11,6 +11,7 @@ use super::files;
 use super::options::Common;
 use super::report::{MOST, Row};
 use super::{Failure, Verdict, output, output::styled};
+use crate::document::FileKind;
 use crate::finding::{Rule, Severity};
 use crate::job;
 use crate::message::help;
@@ -156,7 +157,9 @@ fn report(arguments: &Arguments) -> Result<Verdict, Failure> {
         .for_each(|Failure(sentence)| output::complain(sentence));
     if survey.files == 0 && survey.failures.is_empty() {
         let warning = styled(output::WARNING, say!(warning));
-        let endings = files::ENDINGS.map(|ending| format!(".{ending}"));
+        let endings: Vec<String> = FileKind::endings()
+            .map(|ending| format!(".{ending}"))
+            .collect();
         let sentence = say!(no_document_is_found, endings.join(say!(comma)));
         output::say(&say!(says, warning, sentence));
     }

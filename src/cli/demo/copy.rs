@@ -109,7 +109,7 @@ impl Copy {
         if self.text.get(range.clone()).is_none() {
             return Err(Failure(say!(
                 the_range_does_not_fit_the_text,
-                format!("{range:?}")
+                format_args!("{}..{}", range.start, range.end)
             )));
         }
         let change = json!({ "range": { "start": self.position(range.start), "end": self.position(range.end) }, "text": text });

@@ -160,13 +160,8 @@ fn decoded(program: &str, start: Point) -> Result<Vec<Motion>, Failure> {
             Item::Text { .. } | Item::CommentedBlock { .. } | Item::Fault(_) => {}
             Item::StartPoint { .. } => {}
             Item::Block { block, .. } => {
-                let segment = three_b::decode(&block, at).map_err(|fault| {
-                    Failure(say!(
-                        block_leads_nowhere,
-                        motions.len() + 1,
-                        format!("{fault:?}")
-                    ))
-                })?;
+                let segment = three_b::decode(&block, at)
+                    .map_err(|_| Failure(say!(block_leads_nowhere, motions.len() + 1, block)))?;
                 at = segment.end();
                 motions.push(Motion {
                     segment: in_mm(&segment),

@@ -7,6 +7,8 @@ mod page;
 use super::options::{Common, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, files};
+use crate::disk::ending_of;
+use crate::document::FileKind;
 use crate::program::Format;
 use clap::Args;
 use page::Page;
@@ -49,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let last = arguments.common.settings_with(&arguments.program);
     let (mut names, mut lines) = (HashSet::new(), Vec::new());
     for path in drawings {
-        let page = files::open_to_use(path, &arguments.common, &last)
+        let page = files::open_to_use(path, None, &arguments.common, &last)
             .and_then(|opened| Page::of(opened, arguments.format));
         match page {
             Ok(page) => {
@@ -76,7 +78,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 }
 
 fn is_drawing(path: &Path) -> bool {
-    ["dxf", "dxb", "dxfb"].contains(&files::ending_of(path).as_str())
+    FileKind::of_ending(&ending_of(path)) == Some(FileKind::Drawing)
 }
 
 /// A name for the page of a drawing that no other has yet.

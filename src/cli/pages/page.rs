@@ -71,6 +71,7 @@ impl Page {
         let unit_mm = opened.document.unit_mm();
         let findings = opened.document.all_findings();
         let (planned, picture) = job::picture(&snapshot, &findings, &());
+        let planned = planned.unwrap_or_default();
         let paths = planned.paths;
         let arcs = arcs_of(Inspection::of(&opened.document, None), unit_mm);
         let wanted = Wanted {

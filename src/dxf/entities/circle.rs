@@ -1,7 +1,7 @@
 //! ARC and CIRCLE.
 
 use crate::drawing::{Geometry, Kind};
-use crate::dxf::entity::{Outcome, Plane, value_line_of};
+use crate::dxf::entity::{Plane, Read, Refused, value_line_of};
 use crate::dxf::fault::quoted;
 use crate::dxf::layers::Layers;
 use crate::dxf::lexer::{Lexer, Tag};
@@ -21,12 +21,10 @@ fn radius_of(value: f64, kind: &str, start: Tag, lexer: &mut Lexer) -> Option<f6
     None
 }
 
-pub(super) fn arc(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
+pub(super) fn arc(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Result<Read, Refused> {
     let mut numbers = Numbers::new([10, 20, 40, 50, 51, 30]);
     let common = numbers.gather(lexer, |_, _| {});
-    let Some([x, y, radius, from, to]) = numbers.required(start, lexer, &common) else {
-        return Outcome::Damaged;
-    };
+    let [x, y, radius, from, to] = numbers.required(start, lexer, &common)?;
     // A point begins and ends in the same direction: a fillet of no radius leaves it behind. Else the radius is
     // damaged.
     let is_point = radius == 0.0 && (to - from) % 360.0 == 0.0;
@@ -34,15 +32,13 @@ pub(super) fn arc(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome
         let place = lexer.lines.trimmed_range(value_line_of(start, lexer, 40));
         lexer.oddity_in(place, say!(arc_has_the_radius_0).into());
     } else if radius_of(radius, "ARC", start, lexer).is_none() {
-        return Outcome::Damaged;
+        return Err(Refused::Damaged);
     }
     let (from, to) = (radians(from), radians(to));
-    let Some(lies) = common.lies(numbers.values[5].unwrap_or(0.0)) else {
-        return Outcome::Unsupported("ARC".into(), say!(its_plane_is_tilted));
-    };
+    let lies = common.lies(numbers.values[5].unwrap_or(0.0))?;
     let (center, (start_angle, end_angle)) = match common.plane() {
         _ if common.paper_space => {
-            return Outcome::Unsupported("ARC".into(), say!(it_lies_in_paper_space));
+            return Err(Refused::Unsupported(say!(it_lies_in_paper_space)));
         }
         Plane::Normal | Plane::Tilted => (Point::new(x, y), (from, to)),
         Plane::Mirrored => (Point::new(0.0 - x, y), mirrored_angles(from, to)),
@@ -57,13 +53,13 @@ pub(super) fn arc(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome
             end_angle,
         }
     };
-    common.finish(
+    Ok(common.finish(
         lexer,
         layers,
         Kind::Arc,
         (Shape::Plain(geometry), lies),
         None,
-    )
+    ))
 }
 
 /// Start and end of an arc, counter-clockwise again after x is reversed. Its own inverse.
@@ -71,21 +67,17 @@ pub(in crate::dxf) fn mirrored_angles(start: f64, end: f64) -> (f64, f64) {
     (std::f64::consts::PI - end, std::f64::consts::PI - start)
 }
 
-pub(super) fn circle(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
+pub(super) fn circle(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Result<Read, Refused> {
     let mut numbers = Numbers::new([10, 20, 40, 30]);
     let common = numbers.gather(lexer, |_, _| {});
-    let Some([x, y, radius]) = numbers.required(start, lexer, &common) else {
-        return Outcome::Damaged;
-    };
+    let [x, y, radius] = numbers.required(start, lexer, &common)?;
     let Some(radius) = radius_of(radius, "CIRCLE", start, lexer) else {
-        return Outcome::Damaged;
+        return Err(Refused::Damaged);
     };
-    let Some(lies) = common.lies(numbers.values[3].unwrap_or(0.0)) else {
-        return Outcome::Unsupported("CIRCLE".into(), say!(its_plane_is_tilted));
-    };
+    let lies = common.lies(numbers.values[3].unwrap_or(0.0))?;
     let x = match common.plane() {
         _ if common.paper_space => {
-            return Outcome::Unsupported("CIRCLE".into(), say!(it_lies_in_paper_space));
+            return Err(Refused::Unsupported(say!(it_lies_in_paper_space)));
         }
         Plane::Normal | Plane::Tilted => x,
         Plane::Mirrored => 0.0 - x,
@@ -94,5 +86,5 @@ pub(super) fn circle(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outc
         center: Point::new(x, y),
         radius,
     });
-    common.finish(lexer, layers, Kind::Circle, (shape, lies), None)
+    Ok(common.finish(lexer, layers, Kind::Circle, (shape, lies), None))
 }

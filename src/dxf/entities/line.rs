@@ -1,7 +1,7 @@
 //! LINE.
 
 use crate::drawing::{Geometry, Kind};
-use crate::dxf::entity::Outcome;
+use crate::dxf::entity::{Read, Refused};
 use crate::dxf::layers::Layers;
 use crate::dxf::lexer::{Lexer, Tag};
 use crate::dxf::numbers::Numbers;
@@ -9,16 +9,12 @@ use crate::dxf::shape::Shape;
 use crate::dxf::space::{Lies, Vector3};
 use crate::geometry::Point;
 
-pub(super) fn line(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
+pub(super) fn line(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Result<Read, Refused> {
     let mut numbers = Numbers::new([10, 20, 11, 21, 30, 31]);
     let common = numbers.gather(lexer, |_, _| {});
-    let Some([x, y, end_x, end_y]) = numbers.required(start, lexer, &common) else {
-        return Outcome::Damaged;
-    };
+    let [x, y, end_x, end_y] = numbers.required(start, lexer, &common)?;
     // The ends of a LINE are world coordinates: its extrusion only gives the direction of its thickness.
-    if common.paper_space {
-        return Outcome::Unsupported("LINE".into(), say!(it_lies_in_paper_space));
-    }
+    common.is_in_the_model()?;
     let (low, high) = (
         numbers.values[4].unwrap_or(0.0),
         numbers.values[5].unwrap_or(0.0),
@@ -38,11 +34,11 @@ pub(super) fn line(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcom
             Vector3::new(end_x, end_y, high),
         ])),
     };
-    common.finish(
+    Ok(common.finish(
         lexer,
         layers,
         Kind::Line,
         (Shape::Plain(geometry), lies),
         None,
-    )
+    ))
 }

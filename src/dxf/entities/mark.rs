@@ -1,7 +1,7 @@
 //! TEXT, MTEXT and POINT: they may mark where a cut starts.
 
 use crate::drawing::{Geometry, Kind};
-use crate::dxf::entity::{Outcome, Plane, Read};
+use crate::dxf::entity::{Plane, Read, Refused};
 use crate::dxf::frame;
 use crate::dxf::layers::Layers;
 use crate::dxf::lexer::{Lexer, Tag};
@@ -11,7 +11,12 @@ use crate::dxf::space::{Lies, Space, Vector3};
 use crate::dxf::strings::{words_of_mtext, words_of_text};
 use crate::geometry::Point;
 
-pub(super) fn text(kind: Kind, start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
+pub(super) fn text(
+    kind: Kind,
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+) -> Result<Read, Refused> {
     let mut content = Vec::new();
     let mut numbers = Numbers::new([10, 20, 11, 21, 30]);
     let mut is_aligned = false;
@@ -26,21 +31,15 @@ pub(super) fn text(kind: Kind, start: Tag, lexer: &mut Lexer, layers: &mut Layer
         }
         _ => {}
     });
-    let Some([x, y]) = numbers.required(start, lexer, &common) else {
-        return Outcome::Damaged;
-    };
+    let [x, y] = numbers.required(start, lexer, &common)?;
     let [_, _, set_x, set_y, height] = numbers.values;
     let (x, y) = match (set_x, set_y) {
         (Some(x), Some(y)) if is_aligned => (x, y),
         _ => (x, y),
     };
-    if common.paper_space {
-        return Outcome::Unsupported(kind.name().into(), say!(it_lies_in_paper_space));
-    }
+    common.is_in_the_model()?;
     let height = height.unwrap_or(0.0);
-    let Some(lies) = common.lies(height) else {
-        return Outcome::Unsupported(kind.name().into(), say!(its_plane_is_tilted));
-    };
+    let lies = common.lies(height)?;
     let (x, y, lies) = match (kind, lies) {
         // The place of an MTEXT is in world coordinates.
         (Kind::LongText, Lies::Aslant(system, why)) => (
@@ -80,32 +79,26 @@ pub(super) fn text(kind: Kind, start: Tag, lexer: &mut Lexer, layers: &mut Layer
     } else {
         Vec::new()
     };
-    match common.finish(lexer, layers, kind, (Shape::Plain(geometry), lies), None) {
-        Outcome::Entity(read) => Outcome::Entity(Read { frames, ..read }),
-        other => other,
-    }
+    let read = common.finish(lexer, layers, kind, (Shape::Plain(geometry), lies), None);
+    Ok(Read { frames, ..read })
 }
 
 /// A POINT marks a start as a text "O" does. Its place is in world coordinates.
-pub(super) fn point(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
+pub(super) fn point(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Result<Read, Refused> {
     let mut numbers = Numbers::new([10, 20, 30]);
     let common = numbers.gather(lexer, |_, _| {});
-    let Some([x, y]) = numbers.required(start, lexer, &common) else {
-        return Outcome::Damaged;
-    };
-    if common.paper_space {
-        return Outcome::Unsupported("POINT".into(), say!(it_lies_in_paper_space));
-    }
+    let [x, y] = numbers.required(start, lexer, &common)?;
+    common.is_in_the_model()?;
     let geometry = Geometry::Text {
         at: Point::new(x, y),
         text: "O".into(),
     };
     let lies = Lies::Level(numbers.values[2].unwrap_or(0.0));
-    common.finish(
+    Ok(common.finish(
         lexer,
         layers,
         Kind::Point,
         (Shape::Plain(geometry), lies),
         None,
-    )
+    ))
 }

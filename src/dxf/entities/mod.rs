@@ -8,7 +8,7 @@ mod polyline;
 pub(in crate::dxf) use circle::mirrored_angles;
 pub(in crate::dxf) use polyline::mirror;
 
-use super::entity::{Outcome, pass_over};
+use super::entity::{Outcome, Refused, pass_over};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
 use super::{curve, insert, plain};
@@ -28,7 +28,8 @@ pub(in crate::dxf) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -
 
 /// Reads any entity, sound or not.
 pub(in crate::dxf) fn read_closely(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
-    match lexer.lines.trimmed(start.value_line()) {
+    let name = lexer.lines.trimmed(start.value_line());
+    let read = match name {
         b"LWPOLYLINE" => polyline::light_polyline(start, lexer, layers),
         b"LINE" => line::line(start, lexer, layers),
         b"ARC" => circle::arc(start, lexer, layers),
@@ -38,15 +39,19 @@ pub(in crate::dxf) fn read_closely(start: Tag, lexer: &mut Lexer, layers: &mut L
         b"POLYLINE" => polyline::polyline(start, lexer, layers),
         b"ELLIPSE" => curve::read_ellipse(start, lexer, layers),
         b"SPLINE" => curve::read_spline(start, lexer, layers),
-        b"INSERT" => insert::read(start, lexer, layers),
         b"POINT" => mark::point(start, lexer, layers),
-        name => {
+        b"INSERT" => match insert::read(start, lexer, layers) {
+            Ok(insert) => return Outcome::Insert(Box::new(insert)),
+            Err(refused) => Err(refused),
+        },
+        _ if pass_over(lexer) => Err(Refused::Unsupported(say!(it_lies_in_paper_space))),
+        _ => Err(Refused::Unsupported(say!(this_kind_is_not_cut))),
+    };
+    match read {
+        Ok(read) => Outcome::Entity(read),
+        Err(Refused::Damaged) => Outcome::Damaged,
+        Err(Refused::Unsupported(why)) => {
             let kind = String::from_utf8_lossy(head(name, 64)).into_owned();
-            let why = if pass_over(lexer) {
-                say!(it_lies_in_paper_space)
-            } else {
-                say!(this_kind_is_not_cut)
-            };
             Outcome::Unsupported(kind, why)
         }
     }

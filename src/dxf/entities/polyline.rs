@@ -2,7 +2,7 @@
 
 use crate::drawing::{Geometry, Kind, Vertex};
 use crate::dxf::entity::{
-    Common, Outcome, Plane, VertexLines, pass_over, pass_over_followers, tag_of_record,
+    Common, Plane, Read, Refused, VertexLines, pass_over, pass_over_followers, tag_of_record,
 };
 use crate::dxf::fault::{meaning, quoted};
 use crate::dxf::layers::Layers;
@@ -31,7 +31,11 @@ impl Vertices {
     }
 }
 
-pub(super) fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
+pub(super) fn light_polyline(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+) -> Result<Read, Refused> {
     let mut common = Common::default();
     let mut read = Vertices::default();
     let (mut closed, mut count, mut height) = (false, None, 0.0);
@@ -74,20 +78,16 @@ pub(super) fn light_polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers)
     }
     read.close();
     if common.bad || lexer.out_of_step {
-        return Outcome::Damaged;
+        return Err(Refused::Damaged);
     }
     if let Some(index) = read.without_y {
         let line = start.line + read.lines.get(index).map_or(0, |&line| line as usize);
         let sentence = say!(vertex_lacks_group_code_20, index + 1);
         lexer.damage(line + 1, sentence);
-        return Outcome::Damaged;
+        return Err(Refused::Damaged);
     }
-    if common.paper_space {
-        return Outcome::Unsupported("LWPOLYLINE".into(), say!(it_lies_in_paper_space));
-    }
-    let Some(lies) = common.lies(height) else {
-        return Outcome::Unsupported("LWPOLYLINE".into(), say!(its_plane_is_tilted));
-    };
+    common.is_in_the_model()?;
+    let lies = common.lies(height)?;
     let mirrored = common.plane() == Plane::Mirrored;
     let found = read.vertices.len();
     if let Some(tag) = count
@@ -123,11 +123,11 @@ fn polyline_of(
     (mirrored, in_space, lies): (bool, bool, Lies),
     lexer: &mut Lexer,
     layers: &mut Layers,
-) -> Outcome {
+) -> Result<Read, Refused> {
     if read.vertices.len() < 2 {
         let sentence = say!(has_vertices_expected_at_least_2, kind, read.vertices.len());
         lexer.oddity(start.value_line(), sentence);
-        return Outcome::Damaged;
+        return Err(Refused::Damaged);
     }
     if mirrored {
         read.vertices.iter_mut().for_each(mirror);
@@ -143,13 +143,13 @@ fn polyline_of(
         mirrored,
         in_space,
     };
-    common.finish(
+    Ok(common.finish(
         lexer,
         layers,
         kind,
         (Shape::Plain(geometry), lies),
         Some(vertices),
-    )
+    ))
 }
 
 /// A vertex after x is reversed. Its own inverse.
@@ -159,7 +159,11 @@ pub(in crate::dxf) fn mirror(vertex: &mut Vertex) {
 }
 
 /// POLYLINE with its VERTEX records, up to and with SEQEND.
-pub(super) fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
+pub(super) fn polyline(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+) -> Result<Read, Refused> {
     const CLOSED: i64 = 1;
     const IN_SPACE: i64 = 8;
     const MESHES: i64 = 16 | 64;
@@ -178,14 +182,8 @@ pub(super) fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Ou
     }
     if flags & MESHES != 0 {
         pass_over_followers(lexer, &[b"VERTEX", b"SEQEND"]);
-        return Outcome::Unsupported(
-            "POLYLINE".into(),
-            if common.paper_space {
-                say!(it_lies_in_paper_space)
-            } else {
-                say!(it_is_a_mesh)
-            },
-        );
+        common.is_in_the_model()?;
+        return Err(Refused::Unsupported(say!(it_is_a_mesh)));
     }
     let mut read = Vertices::default();
     let (mut heights, mut ended) = (Vec::new(), false);
@@ -245,7 +243,7 @@ pub(super) fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Ou
             .peek_record()
             .is_some_and(|next| next.line + 2 >= lexer.lines.count());
     if common.bad || lexer.out_of_step || is_cut {
-        return Outcome::Damaged;
+        return Err(Refused::Damaged);
     }
     if !ended && !lexer.at_end() && read.vertices.len() > 1 {
         lexer.oddity(
@@ -254,9 +252,7 @@ pub(super) fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Ou
         );
     }
     let in_space = flags & IN_SPACE != 0;
-    if common.paper_space {
-        return Outcome::Unsupported("POLYLINE".into(), say!(it_lies_in_paper_space));
-    }
+    common.is_in_the_model()?;
     // The points of a 3D polyline are world coordinates.
     let lies = match in_space {
         true if heights
@@ -264,7 +260,7 @@ pub(super) fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Ou
             .zip(heights.iter().skip(1))
             .all(|(one, other)| one == other) =>
         {
-            Some(Lies::Level(heights.first().copied().unwrap_or(0.0)))
+            Lies::Level(heights.first().copied().unwrap_or(0.0))
         }
         true => {
             let points: Vec<Vector3> = read
@@ -273,26 +269,15 @@ pub(super) fn polyline(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Ou
                 .zip(&heights)
                 .map(|(vertex, z)| at_height(vertex.point.coords, *z))
                 .collect();
-            let plane = Space::through(&points);
-            if let Some(plane) = &plane {
-                read.vertices
-                    .iter_mut()
-                    .zip(points)
-                    .for_each(|(vertex, point)| vertex.point = plane.seen_from(point));
-            }
-            plane.map(|plane| Lies::Aslant(Box::new(plane), say!(its_points_differ_in_z)))
+            let rises = say!(its_points_differ_in_z);
+            let plane = Space::through(&points).ok_or(Refused::Unsupported(rises))?;
+            read.vertices
+                .iter_mut()
+                .zip(points)
+                .for_each(|(vertex, point)| vertex.point = plane.seen_from(point));
+            Lies::Aslant(Box::new(plane), rises)
         }
-        false => common.lies(height),
-    };
-    let Some(lies) = lies else {
-        return Outcome::Unsupported(
-            "POLYLINE".into(),
-            if in_space {
-                say!(its_points_differ_in_z)
-            } else {
-                say!(its_plane_is_tilted)
-            },
-        );
+        false => common.lies(height)?,
     };
     let mirrored = !in_space && common.plane() == Plane::Mirrored;
     polyline_of(

@@ -109,8 +109,8 @@ declare! {
     found_letters_of_another_script(at, found, expected, script) => "column {at}: found `{found}`, expected {expected}, these are {script} ones";
     n4b_needs_the_side_of_the_contour => "4B holds the part's contour: set compensation to controller, and say opening or punch";
     a_written_block_cannot_be_read_again(sentence) => "a written block cannot be read again: {sentence}";
-    a_written_block_reads_otherwise(read, block) => "a written block reads as {read}, not as {block}";
-    a_block_cannot_be_decoded(block, fault) => "{block} cannot be decoded: {fault}";
+    a_written_block_reads_otherwise(line, block) => "the written block {line} reads otherwise than {block}";
+    a_block_cannot_be_decoded(block) => "{block} cannot be decoded";
     a_block_ends_beside_its_node(block, distance, to) => "{block} ends {distance:.3} µm from its node {to}";
     a_block_runs_beside_the_path(block, aside, from) => "{block} runs {aside:.3} µm beside the path at {from}";
     a_controller_that_counts_j_drifts_more_than_allowed(drift, allowed) => "a controller that counts J drifts by {drift:.3} µm, {allowed:.0} µm are allowed";
@@ -133,7 +133,7 @@ declare! {
     no_blocks_within_tolerance_lead_from_to(from, to) => "no blocks within tolerance lead from {from} to {to}";
     the_path_of_the_wire_has_a_gap(gap, from) => "the wire's path has a gap of {gap:.3} µm at {from}";
     n4b_cannot_have_an_arc_inside_of_which_the_wire_runs(radius, correction) => "4B cannot have an arc of R {radius:.3} mm inside of which the wire runs, expected more than the correction {correction:.3} mm";
-    the_word_between_blocks_cannot_be_read_again(word) => "the word {word} between blocks cannot be read again, expected letters and digits";
+    the_word_between_blocks_cannot_be_read_again(word) => "the word {word:?} between blocks cannot be read again, expected letters and digits";
     the_path_is_shorter_than_the_smallest_step => "the path is shorter than the smallest step of a program: nothing of it can be written";
     the_path_passes_too_far_out_for_a_program(x, y) => "the path passes {x:.0}, {y:.0} steps of the grid, too far out for a program";
     the_path_has_a_gap_before_a_segment(gap, done) => "the path has a gap of {gap:.3} µm before segment {done}";

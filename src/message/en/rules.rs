@@ -54,7 +54,7 @@ declare! {
     a_cut_that_does_not_close => "A cut that does not close";
     a_program_without_its_end => "A program without its end";
     text_behind_the_end_of_a_program => "Text behind the end of a program";
-    a_block_number_that_stands_twice => "A block number that stands twice";
+    a_block_number_that_stands_twice_is_out_of_turn_or_missing => "A block number that stands twice, is out of turn or missing";
     the_file_is_damaged => "The file is damaged";
     a_setting_does_not_fit => "A setting does not fit";
     a_part_that_was_left_out_since_it_would_have_taken_too_much => "A part that was left out, since it would have taken too much";

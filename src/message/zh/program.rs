@@ -109,8 +109,8 @@ translate! {
     found_letters_of_another_script(at, found, expected, script) => "第 {at} 列：是 `{found}`，应为：{expected}，这些是{script}字符";
     n4b_needs_the_side_of_the_contour => "4B 写工件轮廓：请把 compensation 设为 controller，并说明 opening（型孔）或 punch（凸模）";
     a_written_block_cannot_be_read_again(sentence) => "写出的程序段不能再读入：{sentence}";
-    a_written_block_reads_otherwise(read, block) => "写出的程序段读成 {read}，而不是 {block}";
-    a_block_cannot_be_decoded(block, fault) => "{block} 无法解码：{fault}";
+    a_written_block_reads_otherwise(line, block) => "写出的程序段 {line} 读出来不是 {block}";
+    a_block_cannot_be_decoded(block) => "{block} 无法解码";
     a_block_ends_beside_its_node(block, distance, to) => "{block} 终点偏离节点 {to} 有 {distance:.3} µm";
     a_block_runs_beside_the_path(block, aside, from) => "{block} 在 {from} 偏离切割路线 {aside:.3} µm";
     a_controller_that_counts_j_drifts_more_than_allowed(drift, allowed) => "按 J 计数的控制器累计偏差 {drift:.3} µm，允许 {allowed:.0} µm";
@@ -133,7 +133,7 @@ translate! {
     no_blocks_within_tolerance_lead_from_to(from, to) => "从 {from} 到 {to} 没有符合公差的程序段";
     the_path_of_the_wire_has_a_gap(gap, from) => "切割路线在 {from} 有 {gap:.3} µm 的间隙";
     n4b_cannot_have_an_arc_inside_of_which_the_wire_runs(radius, correction) => "丝在内侧走时，4B 不能有 R {radius:.3} mm 的圆弧，应大于补偿量 {correction:.3} mm";
-    the_word_between_blocks_cannot_be_read_again(word) => "程序段之间的代码 {word} 不能再读入，应为字母和数字";
+    the_word_between_blocks_cannot_be_read_again(word) => "程序段之间的代码 {word:?} 不能再读入，应为字母和数字";
     the_path_is_shorter_than_the_smallest_step => "路线比程序的最小步距还短：无法写出";
     the_path_passes_too_far_out_for_a_program(x, y) => "路线经过网格 {x:.0}, {y:.0} 步处，超出程序所能写的范围";
     the_path_has_a_gap_before_a_segment(gap, done) => "路线在第 {done} 段前有 {gap:.3} µm 的间隙";

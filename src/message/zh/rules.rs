@@ -54,7 +54,7 @@ translate! {
     a_cut_that_does_not_close => "切割不封闭";
     a_program_without_its_end => "程序没有结束码";
     text_behind_the_end_of_a_program => "程序结束码后还有内容";
-    a_block_number_that_stands_twice => "段号重复";
+    a_block_number_that_stands_twice_is_out_of_turn_or_missing => "段号重复、乱序或缺失";
     the_file_is_damaged => "文件已损坏";
     a_setting_does_not_fit => "设置不合适";
     a_part_that_was_left_out_since_it_would_have_taken_too_much => "计算量过大而略去的部分";

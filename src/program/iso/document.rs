@@ -155,7 +155,7 @@ impl Document {
         Block::of(self.line_bytes(line))
     }
 
-    /// How many decimals nearly all numbers have, and how many numbers have others.
+    /// The number of decimals of nearly all numbers, and how many numbers have others.
     pub(super) fn usual_places(&self) -> Option<(u8, u32)> {
         self.evidence.usual_places()
     }

@@ -3,7 +3,7 @@
 use super::block::Motion;
 use crate::geometry::{Arc, Segment};
 use crate::program::encode::{ASIDE_TOLERANCE, Attempt, Encoder, aside};
-use crate::program::grid::{Node, grid_centers, point_of};
+use crate::program::grid::{Node, arc_about, grid_centers, radii_differ};
 use std::f64::consts::{PI, TAU};
 
 /// The distances of an arc's ends from its centre may differ by this much, µm: no reader takes less for a fault.
@@ -27,7 +27,7 @@ pub(super) struct Moves {
     /// A step of the grid, µm.
     pub step: f64,
     /// Full turns are written as one arc.
-    pub full_circles: bool,
+    pub(crate) full_circles: bool,
 }
 
 impl Encoder for Moves {
@@ -77,21 +77,11 @@ impl Encoder for Moves {
     }
 }
 
-fn radii_differ(center: Node, from: Node, to: Node) -> f64 {
-    ((point_of(from) - point_of(center)).norm() - (point_of(to) - point_of(center)).norm()).abs()
-}
-
 /// The largest distance of the arc about a grid centre from the true one; infinite where it turns the other way.
 fn error_of(arc: &Arc, center: Node, from: Node, to: Node) -> f64 {
-    if center == from || center == to {
+    let Some(made) = arc_about(arc, center, from, to) else {
         return f64::INFINITY;
-    }
-    let made = Arc::about(
-        point_of(center),
-        point_of(from),
-        point_of(to),
-        arc.sweep > 0.0,
-    );
+    };
     let turn = (made.sweep - arc.sweep).abs();
     if turn > PI && turn < TAU + PI {
         return f64::INFINITY;

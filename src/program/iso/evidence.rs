@@ -34,7 +34,7 @@ pub(crate) struct Evidence {
     /// Numbers that are not 0 without a point, and those of them that no machine travels in mm.
     pub(crate) bare: u32,
     pub(crate) long: u32,
-    /// By number of decimals: how many numbers with a point have that many.
+    /// How many numbers with a point have each number of decimals.
     pub(crate) places: [u32; 8],
     /// Numbers that have four decimals or more.
     pub(crate) fine: u32,

@@ -4,7 +4,7 @@
 
 use super::cursor::scan;
 use super::word::{Number, Token, WordFault};
-use crate::program::alike::{Alike, alike};
+use crate::program::lookalikes::{Alike, alike};
 use crate::text::SourceText;
 use std::ops::Range;
 

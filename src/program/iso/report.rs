@@ -293,7 +293,7 @@ impl<'a> Report<'a> {
             .is_none_or(|order| order.left_out.is_none())
     }
 
-    /// Whether a cut is sound as a whole, and nothing to be held against others.
+    /// Whether a cut is sound as a whole, and need not be compared with others.
     fn is_sound(&mut self, cut: &JoinedCut) -> bool {
         // Passes to and fro close by themselves, and may belong to the next or to the one before.
         let only = self.document.only_lay(cut);

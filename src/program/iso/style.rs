@@ -60,7 +60,7 @@ impl Style {
         self.inch
     }
 
-    /// What the last digit stands for, nm.
+    /// The value of the last digit, nm.
     pub(crate) fn step(&self) -> i64 {
         match (self.fine, self.inch) {
             (true, false) => 1_000,

@@ -129,11 +129,7 @@ impl Writer for Lines<'_> {
             full_circles: self.profile.full_circles,
         };
         moves.encode(piece, from, to, &mut encoded).ok_or_else(|| {
-            ProofError::Mismatch(say!(
-                no_moves_within_tolerance_lead_from_to,
-                format_args!("{from:?}"),
-                format_args!("{to:?}")
-            ))
+            ProofError::Mismatch(say!(no_moves_within_tolerance_lead_from_to, from, to))
         })?;
         for step in &encoded {
             self.step_out(step)?;
@@ -153,8 +149,8 @@ impl Writer for Lines<'_> {
         if closed && first != last {
             return Err(ProofError::Mismatch(say!(
                 the_cut_begins_at_and_ends_at,
-                format_args!("{first:?}"),
-                format_args!("{last:?}")
+                first,
+                last
             )));
         }
         self.goes_on = goes_on;

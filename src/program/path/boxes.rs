@@ -46,7 +46,8 @@ impl Boxes {
         self.levels.get(level)?.get(index)
     }
 
-    /// Hands out the pieces before `end` whose boxes touch a box, in order; returns how many boxes it was held against.
+    /// Hands out the pieces before `end` whose boxes touch a box, in order; returns the number of boxes that it was
+    /// compared with.
     pub(crate) fn touching(&self, own: &Bounds, end: usize, each: &mut impl FnMut(usize)) -> usize {
         self.look((self.top(), 0), own, end, each)
     }

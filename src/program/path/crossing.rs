@@ -75,7 +75,7 @@ pub(in crate::program) fn crossings(pieces: &[Segment], arcs: usize) -> Vec<Cros
     way.all_crossings().0
 }
 
-/// The most boxes that are held against each other among this many pieces. A way that does not coincide with itself
+/// The most boxes that are compared with each other among this many pieces. A way that does not coincide with itself
 /// takes a few for each.
 pub(super) fn most_looks(pieces: usize) -> usize {
     500_000 + 32 * pieces

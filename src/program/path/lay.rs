@@ -10,7 +10,7 @@ use crate::geometry::{Bounds, Segment};
 /// that counts.
 const KEPT: usize = 64;
 
-/// Holes of one shape follow each other: so many parts back one is looked for that lies as the next.
+/// Holes of one shape follow each other: up to this many parts back, one is looked for that lies as the next.
 const LOOKED_BACK: usize = 8;
 
 /// The properties of a part of a cut by itself.

@@ -50,7 +50,7 @@ pub(crate) trait Blocks: Sync {
     fn writing(&self) -> Writing;
 }
 
-/// A way in parts. Costs these, and the blocks of those that are asked for.
+/// A way in parts. Its cost is that of the parts, and of the blocks of those that are asked for.
 pub(crate) struct PartedWay<'a> {
     pub(crate) blocks: Box<dyn Blocks + 'a>,
     pub(crate) parts: Vec<Part<'a>>,

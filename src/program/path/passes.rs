@@ -250,7 +250,7 @@ mod tests {
         with_stops(&way)
     }
 
-    /// Crossings that are told of a way in each language, mm; `None` is a stop.
+    /// Crossings that are reported for a way in each language, mm; `None` is a stop.
     #[track_caller]
     fn with_stops(way: &[Option<[f64; 2]>]) -> usize {
         let line = |step: &Option<[f64; 2]>| match step {

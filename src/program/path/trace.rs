@@ -275,21 +275,8 @@ impl Way for Chain<'_> {
         )
     }
 
-    fn pieces_about(
-        &self,
-        _: Point,
-        _: f64,
-        each: &mut dyn FnMut(usize, &Segment) -> bool,
-    ) -> Option<()> {
-        if self.head.len() < self.count {
-            return None;
-        }
-        for index in 0..self.count {
-            if each(index, &self.piece(index)?) {
-                break;
-            }
-        }
-        Some(())
+    fn is_held(&self) -> bool {
+        self.head.len() >= self.count
     }
 }
 

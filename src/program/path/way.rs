@@ -49,13 +49,29 @@ pub(crate) trait Way {
     fn node(&self, index: usize) -> Option<Node>;
     /// The curve of a block at its intended start; a line without length where it leads nowhere.
     fn piece(&self, index: usize) -> Option<Segment>;
-    /// Hands out all pieces within `reach` µm of a place, and perhaps others, in their order, until `each` stops it.
+    /// True where all its blocks are held.
+    fn is_held(&self) -> bool {
+        true
+    }
+
+    /// Hands out all pieces within `reach` µm of a place, and perhaps others, in their order, until `each` stops it. `None` where not all
+    /// are held.
     fn pieces_about(
         &self,
-        at: Point,
-        reach: f64,
+        _at: Point,
+        _reach: f64,
         each: &mut dyn FnMut(usize, &Segment) -> bool,
-    ) -> Option<()>;
+    ) -> Option<()> {
+        if !self.is_held() {
+            return None;
+        }
+        for index in 0..self.count() {
+            if each(index, &self.piece(index)?) {
+                break;
+            }
+        }
+        Some(())
+    }
 
     /// The number of blocks before its first stop, if it holds one: the tab is behind.
     fn stop(&self) -> Option<usize>;
@@ -125,19 +141,5 @@ impl Way for HeldWay {
 
     fn piece(&self, index: usize) -> Option<Segment> {
         self.pieces.get(index).copied()
-    }
-
-    fn pieces_about(
-        &self,
-        _: Point,
-        _: f64,
-        each: &mut dyn FnMut(usize, &Segment) -> bool,
-    ) -> Option<()> {
-        _ = self
-            .pieces
-            .iter()
-            .enumerate()
-            .any(|(index, piece)| each(index, piece));
-        Some(())
     }
 }

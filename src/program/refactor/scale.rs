@@ -5,7 +5,8 @@
 //! B100B0B400GYNR1            B2540B0B10160GYNR1
 //! ```
 //!
-//! Nodes are scaled and snapped to the grid in absolute coordinates, so that contours close again; arcs are calculated anew.
+//! Nodes are scaled and snapped to the grid in absolute coordinates, so that contours close again; arcs are calculated
+//! again.
 
 use super::{Change, Content, Notation, Refactoring, Rewrite, Sheet};
 use crate::text::TextEdit;

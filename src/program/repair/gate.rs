@@ -17,7 +17,7 @@ use std::ops::Range;
 /// In texts up to this length each repair is tried by itself; in longer ones all together.
 const TRIED: usize = 64 << 10;
 
-/// How many repairs are tried one by one where all of them together are refused; and how many in a long text.
+/// The number of repairs that are tried one by one where all of them together are refused; and the same in a long text.
 const ONE_BY_ONE: usize = 32;
 const ONE_BY_ONE_OF_LONG: usize = 4;
 

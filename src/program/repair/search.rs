@@ -76,7 +76,7 @@ pub(in crate::program) struct Verdict {
     pub(crate) left: usize,
     /// Its cost: the lower, the likelier.
     pub(crate) cost: f64,
-    /// Only an equally likely change speaks against it.
+    /// The only evidence against it is an equally likely change.
     pub(crate) may_be_sure: bool,
 }
 

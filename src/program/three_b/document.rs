@@ -179,7 +179,7 @@ impl Document {
         })
     }
 
-    /// What an edit has not `reread` stays, where nothing hangs on the whole.
+    /// What an edit has not `reread` stays, where nothing depends on the whole.
     fn judge_again(&mut self, reread: Option<Reread>) {
         let mut known = std::mem::take(&mut self.known);
         let mut clean = Vec::new();

@@ -4,6 +4,7 @@ use super::block::{Block, Node, PartArc};
 use crate::program::write::{push_number, push_places};
 use crate::settings::Layout;
 use crate::text::{TextEdit, WIDEST_COLUMN};
+use std::fmt;
 use std::ops::Range;
 
 /// Appends one block with its line end; with `part` it is one of 4B. `number` (from 1) and the absolute end point are
@@ -40,6 +41,14 @@ pub(crate) fn push_block_number(out: &mut Vec<u8>, number: u64) {
     out.push(b'N');
     push_number(out, number, 5);
     out.extend_from_slice(b": ");
+}
+
+impl fmt::Display for Block {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut text = Vec::new();
+        push_fields(&mut text, Layout::Compact, self, None);
+        formatter.write_str(&String::from_utf8_lossy(&text))
+    }
 }
 
 /// Appends the block itself, from its first `B` to the quadrant; with `part` it is one of 4B.

@@ -12,7 +12,7 @@ use super::block::{Block, PartArc};
 use super::fault::{Flaw, SyntaxFault};
 use super::tokens::{Token, Tokens, readable};
 use super::words::{Word, Words};
-use crate::program::alike::{Likeness, alike, in_plain_letters};
+use crate::program::lookalikes::{Likeness, alike, in_plain_letters};
 use crate::text::{self, SourceText, head};
 use std::ops::Range;
 

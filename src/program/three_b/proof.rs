@@ -46,28 +46,23 @@ impl Proof {
             }
             _ => Err(say!(
                 a_written_block_reads_otherwise,
-                format_args!("{read:?}"),
-                format_args!("{:?}", encoded.block)
+                String::from_utf8_lossy(line),
+                encoded.block
             )),
         }
     }
 
     fn check_block(&mut self, block: &Block, encoded: &Encoded) -> Result<(), String> {
-        let decoded = decode(block, point_of(encoded.from)).map_err(|fault| {
-            say!(
-                a_block_cannot_be_decoded,
-                format_args!("{block:?}"),
-                format_args!("{fault:?}")
-            )
-        })?;
+        let decoded = decode(block, point_of(encoded.from))
+            .map_err(|_| say!(a_block_cannot_be_decoded, block))?;
         let miss = decoded.end() - point_of(encoded.to);
         let distance = miss.norm();
         if distance > END_TOLERANCE {
             return Err(say!(
                 a_block_ends_beside_its_node,
-                format_args!("{block:?}"),
+                block,
                 distance,
-                format_args!("{:?}", encoded.to)
+                encoded.to
             ));
         }
         let aside = largest_distance(&decoded, &encoded.piece);
@@ -75,9 +70,9 @@ impl Proof {
         if aside.max(middles) > ASIDE_TOLERANCE || aside.is_nan() || middles.is_nan() {
             return Err(say!(
                 a_block_runs_beside_the_path,
-                format_args!("{block:?}"),
+                block,
                 aside.max(middles),
-                format_args!("{:?}", encoded.from)
+                encoded.from
             ));
         }
         self.drift += miss;
@@ -117,11 +112,7 @@ impl Proof {
         last: Node,
     ) -> Result<(), String> {
         if closed && first != last {
-            return Err(say!(
-                the_cut_begins_at_and_ends_at,
-                format_args!("{first:?}"),
-                format_args!("{last:?}")
-            ));
+            return Err(say!(the_cut_begins_at_and_ends_at, first, last));
         }
         let drift = (self.drift - self.drift_at_start).norm();
         let allowed = tolerance(self.arcs - self.arcs_at_start);

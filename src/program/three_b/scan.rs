@@ -4,7 +4,7 @@
 #![warn(clippy::indexing_slicing)]
 
 use super::block::{Block, CountingAxis, Motion, PartArc, Quadrant};
-use crate::program::alike::wide_space;
+use crate::program::lookalikes::wide_space;
 use std::ops::{Deref, DerefMut, Range};
 
 /// Longer digit strings than any controller takes are not numbers.

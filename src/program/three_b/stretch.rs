@@ -46,7 +46,7 @@ pub(super) struct Part {
     whole: Option<Box<Whole>>,
 }
 
-/// What the blocks of a part come to.
+/// The totals of the blocks of a part.
 #[derive(Clone, Debug, PartialEq)]
 struct Whole {
     sum: Sum,

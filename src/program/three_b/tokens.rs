@@ -12,7 +12,7 @@ use super::fault::SyntaxFault;
 use super::fields::found_in;
 use super::scan::Scan;
 use super::words::{Word, Words, word_of};
-use crate::program::alike::with_plain_marks;
+use crate::program::lookalikes::with_plain_marks;
 use crate::text::head;
 use std::borrow::Cow;
 use std::ops::Range;

@@ -185,11 +185,7 @@ impl Writer for Blocks<'_> {
             &mut encoded,
         )
         .ok_or_else(|| {
-            ProofError::Mismatch(say!(
-                no_blocks_within_tolerance_lead_from_to,
-                format_args!("{from:?}"),
-                format_args!("{to:?}")
-            ))
+            ProofError::Mismatch(say!(no_blocks_within_tolerance_lead_from_to, from, to))
         })?;
         for block in &encoded {
             // 4B's radius is the block's own.
@@ -280,13 +276,8 @@ impl<'a> Blocks<'a> {
             part.direction = None;
             return Ok(None);
         }
-        let decoded = decode(&encoded.block, point_of(encoded.from)).map_err(|fault| {
-            ProofError::Mismatch(say!(
-                a_block_cannot_be_decoded,
-                format_args!("{:?}", encoded.block),
-                format_args!("{fault:?}")
-            ))
-        })?;
+        let decoded = decode(&encoded.block, point_of(encoded.from))
+            .map_err(|_| ProofError::Mismatch(say!(a_block_cannot_be_decoded, encoded.block)))?;
         if let Some(direction) = part.direction {
             let gap = 2.0
                 * part.correction
@@ -295,7 +286,7 @@ impl<'a> Blocks<'a> {
                 return Err(ProofError::Mismatch(say!(
                     the_path_of_the_wire_has_a_gap,
                     gap,
-                    format_args!("{:?}", encoded.from)
+                    encoded.from
                 )));
             }
         }
@@ -325,10 +316,7 @@ impl<'a> Blocks<'a> {
         let sound = matches!(read[..], [Item::Word { .. }])
             && word.bytes().all(|byte| byte.is_ascii_alphanumeric());
         if !sound {
-            let sentence = say!(
-                the_word_between_blocks_cannot_be_read_again,
-                format_args!("{word:?}")
-            );
+            let sentence = say!(the_word_between_blocks_cannot_be_read_again, word);
             return Err(match self.settings.tab_stop.as_deref() {
                 Some(stop) if stop == word => ProofError::Refused(sentence),
                 _ => ProofError::Mismatch(sentence),

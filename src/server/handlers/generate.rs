@@ -5,44 +5,32 @@ use crate::document::Source;
 use crate::finding::Finding;
 use crate::job::{self, Wanted};
 use crate::program::Format;
-use crate::protocol::Program;
+use crate::protocol::{Generate, Program};
 use crate::server::context::RequestContext;
 use crate::server::convert;
-use serde::Deserialize;
 use std::sync::Arc;
 use tower_lsp::jsonrpc::{Error, Result};
 
-/// Params of the request, beside the document and the options.
-#[derive(Deserialize)]
-pub(in crate::server) struct Params {
-    format: String,
-    handles: Option<Vec<String>>,
-    layers: Option<Vec<String>>,
-    force: Option<bool>,
-}
-
-impl Params {
-    /// The requested part of a drawing.
-    pub(super) fn wanted(&self, task: &Task) -> Result<Wanted<'_>> {
-        for handle in self.handles.iter().flatten() {
-            if task.snapshot.drawing.find(handle).is_none() {
-                return Err(no_entity(handle));
-            }
+/// The requested part of a drawing.
+pub(super) fn wanted<'a>(params: &'a Generate, task: &Task) -> Result<Wanted<'a>> {
+    for handle in params.handles.iter().flatten() {
+        if task.snapshot.drawing.find(handle).is_none() {
+            return Err(no_entity(handle));
         }
-        Ok(Wanted {
-            format: Format::of(&self.format).map_err(Error::invalid_params)?,
-            handles: self.handles.as_deref(),
-            layers: self.layers.as_deref(),
-            force: self.force.unwrap_or(false),
-        })
     }
+    Ok(Wanted {
+        format: Format::of(&params.format).map_err(Error::invalid_params)?,
+        handles: params.handles.as_deref(),
+        layers: params.layers.as_deref(),
+        force: params.force.unwrap_or(false),
+    })
 }
 
-pub(in crate::server) fn generate(context: &RequestContext, params: Params) -> Result<Program> {
+pub(in crate::server) fn generate(context: &RequestContext, params: Generate) -> Result<Program> {
     // An unknown format is reported whatever the document is.
     Format::of(&params.format).map_err(Error::invalid_params)?;
     let task = Task::of(context)?;
-    let wanted = params.wanted(&task)?;
+    let wanted = wanted(&params, &task)?;
     let made = job::generate(&task.snapshot, findings(&task), &wanted, context);
     context.check()?;
     let made = made.map_err(|refusal| task.refused(context, &refusal))?;

@@ -3,12 +3,12 @@
 use super::{Task, generate};
 use crate::job;
 use crate::picture;
-use crate::protocol::{DrawingName, Fit, PairProgram, PairPrograms, Program};
+use crate::protocol::{Fit, Generate, OptionsOf, PairProgram, PairPrograms, Program};
 use crate::server::context::RequestContext;
 use crate::server::convert;
 use tower_lsp::jsonrpc::Result;
 
-pub(in crate::server) fn fit(context: &RequestContext, _: DrawingName) -> Result<Fit> {
+pub(in crate::server) fn fit(context: &RequestContext, _: OptionsOf) -> Result<Fit> {
     let task = Task::of(context)?;
     let fit =
         job::fit(&task.snapshot, context).map_err(|refusal| task.refused(context, &refusal))?;
@@ -17,12 +17,9 @@ pub(in crate::server) fn fit(context: &RequestContext, _: DrawingName) -> Result
     Ok(Fit::new(drawing, &fit, svg, task.unit_mm()))
 }
 
-pub(in crate::server) fn pair(
-    context: &RequestContext,
-    params: generate::Params,
-) -> Result<PairPrograms> {
+pub(in crate::server) fn pair(context: &RequestContext, params: Generate) -> Result<PairPrograms> {
     let task = Task::of(context)?;
-    let wanted = params.wanted(&task)?;
+    let wanted = generate::wanted(&params, &task)?;
     let made = job::pair(&task.snapshot, &generate::findings(&task), &wanted, context);
     context.check()?;
     let made = made.map_err(|refusal| task.refused(context, &refusal))?;

@@ -7,13 +7,13 @@ use crate::finding::{self, Edit, Finding, Place};
 use crate::job;
 use crate::picture::Image;
 use crate::protocol::{
-    DrawingName, Export, Exported, Picture, PictureForm, Repair, Repairs, RepairsOf, SegmentShape,
+    Export, Exported, OptionsOf, Picture, PictureForm, Repair, Repairs, RepairsOf, SegmentShape,
 };
 use crate::server::context::RequestContext;
 use crate::server::errors::{internal, refused};
 use tower_lsp::jsonrpc::Result;
 
-pub(in crate::server) fn picture(context: &RequestContext, _: DrawingName) -> Result<Picture> {
+pub(in crate::server) fn picture(context: &RequestContext, _: OptionsOf) -> Result<Picture> {
     Ok(Picture { svg: svg(context)? })
 }
 

@@ -3,13 +3,13 @@
 use super::Task;
 use crate::dxf;
 use crate::job::drill;
-use crate::protocol::{DrawingName, Exported, HoleForm, Holes, Toolpath};
+use crate::protocol::{Exported, HoleForm, Holes, OptionsOf, Toolpath};
 use crate::server::config::name_of;
 use crate::server::context::RequestContext;
 use crate::server::errors::internal;
 use tower_lsp::jsonrpc::Result;
 
-pub(in crate::server) fn toolpath(context: &RequestContext, _: DrawingName) -> Result<Toolpath> {
+pub(in crate::server) fn toolpath(context: &RequestContext, _: OptionsOf) -> Result<Toolpath> {
     let task = Task::of(context)?;
     let planned = task.planned(context)?;
     let snapshot = &task.snapshot;

@@ -77,7 +77,7 @@ impl Pool {
         pool
     }
 
-    /// What speaks for a number in place of another: 0 or below.
+    /// The evidence for a number in place of another: 0 or below.
     fn prior(&self, letter: u8, found: Option<i64>, meant: i64) -> f64 {
         let counts = &self.counts[usize::from(matches!(letter, b'I' | b'J'))];
         let count = |length: i64| counts.get(&length.abs()).copied().unwrap_or(0);

@@ -5,7 +5,7 @@ use crate::geometry::Segment;
 use crate::program::encode::ASIDE_TOLERANCE;
 use crate::program::grid::{largest_distance, point_of};
 use crate::program::iso::encode::Encoded;
-use crate::program::iso::moves::{Course, Move, micrometres};
+use crate::program::iso::moves::{Course, Move, Place, micrometres};
 use crate::program::write::{ProofError, scaled};
 
 impl Lines<'_> {
@@ -15,17 +15,14 @@ impl Lines<'_> {
         let Some(made) = made else {
             return Err(ProofError::Mismatch(say!(
                 a_written_move_does_not_move,
-                format_args!("{:?}", step.to)
+                step.to
             )));
         };
         let (from, to) = (self.place(step.from), self.place(step.to));
         if made.from != from || made.to != to || made.motion != step.motion {
             // Only the profile can have changed the origin or the unit of coordinates.
-            let profile = say!(
-                its_lines_lead_elsewhere,
-                format_args!("{to:?}"),
-                format_args!("{:?}", made.to)
-            );
+            let shown = |[x, y]: Place| format!("({x}, {y})");
+            let profile = say!(its_lines_lead_elsewhere, shown(to), shown(made.to));
             return Err(self.refused(&profile));
         }
         if made.is_cut() && !self.is_switched_off && made.side != self.side {
@@ -37,7 +34,7 @@ impl Lines<'_> {
             Course::OffRadius { start, end, .. } => {
                 return Err(ProofError::Mismatch(say!(
                     the_ends_of_the_arc_lie_apart_from_its_centre,
-                    format_args!("{:?}", step.to),
+                    step.to,
                     start,
                     end
                 )));
@@ -45,7 +42,7 @@ impl Lines<'_> {
             Course::NoRadius => {
                 return Err(ProofError::Mismatch(say!(
                     the_arc_to_a_place_has_no_radius,
-                    format_args!("{:?}", step.to)
+                    step.to
                 )));
             }
         };
@@ -58,7 +55,7 @@ impl Lines<'_> {
         if aside.max(middles) > ASIDE_TOLERANCE + 1e-6 || aside.is_nan() || middles.is_nan() {
             return Err(ProofError::Mismatch(say!(
                 the_move_runs_beside_the_path,
-                format_args!("{:?}", step.to),
+                step.to,
                 aside.max(middles)
             )));
         }

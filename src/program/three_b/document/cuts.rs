@@ -194,7 +194,7 @@ impl Document {
             return self.outer_cuts(end);
         }
         let mut cuts = before.outer;
-        // How the last one before the edit ends may hang on what stands behind its word: it is asked anew.
+        // How the last one before the edit ends may depend on what stands behind its word: it is asked again.
         let kept = cuts
             .partition_point(|cut| cut.parts[1].0 < reread.chunks.start)
             .saturating_sub(1);

@@ -14,7 +14,7 @@ use super::super::rules::{
 use super::super::sum::Sum;
 use super::{At, Document};
 use crate::finding::{Detail, Fault, Finding, FixKind, Place};
-use crate::program::alike::{Alike, alike};
+use crate::program::lookalikes::{Alike, alike};
 use crate::program::path::{HasCuts, not_closed};
 use crate::program::repair::merged;
 use crate::text::TextEdit;

@@ -1,7 +1,7 @@
 //! The lines of a program that is formatted, as the reader finds them.
 
 use crate::geometry::{Point, Vector};
-use crate::program::alike::with_plain_marks;
+use crate::program::lookalikes::with_plain_marks;
 use crate::program::three_b::around::before_comment;
 use crate::program::three_b::block::Node;
 use crate::program::three_b::decode::decode;

@@ -20,7 +20,7 @@ pub(super) struct Formed {
     pub(crate) kept: Range<usize>,
 }
 
-/// Writes one line anew.
+/// Writes one line again.
 pub(super) struct Writer<'a> {
     pub(crate) words: &'a Words<'a>,
     pub(crate) layout: Layout,

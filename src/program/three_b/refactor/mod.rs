@@ -267,13 +267,8 @@ fn encoded(
     source: usize,
 ) -> Result<Vec<New>, String> {
     let (mut blocks, largest) = (Vec::new(), sheet.document.largest());
-    encode(&fitted(piece, from, to), from, to, largest, &mut blocks).ok_or_else(|| {
-        say!(
-            no_blocks_within_tolerance_lead_from_to,
-            format_args!("{from:?}"),
-            format_args!("{to:?}")
-        )
-    })?;
+    encode(&fitted(piece, from, to), from, to, largest, &mut blocks)
+        .ok_or_else(|| say!(no_blocks_within_tolerance_lead_from_to, from, to))?;
     let new = |encoded| New {
         encoded,
         part,

@@ -43,7 +43,7 @@ impl Suspect<'_> {
     pub(super) fn against(&self, items: &[Item]) -> Against {
         let mut against = Against::default();
         let (mut before, mut off_before): (_, Option<[f64; 2]>) = (self.path.start, None);
-        // Counting may begin anew in each contour.
+        // Counting may begin again in each contour.
         let first = items.iter().find_map(|item| item.number);
         let goes_on = |before: &u32| first.is_some_and(|first| first > *before);
         let mut last = self.path.number.filter(goes_on);

@@ -6,7 +6,7 @@ use crate::finding::Fault;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in super::super) struct Numbered {
     pub(crate) number: Option<u32>,
-    /// The first block behind a pause: counting may begin anew.
+    /// The first block behind a pause: counting may begin again.
     pub(crate) is_after_pause: bool,
     /// Unreadable: whether it has a number is unknown.
     pub(crate) is_unread: bool,
@@ -28,7 +28,7 @@ pub(in super::super) enum Numbering {
 }
 
 impl Numbering {
-    pub fn with(self, number: Option<u32>, is_block: bool) -> Numbering {
+    pub(crate) fn with(self, number: Option<u32>, is_block: bool) -> Numbering {
         match (self, number) {
             (same, None) if !is_block => same,
             (Numbering::Empty, Some(number)) => Numbering::Regular {
@@ -50,7 +50,7 @@ impl Numbering {
     }
 
     /// This stretch and then the next.
-    pub fn then(self, next: Numbering) -> Numbering {
+    pub(crate) fn then(self, next: Numbering) -> Numbering {
         match (self, next) {
             (Numbering::Empty, other) | (other, Numbering::Empty) => other,
             (

@@ -54,7 +54,7 @@ pub(in super::super) struct Positions {
 }
 
 impl Positions {
-    pub fn block(&mut self, nth: usize, entry: usize, block: &BlockEntry) {
+    pub(crate) fn block(&mut self, nth: usize, entry: usize, block: &BlockEntry) {
         let stated = block.stated_end();
         match (self.anchor, stated) {
             (Some(Some(before)), Some(stated)) => {

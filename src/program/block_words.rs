@@ -6,7 +6,7 @@ use super::three_b::{self, Item};
 
 /// The words of one block and their numbers.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Said {
+pub(crate) struct BlockWords {
     /// Everything but lengths: letters, and the numbers of codes.
     words: Vec<u8>,
     /// Lengths, µm where they have a point or are in µm anyway.
@@ -15,17 +15,17 @@ pub(crate) struct Said {
     pub(crate) stated: Option<[f64; 2]>,
 }
 
-impl Said {
+impl BlockWords {
     /// For the first block of a line that begins with it.
-    pub(crate) fn of(language: Language, line: &[u8]) -> Said {
+    pub(crate) fn of(language: Language, line: &[u8]) -> BlockWords {
         match language {
-            Language::ThreeB => Said::of_three_b(line),
-            Language::Iso => Said::of_iso(line),
+            Language::ThreeB => BlockWords::of_three_b(line),
+            Language::Iso => BlockWords::of_iso(line),
         }
     }
 
-    fn of_three_b(line: &[u8]) -> Said {
-        let mut said: Option<Said> = None;
+    fn of_three_b(line: &[u8]) -> BlockWords {
+        let mut said: Option<BlockWords> = None;
         three_b::read_line(line, 1, &three_b::Words::default(), |item| {
             if let Item::Block {
                 block,
@@ -37,7 +37,7 @@ impl Said {
             {
                 let radius = part.map(|part| part.radius as f64);
                 let numbers = [block.x, block.y, block.j].map(|number| number as f64);
-                said = Some(Said {
+                said = Some(BlockWords {
                     words: format!(
                         "{:?}{:?}{:?}",
                         block.motion,
@@ -53,8 +53,8 @@ impl Said {
         said.unwrap_or_default()
     }
 
-    fn of_iso(line: &[u8]) -> Said {
-        let mut said = Said::default();
+    fn of_iso(line: &[u8]) -> BlockWords {
+        let mut said = BlockWords::default();
         iso::words(line, 1, |token| {
             let Token::Word { letter, number, .. } = token else {
                 return;
@@ -81,12 +81,12 @@ impl Said {
     }
 
     /// The same words and numbers, whatever stands behind them.
-    pub(crate) fn is_like(&self, other: &Said) -> bool {
+    pub(crate) fn is_like(&self, other: &BlockWords) -> bool {
         self.words == other.words && self.numbers == other.numbers
     }
 
     /// By how much a number differs, where everything else is the same.
-    pub(crate) fn apart(&self, other: &Said) -> Option<f64> {
+    pub(crate) fn apart(&self, other: &BlockWords) -> Option<f64> {
         let is_same = self.words == other.words && self.numbers.len() == other.numbers.len();
         let pairs = self.numbers.iter().zip(&other.numbers);
         let apart = pairs.map(|(own, other)| (own - other).abs());

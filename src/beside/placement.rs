@@ -9,11 +9,11 @@ use crate::program::three_b;
 
 /// The map from a program's places to those of the drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Pose {
+pub(super) struct Placement {
     /// From the drawing to the program, µm.
     pub shift: Vector,
     /// The shift is of whole µm, and so are the program's nodes.
-    pub on_grid: bool,
+    pub(crate) on_grid: bool,
     /// Blocks are compared with the output of our own writers for the drawing, without room for other writers'
     /// roundings.
     exact: bool,
@@ -64,9 +64,9 @@ const WITHIN: f64 = 1.5;
 /// This near to the middle between two nodes a place may be rounded either way, µm.
 const TIE: f64 = 1e-3;
 
-impl Pose {
-    pub fn at(shift: Vector) -> Pose {
-        Pose {
+impl Placement {
+    pub(super) fn at(shift: Vector) -> Placement {
+        Placement {
             shift,
             on_grid: false,
             exact: false,
@@ -77,16 +77,16 @@ impl Pose {
     }
 
     /// The same by the nodes of a grid.
-    pub(crate) fn gridded(self) -> Pose {
-        Pose {
+    pub(crate) fn gridded(self) -> Placement {
+        Placement {
             on_grid: true,
             ..self
         }
     }
 
     /// The same for a program whose every block we might have written; `None` where the grid is unknown.
-    pub fn exactly(self) -> Option<Pose> {
-        self.on_grid.then_some(Pose {
+    pub(super) fn exactly(self) -> Option<Placement> {
+        self.on_grid.then_some(Placement {
             exact: true,
             ..self
         })
@@ -96,10 +96,10 @@ impl Pose {
         self.exact
     }
 
-    /// The same where everything behind is moved by so much more.
-    pub fn moved(&self, by: Vector) -> Pose {
+    /// The same where everything behind is moved by this much more.
+    pub(super) fn moved(&self, by: Vector) -> Placement {
         let by = if self.on_grid { by.map(f64::round) } else { by };
-        Pose {
+        Placement {
             shift: self.shift + by,
             unsure: UNSURE,
             ..*self
@@ -107,25 +107,25 @@ impl Pose {
     }
 
     /// The same where the node is uncertain: its place was found by few blocks, or arcs have led beside the drawing.
-    pub(crate) fn unsurely(self) -> Pose {
-        Pose {
+    pub(crate) fn unsurely(self) -> Placement {
+        Placement {
             unsure: self.unsure.max(UNSURE),
             ..self
         }
     }
 
     /// The same with another shift.
-    pub(crate) fn shifted(&self, shift: Vector) -> Pose {
+    pub(crate) fn shifted(&self, shift: Vector) -> Placement {
         self.moved(shift - self.shift)
     }
 
     /// A place of the program in the drawing.
-    pub fn place(&self, point: Point) -> Point {
+    pub(super) fn place(&self, point: Point) -> Point {
         point + self.lag - self.shift
     }
 
     /// A place of the drawing in the program, on its grid.
-    pub fn program(&self, point: Point) -> Point {
+    pub(super) fn program(&self, point: Point) -> Point {
         let point = point + self.shift;
         let point = if self.on_grid {
             point.map(f64::round)
@@ -136,7 +136,7 @@ impl Pose {
     }
 
     /// Where a block begins, in the drawing.
-    pub fn begin(&self, block: &Block) -> Option<Point> {
+    pub(super) fn begin(&self, block: &Block) -> Option<Point> {
         match &block.motion {
             Motion::Cut(segment) => Some(self.place(segment.start())),
             Motion::Way(start, _) => Some(self.place(*start)),
@@ -145,7 +145,7 @@ impl Pose {
     }
 
     /// Goes along a round with one block, up to `entry` where the round comes back to it.
-    pub fn follow(
+    pub(super) fn follow(
         &mut self,
         rounds: &Rounds,
         traced: &Traced,
@@ -305,12 +305,12 @@ impl Pose {
     }
 
     /// The same where a run comes back to where it began within a piece.
-    fn coming_back(&self, rounds: &Rounds, is_back: bool, entry: &Spot) -> Pose {
+    fn coming_back(&self, rounds: &Rounds, is_back: bool, entry: &Spot) -> Placement {
         let unsure = match is_back && !rounds.is_begin(entry) {
             true => self.unsure.max(self.begun),
             false => self.unsure,
         };
-        Pose { unsure, ..*self }
+        Placement { unsure, ..*self }
     }
 
     /// The largest distance of a block's end from a piece within which it ends, µm.

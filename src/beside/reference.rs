@@ -1,4 +1,4 @@
-//! The program that we would write for a drawing, and what we have written so.
+//! The program that wedm writes for a drawing, to be compared with another one.
 
 use super::sides::Sides;
 use super::traced::{Motion, Traced};
@@ -9,34 +9,34 @@ use crate::program::{Document, Format, Language};
 use crate::settings::{Effective, Layout};
 use crate::toolpath::{Source, WirePath, plan};
 
-/// Of more entities, or of contours of more segments, no program is written to hold another one against it.
+/// Of more entities, or of contours of more segments, no program is written for a comparison.
 const MOST: usize = 20_000;
 
-/// A program that was written anew, and the ways it was written of, µm.
+/// A program written for the comparison, and the paths it was written from, µm.
 #[derive(Debug)]
-pub(super) struct Anew {
-    pub traced: Traced,
+pub(super) struct Reference {
+    pub(crate) traced: Traced,
     pieces: Vec<(Segment, Source)>,
     /// From its places to those of the drawing.
     shift: Vector,
 }
 
-/// Under what a program is written.
+/// The conditions under which a program is written.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Under {
-    pub settings: Effective,
-    /// What the contours are that nobody has said a side of.
-    pub sides: Sides,
-    /// The contours that it cuts; all where none are named.
-    pub handles: Option<Vec<String>>,
+    pub(crate) settings: Effective,
+    /// The sides of contours that state none.
+    pub(crate) sides: Sides,
+    /// The contours that it cuts; all where none is named.
+    pub(crate) handles: Option<Vec<String>>,
 }
 
-/// What it is written of.
+/// The drawing from which it is written.
 pub(super) struct Of<'a> {
-    pub drawing: &'a Drawing,
-    pub outlines: &'a [Outline],
+    pub(crate) drawing: &'a Drawing,
+    pub(crate) outlines: &'a [Outline],
     /// mm of the drawing's unit.
-    pub unit_mm: f64,
+    pub(crate) unit_mm: f64,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -46,13 +46,8 @@ pub(super) struct Asked {
 }
 
 impl Asked {
-    pub fn of(traced: &Traced, under: &Under) -> Asked {
-        let format = match (traced.counts, traced.four_b) {
-            (false, _) if traced.mills => Format::Milling,
-            (false, _) => Format::Iso,
-            (true, false) => Format::ThreeB,
-            (true, true) => Format::FourB,
-        };
+    pub(super) fn of(traced: &Traced, under: &Under) -> Asked {
+        let format = traced.format();
         let mut under = under.clone();
         if traced.states_ends {
             under.settings.layout = Layout::Checking;
@@ -61,8 +56,8 @@ impl Asked {
     }
 }
 
-impl Anew {
-    pub fn of(of: &Of<'_>, Asked { format, under }: &Asked) -> Option<Anew> {
+impl Reference {
+    pub(super) fn of(of: &Of<'_>, Asked { format, under }: &Asked) -> Option<Reference> {
         let milled = match (format, under.settings.mills) {
             (Format::Milling, true) => Some(under.settings.milled().ok()?),
             (Format::Milling, false) | (_, true) => return None,
@@ -96,7 +91,7 @@ impl Anew {
         };
         let pieces = |path: WirePath| path.segments.into_iter();
         let pieces = paths.into_iter().flat_map(pieces);
-        Some(Anew {
+        Some(Reference {
             traced,
             pieces: pieces
                 .map(|piece| (scaled(&piece.geometry, scale), piece.source))
@@ -105,7 +100,7 @@ impl Anew {
         })
     }
 
-    /// What the paths run of beside walls and round corners, µm.
+    /// The parts of the paths beside walls and round corners, µm.
     pub(crate) fn on_walls(&self) -> impl Iterator<Item = &Segment> {
         let is_on_wall = |source: &Source| source.place().is_some();
         let own = self
@@ -115,8 +110,8 @@ impl Anew {
         own.map(|(piece, _)| piece)
     }
 
-    /// A place of the program that was written lies on the way beside a wall or round a corner.
-    pub fn is_on_wall(&self, place: Point, tolerance: f64) -> bool {
+    /// Whether a place of the written program lies on a path beside a wall or round a corner.
+    pub(super) fn is_on_wall(&self, place: Point, tolerance: f64) -> bool {
         let at = place + self.shift;
         self.on_walls()
             .any(|piece| piece.distance_to(at) <= tolerance)

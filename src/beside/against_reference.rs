@@ -1,12 +1,12 @@
 //! A program compared with our own program for its drawing, block by block.
 //!
-//! The drawing's program is written again under the same settings (`anew`), or under inferred ones (`guess`). Where
+//! The drawing's program is written again under the same settings (`reference`), or under inferred ones (`guess`). Where
 //! that has the same blocks except a few, somebody has changed those: each of them is named, however many they are, and
 //! nothing else. Other programs are not judged here.
 
-use super::anew::{Anew, Under};
 use super::comparison::{Comparison, Difference, FEW};
 use super::drawn::Drawn;
+use super::reference::{Reference, Under};
 use super::traced::{Block, Motion, Traced};
 use super::walk::Kind;
 use crate::drawing::EntityId;
@@ -20,7 +20,7 @@ const ROUNDED: f64 = 1.5;
 const SAME: f64 = 1e-2;
 /// A larger deviation of a way in or out, or between contours, is meant: its hole is elsewhere, µm.
 const SLIP: f64 = 50.0;
-/// For each block that is unlike so many others have to be as they are meant, or it is not known under which settings they would be.
+/// For each differing block this many others must be as expected; with fewer, the settings are not known.
 const LIKE: usize = 4;
 /// The most blocks that may be lost or superfluous in one place.
 const LOST: usize = 3;
@@ -28,18 +28,18 @@ const LOST: usize = 3;
 /// The verdict on a program from a rewritten one.
 #[derive(Clone, Debug)]
 pub(super) struct Told {
-    pub comparison: Comparison,
+    pub(crate) comparison: Comparison,
     /// The mean deviation of the unnamed blocks, µm.
     pub mean: f64,
     /// Blocks are lost or superfluous.
-    pub has_gap: bool,
-    /// Ways in and out that are moved so far that it is meant.
+    pub(crate) has_gap: bool,
+    /// Ways in and out that are moved so far that this is intended.
     pub elsewhere: usize,
-    /// One of the named blocks ends as far from where it is meant to.
+    /// One of the named blocks ends further from its place than [`SLIP`].
     pub strays: bool,
-    /// Ways in and out that are not just as they are meant.
+    /// Ways in and out that differ from the expected ones.
     pub ways: usize,
-    /// The same of blocks of contours, and how many there are of both.
+    /// The same for blocks of contours, and the number of both.
     unlike: [usize; 2],
 }
 
@@ -49,14 +49,14 @@ impl Told {
         self.mean < SAME
     }
 
-    /// Hardly any more blocks are as they are meant than are not.
+    /// Hardly more blocks are as expected than differ.
     pub(crate) fn is_mostly_unlike(&self) -> bool {
         let [unlike, all] = self.unlike;
         LIKE * unlike >= all
     }
 
-    /// Several moved ways in and out are set otherwise, whether or not they are one change, and so is one that is moved by more than
-    /// `most`, mm; somebody has changed any other.
+    /// Several moved ways in and out come from another setting, whether or not they are one change, and so does one
+    /// that is moved by more than `most`, mm; any other was changed by somebody.
     pub(crate) fn without_leads(mut self, most: f64) -> Told {
         let is_lead = |one: &Difference| one.kind == Kind::Lead;
         let all = &mut self.comparison.differences;
@@ -68,7 +68,7 @@ impl Told {
         self
     }
 
-    /// The evidence against it, the least first.
+    /// The evidence against it; the least evidence sorts first.
     pub(crate) fn doubt(&self) -> (bool, usize, bool) {
         let many = self.comparison.differences.len().min(2) + self.elsewhere.min(2);
         (!self.is_exact(), many, self.has_gap)
@@ -76,21 +76,20 @@ impl Told {
 }
 
 /// The changes in a program that is ours under these settings; `None` where it is not ours.
-pub(super) fn own(drawn: &Drawn, traced: &Traced, under: &Under) -> Option<Told> {
-    let anew = &*drawn.anew(traced, under)?;
-    let pairs = Pairs::of(traced, anew)?;
+pub(super) fn against_reference(drawn: &Drawn, traced: &Traced, under: &Under) -> Option<Told> {
+    let reference = &*drawn.reference(traced, under)?;
+    let pairs = Pairs::of(traced, reference)?;
     // Placed as the drawing is, or anywhere: by its start, or by most of it.
-    let anywhere = traced.begin()? - anew.traced.begin()?;
-    let as_drawn = (traced.is_placed && anew.traced.is_placed).then(Vector::zeros);
+    let anywhere = traced.begin()? - reference.traced.begin()?;
+    let as_drawn = (traced.is_placed && reference.traced.is_placed).then(Vector::zeros);
     let mut best: Option<Told> = None;
-    let many = |told: &Option<Told>| {
-        let told = told.as_ref();
-        told.map_or(usize::MAX, |told| told.comparison.differences.len())
+    let many = |told: &Option<Told>| match told {
+        Some(told) => told.comparison.differences.len(),
+        None => usize::MAX,
     };
     for (nth, enough) in [0, 0, 1].into_iter().enumerate() {
         // Where the wire is threaded elsewhere, a program that says no place lies where most of it does.
-        let is_elsewhere = |told: &Told| traced.counts && told.elsewhere > 0;
-        let is_moved = best.as_ref().is_some_and(is_elsewhere);
+        let is_moved = traced.counts && best.as_ref().is_some_and(|told| told.elsewhere > 0);
         let enough = if is_moved { 0 } else { enough };
         if many(&best) <= enough {
             break;
@@ -111,7 +110,7 @@ pub(super) fn own(drawn: &Drawn, traced: &Traced, under: &Under) -> Option<Told>
 /// The blocks of a program, each beside the rewritten one.
 struct Pairs<'a> {
     traced: &'a Traced,
-    anew: &'a Anew,
+    reference: &'a Reference,
     pairs: Vec<Pair<'a>>,
     /// The block at which some are lost or too many, and one of these.
     gap: Option<(&'a Block, &'a Block)>,
@@ -130,23 +129,23 @@ struct Pair<'a> {
 struct Words {
     /// They are the same.
     are_same: bool,
-    /// By how much one of the numbers differs, where all else is equal, µm.
+    /// The difference of one of the numbers, where all else is equal, µm.
     apart: Option<f64>,
     /// The same for the coordinates behind the block.
     stated: f64,
 }
 
 impl Words {
-    fn of(traced: &Traced, own: &Block, anew: &Anew, meant: &Block) -> Words {
-        let anew = &anew.traced;
-        if traced.line_from(own) == anew.line_from(meant) {
+    fn of(traced: &Traced, own: &Block, reference: &Reference, meant: &Block) -> Words {
+        let reference = &reference.traced;
+        if traced.line_from(own) == reference.line_from(meant) {
             return Words {
                 are_same: true,
                 apart: Some(0.0),
                 stated: 0.0,
             };
         }
-        let (said, expected) = (traced.said(own), anew.said(meant));
+        let (said, expected) = (traced.said(own), reference.said(meant));
         let stated = match (said.stated, expected.stated) {
             (Some([x, y]), Some([meant_x, meant_y])) => {
                 (x - meant_x).abs().max((y - meant_y).abs())
@@ -160,7 +159,7 @@ impl Words {
         }
     }
 
-    /// But for a rounding.
+    /// Equal except for rounding.
     fn are_near(&self) -> bool {
         self.apart.is_some_and(|apart| apart <= 1.0)
     }
@@ -168,8 +167,8 @@ impl Words {
 
 impl<'a> Pairs<'a> {
     /// `None` where blocks are lost or superfluous and there is any other difference, or where they are too many.
-    fn of(traced: &'a Traced, anew: &'a Anew) -> Option<Pairs<'a>> {
-        let (own, meant) = (&traced.blocks[..], &anew.traced.blocks[..]);
+    fn of(traced: &'a Traced, reference: &'a Reference) -> Option<Pairs<'a>> {
+        let (own, meant) = (&traced.blocks[..], &reference.traced.blocks[..]);
         let (more, lost) = (
             own.len().saturating_sub(meant.len()),
             meant.len().saturating_sub(own.len()),
@@ -180,7 +179,7 @@ impl<'a> Pairs<'a> {
         let pair = |(own, meant): (&'a Block, &'a Block)| Pair {
             own,
             meant,
-            words: Words::of(traced, own, anew, meant),
+            words: Words::of(traced, own, reference, meant),
             behind_gap: false,
         };
         let mut pairs: Vec<Pair> = Vec::with_capacity(own.len());
@@ -188,7 +187,7 @@ impl<'a> Pairs<'a> {
             pairs.extend(own.iter().zip(meant).map(pair));
             return Some(Pairs {
                 traced,
-                anew,
+                reference,
                 pairs,
                 gap: None,
             });
@@ -213,7 +212,7 @@ impl<'a> Pairs<'a> {
         let is_stop = of.motion == Motion::Stop;
         (!is_stop).then_some(Pairs {
             traced,
-            anew,
+            reference,
             pairs,
             gap: Some((place, of)),
         })
@@ -239,7 +238,7 @@ impl<'a> Pairs<'a> {
 
     /// The differences of a program at this distance from the rewritten one.
     fn told(&self, from: Vector) -> Option<Told> {
-        let (traced, anew) = (self.traced, self.anew);
+        let (traced, reference) = (self.traced, self.reference);
         let rewritten = self
             .pairs
             .iter()
@@ -295,7 +294,7 @@ impl<'a> Pairs<'a> {
                 }
                 continue;
             }
-            let source = anew.source_of(&meant.motion);
+            let source = reference.source_of(&meant.motion);
             ways += usize::from(source.is_none());
             unlike += usize::from(source.is_some());
             let goes_on = run.is_some_and(|(last, is_elsewhere)| {
@@ -331,7 +330,7 @@ impl<'a> Pairs<'a> {
             found.append(&mut stated);
         }
         if let Some((place, of)) = self.gap {
-            let segment = anew.source_of(&of.motion);
+            let segment = reference.source_of(&of.motion);
             let length = ends_of(&of.motion).map_or(0.0, |[start, end]| (end - start).norm());
             let kind = if segment.is_some() {
                 Kind::Block
@@ -340,9 +339,9 @@ impl<'a> Pairs<'a> {
             };
             found.push(named(place, segment, length, kind));
         }
-        found.extend(begun_elsewhere(traced, &anew.traced));
+        found.extend(begun_elsewhere(traced, &reference.traced));
         found.sort_by_key(|difference| difference.range.start);
-        let contours = anew
+        let contours = reference
             .traced
             .cuts
             .iter()
@@ -370,12 +369,14 @@ impl<'a> Pairs<'a> {
             return false;
         };
         let is = |own: &Block, meant: &Block| {
-            self.traced.said(own).is_like(&self.anew.traced.said(meant))
+            self.traced
+                .said(own)
+                .is_like(&self.reference.traced.said(meant))
         };
         is(one.own, two.meant) && is(two.own, one.meant)
     }
 
-    /// Whether a block ends where it is meant to.
+    /// Whether a block ends where it should.
     fn is_placed(&self, number: usize, from: Vector) -> bool {
         self.ends_near(number, from, ROUNDED)
     }
@@ -390,8 +391,8 @@ impl<'a> Pairs<'a> {
         }
     }
 
-    /// A block with which its contour begins on a wall and that ends where it is meant to; or one that ends on a wall, where its contour
-    /// began or its tab begins.
+    /// A block that begins its contour on a wall and ends where it should; or one that ends on a wall, where its
+    /// contour began or its tab begins.
     fn is_at_its_entry(&self, number: usize, from: Vector) -> bool {
         let blocks = &self.traced.blocks;
         let Some(own) = self.pairs.get(number).map(|pair| pair.own) else {
@@ -415,10 +416,10 @@ impl<'a> Pairs<'a> {
             (last.range == own.range && closes).then_some(entry)
         });
         let moved = entry.or(tab);
-        moved.is_some_and(|place| self.anew.is_on_wall(place - from, ROUNDED))
+        moved.is_some_and(|place| self.reference.is_on_wall(place - from, ROUNDED))
     }
 
-    /// Behind this block, or one of the next few, the program is where it is meant to be.
+    /// Behind this block, or one of the next few, the program is where it should be.
     fn comes_back(&self, number: usize, from: Vector) -> bool {
         (number..number + FEW).any(|number| self.is_placed(number, from))
     }
@@ -434,8 +435,8 @@ fn named(block: &Block, segment: Option<(EntityId, usize)>, off: f64, kind: Kind
     }
 }
 
-/// The line with which an ISO program gives its start, where that is a little beside its place.
-fn begun_elsewhere(traced: &Traced, anew: &Traced) -> Option<Difference> {
+/// The line in which an ISO program states its start, where that is a little off.
+fn begun_elsewhere(traced: &Traced, reference: &Traced) -> Option<Difference> {
     if traced.counts {
         return None;
     }
@@ -445,7 +446,7 @@ fn begun_elsewhere(traced: &Traced, anew: &Traced) -> Option<Difference> {
         let mut words = lines.map(|(line, range)| (line, range.clone(), of.said_in(range)));
         words.find(|(_, _, said)| said.sets_place())
     };
-    let ((line, range, own), (.., meant)) = (said(traced)?, said(anew)?);
+    let ((line, range, own), (.., meant)) = (said(traced)?, said(reference)?);
     let off = own
         .apart(&meant)
         .filter(|off| (ALIKE..=SLIP).contains(off))?;
@@ -458,9 +459,9 @@ fn begun_elsewhere(traced: &Traced, anew: &Traced) -> Option<Difference> {
     })
 }
 
-/// The distance of two motions, from their starts or from the program's; `None` for two different kinds.
+/// The distance of two motions, from their starts or from the program's; `None` for different kinds.
 ///
-/// `behind` a block that ends elsewhere the radius of an arc is enough: with it, its centre is elsewhere too.
+/// `behind` a block that ends elsewhere, the radius of an arc is enough: its centre is elsewhere, too.
 fn away(own: &Motion, meant: &Motion, from: Vector, behind: bool) -> Option<f64> {
     let ends = |[start, end]: [Point; 2], [meant_start, meant_end]: [Point; 2]| {
         let counted = (end - start) - (meant_end - meant_start);
@@ -476,12 +477,9 @@ fn away(own: &Motion, meant: &Motion, from: Vector, behind: bool) -> Option<f64>
                 (Some(own), Some(meant)) if own.sweep * meant.sweep > 0.0 => {
                     let counted = (own.center - own.start) - (meant.center - meant.start);
                     let placed = own.center - from - meant.center;
-                    let radius = if behind {
-                        (own.radius - meant.radius).abs()
-                    } else {
-                        f64::INFINITY
-                    };
-                    off.max(counted.norm().min(placed.norm()).min(radius))
+                    let centers = counted.norm().min(placed.norm());
+                    let radii = (own.radius - meant.radius).abs();
+                    off.max(if behind { centers.min(radii) } else { centers })
                 }
                 (None, None) => off,
                 _ => off.max((own.point_at(0.5) - from - meant.point_at(0.5)).norm()),

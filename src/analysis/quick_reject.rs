@@ -1,5 +1,5 @@
-//! What the contours alone say of an edit that is tried, before anything is compared: a look at them costs a small part of a
-//! look at the drawing.
+//! A cheap first test of a tentative edit: rejects repairs that open a contour before anything is compared. Looking at
+//! the contours costs a small part of looking at the drawing.
 
 use super::Analysis;
 use super::contours::{part_of, role_of};
@@ -12,11 +12,11 @@ use crate::geometry::Bounds;
 use rustc_hash::FxHashSet;
 
 impl Analysis {
-    /// True where more contours than `before` are told of as open after an edit. False where only a look at the drawing can
-    /// tell.
+    /// True where more contours than `before` are reported as open after an edit. False where only a look at the
+    /// drawing can tell.
     ///
-    /// The two are the drawing before and after the edit, which touched `delta`. A contour of which nothing is touched stays as
-    /// it is, and what is not touched may only become a double of what is.
+    /// The two are the drawing before and after the edit, which touched `delta`. A contour that the edit does not touch
+    /// stays as it is; an untouched entity can only become a double of a touched one.
     pub(super) fn plainly_opens(
         &self,
         (drawing, edited): (&Drawing, &Drawing),

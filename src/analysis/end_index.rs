@@ -1,4 +1,4 @@
-//! What the ends of lone lines may face, by place: for many lines at once, of which a hatch has thousands side by side.
+//! An index of what the ends of single lines may face, for hatches of thousands of lines.
 
 use super::Analysis;
 use crate::drawing::{ContourKey, Drawing};
@@ -9,15 +9,15 @@ use std::iter::once;
 pub(super) const SHARE: f64 = 0.25;
 
 /// Ends of the contours of a drawing.
-pub(super) struct Faced {
-    /// How far lone lines reach on at both ends: two of them face each other where these meet.
+pub(super) struct EndIndex {
+    /// The reaches of single lines beyond both ends: two lines face each other where these meet.
     stubs: Shells<ContourKey>,
     /// The ends of other open contours.
     ends: Grid<ContourKey>,
 }
 
-impl Faced {
-    pub(super) fn of(analysis: &Analysis, drawing: &Drawing) -> Faced {
+impl EndIndex {
+    pub(super) fn of(analysis: &Analysis, drawing: &Drawing) -> EndIndex {
         let stubs = analysis.lone.iter().flat_map(|(&key, lone)| {
             let stubs = stubs_of(&lone.line).into_iter();
             stubs.map(move |stub| (key, stub))
@@ -30,14 +30,14 @@ impl Faced {
                 }
             }
         }
-        Faced {
+        EndIndex {
             stubs: Shells::new(stubs.collect()),
             ends,
         }
     }
 
-    /// True where `is_faced` holds of another contour whose ends come near those of a line: within `reach`, of a line within
-    /// `join` of where they go on to.
+    /// True where `is_faced` holds for another contour whose ends come near those of a line: within `reach`, or for a
+    /// line within `join` of where its ends lead on.
     pub(super) fn any_near(
         &self,
         line: &Line,

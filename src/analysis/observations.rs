@@ -1,4 +1,4 @@
-//! What has been observed between segments, by their two runs, and how much of each rule there is.
+//! The observations between segments, by their two runs, with their number for each rule.
 
 use super::compare::{Observed, RunId};
 use crate::drawing::ContourKey;
@@ -7,19 +7,19 @@ use crate::rules::PAIR_RULES;
 use rustc_hash::FxHashMap;
 
 #[derive(Clone, Debug, Default)]
-pub(super) struct Seen {
-    /// What is told pair by pair.
+pub(super) struct Observations {
+    /// Those that are reported pair by pair.
     between: FxHashMap<(RunId, RunId), Vec<Observed>>,
-    /// What is told by its place, of which there may be more than of all else.
+    /// Those that are reported by their place, which may be more than all others.
     ends: FxHashMap<(RunId, RunId), Vec<Observed>>,
-    /// How many there are of each of the rules.
+    /// The number of observations of each rule.
     counts: [usize; PAIR_RULES.len()],
-    /// How many crossings of its own a contour has, and how many slots that nothing reaches into, where there are any.
+    /// The numbers of a contour's crossings with itself and of its empty slots, where there are any.
     pub(super) crossings: FxHashMap<ContourKey, usize>,
     pub(super) slots: FxHashMap<ContourKey, usize>,
 }
 
-impl Seen {
+impl Observations {
     pub(super) fn insert(&mut self, pair: (RunId, RunId), found: Vec<Observed>) {
         self.remove(&pair);
         for each in &found {
@@ -75,12 +75,12 @@ impl Seen {
         self.told().chain(self.ends.values().flatten())
     }
 
-    /// Those that are told pair by pair, in no order.
+    /// Those that are reported pair by pair, in no order.
     pub(super) fn told(&self) -> impl Iterator<Item = &Observed> {
         self.between.values().flatten()
     }
 
-    /// Those of one rule that is told pair by pair; where there are none, without a look at the others.
+    /// Those of one rule that is reported pair by pair; where there are none, the others are not looked at.
     pub(super) fn of(&self, rule: Rule) -> impl Iterator<Item = &Observed> {
         let of_rule = move |each: &&Observed| PAIR_RULES[each.rule].rule == rule;
         let between = self.has(rule).then(|| self.between.values().flatten());

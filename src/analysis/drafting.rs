@@ -1,13 +1,14 @@
 //! Entities drawn to be read and not to be cut: centre lines, hidden edges, hatches, dimensions, construction.
 //!
 //! An entity is set aside by its linetype or its layer, whatever lies about it. A line is set aside as a contour of its
-//! own if it is alone, with a stretch of it within a closed contour and no end near that of another: a chain, or an end
-//! that faces another one, is an outline that has lost something. A closed contour with a lone line in it is still
-//! sound, so rules do not see lines that are set aside; the decision is made again where something near has changed.
+//! own if it is alone, with a stretch of it within a closed contour and no end near that of another contour: a chain,
+//! or an end that faces another one, is an outline that has lost something. A closed contour with a lone line in it is
+//! still sound, so rules do not see lines that are set aside; the decision is made again where something near has
+//! changed.
 
 use super::Analysis;
 use super::contours::{role_of, role_of_linetype, set_aside};
-use super::faced::{Faced, SHARE};
+use super::end_index::{EndIndex, SHARE};
 use super::report::Report;
 use super::suppressed::own_role;
 use crate::drawing::{
@@ -30,7 +31,8 @@ const JOINS: f64 = 100.0;
 /// Lines up to this sine of their angle count as parallel: hatches, and the pieces of a broken line.
 const PARALLEL: f64 = 0.01;
 
-/// From this many questions on it pays to ask over the cores, and from this share of all lines to sort by place what they face.
+/// From this many questions on several threads are worth while; from this share of all lines on, an index of what they
+/// face.
 const MANY: usize = 16;
 const FEW_OF_ALL: usize = 32;
 
@@ -38,13 +40,13 @@ const FEW_OF_ALL: usize = 32;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lone {
     pub(super) line: Line,
-    /// Nothing beyond this matters to it.
+    /// Nothing beyond this area matters to it.
     reach: Bounds,
     pub(super) is_aside: bool,
 }
 
 impl Analysis {
-    /// The contour as a line that may be set aside: one straight segment, to which nobody has given a role.
+    /// The contour as a line that may be set aside: one straight segment without a given role.
     pub(super) fn as_lone(&self, drawing: &Drawing, key: ContourKey) -> Option<Lone> {
         let contour = self.chains.get(key)?;
         let &[piece] = contour.pieces.as_slice() else {
@@ -195,7 +197,7 @@ impl Analysis {
                 return Some((key, false));
             }
             if is_sorted {
-                let faced = faced.get_or_init(|| Faced::of(self, drawing));
+                let faced = faced.get_or_init(|| EndIndex::of(self, drawing));
                 let is_faced = |other| {
                     other != key
                         && (self.lone.contains_key(&other) || self.is_there(drawing, other))
@@ -242,7 +244,7 @@ impl Analysis {
         near
     }
 
-    /// Sorts by place what lone lines are asked about, unless that is so already.
+    /// Sorts what may be near single lines by place, unless that is done.
     pub(super) fn know_vicinity(&mut self) {
         if self.vicinity.is_some() {
             return;
@@ -259,7 +261,7 @@ impl Analysis {
         self.vicinity = Some(vicinity);
     }
 
-    /// Takes down that a contour has come to be known.
+    /// Records that a contour is known.
     pub(super) fn enter_vicinity(&mut self, key: ContourKey, index: &ContourIndex) {
         if let Some(vicinity) = &mut self.vicinity
             && index.run_count() > 1
@@ -269,7 +271,7 @@ impl Analysis {
         }
     }
 
-    /// The same for one that is known no longer.
+    /// Records that it is known no longer.
     pub(super) fn leave_vicinity(&mut self, key: ContourKey, index: &ContourIndex) {
         if let Some(vicinity) = &mut self.vicinity
             && index.run_count() > 1
@@ -299,7 +301,8 @@ impl Analysis {
             .any(|end| (end - line.start).norm() <= reach || (end - line.end).norm() <= reach)
     }
 
-    /// How far from the ends of a line those of an open contour are faced, and those of another line always.
+    /// The distance from the ends of a line within which it faces the ends of an open contour; and within which it
+    /// always faces those of another line.
     fn reaches_of(&self, lone: &Lone) -> (f64, f64) {
         let join = JOINS * self.limits.tolerances.join;
         ((SHARE * lone.line.length()).max(join), join)
@@ -389,7 +392,7 @@ impl Analysis {
         keys
     }
 
-    /// The box of what a contour may matter to: its own, and a lone line's reach.
+    /// The box within which a contour may matter: its own, and the reach of a single line.
     pub(super) fn box_of(&self, key: ContourKey) -> Option<Bounds> {
         match self.lone.get(&key) {
             Some(lone) => Some(lone.reach),

@@ -4,12 +4,12 @@ use super::COVERED;
 use super::rounds::Rounds;
 use std::ops::Range;
 
-/// The most that may be cut twice where consecutive stretches overlap, as a share of their round.
+/// The largest share of a round that may be cut twice where consecutive stretches overlap.
 const TWICE: f64 = 0.35;
 
 /// What has been cut from stop to stop.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Goes {
+pub(super) struct Coverage {
     done: Vec<Go>,
     open: Vec<Go>,
 }
@@ -21,8 +21,8 @@ struct Go {
     parts: Vec<Range<f64>>,
 }
 
-impl Goes {
-    pub fn cut(&mut self, round: usize, part: Range<f64>) {
+impl Coverage {
+    pub(super) fn cut(&mut self, round: usize, part: Range<f64>) {
         let Some(own) = self.open.iter_mut().find(|go| go.round == round) else {
             self.open.push(Go {
                 round,
@@ -38,11 +38,11 @@ impl Goes {
     }
 
     /// The wire stops, or is taken out.
-    pub fn end(&mut self) {
+    pub(super) fn end(&mut self) {
         self.done.append(&mut self.open);
     }
 
-    /// Whether each goes all along its round, alone or with others: a tab is cut by itself.
+    /// Whether the stretches of each round cover all of it, alone or together: a tab is cut by itself.
     pub(crate) fn are_whole(mut self, rounds: &Rounds) -> bool {
         self.end();
         let mut partial: Vec<Go> = Vec::new();

@@ -4,7 +4,7 @@
 //! A program that we write depends only on the drawing, the settings and the format, not on the program compared with
 //! it: it is kept as long as the drawing is, so that an edit of the program writes nothing.
 
-use super::anew::{Anew, Asked, Of, Under};
+use super::reference::{Asked, Of, Reference, Under};
 use super::traced::Traced;
 use super::way::{Way, way};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -16,9 +16,9 @@ const EDITED: usize = 8;
 
 /// The programs written for a drawing.
 #[derive(Debug, Default)]
-pub(super) struct Kept {
+pub(super) struct Cache {
     /// With their settings; `None` where it cannot be written.
-    written: Mutex<Vec<(Asked, Option<Arc<Anew>>)>>,
+    written: Mutex<Vec<(Asked, Option<Arc<Reference>>)>>,
     /// The settings under which a program was last found to be written.
     guess: Mutex<Option<Guess>>,
 }
@@ -26,20 +26,20 @@ pub(super) struct Kept {
 /// The result of the last search.
 #[derive(Clone, Debug)]
 pub(super) struct Guess {
-    pub under: Option<Under>,
+    pub(crate) under: Option<Under>,
     /// The differences of the searched program.
-    pub left: usize,
+    pub(crate) left: usize,
     of: Vec<Way>,
 }
 
 impl Guess {
-    pub fn of(traced: &Traced, under: Option<Under>, left: usize) -> Guess {
+    pub(super) fn of(traced: &Traced, under: Option<Under>, left: usize) -> Guess {
         let of = traced.blocks.iter().map(|block| way(block, true)).collect();
         Guess { under, left, of }
     }
 
     /// Whether a program is the searched one, except for a few blocks in one place.
-    pub fn is_near(&self, traced: &Traced) -> bool {
+    pub(super) fn is_near(&self, traced: &Traced) -> bool {
         let ways = || traced.blocks.iter().map(|block| way(block, true));
         let alike = |(one, other): &(Way, Way)| one == other;
         let of = self.of.iter().copied();
@@ -49,33 +49,40 @@ impl Guess {
     }
 }
 
-impl Kept {
-    pub fn anew(&self, of: &Of<'_>, traced: &Traced, under: &Under) -> Option<Arc<Anew>> {
+impl Cache {
+    pub(super) fn reference(
+        &self,
+        of: &Of<'_>,
+        traced: &Traced,
+        under: &Under,
+    ) -> Option<Arc<Reference>> {
         let asked = Asked::of(traced, under);
         let lock = || self.written.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, known)) = lock().iter().find(|(other, _)| *other == asked) {
             return known.clone();
         }
-        let made = Anew::of(of, &asked).map(Arc::new);
-        let mut kept = lock();
-        let blocks = |anew: &Option<Arc<Anew>>| {
-            100 + anew.as_ref().map_or(0, |anew| anew.traced.blocks.len())
+        let made = Reference::of(of, &asked).map(Arc::new);
+        let mut written = lock();
+        let blocks = |reference: &Option<Arc<Reference>>| {
+            100 + reference
+                .as_ref()
+                .map_or(0, |reference| reference.traced.blocks.len())
         };
-        let sum: usize = kept.iter().map(|(_, anew)| blocks(anew)).sum();
+        let sum: usize = written.iter().map(|(_, reference)| blocks(reference)).sum();
         if sum + blocks(&made) > MOST {
             // The first is the one that the settings ask for.
-            kept.truncate(1);
+            written.truncate(1);
         }
-        kept.push((asked, made.clone()));
+        written.push((asked, made.clone()));
         made
     }
 
-    pub fn guess(&self) -> Option<Guess> {
+    pub(super) fn guess(&self) -> Option<Guess> {
         let guess = self.guess.lock().unwrap_or_else(PoisonError::into_inner);
         guess.clone()
     }
 
-    pub fn note(&self, guess: Guess) {
+    pub(super) fn note(&self, guess: Guess) {
         *self.guess.lock().unwrap_or_else(PoisonError::into_inner) = Some(guess);
     }
 }
