@@ -218,8 +218,19 @@ pub struct Misfit {
     /// The part at whose segment the finding stands, and its partner: `punch` and `plate`, or names of workpieces.
     pub of: Arc<str>,
     pub partner: Arc<str>,
-    /// The part that protrudes in a corner; `None` where they bind along a wall, which no corner radius mends.
-    pub(crate) corner_of: Option<Arc<str>>,
+    pub(crate) cause: Cause,
+}
+
+/// Why two parts bind.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Cause {
+    /// The wire leaves too much in a corner of this part.
+    Corner(Arc<str>),
+    /// Both are drawn as arcs there, of radii that do not differ by the clearance: that of the part at whose segment the finding stands first.
+    /// Drawing units.
+    Radii([f64; 2]),
+    /// They lie too near to each other, which no corner radius mends.
+    Wall,
 }
 
 #[derive(Clone, Debug, PartialEq)]

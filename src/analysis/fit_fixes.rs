@@ -209,7 +209,7 @@ impl Analysis {
         let binding = |held: &Held| {
             held.spots
                 .iter()
-                .filter(|spot| spot.clearance < 0.0)
+                .filter(|spot| spot.clearance < -self.limits.tolerances.report)
                 .count()
         };
         let left = left.fold(corner.clearance, f64::min);

@@ -3,7 +3,7 @@
 use super::Analysis;
 use super::report::Report;
 use crate::drawing::{ContourKey, Drawing, Outline, Role};
-use crate::finding::{Detail, Misfit, Place, Rule, Severity, Side};
+use crate::finding::{Cause, Detail, Misfit, Place, Rule, Severity, Side};
 use crate::fit::{self, Held, SegmentOf, Spot};
 use crate::geometry::{Bounds, Grid};
 use crate::settings::{Compensation, Partners};
@@ -286,6 +286,21 @@ impl Analysis {
             );
             Some(pair.spots.get(first?)?.of.clone())
         };
+        let arc_radius = |(entity, segment): SegmentOf| {
+            let geometry = drawing.segment(entity, segment)?;
+            Some(geometry.as_arc()?.radius)
+        };
+        let cause = |spot: &Spot, at: SegmentOf, other: SegmentOf| {
+            let radii = arc_radius(at).zip(arc_radius(other));
+            let radii = radii.filter(|(own, other)| {
+                !is_cut_twice && ((own - other).abs() - wanted).abs() > rounding
+            });
+            match (corner_of(spot), radii) {
+                (Some(of), _) => Cause::Corner(of),
+                (None, Some((own, other))) => Cause::Radii([own, other]),
+                (None, None) => Cause::Wall,
+            }
+        };
         let is_binding = |spot: &&Spot| spot.clearance < -rounding;
         let count = pair.spots.iter().filter(is_binding).count();
         let of_each = if is_cut_twice { 1 } else { 2 };
@@ -302,7 +317,7 @@ impl Analysis {
                         wanted,
                         of: of.clone(),
                         partner: partner.clone(),
-                        corner_of: corner_of(spot),
+                        cause: cause(spot, at, other),
                     };
                     let detail = Detail::DoesNotFit(Box::new(misfit));
                     report.add(

@@ -101,6 +101,9 @@ fn table(fit: &Fit) -> String {
 
 /// The remaining clearance, and whether it is enough.
 pub(super) fn of_least(fit: &Fit, verdict: &str) -> String {
+    if fit.compares_nothing() {
+        return say!(no_contour_is_of_a_pair).into();
+    }
     let (least, wanted) = (fit.least * 1e3, fit.clearance * 1e3);
     let places = say!(places, fit.places.len());
     let mut sentence = say!(verdict_of_the_fit, verdict, least, wanted, places);

@@ -3,7 +3,8 @@
 use super::lengths::{absurd, mm, told_apart};
 use super::program_sentence::program;
 use super::{
-    Aside, Detail, Finding, NoFix, NotJudged, Rule, SetAside, SmallRadius, Unlike, Unwritable,
+    Aside, Cause, Detail, Finding, NoFix, NotJudged, Rule, SetAside, SmallRadius, Unlike,
+    Unwritable,
 };
 use crate::drawing::Visibility;
 use crate::message::readable;
@@ -111,9 +112,23 @@ fn said(finding: &Finding, telling: Telling) -> String {
             let [depth, wanted] =
                 [-misfit.clearance, misfit.wanted].map(|length| length * unit_mm * 1e3);
             let (of, partner) = (&misfit.of, &misfit.partner);
-            match &misfit.corner_of {
-                Some(corner_of) => say!(the_parts_bind_here, of, partner, depth, corner_of, wanted),
-                None => say!(the_parts_bind_along_a_wall, of, partner, depth, wanted),
+            match &misfit.cause {
+                Cause::Corner(corner_of) => {
+                    say!(the_parts_bind_here, of, partner, depth, corner_of, wanted)
+                }
+                Cause::Radii(radii) => {
+                    let [own, other] = radii.map(|radius| mm(radius * unit_mm));
+                    say!(
+                        the_parts_bind_along_an_arc,
+                        of,
+                        partner,
+                        depth,
+                        own,
+                        other,
+                        wanted
+                    )
+                }
+                Cause::Wall => say!(the_parts_bind_along_a_wall, of, partner, depth, wanted),
             }
         }
         Detail::NoPartner { of, missing } => {

@@ -14,7 +14,8 @@ pub(crate) struct Fit {
     pub fits: bool,
     /// Clearance that there should be, mm a side.
     pub clearance: f64,
-    /// The least clearance that is left anywhere, mm; below 0 where two parts bind.
+    /// The least clearance that is left anywhere, mm; below 0 where two parts bind. Where no contour has a partner, nothing is compared: that
+    /// which there should be.
     pub least: f64,
     /// Every place where less is left than there should be.
     pub places: Vec<FitPlace>,
@@ -48,6 +49,11 @@ pub(crate) struct FitAlone {
 }
 
 impl Fit {
+    /// True where no contour has a partner.
+    pub(crate) fn compares_nothing(&self) -> bool {
+        !self.fits && self.places.is_empty()
+    }
+
     pub(crate) fn new(drawing: &Drawing, fit: &fit::Fit, svg: String, unit_mm: f64) -> Fit {
         let handle = |(entity, _): fit::SegmentOf| {
             let entity = drawing.get(entity);

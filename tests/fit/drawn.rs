@@ -4,7 +4,7 @@ use super::{circle, drawing, findings, fit_of, polyline, rounded, settings, snap
 use std::sync::Arc;
 use wedm::analysis::Analysis;
 use wedm::drawing::{Entity, Geometry, Kind, Vertex};
-use wedm::finding::{Rule, Severity};
+use wedm::finding::{Rule, Severity, sentence};
 use wedm::geometry::Point;
 
 const DRAWN: &str = "wire-diameter = 0.18\ngap = 0.01\n[layers]\nPU = \"punch\"\nPL = \"opening\"\n[pair]\nclearance = 0.01\n[workpieces]\nPUNCH = [\"PU\"]\nPLATE = [\"PL\"]\n";
@@ -163,4 +163,79 @@ fn entities_of_two_workpieces_are_not_chained_to_each_other() {
         "{}",
         found.least()
     );
+}
+
+/// A plate whose corner arc is tighter than the correction, beside a punch: to make that arc alone larger would make the two bind, or partners no
+/// longer. Whatever is repaired, they are no tighter than before, and fit where they bound.
+#[test]
+fn no_repair_makes_a_drawn_pair_bind_more_or_parts_it() {
+    for (wire, corrections, clearance, punch, plate, comes_to_fit) in [
+        (0.23, "0.225, 0.125", 0.01, 0.11, 0.12, true),
+        (0.23, "0.175, 0.125", 0.01, 0.09, 0.10, true),
+        (0.23, "0.175, 0.125", 0.005, 0.09, 0.095, true),
+        (0.23, "0.125", 0.002, 0.09, 0.10, false),
+        (0.18, "0.1", 0.01, 0.05, 0.09, false),
+    ] {
+        let own = settings(
+            &DRAWN
+                .replace("wire-diameter = 0.18", &format!("wire-diameter = {wire}"))
+                .replace("clearance = 0.01", &format!("clearance = {clearance}"))
+                .replace(
+                    "gap = 0.01\n",
+                    &format!("gap = 0.01\n[passes]\ncorrections = [{corrections}]\n"),
+                ),
+        );
+        let with_corner = |by: f64, radius: f64| {
+            rounded(&[
+                (Point::new(-by, -by), 1.0 + by),
+                (Point::new(20.0 + by, -by), 1.0 + by),
+                (Point::new(20.0 + by, 10.0 + by), radius),
+                (Point::new(-by, 10.0 + by), 1.0 + by),
+            ])
+        };
+        let mut drawing = drawing(vec![
+            polyline("PU", "A", with_corner(0.0, punch)),
+            polyline("PL", "B", with_corner(clearance, plate)),
+        ]);
+        let label = format!("R {punch} in R {plate}, {corrections}, {clearance}");
+        let before = fit_of(&drawing, &own);
+        let mut rounds = 0;
+        while let Some(edit) = Analysis::new(&drawing, Arc::new(own.clone())).fix_all(&drawing) {
+            drawing.apply(&edit).expect("an edit that can be made");
+            rounds += 1;
+            assert!(rounds < 12, "{label}");
+        }
+        let after = fit_of(&drawing, &own);
+        assert_eq!(after.pairs.len(), 1, "{label}");
+        assert!(!comes_to_fit || after.fits(), "{label}: {}", after.least());
+        assert!(
+            after.least() >= before.least() - 1e-6,
+            "{label}: {} to {}",
+            before.least(),
+            after.least()
+        );
+    }
+}
+
+/// Two arcs whose radii do not differ by the clearance bind although no wire turned there: the finding says both radii.
+#[test]
+fn arcs_of_radii_that_do_not_go_together_are_told_by_them() {
+    let own = settings(DRAWN);
+    let of = |plate: f64| {
+        let drawing = drawing(vec![
+            polyline("PU", "A", grown(20.0, 10.0, 0.0, 0.67)),
+            polyline("PL", "B", grown(20.0, 10.0, 0.01, plate)),
+        ]);
+        findings(&drawing, &own, Rule::DoesNotFit)
+    };
+    assert_eq!(of(0.68), []);
+    let found = of(0.78);
+    assert_eq!(found.len(), 8);
+    for finding in &found {
+        let sentence = sentence(finding, 1.0);
+        assert!(
+            sentence.contains("R 0.670 mm") && sentence.contains("R 0.780 mm"),
+            "{sentence}"
+        );
+    }
 }

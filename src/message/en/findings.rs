@@ -221,6 +221,7 @@ declare! {
     it_is_part_of_an_entity_that_cannot_be_edited_here => "; it is part of an entity that cannot be edited here";
     the_parts_bind_here(of, partner, depth, corner_of, wanted) => "{of} and {partner} bind here by {depth:.1} µm: the wire leaves too much in this corner of the {corner_of} for a clearance of {wanted:.1} µm";
     the_parts_bind_along_a_wall(of, partner, depth, wanted) => "{of} and {partner} bind here by {depth:.1} µm along a wall, where there should be a clearance of {wanted:.1} µm: no radius of a corner mends that; the wall is drawn, or its wire led, too near to its partner";
+    the_parts_bind_along_an_arc(of, partner, depth, own, other, wanted) => "{of} and {partner} bind here by {depth:.1} µm along an arc: R {own} mm of the {of} is beside R {other} mm of the {partner}, which should differ by the clearance of {wanted:.1} µm";
     the_contour_has_no_partner(of) => "no contour of another workpiece runs beside this one of {of} within five clearances: it has no partner";
     nothing_is_drawn_of(names) => "; nothing is drawn on the layers of {names}";
     touches_itself_or_another => "touches itself or another";

@@ -221,6 +221,7 @@ translate! {
     it_is_part_of_an_entity_that_cannot_be_edited_here => "；它属于此处不能修改的图元";
     the_parts_bind_here(of, partner, depth, corner_of, wanted) => "{of} 与 {partner} 在此卡住 {depth:.1} µm：{corner_of} 的这个角残留过多，留不出 {wanted:.1} µm 的间隙";
     the_parts_bind_along_a_wall(of, partner, depth, wanted) => "{of} 与 {partner} 在此沿壁卡住 {depth:.1} µm，这里应有 {wanted:.1} µm 的间隙：改角的半径无济于事；是这段壁画得、或其丝走得离配对件太近";
+    the_parts_bind_along_an_arc(of, partner, depth, own, other, wanted) => "{of} 与 {partner} 在此沿圆弧卡住 {depth:.1} µm：{of} 的 R {own} mm 旁边是 {partner} 的 R {other} mm，两者应相差 {wanted:.1} µm 的间隙";
     the_contour_has_no_partner(of) => "{of} 的这个轮廓在五倍间隙内没有其他工件的轮廓与它并行：没有配对";
     nothing_is_drawn_of(names) => "；{names} 的图层上什么也没有画";
     touches_itself_or_another => "与自身或其他轮廓相碰";

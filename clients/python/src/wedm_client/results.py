@@ -494,6 +494,8 @@ class Fit(Tabled):
         return self.svg + (table(self.rows()) if self.places or self.alone else "")
 
     def __repr__(self) -> str:
+        if not self.fits and not self.places:
+            return f"<Fit: nothing compared, {counted(len(self.alone), 'contour')} without a partner>"
         said = "fits" if self.fits else "does not fit"
         return f"<Fit: {said}, {self.least:.4f} mm of {self.clearance:.4f} mm a side at the tightest, {counted(len(self.places), 'place')}>"
 
