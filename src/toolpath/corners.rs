@@ -13,7 +13,7 @@ use crate::geometry::{
 use std::ops::Range;
 
 /// One core takes so many elements at a time.
-const AT_A_TIME: usize = 2048;
+pub(super) const AT_A_TIME: usize = 2048;
 
 /// A piece of the closed path and the wall it belongs to.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +22,13 @@ pub(super) struct Element {
     pub(crate) source: Source,
     /// Index of the wall; of the one before it, for the way round a corner.
     pub(crate) wall: usize,
+}
+
+impl Element {
+    /// True for the way round a corner.
+    pub(super) fn is_roll(&self) -> bool {
+        matches!(self.source, Source::Corner { .. })
+    }
 }
 
 /// The walls themselves as a path.
@@ -54,72 +61,34 @@ pub(super) enum Joint {
     CrossNear(Point),
 }
 
-/// The offsets of all walls and the ways round their convex corners in the order of the contour, before anything is cut. Each is made
-/// when it is asked for: that takes less time than to fetch it from memory.
-pub(super) struct Raw<'a> {
-    walls: &'a [Wall],
+/// The offsets of all walls and the ways round their convex corners, before anything is cut. Each has as its key twice its wall, and one more
+/// for the way round the end of that. Each is made when it is asked for: that takes less time than to fetch it from memory.
+#[derive(Clone, Copy)]
+pub(super) struct Offsets<'a> {
+    pub(crate) walls: &'a [Wall],
     /// Of each wall at its ends.
-    tangents: &'a [[Vector; 2]],
-    joining: Joining,
-    /// Of each element twice its wall, and one more for the way round the end of that.
-    of: Vec<u32>,
-    /// Elements that the wire's centre cannot follow, with the place that stands for them.
-    pub(super) tight: Vec<(usize, Point)>,
+    pub(crate) tangents: &'a [[Vector; 2]],
+    pub(crate) joining: &'a Joining,
 }
 
-impl<'a> Raw<'a> {
-    /// `tangents` are those of each wall at its ends.
-    pub(crate) fn new(
-        walls: &'a [Wall],
-        tangents: &'a [[Vector; 2]],
-        joining: &Joining,
-    ) -> Raw<'a> {
-        let mut raw = Raw {
-            walls,
-            tangents,
-            joining: *joining,
-            of: Vec::with_capacity(2 * walls.len()),
-            tight: Vec::new(),
-        };
-        let kinds = each(walls.len(), AT_A_TIME, |wall| {
-            let is_tight = matches!(raw.shifted(wall), Offset::TooTight { .. });
-            (matches!(raw.way(wall), Way::Roll(_)), is_tight)
-        });
-        for (wall, (is_roll, is_tight)) in kinds.into_iter().enumerate() {
-            if is_tight && let Offset::TooTight { center } = raw.shifted(wall) {
-                raw.tight.push((raw.of.len(), center));
-            }
-            raw.of.push(2 * wall as u32);
-            if is_roll {
-                raw.of.push(2 * wall as u32 + 1);
-            }
+/// True for the way round a corner.
+pub(super) fn is_roll(key: usize) -> bool {
+    key % 2 == 1
+}
+
+impl Offsets<'_> {
+    /// The wall behind another.
+    pub(super) fn behind(&self, wall: usize) -> usize {
+        match wall + 1 == self.walls.len() {
+            true => 0,
+            false => wall + 1,
         }
-        raw
-    }
-
-    pub(crate) fn len(&self) -> usize {
-        self.of.len()
-    }
-
-    /// The wall that an element is of; the one before it, for the way round a corner.
-    pub(crate) fn wall(&self, index: usize) -> usize {
-        self.of[index] as usize / 2
-    }
-
-    /// True for the way round a corner.
-    pub(super) fn is_roll(&self, index: usize) -> bool {
-        self.of[index] % 2 == 1
     }
 
     /// The way behind a wall.
-    fn way(&self, wall: usize) -> Way {
-        let behind = if wall + 1 == self.walls.len() {
-            0
-        } else {
-            wall + 1
-        };
-        let turn = [self.tangents[wall][1], self.tangents[behind][0]];
-        corner(self.walls[wall].geometry.end(), turn, &self.joining)
+    pub(super) fn way(&self, wall: usize) -> Way {
+        let turn = [self.tangents[wall][1], self.tangents[self.behind(wall)][0]];
+        corner(self.walls[wall].geometry.end(), turn, self.joining)
     }
 
     fn shifted(&self, wall: usize) -> Offset {
@@ -128,7 +97,7 @@ impl<'a> Raw<'a> {
             side,
             tolerance,
             ..
-        } = self.joining;
+        } = *self.joining;
         match &self.walls[wall].geometry {
             Segment::Line(line) => {
                 let shift = left_normal(self.tangents[wall][0]) * (side * correction);
@@ -138,42 +107,57 @@ impl<'a> Raw<'a> {
         }
     }
 
-    /// Those that the wire's centre cannot follow at all are points.
-    pub(crate) fn geometry(&self, index: usize) -> Segment {
-        let wall = self.wall(index);
-        if self.is_roll(index) {
-            let [from, to] = self.ends(index);
-            let vertex = self.walls[wall].geometry.end();
-            return Segment::Arc(Arc {
-                radius: self.joining.correction,
-                ..Arc::about(vertex, from, to, self.joining.side < 0.0)
-            });
-        }
+    /// The offset of a wall, where the wire's centre can follow it.
+    pub(super) fn along(&self, wall: usize) -> Option<Segment> {
         match self.shifted(wall) {
+            Offset::Runs(geometry) => Some(geometry),
+            Offset::TooTight { .. } => None,
+        }
+    }
+
+    /// The way round the end of a wall, where there is one.
+    pub(super) fn roll(&self, wall: usize) -> Option<Segment> {
+        let Way::Roll([from, to]) = self.way(wall) else {
+            return None;
+        };
+        let vertex = self.walls[wall].geometry.end();
+        Some(Segment::Arc(Arc {
+            radius: self.joining.correction,
+            ..Arc::about(vertex, from, to, self.joining.side < 0.0)
+        }))
+    }
+
+    /// Those that the wire's centre cannot follow at all are points.
+    pub(super) fn geometry(&self, key: usize) -> Segment {
+        if is_roll(key)
+            && let Some(roll) = self.roll(key / 2)
+        {
+            return roll;
+        }
+        match self.shifted(key / 2) {
             Offset::Runs(geometry) => geometry,
             Offset::TooTight { center } => Segment::line(center, center),
         }
     }
 
-    /// Where an element begins and where it ends.
-    pub(super) fn ends(&self, index: usize) -> [Point; 2] {
-        let wall = self.wall(index);
-        if self.is_roll(index)
-            && let Way::Roll(ends) = self.way(wall)
+    /// Where one begins and where it ends.
+    fn ends(&self, key: usize) -> [Point; 2] {
+        if is_roll(key)
+            && let Way::Roll(ends) = self.way(key / 2)
         {
             return ends;
         }
-        match self.shifted(wall) {
+        match self.shifted(key / 2) {
             Offset::Runs(geometry) => [geometry.start(), geometry.end()],
             Offset::TooTight { center } => [center, center],
         }
     }
 
-    /// The same with what is known of an element, in another form.
-    pub(super) fn element(&self, index: usize, geometry: Segment) -> Element {
-        let wall = self.wall(index);
+    /// The same with what is known of it, in another form.
+    pub(super) fn element(&self, key: usize, geometry: Segment) -> Element {
+        let wall = key / 2;
         let source = match self.walls[wall].source {
-            Source::Segment { entity, segment } if self.is_roll(index) => {
+            Source::Segment { entity, segment } if is_roll(key) => {
                 Source::Corner { entity, segment }
             }
             source => source,
@@ -185,52 +169,112 @@ impl<'a> Raw<'a> {
         }
     }
 
-    /// What is behind an element.
-    pub(super) fn joint(&self, index: usize) -> Joint {
-        match (self.way(self.wall(index)), self.is_roll(index)) {
+    /// What is behind one.
+    pub(super) fn joint(&self, key: usize) -> Joint {
+        match (self.way(key / 2), is_roll(key)) {
             (Way::Through(joint), _) => joint,
             (Way::Roll([from, _]), false) => Joint::At(from),
             (Way::Roll([_, to]), true) => Joint::At(to),
         }
     }
 
-    /// The geometry of all.
-    pub(super) fn geometries(&self) -> Vec<Segment> {
-        each(self.len(), AT_A_TIME, |index| self.geometry(index))
-    }
-
-    /// The elements of a wall.
+    /// The keys of what is of a wall.
     pub(super) fn of_wall(&self, wall: usize) -> Range<usize> {
-        let own = 2 * wall as u32;
-        let first = self.of.partition_point(|of| *of < own);
-        let is_roll = self.of.get(first + 1) == Some(&(own + 1));
-        first..first + if is_roll { 2 } else { 1 }
+        let is_roll = matches!(self.way(wall), Way::Roll(_));
+        2 * wall..2 * wall + if is_roll { 2 } else { 1 }
     }
 
     /// True for a piece of the way round a corner that is seen to be all of it but for half of `rounding` at its ends. False says nothing.
-    pub(super) fn is_all_of_roll(&self, index: usize, piece: &Segment, rounding: f64) -> bool {
+    pub(super) fn is_all_of_roll(&self, key: usize, piece: &Segment, rounding: f64) -> bool {
         let Segment::Arc(arc) = piece else {
             return false;
         };
-        if !self.is_roll(index)
-            || arc.center != self.walls[self.wall(index)].geometry.end()
+        if !is_roll(key)
+            || arc.center != self.walls[key / 2].geometry.end()
             || arc.radius != self.joining.correction
             || arc.sweep * self.joining.side >= 0.0
             || !arc.is_minor()
         {
             return false;
         }
-        let [from, to] = self.ends(index);
+        let [from, to] = self.ends(key);
         let most = rounding / 2.0;
         (arc.start - from).norm_squared() <= most * most
             && (arc.end - to).norm_squared() <= most * most
     }
 
+    /// True where a piece of one goes from its start to its end against the direction of the whole.
+    pub(super) fn runs_backwards(&self, key: usize, start: Point, end: Point) -> bool {
+        if is_roll(key) && self.ends(key) == [start, end] {
+            return false;
+        }
+        goes_backwards(&self.geometry(key), start, end)
+    }
+}
+
+/// True where the way along a segment from a start to an end goes against its direction.
+pub(super) fn goes_backwards(segment: &Segment, start: Point, end: Point) -> bool {
+    if let Segment::Line(line) = segment {
+        let along = line.end - line.start;
+        let forward = (end - start).dot(&along);
+        return forward < 0.0 && forward * forward > 1e-18 * along.norm_squared();
+    }
+    let length = segment.length();
+    length > 0.0
+        && !is_all_of(segment, start, end)
+        && !is_seen_forward(segment, start, end)
+        && (share_on(segment, end) - share_on(segment, start)) * length < -1e-9
+}
+
+/// The offsets and the ways round corners that there are, in the order of the contour.
+pub(super) struct Raw<'a> {
+    pub(super) offsets: Offsets<'a>,
+    keys: Vec<u32>,
+    /// Those that the wire's centre cannot follow, with the place that stands for them.
+    pub(super) tight: Vec<(usize, Point)>,
+}
+
+impl<'a> Raw<'a> {
+    pub(crate) fn new(offsets: Offsets<'a>) -> Raw<'a> {
+        let count = offsets.walls.len();
+        let mut raw = Raw {
+            offsets,
+            keys: Vec::with_capacity(2 * count),
+            tight: Vec::new(),
+        };
+        let kinds = each(count, AT_A_TIME, |wall| {
+            let is_tight = matches!(offsets.shifted(wall), Offset::TooTight { .. });
+            (matches!(offsets.way(wall), Way::Roll(_)), is_tight)
+        });
+        for (wall, (is_roll, is_tight)) in kinds.into_iter().enumerate() {
+            if is_tight && let Offset::TooTight { center } = offsets.shifted(wall) {
+                raw.tight.push((raw.keys.len(), center));
+            }
+            raw.keys.push(2 * wall as u32);
+            if is_roll {
+                raw.keys.push(2 * wall as u32 + 1);
+            }
+        }
+        raw
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.keys.len()
+    }
+
+    pub(super) fn key(&self, index: usize) -> usize {
+        self.keys[index] as usize
+    }
+
+    pub(crate) fn geometry(&self, index: usize) -> Segment {
+        self.offsets.geometry(self.key(index))
+    }
+
     /// Of an open contour that is gone there and back, so many walls either way: the element that leads round its end. Those before it
     /// lie on the side of the wire.
     pub(crate) fn end_roll(&self, walls: usize) -> usize {
-        self.of
-            .partition_point(|of| (of / 2) < walls as u32)
+        self.keys
+            .partition_point(|key| (key / 2) < walls as u32)
             .saturating_sub(1)
     }
 }
@@ -356,4 +400,18 @@ pub(super) fn between(segment: &Segment, start: Point, end: Point) -> Segment {
             })
         }
     }
+}
+
+/// True where one point of an arc's circle is seen to lie behind the other in its sense: both are on the half of the circle that the middle of
+/// the arc is on. False says nothing.
+fn is_seen_forward(segment: &Segment, start: Point, end: Point) -> bool {
+    let Some(arc) = segment
+        .as_arc()
+        .filter(|arc| !arc.is_shallow() && arc.sweep.abs() < 3.0)
+    else {
+        return false;
+    };
+    let middle = (arc.start - arc.center) + (arc.end - arc.center);
+    let (from, to) = (start - arc.center, end - arc.center);
+    from.dot(&middle) > 0.0 && to.dot(&middle) > 0.0 && cross(from, to) * arc.sweep > 0.0
 }

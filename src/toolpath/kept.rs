@@ -2,7 +2,6 @@
 
 use super::clearance::Walls;
 use super::corners::Element;
-use super::path::Source;
 use crate::geometry::Bounds;
 
 /// Where more walls have changed, all is looked at.
@@ -134,10 +133,6 @@ pub(super) fn follows(path: &[Element]) -> Vec<u32> {
     path.iter().map(follows).collect()
 }
 
-fn follows_of(wall: u32, element: &Element) -> u32 {
-    2 * wall + u32::from(is_roll(element))
-}
-
-fn is_roll(element: &Element) -> bool {
-    matches!(element.source, Source::Corner { .. })
+pub(super) fn follows_of(wall: u32, element: &Element) -> u32 {
+    2 * wall + u32::from(element.is_roll())
 }

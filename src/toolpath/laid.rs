@@ -2,29 +2,25 @@
 
 use super::clearance::Walls;
 use super::cores::{first_fault, sum};
-use super::corners::{Element, Joining, Raw};
+use super::corners::{Element, Joining, Offsets, Raw};
 use super::job::{Job, ROUNDING};
 use super::kept::Kept;
+use super::later::along_before;
 use super::loops::{self, Found};
 use super::nest::{Before, Nest};
 use super::offset::{Wall, walls};
 use super::open::{one_side, there_and_back};
 use super::path::Refusal;
 use super::proof::{Beside, Proof, Unproved};
-use super::ring::trimmed;
+use super::ring::{Pieces, trimmed};
 use super::spliced::spliced;
 use super::tips::with_tips;
 use crate::drawing::ContourSegment;
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::Point;
 use crate::settings::Corner;
-use rayon::iter::{IndexedParallelIterator, ParallelIterator};
-use rayon::slice::ParallelSlice;
 use std::borrow::Cow;
 use std::sync::atomic::Ordering::Relaxed;
-
-/// One core takes so many pieces at a time.
-const AT_A_TIME: usize = 2048;
 
 /// Walls up to this long, mm, are left out where there is no path otherwise.
 const CRUMB: f64 = 4e-6;
@@ -164,7 +160,7 @@ impl Job<'_> {
             && corner == Corner::Arc
             && self.a_loop_will_do
             && let Some(path) = spliced(kept, walls, &joining)
-            && keeps_its_side(path.len(), |piece| &path[piece], walls, own, side)
+            && keeps_its_side(&path, walls, own, side)
         {
             let place = Beside {
                 walls,
@@ -191,7 +187,11 @@ impl Job<'_> {
             true => Cow::Borrowed(own.tangents()),
             false => Cow::Owned(of_round()),
         };
-        let raw = Raw::new(&round, &tangents, &joining);
+        let offsets = Offsets {
+            walls: &round,
+            tangents: &tangents,
+            joining: &joining,
+        };
         let place = Beside {
             walls: &round,
             own,
@@ -200,38 +200,49 @@ impl Job<'_> {
             rounding,
             closed,
         };
-        let proof = Proof { place, raw: &raw };
-        let tipped = |path: Vec<(usize, Element)>| {
-            let path: Vec<Element> = path.into_iter().map(|(_, element)| element).collect();
+        let proof = Proof { place, offsets };
+        // One that was looked for among all crossings has its corners less exactly.
+        if let Some(before) = known.before
+            && closed
+            && !self.searched.load(Relaxed)
+            && let Some(path) = along_before(&proof, before, self.goes_on)
+            && keeps_its_side(&path, walls, own, side)
+        {
+            return Ok(Ok(Laid::Path(path)));
+        }
+        self.go_on()?;
+        let raw = Raw::new(offsets);
+        let tipped = |Pieces { elements, .. }: Pieces| {
             Laid::Path(match corner {
                 Corner::Intersection => {
-                    with_tips(path, &round, &joining, own, correction - rounding)
+                    with_tips(elements, &round, &joining, own, correction - rounding)
                 }
-                Corner::Arc => path,
+                Corner::Arc => elements,
             })
         };
         self.go_on()?;
         let circle = || {
             let circle = raw.geometry(0);
-            (circle.length() > 0.0).then(|| vec![(0, raw.element(0, circle))])
+            (circle.length() > 0.0).then(|| Pieces::of(vec![(0, offsets.element(0, circle))]))
         };
         let found = match raw.len() {
             1 => circle(),
             _ => trimmed(&raw),
         };
         let found = match closed {
-            true => found.filter(|path| {
-                keeps_its_side(path.len(), |piece| &path[piece].1, walls, own, side)
+            true => found.filter(|path| keeps_its_side(&path.elements, walls, own, side)),
+            false => found.and_then(|path| {
+                let path = one_side(vec![path.pairs().collect()], &raw, walls.len());
+                path.ok().map(Pieces::of)
             }),
-            false => found.and_then(|path| one_side(vec![path], &raw, walls.len()).ok()),
         };
         if let Some(path) = found
-            && self.holds(&proof, &path, known)?.is_ok()
+            && self.holds(&proof, &raw, &path, known)?.is_ok()
         {
             return Ok(Ok(tipped(path)));
         }
         self.searched.store(true, Relaxed);
-        let mut loops = match loops::find(&proof, self.goes_on) {
+        let mut loops = match loops::find(&proof, &raw, self.goes_on) {
             Found::Loops(loops) => loops,
             Found::Point(point) => return Ok(Ok(Laid::Point(point))),
             // Outside of a contour there is always room: one that is turned inside out somewhere is so where it is finest.
@@ -243,7 +254,7 @@ impl Job<'_> {
             Found::Nothing => return Ok(Err(Fault::Nothing)),
             Found::Torn(raw_element) => {
                 return Ok(Err(Fault::Unproved {
-                    wall: raw.wall(raw_element),
+                    wall: raw.key(raw_element) / 2,
                 }));
             }
             Found::Cancelled => return Err(Refusal::Cancelled),
@@ -254,7 +265,7 @@ impl Job<'_> {
                 Err(None) => return Ok(Err(Fault::Nothing)),
                 Err(Some((near, wall))) => return Ok(Err(Fault::Several { near, wall })),
             };
-            return self.vouched(&proof, path, tipped);
+            return self.vouched(&proof, &raw, Pieces::of(path), tipped);
         }
         if loops.len() > 1 {
             loops.retain(|path| {
@@ -278,50 +289,56 @@ impl Job<'_> {
         let Some(path) = loops.pop() else {
             return Ok(Err(Fault::Nothing));
         };
-        if !keeps_its_side(path.len(), |piece| &path[piece].1, walls, own, side) {
+        let path = Pieces::of(path);
+        if !keeps_its_side(&path.elements, walls, own, side) {
             return Ok(Err(Fault::Unproved { wall: 0 }));
         }
-        self.vouched(&proof, path, tipped)
+        self.vouched(&proof, &raw, path, tipped)
     }
 
     /// A path, where it holds its proof.
     fn vouched(
         &self,
         proof: &Proof,
-        path: Vec<(usize, Element)>,
-        tipped: impl Fn(Vec<(usize, Element)>) -> Laid,
+        raw: &Raw,
+        path: Pieces,
+        tipped: impl Fn(Pieces) -> Laid,
     ) -> Result<Outcome, Refusal> {
         Ok(self
-            .holds(proof, &path, Known::default())?
+            .holds(proof, raw, &path, Known::default())?
             .map(|()| tipped(path))
             .map_err(|Unproved { wall }| Fault::Unproved { wall }))
     }
 
     /// Holds a path against its proof.
-    fn holds<'p>(
+    fn holds(
         &self,
         proof: &Proof,
-        path: &'p [(usize, Element)],
+        raw: &Raw,
+        path: &Pieces,
         known: Known,
     ) -> Result<Result<(), Unproved>, Refusal> {
         let Known { before, kept } = known;
         let go_on = || self.go_on();
         let place = &proof.place;
         let nest = before.map(|before| Nest::new(before, place.walls.len()));
-        let pieces = |pieces: &'p [(usize, Element)]| pieces.iter().map(|(_, element)| element);
+        let Pieces {
+            elements: pieces,
+            raw: of,
+        } = path;
         let held = match kept {
             // Little of it is looked at.
             Some(mut kept) => {
                 self.go_on()?;
                 let about = kept.about(place.own, place.correction);
-                place.pieces_hold(pieces(path), nest.as_ref(), Some((&mut kept, &about)))
+                place.pieces_hold(pieces.iter(), nest.as_ref(), Some((&mut kept, &about)))
             }
             None => {
                 if place.closed {
                     place.own.know_about(place.correction - place.rounding);
                 }
-                first_fault(path.len(), go_on, |range| {
-                    place.pieces_hold(pieces(&path[range]), nest.as_ref(), None)
+                first_fault(pieces.len(), go_on, |range| {
+                    place.pieces_hold(pieces[range].iter(), nest.as_ref(), None)
                 })?
             }
         };
@@ -331,18 +348,25 @@ impl Job<'_> {
         if self.a_loop_will_do {
             return Ok(Ok(()));
         }
-        let share = |(raw, piece): &(usize, Element)| {
-            let whole = proof.raw.geometry(*raw);
-            whole.share_of(piece.geometry.start())
-        };
-        let mut by_raw = Cow::Borrowed(path);
-        let neighbours = path.par_windows(2).with_min_len(AT_A_TIME);
-        if !neighbours.all(|pair| pair[0].0 < pair[1].0) {
+        let mut sorted = None;
+        if !of.is_sorted_by(|one, next| one < next) {
+            let share = |(index, piece): &(usize, Element)| {
+                let whole = raw.geometry(*index);
+                whole.share_of(piece.geometry.start())
+            };
             let by_share = |a: &_, b: &_| share(a).total_cmp(&share(b));
-            (by_raw.to_mut()).sort_by(|a, b| a.0.cmp(&b.0).then_with(|| by_share(a, b)));
+            let mut pairs: Vec<(usize, Element)> = path.pairs().collect();
+            pairs.sort_by(|a, b| a.0.cmp(&b.0).then_with(|| by_share(a, b)));
+            sorted = Some(Pieces::of(pairs));
         }
-        first_fault(proof.followed(), go_on, |range| {
-            proof.nothing_is_missing(&by_raw, range)
+        let by_raw = sorted.as_ref().unwrap_or(path);
+        // Of an open contour those on the side of the wire.
+        let followed = match place.closed {
+            true => raw.len(),
+            false => raw.end_roll(place.walls.len() / 2),
+        };
+        first_fault(followed, go_on, |range| {
+            proof.nothing_is_missing(raw, by_raw, range)
         })
     }
 
@@ -406,24 +430,14 @@ pub(super) fn goes_out_and_back(path: &[Element]) -> bool {
 }
 
 /// True when a path runs round as its contour does, inside an opening and outside a punch. Out and back along a line is no way round.
-fn keeps_its_side<'a>(
-    count: usize,
-    piece: impl Fn(usize) -> &'a Element + Sync + Send,
-    walls: &[Wall],
-    own: &Walls,
-    side: f64,
-) -> bool {
+fn keeps_its_side(path: &[Element], walls: &[Wall], own: &Walls, side: f64) -> bool {
     let Some(origin) = walls.first().map(|wall| wall.geometry.start()) else {
         return false;
     };
     let contour = own.twice_area();
-    let area = sum(count, |at| piece(at).geometry.twice_area(origin));
+    let area = sum(path.len(), |at| path[at].geometry.twice_area(origin));
     let grows = (area - contour) * contour.signum();
     let inside = grows * side * contour.signum() <= 0.0;
     // To the left of a counter-clockwise contour lies its inside.
-    let is_out_and_back = || {
-        let elements: Vec<Element> = (0..count).map(|at| *piece(at)).collect();
-        goes_out_and_back(&elements)
-    };
-    inside && (area * contour > 0.0 || is_out_and_back())
+    inside && (area * contour > 0.0 || goes_out_and_back(path))
 }

@@ -6,7 +6,8 @@
 //! wire's centre may be.
 
 use super::clearance::Walls;
-use super::corners::{Element, between, close_up};
+use super::cores::each;
+use super::corners::{AT_A_TIME, Element, Raw, between, close_up};
 use super::proof::Proof;
 use crate::geometry::{Point, Segment};
 use rustc_hash::FxHashMap;
@@ -38,7 +39,7 @@ pub(super) enum Found {
 /// Elements between two questions whether the path is still wanted.
 const STEP: usize = 256;
 
-pub(super) fn find(proof: &Proof, goes_on: &dyn Fn() -> bool) -> Found {
+pub(super) fn find(proof: &Proof, raw_elements: &Raw, goes_on: &dyn Fn() -> bool) -> Found {
     let mut nodes = Nodes {
         cell: 8.0 * proof.rounding,
         near: 0.2 * proof.rounding,
@@ -53,13 +54,15 @@ pub(super) fn find(proof: &Proof, goes_on: &dyn Fn() -> bool) -> Found {
             .is_none()
     };
     let mut stand = None;
-    let all = Walls::new(proof.raw.geometries());
-    for raw in 0..proof.raw.len() {
+    let all = Walls::new(each(raw_elements.len(), AT_A_TIME, |raw| {
+        raw_elements.geometry(raw)
+    }));
+    for raw in 0..raw_elements.len() {
         if raw % STEP == 0 && !goes_on() {
             return Found::Cancelled;
         }
         let geometry = all.segment(raw);
-        let cuts = proof.cuts(raw, geometry, Some(&all));
+        let cuts = proof.cuts_among(&all, raw);
         let mut last = nodes.at(geometry.start());
         let mut share = 0.0;
         for &cut in &cuts[1..] {
@@ -98,7 +101,7 @@ pub(super) fn find(proof: &Proof, goes_on: &dyn Fn() -> bool) -> Found {
         (middle(a) - middle(b)).norm() <= proof.rounding
     });
     prune(&mut stretches, nodes.points.len());
-    match (followed(proof, &stretches, &nodes), stand) {
+    match (followed(raw_elements, &stretches, &nodes), stand) {
         (Err(raw), _) => Found::Torn(raw),
         (Ok(loops), _) if !loops.is_empty() => Found::Loops(loops),
         (_, Some(point)) => Found::Point(point),
@@ -153,7 +156,7 @@ fn prune(stretches: &mut [Stretch], nodes: usize) {
 
 /// Chains the stretches: each is followed by the next one in the order of the contour that begins where it ends, so
 /// that ways that touch are one. Where it does not close, returns the raw element.
-fn followed(proof: &Proof, stretches: &[Stretch], nodes: &Nodes) -> Result<Loops, usize> {
+fn followed(raw_elements: &Raw, stretches: &[Stretch], nodes: &Nodes) -> Result<Loops, usize> {
     let alive: Vec<usize> = (0..stretches.len())
         .filter(|&index| stretches[index].is_alive)
         .collect();
@@ -178,7 +181,7 @@ fn followed(proof: &Proof, stretches: &[Stretch], nodes: &Nodes) -> Result<Loops
             }
             let Stretch { raw, from, to, .. } = stretches[here];
             append(
-                proof,
+                raw_elements,
                 &mut pieces,
                 raw,
                 nodes.points[from],
@@ -205,8 +208,14 @@ fn followed(proof: &Proof, stretches: &[Stretch], nodes: &Nodes) -> Result<Loops
 }
 
 /// Adds a stretch of a raw element, to the last piece where that is the stretch before it.
-fn append(proof: &Proof, pieces: &mut Vec<(usize, Element)>, raw: usize, start: Point, end: Point) {
-    let whole = proof.raw.geometry(raw);
+fn append(
+    raw_elements: &Raw,
+    pieces: &mut Vec<(usize, Element)>,
+    raw: usize,
+    start: Point,
+    end: Point,
+) {
+    let whole = raw_elements.geometry(raw);
     let start = match pieces.last() {
         Some((last, piece)) if *last == raw && piece.geometry.end() == start => {
             let begun = piece.geometry.start();
@@ -219,7 +228,8 @@ fn append(proof: &Proof, pieces: &mut Vec<(usize, Element)>, raw: usize, start: 
         Segment::Arc(arc) if arc.is_full_turn() && start == end => whole,
         whole => between(&whole, start, end),
     };
-    pieces.push((raw, proof.raw.element(raw, geometry)));
+    let key = raw_elements.key(raw);
+    pieces.push((raw, raw_elements.offsets.element(key, geometry)));
 }
 
 /// Points that are only distinct when they are further from each other than rounding.

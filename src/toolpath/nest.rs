@@ -4,7 +4,6 @@
 //! place on the same normal of the wall lies in it: there the later path keeps as clear, and only what reaches beyond is to be proved.
 
 use super::corners::Element;
-use super::path::Source;
 use crate::geometry::{Arc, Point, Segment, left_normal};
 
 /// The path of an earlier pass, proved, beside the same walls on the same side, at no smaller correction.
@@ -50,12 +49,24 @@ impl<'a> Nest<'a> {
         beside: BesideWall,
         element: &Element,
     ) -> Option<[Option<Segment>; 2]> {
-        let Before { path, correction } = self.before;
-        let is_roll = |element: &Element| matches!(element.source, Source::Corner { .. });
+        let path = self.before.path;
         let first = *self.first.get(element.wall)? as usize;
         let of_wall = path.get(first..)?.iter();
         let mut of_wall = of_wall.take_while(|other| other.wall == element.wall);
-        let earlier = of_wall.find(|other| is_roll(other) == is_roll(element))?;
+        let earlier = of_wall.find(|other| other.is_roll() == element.is_roll())?;
+        self.before.beyond(beside, element, earlier)
+    }
+}
+
+impl Before<'_> {
+    /// The same of two pieces beside one wall, the later one and the earlier one.
+    pub(crate) fn beyond(
+        &self,
+        beside: BesideWall,
+        element: &Element,
+        earlier: &Element,
+    ) -> Option<[Option<Segment>; 2]> {
+        let correction = self.correction;
         let by = correction - beside.correction;
         let slack = 1e-3 * beside.rounding;
         if by < 0.0 {
@@ -141,8 +152,9 @@ impl<'a> Nest<'a> {
 #[cfg(test)]
 mod tests {
     use super::super::clearance::Walls;
-    use super::super::corners::{Joining, Raw};
+    use super::super::corners::{Joining, Offsets, Raw};
     use super::super::offset::Wall;
+    use super::super::path::Source;
     use super::super::rounds::rounds;
     use super::*;
     use crate::drawing::{ContourSegment, EntityId};
@@ -184,11 +196,12 @@ mod tests {
                 touch: 1e-7,
                 tolerance: 1e-6,
             };
-            let raw = Raw::new(&walls, own.tangents(), &joining);
-            let path = super::super::ring::trimmed(&raw).unwrap();
-            path.into_iter()
-                .map(|(_, element)| element)
-                .collect::<Vec<_>>()
+            let raw = Raw::new(Offsets {
+                walls: &walls,
+                tangents: own.tangents(),
+                joining: &joining,
+            });
+            super::super::ring::trimmed(&raw).unwrap().elements
         };
         let (outer, inner) = (laid(0.3), laid(0.1));
         let beside = |element: &Element| BesideWall {

@@ -5,18 +5,20 @@
 //! such places, and when of what was cut off the raw elements none is.
 
 use super::clearance::Walls;
-use super::corners::{Element, Raw, meetings};
+use super::corners::{Element, Offsets, Raw, meetings};
 use super::kept::Kept;
 use super::nest::{BesideWall, Nest};
 use super::offset::Wall;
+use super::ring::Pieces;
+use super::seen::{is_all_about_foot, is_all_within, middle, runs_beside};
 use crate::drawing::winding_of;
-use crate::geometry::{Arc, Bounds, Line, Point, Segment, Vector, cross};
-use std::ops::Deref;
+use crate::geometry::{Arc, Bounds, Point, Segment};
+use std::ops::{Deref, Range};
 
 /// What the offset of one contour is held against.
 pub(super) struct Proof<'a> {
     pub(crate) place: Beside<'a>,
-    pub(crate) raw: &'a Raw<'a>,
+    pub(crate) offsets: Offsets<'a>,
 }
 
 impl<'a> Deref for Proof<'a> {
@@ -86,28 +88,35 @@ impl Beside<'_> {
             {
                 continue;
             }
-            let beyond = nest.and_then(|nest| {
-                let beside = BesideWall {
-                    wall: self.walls[element.wall].geometry,
-                    side: self.side,
-                    correction: self.correction,
-                    rounding: self.rounding,
-                };
-                nest.beyond(beside, element)
-            });
-            match beyond {
-                Some(parts) => {
-                    let [begin, end] = parts;
-                    let begin = begin.map(|part| (part, part.start()));
-                    let end = end.map(|part| (part, part.end()));
-                    for (part, outer) in begin.into_iter().chain(end) {
-                        self.part_holds(&part, outer, element.wall)?;
-                    }
-                }
-                None => self.piece_holds(&element.geometry, element.wall)?,
-            }
+            let beyond = nest.and_then(|nest| nest.beyond(self.beside_wall(element.wall), element));
+            self.holds_beyond(element, beyond)?;
         }
         Ok(())
+    }
+
+    /// How the path runs beside a wall.
+    pub(super) fn beside_wall(&self, wall: usize) -> BesideWall {
+        BesideWall {
+            wall: self.walls[wall].geometry,
+            side: self.side,
+            correction: self.correction,
+            rounding: self.rounding,
+        }
+    }
+
+    /// The same of one piece, where it is known only of what of it reaches beyond an earlier pass.
+    pub(super) fn holds_beyond(
+        &self,
+        element: &Element,
+        beyond: Option<[Option<Segment>; 2]>,
+    ) -> Result<(), Unproved> {
+        let Some([begin, end]) = beyond else {
+            return self.piece_holds(&element.geometry, element.wall);
+        };
+        let begin = begin.map(|part| (part, part.start()));
+        let end = end.map(|part| (part, part.end()));
+        let mut parts = begin.into_iter().chain(end);
+        parts.try_for_each(|(part, outer)| self.part_holds(&part, outer, element.wall))
     }
 
     /// The same of what reaches, up to a point, beyond an earlier pass, and is known to run at the correction from its own wall.
@@ -150,87 +159,96 @@ impl Beside<'_> {
     }
 }
 
-impl Proof<'_> {
-    /// How many of the raw elements the path follows: of an open contour those on the side of the wire.
-    pub(crate) fn followed(&self) -> usize {
-        match self.closed {
-            true => self.raw.len(),
-            false => self.raw.end_roll(self.walls.len() / 2),
-        }
-    }
+/// What is there of one of the offsets, with the pieces of the path before and behind it.
+pub(super) struct There<'p> {
+    pub(super) pieces: &'p [Element],
+    pub(super) before: Option<&'p Element>,
+    pub(super) behind: Option<&'p Element>,
+}
 
+impl Proof<'_> {
     /// Nothing that was cut off is a place of the path: what is left out of the raw elements `range` is too near to some wall.
     /// `by_raw` are all pieces of the path in the order of the raw elements.
     pub(crate) fn nothing_is_missing(
         &self,
-        by_raw: &[(usize, Element)],
-        range: std::ops::Range<usize>,
+        raw: &Raw,
+        by_raw: &Pieces,
+        range: Range<usize>,
     ) -> Result<(), Unproved> {
-        let mut next = by_raw.partition_point(|(raw, _)| *raw < range.start);
+        let Pieces {
+            elements: path,
+            raw: of,
+        } = by_raw;
+        let mut next = of.partition_point(|raw| (*raw as usize) < range.start);
         for index in range {
             let first = next;
-            while by_raw.get(next).is_some_and(|(raw, _)| *raw == index) {
+            while of.get(next).is_some_and(|raw| *raw as usize == index) {
                 next += 1;
             }
-            let only = match &by_raw[first..next] {
-                [(_, piece)] => Some(&piece.geometry),
-                _ => None,
+            let before = first.checked_sub(1).unwrap_or(path.len().saturating_sub(1));
+            let behind = if next < path.len() { next } else { 0 };
+            let there = There {
+                pieces: &path[first..next],
+                before: path.get(before),
+                behind: path.get(behind),
             };
-            if only.is_some_and(|piece| self.raw.is_all_of_roll(index, piece, self.rounding)) {
+            let key = raw.key(index);
+            if let [piece] = there.pieces
+                && (self.offsets).is_all_of_roll(key, &piece.geometry, self.rounding)
+            {
                 continue;
             }
-            let raw = &self.raw.geometry(index);
-            if only.is_some_and(|piece| self.is_whole(piece, raw)) {
-                continue;
-            }
-            let beside = [
-                first
-                    .checked_sub(1)
-                    .unwrap_or(by_raw.len().saturating_sub(1)),
-                if next < by_raw.len() { next } else { 0 },
-            ];
-            let beside = beside.map(|place| by_raw.get(place).map(|(_, element)| element));
-            let [before, behind] = beside;
-            let length = raw.length();
-            let shares = |piece: &(usize, Element)| {
-                let share = |point| raw.share_of(point).clamp(0.0, 1.0);
-                match (&piece.1.geometry, raw) {
-                    // Both ends of a full turn are one point.
-                    (Segment::Arc(arc), _) if arc.is_full_turn() => [0.0, 1.0],
-                    (Segment::Arc(arc), Segment::Arc(raw)) if raw.sweep != 0.0 => {
-                        let from = (arc.start_angle - raw.start_angle) / raw.sweep;
-                        [from, from + arc.sweep / raw.sweep].map(|share| share.clamp(0.0, 1.0))
-                    }
-                    (geometry, _) => [share(geometry.start()), share(geometry.end())],
-                }
-            };
-            let mut done = (0.0, raw.start());
-            let pieces = by_raw[first..next].iter().map(|piece| {
-                let ([from, to], geometry) = (shares(piece), &piece.1.geometry);
-                [(from, geometry.start()), (to, geometry.end())]
-            });
-            for [from, to] in pieces.chain([[(1.0, raw.end()); 2]]) {
-                if (from.0 - done.0) * length > 2.0 * self.rounding
-                    && self.is_missing(
-                        index,
-                        stretch_of(raw, done, from),
-                        // What is cut off at the end, by what comes next.
-                        if from.0 == 1.0 {
-                            [behind, before]
-                        } else {
-                            beside
-                        },
-                        &by_raw[first..next],
-                    )
-                {
-                    return Err(Unproved {
-                        wall: self.raw.wall(index),
-                    });
-                }
-                done = to;
+            if self.is_any_missing(key, &self.offsets.geometry(key), &there) {
+                return Err(Unproved { wall: key / 2 });
             }
         }
         Ok(())
+    }
+
+    /// True where what is left out of one of the offsets has places of the path in it.
+    pub(super) fn is_any_missing(&self, key: usize, raw: &Segment, there: &There) -> bool {
+        let walls = [there.before, there.behind].map(|beside| beside.map(|element| element.wall));
+        self.left_out(raw, there.pieces)
+            .any(|(stretch, is_at_end)| {
+                !self.is_taken(&stretch, walls, is_at_end) && self.is_missing(key, stretch, there)
+            })
+    }
+
+    /// What pieces leave out of a raw element, and whether it goes up to its end.
+    pub(super) fn left_out<'r>(
+        &self,
+        raw: &'r Segment,
+        pieces: &'r [Element],
+    ) -> impl Iterator<Item = (Segment, bool)> + use<'r> {
+        let is_whole = match pieces {
+            [piece] => self.is_whole(&piece.geometry, raw),
+            _ => false,
+        };
+        let (length, most) = (raw.length(), 2.0 * self.rounding);
+        let shares = move |piece: &Segment| {
+            let share = |point| raw.share_of(point).clamp(0.0, 1.0);
+            match (piece, raw) {
+                // Both ends of a full turn are one point.
+                (Segment::Arc(arc), _) if arc.is_full_turn() => [0.0, 1.0],
+                (Segment::Arc(arc), Segment::Arc(raw)) if raw.sweep != 0.0 => {
+                    let from = (arc.start_angle - raw.start_angle) / raw.sweep;
+                    [from, from + arc.sweep / raw.sweep].map(|share| share.clamp(0.0, 1.0))
+                }
+                (geometry, _) => [share(geometry.start()), share(geometry.end())],
+            }
+        };
+        let places = pieces.iter().map(move |piece| {
+            let ([from, to], geometry) = (shares(&piece.geometry), &piece.geometry);
+            [(from, geometry.start()), (to, geometry.end())]
+        });
+        let places = places.chain([[(1.0, raw.end()); 2]]);
+        let mut done = (0.0, raw.start());
+        let left_out = places.filter_map(move |[from, to]| {
+            let before = std::mem::replace(&mut done, to);
+            let is_any = (from.0 - before.0) * length > most;
+            is_any.then(|| (stretch_of(raw, before, from), from.0 == 1.0))
+        });
+        left_out.take(if is_whole { 0 } else { usize::MAX })
     }
 
     /// True for a piece of a raw element that leaves nothing out at its ends.
@@ -248,32 +266,35 @@ impl Proof<'_> {
             && (piece.length() - raw.length()).abs() <= self.rounding
     }
 
-    /// True when a stretch of a raw element has places of the path in it that lie beside what is there of the path.
-    fn is_missing(
+    /// True for a stretch that is seen to be too near to the wall of the path before or behind it: most is cut off at a corner, by the wall that
+    /// comes next.
+    pub(super) fn is_taken(
         &self,
-        index: usize,
-        stretch: Segment,
-        beside: [Option<&Element>; 2],
-        same: &[(usize, Element)],
+        stretch: &Segment,
+        [before, behind]: [Option<usize>; 2],
+        is_at_end: bool,
     ) -> bool {
-        // Most is cut off at a corner, by the wall that comes next.
-        let takes_all = |element: &&Element| {
-            let wall = &self.walls[element.wall].geometry;
-            is_all_about_foot(&stretch, wall, self.correction)
-                || is_all_within(&stretch, wall, self.correction)
+        let takes_all = |wall: usize| {
+            let wall = &self.walls[wall].geometry;
+            is_all_about_foot(stretch, wall, self.correction)
+                || is_all_within(stretch, wall, self.correction)
         };
-        if beside.iter().flatten().any(takes_all) {
-            return false;
-        }
+        let (first, other) = match is_at_end {
+            true => (behind, before),
+            false => (before, behind),
+        };
+        first.into_iter().chain(other).any(takes_all)
+    }
+
+    /// True when a stretch of a raw element has places of the path in it that lie beside what is there of the path.
+    fn is_missing(&self, key: usize, stretch: Segment, there: &There) -> bool {
         let is_there = |point: Point| {
-            let of_path = beside
-                .into_iter()
-                .flatten()
-                .chain(same.iter().map(|(_, element)| element));
+            let beside = there.before.into_iter().chain(there.behind);
+            let of_path = beside.chain(there.pieces);
             let mut distances = of_path.map(|element| element.geometry.distance_to(point));
             distances.any(|distance| distance <= 2.0 * self.rounding)
         };
-        let cuts = self.cuts(index, &stretch, None);
+        let cuts = self.cuts(key, &stretch);
         cuts.windows(2).any(|pair| {
             let middle = stretch.point_at((pair[0] + pair[1]) / 2.0);
             (pair[1] - pair[0]) * stretch.length() > 2.0 * self.rounding
@@ -284,18 +305,52 @@ impl Proof<'_> {
         })
     }
 
-    /// Shares of a stretch of a raw element at which other raw elements cross it or end on it, with 0 and 1, rising. Between two of
-    /// them either all places keep clear of the walls or none. Who asks for many hands in all raw elements.
-    pub(crate) fn cuts(&self, index: usize, stretch: &Segment, all: Option<&Walls>) -> Vec<f64> {
+    /// Shares of a stretch of one of the offsets at which others cross it or end on it, with 0 and 1, rising. Between two of them either all
+    /// places keep clear of the walls or none.
+    fn cuts(&self, key: usize, stretch: &Segment) -> Vec<f64> {
+        self.cut_by(stretch, |area, cut_by| {
+            // A raw element is as far as the correction from its wall.
+            let reach = area.grown(self.correction + self.rounding);
+            self.own.find(&reach, |wall| {
+                let back = (!self.closed).then(|| self.walls.len() - 1 - wall);
+                for other in [Some(wall), back].into_iter().flatten() {
+                    for other in self.offsets.of_wall(other) {
+                        let segment = self.offsets.geometry(other);
+                        if other != key && segment.bounds().touches(area) {
+                            cut_by(&segment);
+                        }
+                    }
+                }
+                false
+            });
+        })
+    }
+
+    /// The same of one of all raw elements, which are at hand.
+    pub(crate) fn cuts_among(&self, all: &Walls, own: usize) -> Vec<f64> {
+        self.cut_by(all.segment(own), |area, cut_by| {
+            all.find(area, |other| {
+                if other != own {
+                    cut_by(all.segment(other));
+                }
+                false
+            });
+        })
+    }
+
+    fn cut_by(
+        &self,
+        stretch: &Segment,
+        others: impl FnOnce(&Bounds, &mut dyn FnMut(&Segment)),
+    ) -> Vec<f64> {
         let mut cuts = vec![0.0, 1.0];
         let slack = self.rounding * 1e-2;
-        let area = stretch.bounds().grown(slack);
         let is_on = |segment: &Segment, point: Point| {
             let is_at = |end: Point| (point - end).norm() <= slack;
             segment.spans(point) || is_at(segment.start()) || is_at(segment.end())
         };
-        let mut cut_by = |other: usize, segment: &Segment| {
-            if other == index || segment.length() == 0.0 {
+        let mut cut_by = |segment: &Segment| {
+            if segment.length() == 0.0 {
                 return;
             }
             let crossings = meetings(stretch, segment)
@@ -307,30 +362,8 @@ impl Proof<'_> {
             let points = crossings.chain(ends).filter(|&point| is_on(stretch, point));
             cuts.extend(points.map(|point| stretch.share_of(point).clamp(0.0, 1.0)));
         };
-        match all {
-            _ if stretch.length() <= 0.0 => {}
-            Some(all) => {
-                all.find(&area, |other| {
-                    cut_by(other, all.segment(other));
-                    false
-                });
-            }
-            None => {
-                // A raw element is as far as the correction from its wall.
-                let reach = area.grown(self.correction + self.rounding);
-                self.own.find(&reach, |wall| {
-                    let back = (!self.closed).then(|| self.walls.len() - 1 - wall);
-                    for other in [Some(wall), back].into_iter().flatten() {
-                        for other in self.raw.of_wall(other) {
-                            let segment = self.raw.geometry(other);
-                            if segment.bounds().touches(&area) {
-                                cut_by(other, &segment);
-                            }
-                        }
-                    }
-                    false
-                });
-            }
+        if stretch.length() > 0.0 {
+            others(&stretch.bounds().grown(slack), &mut cut_by);
         }
         cuts.sort_by(f64::total_cmp);
         cuts
@@ -356,126 +389,4 @@ fn stretch_of(raw: &Segment, from: (f64, Point), to: (f64, Point)) -> Segment {
             ..*arc
         }),
     }
-}
-
-/// The middle of a segment, for an arc from its ends where these say it well.
-fn middle(segment: &Segment) -> Point {
-    match segment {
-        Segment::Arc(arc) if !arc.is_shallow() && arc.sweep.abs() < 3.0 => {
-            let out = (arc.start - arc.center) + (arc.end - arc.center);
-            let way = out.try_normalize(0.0);
-            way.map_or(arc.center, |way| arc.center + way * arc.radius)
-        }
-        _ => segment.point_at(0.5),
-    }
-}
-
-/// True when a segment is seen to run beside another of its kind, between so near and so far from it all along. False says nothing.
-fn runs_beside(segment: &Segment, wall: &Segment, [least, most]: [f64; 2]) -> bool {
-    match (segment, wall) {
-        (Segment::Line(segment), Segment::Line(wall)) => {
-            // All of it times the length of the wall.
-            let along = wall.end - wall.start;
-            let squared = along.norm_squared();
-            let (start, end) = (segment.start - wall.start, segment.end - wall.start);
-            let is_over = |from: Vector| (0.0..=squared).contains(&along.dot(&from));
-            let (first, last) = (cross(along, start), cross(along, end));
-            let (nearest, farthest) = (
-                (first * first).min(last * last),
-                (first * first).max(last * last),
-            );
-            first * last > 0.0
-                && nearest >= least * least * squared
-                && farthest <= most * most * squared
-                && is_over(start)
-                && is_over(end)
-        }
-        (Segment::Arc(segment), Segment::Arc(wall)) => {
-            let is_at = |radius: f64| (least..=most).contains(&(radius - wall.radius).abs());
-            let is_near = |point: Point, end: Point| (point - end).norm_squared() <= most * most;
-            let is_end = |end: Point| {
-                is_at((end - wall.center).norm())
-                    && (wall.spans(end) || is_near(end, wall.start) || is_near(end, wall.end))
-            };
-            segment.center == wall.center
-                && !segment.is_shallow()
-                && !wall.is_shallow()
-                && wall.is_minor()
-                && segment.sweep * wall.sweep > 0.0
-                && segment.sweep.abs() <= wall.sweep.abs() + 1e-9
-                && is_at(segment.radius)
-                && is_end(segment.start)
-                && is_end(segment.end)
-        }
-        _ => false,
-    }
-}
-
-/// The corners of what a stretch of a raw element lies within, and its middle. `None` for an arc that turns too far.
-fn hull(stretch: &Segment) -> Option<([Point; 3], Point)> {
-    let (start, end) = (stretch.start(), stretch.end());
-    match stretch {
-        Segment::Line(_) => Some(([start, end, start], start + (end - start) * 0.5)),
-        Segment::Arc(arc) if arc.sweep.abs() > 2.0 => None,
-        Segment::Arc(arc) => {
-            let half_way = middle(stretch);
-            let out = half_way - arc.center;
-            let apex = arc.center + out * (out.norm_squared() / out.dot(&(start - arc.center)));
-            Some(([start, end, apex], half_way))
-        }
-    }
-}
-
-/// True when a stretch is seen to lie within `distance` of the place of a wall that is nearest to one of its ends, all but its ends nearer
-/// than that: so it is at most corners. False says nothing.
-fn is_all_about_foot(stretch: &Segment, wall: &Segment, distance: f64) -> bool {
-    let Some((corners, half_way)) = hull(stretch) else {
-        return false;
-    };
-    let (least, most) = (distance * (1.0 - 1e-7), distance * (1.0 + 1e-9));
-    let is_about = |foot: Point| {
-        let is_within = |corner: &Point| (corner - foot).norm_squared() <= most * most;
-        (half_way - foot).norm_squared() < least * least && corners.iter().all(is_within)
-    };
-    let foot_of = |end: Point| match wall {
-        Segment::Line(line) => {
-            let share = line.share_of(end).clamp(0.0, 1.0);
-            Some(line.start + (line.end - line.start) * share)
-        }
-        Segment::Arc(arc) if arc.is_shallow() || !arc.spans(end) => None,
-        Segment::Arc(arc) => {
-            let out = (end - arc.center).try_normalize(0.0)?;
-            Some(arc.center + out * arc.radius)
-        }
-    };
-    let mut feet = [corners[0], corners[1]].into_iter().filter_map(foot_of);
-    feet.any(is_about)
-}
-
-/// True when a stretch is seen to lie within `distance` of a wall, all but its ends nearer than that. False says nothing.
-///
-/// The distance from a line is convex: it is nowhere larger than at the corners of what the stretch lies within. Beside an arc of no more than
-/// a half turn these corners lie in its sector, which is convex, too: there only how far they are from the centre counts.
-fn is_all_within(stretch: &Segment, wall: &Segment, distance: f64) -> bool {
-    let Some((corners, half_way)) = hull(stretch) else {
-        return false;
-    };
-    let [start, end, apex] = corners;
-    let most = distance * (1.0 + 1e-9);
-    let is_within = |point: &Point| wall.distance_to(*point) <= most;
-    if wall.distance_to(half_way) >= distance * (1.0 - 1e-7) || !corners.iter().all(is_within) {
-        return false;
-    }
-    let Segment::Arc(arc) = wall else {
-        return true;
-    };
-    let least = arc.radius - most;
-    let sides = [(start, end), (end, apex), (apex, start)];
-    let keeps_out = |&(start, end): &(Point, Point)| {
-        least <= 0.0 || Line { start, end }.distance_to(arc.center) >= least
-    };
-    !arc.is_shallow()
-        && arc.is_minor()
-        && corners.iter().all(|corner| arc.spans(*corner))
-        && sides.iter().all(keeps_out)
 }

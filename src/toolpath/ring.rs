@@ -1,18 +1,40 @@
 //! The path that is left where neighbours are cut with each other, and what they use up is taken out.
 
-use super::cores::each;
-use super::corners::{Element, Joint, Raw, between, close_up, is_all_of, meetings, share_on};
-use crate::geometry::{Point, Segment, cross};
+use super::cores::{each, extend};
+use super::corners::{Element, Joint, Raw, between, close_up, meetings};
+use crate::geometry::{Point, Segment};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// One core takes so many elements at a time.
 const AT_A_TIME: usize = 2048;
 
+/// The pieces of a path, and of each the raw element that it is of.
+#[derive(Debug, Default)]
+pub(super) struct Pieces {
+    pub(super) elements: Vec<Element>,
+    pub(super) raw: Vec<u32>,
+}
+
+impl Pieces {
+    pub(super) fn of(path: Vec<(usize, Element)>) -> Pieces {
+        let (raw, elements) = path
+            .into_iter()
+            .map(|(raw, element)| (raw as u32, element))
+            .unzip();
+        Pieces { elements, raw }
+    }
+
+    pub(super) fn pairs(&self) -> impl Iterator<Item = (usize, Element)> {
+        let raw = self.raw.iter().map(|raw| *raw as usize);
+        raw.zip(self.elements.iter().copied())
+    }
+}
+
 /// The path that is left where neighbours are cut with each other and what they use up goes, each piece with the index of the
 /// element that it is of. Right wherever corners do not reach past their neighbours; whether it is, `proof` says. `None`
 /// where nothing is left or neighbours do not meet.
-pub(super) fn trimmed(raw: &Raw) -> Option<Vec<(usize, Element)>> {
+pub(super) fn trimmed(raw: &Raw) -> Option<Pieces> {
     Ring::new(raw).resolve()
 }
 
@@ -33,7 +55,7 @@ impl<'a> Ring<'a> {
         let last = count.saturating_sub(1) as u32;
         Ring {
             raw,
-            joints: each(count, AT_A_TIME, |index| raw.joint(index)),
+            joints: each(count, AT_A_TIME, |index| raw.offsets.joint(raw.key(index))),
             before: std::iter::once(last).chain(0..last).collect(),
             after: (1..=last).chain([0]).collect(),
             alive: vec![true; count],
@@ -50,7 +72,7 @@ impl<'a> Ring<'a> {
     }
 
     /// Takes out what is used up until every element runs forward; `None` when nothing is left or neighbours do not meet.
-    fn resolve(mut self) -> Option<Vec<(usize, Element)>> {
+    fn resolve(mut self) -> Option<Pieces> {
         self.remove_tight()?;
         self.settle_all();
         let waiting = self.not_forward();
@@ -87,7 +109,7 @@ impl<'a> Ring<'a> {
     }
 
     /// Looks at what is `waiting`, the last first, and at what stands beside what goes.
-    fn resolve_beside(mut self, mut waiting: Vec<usize>) -> Option<Vec<(usize, Element)>> {
+    fn resolve_beside(mut self, mut waiting: Vec<usize>) -> Option<Pieces> {
         while let Some(index) = waiting.pop() {
             if !self.alive[index] {
                 continue;
@@ -152,30 +174,16 @@ impl<'a> Ring<'a> {
     }
 
     fn runs_backwards(&self, index: usize, start: Point, end: Point) -> bool {
-        let is_roll = self.raw.is_roll(index);
-        if is_roll && self.raw.ends(index) == [start, end] {
-            return false;
-        }
-        let geometry = &self.raw.geometry(index);
-        if let Segment::Line(line) = geometry {
-            let along = line.end - line.start;
-            let forward = (end - start).dot(&along);
-            return forward < 0.0 && forward * forward > 1e-18 * along.norm_squared();
-        }
-        let length = geometry.length();
-        length > 0.0
-            && !is_all_of(geometry, start, end)
-            && !is_seen_forward(geometry, start, end)
-            && (share_on(geometry, end) - share_on(geometry, start)) * length < -1e-9
+        let key = self.raw.key(index);
+        self.raw.offsets.runs_backwards(key, start, end)
     }
 
-    fn pieces(self) -> Option<Vec<(usize, Element)>> {
-        let is_alive = |&index: &usize| self.alive[index];
-        let alive: Vec<usize> = match self.count == self.raw.len() {
-            true => Vec::new(),
-            false => (0..self.raw.len()).filter(is_alive).collect(),
+    fn pieces(self) -> Option<Pieces> {
+        let all = 0..self.raw.len() as u32;
+        let raw: Vec<u32> = match self.count == self.raw.len() {
+            true => all.collect(),
+            false => all.filter(|&index| self.alive[index as usize]).collect(),
         };
-        let nth = |at: usize| alive.get(at).copied().unwrap_or(at);
         let (is_torn, is_any_point) = (AtomicBool::new(false), AtomicBool::new(false));
         let settled = |index: usize| match self.joints[index] {
             Joint::At(point) => point,
@@ -185,35 +193,38 @@ impl<'a> Ring<'a> {
             }
         };
         let piece = |at: usize| {
-            let index = nth(at);
-            let start = settled(nth(if at == 0 { self.count } else { at } - 1));
+            let index = raw[at] as usize;
+            let start = settled(raw[if at == 0 { self.count } else { at } - 1] as usize);
             let geometry = between(&self.raw.geometry(index), start, settled(index));
-            let piece = self.raw.element(index, geometry);
+            let piece = self.raw.offsets.element(self.raw.key(index), geometry);
             if is_point(&piece) {
                 is_any_point.store(true, Relaxed);
             }
-            (index, piece)
+            piece
         };
-        let mut path = each(self.count, AT_A_TIME, piece);
+        // One that is entered in the middle of a piece has one more.
+        let mut elements = Vec::with_capacity(self.count + 1);
+        extend(&mut elements, self.count, AT_A_TIME, piece);
         if is_torn.into_inner() {
             return None;
         }
+        let mut pieces = Pieces { elements, raw };
         if is_any_point.into_inner() {
-            path = without_points(path);
+            pieces = without_points(&pieces);
         }
-        if let (Some(head), Some((_, last))) = (
-            path.first()
-                .map(|(_, first): &(usize, Element)| first.geometry.start()),
+        let path = &mut pieces.elements;
+        if let (Some(head), Some(last)) = (
+            path.first().map(|first| first.geometry.start()),
             path.last_mut(),
         ) {
             close_up(last, head);
         }
-        (path.len() >= 2).then_some(path)
+        (path.len() >= 2).then_some(pieces)
     }
 }
 
 /// Where two elements that follow each other meet, of several places on both the one nearest to a point.
-fn meeting(a: &Segment, b: &Segment, near: Point) -> Option<Point> {
+pub(super) fn meeting(a: &Segment, b: &Segment, near: Point) -> Option<Point> {
     let is_on = |segment: &Segment, point: Point| {
         segment.spans(point) || (-1e-9..=1.0 + 1e-9).contains(&segment.share_of(point))
     };
@@ -237,40 +248,27 @@ fn meeting(a: &Segment, b: &Segment, near: Point) -> Option<Point> {
 }
 
 /// A piece of a path that is no more than a point of it.
-fn is_point(piece: &Element) -> bool {
+pub(super) fn is_point(piece: &Element) -> bool {
     piece.geometry.length() <= 1e-9
 }
 
 /// What follows a point of the path begins where it stands: what is before it ends there, so nothing is left between.
-fn without_points(path: Vec<(usize, Element)>) -> Vec<(usize, Element)> {
-    let mut kept: Vec<(usize, Element)> = Vec::with_capacity(path.len());
-    for (index, piece) in path {
-        if !is_point(&piece) {
-            kept.push((index, piece));
-        } else if let Some((_, last)) = kept.last_mut() {
+fn without_points(pieces: &Pieces) -> Pieces {
+    let mut kept = Pieces::default();
+    for (piece, &raw) in pieces.elements.iter().zip(&pieces.raw) {
+        if !is_point(piece) {
+            kept.elements.push(*piece);
+            kept.raw.push(raw);
+        } else if let Some(last) = kept.elements.last_mut() {
             close_up(last, piece.geometry.end());
         }
     }
     kept
 }
 
-/// True where one point of an arc's circle is seen to lie behind the other in its sense: both are on the half of the circle that the middle of
-/// the arc is on. False says nothing.
-fn is_seen_forward(segment: &Segment, start: Point, end: Point) -> bool {
-    let Some(arc) = segment
-        .as_arc()
-        .filter(|arc| !arc.is_shallow() && arc.sweep.abs() < 3.0)
-    else {
-        return false;
-    };
-    let middle = (arc.start - arc.center) + (arc.end - arc.center);
-    let (from, to) = (start - arc.center, end - arc.center);
-    from.dot(&middle) > 0.0 && to.dot(&middle) > 0.0 && cross(from, to) * arc.sweep > 0.0
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::corners::Joining;
+    use super::super::corners::{Joining, Offsets};
     use super::super::offset::Wall;
     use super::super::path::Source;
     use super::*;
@@ -320,8 +318,12 @@ mod tests {
                 touch: 1e-7,
                 tolerance: 1e-6,
             };
-            let raw = Raw::new(&walls, &tangents, &joining);
-            let told = |path: Option<Vec<(usize, Element)>>| format!("{path:?}");
+            let raw = Raw::new(Offsets {
+                walls: &walls,
+                tangents: &tangents,
+                joining: &joining,
+            });
+            let told = |path: Option<Pieces>| format!("{path:?}");
             let mut one_by_one = Ring::new(&raw);
             let one_by_one = match one_by_one.remove_tight() {
                 Some(()) => {

@@ -5,7 +5,7 @@
 //! three others that are what they were.
 
 use super::clearance::Walls;
-use super::corners::{Element, Joining, Raw};
+use super::corners::{Element, Joining, Offsets, Raw};
 use super::kept::{Kept, NEW, which_it_is};
 use super::offset::Wall;
 use super::open::there_and_back;
@@ -123,9 +123,14 @@ impl Stretch {
         let some = there_and_back(&some.collect::<Vec<Wall>>());
         let segments: Vec<Segment> = some.iter().map(|wall| wall.geometry).collect();
         let own = Walls::by_one_core(segments);
-        let raw = Raw::new(&some, own.tangents(), joining);
-        let mut pieces = trimmed(&raw)?;
-        pieces.retain(|(_, piece)| piece.wall < count);
+        let raw = Raw::new(Offsets {
+            walls: &some,
+            tangents: own.tangents(),
+            joining,
+        });
+        let pieces = trimmed(&raw)?;
+        let pieces = pieces.pairs().filter(|(_, piece)| piece.wall < count);
+        let pieces: Vec<(usize, Element)> = pieces.collect();
         let is_sorted = pieces.is_sorted_by(|a, b| a.0 < b.0);
         is_sorted.then_some(Stretch {
             first,
