@@ -29,8 +29,14 @@ impl Vertex {
         }
     }
 
+    /// The largest bulge of an arc: what such an arc leaves of its circle no coordinate can tell.
+    pub(crate) const MOST_BULGE: f64 = 1e12;
+
+    /// True where all numbers are finite, and the bulge is that of an arc whose radius can be told.
     pub(crate) fn is_finite(&self) -> bool {
-        self.point.x.is_finite() && self.point.y.is_finite() && self.bulge.is_finite()
+        self.point.x.is_finite()
+            && self.point.y.is_finite()
+            && self.bulge.abs() <= Vertex::MOST_BULGE
     }
 }
 

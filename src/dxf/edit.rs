@@ -260,10 +260,8 @@ pub(super) fn plain_vertex(lines: Lines, range: Range<usize>) -> Option<(Vertex,
         };
         *value = Some(number);
     }
-    Some((
-        Vertex::new(x?, y?, bulge.unwrap_or(0.0)),
-        (first == 0, [z, flags]),
-    ))
+    let vertex = Vertex::new(x?, y?, bulge.unwrap_or(0.0));
+    (vertex.is_finite()).then_some((vertex, (first == 0, [z, flags])))
 }
 
 pub(super) fn shift(lines: &mut [u32], from: usize, by: i64) {

@@ -9,7 +9,7 @@ use super::lexer::{Lexer, Tag};
 use super::number::{self, Code, Number};
 use super::shape::Shape;
 use super::space::{FLAT, Lies, Space, Vector3};
-use crate::drawing::{Color, Handle, Kind, Marks};
+use crate::drawing::{Color, Handle, Kind, Marks, Vertex};
 use std::sync::Arc;
 
 /// What was read of one entity of the modelspace.
@@ -226,6 +226,19 @@ impl Common {
             Number::Exact(value) => Some(value),
             other => self.blemished(lexer, tag, other),
         }
+    }
+
+    /// The bulge of a vertex.
+    pub(super) fn bulge(&mut self, lexer: &mut Lexer, tag: Tag) -> Option<f64> {
+        let bulge = self.coordinate(lexer, tag)?;
+        if bulge.abs() <= Vertex::MOST_BULGE {
+            return Some(bulge);
+        }
+        self.bad = true;
+        let found = quoted(lexer.lines.trimmed(tag.value_line()));
+        let sentence = say!(no_arc_has_such_a_bulge, found, Vertex::MOST_BULGE);
+        lexer.damage(tag.value_line(), sentence);
+        None
     }
 
     #[cold]

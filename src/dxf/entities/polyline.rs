@@ -43,7 +43,11 @@ pub(super) fn light_polyline(
         match tag.code {
             10 | 20 | 42 if !common.foreign && !common.group => {
                 // A value that is not a number has its finding; a stand-in keeps the later vertices in step.
-                let value = common.coordinate(lexer, tag).unwrap_or_default();
+                let value = match tag.code {
+                    42 => common.bulge(lexer, tag),
+                    _ => common.coordinate(lexer, tag),
+                };
+                let value = value.unwrap_or_default();
                 match (tag.code, read.vertices.last_mut()) {
                     (10, _) => {
                         read.close();
@@ -208,7 +212,7 @@ pub(super) fn polyline(
                 10 => numbers[0] = of_vertex.coordinate(lexer, tag),
                 20 => numbers[1] = of_vertex.coordinate(lexer, tag),
                 30 => numbers[2] = of_vertex.coordinate(lexer, tag),
-                42 => numbers[3] = of_vertex.coordinate(lexer, tag),
+                42 => numbers[3] = of_vertex.bulge(lexer, tag),
                 70 => vertex_flags = of_vertex.flags(lexer, tag),
                 _ => {}
             }

@@ -190,3 +190,46 @@ fn a_line_too_few_or_too_many_is_one_finding_and_costs_its_own_entity() {
     }
     assert!(report.is_empty(), "{report}");
 }
+
+/// A bulge whose radius no number can tell is no line either.
+#[test]
+fn a_bulge_that_no_arc_has_damages_its_entity() {
+    for entity in [
+        "0 LWPOLYLINE 90 3 70 1 10 0 20 0 42 BULGE 10 9 20 0 10 9 20 9",
+        "0 POLYLINE 66 1 70 1 0 VERTEX 10 0 20 0 42 BULGE 0 VERTEX 10 9 20 0 0 VERTEX 10 9 20 9 0 SEQEND",
+    ] {
+        for (bulge, is_read) in [
+            ("0.4", true),
+            ("-1e12", true),
+            ("1.1e12", false),
+            ("-1e155", false),
+            ("1e308", false),
+        ] {
+            let text = |bulge: &str| dxf(&entity.replace("BULGE", bulge));
+            let check = |document: &Document| {
+                let found = document.findings();
+                assert_eq!(
+                    document.drawing().len(),
+                    usize::from(is_read),
+                    "{entity} {bulge}"
+                );
+                match found {
+                    [] => assert!(is_read, "{entity} {bulge}"),
+                    [finding] => {
+                        let Detail::Said(sentence) = &finding.detail else {
+                            panic!("{finding:?}");
+                        };
+                        assert!(!is_read && sentence.contains(bulge), "{sentence}");
+                    }
+                    _ => panic!("{found:?}"),
+                }
+            };
+            check(&Document::read(text(bulge).into()));
+            let before = text("0.5");
+            let mut document = Document::read(before.clone().into());
+            let at = before.find("\n0.5\n").unwrap() + 1;
+            document.edit(at..at + 3, bulge);
+            check(&document);
+        }
+    }
+}

@@ -57,6 +57,7 @@ declare! {
     the_ends_of_this_line_differ_in_z => "the ends of this LINE differ in z: it is read as it looks from above";
     the_radius_is_not_above_0(kind, found) => "group code 40 (radius) of {kind} is {found}, expected a number above 0";
     arc_has_the_radius_0 => "ARC has the radius 0: it is a point, and is not cut";
+    no_arc_has_such_a_bulge(found, most) => "group code 42 (bulge): no arc has a bulge of {found}, expected a number from -{most} to {most}";
     group_code_stands_before_the_first_group_code(code, code2) => "group code {code}{code2} stands before the first group code 10 (x)";
     vertex_lacks_group_code_20(index) => "vertex {index} lacks group code 20 (y)";
     another_number_of_vertices_is_stated(stated, found) => "group code 90 (number of vertices) is {stated}, but {found} vertices are there";

@@ -57,6 +57,7 @@ translate! {
     the_ends_of_this_line_differ_in_z => "这条 LINE 两端的 Z 不同：按俯视图读入";
     the_radius_is_not_above_0(kind, found) => "{kind} 的组码 40（半径）是 {found}，应为大于 0 的数";
     arc_has_the_radius_0 => "ARC 的半径为 0：它是一个点，不切割";
+    no_arc_has_such_a_bulge(found, most) => "组码 42（凸度）：没有圆弧的凸度为 {found}，应为 -{most} 到 {most} 之间的数";
     group_code_stands_before_the_first_group_code(code, code2) => "组码 {code}{code2} 出现在第一个组码 10（X）之前";
     vertex_lacks_group_code_20(index) => "顶点 {index} 缺组码 20（Y）";
     another_number_of_vertices_is_stated(stated, found) => "组码 90（顶点数）是 {stated}，实际有 {found} 个顶点";
