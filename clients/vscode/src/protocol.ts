@@ -1059,7 +1059,8 @@ export interface Fit {
    */
   clearance: number;
   /**
-   * The least clearance that is left anywhere, mm; below 0 where two parts bind.
+   * The least clearance that is left anywhere, mm; below 0 where two parts bind. Where no contour has a partner, nothing is compared: that
+   * which there should be.
    */
   least: number;
   /**
