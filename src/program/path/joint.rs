@@ -7,16 +7,16 @@ use crate::finding::Fault;
 use crate::geometry::{Point, Segment, Vector, cross, left_normal};
 
 /// Two blocks that turn by less are tangent, radians; for a small arc rounding adds to it.
-const TANGENT: f64 = 0.0175;
+pub(crate) const TANGENT: f64 = 0.0175;
 
 /// The shift of a centre by rounding, µm.
-const ROUNDING: f64 = 3.0;
+pub(crate) const ROUNDING: f64 = 3.0;
 
 /// A turn that nobody takes for a tangent joint, radians.
-const CLEAR: f64 = 0.35;
+pub(crate) const CLEAR: f64 = 0.35;
 
 /// From this turn on the way goes back on itself, radians.
-const BACK: f64 = 3.09;
+pub(crate) const BACK: f64 = 3.09;
 
 /// Two places within this are one, µm.
 const MET: f64 = 2.0;

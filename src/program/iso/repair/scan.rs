@@ -6,7 +6,7 @@ use crate::program::iso::document::Document;
 use crate::program::iso::machine::Machine;
 use crate::program::iso::moves::{Bend, Course, Move, Place, Reading, added, apart, distance};
 use crate::program::iso::shape::directions;
-use crate::program::path::{tolerance, turn};
+use crate::program::path::{BACK, CLEAR, ROUNDING, TANGENT, tolerance, turn};
 
 /// A line of a cut.
 #[derive(Clone, Debug)]
@@ -325,13 +325,13 @@ impl Scan {
         }
         let begins = self.cut.as_ref().map(|cut| (cut.last, cut.heading));
         let mut heading = None;
-        let mut slack = 0.0175;
+        let mut slack = TANGENT;
         // Controls switch the correction on straight cuts alone.
         self.against.hard += u32::from(made.is_arc() && made.switches.is_some());
         match made.course(reading) {
             Course::Line => self.against.soft += slant(made),
             Course::Arc(arc) => {
-                slack += 3.0 / arc.radius;
+                slack += ROUNDING / arc.radius;
                 let miss = made
                     .center(reading.rule(made.incremental))
                     .map_or(0.0, |center| {
@@ -389,17 +389,19 @@ impl Scan {
     ) {
         let turned = turn(before, start);
         let has_arc = made.is_arc() || last.is_arc();
-        if turned > 3.09 {
+        if turned > BACK {
             self.against.hard += 1;
             return;
         }
         let slack = match last.center(reading.rule(last.incremental)) {
-            Some(center) if last.is_arc() => slack + 3_000.0 / distance(last.from, center).max(1.0),
+            Some(center) if last.is_arc() => {
+                slack + ROUNDING * 1e3 / distance(last.from, center).max(1.0)
+            }
             _ => slack,
         };
         self.against.soft += match (has_arc, turned) {
             (_, turned) if turned < slack => 0.0,
-            (true, turned) if turned < 0.35 => 5.0,
+            (true, turned) if turned < CLEAR => 5.0,
             (true, _) => 3.0,
             (false, turned) if turned < 0.05 => 3.0,
             (false, _) => 0.0,
