@@ -4,8 +4,6 @@ use super::Analysis;
 use super::report::Tally;
 use crate::drawing::{Change, Drawing, DrawingEdit, EntityId};
 use crate::finding::{Finding, Fix, Rule};
-use rayon::iter::ParallelIterator;
-use rayon::slice::ParallelSlice;
 use rustc_hash::FxHashSet;
 use std::borrow::Cow;
 
@@ -287,20 +285,17 @@ impl Analysis {
 /// then the halves of that half. `made` is given the parts and the result of those taken so far.
 ///
 /// Where no try succeeds, the first [`ALONE`] are tried each by itself; if one is enough, they are tried before all others.
-pub(super) fn most_together<T: Clone + Send + Sync, M: Send>(
+pub(super) fn most_together<T: Clone, M>(
     mut parts: impl Iterator<Item = T>,
     tries: usize,
     wanted: Wanted,
-    made: impl Fn(&[T], Option<&M>) -> Tried<M> + Sync,
+    made: impl Fn(&[T], Option<&M>) -> Tried<M>,
 ) -> Option<M> {
     let first: Vec<T> = parts.by_ref().take(ALONE).collect();
     if first.is_empty() {
         return None;
     }
-    let alone = || {
-        let each = first.par_chunks(1);
-        each.find_map_first(|one| made(one, None).better())
-    };
+    let alone = || first.chunks(1).find_map(|one| made(one, None).better());
     if wanted.first_will_do
         && let Some(made) = alone()
     {
