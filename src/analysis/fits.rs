@@ -93,10 +93,16 @@ impl Analysis {
         self.fits.retain(|_, answer| !answer.is_old);
     }
 
+    /// What are partners; `None` where nobody asks whether they fit.
+    pub(super) fn asked_partners(&self) -> Option<Partners> {
+        self.settings.severity(Rule::DoesNotFit)?;
+        let (partners, _) = self.settings.fit().ok()?;
+        Some(partners)
+    }
+
     /// Which contours are pairs; `None` where nobody asks whether parts fit.
     pub(super) fn paired(&mut self, drawing: &Drawing) -> Option<Paired> {
-        let (partners, _) = self.settings.fit().ok()?;
-        self.settings.severity(Rule::DoesNotFit)?;
+        let partners = self.asked_partners()?;
         let outlines = self.outlines(drawing).clone();
         let keys = self.in_machining_order(drawing).to_vec();
         if keys.len() != outlines.len() {

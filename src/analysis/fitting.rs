@@ -82,6 +82,8 @@ impl Analysis {
 
     /// How the parts of all pairs of the present drawing lie in each other.
     pub(super) fn fitting_of(&self, drawing: &Drawing) -> Option<&Fitting> {
+        // Most drawings have no pairs, and a copy is dear.
+        self.asked_partners()?;
         let fitting = || self.clone().fitting(drawing, &mut 0);
         self.fitting.get_or_init(fitting).as_ref()
     }
