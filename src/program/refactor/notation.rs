@@ -320,6 +320,8 @@ pub(in crate::program) struct Rewrite<N: Notation> {
     pub(crate) start: Option<Node>,
     /// The new end of the program, µm, if it changes.
     pub(crate) end: Option<Point>,
+    /// How much longer the contours become; `None` where that is not known.
+    pub(crate) stretch: Option<f64>,
     pub(crate) extra: N::Extra,
 }
 
@@ -329,6 +331,7 @@ impl<N: Notation> Rewrite<N> {
             rows: BTreeMap::new(),
             start: None,
             end: None,
+            stretch: Some(1.0),
             extra: N::Extra::default(),
         }
     }

@@ -1,7 +1,7 @@
 //! The proof of a refactoring: the new program, read from its text alone, makes the intended moves, ends where it
 //! should, pauses as often as before, and has no kind of error that the old one lacks.
 
-use super::{Content, Notation, Rewrite, Sheet};
+use super::{Content, Notation, Rewrite, Row, Sheet};
 use crate::finding::{Rule, Severity};
 use crate::program::grid::point_of;
 use crate::program::path::{Kind, Trace};
@@ -10,6 +10,9 @@ use crate::text::{TextEdit, difference, edited};
 
 /// The tolerance for the end of a counting program, µm, beside 1 µm for each arc.
 const END_TOLERANCE: f64 = 2.0;
+
+/// The tolerance for the length of a contour, µm for each of its moves: their ends are moved to the grid, twice.
+const LENGTH_TOLERANCE: f64 = 6.0;
 
 impl<N: Notation> Rewrite<N> {
     /// The edits of the text, proved; none where nothing changes.
@@ -55,6 +58,7 @@ fn prove<N: Notation>(
     for (row, meant) in now.rows.iter().zip(&meant) {
         N::agree(after, row, meant).map_err(|what| say!(line_by_number, row.line + 1, what))?;
     }
+    prove_lengths(content, rewrite, &now)?;
     let pauses = |trace: &Trace| {
         let is_pause = |step: &&crate::program::path::Step| step.kind == Kind::Pause;
         trace.steps.iter().filter(is_pause).count()
@@ -72,6 +76,33 @@ fn prove<N: Notation>(
         }
     }
     refuse_new_errors::<N>(sheet.document, after)
+}
+
+/// An error where a contour becomes longer or shorter than it should. The lengths are those of the moves as they are
+/// read, whatever places the refactoring has worked out for them.
+fn prove_lengths<N: Notation>(
+    content: &Content<N>,
+    rewrite: &Rewrite<N>,
+    now: &Content<N>,
+) -> Result<(), String> {
+    let Some(stretch) = rewrite.stretch else {
+        return Ok(());
+    };
+    let length = |rows: &[Row<N>]| -> f64 { rows.iter().map(|row| row.piece.length()).sum() };
+    let news = |row: usize| rewrite.rows.get(&row).map_or(1, Vec::len);
+    let (mut at, mut start) = (0, 0);
+    for contour in &content.contours {
+        start += (at..contour.rows.start).map(news).sum::<usize>();
+        let count = contour.rows.clone().map(news).sum::<usize>();
+        let rows = content.rows.get(contour.rows.clone()).unwrap_or_default();
+        let found = now.rows.get(start..start + count).unwrap_or_default();
+        let room = END_TOLERANCE + LENGTH_TOLERANCE * (rows.len() + count) as f64;
+        if (length(found) - stretch * length(rows)).abs() > room * stretch.max(1.0) {
+            return Err(say!(the_new_program_reads_otherwise_than_it_was_meant).into());
+        }
+        (at, start) = (contour.rows.end, start + count);
+    }
+    Ok(())
 }
 
 /// An error where the new program has a kind of error that the old one lacks, or more errors.

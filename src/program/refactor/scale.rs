@@ -55,7 +55,10 @@ pub(in crate::program) fn scaled<N: Notation>(
         N::scaled_node(sheet, row, node, factor)
             .ok_or_else(|| say!(the_scaled_path_runs_too_far_out_for_a_program).to_owned())
     };
-    let mut rewrite = Rewrite::new();
+    let mut rewrite = Rewrite {
+        stretch: Some(factor),
+        ..Rewrite::new()
+    };
     let mut from = None;
     for (index, row) in content.rows.iter().enumerate() {
         let begin = from.map_or_else(|| node(row, row.from), Ok)?;

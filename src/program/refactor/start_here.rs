@@ -56,6 +56,7 @@ fn begun_here<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String
         (0, 0) => return Err(say!(what_comes_before_and_behind_leads_to_the_present_start).into()),
         (1, 0 | 1) => {
             let hole = rows[all.start].from;
+            rewrite.stretch = None;
             let mut lead = |row: usize, ends: [Node; 2], far: Node| {
                 if rows[row].piece.as_arc().is_some() {
                     return Err(say!(the_way_is_an_arc, rows[row].line + 1));

@@ -144,6 +144,11 @@ impl Notation for Iso {
         let style = content.rows[row].own.style;
         let old = Iso::kept(sheet, content, row, row);
         let [from, to] = [from, to].map(place_of);
+        let vanishes = from == to && content.rows[row].from != content.rows[row].to;
+        if vanishes && old.bend != Bent::Line {
+            // It would be a full circle.
+            return Ok(Vec::new());
+        }
         let bend = match old.bend {
             Bent::Line => Bent::Line,
             Bent::Radius(radius) => {

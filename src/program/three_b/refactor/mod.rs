@@ -279,18 +279,23 @@ fn encoded(
 }
 
 /// The piece between its nodes. An arc keeps its direction; its centre moves to the nearest place equally far from both
-/// nodes, because snapping, scaling or removing drift has moved the nodes by as much.
+/// nodes, because snapping, scaling or removing drift has moved the nodes by as much. Where that would lead elsewhere,
+/// as about two nodes of nearly a full circle, the arc stays as it is.
 fn fitted(piece: &Segment, from: Node, to: Node) -> Segment {
     let (start, end) = (point_of(from), point_of(to));
-    match piece {
-        Segment::Line(_) => Segment::line(start, end),
-        Segment::Arc(arc) => match (end - start).try_normalize(0.0) {
-            None => *piece,
-            Some(along) => {
-                let middle = start + (end - start) * 0.5;
-                let center = arc.center - along * (arc.center - middle).dot(&along);
-                Segment::Arc(Arc::about(center, start, end, arc.sweep > 0.0))
-            }
-        },
+    let Segment::Arc(arc) = piece else {
+        return Segment::line(start, end);
+    };
+    let Some(along) = (end - start).try_normalize(0.0) else {
+        return *piece;
+    };
+    let middle = start + (end - start) * 0.5;
+    let center = arc.center - along * (arc.center - middle).dot(&along);
+    let fitted = Segment::Arc(Arc::about(center, start, end, arc.sweep > 0.0));
+    let moved = (start - arc.start).norm().max((end - arc.end).norm());
+    if aside(&fitted, piece) <= ASIDE_TOLERANCE + moved {
+        fitted
+    } else {
+        *piece
     }
 }

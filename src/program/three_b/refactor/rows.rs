@@ -129,12 +129,12 @@ pub(super) fn rows(
 type Way = (Point, Point, Segment);
 
 /// The nodes of each row on the µm grid, from and to. Contours close exactly: the drift of their arcs is taken back arc
-/// by arc.
+/// by arc. A full circle ends where it begins, and has none.
 fn nodes(pieces: &[Way], contours: &[Contour]) -> Result<Vec<(Node, Node)>, String> {
     let node = |point: Point| {
         snap(point).ok_or_else(|| say!(the_path_runs_too_far_out_for_a_program).to_owned())
     };
-    let is_arc = |(_, _, piece): &Way| piece.as_arc().is_some();
+    let is_arc = |(_, _, piece): &Way| piece.as_arc().is_some_and(|arc| !arc.is_full_turn());
     let mut nodes = Vec::with_capacity(pieces.len());
     // What has been taken back so far.
     let mut shift = Vector::zeros();

@@ -1,13 +1,15 @@
 use super::ThreeB;
-use crate::geometry::{Point, Segment};
+use crate::geometry::{Arc, Point, Segment, direction};
 use crate::program::path::cuts;
 use crate::program::refactor::{Sheet, proposals, scaled};
 use crate::program::three_b::Document;
 use crate::program::three_b::block::Node;
-use crate::program::three_b::encode::encode;
+use crate::program::three_b::encode::{encode, point_of, snap};
+use crate::program::three_b::layout::push_fields;
 use crate::settings::Effective;
 use crate::text::edited;
 use proptest::prelude::*;
+use std::f64::consts::TAU;
 
 const LARGEST: i64 = 999_999;
 
@@ -342,6 +344,84 @@ proptest! {
             Err(reason) => prop_assert!(reason.contains("cut the contour") || reason.contains("leads to the contour"), "{reason}\n{text}"),
         }
     }
+}
+
+/// A circle about the origin, or nearly one, between quarter arcs in and out of it and lines to its thread hole.
+fn circle_of(radius: i64, way: i64, start: f64, sweep: f64) -> Option<String> {
+    let mut blocks = Vec::new();
+    let at = |radius: f64, angle: f64| Point::from(direction(angle) * radius);
+    let hole = snap(at((radius - 2 * way) as f64, start))?;
+    let turn = std::f64::consts::FRAC_PI_2.copysign(sweep);
+    let lead = |angle: f64, from: f64| {
+        let center = at((radius - way) as f64, angle);
+        Segment::Arc(Arc::from_center(center, way as f64, angle + from, turn))
+    };
+    let circle = Segment::Arc(Arc::from_center(
+        Point::origin(),
+        radius as f64,
+        start,
+        sweep,
+    ));
+    let (into, out) = (lead(start, -turn), lead(start + sweep, 0.0));
+    let begin = snap(into.start())?;
+    let end = snap(out.end())?;
+    let line = |from, to| (Segment::line(point_of(from), point_of(to)), from, to);
+    let node = |point| snap(point);
+    let pieces = [
+        line(hole, begin),
+        (into, begin, node(into.end())?),
+        (circle, node(into.end())?, node(out.start())?),
+        (out, node(out.start())?, end),
+        line(end, hole),
+    ];
+    for (piece, from, to) in pieces {
+        encode(&piece, from, to, LARGEST, &mut blocks)?;
+    }
+    let mut text = String::new();
+    for block in &blocks {
+        let mut line = Vec::new();
+        push_fields(
+            &mut line,
+            crate::settings::Layout::Compact,
+            &block.block,
+            None,
+        );
+        text += &String::from_utf8(line).ok()?;
+        text += "\n";
+    }
+    Some(text + "DD\n")
+}
+
+proptest! {
+    #[test]
+    fn circles_stay_circles(
+        (radius, way) in (300_i64..12_000, 30_i64..140),
+        start in prop_oneof![Just(0.0), -3.0_f64..3.0],
+        sweep in prop_oneof![3 => Just(TAU), 1 => 5.0..TAU],
+        turns_left: bool,
+    ) {
+        let sweep = if turns_left { sweep } else { -sweep };
+        let Some(text) = circle_of(radius, way, start, sweep) else { return Ok(()) };
+        let length = |text: &str| -> f64 {
+            let trace = read(text).trace();
+            trace.steps.iter().filter_map(|step| step.ideal.as_ref()).map(Segment::length).sum()
+        };
+        for (id, scale) in [("reverse", 1.0), ("scale.inchToMm", 25.4), ("scale.mmToInch", 1.0 / 25.4), ("mirror.x", 1.0)] {
+            // What becomes too short, or is not closed, is refused.
+            let Ok(after) = refactored(&format!("refactor.rewrite.{id}"), &text) else { continue };
+            let miss = (length(&after) - length(&text) * scale).abs();
+            prop_assert!(miss <= 30.0 * scale.max(1.0), "{id}: {miss} µm\n{text}\n{after}");
+        }
+    }
+}
+
+#[test]
+fn a_circle_between_arcs_is_reversed_as_a_circle() {
+    check(
+        "reverse",
+        "B200B100B200GXL2\nB133B100B233GYNR1\nB7423B0B29692GYSR4\nB167B0B234GYNR3\nB200B100B200GXL1\nDD\n",
+        "B200B100B200GXL3\nB133B100B233GYSR4\nB7423B0B29692GYNR1\nB167B0B234GYSR2\nB200B100B200GXL4\nDD\n",
+    );
 }
 
 #[test]
