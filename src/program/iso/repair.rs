@@ -9,13 +9,13 @@ mod lost;
 mod scan;
 mod words;
 
-use super::block::{Block, word_range};
+use super::block::{Block, Motion, word_range};
 use super::document::Document;
 use super::line::push_changed;
 use super::machine::Machine;
-use super::moves::{Move, distance};
+use super::moves::{Move, Place, distance};
 use super::plain::plain;
-use crate::finding::{Detail, Fault, Finding, FixKind, Place, Rule, Severity};
+use crate::finding::{Detail, Fault, Finding, FixKind, Place as Where, Rule, Severity};
 use crate::geometry::{Segment, Vector};
 use crate::program::repair::search::{self, Contour, Verdict, search};
 use crate::text::TextEdit;
@@ -44,6 +44,12 @@ const MOST_CUTS: usize = 3;
 
 /// One slip has at most this many consequences.
 const MOST_TROUBLES: usize = 6;
+
+/// Fewer lines are a way to the next cut, which ends elsewhere.
+const FEWEST_ASTRAY: usize = 3;
+
+/// A cut that ends further from its start, nm, has not returned there.
+const ASTRAY: f64 = 20_000.0;
 
 /// Lines that are run for all of them.
 const MOST_RUNS: usize = 40_000;
@@ -134,7 +140,7 @@ pub(crate) fn is_trouble(finding: &Finding) -> bool {
 
 pub(crate) fn line_of(document: &Document, finding: &Finding) -> Option<usize> {
     match &finding.place {
-        Place::Text { range } => Some(document.text().line_of(range.start)),
+        Where::Text { range } => Some(document.text().line_of(range.start)),
         _ => None,
     }
 }
@@ -164,6 +170,40 @@ fn cut_around(document: &Document, line: usize) -> Range<usize> {
     first..end
 }
 
+/// True where the cut before some lines ends beside its own start, and the wire was not taken elsewhere since: where
+/// these lines close, the next ones begin astray all the same.
+fn begins_astray(document: &Document, lines: &Range<usize>) -> bool {
+    let Some(last) = lines.start.checked_sub(1) else {
+        return false;
+    };
+    let before = cut_around(document, last);
+    let Some(mut machine) = document.machine_before(before.start) else {
+        return false;
+    };
+    if before.len() > LONGEST {
+        return false;
+    }
+    let (mut ends, mut moves) = (None, 0);
+    for line in before {
+        if let Some(made) = machine.run(&document.block(line), document.reading()) {
+            if made.motion == Motion::Rapid {
+                (ends, moves) = (None, 0);
+                continue;
+            }
+            let (start, _) = ends.unwrap_or((made.from, made.to));
+            (ends, moves) = (Some((start, made.to)), moves + 1);
+        }
+    }
+    let block = |line: usize| document.block(line);
+    let is_taken = lines
+        .clone()
+        .map(block)
+        .take_while(|block| !is_way(block))
+        .any(|block| block.sets_position);
+    let is_astray = |(start, end): (Place, Place)| distance(start, end) > ASTRAY;
+    !is_taken && moves >= FEWEST_ASTRAY && ends.is_some_and(is_astray)
+}
+
 /// True where the lines of a cut hold all of it. The search makes no corners of the control, and an arc begins where
 /// such a corner ends; and with subprograms a cut may have begun before its lines.
 fn stands_alone(document: &Document, lines: &Range<usize>) -> bool {
@@ -188,6 +228,8 @@ struct Suspect<'a> {
     pool: Pool,
     total: Against,
     order: Vec<usize>,
+    /// The cut before it has missed the place where this one should begin.
+    begins_astray: bool,
 }
 
 impl Contour for Suspect<'_> {
@@ -261,12 +303,17 @@ impl Contour for Suspect<'_> {
         let is_a_slip = match change {
             Change::Delete { index } => self.is_twice(*index),
             Change::Insert { .. } => false,
-            Change::Replace { .. } | Change::Exchange { .. } => true,
+            Change::Replace { meant, .. } => !meant.is_calculated,
+            Change::Exchange { .. } => true,
         };
         let verdict = Verdict {
             left: after.hard as usize,
             cost,
-            may_be_sure: after.hard == 0 && after.beside == 0 && is_a_slip && self.total.hard > 0,
+            may_be_sure: after.hard == 0
+                && after.beside == 0
+                && is_a_slip
+                && self.total.hard > 0
+                && !self.begins_astray,
         };
         (is_better.then_some(verdict), runs + 1)
     }
@@ -310,6 +357,7 @@ impl<'a> Suspect<'a> {
         Suspect {
             document,
             total: way.total(),
+            begins_astray: begins_astray(document, &lines),
             lines,
             way,
             pool,

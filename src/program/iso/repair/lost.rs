@@ -86,7 +86,13 @@ impl Suspect<'_> {
             _ => prior::LOST_BLOCK,
         };
         let found = String::new();
-        Some((Meant { line, found, meant }, prior))
+        let meant = Meant {
+            line,
+            found,
+            meant,
+            is_calculated: false,
+        };
+        Some((meant, prior))
     }
 }
 

@@ -96,6 +96,8 @@ pub(crate) struct Meant {
     /// The present text, and the intended one.
     pub(crate) found: String,
     pub(crate) meant: String,
+    /// A number calculated from the others, in place of one that no single key makes of it: those may be wrong as well.
+    pub(crate) is_calculated: bool,
 }
 
 /// A line with changed words.
@@ -136,7 +138,13 @@ impl Words<'_> {
 
     fn put(&mut self, line: Vec<u8>, prior: f64, found: &str, meant: &str) {
         let (found, meant) = (found.to_owned(), meant.to_owned());
-        self.meant.push((Meant { line, found, meant }, prior));
+        let meant = Meant {
+            line,
+            found,
+            meant,
+            is_calculated: false,
+        };
+        self.meant.push((meant, prior));
     }
 
     fn push(&mut self, range: Range<usize>, text: &str, prior: f64, found: &str, meant: &str) {
@@ -334,7 +342,12 @@ impl Words<'_> {
         for (axis, letter) in [(0, b'I'), (1, b'J')] {
             if let Some(place) = solved(made, center, axis) {
                 let words = to_center(rule, [place; 2], made.from, self.before.zero);
+                let known = self.meant.len();
                 self.set(letter, words[axis]);
+                for (meant, _) in self.meant.iter_mut().skip(known) {
+                    let [found, new] = [&meant.found, &meant.meant].map(|word| word.as_bytes());
+                    meant.is_calculated = !found.is_empty() && !keys::is_slip(found, new);
+                }
             }
         }
     }
