@@ -107,7 +107,7 @@ rules! {
     PassOrder "pass-order" Error the_corrections_of_the_passes_do_not_fall_or_no_wire_is_so_thin Settings;
     UnsupportedEntity "unsupported-entity" Information something_in_the_drawing_is_not_cut Drawing;
     Units "units" Warning the_unit_is_missing_or_absurd Drawing ThreeB FourB Iso;
-    ArcOffRadius "arc-off-radius" Error the_ends_of_an_arc_are_not_on_one_circle_about_its_centre Iso;
+    ArcOffRadius "arc-off-radius" Error the_ends_of_an_arc_are_not_on_one_circle_about_its_centre FourB Iso;
     ArcWithoutRadius "arc-without-radius" Error an_arc_whose_centre_is_its_start ThreeB FourB Iso;
     CompensationSwitch "compensation-switch" Error the_correction_is_switched_by_an_arc_or_a_rapid Iso;
     WrongSide "wrong-side" Error the_correction_sends_the_wire_to_the_side_of_the_part Iso;

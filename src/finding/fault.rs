@@ -63,6 +63,11 @@ pub enum Fault {
         j: i64,
         turn: i64,
     },
+    /// R of a 4B block is not √(X² + Y²), µm.
+    RadiusOff {
+        radius: i64,
+        meant: i64,
+    },
     /// A line counts its smaller projection.
     SmallerProjection {
         axis: Axis,
@@ -279,7 +284,7 @@ impl Fault {
             | Fault::Unnumbered { .. } => Rule::BlockNumber,
             Fault::PositionMismatch { .. } => Rule::PositionMismatch,
             Fault::PathCrossesItself { .. } => Rule::PathCrossesItself,
-            Fault::OffRadius { .. } => Rule::ArcOffRadius,
+            Fault::OffRadius { .. } | Fault::RadiusOff { .. } => Rule::ArcOffRadius,
             Fault::Switch { .. } => Rule::CompensationSwitch,
             Fault::RoleSide { .. } | Fault::EntrySide { .. } => Rule::WrongSide,
             Fault::Foreign { .. }

@@ -57,6 +57,9 @@ pub(super) fn program(fault: &Fault) -> String {
         Fault::JOverTurn { j, turn } => {
             say!(j_is_more_than_one_turn_counts, j, turn)
         }
+        Fault::RadiusOff { radius, meant } => {
+            say!(r_is_not_the_radius_of_x_and_y, radius, meant)
+        }
         Fault::SmallerProjection {
             axis,
             counted,

@@ -239,6 +239,10 @@ impl FindingData {
             Fault::NotClosed { x, y } | Fault::PositionMismatch { x, y } => {
                 self.distance = Some(x.hypot(y) / 1000.0);
             }
+            Fault::RadiusOff { radius, meant } => {
+                self.radius = Some(mm(radius));
+                self.required = Some(mm(meant));
+            }
             Fault::OffRadius { start, end } => {
                 self.radius = Some(start / 1e3);
                 self.distance = Some((start - end).abs() / 1e3);

@@ -132,6 +132,7 @@ declare! {
     j_is_0_beside_a_projection(letter, projection) => "J is 0, the line's projection on {letter} is {projection} µm: the wire does not move";
     j_is_not_the_projection_of_the_line(j, letter, projection, distance, side) => "J {j} is not the line's projection on {letter}, {projection} µm: the wire ends {distance} µm {side}";
     j_is_more_than_one_turn_counts(j, turn) => "J {j} is more than one turn counts, {turn} µm: the wire goes on past its start";
+    r_is_not_the_radius_of_x_and_y(radius, meant) => "R {radius} is not the radius that X and Y give, {meant} µm: one of the three is wrong, and the control cuts another arc or stops";
     g_counts_the_smaller_projection(letter, counted, larger, axis) => "G{letter} counts the smaller projection, {counted} of {larger} units: expected G{axis}";
     g_does_not_fit_the_end_of_the_arc(letter, x, y, axis) => "G{letter} does not fit the arc's end at ({x:.0}, {y:.0}) µm from its centre, where it hardly moves on {letter}: expected G{axis}";
     is_unusual_for_a_line_along_an_axis(found, letter, one, other) => "{found} is unusual for a line along {letter}, where {one} or {other} is written: a controller takes it as it closes the contour, or is 1 µm beside";

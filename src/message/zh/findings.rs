@@ -132,6 +132,7 @@ translate! {
     j_is_0_beside_a_projection(letter, projection) => "J 为 0，线段在 {letter} 上的投影是 {projection} µm：电极丝不动";
     j_is_not_the_projection_of_the_line(j, letter, projection, distance, side) => "J {j} 不是线段在 {letter} 上的投影 {projection} µm：电极丝{side} {distance} µm";
     j_is_more_than_one_turn_counts(j, turn) => "J {j} 超过一整圈的计数长度 {turn} µm：电极丝走过起点后还继续走";
+    r_is_not_the_radius_of_x_and_y(radius, meant) => "R {radius} 不是 X、Y 给出的半径 {meant} µm：三者有一个错，控制器会切成另一段圆弧或停机";
     g_counts_the_smaller_projection(letter, counted, larger, axis) => "G{letter} 取了较小的投影，{larger} 中的 {counted}：应为 G{axis}";
     g_does_not_fit_the_end_of_the_arc(letter, x, y, axis) => "G{letter} 不适合此圆弧：终点相对圆心为 ({x:.0}, {y:.0}) µm，在那里 {letter} 几乎不动：应为 G{axis}";
     is_unusual_for_a_line_along_an_axis(found, letter, one, other) => "沿 {letter} 的直线一般写 {one} 或 {other}，{found} 少见：控制器能封闭轮廓，或差 1 µm";

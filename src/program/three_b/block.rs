@@ -123,6 +123,9 @@ pub struct Block {
     pub motion: Motion,
 }
 
+/// How far the radius of a 4B block may lie from √(X² + Y²), µm: its centre and it are rounded.
+const RADIUS_TOLERANCE: f64 = 4.0;
+
 /// The additional part of a 4B block: the controller changes each arc by its correction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PartArc {
@@ -130,4 +133,13 @@ pub struct PartArc {
     pub(crate) radius: i64,
     /// `DD`: the wire runs inside of the arc, whose radius the correction makes smaller. `D`: outside.
     pub(crate) concave: bool,
+}
+
+impl PartArc {
+    /// True where the radius is that of the block, or none is stated. A line has none.
+    pub(crate) fn fits(&self, block: &Block) -> bool {
+        let own = (block.x as f64).hypot(block.y as f64);
+        let is_own = (self.radius as f64 - own).abs() <= RADIUS_TOLERANCE;
+        !block.motion.is_line() && (self.radius == 0 || is_own)
+    }
 }

@@ -259,6 +259,31 @@ impl Document {
         Some(cut)
     }
 
+    /// An open cut, and those before and behind its stops that are open too, as one: what is wrong may stand in any of
+    /// them. `None` where it is the only one.
+    pub(super) fn with_open_beside(&self, view: &View, cut: &JoinedCut) -> Option<JoinedCut> {
+        let is_open = |cut: &JoinedCut| !self.closes(view, cut);
+        if !is_open(cut) {
+            return None;
+        }
+        let (stretch, part) = cut.parts[0];
+        let before = part
+            .checked_sub(1)
+            .and_then(|part| self.own_cut_of_part(view, (stretch, part)))
+            .filter(is_open);
+        let behind = self
+            .cut_from(self.part_behind(cut.parts[1]), view.end)
+            .filter(is_open);
+        let whole = match &before {
+            Some(before) => joined(before.clone(), cut),
+            None => cut.clone(),
+        };
+        match behind {
+            Some(behind) => Some(joined(whole, &behind)),
+            None => before.map(|_| whole),
+        }
+    }
+
     /// The cut that a part belongs to.
     fn own_cut_of_part(&self, view: &View, (stretch, part): PartAt) -> Option<JoinedCut> {
         let of = self.stretches.get(stretch)?;

@@ -154,7 +154,7 @@ impl Document {
         );
         candidates.sort_by_key(|cut| cut.parts[0]);
         candidates.dedup_by_key(|cut| cut.parts[0]);
-        let mut behind = (0, 0);
+        let (mut behind, mut open) = ((0, 0), Vec::new());
         for cut in candidates {
             if cut.parts[0] < behind {
                 continue;
@@ -173,10 +173,11 @@ impl Document {
                 None if self.is_closed(&cut) => {}
                 None => {
                     view.open.push(cut.parts[0]);
-                    self.judge_open(view, &cut);
+                    open.push(cut);
                 }
             }
         }
+        open.iter().for_each(|cut| self.judge_open(view, cut));
     }
 
     /// Whether the machine stops twice where a cut ends.
@@ -236,7 +237,7 @@ impl Document {
             cut.sum.errors == 0 && cut.sum.blocks >= FEWEST_BLAMED && !self.lacks_a_number(cut);
         if !is_fragment
             && may_be_one_field
-            && let Some((nth, fault)) = self.blamed(cut)
+            && let Some((nth, fault)) = self.blamed(view, cut)
             && let Some(at) = self.blocks_of(cut).nth(nth)
         {
             let spot = match &fault {

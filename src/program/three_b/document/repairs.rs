@@ -1,7 +1,7 @@
 //! Repairs of a contour as edits of the text.
 
 use super::super::around::{StatedPoint, before_comment, two_numbers};
-use super::super::entry::{What, travel_of};
+use super::super::entry::{Entry, What, travel_of};
 use super::super::fields::fields_of;
 use super::super::layout::{
     layout_in, number_edit, push_end_point, push_fields, push_to_comment_column,
@@ -10,7 +10,7 @@ use super::super::repair::{
     BLOCKS, Change, Item, Loose, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs,
 };
 use super::super::rules::{TextFix, block_number};
-use super::{At, Document, JoinedCut};
+use super::{At, Document, JoinedCut, View};
 use crate::finding::{Axis, Fault, Finding, FixKind, Place, Rule};
 use crate::program::grid::Node;
 use crate::program::repair::offered;
@@ -42,6 +42,7 @@ impl Document {
             | Rule::MissingB
             | Rule::ZeroBlock
             | Rule::ArcWithoutRadius
+            | Rule::ArcOffRadius
             | Rule::TooManyDigits => Scope::Blocks,
             _ => return Vec::new(),
         };
@@ -51,12 +52,34 @@ impl Document {
         let Some(cut) = self.cut_of(at) else {
             return Vec::new();
         };
-        let Some((places, pieces)) = self.pieces_of(&cut) else {
+        let Some(whole) = self.with_open_beside(&self.view, &cut) else {
+            return self.searched(&cut, scope, |_| true);
+        };
+        // One slip leaves both open; of two nothing says in which of them each is.
+        let fixes = self.searched(&whole, scope, |repair| repair.is_whole);
+        match scope {
+            Scope::All if fixes.is_empty() => self.searched(&cut, scope, |repair| {
+                repair.is_sure = false;
+                true
+            }),
+            _ => fixes,
+        }
+    }
+
+    /// The repairs of a cut that are `wanted`.
+    fn searched(
+        &self,
+        cut: &JoinedCut,
+        scope: Scope,
+        wanted: impl FnMut(&mut Repair) -> bool,
+    ) -> Vec<TextFix> {
+        let Some((places, pieces)) = self.pieces_of(cut) else {
             return Vec::new();
         };
-        let is_closed = self.closes(&self.view, &cut) && cut.sum.unread == 0;
-        let path = self.path_of(&cut, &places, &pieces, is_closed);
-        let found = repairs(&path, scope);
+        let is_closed = self.closes(&self.view, cut) && cut.sum.unread == 0;
+        let path = self.path_of(cut, &places, &pieces, is_closed);
+        let mut found = repairs(&path, scope);
+        found.retain_mut(wanted);
         let fixes = found.iter().map(|repair| {
             let (kind, mut edit) = self.edit_of(&repair.change, &places, &pieces, cut.is_jump)?;
             edit.sort_by_key(|edit| edit.range.start);
@@ -66,9 +89,24 @@ impl Document {
     }
 
     /// The block that keeps a contour open, by its number in the cut, where no other repair is as likely.
-    pub(super) fn blamed(&self, cut: &JoinedCut) -> Option<(usize, Fault)> {
-        let (places, pieces) = self.pieces_of(cut)?;
-        let path = self.path_of(cut, &places, &pieces, false);
+    pub(super) fn blamed(&self, view: &View, cut: &JoinedCut) -> Option<(usize, Fault)> {
+        let whole = self.with_open_beside(view, cut);
+        let whole = whole.as_ref().unwrap_or(cut);
+        let (places, pieces) = self.pieces_of(whole)?;
+        let first = self.blocks_of(cut).next()?;
+        let before = places.iter().position(|at| *at == first)?;
+        let (index, fault) = self.blamed_of(whole, &places, &pieces)?;
+        let own = index.checked_sub(before)?;
+        (own < cut.sum.blocks).then_some((own, fault))
+    }
+
+    fn blamed_of(
+        &self,
+        cut: &JoinedCut,
+        places: &[At],
+        pieces: &[Piece],
+    ) -> Option<(usize, Fault)> {
+        let path = self.path_of(cut, places, pieces, false);
         let found = repairs(&path, Scope::Blocks);
         let (best, others) = found.split_first().filter(|(best, _)| best.is_whole)?;
         let (index, block, slip) = match best.change {
@@ -145,7 +183,18 @@ impl Document {
             limits: &self.limits,
             is_jump: cut.is_jump,
             is_closed,
+            beside: self.beside(places),
         }
+    }
+
+    /// The motions of the cut before some blocks and of the one behind them.
+    fn beside(&self, places: &[At]) -> Vec<Vec<Motion>> {
+        let (Some(first), Some(last)) = (places.first(), places.last()) else {
+            return Vec::new();
+        };
+        let mut before = motions_of(self.before(*first));
+        before.reverse();
+        vec![before, motions_of(self.from(*last).skip(1))]
     }
 
     /// The usual step of the numbers, by the first of them.
@@ -163,7 +212,7 @@ impl Document {
         self.before(at).find_map(|(_, entry)| entry.number())
     }
 
-    /// The blocks of a contour, including unreadable ones; `None` where there are too few or too many, or they are 4B.
+    /// The blocks of a contour, including unreadable ones; `None` where there are too few or too many.
     fn pieces_of(&self, cut: &JoinedCut) -> Option<(Vec<At>, Vec<Piece>)> {
         if !BLOCKS.contains(&(cut.sum.blocks + cut.sum.unread)) {
             return None;
@@ -174,9 +223,6 @@ impl Document {
             let own = self.range_of(at);
             let piece = match &entry.what {
                 What::Block(block) => {
-                    if block.part().is_some() {
-                        return None;
-                    }
                     let fields = fields_of(self.text.bytes(), own.clone())?;
                     let digits = |range: &Range<usize>| {
                         let digits = self.text.bytes().get(range.clone()).unwrap_or_default();
@@ -186,7 +232,8 @@ impl Document {
                         item: Item {
                             stated: block.stated_end(),
                             number: entry.number(),
-                            is_faulty: !is_sound(&block.block(), &self.limits),
+                            part: block.part(),
+                            is_faulty: !is_sound(&block.block(), block.part(), &self.limits),
                             ..Item::of(&block.block())
                         },
                         loose: None,
@@ -396,4 +443,23 @@ fn kind_of(old: &Block, new: &Block, slip: &Slip) -> FixKind {
         Slip::Number(Number::J, _) => FixKind::SetJ { j: new.j },
         Slip::Coordinates | Slip::Unread { .. } => FixKind::FollowCoordinates,
     }
+}
+
+/// The motions of the blocks from behind the next word up to the one behind it; none where a block cannot be read.
+fn motions_of<'a>(mut entries: impl Iterator<Item = (At, &'a Entry)>) -> Vec<Motion> {
+    let mut motions = Vec::new();
+    let is_word = |entry: &Entry| matches!(entry.what, What::Word { .. });
+    if !entries.any(|(_, entry)| is_word(entry)) {
+        return motions;
+    }
+    for (_, entry) in entries.take_while(|(_, entry)| !is_word(entry)) {
+        match &entry.what {
+            What::Block(block) if motions.len() < *BLOCKS.end() => {
+                motions.push(block.block().motion);
+            }
+            What::Block(_) | What::Unread => return Vec::new(),
+            _ => {}
+        }
+    }
+    motions
 }

@@ -1,13 +1,17 @@
 //! The evidence of a contour's blocks for and against a change: coordinates, numbers, closing, and the joints of the
 //! blocks.
 
+use super::super::block::Motion;
 use super::super::entry::Move;
 use super::super::rules::position_mismatch::mismatch;
 use super::{Change, Item, STATED, Slip, Suspect};
-use crate::geometry::{Point, Segment, Vector, turn};
+use crate::geometry::{Arc, Point, Segment, Vector, turn};
 use crate::program::path::{HeldWay, Writing, closing, crossings_of};
 use crate::program::repair::gap::{SMOOTH, is_one_line};
 use crate::program::repair::search::Verdict;
+
+/// How much likelier another pass, or the hole in the middle of a circle, makes a change.
+const SAYS: f64 = 0.5;
 
 /// The evidence against a contour.
 #[derive(Clone, Copy, Debug, Default)]
@@ -75,8 +79,13 @@ impl Suspect<'_> {
         let items = self.with(change);
         let after = self.against(&items);
         let (left, was) = (after.count(), self.before.count());
-        let joints = joints(&items);
+        let mut joints = joints(&items);
         let mut was_joined = self.joints;
+        let is_mirrored = !self.is_mirrored && is_mirrored(&items);
+        if is_mirrored && self.is_replaced_end(change) {
+            // Either of the two ways may be the wrong one: how they meet the contour does not tell.
+            joints = was_joined;
+        }
         if let Change::Delete { index } = change {
             // The joint of two equal blocks goes with one of them.
             was_joined = was_joined.without(&self::joints(&self.items[index - 1..=*index]));
@@ -107,16 +116,17 @@ impl Suspect<'_> {
             return None;
         }
         let gain = f64::from(gain.clamp(-2, 2));
-        let leads = if !self.is_mirrored && is_mirrored(&items) {
-            0.8
-        } else {
-            0.0
-        };
+        let leads = if is_mirrored { 0.8 } else { 0.0 };
+        let others = self.is_as_beside(&items) - self.is_as_beside(&self.items)
+            + is_about_hole(&items)
+            - is_about_hole(&self.items);
         let cost = match is_stated {
             true => cost - 0.3 * gain,
             false => {
                 let doubled = 1.5 * f64::from(joined.doubled);
-                cost - leads - 0.6 * gain + 0.3 * joined.turns.clamp(-3.0, 3.0) + doubled
+                cost - leads - SAYS * others - 0.6 * gain
+                    + 0.3 * joined.turns.clamp(-3.0, 3.0)
+                    + doubled
             }
         };
         // Where most are out of their turn, the numbers follow another rule.
@@ -129,15 +139,31 @@ impl Suspect<'_> {
         })
     }
 
+    /// True where the first block or the last one becomes another.
+    fn is_replaced_end(&self, change: &Change) -> bool {
+        let is_end = |index: usize| index == 0 || index + 1 == self.items.len();
+        matches!(change, Change::Replace { index, .. } if is_end(*index))
+    }
+
+    /// 1 where the motions are those of the pass before or behind.
+    fn is_as_beside(&self, items: &[Item]) -> f64 {
+        let motion = |item: &Item| item.block.map(|block| block.motion);
+        let is_own = |other: &Vec<Motion>| {
+            let other = other.iter().copied().map(Some);
+            items.iter().map(motion).eq(other)
+        };
+        f64::from(self.path.beside.iter().any(is_own))
+    }
+
     /// A change that adds a way is never sure. One supported by the coordinates alone is sure only where there is no
     /// other fault, and an arc for a block written like a line only where coordinates support it.
     fn may_be_sure(&self, change: &Change, left: usize) -> bool {
         match change {
             Change::Insert { .. } => false,
             Change::Replace {
-                meant: (_, Slip::Coordinates),
-                ..
-            } => left == 0,
+                index,
+                meant: (block, Slip::Coordinates),
+            } => left == 0 && block.motion.is_line() != self.items[*index].is_arc(),
             Change::Replace {
                 index,
                 meant: (block, Slip::Motion),
@@ -181,6 +207,21 @@ pub(super) fn joints(items: &[Item]) -> Joints {
         joints.turns += angle;
     }
     joints
+}
+
+/// 1 where the way in comes from the centre of a full circle, in which the hole for the wire is drilled.
+fn is_about_hole(items: &[Item]) -> f64 {
+    let [first, circle, ..] = items else {
+        return 0.0;
+    };
+    let (Some(way), Some(block)) = (&circle.way, &circle.block) else {
+        return 0.0;
+    };
+    let (sign_x, sign_y) = block.motion.quadrant().signs();
+    let [x, y] = first.travel.meant_um();
+    let aside = (x - sign_x * block.x as f64).hypot(y - sign_y * block.y as f64);
+    let is_circle = way.as_arc().is_some_and(Arc::is_full_turn);
+    f64::from(is_circle && aside <= STATED)
 }
 
 /// The curve of each block at its intended start, and its end.

@@ -11,7 +11,7 @@ pub(super) use loose::{Loose, Number, loose};
 pub(super) use slips::{Slip, is_sound};
 
 use super::around::StatedPoint;
-use super::block::{Block, Motion};
+use super::block::{Block, Motion, PartArc};
 use super::decode::meant;
 use super::encode::encode;
 use super::entry::{Move, travel_of};
@@ -53,6 +53,8 @@ pub(super) struct Item {
     pub(crate) way: Option<Segment>,
     pub(crate) stated: Option<StatedPoint>,
     pub(crate) number: Option<u32>,
+    /// That of a 4B block.
+    pub(crate) part: Option<PartArc>,
     /// A rule finds a fault in the block alone.
     pub(crate) is_faulty: bool,
 }
@@ -99,6 +101,8 @@ pub(super) struct Path<'a> {
     pub(crate) is_jump: bool,
     /// It is not reported as open: it closes, if only together with others.
     pub(crate) is_closed: bool,
+    /// The motions of the cuts before and behind it: those of its other passes, perhaps.
+    pub(crate) beside: Vec<Vec<Motion>>,
 }
 
 /// Which repairs are handed out.
@@ -132,6 +136,7 @@ struct Suspect<'a> {
     is_mirrored: bool,
     /// It must return to its start.
     closes: bool,
+    is_four_b: bool,
     /// The blocks before which a number is missing.
     lost: Vec<usize>,
 }
@@ -252,6 +257,9 @@ impl Contour for Suspect<'_> {
         let largest = self.path.limits.largest();
         encode(way, Node { x: 0, y: 0 }, node, largest, &mut blocks)?;
         let [one] = &blocks[..] else { return None };
+        if self.lacks_a_part(&one.block, None) {
+            return None;
+        }
         // A half turn or more joins two sides of a slot where everything else is smooth, and elsewhere replaces a
         // corner's line.
         let is_likely =
@@ -348,6 +356,7 @@ impl<'a> Suspect<'a> {
                 .fold(Move::default(), |sum, item| sum.plus(item.travel)),
             is_mirrored: is_mirrored(&items),
             closes: !path.is_jump,
+            is_four_b: items.iter().any(|item| item.part.is_some()),
             lost: (1..items.len()).filter(is_lost).collect(),
             items,
         };
@@ -436,10 +445,16 @@ impl<'a> Suspect<'a> {
                 index,
                 meant: (block, _),
             } => {
-                let Item { stated, number, .. } = items[*index];
+                let Item {
+                    stated,
+                    number,
+                    part,
+                    ..
+                } = items[*index];
                 items[*index] = Item {
                     stated,
                     number,
+                    part,
                     ..Item::of(block)
                 };
             }

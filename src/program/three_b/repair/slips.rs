@@ -1,6 +1,6 @@
 //! The blocks that differ from a block by one slip and lead to the intended end.
 
-use super::super::block::{Block, Motion, Quadrant};
+use super::super::block::{Block, Motion, PartArc, Quadrant};
 use super::super::decode::meant;
 use super::super::encode::{counted, line_block};
 use super::super::entry::{Move, travel_of};
@@ -64,18 +64,24 @@ impl Wanted {
         (x - self.by[0]).hypot(y - self.by[1])
     }
 
+    /// True where an arc would have to go all round.
+    fn is_turn(&self) -> bool {
+        self.by.iter().all(|um| um.abs() <= self.near)
+    }
+
     fn end(&self) -> Point {
         Point::new(self.by[0], self.by[1])
     }
 }
 
 /// True for a block in which no rule finds a fault.
-pub(in super::super) fn is_sound(block: &Block, limits: &Limits) -> bool {
+pub(in super::super) fn is_sound(block: &Block, part: Option<PartArc>, limits: &Limits) -> bool {
     let is_fault = |observation: &rules::Observation| {
         observation.rule != Rule::SmallRadius
             && !matches!(observation.counts, Counts::IfInside { .. })
     };
-    !rules::check(block, None, limits).iter().any(is_fault)
+    part.is_none_or(|part| part.fits(block))
+        && !rules::check(block, None, limits).iter().any(is_fault)
 }
 
 /// True where the quadrant is the customary one for a start or a direction on an axis.
@@ -93,14 +99,14 @@ pub(super) fn is_usual(block: &Block) -> bool {
 /// The sound blocks that differ from one by a slip and lead to the intended end. `digits` are its numbers as they are
 /// written.
 pub(super) fn blocks_to(
-    block: &Block,
+    (block, part): (&Block, Option<PartArc>),
     digits: &[String; 3],
     wanted: &Wanted,
     limits: &Limits,
 ) -> Vec<(Block, Slip)> {
     let mut found = Vec::new();
     let mut take = |changed: Block, slip: Slip| {
-        if changed != *block && wanted.is_met(&changed) && is_sound(&changed, limits) {
+        if changed != *block && wanted.is_met(&changed) && is_sound(&changed, part, limits) {
             found.push((changed, slip));
         }
     };
@@ -149,7 +155,12 @@ fn values(
     let Some((value, within)) = solved(block, number, wanted) else {
         return Vec::new();
     };
-    let is_likely = |key: &Key| !matches!(key, Key::More | Key::Sign | Key::Point);
+    // Of a circle only one key makes another: any of them counts.
+    let is_circle = wanted.is_turn() && !block.motion.is_line();
+    let is_likely = |key: &Key| match key {
+        Key::More => is_circle,
+        key => !matches!(key, Key::Sign | Key::Point),
+    };
     let mut slips: Vec<i64> = keys::meant(&digits[number as usize], None)
         .into_iter()
         .filter(|(_, key)| is_likely(key))
@@ -191,6 +202,15 @@ pub(super) fn solved(block: &Block, number: Number, wanted: &Wanted) -> Option<(
                 Number::X => (sx * dx, sy * dy, block.y as f64),
                 _ => (sy * dy, sx * dx, block.x as f64),
             };
+            if wanted.is_turn() {
+                // A full turn counts 4R.
+                let radius = block.j as f64 / 4.0;
+                let value = whole((radius * radius - known * known).sqrt())?;
+                return (value > 0).then(|| {
+                    let within = (radius / value as f64).ceil() as i64;
+                    (value, within.clamp(2, ROUND))
+                });
+            }
             let chord = dx * dx + dy * dy;
             if own.abs() < 1.0 || chord < 1.0 {
                 return None;
@@ -210,7 +230,7 @@ pub(super) fn solved(block: &Block, number: Number, wanted: &Wanted) -> Option<(
             }
             let turns_left = matches!(block.motion, Motion::CounterClockwise(_));
             let about = Arc::about(arc.center, arc.start, end, turns_left);
-            if wanted.by.iter().all(|um| um.abs() <= wanted.near) {
+            if wanted.is_turn() {
                 return Some(((4.0 * arc.radius).round() as i64, 2));
             }
             Some((counted(&about, block.axis).round() as i64, 4))
@@ -236,7 +256,11 @@ impl Suspect<'_> {
         // What is written like a line is one.
         let is_like_line = block.j == block.x.max(block.y);
         for (wanted, is_stated) in wanted {
-            for (changed, slip) in blocks_to(block, &piece.digits, wanted, self.path.limits) {
+            let own = (block, piece.item.part);
+            for (changed, slip) in blocks_to(own, &piece.digits, wanted, self.path.limits) {
+                if self.lacks_a_part(&changed, own.1) {
+                    continue;
+                }
                 let is_other_kind = block.motion.is_line() != changed.motion.is_line();
                 let cost = match slip {
                     Slip::Number(Number::J, Digits::Any) => 1.6,
@@ -253,11 +277,19 @@ impl Suspect<'_> {
                 let cost = cost + if is_unusual { UNUSUAL } else { 0.0 };
                 found.push(((changed, slip), cost + MISS * wanted.miss(&changed)));
             }
-            if let Some(line) = straight(wanted).filter(|line| *is_stated && line != block) {
+            let is_line = piece.item.part.is_none();
+            if let Some(line) =
+                straight(wanted).filter(|line| *is_stated && is_line && line != block)
+            {
                 found.push(((line, Slip::Coordinates), 3.0));
             }
         }
         found
+    }
+
+    /// True for an arc without a radius among arcs of 4B, which have one.
+    pub(super) fn lacks_a_part(&self, block: &Block, part: Option<PartArc>) -> bool {
+        !block.motion.is_line() && part.is_none() && self.is_four_b
     }
 
     /// The possible intended blocks for an unreadable one.
@@ -269,7 +301,7 @@ impl Suspect<'_> {
         let readings = loose.readings();
         let mut found = Vec::new();
         let mut take = |block: Block, keys: usize, more: f64| {
-            if is_sound(&block, self.path.limits) {
+            if is_sound(&block, None, self.path.limits) && !self.lacks_a_part(&block, None) {
                 let slip = Slip::Unread { keys };
                 found.push(((block, slip), restored(&block, keys) + more));
             }

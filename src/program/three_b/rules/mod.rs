@@ -3,6 +3,7 @@
 //! A rule on a single block sees that block alone ([`Outlook`]) and runs when its line is read; a rule on the whole
 //! program sees the stretches that have been read. Fixes are made on demand, from the present text ([`Site`]).
 
+mod arc_off_radius;
 mod arc_without_radius;
 mod block_number_as_b;
 mod j_over_turn;
@@ -80,6 +81,7 @@ pub(super) enum Spot {
     X,
     Y,
     J,
+    Radius,
     Axis,
     Motion,
 }
@@ -92,6 +94,7 @@ impl Spot {
             Spot::X => fields.x.clone(),
             Spot::Y => fields.y.clone(),
             Spot::J => fields.j.clone(),
+            Spot::Radius => fields.radius.clone().unwrap_or_default(),
             Spot::Axis => fields.axis.clone(),
             Spot::Motion => fields.motion.clone(),
         };
@@ -161,9 +164,10 @@ struct BlockRule {
 }
 
 /// They run in this order. A finding of the first [`ALONE`] of them ends the search in a block.
-const RULES: [BlockRule; 12] = [
+const RULES: [BlockRule; 13] = [
     zero_block::RULE,
     arc_without_radius::RULE,
+    arc_off_radius::RULE,
     length_in_j::RULE,
     wrong_j::RULE,
     j_over_turn::RULE,
@@ -175,7 +179,7 @@ const RULES: [BlockRule; 12] = [
     block_number_as_b::RULE,
     reversed_arc::RULE,
 ];
-const ALONE: usize = 2;
+const ALONE: usize = 3;
 
 /// The faults of a block by itself.
 pub(super) fn check(block: &Block, part: Option<PartArc>, limits: &Limits) -> Vec<Observation> {

@@ -7,7 +7,7 @@
 use super::{ARC_TIE, BlockRule, Observation, Outlook, Site, Spot, TIE, TextFix, one_edit};
 use crate::finding::{Axis, Fault, FixKind, Rule};
 use crate::geometry::{Point, Segment};
-use crate::program::three_b::block::{Block, Motion};
+use crate::program::three_b::block::{Block, Motion, Quadrant};
 use crate::program::three_b::decode::decode;
 use crate::program::three_b::encode::counted;
 
@@ -75,8 +75,9 @@ fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     if let Motion::Line(_) = site.block.motion {
         let larger = site.block.x.max(site.block.y);
         let is_ratio = site.block.j > larger + 2;
-        if (site.block.j - larger).abs() <= 2 || (is_ratio && (site.closes_with)(&[flipped])) {
-            return vec![only_axis(true)];
+        let closes = (site.closes_with)(&[flipped]);
+        if (site.block.j - larger).abs() <= 2 || (is_ratio && closes) {
+            return vec![only_axis(closes || has_its_quadrant(&site.block))];
         }
         // J counted the smaller projection; the scale of a ratio changes with it.
         let smaller = site.block.x.min(site.block.y);
@@ -84,13 +85,13 @@ fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
             (true, 1..) => (site.block.j as f64 * larger as f64 / smaller as f64).round() as i64,
             _ => larger,
         };
-        return vec![with_j(site, axis, j, true)];
+        return vec![with_j(site, axis, j)];
     }
     let Ok(Segment::Arc(arc)) = decode(&site.block, Point::origin()) else {
         return Vec::new();
     };
     let same_end = counted(&arc, axis).round() as i64;
-    let with_same_end = with_j(site, axis, same_end, true);
+    let with_same_end = with_j(site, axis, same_end);
     if (site.closes_with)(&[flipped]) {
         return vec![
             only_axis(true),
@@ -100,7 +101,18 @@ fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     vec![with_same_end]
 }
 
-fn with_j(site: &Site, axis: Axis, j: i64, in_fix_all: bool) -> TextFix {
+/// True for a line along an axis whose quadrant is the one for that axis: X and Y have not changed places.
+fn has_its_quadrant(block: &Block) -> bool {
+    let quadrant = block.motion.quadrant();
+    let (sign_x, sign_y) = quadrant.signs();
+    let is_usual = |x: i64, y: i64| {
+        Quadrant::counter_clockwise(x * sign_x as i64, y * sign_y as i64) == quadrant
+    };
+    is_usual(block.x, block.y) && !is_usual(block.y, block.x)
+}
+
+/// J and G agree with each other, so another number may be the wrong one: unasked only where the contour closes.
+fn with_j(site: &Site, axis: Axis, j: i64) -> TextFix {
     let made = Block {
         axis,
         j,
@@ -110,6 +122,6 @@ fn with_j(site: &Site, axis: Axis, j: i64, in_fix_all: bool) -> TextFix {
         FixKind::SetAxis { axis, j: Some(j) },
         site.made(&made),
         true,
-        in_fix_all,
+        (site.closes_with)(&[made]),
     )
 }

@@ -1,0 +1,42 @@
+//! `arc-off-radius` in 4B: R is not the distance of the arc's start from its centre, √(X² + Y²).
+//!
+//! One of the three numbers is wrong, so nothing is said of J and G of that block: they may be right.
+
+use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix, one_edit};
+use crate::finding::{Fault, FixKind, Rule};
+use crate::program::repair::keys::is_slip;
+
+pub(super) const RULE: BlockRule = BlockRule {
+    rule: Rule::ArcOffRadius,
+    check,
+    fixes,
+};
+
+fn check(outlook: &Outlook) -> Option<Observation> {
+    let part = outlook.part.filter(|_| !outlook.is_line())?;
+    (!part.fits(outlook.block)).then(|| {
+        Observation::at(
+            Spot::Radius,
+            Fault::RadiusOff {
+                radius: part.radius,
+                meant: outlook.radius().round() as i64,
+            },
+        )
+    })
+}
+
+/// R is the wrong one where the way is right without it and one key makes it so.
+fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
+    let (Fault::RadiusOff { meant, .. }, Some(place)) = (fault, &site.fields.radius) else {
+        return Vec::new();
+    };
+    let found = site.text.get(place.clone()).unwrap_or_default();
+    let new = meant.to_string();
+    let is_plain = is_slip(found, new.as_bytes()) && (site.closes_with)(&[site.block]);
+    let kind = FixKind::Rewrite {
+        found: format!("B{}", String::from_utf8_lossy(found)),
+        meant: format!("B{new}"),
+    };
+    let edit = vec![site.replace(place, new)];
+    vec![one_edit(kind, edit, is_plain, is_plain)]
+}
