@@ -116,7 +116,14 @@ impl Suspect<'_> {
             return None;
         }
         let gain = f64::from(gain.clamp(-2, 2));
-        let leads = if is_mirrored { 0.8 } else { 0.0 };
+        let leads = match (
+            is_mirrored,
+            self.is_mirrored && self.is_replaced_end(change),
+        ) {
+            (true, _) => 0.8,
+            (_, true) => -0.8,
+            _ => 0.0,
+        };
         let others = self.is_as_beside(&items) - self.is_as_beside(&self.items)
             + is_about_hole(&items)
             - is_about_hole(&self.items);
@@ -141,8 +148,7 @@ impl Suspect<'_> {
 
     /// True where the first block or the last one becomes another.
     fn is_replaced_end(&self, change: &Change) -> bool {
-        let is_end = |index: usize| index == 0 || index + 1 == self.items.len();
-        matches!(change, Change::Replace { index, .. } if is_end(*index))
+        matches!(change, Change::Replace { index, .. } if self.is_end(*index))
     }
 
     /// 1 where the motions are those of the pass before or behind.

@@ -170,7 +170,15 @@ impl Contour for Suspect<'_> {
         };
         let wanted = self.wanted(index);
         match (&piece.item.block, &piece.loose) {
-            (Some(block), _) => self.replaced(block, piece, &wanted),
+            (Some(block), _) => {
+                let mut found = self.replaced(block, piece, &wanted);
+                // Numbers of a way in that the way out has, too, are right.
+                let is_lead = self.is_end(index) && self.is_mirrored && !piece.item.is_faulty;
+                if is_lead && self.stated(index).is_none() {
+                    found.retain(|((_, slip), _)| *slip == Slip::Motion);
+                }
+                found
+            }
             (None, Some(loose)) => self.restored(loose, &wanted),
             (None, None) => Vec::new(),
         }
@@ -392,6 +400,10 @@ impl<'a> Suspect<'a> {
         mismatch(from, &self.items[index].travel, to).map(|_| stated)
     }
 
+    fn is_end(&self, index: usize) -> bool {
+        index == 0 || index + 1 == self.items.len()
+    }
+
     /// The end that a block must have for everything to be right, and whether coordinates say so.
     fn wanted(&self, index: usize) -> Vec<(Wanted, bool)> {
         let item = &self.items[index];
@@ -404,12 +416,7 @@ impl<'a> Suspect<'a> {
         let count = self.items.len();
         let others_unread = self.before.unread - usize::from(item.is_unread());
         let others_faulty = self.before.faulty - usize::from(item.is_faulty);
-        let is_end = index == 0 || index + 1 == count;
-        if !self.closes
-            || count < 3
-            || others_unread + others_faulty > 0
-            || (is_end && self.is_mirrored && !item.is_faulty)
-        {
+        if !self.closes || count < 3 || others_unread + others_faulty > 0 {
             return Vec::new();
         }
         let near = tolerance(self.arcs);
@@ -430,7 +437,7 @@ impl<'a> Suspect<'a> {
                 take(own.plus(node));
             }
             let (first, last) = (&self.items[0], &self.items[count - 1]);
-            if count >= 5 && !is_end {
+            if count >= 5 && !self.is_end(index) {
                 take(own.plus(first.travel).plus(last.travel));
             }
         }
