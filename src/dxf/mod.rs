@@ -43,6 +43,7 @@ pub(crate) mod table;
 mod tests;
 mod uncut;
 mod unit;
+mod value_type;
 mod write;
 
 pub use write::write;
