@@ -1,7 +1,7 @@
 //! A program as refactorings see it, and its new form; the interface by which a language reads and writes its moves.
 
-use super::Refactoring;
 use super::transform::Transform;
+use super::{Edits, Refactoring};
 use crate::finding::Finding;
 use crate::geometry::{Point, Segment};
 use crate::program::grid::{Node, point_of};
@@ -10,7 +10,7 @@ use crate::program::steps::{Program, trace};
 use crate::settings::Effective;
 use crate::text::TextEdit;
 use std::collections::BTreeMap;
-use std::ops::Range;
+use std::ops::{Deref, Range};
 
 /// The kind of change to moves.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,49 +50,19 @@ pub(in crate::program) trait Notation: Sized {
     /// An error where words of the program would become wrong by such a change.
     fn refuse(sheet: &Sheet<'_, Self>, change: Change) -> Result<(), String>;
 
-    /// The move of one row, replacing another.
-    fn kept(
-        sheet: &Sheet<'_, Self>,
-        content: &Content<Self>,
-        row: usize,
-        place: usize,
-    ) -> Self::New;
+    /// The move of one row, replacing that of `place`.
+    fn kept(at: At<'_, Self>, place: usize) -> Self::New;
     /// The move of a row in the other direction.
-    fn reversed(
-        sheet: &Sheet<'_, Self>,
-        content: &Content<Self>,
-        row: usize,
-    ) -> Result<Vec<Self::New>, String>;
+    fn reversed(at: At<'_, Self>) -> News<Self>;
     /// A straight cut that replaces a row.
-    fn straight(
-        sheet: &Sheet<'_, Self>,
-        content: &Content<Self>,
-        row: usize,
-        ends: [Node; 2],
-    ) -> Result<Vec<Self::New>, String>;
-    fn transformed(
-        sheet: &Sheet<'_, Self>,
-        content: &Content<Self>,
-        row: usize,
-        transform: Transform,
-    ) -> Self::New;
+    fn straight(at: At<'_, Self>, ends: [Node; 2]) -> News<Self>;
+    fn transformed(at: At<'_, Self>, transform: Transform) -> Self::New;
     /// A place of a row after scaling.
-    fn scaled_node(
-        sheet: &Sheet<'_, Self>,
-        row: &Row<Self>,
-        node: Node,
-        factor: f64,
-    ) -> Option<Node>;
+    fn scaled_node(row: &Row<Self>, node: Node, factor: f64) -> Option<Node>;
     /// The scaled move of a row between two scaled nodes; nothing where it vanishes.
-    fn scaled(
-        sheet: &Sheet<'_, Self>,
-        content: &Content<Self>,
-        row: usize,
-        ends: [Node; 2],
-        factor: f64,
-    ) -> Result<Vec<Self::New>, String>;
+    fn scaled(at: At<'_, Self>, ends: [Node; 2], factor: f64) -> News<Self>;
     /// Whether a row is a straight cut that can be merged with those before it, which begin with `first`.
-    fn runs_on(sheet: &Sheet<'_, Self>, content: &Content<Self>, first: usize, row: usize) -> bool;
+    fn runs_on(at: At<'_, Self>, first: usize) -> bool;
     /// Lengths are written in inches, so inches need no scaling.
     fn is_in_inches(_: &Content<Self>) -> bool {
         false
@@ -124,11 +94,7 @@ pub(in crate::program) trait Notation: Sized {
     }
 
     /// The edits that make the rewritten program, sorted and disjoint; none where nothing changes.
-    fn write(
-        sheet: &Sheet<'_, Self>,
-        content: &Content<Self>,
-        rewrite: &Rewrite<Self>,
-    ) -> Result<Vec<TextEdit>, String>;
+    fn write(sheet: &Sheet<'_, Self>, content: &Content<Self>, rewrite: &Rewrite<Self>) -> Edits;
     /// An error where a move of the new program is not the intended one.
     fn agree(after: &Self::Document, row: &Row<Self>, meant: &Self::New) -> Result<(), String>;
     /// Further edits of the new program, by the path of the old one, that keep the machine's way.
@@ -136,10 +102,43 @@ pub(in crate::program) trait Notation: Sized {
         Vec::new()
     }
 
-    fn numbered(document: &Self::Document) -> Result<Vec<TextEdit>, String>;
-    fn without_numbers(document: &Self::Document) -> Result<Vec<TextEdit>, String>;
+    fn numbered(document: &Self::Document) -> Edits;
+    fn without_numbers(document: &Self::Document) -> Edits;
     /// Refactorings that it alone has.
     fn own() -> Vec<Refactoring<Self>>;
+}
+
+/// The moves that replace one.
+pub(in crate::program) type News<N> = Result<Vec<<N as Notation>::New>, String>;
+
+/// A row in its program.
+pub(in crate::program) struct At<'a, N: Notation> {
+    pub(crate) sheet: &'a Sheet<'a, N>,
+    pub(crate) content: &'a Content<N>,
+    pub(crate) index: usize,
+}
+
+impl<N: Notation> Clone for At<'_, N> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<N: Notation> Copy for At<'_, N> {}
+
+impl<N: Notation> At<'_, N> {
+    /// Its move as it is.
+    pub(crate) fn kept(self) -> N::New {
+        N::kept(self, self.index)
+    }
+}
+
+impl<N: Notation> Deref for At<'_, N> {
+    type Target = Row<N>;
+
+    fn deref(&self) -> &Row<N> {
+        &self.content.rows[self.index]
+    }
 }
 
 /// A move in its line.
@@ -225,6 +224,15 @@ impl<'a, N: Notation> Sheet<'a, N> {
     /// The moves; the error names the line that cannot be read.
     pub(crate) fn content(&self) -> Result<&Content<N>, String> {
         self.content.as_ref().map_err(Clone::clone)
+    }
+
+    pub(crate) fn at<'s>(&'s self, content: &'s Content<N>, index: usize) -> At<'s, N> {
+        let sheet = self;
+        At {
+            sheet,
+            content,
+            index,
+        }
     }
 
     /// Lines that the selection touches.
@@ -337,7 +345,7 @@ impl<N: Notation> Rewrite<N> {
     pub(crate) fn meant(&self, sheet: &Sheet<'_, N>, content: &Content<N>) -> Vec<N::New> {
         let of_row = |row: usize| match self.rows.get(&row) {
             Some(news) => news.clone(),
-            None => vec![N::kept(sheet, content, row, row)],
+            None => vec![sheet.at(content, row).kept()],
         };
         (0..content.rows.len()).flat_map(of_row).collect()
     }

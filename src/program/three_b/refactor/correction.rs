@@ -13,7 +13,7 @@ use super::{ThreeB, refuse_four_b};
 use crate::drawing::{self, Drawing, Entity, Geometry, Outline, Role, Unit, Vertex};
 use crate::geometry::Segment;
 use crate::program::grid::{Node, point_of};
-use crate::program::refactor::{Content, Contour, Refactoring, Sheet};
+use crate::program::refactor::{Content, Contour, Edits, Refactoring, Sheet};
 use crate::program::three_b::write;
 use crate::settings::{Compensation, Direction, Effective, Layout, PointSetting};
 use crate::text::TextEdit;
@@ -31,7 +31,7 @@ pub(super) const PUNCH: Refactoring<ThreeB> = Refactoring {
     rewrite: |sheet| corrected(sheet, Role::Punch),
 };
 
-fn corrected(sheet: &Sheet<'_, ThreeB>, role: Role) -> Result<Vec<TextEdit>, String> {
+fn corrected(sheet: &Sheet<'_, ThreeB>, role: Role) -> Edits {
     let content = sheet.content()?;
     refuse_four_b(content)?;
     let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
@@ -92,11 +92,7 @@ fn corrected(sheet: &Sheet<'_, ThreeB>, role: Role) -> Result<Vec<TextEdit>, Str
 }
 
 /// The new program, replacing all blocks and words.
-fn replaced(
-    sheet: &Sheet<'_, ThreeB>,
-    content: &Content<ThreeB>,
-    program: &str,
-) -> Result<Vec<TextEdit>, String> {
+fn replaced(sheet: &Sheet<'_, ThreeB>, content: &Content<ThreeB>, program: &str) -> Edits {
     let text = sheet.document.text();
     let first = content
         .rows
