@@ -1,6 +1,6 @@
 //! The formats that programs are written in, by name.
 
-use super::write::{ProofError, ProvedProgram};
+use super::write::{Proved, ProvedProgram};
 use super::{iso, three_b};
 use crate::settings::{Compensation, Effective};
 use crate::toolpath::WirePath;
@@ -69,7 +69,7 @@ impl Format {
         unit_mm: f64,
         settings: &Effective,
         go_on: &mut dyn FnMut(usize, usize) -> bool,
-    ) -> Result<ProvedProgram, ProofError> {
+    ) -> Proved<ProvedProgram> {
         match self {
             Format::ThreeB => three_b::write_with(paths, unit_mm, settings, go_on),
             Format::FourB => three_b::write_four_b(paths, unit_mm, settings, go_on),

@@ -5,12 +5,11 @@
 //! a simulation of the wear.
 
 use super::block::{Block, Motion};
-use super::encode::Encoded;
 use super::write::Lines;
 use crate::geometry::Segment;
 use crate::program::grid::Node;
 use crate::program::write::{
-    ProofError, ProvedProgram, Writer, node_of, nothing_to_write, scaled, way,
+    ProofError, Proved, ProvedProgram, Writer, node_of, nothing_to_write, scaled,
 };
 use crate::settings::{Coordinates, Effective};
 use crate::toolpath::milling::{Floor, Layers, Step};
@@ -26,7 +25,7 @@ pub(crate) fn write_milled(
     unit_mm: f64,
     settings: &Effective,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
-) -> Result<ProvedProgram, ProofError> {
+) -> Proved<ProvedProgram> {
     let electrode = settings.electrode().map_err(ProofError::Refused)?;
     let mut lines = Lines::of(settings)?;
     let per_mm = lines.per_mm();
@@ -192,37 +191,19 @@ struct Tool {
 
 impl Tool {
     /// Up, and over the entry of a contour.
-    fn goes_over(
-        &mut self,
-        first: Node,
-        clear: i64,
-        lines: &mut Lines<'_>,
-    ) -> Result<(), ProofError> {
+    fn goes_over(&mut self, first: Node, clear: i64, lines: &mut Lines<'_>) -> Proved {
         if self.height != clear {
             self.goes_to(Motion::Rapid, clear, lines)?;
         }
         if self.at == first {
             return Ok(());
         }
-        let piece = way(self.at, first);
-        lines.jumps += piece.length();
-        lines.step_out(&Encoded {
-            motion: Motion::Rapid,
-            from: self.at,
-            to: first,
-            center: self.at,
-            piece,
-        })?;
+        lines.move_over(self.at, first)?;
         self.at = first;
         Ok(())
     }
 
-    fn goes_to(
-        &mut self,
-        motion: Motion,
-        height: i64,
-        lines: &mut Lines<'_>,
-    ) -> Result<(), ProofError> {
+    fn goes_to(&mut self, motion: Motion, height: i64, lines: &mut Lines<'_>) -> Proved {
         lines.height_out(motion, self.height, height)?;
         self.height = height;
         Ok(())
@@ -233,7 +214,7 @@ impl Tool {
         way: &Way,
         between: Option<(f64, f64)>,
         lines: &mut Lines<'_>,
-    ) -> Result<(), ProofError> {
+    ) -> Proved {
         let Some((from, to)) = between else {
             return Ok(());
         };
@@ -248,7 +229,7 @@ impl Tool {
 
 impl Lines<'_> {
     /// Writes a move up or down, and reads it back.
-    fn height_out(&mut self, motion: Motion, from: i64, to: i64) -> Result<(), ProofError> {
+    fn height_out(&mut self, motion: Motion, from: i64, to: i64) -> Proved {
         let start = self.out.len();
         let mut out = std::mem::take(&mut self.out);
         let mut separate = self.push_head(&mut out, motion);
@@ -272,7 +253,7 @@ impl Lines<'_> {
             return Err(self.refused(&say!(its_lines_change_heights, line)));
         }
         self.end_line();
-        self.blocks += 1;
+        self.made.blocks += 1;
         Ok(())
     }
 }

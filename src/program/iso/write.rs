@@ -11,18 +11,15 @@ use crate::geometry::Segment;
 use crate::program::encode::Encoder;
 use crate::program::grid::Node;
 use crate::program::write::{
-    ProofError, ProvedProgram, Writer, cuts, nothing_to_write, push_number, push_places, walk, way,
+    ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write, push_number, push_places,
+    walk, way,
 };
 use crate::settings::{Coordinates, Effective, LineEnd, NumberUnit, Profile, Zero};
 use crate::toolpath::{Source, WirePath};
 
 /// Writes the paths as one program and proves it. `unit_mm` is the drawing's unit in mm. An unknown profile, or one
 /// whose lines do not do what they should, is a refusal.
-pub fn write(
-    paths: &[WirePath],
-    unit_mm: f64,
-    settings: &Effective,
-) -> Result<ProvedProgram, ProofError> {
+pub fn write(paths: &[WirePath], unit_mm: f64, settings: &Effective) -> Proved<ProvedProgram> {
     write_with(paths, unit_mm, settings, &mut |_, _| true)
 }
 
@@ -32,7 +29,7 @@ pub(crate) fn write_with(
     unit_mm: f64,
     settings: &Effective,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
-) -> Result<ProvedProgram, ProofError> {
+) -> Proved<ProvedProgram> {
     let mut lines = Lines::of(settings)?;
     walk(
         paths,
@@ -64,23 +61,13 @@ pub(super) struct Lines<'a> {
     number: u32,
     /// The modal words that a terse profile leaves out.
     motion: Option<Motion>,
-    pub(super) blocks: usize,
-    /// Steps.
-    length: f64,
-    /// Without cuts, part of the above.
-    pub(super) jumps: f64,
-    /// Steps.
-    deviation: f64,
+    /// The totals so far, in steps.
+    pub(super) made: ProvedProgram,
     encoded: Vec<Encoded>,
 }
 
 impl Writer for Lines<'_> {
-    fn begin(
-        &mut self,
-        from: Option<Node>,
-        first: Node,
-        path: &WirePath,
-    ) -> Result<(), ProofError> {
+    fn begin(&mut self, from: Option<Node>, first: Node, path: &WirePath) -> Proved {
         self.pass = path.pass;
         match from {
             None => {
@@ -111,13 +98,7 @@ impl Writer for Lines<'_> {
         Ok(())
     }
 
-    fn piece(
-        &mut self,
-        piece: &Segment,
-        from: Node,
-        to: Node,
-        source: Source,
-    ) -> Result<(), ProofError> {
+    fn piece(&mut self, piece: &Segment, from: Node, to: Node, source: Source) -> Proved {
         // No control switches its correction off on an arc.
         if source == Source::LeadOut && piece.as_arc().is_none() {
             self.switch_off(from)?;
@@ -134,18 +115,12 @@ impl Writer for Lines<'_> {
         for step in &encoded {
             self.step_out(step)?;
         }
-        self.length += piece.length();
+        self.made.length += piece.length();
         self.encoded = encoded;
         Ok(())
     }
 
-    fn end(
-        &mut self,
-        closed: bool,
-        first: Node,
-        last: Node,
-        goes_on: bool,
-    ) -> Result<(), ProofError> {
+    fn end(&mut self, closed: bool, first: Node, last: Node, goes_on: bool) -> Proved {
         if closed && first != last {
             return Err(ProofError::Mismatch(say!(
                 the_cut_begins_at_and_ends_at,
@@ -160,21 +135,21 @@ impl Writer for Lines<'_> {
         }
     }
 
-    fn end_open(&mut self, last: Node, for_good: bool, stops: usize) -> Result<(), ProofError> {
+    fn end_open(&mut self, last: Node, for_good: bool, stops: usize) -> Proved {
         let stops = if for_good { stops } else { 0 };
         (0..stops).try_for_each(|_| self.stop(last, None))
     }
 
-    fn stop(&mut self, at: Node, word: Option<&str>) -> Result<(), ProofError> {
+    fn stop(&mut self, at: Node, word: Option<&str>) -> Proved {
         match word {
             Some(word) => self.fixed(&[word.to_owned()], at),
             None => self.fixed(&self.profile.pause, at),
         }
     }
 
-    fn move_over(&mut self, from: Node, to: Node) -> Result<(), ProofError> {
+    fn move_over(&mut self, from: Node, to: Node) -> Proved {
         let piece = way(from, to);
-        self.jumps += piece.length();
+        self.made.jumps += piece.length();
         self.step_out(&Encoded {
             motion: Motion::Rapid,
             from,
@@ -184,7 +159,7 @@ impl Writer for Lines<'_> {
         })
     }
 
-    fn moved_by_hand(&mut self, to: Node) -> Result<(), ProofError> {
+    fn moved_by_hand(&mut self, to: Node) -> Proved {
         self.fixed(&["G92 X{x} Y{y}".to_owned()], to)?;
         match self.machine.at == self.place(to) {
             true => Ok(()),
@@ -195,7 +170,7 @@ impl Writer for Lines<'_> {
 
 impl<'a> Lines<'a> {
     /// No lines yet, in the profile of the settings; an error for an unknown profile.
-    pub(super) fn of(settings: &'a Effective) -> Result<Lines<'a>, ProofError> {
+    pub(super) fn of(settings: &'a Effective) -> Proved<Lines<'a>> {
         let profile = settings
             .profile
             .as_ref()
@@ -225,10 +200,7 @@ impl<'a> Lines<'a> {
             goes_on: false,
             number: 0,
             motion: None,
-            blocks: 0,
-            length: 0.0,
-            jumps: 0.0,
-            deviation: 0.0,
+            made: ProvedProgram::default(),
             encoded: Vec::new(),
         })
     }
@@ -255,7 +227,7 @@ impl<'a> Lines<'a> {
     }
 
     /// The lines before the way out of a contour that the control offsets.
-    fn switch_off(&mut self, at: Node) -> Result<(), ProofError> {
+    fn switch_off(&mut self, at: Node) -> Proved {
         if self.side.is_none() || std::mem::replace(&mut self.is_switched_off, true) {
             return Ok(());
         }
@@ -277,7 +249,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Lines of the profile; none of them may move the wire.
-    fn fixed(&mut self, lines: &[String], at: Node) -> Result<(), ProofError> {
+    fn fixed(&mut self, lines: &[String], at: Node) -> Proved {
         for line in lines {
             let word = match self.side {
                 Some(Side::Left) => "G41",
@@ -327,15 +299,15 @@ impl<'a> Lines<'a> {
     }
 
     /// Writes one move, and reads it back.
-    pub(super) fn step_out(&mut self, step: &Encoded) -> Result<(), ProofError> {
+    pub(super) fn step_out(&mut self, step: &Encoded) -> Proved {
         let start = self.out.len();
         self.push_move(step);
         let block = Block::of(&self.out[start..]);
         let made = self.machine.run(&block, &self.reading);
         let aside = self.check(step, made)?;
-        self.deviation = self.deviation.max(aside);
+        self.made.deviation = self.made.deviation.max(aside);
         self.end_line();
-        self.blocks += 1;
+        self.made.blocks += 1;
         Ok(())
     }
 
@@ -403,25 +375,14 @@ impl<'a> Lines<'a> {
     }
 
     /// `cuts` says that the paths hold more than thread holes.
-    pub(super) fn finish(mut self, cuts: bool) -> Result<ProvedProgram, ProofError> {
-        if self.blocks == 0 && cuts {
+    pub(super) fn finish(mut self, cuts: bool) -> Proved<ProvedProgram> {
+        if self.made.blocks == 0 && cuts {
             return Err(nothing_to_write());
         }
         self.side = None;
         self.fixed(&self.profile.end, self.zero)?;
-        let (step_um, blocks) = (self.step_um(), self.blocks);
-        let text = String::from_utf8(self.out)
-            .map_err(|_| ProofError::Mismatch(say!(the_program_is_not_text).into()))?;
-        let deviation = self.deviation;
-        Ok(ProvedProgram {
-            text,
-            blocks,
-            length: self.length * step_um / 1000.0,
-            jumps: self.jumps * step_um / 1000.0,
-            closure: [0.0, 0.0],
-            deviation,
-            milled: None,
-        })
+        let step_um = self.step_um();
+        self.made.finished(self.out, step_um)
     }
 }
 

@@ -8,7 +8,7 @@
 use crate::finding::{Detail, Finding, Place, Rule, Severity, Side, Unwritable};
 use crate::geometry::{Arc, Locus, Point, Segment, left_normal, turn};
 use crate::program::grid::{best_center, point_of, snap};
-use crate::program::write::{ProofError, scaled, too_far_out};
+use crate::program::write::{ProofError, Proved, scaled, too_far_out};
 use crate::toolpath::{PathSegment, Source, WirePath};
 use std::f64::consts::PI;
 
@@ -22,7 +22,7 @@ pub(super) fn rounded_with_tab(
     scale: f64,
     correction: f64,
     radius: f64,
-) -> Result<Vec<WirePath>, ProofError> {
+) -> Proved<Vec<WirePath>> {
     let Some(tab) = tab else {
         return Ok(vec![rounded(path, scale, correction, radius)?]);
     };
@@ -66,7 +66,7 @@ pub(super) fn rounded(
     scale: f64,
     correction: f64,
     radius: f64,
-) -> Result<WirePath, ProofError> {
+) -> Proved<WirePath> {
     let refused = |sentence: String| Err(ProofError::Refused(sentence));
     let Some(side) = path.side else {
         return refused(say!(n4b_needs_the_side_of_the_contour).into());
@@ -200,7 +200,7 @@ fn with_transitions(
     contour: &[PathSegment],
     radius: f64,
     correction: f64,
-) -> Result<Vec<PathSegment>, ProofError> {
+) -> Proved<Vec<PathSegment>> {
     let mut rounded: Vec<PathSegment> = Vec::with_capacity(contour.len() * 2);
     for piece in contour {
         let Some(before) = rounded.last_mut() else {

@@ -13,17 +13,13 @@ use crate::finding::Side;
 use crate::geometry::{Segment, Vector, turn};
 use crate::program::grid::point_of;
 use crate::program::write::{
-    ProofError, ProvedProgram, Writer, cuts, nothing_to_write, scaled, walk, way,
+    ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write, scaled, walk, way,
 };
 use crate::settings::Effective;
 use crate::toolpath::{PathSegment, Source, WirePath};
 
 /// Writes the paths as one program and proves it. `unit_mm` is the drawing's unit in mm.
-pub fn write(
-    paths: &[WirePath],
-    unit_mm: f64,
-    settings: &Effective,
-) -> Result<ProvedProgram, ProofError> {
+pub fn write(paths: &[WirePath], unit_mm: f64, settings: &Effective) -> Proved<ProvedProgram> {
     write_with(paths, unit_mm, settings, &mut |_, _| true)
 }
 
@@ -33,7 +29,7 @@ pub(crate) fn write_with(
     unit_mm: f64,
     settings: &Effective,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
-) -> Result<ProvedProgram, ProofError> {
+) -> Proved<ProvedProgram> {
     let mut blocks = Blocks::new(settings, None);
     walk(paths, unit_mm * 1000.0, 1.0, go_on, &mut blocks)?;
     blocks.finish(cuts(paths))
@@ -46,7 +42,7 @@ pub(crate) fn write_four_b(
     unit_mm: f64,
     settings: &Effective,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
-) -> Result<ProvedProgram, ProofError> {
+) -> Proved<ProvedProgram> {
     let (correction, radius) = transitions(settings);
     let is_of_tab = |path: &WirePath| path.cut_off && path.pass > 1;
     if paths.iter().any(is_of_tab) || settings.closing_overlap > 0.0 {
@@ -137,22 +133,14 @@ struct Blocks<'a> {
     settings: &'a Effective,
     words: Words<'a>,
     out: Vec<u8>,
-    blocks: usize,
-    /// µm.
-    length: f64,
-    /// Without cuts, part of the above.
-    jumps: f64,
+    /// The totals so far, in µm.
+    made: ProvedProgram,
     proof: Proof,
     encoded: Vec<Encoded>,
 }
 
 impl Writer for Blocks<'_> {
-    fn begin(
-        &mut self,
-        from: Option<Node>,
-        first: Node,
-        path: &WirePath,
-    ) -> Result<(), ProofError> {
+    fn begin(&mut self, from: Option<Node>, first: Node, path: &WirePath) -> Proved {
         if let (Some(part), Some(side)) = (&mut self.part, path.side) {
             (part.side, part.direction) = (side, None);
         } else if path.side.is_some() {
@@ -168,13 +156,7 @@ impl Writer for Blocks<'_> {
         Ok(())
     }
 
-    fn piece(
-        &mut self,
-        piece: &Segment,
-        from: Node,
-        to: Node,
-        source: Source,
-    ) -> Result<(), ProofError> {
+    fn piece(&mut self, piece: &Segment, from: Node, to: Node, source: Source) -> Proved {
         let mut encoded = std::mem::take(&mut self.encoded);
         encoded.clear();
         encode(
@@ -194,13 +176,13 @@ impl Writer for Blocks<'_> {
             } else {
                 *block
             };
-            self.blocks += 1;
+            self.made.blocks += 1;
             let start = self.out.len();
             let part = self.part_of(block, source)?;
             push_block(
                 &mut self.out,
                 self.settings.layout,
-                self.blocks,
+                self.made.blocks,
                 &block.block,
                 part.as_ref(),
                 block.to,
@@ -210,36 +192,36 @@ impl Writer for Blocks<'_> {
                 .check_line(line, &self.words, block, part)
                 .map_err(ProofError::Mismatch)?;
         }
-        self.length += piece.length();
+        self.made.length += piece.length();
         self.encoded = encoded;
         Ok(())
     }
 
-    fn end(&mut self, closed: bool, first: Node, last: Node, _: bool) -> Result<(), ProofError> {
+    fn end(&mut self, closed: bool, first: Node, last: Node, _: bool) -> Proved {
         self.proof
             .finish_contour(closed, first, last)
             .map_err(ProofError::Mismatch)
     }
 
     /// Some straight blocks between two pauses would be read as the way to the next contour.
-    fn end_open(&mut self, last: Node, _: bool, stops: usize) -> Result<(), ProofError> {
+    fn end_open(&mut self, last: Node, _: bool, stops: usize) -> Proved {
         (0..stops).try_for_each(|_| self.stop(last, None))
     }
 
-    fn stop(&mut self, _: Node, word: Option<&str>) -> Result<(), ProofError> {
+    fn stop(&mut self, _: Node, word: Option<&str>) -> Proved {
         self.push_word(word.unwrap_or(self.words.pause))
     }
 
-    fn move_over(&mut self, from: Node, to: Node) -> Result<(), ProofError> {
-        let cut = self.length;
+    fn move_over(&mut self, from: Node, to: Node) -> Proved {
+        let cut = self.made.length;
         self.piece(&way(from, to), from, to, Source::LeadIn)?;
-        self.jumps += self.length - cut;
-        self.length = cut;
+        self.made.jumps += self.made.length - cut;
+        self.made.length = cut;
         Ok(())
     }
 
     /// The blocks count from the table's position.
-    fn moved_by_hand(&mut self, _: Node) -> Result<(), ProofError> {
+    fn moved_by_hand(&mut self, _: Node) -> Proved {
         Ok(())
     }
 }
@@ -254,9 +236,7 @@ impl<'a> Blocks<'a> {
                 end: settings.end.trim(),
             },
             out: Vec::new(),
-            blocks: 0,
-            length: 0.0,
-            jumps: 0.0,
+            made: ProvedProgram::default(),
             proof: Proof::default(),
             encoded: Vec::new(),
         }
@@ -264,11 +244,7 @@ impl<'a> Blocks<'a> {
 
     /// The additional part of an arc's 4B block, proved: the wire's arc has a radius, and the wire's path joins before
     /// it.
-    fn part_of(
-        &mut self,
-        encoded: &Encoded,
-        source: Source,
-    ) -> Result<Option<PartArc>, ProofError> {
+    fn part_of(&mut self, encoded: &Encoded, source: Source) -> Proved<Option<PartArc>> {
         let Some(part) = &mut self.part else {
             return Ok(None);
         };
@@ -310,7 +286,7 @@ impl<'a> Blocks<'a> {
     }
 
     /// Writes a word between blocks, and reads it back: it comes from the settings.
-    fn push_word(&mut self, word: &str) -> Result<(), ProofError> {
+    fn push_word(&mut self, word: &str) -> Proved {
         let mut read = Vec::new();
         read_line(word.as_bytes(), 1, &self.words, |item| read.push(item));
         let sound = matches!(read[..], [Item::Word { .. }])
@@ -328,21 +304,16 @@ impl<'a> Blocks<'a> {
     }
 
     /// `cuts` says that the paths hold more than thread holes.
-    fn finish(mut self, cuts: bool) -> Result<ProvedProgram, ProofError> {
-        if self.blocks == 0 && cuts {
+    fn finish(mut self, cuts: bool) -> Proved<ProvedProgram> {
+        if self.made.blocks == 0 && cuts {
             return Err(nothing_to_write());
         }
         self.push_word(self.words.end)?;
-        let text = String::from_utf8(self.out)
-            .map_err(|_| ProofError::Mismatch(say!(the_program_is_not_text).into()))?;
-        Ok(ProvedProgram {
-            text,
-            blocks: self.blocks,
-            length: self.length / 1000.0,
-            jumps: self.jumps / 1000.0,
+        let made = ProvedProgram {
             closure: [self.proof.drift.x, self.proof.drift.y],
             deviation: self.proof.deviation,
-            milled: None,
-        })
+            ..self.made
+        };
+        made.finished(self.out, 1.0)
     }
 }

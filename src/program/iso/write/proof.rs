@@ -6,12 +6,12 @@ use crate::program::encode::ASIDE_TOLERANCE;
 use crate::program::grid::{largest_distance, point_of};
 use crate::program::iso::encode::Encoded;
 use crate::program::iso::moves::{Course, Move, Place, micrometres};
-use crate::program::write::{ProofError, scaled};
+use crate::program::write::{ProofError, Proved, scaled};
 
 impl Lines<'_> {
     /// Compares the control's move for the line with the node and the piece of the path; returns the largest distance,
     /// µm.
-    pub(super) fn check(&self, step: &Encoded, made: Option<Move>) -> Result<f64, ProofError> {
+    pub(super) fn check(&self, step: &Encoded, made: Option<Move>) -> Proved<f64> {
         let Some(made) = made else {
             return Err(ProofError::Mismatch(say!(
                 a_written_move_does_not_move,
