@@ -331,7 +331,7 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
     let (found, is_all) = Tangle {
         piece: &piece,
         count,
-        margin: margin(way.arcs()),
+        margin: margin(way.totals().arcs),
         aside: aside_at_stop(way),
         steps: Cell::new(0),
     }

@@ -30,11 +30,11 @@ fn merged<N: Notation>(sheet: &Sheet<'_, N>) -> Edits {
     let mut rewrite = Rewrite::new();
     for contour in &content.contours {
         // Ways in and out end where the contour begins, whatever their direction.
-        let own = contour.own_rows();
+        let own = contour.contour_steps();
         let parts = [
-            contour.rows.start..own.start,
+            contour.steps.start..own.start,
             own.clone(),
-            own.end..contour.rows.end,
+            own.end..contour.steps.end,
         ];
         for part in parts {
             let end = part.end.min(selected.end);

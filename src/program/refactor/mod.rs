@@ -14,9 +14,7 @@ mod scale;
 mod start_here;
 mod transform;
 
-pub(in crate::program) use notation::{
-    At, Change, Content, Contour, News, Notation, Rewrite, Row, Sheet,
-};
+pub(in crate::program) use notation::{At, Change, Content, News, Notation, Rewrite, Row, Sheet};
 pub(in crate::program) use scale::{INCH, scaled};
 pub(in crate::program) use transform::Transform;
 

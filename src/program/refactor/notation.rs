@@ -5,7 +5,7 @@ use super::{Edits, Refactoring};
 use crate::finding::Finding;
 use crate::geometry::{Point, Segment};
 use crate::program::grid::{Node, point_of};
-use crate::program::path::{Kind, Trace, cuts};
+use crate::program::path::{Cut, Kind, Trace, cuts};
 use crate::program::steps::{Program, trace};
 use crate::settings::Effective;
 use crate::text::TextEdit;
@@ -44,7 +44,7 @@ pub(in crate::program) trait Notation: Sized {
     fn rows(
         document: &Self::Document,
         trace: &Trace,
-        contours: &[Contour],
+        contours: &[Cut],
     ) -> Result<Vec<Row<Self>>, String>;
 
     /// An error where words of the program would become wrong by such a change.
@@ -74,7 +74,7 @@ pub(in crate::program) trait Notation: Sized {
     fn turn_round(
         _: &Sheet<'_, Self>,
         _: &Content<Self>,
-        _: &Contour,
+        _: &Cut,
         _own: Range<usize>,
         _: &mut Rewrite<Self>,
     ) -> Result<(), String> {
@@ -152,25 +152,6 @@ pub(in crate::program) struct Row<N: Notation> {
     pub(crate) own: N::Own,
 }
 
-/// A contour in rows.
-#[derive(Clone, Debug)]
-pub(in crate::program) struct Contour {
-    /// The number that a person gives it; ways between contours are not counted.
-    pub(crate) ordinal: usize,
-    pub(crate) rows: Range<usize>,
-    pub(crate) lead_in: usize,
-    pub(crate) lead_out: usize,
-    pub(crate) closed: bool,
-    pub(crate) is_way: bool,
-}
-
-impl Contour {
-    /// The rows without the ways in and out.
-    pub(crate) fn own_rows(&self) -> Range<usize> {
-        self.rows.start + self.lead_in..self.rows.end - self.lead_out
-    }
-}
-
 /// A program for refactoring.
 pub(in crate::program) struct Sheet<'a, N: Notation> {
     pub(crate) document: &'a N::Document,
@@ -185,7 +166,8 @@ pub(in crate::program) struct Sheet<'a, N: Notation> {
 
 pub(in crate::program) struct Content<N: Notation> {
     pub(crate) rows: Vec<Row<N>>,
-    pub(crate) contours: Vec<Contour>,
+    /// Their steps are rows, and their contours counted as a person does, without the ways between.
+    pub(crate) contours: Vec<Cut>,
     /// The rows before which the program pauses.
     pauses: Vec<usize>,
     /// Moves name their ends, not displacements: nothing drifts.
@@ -254,15 +236,15 @@ impl<'a, N: Notation> Sheet<'a, N> {
     }
 
     /// The contours that the selection touches; all, where it touches none.
-    pub(crate) fn selected_contours<'c>(&self, content: &'c Content<N>) -> Vec<&'c Contour> {
+    pub(crate) fn selected_contours<'c>(&self, content: &'c Content<N>) -> Vec<&'c Cut> {
         let lines = self.selected_lines();
         let cut = || content.contours.iter().filter(|contour| !contour.is_way);
-        let touched = |contour: &&Contour| {
-            content.rows[contour.rows.clone()]
+        let touched = |contour: &&Cut| {
+            content.rows[contour.steps.clone()]
                 .iter()
                 .any(|row| lines.contains(&row.line))
         };
-        let chosen: Vec<&Contour> = cut().filter(touched).collect();
+        let chosen: Vec<&Cut> = cut().filter(touched).collect();
         if chosen.is_empty() {
             cut().collect()
         } else {
@@ -287,8 +269,8 @@ impl<N: Notation> Content<N> {
     }
 
     /// An error where the contour pauses before its tab: that pause would be misplaced.
-    pub(crate) fn refuse_pause(&self, contour: &Contour) -> Result<(), String> {
-        let within = |row: &usize| contour.rows.start < *row && *row < contour.rows.end;
+    pub(crate) fn refuse_pause(&self, contour: &Cut) -> Result<(), String> {
+        let within = |row: &usize| contour.steps.start < *row && *row < contour.steps.end;
         match self.pauses.iter().copied().find(within) {
             Some(row) => Err(say!(
                 the_contour_pauses_to_hold_the_part,
@@ -299,9 +281,9 @@ impl<N: Notation> Content<N> {
     }
 
     /// The rows of a closed contour whose ends coincide; the error says why there are none.
-    pub(crate) fn closed(&self, contour: &Contour) -> Result<Range<usize>, String> {
+    pub(crate) fn closed(&self, contour: &Cut) -> Result<Range<usize>, String> {
         self.refuse_pause(contour)?;
-        let (own, ordinal) = (contour.own_rows(), contour.ordinal);
+        let (own, ordinal) = (contour.contour_steps(), contour.contour);
         if !contour.closed || own.is_empty() {
             return Err(say!(
                 only_a_closed_contour_begins_elsewhere_or_goes_round,
@@ -352,7 +334,7 @@ impl<N: Notation> Rewrite<N> {
 }
 
 /// The contours of a program, and the rows before which it pauses.
-fn contours(trace: &Trace) -> (Vec<Contour>, Vec<usize>) {
+fn contours(trace: &Trace) -> (Vec<Cut>, Vec<usize>) {
     // Cuts count all steps, rows only those that move.
     let mut row_of = Vec::with_capacity(trace.steps.len() + 1);
     let (mut row, mut pauses) = (0, Vec::new());
@@ -372,13 +354,12 @@ fn contours(trace: &Trace) -> (Vec<Contour>, Vec<usize>) {
     let contours = cuts(trace).into_iter().map(|cut| {
         let (own, all) = (rows(cut.contour_steps()), rows(cut.steps.clone()));
         ordinal += usize::from(!cut.is_way);
-        Contour {
-            ordinal,
+        Cut {
+            contour: ordinal,
             lead_in: own.start - all.start,
             lead_out: all.end - own.end,
-            rows: all,
-            closed: cut.closed,
-            is_way: cut.is_way,
+            steps: all,
+            ..cut
         }
     });
     (contours.collect(), pauses)

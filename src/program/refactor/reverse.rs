@@ -29,7 +29,7 @@ fn reversed<N: Notation>(sheet: &Sheet<'_, N>) -> Edits {
             content.refuse_pause(contour)?;
             rewrite.start = content.rows.last().map(|row| row.to);
             rewrite.end = Some(sheet.trace.start);
-            contour.rows.clone()
+            contour.steps.clone()
         } else {
             content.closed(contour)?
         };

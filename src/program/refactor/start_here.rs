@@ -29,7 +29,7 @@ fn begun_here<N: Notation>(sheet: &Sheet<'_, N>) -> Edits {
     let first = first.ok_or(say!(no_block_is_selected))?;
     let mut contours = content.contours.iter();
     let contour = contours
-        .find(|contour| contour.rows.contains(&first))
+        .find(|contour| contour.steps.contains(&first))
         .ok_or(say!(no_contour_is_selected))?;
     let own = content.closed(contour)?;
     if !own.contains(&first) {
@@ -38,7 +38,7 @@ fn begun_here<N: Notation>(sheet: &Sheet<'_, N>) -> Edits {
     if first == own.start {
         return Ok(Vec::new());
     }
-    let all = contour.rows.clone();
+    let all = contour.steps.clone();
     let lines = rows[all.start].line..rows[all.end - 1].line + 1;
     N::refuse(sheet, Change::StartHere(lines))?;
     let begin = rows[first].from;

@@ -21,10 +21,9 @@ use super::word::Token;
 use crate::finding::{Finding, Side};
 use crate::geometry::Arc;
 use crate::program::grid::{Node, best_center, snap};
-use crate::program::path::Trace;
+use crate::program::path::{Cut, Trace};
 use crate::program::refactor::{
-    At, Change, Content, Contour, Edits, News, Notation, Refactoring, Rewrite, Row, Sheet,
-    Transform,
+    At, Change, Content, Edits, News, Notation, Refactoring, Rewrite, Row, Sheet, Transform,
 };
 use crate::settings::Effective;
 use crate::text::TextEdit;
@@ -55,7 +54,7 @@ impl Notation for Iso {
         document.plain_findings()
     }
 
-    fn rows(document: &Document, _: &Trace, _: &[Contour]) -> Result<Vec<Row<Iso>>, String> {
+    fn rows(document: &Document, _: &Trace, _: &[Cut]) -> Result<Vec<Row<Iso>>, String> {
         rows::rows(document)
     }
 
@@ -159,21 +158,21 @@ impl Notation for Iso {
     fn turn_round(
         sheet: &Sheet<'_, Iso>,
         content: &Content<Iso>,
-        contour: &Contour,
+        contour: &Cut,
         own: Range<usize>,
         rewrite: &mut Rewrite<Iso>,
     ) -> Result<(), String> {
         // The correction's word is before the way in.
-        let before = contour.rows.start.checked_sub(1);
+        let before = contour.steps.start.checked_sub(1);
         let before = before.map_or(0, |row| content.rows[row].line + 1);
         let last = content.rows[own.end - 1].line;
         let words = swapped_sides(sheet.document, before..last + 1);
-        let mut of_contour = content.rows[contour.rows.clone()].iter();
+        let mut of_contour = content.rows[contour.steps.clone()].iter();
         if words.is_empty() && of_contour.any(|row| row.own.made.side.is_some()) {
             return Err(say!(the_correction_was_switched_on_for_another_contour).into());
         }
         rewrite.extra.words.extend(words);
-        for index in contour.rows.clone() {
+        for index in contour.steps.clone() {
             let kept = || vec![sheet.at(content, index).kept()];
             for target in rewrite.rows.entry(index).or_insert_with(kept) {
                 target.side = content.rows[index].own.made.side.map(Side::reversed);

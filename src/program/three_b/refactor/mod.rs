@@ -20,10 +20,9 @@ use crate::finding::Finding;
 use crate::geometry::{Arc, Segment};
 use crate::program::encode::aside;
 use crate::program::grid::Node;
-use crate::program::path::Trace;
+use crate::program::path::{Cut, Trace};
 use crate::program::refactor::{
-    At, Change, Content, Contour, Edits, News, Notation, Refactoring, Rewrite, Row, Sheet,
-    Transform,
+    At, Change, Content, Edits, News, Notation, Refactoring, Rewrite, Row, Sheet, Transform,
 };
 use crate::program::write::scaled;
 use crate::settings::Effective;
@@ -69,7 +68,7 @@ impl Notation for ThreeB {
     fn rows(
         document: &Document,
         trace: &Trace,
-        contours: &[Contour],
+        contours: &[Cut],
     ) -> Result<Vec<Row<ThreeB>>, String> {
         rows::rows(document, trace, contours)
     }
