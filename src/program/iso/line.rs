@@ -154,8 +154,8 @@ pub(super) struct Line<'a> {
 }
 
 impl Line<'_> {
-    /// The line with the words that lead to `target` from the machine's position before it. All other words stay.
-    pub(crate) fn leading(&self, target: &Target, before: &Machine) -> Result<Vec<u8>, String> {
+    /// The words that lead to `target`, except that of its motion.
+    fn words_to(&self, target: &Target, before: &Machine) -> Vec<String> {
         let block = Block::of(self.bytes);
         let incremental = block.incremental.unwrap_or(before.incremental);
         let base = if incremental { before.at } else { before.zero };
@@ -167,10 +167,8 @@ impl Line<'_> {
             // An arc without coordinates is a full circle; a line without any does not move.
             let is_needed = target.to == before.at && target.bend == Bent::Line;
             if moves || had[axis] || is_needed {
-                cluster.push(format!(
-                    "{letter}{}",
-                    number(target.to[axis].wrapping_sub(base[axis]))
-                ));
+                let along = number(target.to[axis].wrapping_sub(base[axis]));
+                cluster.push(format!("{letter}{along}"));
             }
         }
         match target.bend {
@@ -182,6 +180,12 @@ impl Line<'_> {
                 cluster.extend([format!("I{i}"), format!("J{j}")]);
             }
         }
+        cluster
+    }
+
+    /// The line with the words that lead to `target` from the machine's position before it. All other words stay.
+    pub(crate) fn leading(&self, target: &Target, before: &Machine) -> Result<Vec<u8>, String> {
+        let cluster = self.words_to(target, before);
         let motion = target.motion.word();
         let mut out: Vec<u8> = Vec::with_capacity(self.bytes.len() + 24);
         let (mut copied, mut is_placed, mut has_motion) = (0, false, false);
