@@ -8,6 +8,7 @@
 use crate::finding::{Detail, Finding, Place, Rule, Severity, Side, Unwritable};
 use crate::geometry::{Arc, Locus, Point, Segment, left_normal, turn};
 use crate::program::grid::{best_center, point_of, snap};
+use crate::program::path::is_tight_in_four_b;
 use crate::program::write::{ProofError, Proved, scaled, too_far_out};
 use crate::toolpath::{PathSegment, Source, WirePath};
 use std::f64::consts::PI;
@@ -87,7 +88,7 @@ pub(super) fn rounded(
     for piece in &contour {
         if let Segment::Arc(arc) = piece.geometry
             && is_concave(&arc, side)
-            && arc.radius <= correction
+            && is_tight_in_four_b(arc.radius, correction)
         {
             let fault = Unwritable::TightArc {
                 at: mm(arc.start),
@@ -222,7 +223,7 @@ fn with_transitions(
             before: cut,
             arc,
             behind,
-        }) = fitting.find(|made| on_grid(&made.arc) > correction)
+        }) = fitting.find(|made| !is_tight_in_four_b(on_grid(&made.arc), correction))
         else {
             let fault = Unwritable::NoTransition {
                 at: mm(piece.geometry.start()),
@@ -246,11 +247,7 @@ fn with_transitions(
 
 /// The radius of the block that an arc becomes, µm: between nodes of the grid it may be a micrometre smaller.
 fn on_grid(arc: &Arc) -> f64 {
-    let radius = |from, to| {
-        (point_of(from) - point_of(best_center(arc, from, to)))
-            .norm()
-            .round()
-    };
+    let radius = |from, to| (point_of(from) - point_of(best_center(arc, from, to))).norm();
     match (snap(arc.start), snap(arc.end)) {
         (Some(from), Some(to)) => radius(from, to),
         _ => 0.0,

@@ -12,6 +12,7 @@ use super::words::Words;
 use crate::finding::Side;
 use crate::geometry::{Segment, Vector, turn};
 use crate::program::grid::point_of;
+use crate::program::path::is_tight_in_four_b;
 use crate::program::write::{
     ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write, scaled, walk, way,
 };
@@ -272,7 +273,7 @@ impl<'a> Blocks<'a> {
         };
         let concave = is_concave(&arc, part.side);
         let radius = arc.radius.round();
-        if concave && radius <= part.correction {
+        if concave && is_tight_in_four_b(radius, part.correction) {
             return Err(ProofError::Refused(say!(
                 n4b_cannot_have_an_arc_inside_of_which_the_wire_runs,
                 radius / 1e3,
