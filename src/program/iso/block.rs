@@ -217,12 +217,16 @@ impl Code {
         Code(1 << 31 | hasher.finish() as u32)
     }
 
-    /// The code of a text without a meaning of its own, which stands at a byte of a line.
-    fn of_text(line: &[u8], at: usize, length: usize) -> Code {
-        let text = line.get(at..).unwrap_or_default();
-        match text.first() {
-            Some(b':') => Code::SECOND,
-            Some(b'T' | b't') if length > 2 && is_plane(line, at) => Code::PLANE,
+    /// The code of a text that begins with bytes of the machine's own, this many of them.
+    fn of_text(text: &[u8], length: usize) -> Code {
+        match text {
+            [b':', ..] => Code::SECOND,
+            // `TP0.0` or `TN20.0`.
+            [b'T' | b't', b'P' | b'p' | b'N' | b'n', next, ..]
+                if length > 2 && !next.is_ascii_alphabetic() =>
+            {
+                Code::PLANE
+            }
             _ => Code::of_name(text),
         }
     }
@@ -266,13 +270,9 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
         calls: false,
         p: None,
     };
-    words(line, offset, |token| match token {
-        Token::Foreign { range } => {
-            reader.block.empty = false;
-            let code = Code::of_text(line, range.start - offset, range.len());
-            note(Note::Foreign { code, range });
-        }
-        token => reader.take(token, &mut note),
+    words(line, offset, |token, range| {
+        let at = range.start - offset;
+        reader.take(token, range, line.get(at..).unwrap_or_default(), &mut note)
     });
     let Reader { block, calls, p } = reader;
     match p {
@@ -299,23 +299,21 @@ struct Reader {
 }
 
 impl Reader {
-    fn take(&mut self, token: Token, note: &mut impl FnMut(Note)) {
-        let says_nothing = matches!(
-            token,
-            Token::Skip { .. } | Token::Comment { .. } | Token::Tape { .. }
-        );
-        self.block.empty &= says_nothing;
+    /// Takes a token; `text` is the line from there on.
+    fn take(
+        &mut self,
+        token: Token,
+        range: Range<usize>,
+        text: &[u8],
+        note: &mut impl FnMut(Note),
+    ) {
+        self.block.empty &= matches!(token, Token::Skip | Token::Comment | Token::Tape);
         match token {
-            Token::Word {
-                letter,
-                number,
-                range,
-            } => self.word(letter, number, range, note),
+            Token::Word { letter, number } => self.word(letter, number, range, note),
             Token::Definition {
                 letter,
                 index: place,
                 value,
-                range,
             } => {
                 let term = |value| Term {
                     is_negative: false,
@@ -328,18 +326,21 @@ impl Reader {
                 letter,
                 index: place,
                 terms,
-                range,
             } => note(Note::of_table(letter, place, Some(terms), range)),
-            Token::Corner { round, number, .. } => {
+            Token::Corner { round, number } => {
                 let size = number;
                 self.block.corner = Some(Corner { round, size });
             }
-            Token::Skip { range } => note(Note::Foreign {
-                code: Code::SKIP,
-                range,
-            }),
-            Token::Comment { .. } | Token::Tape { .. } | Token::Foreign { .. } => {}
-            Token::Fault { fault, range } => {
+            Token::Foreign => {
+                let code = Code::of_text(text, range.len());
+                note(Note::Foreign { code, range });
+            }
+            Token::Skip => {
+                let code = Code::SKIP;
+                note(Note::Foreign { code, range });
+            }
+            Token::Comment | Token::Tape => {}
+            Token::Fault(fault) => {
                 self.block.broken |= !fault.is_read();
                 note(Note::Fault { fault, range });
             }
@@ -414,12 +415,6 @@ impl Reader {
     }
 }
 
-/// `TP0.0` or `TN20.0` stands there.
-fn is_plane(line: &[u8], at: usize) -> bool {
-    let behind = line.get(at + 1..).unwrap_or_default();
-    matches!(behind, [b'P' | b'p' | b'N' | b'n', next, ..] if !next.is_ascii_alphabetic())
-}
-
 fn index(number: Number) -> u32 {
     number
         .whole()
@@ -473,12 +468,8 @@ pub(crate) fn word_range(
     wanted: impl Fn(u8, Number) -> bool,
 ) -> Option<Range<usize>> {
     let mut found = None;
-    words(line, offset, |token| {
-        if let Token::Word {
-            letter,
-            number,
-            range,
-        } = token
+    words(line, offset, |token, range| {
+        if let Token::Word { letter, number } = token
             && wanted(letter, number)
         {
             found = Some(range);

@@ -193,15 +193,10 @@ impl Line<'_> {
         let separator = if self.parted { " " } else { "" };
         let mut fault = None;
         let mut tokens = Vec::new();
-        words_in(self.bytes, |token| tokens.push(token));
-        for token in tokens {
-            let Token::Word {
-                letter,
-                number,
-                range,
-            } = token
-            else {
-                if let Token::Fault { .. } = token {
+        words_in(self.bytes, |token, range| tokens.push((token, range)));
+        for (token, range) in tokens {
+            let Token::Word { letter, number } = token else {
+                if let Token::Fault(_) = token {
                     fault = Some(say!(the_line_cannot_be_read));
                 }
                 continue;
@@ -266,16 +261,12 @@ impl Line<'_> {
 pub(super) fn with_word(line: &[u8], word: &str, parted: bool) -> Vec<u8> {
     let mut at = 0;
     let mut is_first = true;
-    words_in(line, |token| {
-        if let Token::Word {
-            letter: b'N' | b'O',
-            range,
-            ..
-        }
-        | Token::Skip { range }
-        | Token::Tape { range } = token
-            && is_first
-        {
+    words_in(line, |token, range| {
+        let leads = match token {
+            Token::Word { letter, .. } => matches!(letter, b'N' | b'O'),
+            token => matches!(token, Token::Skip | Token::Tape),
+        };
+        if leads && is_first {
             at = range.end;
         } else {
             is_first = false;

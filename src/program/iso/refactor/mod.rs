@@ -244,9 +244,9 @@ fn place_of(node: Node) -> Place {
 /// True where a line only has its number and target, and can be removed.
 fn says_only_where(document: &Document, line: usize) -> bool {
     let mut only = true;
-    words_in(document.line_bytes(line), |token| {
+    words_in(document.line_bytes(line), |token, _| {
         only &= match token {
-            Token::Word { letter, number, .. } => {
+            Token::Word { letter, number } => {
                 matches!(letter, b'N' | b'X' | b'Y') || letter == b'G' && number.whole() == Some(1)
             }
             _ => false,
