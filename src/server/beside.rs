@@ -138,6 +138,11 @@ impl State {
         };
         let Some(path) = file_of(uri) else { return };
         let settings = document.settings();
+        let is_asked = document.program().is_none()
+            && settings.severity(Rule::NotTheDrawing).is_some()
+            && (files_changed || open.link == Link::Nothing);
+        let folder = path.parent().filter(|_| is_asked);
+        let programs = folder.map(|folder| self.links.programs_in(folder));
         let is_there = |path: &Path| self.links.paths.contains_key(path) || path.is_file();
         let setting = settings.drawing.as_deref();
         let link = match document.program() {
@@ -147,16 +152,16 @@ impl State {
                 let named = beside::drawing_named(&path, head, setting, &is_there);
                 named.map_or(Link::Nothing, Link::Drawing)
             }
-            None if files_changed || open.link == Link::Nothing => {
-                let folder = path.parent().map(std::fs::read_dir);
-                let files = folder.and_then(Result::ok).into_iter().flatten();
-                let files = files.filter_map(|entry| Some(plain(&entry.ok()?.path())));
+            None if is_asked => {
                 let is_own = |program: &Path| {
                     let head = head_of(program);
                     let named = beside::drawing_named(program, &head, setting, &is_there);
                     named.is_some_and(|named| named.path == path)
                 };
-                Link::Programs(beside::programs_beside(files, &is_own))
+                Link::Programs(beside::programs_beside(
+                    programs.unwrap_or_default(),
+                    &is_own,
+                ))
             }
             None => return,
         };

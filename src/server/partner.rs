@@ -1,6 +1,6 @@
 //! The partners of a document that is judged: the drawing of a program, the programs of a drawing.
 
-use crate::beside::{Beside, Form, Named};
+use crate::beside::{Beside, Form, Named, is_program, plain};
 use crate::disk;
 use crate::document::{Document, FileKind};
 use crate::settings::Effective;
@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::SystemTime;
+use std::time::{Duration, SystemTime};
 
 /// The partner or partners of an open document.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -58,6 +58,33 @@ pub(super) struct Links {
     pub programs: FxHashMap<PathBuf, BTreeSet<Arc<str>>>,
     /// Files that are not open.
     pub files: FxHashMap<PathBuf, Kept>,
+    /// Folders without a program, and when each had changed last.
+    without_programs: FxHashMap<PathBuf, SystemTime>,
+}
+
+/// A change of a folder so soon after another may leave its time as it was.
+const SOON: Duration = Duration::from_secs(2);
+
+impl Links {
+    /// The programs in a folder. This is asked after every edit of a drawing: a folder that has none is not read again
+    /// before it has changed.
+    pub(super) fn programs_in(&mut self, folder: &Path) -> Vec<PathBuf> {
+        let changed = stamp_of(folder).map(|(changed, _)| changed);
+        if changed.is_some() && self.without_programs.get(folder) == changed.as_ref() {
+            return Vec::new();
+        }
+        let files = std::fs::read_dir(folder).into_iter().flatten();
+        let files = files.filter_map(|entry| Some(plain(&entry.ok()?.path())));
+        let programs: Vec<PathBuf> = files.filter(|path| is_program(path)).collect();
+        let is_old = |changed: &SystemTime| changed.elapsed().is_ok_and(|since| since > SOON);
+        match changed.filter(is_old) {
+            Some(changed) if programs.is_empty() => {
+                self.without_programs.insert(folder.into(), changed);
+            }
+            _ => drop(self.without_programs.remove(folder)),
+        }
+        programs
+    }
 }
 
 impl Wanted {

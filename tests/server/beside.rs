@@ -142,6 +142,26 @@ fn what_is_not_open_is_read_from_disk_and_read_anew() {
 }
 
 #[test]
+fn a_program_that_comes_to_a_drawing_is_found_at_its_next_edit() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut client = start(folder.path());
+    // So long unchanged that it is not read again while it stays so.
+    let long_ago = std::time::SystemTime::now() - std::time::Duration::from_secs(3600);
+    let opened = std::fs::File::open(folder.path()).unwrap();
+    opened.set_modified(long_ago).unwrap();
+    let drawing = uri_of(&folder.path().join("plate.dxf"));
+    open(&mut client, &drawing, "dxf", &plate(0.05));
+    for (version, longer) in [(2, 0.06), (3, 0.05)] {
+        change(&mut client, &drawing, version, &plate(longer));
+    }
+    unlike(&mut client, &drawing, 0);
+    std::fs::write(folder.path().join("plate.3b"), PROGRAM).unwrap();
+    change(&mut client, &drawing, 4, &plate(0.05));
+    unlike(&mut client, &drawing, 2);
+    client.shut_down();
+}
+
+#[test]
 fn nothing_alike_is_one_information() {
     let folder = tempfile::tempdir().unwrap();
     let mut client = start(folder.path());
