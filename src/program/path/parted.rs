@@ -55,7 +55,7 @@ pub(crate) struct PartedWay<'a> {
     pub(crate) blocks: Box<dyn Blocks + 'a>,
     pub(crate) parts: Vec<Part<'a>>,
     /// Blocks before each part.
-    firsts: Vec<usize>,
+    pub(super) firsts: Vec<usize>,
     pieces: Vec<OnceCell<Vec<Segment>>>,
     totals: Totals,
     /// Before and behind the first and the last block, where they are known beforehand.
