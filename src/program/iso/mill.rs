@@ -55,14 +55,13 @@ pub(crate) fn write_milled(
                 Tool {
                     at: first,
                     height: 0,
+                    waiting: None,
                 }
             }
             Some(tool) => tool,
         };
         over.goes_over(first, clear, &mut lines)?;
         let mut floor = Floor::new(&electrode, layers.length, layers.is_closed, worn);
-        // The way since the last feed that leads to another place of the grid.
-        let mut waiting: Option<(f64, f64)> = None;
         let mut last = 0.0;
         fed_before = layers.each(&mut |step| {
             if !go_on(done, paths.len()) {
@@ -72,29 +71,15 @@ pub(crate) fn write_milled(
                 Step::Feed(depth) => {
                     floor.feed(depth);
                     last = depth;
-                    let height = -(depth * per_mm).round() as i64;
-                    if height == over.height {
-                        return Ok(());
-                    }
-                    over.goes_along(&way, waiting.take(), &mut lines)?;
-                    over.goes_to(Motion::Line, height, &mut lines)
+                    over.feeds(depth, &way, &mut lines)
                 }
                 Step::Along { from, to } => {
                     floor.along(from, to);
-                    let goes_on =
-                        |&(begin, end): &(f64, f64)| end == from && (begin < end) == (from < to);
-                    match waiting.filter(goes_on) {
-                        Some((begin, _)) => waiting = Some((begin, to)),
-                        None => {
-                            let before = waiting.replace((from, to));
-                            over.goes_along(&way, before, &mut lines)?;
-                        }
-                    }
-                    Ok(())
+                    over.goes_on(from, to, &way, &mut lines)
                 }
             }
         })?;
-        over.goes_along(&way, waiting, &mut lines)?;
+        over.goes_along(&way, &mut lines)?;
         over.goes_to(Motion::Rapid, clear, &mut lines)?;
         tool = Some(over);
         worn = floor.worn;
@@ -187,9 +172,33 @@ struct Tool {
     at: Node,
     /// Above the surface.
     height: i64,
+    /// The way since the last feed that leads to another place of the grid.
+    waiting: Option<(f64, f64)>,
 }
 
 impl Tool {
+    /// Down to a depth, mm, from where the way so far has led.
+    fn feeds(&mut self, depth: f64, way: &Way, lines: &mut Lines<'_>) -> Proved {
+        let height = -(depth * lines.per_mm()).round() as i64;
+        if height == self.height {
+            return Ok(());
+        }
+        self.goes_along(way, lines)?;
+        self.goes_to(Motion::Line, height, lines)
+    }
+
+    /// A piece of the way, which is written once it ends or turns back.
+    fn goes_on(&mut self, from: f64, to: f64, way: &Way, lines: &mut Lines<'_>) -> Proved {
+        match &mut self.waiting {
+            Some((begin, end)) if *end == from && (*begin < *end) == (from < to) => *end = to,
+            _ => {
+                self.goes_along(way, lines)?;
+                self.waiting = Some((from, to));
+            }
+        }
+        Ok(())
+    }
+
     /// Up, and over the entry of a contour.
     fn goes_over(&mut self, first: Node, clear: i64, lines: &mut Lines<'_>) -> Proved {
         if self.height != clear {
@@ -209,13 +218,8 @@ impl Tool {
         Ok(())
     }
 
-    fn goes_along(
-        &mut self,
-        way: &Way,
-        between: Option<(f64, f64)>,
-        lines: &mut Lines<'_>,
-    ) -> Proved {
-        let Some((from, to)) = between else {
+    fn goes_along(&mut self, way: &Way, lines: &mut Lines<'_>) -> Proved {
+        let Some((from, to)) = self.waiting.take() else {
             return Ok(());
         };
         for (piece, source) in way.between(from, to) {

@@ -116,22 +116,7 @@ pub(super) fn rounded(
     let thread = path.thread_hole * scale;
     let begin = entry + by;
     let mut segments = Vec::with_capacity(contour.len() + 2);
-    let leads = (thread - begin).norm() > 1.0;
-    let arc_of = |source: Source| {
-        let own = path.segments.iter().filter(|piece| piece.source == source);
-        let mut arcs = own.filter_map(|piece| scaled(&piece.geometry, scale).as_arc().copied());
-        arcs.next()
-    };
-    // Towards the contour, both.
-    let ways = [
-        arc_of(Source::LeadIn),
-        arc_of(Source::LeadOut).map(|arc| arc.reversed()),
-    ];
-    let [way_in, mut way_out] = ways.map(|arc| match arc {
-        _ if !leads => Vec::new(),
-        Some(arc) => along_wire(thread, &arc, begin, correction),
-        None => vec![Segment::line(thread, begin)],
-    });
+    let [way_in, mut way_out] = leads(path, scale, begin, correction);
     if !closed {
         way_out.clear();
     }
@@ -152,6 +137,22 @@ pub(super) fn rounded(
         thread_hole: thread,
         correction: 0.0,
         ..path.clone()
+    })
+}
+
+/// The way in and the way out, both towards the begin of the contour.
+fn leads(path: &WirePath, scale: f64, begin: Point, correction: f64) -> [Vec<Segment>; 2] {
+    let thread = path.thread_hole * scale;
+    let arc_of = |source: Source| {
+        let own = path.segments.iter().filter(|piece| piece.source == source);
+        let mut arcs = own.filter_map(|piece| scaled(&piece.geometry, scale).as_arc().copied());
+        arcs.next()
+    };
+    let way_out = arc_of(Source::LeadOut).map(|arc| arc.reversed());
+    [arc_of(Source::LeadIn), way_out].map(|arc| match arc {
+        _ if (thread - begin).norm() <= 1.0 => Vec::new(),
+        Some(arc) => along_wire(thread, &arc, begin, correction),
+        None => vec![Segment::line(thread, begin)],
     })
 }
 
@@ -247,7 +248,11 @@ fn with_transitions(
 
 /// The radius of the block that an arc becomes, µm: between nodes of the grid it may be a micrometre smaller.
 fn on_grid(arc: &Arc) -> f64 {
-    let radius = |from, to| (point_of(from) - point_of(best_center(arc, from, to))).norm();
+    let radius = |from, to| {
+        (point_of(from) - point_of(best_center(arc, from, to)))
+            .norm()
+            .round()
+    };
     match (snap(arc.start), snap(arc.end)) {
         (Some(from), Some(to)) => radius(from, to),
         _ => 0.0,

@@ -44,7 +44,7 @@ fn check(outlook: &Outlook) -> Option<Observation> {
     };
     let required = outlook.limits.correction * 1000.0;
     let is_tight = match outlook.part {
-        Some(_) => is_tight_in_four_b(radius, required),
+        Some(_) => is_tight_in_four_b(radius.round(), required),
         None => is_tight(radius, required),
     };
     let Ok(Segment::Arc(arc)) = decode(outlook.block, Point::origin()) else {
