@@ -316,10 +316,11 @@ impl Analysis {
     fn may_be_suspended(&self, entity: EntityId) -> bool {
         let key = self.chains.contour_of(entity);
         let contour = key.and_then(|key| self.chains.get(key));
-        contour.is_some_and(|contour| contour.closed && contour.pieces.len() == 1)
+        contour.is_some_and(|contour| contour.pieces.len() == 1)
             && key.is_some_and(|key| {
                 let own = self.box_of(key);
-                self.pairs.may_spare(key)
+                self.chains.stands_alone(key)
+                    && self.pairs.may_spare(key)
                     && own.is_some_and(|own| self.lone_near(&[own]).is_empty())
             })
     }

@@ -177,6 +177,11 @@ impl Chains {
         known == now && !touching && by_ends && contour.is_some() == is_chained
     }
 
+    /// True where no end of another contour comes near those of a contour, so that all others stay if it goes.
+    pub(crate) fn stands_alone(&self, key: Key) -> bool {
+        !self.group_of.contains_key(&key)
+    }
+
     /// Tells that the number of segments of an entity has changed: its contour counts them again.
     pub(crate) fn recount(&mut self, drawing: &Drawing, entity: EntityId) {
         let Some(chain) = self

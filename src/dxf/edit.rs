@@ -1,7 +1,7 @@
 //! An edit of the text: only what it touched is read again.
 //!
-//! An edit within a number of a polyline's vertex rereads that vertex; other edits reread the items around them. An
-//! edit that reaches further (sections, doubled handles, ordinals as names) rereads everything.
+//! An edit within the vertices of a polyline rereads a few of them; other edits reread the items around them. An edit
+//! that reaches further (sections, doubled handles, ordinals as names) rereads everything.
 
 use super::Document;
 use super::entities::mirror;
@@ -18,7 +18,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// Reading begins at least this many lines before an edit: decisions there may have looked at the edited lines.
-const LOOKBACK: usize = LOOKAHEAD + 4;
+pub(super) const LOOKBACK: usize = LOOKAHEAD + 4;
 /// An edit in the first bytes may change what the text is taken for.
 const HEAD: usize = 1024;
 /// Each added or removed entity costs the length of the drawing; beyond this many, everything is read again.
@@ -27,18 +27,17 @@ pub(super) const FEW: usize = 64;
 /// From this many bytes on an edit leaves the text in two pieces. In tests every text is large.
 const LARGE: usize = if cfg!(test) { 1 } else { 64 * 1024 };
 
-/// The vertex that holds an edit: its lines before the edit, and what must stay as it is.
-pub(super) struct VertexZone {
-    pub(super) entity: EntityId,
-    pub(super) item: usize,
-    pub(super) index: usize,
-    pub(super) lines: Range<usize>,
-    pub(super) others: Others,
+/// The VERTEX record that holds an edit: its lines before the edit, and what must stay as it is.
+struct VertexZone {
+    entity: EntityId,
+    item: usize,
+    index: usize,
+    lines: Range<usize>,
+    others: Others,
 }
 
-/// The tags in a vertex's lines that are not its geometry but decide what it is: whether it is a record of its own, z,
-/// flags.
-pub(super) type Others = (bool, [Option<f64>; 2]);
+/// The tags of a VERTEX that are not its geometry but decide what it is: z and flags.
+type Others = [Option<f64>; 2];
 
 /// What was known before the edit of everything that it can have touched.
 pub(super) struct ItemZone {
@@ -57,7 +56,7 @@ impl Document {
         self.read_last = 0..0;
         let vertex = self.vertex_zone(&range);
         let reference = self.reference_zone(&range, replacement);
-        let suspended = self.suspended_about(&range);
+        let run = self.vertex_run(&range);
         let zone = self
             .item_zone(&range)
             .filter(|zone| !self.holds_frame(zone));
@@ -70,15 +69,11 @@ impl Document {
         let lines = self.text.line_count() as i64 - old_lines as i64;
         let bytes = self.text.len() as i64 - old_length as i64;
         if range.start >= HEAD || foreign::recognise(self.head()).is_none() {
-            if let Some(delta) =
-                suspended.and_then(|suspended| self.resume(suspended, &range, lines, bytes))
-            {
+            if let Some(delta) = run.and_then(|run| self.reread_run(run, lines, bytes)) {
                 return delta;
             }
             if let Some(zone) = vertex
-                && let Some(delta) = self
-                    .reread_vertex(&zone, &range, lines, bytes)
-                    .or_else(|| self.suspend(&zone, &range, lines, bytes))
+                && let Some(delta) = self.reread_vertex(&zone, &range, lines, bytes)
             {
                 return delta;
             }
@@ -222,18 +217,15 @@ impl Document {
     }
 }
 
-/// A vertex whose lines hold only its own, sound tags: as it stands in the text, and what else is there.
-///
-/// It is a VERTEX record or a part of a LWPOLYLINE that begins with its x.
-pub(super) fn plain_vertex(lines: Lines, range: Range<usize>) -> Option<(Vertex, Others)> {
+/// A VERTEX record that holds only sound tags of a vertex: as it stands in the text, and what else is there.
+fn plain_vertex(lines: Lines, range: Range<usize>) -> Option<(Vertex, Others)> {
     if !range.len().is_multiple_of(2) || range.end > lines.count() {
         return None;
     }
-    let first = match number::code(lines.content(range.start)) {
-        Code::Known(0) if lines.trimmed(range.start + 1) == b"VERTEX" => 0,
-        Code::Known(10) => 10,
-        _ => return None,
-    };
+    let begins = number::code(lines.content(range.start)) == Code::Known(0);
+    if !begins || lines.trimmed(range.start + 1) != b"VERTEX" {
+        return None;
+    }
     let [mut x, mut y, mut bulge, mut z, mut flags] = [None; 5];
     for line in range.clone().step_by(2) {
         let Code::Known(code) = number::code(lines.content(line)) else {
@@ -243,11 +235,10 @@ pub(super) fn plain_vertex(lines: Lines, range: Range<usize>) -> Option<(Vertex,
             10 => &mut x,
             20 => &mut y,
             42 => &mut bulge,
-            30 if first == 0 => &mut z,
-            70 if first == 0 => &mut flags,
-            0 if first == 0 && line == range.start => continue,
-            40 | 41 | 91 => continue,
-            5 | 6 | 8 | 50 | 62 | 100 | 330 if first == 0 => continue,
+            30 => &mut z,
+            70 => &mut flags,
+            0 if line == range.start => continue,
+            5 | 6 | 8 | 40 | 41 | 50 | 62 | 91 | 100 | 330 => continue,
             _ => return None,
         };
         // A second x begins another vertex.
@@ -261,7 +252,7 @@ pub(super) fn plain_vertex(lines: Lines, range: Range<usize>) -> Option<(Vertex,
         *value = Some(number);
     }
     let vertex = Vertex::new(x?, y?, bulge.unwrap_or(0.0));
-    (vertex.is_finite()).then_some((vertex, (first == 0, [z, flags])))
+    vertex.is_finite().then_some((vertex, [z, flags]))
 }
 
 pub(super) fn shift(lines: &mut [u32], from: usize, by: i64) {

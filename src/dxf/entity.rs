@@ -77,6 +77,18 @@ pub(crate) struct VertexLines {
     pub(super) mirrored: bool,
     /// True for a 3D polyline, whose bulges mean nothing.
     pub(super) in_space: bool,
+    /// Of a LWPOLYLINE, the number of vertices before the first one behind which a tag stands that belongs to the whole.
+    /// 0 for a POLYLINE.
+    pub(super) own: u32,
+    /// The line of the stated number of vertices, counted likewise; 0 where there is none.
+    pub(super) count: u32,
+}
+
+impl VertexLines {
+    /// The line of the stated number of vertices, in a LWPOLYLINE that begins in the line `start`.
+    pub(super) fn count_line(&self, start: usize) -> Option<usize> {
+        (self.count > 0).then_some(start + self.count as usize)
+    }
 }
 
 #[derive(Debug)]

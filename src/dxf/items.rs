@@ -233,28 +233,29 @@ impl Document {
         first: usize,
         old_end: Option<usize>,
         bytes: i64,
-        mut fresh: Vec<Finding>,
+        fresh: Vec<Finding>,
     ) {
         let start = self
             .text
             .line_start(self.table.lines.get(first).map_or(0, |&line| line as usize));
-        let of_document = self
-            .findings
-            .iter()
-            .take_while(|finding| finding.place == Place::Document)
-            .count();
-        let from = self
-            .findings
-            .partition_point(|finding| range_key(finding).0 < start)
-            .max(of_document);
-        let to = old_end
-            .map_or(self.findings.len(), |end| {
-                self.findings
-                    .partition_point(|finding| range_key(finding).0 < end)
-            })
-            .max(from);
+        self.splice_findings(start..old_end.unwrap_or(usize::MAX), bytes, fresh);
+    }
+
+    /// Replaces the findings of some bytes, as they were before an edit, by those of the text as it is now, and moves
+    /// those behind.
+    pub(super) fn splice_findings(
+        &mut self,
+        bytes: Range<usize>,
+        moved: i64,
+        mut fresh: Vec<Finding>,
+    ) {
+        let of_document = |finding: &&Finding| finding.place == Place::Document;
+        let of_document = self.findings.iter().take_while(of_document).count();
+        let begun_before = |end: usize| self.findings.partition_point(|it| range_key(it).0 < end);
+        let from = begun_before(bytes.start).max(of_document);
+        let to = begun_before(bytes.end).max(from);
         for finding in self.findings.iter_mut().skip(to) {
-            shift_place(finding, bytes);
+            shift_place(finding, moved);
         }
         fresh.sort_by_key(range_key);
         self.findings.splice(from..to, fresh);

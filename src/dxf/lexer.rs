@@ -57,6 +57,14 @@ impl<'a> Lexer<'a> {
         }
     }
 
+    /// Goes on at the line `at` of the item that begins at the line `start`, all of which was in step so far.
+    pub(super) fn within(lines: Lines<'a>, start: usize, at: usize) -> Lexer<'a> {
+        Lexer {
+            at,
+            ..Lexer::new(lines, start)
+        }
+    }
+
     /// A fault on a line that makes text unreadable.
     pub(super) fn damage(&mut self, line: usize, sentence: String) {
         self.damage_in(self.lines.trimmed_range(line), sentence);

@@ -37,13 +37,13 @@ mod reference;
 mod shape;
 mod space;
 mod strings;
-mod suspended;
 pub(crate) mod table;
 #[cfg(test)]
 mod tests;
 mod uncut;
 mod unit;
 mod value_type;
+mod vertex_run;
 mod write;
 
 pub use write::write;
@@ -74,7 +74,7 @@ pub struct Document {
     findings: Vec<Finding>,
     table: Box<Table>,
     layers: Box<Layers>,
-    suspended: Option<Box<suspended::Suspended>>,
+    suspended: Option<Box<vertex_run::Suspended>>,
     /// Records that the last edit has had read again, unless it was all or one vertex.
     read_last: Range<usize>,
     is_binary: bool,

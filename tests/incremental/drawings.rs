@@ -111,8 +111,8 @@ proptest! {
     }
 }
 
-/// Polylines that come near themselves and each other, and a line.
-fn typed_text() -> String {
+/// Polylines that come near themselves and each other, and a line. Those without their bit in `closed` are open.
+fn typed_text(closed: u8) -> String {
     let outlines: [&[(f64, f64)]; 4] = [
         &[
             (0.0, 0.0),
@@ -132,9 +132,10 @@ fn typed_text() -> String {
     for (number, outline) in outlines.iter().enumerate() {
         let _ = write!(
             text,
-            "0\nLWPOLYLINE\n5\n{:X}\n8\nDIE\n90\n{}\n70\n1\n",
+            "0\nLWPOLYLINE\n5\n{:X}\n8\nDIE\n90\n{}\n70\n{}\n",
             number + 1,
-            outline.len()
+            outline.len(),
+            closed >> number & 1
         );
         for (at, (x, y)) in outline.iter().enumerate() {
             let _ = write!(
@@ -190,19 +191,21 @@ fn shown(document: &mut Document) -> (Vec<String>, Vec<String>) {
 proptest! {
     #![proptest_config(ProptestConfig { cases: cases(300), failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Somebody types in the numbers of one vertex, now and then elsewhere: the number is none for a while, and is one again.
+    /// Somebody types in the tags of one vertex, now and then elsewhere: a number or a code is none for a while, and is one again.
     #[test]
     fn a_number_that_is_being_typed_is_read_as_if_afresh(
         polyline in 0..4usize,
         vertex in 0..9usize,
         side in 0..3usize,
+        closed in prop_oneof![Just(15u8), 0..15u8],
+        before in prop::sample::select(vec![0usize, 0, 3]),
         strokes in proptest::collection::vec((0..24usize, 0..3usize, prop::sample::select(vec!["", "1", "-", ".", "x", "0.5", "\n"]), 0..12usize), 1..14),
     ) {
         let side = [SideSetting::Both, SideSetting::Auto, SideSetting::Opening][side];
         let settings = Arc::new(Effective::of(&Settings { side: Some(side), ..Settings::default() }));
-        let mut text = typed_text();
+        let mut text = typed_text(closed);
         let at = text.match_indices("LWPOLYLINE").nth(polyline).map_or(0, |(at, _)| at);
-        let home = at + text[at..].match_indices("\n10\n").nth(vertex).map_or(0, |(at, _)| at + 4);
+        let home = at + text[at..].match_indices("\n10\n").nth(vertex).map_or(0, |(at, _)| at + 4 - before);
         let mut document = Document::new(Source::Dxf(dxf::Document::read(text.clone().into_bytes())), settings.clone());
         for (along, count, new, elsewhere) in strokes {
             let start = if elsewhere == 0 { along * text.len() / 24 } else { home + along };

@@ -6,7 +6,7 @@ mod mark;
 mod polyline;
 
 pub(in crate::dxf) use circle::mirrored_angles;
-pub(in crate::dxf) use polyline::mirror;
+pub(in crate::dxf) use polyline::{count_finding, mirror, read_run};
 
 use super::entity::{Outcome, Refused, pass_over};
 use super::layers::Layers;

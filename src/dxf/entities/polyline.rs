@@ -7,9 +7,11 @@ use crate::dxf::entity::{
 use crate::dxf::fault::{meaning, quoted};
 use crate::dxf::layers::Layers;
 use crate::dxf::lexer::{Lexer, Tag};
+use crate::dxf::lines::Lines;
 use crate::dxf::numbers::missing;
 use crate::dxf::shape::Shape;
 use crate::dxf::space::{Lies, Space, Vector3, in_space as at_height};
+use crate::finding::Finding;
 
 /// Vertices in the order of the text: x opens one, y closes it.
 #[derive(Default)]
@@ -20,9 +22,62 @@ struct Vertices {
     lacks_y: bool,
     /// The first vertex without y. Reported at the end: lines that are out of step may be the cause.
     without_y: Option<usize>,
+    /// The number of vertices before the first one behind which a tag stands that belongs to the whole.
+    own: Option<usize>,
 }
 
 impl Vertices {
+    /// Takes x, y or bulge of a vertex; its line is counted from the entity's first. A value that is not a number has
+    /// its finding; a stand-in keeps the later vertices in step.
+    #[inline]
+    fn take(&mut self, tag: Tag, start: usize, common: &mut Common, lexer: &mut Lexer) {
+        let value = match tag.code {
+            42 => common.bulge(lexer, tag),
+            _ => common.coordinate(lexer, tag),
+        };
+        let value = value.unwrap_or_default();
+        match (tag.code, self.vertices.last_mut()) {
+            (10, _) => {
+                self.close();
+                self.vertices.push(Vertex::new(value, 0.0, 0.0));
+                self.lines.push((tag.line - start) as u32);
+                self.lacks_y = true;
+            }
+            (20, Some(vertex)) => {
+                vertex.point.y = value;
+                self.lacks_y = false;
+            }
+            (_, Some(vertex)) => vertex.bulge = value,
+            (code, None) => {
+                if !common.bad && !lexer.out_of_step {
+                    let sentence = say!(
+                        group_code_stands_before_the_first_group_code,
+                        code,
+                        meaning(code)
+                    );
+                    lexer.damage(tag.line, sentence);
+                }
+                common.bad = true;
+            }
+        }
+    }
+
+    /// A tag has come that belongs to the whole.
+    fn end_own(&mut self) {
+        self.own = self.own.or(self.vertices.len().checked_sub(1));
+    }
+
+    /// A fault where a vertex, of which so many stand `before` these, has no y.
+    fn lacks_none(&self, before: usize, start: usize, lexer: &mut Lexer) -> Result<(), Refused> {
+        let Some(index) = self.without_y else {
+            return Ok(());
+        };
+        let line = start + self.lines.get(index).map_or(0, |&line| line as usize);
+        let sentence = say!(vertex_lacks_group_code_20, before + index + 1);
+        lexer.damage(line + 1, sentence);
+        Err(Refused::Damaged)
+    }
+
     fn close(&mut self) {
         if self.lacks_y {
             self.without_y = self.without_y.or(self.vertices.len().checked_sub(1));
@@ -42,41 +97,17 @@ pub(super) fn light_polyline(
     while let Some(tag) = tag_of_record(lexer) {
         match tag.code {
             10 | 20 | 42 if !common.foreign && !common.group => {
-                // A value that is not a number has its finding; a stand-in keeps the later vertices in step.
-                let value = match tag.code {
-                    42 => common.bulge(lexer, tag),
-                    _ => common.coordinate(lexer, tag),
-                };
-                let value = value.unwrap_or_default();
-                match (tag.code, read.vertices.last_mut()) {
-                    (10, _) => {
-                        read.close();
-                        read.vertices.push(Vertex::new(value, 0.0, 0.0));
-                        read.lines.push((tag.line - start.line) as u32);
-                        read.lacks_y = true;
-                    }
-                    (20, Some(vertex)) => {
-                        vertex.point.y = value;
-                        read.lacks_y = false;
-                    }
-                    (_, Some(vertex)) => vertex.bulge = value,
-                    (code, None) => {
-                        if !common.bad && !lexer.out_of_step {
-                            let sentence = say!(
-                                group_code_stands_before_the_first_group_code,
-                                code,
-                                meaning(code)
-                            );
-                            lexer.damage(tag.line, sentence);
-                        }
-                        common.bad = true;
-                    }
+                read.take(tag, start.line, &mut common, lexer)
+            }
+            _ if common.take(lexer, tag) => read.end_own(),
+            38 | 70 | 90 => {
+                read.end_own();
+                match tag.code {
+                    70 => closed = common.flags(lexer, tag) & 1 != 0,
+                    38 => height = common.coordinate(lexer, tag).unwrap_or_default(),
+                    _ => count = Some(tag),
                 }
             }
-            _ if common.take(lexer, tag) => {}
-            70 => closed = common.flags(lexer, tag) & 1 != 0,
-            38 => height = common.coordinate(lexer, tag).unwrap_or_default(),
-            90 => count = Some(tag),
             _ => {}
         }
     }
@@ -84,34 +115,88 @@ pub(super) fn light_polyline(
     if common.bad || lexer.out_of_step {
         return Err(Refused::Damaged);
     }
-    if let Some(index) = read.without_y {
-        let line = start.line + read.lines.get(index).map_or(0, |&line| line as usize);
-        let sentence = say!(vertex_lacks_group_code_20, index + 1);
-        lexer.damage(line + 1, sentence);
-        return Err(Refused::Damaged);
-    }
+    read.lacks_none(0, start.line, lexer)?;
     common.is_in_the_model()?;
     let lies = common.lies(height)?;
     let mirrored = common.plane() == Plane::Mirrored;
-    let found = read.vertices.len();
-    if let Some(tag) = count
-        && found > 1
-        && Common::whole(lexer, tag) != i64::try_from(found).ok()
-    {
-        let stated = quoted(lexer.lines.trimmed(tag.value_line()));
-        let sentence = say!(another_number_of_vertices_is_stated, stated, found);
-        lexer.oddity_in(lexer.lines.range(tag.value_line()), sentence);
+    if let Some(tag) = count {
+        compare_count(lexer, tag, read.vertices.len());
     }
+    // What is stated behind a vertex does not stay where it is when another one comes.
+    let first = read.lines.first().copied().unwrap_or_default();
+    let line = count.map_or(0, |tag| (tag.line - start.line) as u32);
+    let own = match line < first {
+        true => read.own.unwrap_or(read.vertices.len()),
+        false => 0,
+    };
+    let own = (own as u32, line);
     polyline_of(
         Kind::LightPolyline,
         start,
         common,
         closed,
-        read,
+        (read, own),
         (mirrored, false, lies),
         lexer,
         layers,
     )
+}
+
+/// A finding where another number of vertices is stated by `tag` than was found.
+fn compare_count(lexer: &mut Lexer, tag: Tag, found: usize) {
+    if found > 1 && Common::whole(lexer, tag) != i64::try_from(found).ok() {
+        let stated = quoted(lexer.lines.trimmed(tag.value_line()));
+        let sentence = say!(another_number_of_vertices_is_stated, stated, found);
+        lexer.oddity_in(lexer.lines.range(tag.value_line()), sentence);
+    }
+}
+
+/// Some neighbouring vertices of a LWPOLYLINE, read again.
+pub(in crate::dxf) struct ReadRun {
+    pub(in crate::dxf) vertices: Vec<Vertex>,
+    /// Their first lines, counted from the entity's.
+    pub(in crate::dxf) lines: Vec<u32>,
+    pub(in crate::dxf) findings: Vec<Finding>,
+    /// The entity is damaged in them.
+    pub(in crate::dxf) is_damaged: bool,
+}
+
+/// Reads vertices of the LWPOLYLINE that begins at the line `start`, from the one with the number `from` on, whose x
+/// stands at the line `at`, until `ends_at` holds of the line of the next tag. `None` where a tag of them belongs to the whole, and
+/// where they do not end there.
+pub(in crate::dxf) fn read_run(
+    lines: Lines,
+    start: usize,
+    (from, at): (usize, usize),
+    mut ends_at: impl FnMut(usize) -> Option<bool>,
+) -> Option<ReadRun> {
+    let mut lexer = Lexer::within(lines, start, at);
+    let (mut common, mut read) = (Common::default(), Vertices::default());
+    while !ends_at(lexer.at())? {
+        let tag = tag_of_record(&mut lexer)?;
+        match tag.code {
+            10 | 20 | 42 => read.take(tag, start, &mut common, &mut lexer),
+            38 | 70 | 90 => return None,
+            _ if common.take(&mut lexer, tag) => return None,
+            _ => {}
+        }
+    }
+    read.close();
+    let is_damaged =
+        common.bad || lexer.out_of_step || read.lacks_none(from, start, &mut lexer).is_err();
+    Some(ReadRun {
+        vertices: read.vertices,
+        lines: read.lines,
+        findings: lexer.findings,
+        is_damaged,
+    })
+}
+
+/// The finding of a LWPOLYLINE that states another number of vertices, in the tag at this line, than it has.
+pub(in crate::dxf) fn count_finding(lines: Lines, line: usize, found: usize) -> Vec<Finding> {
+    let mut lexer = Lexer::new(lines, line);
+    compare_count(&mut lexer, Tag { code: 90, line }, found);
+    lexer.findings
 }
 
 #[expect(
@@ -123,7 +208,7 @@ fn polyline_of(
     start: Tag,
     common: Common,
     closed: bool,
-    mut read: Vertices,
+    (mut read, (own, count)): (Vertices, (u32, u32)),
     (mirrored, in_space, lies): (bool, bool, Lies),
     lexer: &mut Lexer,
     layers: &mut Layers,
@@ -146,6 +231,8 @@ fn polyline_of(
         lines: read.lines,
         mirrored,
         in_space,
+        own,
+        count,
     };
     let read = common.finish(lexer, layers, kind, (Shape::Plain(geometry), lies));
     Ok(Read {
@@ -287,7 +374,7 @@ pub(super) fn polyline(
         start,
         common,
         flags & CLOSED != 0,
-        read,
+        (read, (0, 0)),
         (mirrored, in_space, lies),
         lexer,
         layers,

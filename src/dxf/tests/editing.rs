@@ -129,7 +129,7 @@ fn any_edit() -> impl Strategy<Value = (f64, usize, String)> {
 proptest! {
     #[test]
     fn after_any_edits_a_document_is_as_if_read_afresh(
-        drawing in 0..DRAWINGS.len() + 3,
+        drawing in 0..DRAWINGS.len() + 4,
         line_end in prop::sample::select(vec!["\n", "\r\n", "\r"]),
         edits in prop::collection::vec(any_edit(), 1..12),
     ) {
@@ -139,6 +139,7 @@ proptest! {
             Some(tags) => dxf(tags),
             None if drawing == DRAWINGS.len() => with_blocks(BLOCKS, REFERENCES),
             None if drawing == DRAWINGS.len() + 1 => with_layers("", LAYERED),
+            None if drawing == DRAWINGS.len() + 2 => dxf(&long_polyline()),
             None => dxf(&long()),
         };
         let text = text.replace('\n', line_end);
@@ -156,6 +157,114 @@ fn replace(document: &mut Document, after: &str, what: &str, by: &str) -> Vec<To
     let start = text.find(after).unwrap() + after.len();
     let start = start + text[start..].find(what).unwrap();
     edit(document, start..start + what.len(), by)
+}
+
+/// A LWPOLYLINE of more vertices than a decision can reach, that states how many they are.
+fn long_polyline() -> String {
+    let vertices = (0..60).map(|n| format!("10 {n}.5 20 {}.25 42 0.{n} ", n % 7));
+    format!(
+        "0 LWPOLYLINE 5 A 8 Q 90 60 70 1 {} 0 LINE 5 B 10 1 20 2 11 3 21 4",
+        vertices.collect::<String>()
+    )
+}
+
+/// An edit of few bytes about a line of the polyline, in the middle of a number or at an end of a line.
+fn any_edit_of_a_line() -> impl Strategy<Value = (usize, usize, usize, &'static str)> {
+    let texts = [
+        "",
+        "",
+        "1",
+        "x",
+        "-",
+        ".",
+        ",",
+        "\n",
+        "0\n",
+        "\n5",
+        "10\n1\n20\n2\n",
+        "\n42\n0.5",
+        "\n90\n7",
+        "\n0\nLINE",
+    ];
+    (
+        10usize..400,
+        0usize..3,
+        0usize..9,
+        prop::sample::select(texts.to_vec()),
+    )
+}
+
+proptest! {
+    #[test]
+    fn after_edits_of_vertices_a_polyline_is_as_if_read_afresh(edits in prop::collection::vec(any_edit_of_a_line(), 1..16)) {
+        let mut document = Document::read(dxf(&long_polyline()).into_bytes());
+        for (line, column, length, replacement) in edits {
+            let line = document.text().line_range(line.min(document.text().line_count() - 1));
+            let start = (line.start + column).min(line.end);
+            let end = (start + length).min(document.text().len());
+            let before = document.text().slice(start..end).unwrap().to_vec();
+            edit(&mut document, start..end, replacement);
+            // As often as not it is taken back.
+            if length % 2 == 0 {
+                let before = String::from_utf8(before).unwrap();
+                edit(&mut document, start..start + replacement.len(), &before);
+            }
+        }
+    }
+}
+
+#[test]
+fn an_edit_of_a_polyline_touches_the_vertices_about_it() {
+    let mut document = Document::read(dxf(&long_polyline()).into_bytes());
+    let entity = document.drawing().find("A").unwrap();
+    let vertices = |start, removed, inserted| {
+        [Touched::Vertices {
+            entity,
+            start,
+            removed,
+            inserted,
+        }]
+    };
+    let mut replace = |after: &str, what: &str, by: &str| replace(&mut document, after, what, by);
+    // Without its x a vertex is a part of the one before.
+    assert_eq!(
+        replace("0.29\n", "10\n30.5", "110\n30.5"),
+        vertices(29, 2, 1)
+    );
+    assert_eq!(
+        replace("0.29\n", "110\n30.5", "10\n30.5"),
+        vertices(29, 1, 2)
+    );
+    // What is damaged and comes back is the same entity.
+    let gone = [Touched::Removed { entity }];
+    for (what, by) in [
+        ("10\n", "x10\n"),
+        ("30.5", "30.x5"),
+        ("20\n", "20"),
+        ("42\n", "42\n\n"),
+    ] {
+        assert_eq!(replace("0.29\n", what, by), gone, "{what:?}");
+        let back = replace("0.29\n", by, what);
+        assert!(
+            matches!(
+                back[..],
+                [Touched::Vertices {
+                    removed: 1,
+                    inserted: 1,
+                    ..
+                }]
+            ),
+            "{what:?} {back:?}"
+        );
+    }
+    assert_eq!(replace("0.29\n", "10\n", "x10\n"), gone);
+    assert_eq!(replace("0.31\n", "10\n", "y10\n"), []);
+    assert_eq!(replace("0.29\n", "x10\n", "10\n"), []);
+    assert_eq!(replace("0.31\n", "y10\n32.5", "10\n31"), vertices(32, 1, 1));
+    assert_eq!(
+        replace("0.31\n", "10\n", "10\n7\n20\n7\n10\n"),
+        vertices(32, 0, 1)
+    );
 }
 
 #[test]
