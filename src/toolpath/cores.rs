@@ -44,6 +44,18 @@ pub(super) fn sum(count: usize, of: impl Fn(usize) -> f64 + Sync + Send) -> f64 
     parts.into_iter().sum()
 }
 
+/// True where that is so for one of so many.
+pub(super) fn any(
+    count: usize,
+    at_a_time: usize,
+    is_it: impl Fn(usize) -> bool + Sync + Send,
+) -> bool {
+    match count <= at_a_time {
+        true => (0..count).any(is_it),
+        false => over_cores(count, at_a_time).any(is_it),
+    }
+}
+
 fn over_cores(count: usize, at_a_time: usize) -> impl IndexedParallelIterator<Item = usize> {
     (0..count).into_par_iter().with_min_len(at_a_time)
 }

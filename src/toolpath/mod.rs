@@ -6,6 +6,7 @@
 
 mod about;
 mod apart;
+mod begun;
 mod clearance;
 mod containment;
 mod cores;
