@@ -5,6 +5,7 @@
 //! an edit only changes the pairs of the part that it touched, and of parts that moved relative to it. The whole way
 //! then decides which pieces cross, so that the division into parts does not matter.
 
+use super::behind_stops::KnownTabs;
 use super::boxes::Boxes;
 use super::crossing::{
     Crossing, MOST_PAIRS, Tangle, come_near, margin, most_looks, near_each_other,
@@ -27,7 +28,7 @@ type Pair = (u64, u64, [i64; 2], bool);
 /// Pieces of two parts that come near each other, by their indices there, and the cost of finding them.
 type Near = (Box<[(u32, u32)]>, usize);
 
-/// The known results for pairs of parts.
+/// The known results for pairs of parts, and for what goes on behind stops.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Known {
     pairs: FxHashMap<Pair, Near>,
@@ -37,6 +38,7 @@ pub(crate) struct Known {
     passed: Option<Box<Passed>>,
     /// The results in use since the last search began: pairs of parts, and cuts.
     used: [usize; 2],
+    pub(in crate::program) tabs: KnownTabs,
 }
 
 impl Known {
@@ -119,6 +121,7 @@ impl Known {
         if self.found.len() > 4 * cuts + 4096 {
             self.found.clear();
         }
+        self.tabs.tidy();
     }
 }
 

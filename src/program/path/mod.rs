@@ -19,7 +19,7 @@ mod tight;
 mod trace;
 mod way;
 
-pub(in crate::program) use behind_stops::{BehindStops, goes_on};
+pub(in crate::program) use behind_stops::{BehindStops, KnownTabs, goes_on};
 pub(in crate::program) use contour::{Ends, closing, not_closed};
 pub(in crate::program) use crossing::crossings as crossings_of;
 pub(in crate::program) use crossings::{Found, Known};
