@@ -3,11 +3,15 @@
 use super::path::{CutSteps, Kind, Step, Totals, Trace, Writing};
 use crate::geometry::{Point, Vector};
 use crate::text::SourceText;
+use crate::toolpath::each;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
+/// Chunks that one core follows at a time.
+const CHUNKS: usize = 4;
+
 /// A program of any language, chunk by chunk in the order in which the machine runs them.
-pub(crate) trait Program {
+pub(crate) trait Program: Sync {
     fn text(&self) -> &SourceText;
 
     /// How its blocks give their ends.
@@ -67,9 +71,21 @@ pub(crate) fn trace(program: &dyn Program) -> Trace {
         ..Trace::default()
     };
     let mut contour = 0;
-    for chunk in 0..program.chunk_count() {
-        program.walk(chunk, &mut contour, &mut |step| trace.steps.push(step));
-    }
+    let begins = (0..program.chunk_count()).map(|chunk| {
+        let begin = contour;
+        contour += program.sum_of(chunk).contours;
+        begin
+    });
+    let begins: Vec<usize> = begins.collect();
+    let of_chunks = each(begins.len(), CHUNKS, |chunk| {
+        let (mut contour, mut steps) = (begins[chunk], Vec::new());
+        program.walk(chunk, &mut contour, &mut |step| steps.push(step));
+        steps
+    });
+    trace.steps.reserve(of_chunks.iter().map(Vec::len).sum());
+    of_chunks
+        .into_iter()
+        .for_each(|steps| trace.steps.extend(steps));
     trace
 }
 

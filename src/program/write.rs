@@ -88,13 +88,25 @@ pub(super) fn too_far_out(point: Point) -> ProofError {
 /// The largest gap between consecutive pieces of a path, µm.
 const GAP: f64 = 1.5;
 
+/// Pieces that are handed to a writer at a time.
+const PIECES: usize = 4096;
+
+/// A piece of a path between two nodes, which are its snapped ends.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Piece {
+    pub(crate) segment: Segment,
+    pub(crate) from: Node,
+    pub(crate) to: Node,
+    pub(crate) source: Source,
+}
+
 /// Puts pieces of a path into the text of one language and proves them. Nodes and pieces are in steps of the language's grid.
 pub(crate) trait Writer {
     /// A path begins at `first`. `from` is the program's position, `None` before the first path: the wire must be taken
     /// there.
     fn begin(&mut self, from: Option<Node>, first: Node, path: &WirePath) -> Proved;
-    /// One piece of the path between two nodes, which are its snapped ends.
-    fn piece(&mut self, piece: &Segment, from: Node, to: Node, source: Source) -> Proved;
+    /// Pieces of the path, one behind the other.
+    fn pieces(&mut self, pieces: &[Piece]) -> Proved;
     /// The path ends at `last`; it is closed where both its ends coincide. `goes_on`: after a stop the next one
     /// continues it from here.
     fn end(&mut self, closed: bool, first: Node, last: Node, goes_on: bool) -> Proved;
@@ -137,8 +149,9 @@ pub(crate) fn walk(
     writer: &mut dyn Writer,
 ) -> Proved {
     let total = paths.iter().map(|path| path.segments.len()).sum();
-    let mut done = 0;
+    let (mut done, mut told) = (0, 0);
     let mut node: Option<Node> = None;
+    let mut pieces: Vec<Piece> = Vec::new();
     for (index, path) in paths.iter().enumerate() {
         // Where the wire can only stand, it is threaded and cuts nothing.
         let (begin, end) = (path.begin() * steps, path.end() * steps);
@@ -146,25 +159,37 @@ pub(crate) fn walk(
         writer.begin(node, first_node, path)?;
         let mut from = first_node;
         let mut reached = begin;
-        for segment in &path.segments {
-            if done % 4096 == 0 && !go_on(done, total) {
-                return Err(ProofError::Cancelled);
+        for segments in path.segments.chunks(PIECES) {
+            if done >= told {
+                told = done + PIECES;
+                if !go_on(done, total) {
+                    return Err(ProofError::Cancelled);
+                }
             }
-            done += 1;
-            let piece = scaled(&segment.geometry, steps);
-            let gap = (piece.start() - reached).norm() * step_um;
-            if gap > GAP || gap.is_nan() {
-                return Err(ProofError::Mismatch(say!(
-                    the_path_has_a_gap_before_a_segment,
-                    gap,
-                    done
-                )));
+            pieces.clear();
+            for own in segments {
+                done += 1;
+                let segment = scaled(&own.geometry, steps);
+                let gap = (segment.start() - reached).norm() * step_um;
+                if gap > GAP || gap.is_nan() {
+                    return Err(ProofError::Mismatch(say!(
+                        the_path_has_a_gap_before_a_segment,
+                        gap,
+                        done
+                    )));
+                }
+                reached = segment.end();
+                let to = node_of(reached)?;
+                pieces.push(Piece {
+                    segment,
+                    from,
+                    to,
+                    source: own.source,
+                });
+                // A skipped piece leaves the node where it is, as both its ends.
+                from = to;
             }
-            reached = piece.end();
-            let to = node_of(piece.end())?;
-            writer.piece(&piece, from, to, segment.source)?;
-            // A skipped piece leaves the node where it is, as both its ends.
-            from = to;
+            writer.pieces(&pieces)?;
         }
         let closed = (begin - end).norm() * step_um <= 1e-3;
         let goes_on = paths.get(index + 1).is_some_and(|next| {

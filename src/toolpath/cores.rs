@@ -12,7 +12,7 @@ const STEP: usize = 1024;
 const ROUND: usize = 32;
 
 /// What comes of each of so many, in their order. A core takes so many at a time; to wake one takes as long as some microseconds of work.
-pub(super) fn each<Made: Send>(
+pub(crate) fn each<Made: Send>(
     count: usize,
     at_a_time: usize,
     made: impl Fn(usize) -> Made + Sync + Send,

@@ -47,6 +47,7 @@ mod way;
 mod work;
 
 pub(crate) use clearance::Walls;
+pub(crate) use cores::each;
 pub(crate) use finished::Finished;
 pub use hole::StartHole;
 pub(crate) use hole::hole_faults;

@@ -9,7 +9,7 @@ use super::write::Lines;
 use crate::geometry::Segment;
 use crate::program::grid::Node;
 use crate::program::write::{
-    ProofError, Proved, ProvedProgram, Writer, node_of, nothing_to_write, scaled,
+    Piece, ProofError, Proved, ProvedProgram, Writer, node_of, nothing_to_write, scaled,
 };
 use crate::settings::{Coordinates, Effective};
 use crate::toolpath::milling::{Floor, Layers, Step};
@@ -222,12 +222,18 @@ impl Tool {
         let Some((from, to)) = self.waiting.take() else {
             return Ok(());
         };
-        for (piece, source) in way.between(from, to) {
-            let end = node_of(piece.end())?;
-            lines.piece(&piece, self.at, end, source)?;
+        let mut pieces = Vec::new();
+        for (segment, source) in way.between(from, to) {
+            let end = node_of(segment.end())?;
+            pieces.push(Piece {
+                segment,
+                from: self.at,
+                to: end,
+                source,
+            });
             self.at = end;
         }
-        Ok(())
+        lines.pieces(&pieces)
     }
 }
 

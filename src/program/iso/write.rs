@@ -2,35 +2,47 @@
 
 mod proof;
 
-use super::block::{Block, Motion, Note, read_line};
+use super::block::{Block, Motion, Note, Stop, read_line};
 use super::encode::{Encoded, Moves};
 use super::machine::Machine;
-use super::moves::{CenterRule, MICROMETRE, Place, Reading, to_center};
+use super::moves::{CenterRule, MICROMETRE, Place, Reading, micrometres, to_center};
+use super::read::words_of;
 use crate::finding::Side;
-use crate::geometry::Segment;
-use crate::program::encode::Encoder;
+use crate::program::encode::encode_all;
 use crate::program::grid::Node;
+use crate::program::notes::Notes;
+use crate::program::path::{Kind, Step};
 use crate::program::write::{
-    ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write, push_number, push_places,
-    walk, way,
+    Piece, ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write, push_number,
+    push_places, walk, way,
 };
 use crate::settings::{Coordinates, Effective, LineEnd, NumberUnit, Profile, Zero};
-use crate::toolpath::{Source, WirePath};
+use crate::toolpath::{Source, WirePath, each};
+use proof::Checked;
+
+/// Lines that one core reads back at a time.
+const AT_A_TIME: usize = 128;
 
 /// Writes the paths as one program and proves it. `unit_mm` is the drawing's unit in mm. An unknown profile, or one
 /// whose lines do not do what they should, is a refusal.
 pub fn write(paths: &[WirePath], unit_mm: f64, settings: &Effective) -> Proved<ProvedProgram> {
-    write_with(paths, unit_mm, settings, &mut |_, _| true)
+    write_with(paths, unit_mm, settings, None, &mut |_, _| true)
 }
 
-/// As [`write()`]; `go_on` gets the progress every few thousand segments, and ends the work with `false`.
+/// As [`write()`]; `go_on` gets the progress every few thousand segments, and ends the work with `false`. `notes` are
+/// taken of every move.
 pub(crate) fn write_with(
     paths: &[WirePath],
     unit_mm: f64,
     settings: &Effective,
+    notes: Option<&mut Notes>,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Proved<ProvedProgram> {
     let mut lines = Lines::of(settings)?;
+    lines.notes = notes;
+    if let Some(notes) = &mut lines.notes {
+        notes.writing = lines.reading.writing();
+    }
     walk(
         paths,
         unit_mm * lines.per_mm(),
@@ -63,7 +75,7 @@ pub(super) struct Lines<'a> {
     motion: Option<Motion>,
     /// The totals so far, in steps.
     pub(super) made: ProvedProgram,
-    encoded: Vec<Encoded>,
+    notes: Option<&'a mut Notes>,
 }
 
 impl Writer for Lines<'_> {
@@ -98,26 +110,32 @@ impl Writer for Lines<'_> {
         Ok(())
     }
 
-    fn piece(&mut self, piece: &Segment, from: Node, to: Node, source: Source) -> Proved {
-        // No control switches its correction off on an arc.
-        if source == Source::LeadOut && piece.as_arc().is_none() {
-            self.switch_off(from)?;
-        }
-        let mut encoded = std::mem::take(&mut self.encoded);
-        encoded.clear();
+    fn pieces(&mut self, pieces: &[Piece]) -> Proved {
         let moves = Moves {
             step: self.step_um(),
             full_circles: self.profile.full_circles,
         };
-        moves.encode(piece, from, to, &mut encoded).ok_or_else(|| {
-            ProofError::Mismatch(say!(no_moves_within_tolerance_lead_from_to, from, to))
+        let encoded = encode_all(&moves, pieces).map_err(|piece| {
+            ProofError::Mismatch(say!(
+                no_moves_within_tolerance_lead_from_to,
+                piece.from,
+                piece.to
+            ))
         })?;
-        for step in &encoded {
-            self.step_out(step)?;
+        let mut left = encoded.into_iter().flatten().peekable();
+        let mut steps = Vec::with_capacity(2 * pieces.len());
+        for (nth, piece) in pieces.iter().enumerate() {
+            // No control switches its correction off on an arc.
+            if piece.source == Source::LeadOut && piece.segment.as_arc().is_none() {
+                self.put(&std::mem::take(&mut steps))?;
+                self.switch_off(piece.from)?;
+            }
+            while let Some((_, step)) = left.next_if(|(of, _)| *of == nth) {
+                steps.push(step);
+            }
+            self.made.length += piece.segment.length();
         }
-        self.made.length += piece.length();
-        self.encoded = encoded;
-        Ok(())
+        self.put(&steps)
     }
 
     fn end(&mut self, closed: bool, first: Node, last: Node, goes_on: bool) -> Proved {
@@ -150,13 +168,13 @@ impl Writer for Lines<'_> {
     fn move_over(&mut self, from: Node, to: Node) -> Proved {
         let piece = way(from, to);
         self.made.jumps += piece.length();
-        self.step_out(&Encoded {
+        self.put(&[Encoded {
             motion: Motion::Rapid,
             from,
             to,
             center: from,
             piece,
-        })
+        }])
     }
 
     fn moved_by_hand(&mut self, to: Node) -> Proved {
@@ -201,7 +219,7 @@ impl<'a> Lines<'a> {
             number: 0,
             motion: None,
             made: ProvedProgram::default(),
-            encoded: Vec::new(),
+            notes: None,
         })
     }
 
@@ -285,6 +303,13 @@ impl<'a> Lines<'a> {
             if block.motion.is_some() {
                 self.motion = None;
             }
+            if let Some(stop) = block.stop
+                && let Some(notes) = &mut self.notes
+            {
+                let (start, end) = words_of(text.as_bytes(), self.out.len());
+                let at = micrometres(self.machine.at);
+                notes.stop(start as usize..end as usize, at, stop == Stop::End);
+            }
             self.out.extend_from_slice(text.as_bytes());
             self.end_line();
         }
@@ -298,16 +323,55 @@ impl<'a> Lines<'a> {
         });
     }
 
-    /// Writes one move, and reads it back.
-    pub(super) fn step_out(&mut self, step: &Encoded) -> Proved {
-        let start = self.out.len();
-        self.push_move(step);
-        let block = Block::of(&self.out[start..]);
-        let made = self.machine.run(&block, &self.reading);
-        let aside = self.check(step, made)?;
-        self.made.deviation = self.made.deviation.max(aside);
-        self.end_line();
-        self.made.blocks += 1;
+    /// Writes moves, and reads them back.
+    pub(super) fn put(&mut self, steps: &[Encoded]) -> Proved {
+        let mut lines = Vec::with_capacity(steps.len());
+        for step in steps {
+            let start = self.out.len();
+            self.push_move(step);
+            lines.push(start..self.out.len());
+            self.end_line();
+        }
+        self.made.blocks += steps.len();
+        let out = &self.out;
+        let read = each(lines.len(), AT_A_TIME, |nth| {
+            Block::of(&out[lines[nth].clone()])
+        });
+        let run = |block: &Block| self.machine.run(block, &self.reading);
+        let made: Vec<_> = read.iter().map(run).collect();
+        let own = &*self;
+        let checked = each(steps.len(), AT_A_TIME, |nth| {
+            own.check(&steps[nth], made[nth])
+        });
+        for ((line, block), checked) in lines.iter().zip(&read).zip(checked) {
+            let Checked {
+                made,
+                decoded,
+                aside,
+            } = checked?;
+            self.made.deviation = self.made.deviation.max(aside);
+            let Some(notes) = &mut self.notes else {
+                continue;
+            };
+            let (start, end) = words_of(&self.out[line.clone()], line.start);
+            notes.start.get_or_insert(micrometres(made.from));
+            notes.note(Step {
+                range: start as usize..end as usize,
+                line: 0,
+                number: block.number,
+                kind: match made.motion {
+                    Motion::Rapid => Kind::Rapid,
+                    Motion::Line => Kind::Line,
+                    Motion::Clockwise | Motion::CounterClockwise => Kind::Arc,
+                },
+                start: micrometres(made.from),
+                end: micrometres(made.to),
+                ideal: Some(decoded),
+                contour: 0,
+                side: made.side,
+                is_relative: made.incremental,
+            });
+        }
         Ok(())
     }
 

@@ -3,35 +3,45 @@
 use super::block::Node;
 use super::block::PartArc;
 use super::decode::decode;
-use super::encode::{Encoded, encode};
+use super::encode::{self, Encoded};
 use super::layout::{push_block, push_start_point};
+use super::machine::travel;
 use super::parse::{Item, read_line};
 use super::part::{is_concave, rounded, rounded_with_tab};
-use super::proof::Proof;
-use super::words::Words;
+use super::proof::{Proof, check_line};
+use super::sum::JUMP_BLOCKS;
+use super::words::{Word, Words};
 use crate::finding::Side;
 use crate::geometry::{Segment, Vector, turn};
+use crate::program::encode::encode_all;
 use crate::program::grid::point_of;
-use crate::program::path::is_tight_in_four_b;
+use crate::program::notes::Notes;
+use crate::program::path::{Kind, Step, is_tight_in_four_b};
 use crate::program::write::{
-    ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write, scaled, walk, way,
+    Piece, ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write, scaled, walk, way,
 };
 use crate::settings::Effective;
-use crate::toolpath::{PathSegment, Source, WirePath};
+use crate::toolpath::{PathSegment, Source, WirePath, each};
+use std::ops::Range;
+
+/// Blocks that one core reads back at a time.
+const AT_A_TIME: usize = 128;
 
 /// Writes the paths as one program and proves it. `unit_mm` is the drawing's unit in mm.
 pub fn write(paths: &[WirePath], unit_mm: f64, settings: &Effective) -> Proved<ProvedProgram> {
-    write_with(paths, unit_mm, settings, &mut |_, _| true)
+    write_with(paths, unit_mm, settings, None, &mut |_, _| true)
 }
 
-/// As [`write()`]; `go_on` gets the progress every few thousand segments, and ends the work with `false`.
+/// As [`write()`]; `go_on` gets the progress every few thousand segments, and ends the work with `false`. `notes` are
+/// taken of every block.
 pub(crate) fn write_with(
     paths: &[WirePath],
     unit_mm: f64,
     settings: &Effective,
+    notes: Option<&mut Notes>,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Proved<ProvedProgram> {
-    let mut blocks = Blocks::new(settings, None);
+    let mut blocks = Blocks::new(settings, None, notes);
     walk(paths, unit_mm * 1000.0, 1.0, go_on, &mut blocks)?;
     blocks.finish(cuts(paths))
 }
@@ -42,6 +52,7 @@ pub(crate) fn write_four_b(
     paths: &[WirePath],
     unit_mm: f64,
     settings: &Effective,
+    notes: Option<&mut Notes>,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Proved<ProvedProgram> {
     let (correction, radius) = transitions(settings);
@@ -74,6 +85,7 @@ pub(crate) fn write_four_b(
             side: Side::Left,
             direction: None,
         }),
+        notes,
     );
     walk(&paths, 1.0, 1.0, go_on, &mut blocks)?;
     blocks.finish(cuts(&paths))
@@ -137,7 +149,17 @@ struct Blocks<'a> {
     /// The totals so far, in µm.
     made: ProvedProgram,
     proof: Proof,
-    encoded: Vec<Encoded>,
+    notes: Option<&'a mut Notes>,
+    /// The table moves without the wire.
+    is_jump: bool,
+}
+
+/// A block as it is written.
+struct Line {
+    /// Bytes of the text, without the line end.
+    range: Range<usize>,
+    block: Encoded,
+    part: Option<PartArc>,
 }
 
 impl Writer for Blocks<'_> {
@@ -151,35 +173,34 @@ impl Writer for Blocks<'_> {
         }
         match from {
             Some(from) => self.go_over(from, first, path, self.settings)?,
-            None if self.settings.header => push_start_point(&mut self.out, first),
+            None if self.settings.header => {
+                push_start_point(&mut self.out, first);
+                if let Some(notes) = &mut self.notes {
+                    notes.start = Some(point_of(first));
+                }
+            }
             None => {}
         }
         Ok(())
     }
 
-    fn piece(&mut self, piece: &Segment, from: Node, to: Node, source: Source) -> Proved {
-        let mut encoded = std::mem::take(&mut self.encoded);
-        encoded.clear();
-        encode(
-            piece,
-            from,
-            to,
-            self.settings.largest_number(),
-            &mut encoded,
-        )
-        .ok_or_else(|| {
-            ProofError::Mismatch(say!(no_blocks_within_tolerance_lead_from_to, from, to))
+    fn pieces(&mut self, pieces: &[Piece]) -> Proved {
+        let largest = self.settings.largest_number();
+        let encoded = encode_all(&encode::Blocks { largest }, pieces).map_err(|piece| {
+            ProofError::Mismatch(say!(
+                no_blocks_within_tolerance_lead_from_to,
+                piece.from,
+                piece.to
+            ))
         })?;
-        for block in &encoded {
-            // 4B's radius is the block's own.
-            let block = &if self.part.is_none() {
-                self.proof.steadied(block, self.settings.largest_number())
-            } else {
-                *block
-            };
+        // 4B's radius is the block's own.
+        let largest = self.part.is_none().then_some(largest);
+        let mut lines = Vec::with_capacity(2 * pieces.len());
+        for (piece, block) in encoded.into_iter().flatten() {
+            let block = self.proof.taken(&block, largest);
             self.made.blocks += 1;
             let start = self.out.len();
-            let part = self.part_of(block, source)?;
+            let part = self.part_of(&block, pieces[piece].source)?;
             push_block(
                 &mut self.out,
                 self.settings.layout,
@@ -188,14 +209,16 @@ impl Writer for Blocks<'_> {
                 part.as_ref(),
                 block.to,
             );
-            let line = &self.out[start..self.out.len() - 1];
-            self.proof
-                .check_line(line, &self.words, block, part)
-                .map_err(ProofError::Mismatch)?;
+            lines.push(Line {
+                range: start..self.out.len() - 1,
+                block,
+                part,
+            });
         }
-        self.made.length += piece.length();
-        self.encoded = encoded;
-        Ok(())
+        for piece in pieces {
+            self.made.length += piece.segment.length();
+        }
+        self.prove(&lines)
     }
 
     fn end(&mut self, closed: bool, first: Node, last: Node, _: bool) -> Proved {
@@ -215,7 +238,14 @@ impl Writer for Blocks<'_> {
 
     fn move_over(&mut self, from: Node, to: Node) -> Proved {
         let cut = self.made.length;
-        self.piece(&way(from, to), from, to, Source::LeadIn)?;
+        self.is_jump = true;
+        self.pieces(&[Piece {
+            segment: way(from, to),
+            from,
+            to,
+            source: Source::LeadIn,
+        }])?;
+        self.is_jump = false;
         self.made.jumps += self.made.length - cut;
         self.made.length = cut;
         Ok(())
@@ -228,9 +258,15 @@ impl Writer for Blocks<'_> {
 }
 
 impl<'a> Blocks<'a> {
-    fn new(settings: &'a Effective, part: Option<Part>) -> Blocks<'a> {
+    fn new(
+        settings: &'a Effective,
+        part: Option<Part>,
+        notes: Option<&'a mut Notes>,
+    ) -> Blocks<'a> {
         Blocks {
             part,
+            notes,
+            is_jump: false,
             settings,
             words: Words {
                 pause: settings.pause.trim(),
@@ -239,8 +275,43 @@ impl<'a> Blocks<'a> {
             out: Vec::new(),
             made: ProvedProgram::default(),
             proof: Proof::default(),
-            encoded: Vec::new(),
         }
+    }
+
+    /// Reads lines back, compares them with the path, and notes what they do.
+    fn prove(&mut self, lines: &[Line]) -> Proved {
+        let (out, words) = (&self.out, &self.words);
+        let read = each(lines.len(), AT_A_TIME, |nth| {
+            let Line { range, block, part } = &lines[nth];
+            check_line(&out[range.clone()], range.start, words, block, *part)
+        });
+        for (line, read) in lines.iter().zip(read) {
+            let read = read.map_err(ProofError::Mismatch)?;
+            self.proof.deviation = self.proof.deviation.max(read.aside);
+            let Some(notes) = &mut self.notes else {
+                continue;
+            };
+            let start = notes.at();
+            let by = travel(&line.block.block).map_or(Vector::zeros(), |to| point_of(to).coords);
+            notes.four_b |= line.part.is_some();
+            notes.note(Step {
+                range: read.range,
+                line: 0,
+                number: read.number,
+                kind: match read.decoded {
+                    _ if self.is_jump && lines.len() <= JUMP_BLOCKS => Kind::Rapid,
+                    Segment::Line(_) => Kind::Line,
+                    Segment::Arc(_) => Kind::Arc,
+                },
+                start,
+                end: start + by,
+                ideal: Some(read.decoded.moved(start - point_of(line.block.from))),
+                contour: 0,
+                side: None,
+                is_relative: true,
+            });
+        }
+        Ok(())
     }
 
     /// The additional part of an arc's 4B block, proved: the wire's arc has a radius, and the wire's path joins before
@@ -290,6 +361,17 @@ impl<'a> Blocks<'a> {
     fn push_word(&mut self, word: &str) -> Proved {
         let mut read = Vec::new();
         read_line(word.as_bytes(), 1, &self.words, |item| read.push(item));
+        if let Some(notes) = &mut self.notes {
+            let is_end = matches!(
+                read[..],
+                [Item::Word {
+                    word: Word::End,
+                    ..
+                }]
+            );
+            let start = self.out.len();
+            notes.stop(start..start + word.len(), notes.at(), is_end);
+        }
         let sound = matches!(read[..], [Item::Word { .. }])
             && word.bytes().all(|byte| byte.is_ascii_alphanumeric());
         if !sound {
