@@ -1,7 +1,7 @@
 //! The proof of a refactoring: the new program, read from its text alone, makes the intended moves, ends where it
 //! should, pauses as often as before, and has no kind of error that the old one lacks.
 
-use super::{Content, Notation, Rewrite, Row, Sheet};
+use super::{Content, Edits, Notation, Rewrite, Row, Sheet};
 use crate::finding::{Rule, Severity};
 use crate::program::grid::point_of;
 use crate::program::path::{Kind, Trace};
@@ -16,11 +16,7 @@ const LENGTH_TOLERANCE: f64 = 6.0;
 
 impl<N: Notation> Rewrite<N> {
     /// The edits of the text, proved; none where nothing changes.
-    pub(crate) fn edits(
-        self,
-        sheet: &Sheet<'_, N>,
-        content: &Content<N>,
-    ) -> Result<Vec<TextEdit>, String> {
+    pub(crate) fn edits(self, sheet: &Sheet<'_, N>, content: &Content<N>) -> Edits {
         let edits = N::write(sheet, content, &self)?;
         if edits.is_empty() {
             return Ok(edits);
@@ -92,15 +88,15 @@ fn prove_lengths<N: Notation>(
     let news = |row: usize| rewrite.rows.get(&row).map_or(1, Vec::len);
     let (mut at, mut start) = (0, 0);
     for contour in &content.contours {
-        start += (at..contour.rows.start).map(news).sum::<usize>();
-        let count = contour.rows.clone().map(news).sum::<usize>();
-        let rows = content.rows.get(contour.rows.clone()).unwrap_or_default();
+        start += (at..contour.steps.start).map(news).sum::<usize>();
+        let count = contour.steps.clone().map(news).sum::<usize>();
+        let rows = content.rows.get(contour.steps.clone()).unwrap_or_default();
         let found = now.rows.get(start..start + count).unwrap_or_default();
         let room = END_TOLERANCE + LENGTH_TOLERANCE * (rows.len() + count) as f64;
         if (length(found) - stretch * length(rows)).abs() > room * stretch.max(1.0) {
             return Err(say!(the_new_program_reads_otherwise_than_it_was_meant).into());
         }
-        (at, start) = (contour.rows.end, start + count);
+        (at, start) = (contour.steps.end, start + count);
     }
     Ok(())
 }
@@ -123,10 +119,7 @@ fn refuse_new_errors<N: Notation>(before: &N::Document, after: &N::Document) -> 
 }
 
 /// The edits, once the machine goes the same way behind them.
-pub(super) fn same_way<N: Notation>(
-    sheet: &Sheet<'_, N>,
-    edits: Vec<TextEdit>,
-) -> Result<Vec<TextEdit>, String> {
+pub(super) fn same_way<N: Notation>(sheet: &Sheet<'_, N>, edits: Vec<TextEdit>) -> Edits {
     let way = |trace: &Trace| {
         let steps = trace.steps.iter();
         steps

@@ -9,8 +9,7 @@
 //!
 //! Ways in and out stay. An open path that counts is reversed where it is the whole program: it then begins at its other end.
 
-use super::{Change, Notation, Refactoring, Rewrite, Sheet};
-use crate::text::TextEdit;
+use super::{Change, Edits, Notation, Refactoring, Rewrite, Sheet};
 
 pub(super) fn reverse<N: Notation>() -> Refactoring<N> {
     Refactoring {
@@ -20,7 +19,7 @@ pub(super) fn reverse<N: Notation>() -> Refactoring<N> {
     }
 }
 
-fn reversed<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String> {
+fn reversed<N: Notation>(sheet: &Sheet<'_, N>) -> Edits {
     let content = sheet.content()?;
     N::refuse(sheet, Change::Reverse)?;
     let mut rewrite = Rewrite::new();
@@ -30,14 +29,13 @@ fn reversed<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String> 
             content.refuse_pause(contour)?;
             rewrite.start = content.rows.last().map(|row| row.to);
             rewrite.end = Some(sheet.trace.start);
-            contour.rows.clone()
+            contour.steps.clone()
         } else {
             content.closed(contour)?
         };
         for (place, row) in rows.clone().zip(rows.clone().rev()) {
-            rewrite
-                .rows
-                .insert(place, N::reversed(sheet, content, row)?);
+            let reversed = N::reversed(sheet.at(content, row))?;
+            rewrite.rows.insert(place, reversed);
         }
         N::turn_round(sheet, content, contour, rows, &mut rewrite)?;
     }

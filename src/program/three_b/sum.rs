@@ -115,7 +115,7 @@ fn mark_of(block: &Block) -> u64 {
 }
 
 /// A way of at most this many lines between two pauses leads from one contour to the next.
-const JUMP_BLOCKS: usize = 3;
+pub(super) const JUMP_BLOCKS: usize = 3;
 
 /// True for the way between two pauses from one contour to the next. A way that returns to its start is not one: that
 /// is how a tab is cut off, from and to the thread hole.
