@@ -1,0 +1,95 @@
+//! The lines of a cut, and what is known of it from those before them.
+
+use crate::program::iso::block::{Block, Motion};
+use crate::program::iso::document::Document;
+use crate::program::iso::moves::{Place, distance};
+use std::ops::Range;
+
+/// Longer cuts, in lines, are not searched.
+pub(super) const LONGEST: usize = 4_000;
+
+/// Fewer lines are a way to the next cut, which ends elsewhere.
+const FEWEST_ASTRAY: usize = 3;
+
+/// A cut that ends further from its start, nm, has not returned there.
+const ASTRAY: f64 = 20_000.0;
+
+/// The lines between the stops around a line, or between the places where subprograms begin, end and are called; more
+/// than [`LONGEST`] where there are too many.
+pub(super) fn cut_around(document: &Document, line: usize) -> Range<usize> {
+    let is_order_kept = document.order().is_none();
+    let ends_with = |line: usize| {
+        let block = document.block(line);
+        block.stop.is_some() || (!is_order_kept && (block.call.is_some() || block.returns))
+    };
+    let begins_with = |line: usize| {
+        let block = document.block(line);
+        let is_called = |number: u32| document.calls(number);
+        !is_order_kept && (block.program.is_some() || block.number.is_some_and(is_called))
+    };
+    let count = document.text().line_count();
+    let mut first = line;
+    while first > 0 && line - first <= LONGEST && !begins_with(first) && !ends_with(first - 1) {
+        first -= 1;
+    }
+    let mut end = line + 1;
+    while end < count && end - line <= LONGEST && !ends_with(end - 1) && !begins_with(end) {
+        end += 1;
+    }
+    first..end
+}
+
+/// True where the cut before some lines ends beside its own start, and the wire was not taken elsewhere since: where
+/// these lines close, the next ones begin astray all the same.
+pub(super) fn begins_astray(document: &Document, lines: &Range<usize>) -> bool {
+    let Some(last) = lines.start.checked_sub(1) else {
+        return false;
+    };
+    let before = cut_around(document, last);
+    let Some(mut machine) = document.machine_before(before.start) else {
+        return false;
+    };
+    if before.len() > LONGEST {
+        return false;
+    }
+    let (mut ends, mut moves) = (None, 0);
+    for line in before {
+        if let Some(made) = machine.run(&document.block(line), document.reading()) {
+            if made.motion == Motion::Rapid {
+                (ends, moves) = (None, 0);
+                continue;
+            }
+            let (start, _) = ends.unwrap_or((made.from, made.to));
+            (ends, moves) = (Some((start, made.to)), moves + 1);
+        }
+    }
+    let block = |line: usize| document.block(line);
+    let is_taken = lines
+        .clone()
+        .map(block)
+        .take_while(|block| !is_way(block))
+        .any(|block| block.sets_position);
+    let is_astray = |(start, end): (Place, Place)| distance(start, end) > ASTRAY;
+    !is_taken && moves >= FEWEST_ASTRAY && ends.is_some_and(is_astray)
+}
+
+/// True where the lines of a cut hold all of it. The search makes no corners of the control, and an arc begins where
+/// such a corner ends; and with subprograms a cut may have begun before its lines.
+pub(super) fn stands_alone(document: &Document, lines: &Range<usize>) -> bool {
+    let (mut has_corner, mut has_arc) = (false, false);
+    for block in lines.clone().map(|line| document.block(line)) {
+        has_corner |= block.corner.is_some();
+        has_arc |= block.i.is_some() || block.j.is_some();
+    }
+    let is_begun = || {
+        document
+            .begun_cut(lines.start)
+            .is_some_and(|begun| begun.moves > 0)
+    };
+    !(has_corner && has_arc) && (document.order().is_none() || !is_begun())
+}
+
+/// True for a line of the way itself.
+pub(super) fn is_way(block: &Block) -> bool {
+    !(block.empty || block.sets_position || block.takes_coordinates)
+}
