@@ -54,7 +54,7 @@ fn prove<N: Notation>(
     for (row, meant) in now.rows.iter().zip(&meant) {
         N::agree(after, row, meant).map_err(|what| say!(line_by_number, row.line + 1, what))?;
     }
-    prove_lengths(content, rewrite, &now)?;
+    prove_lengths(content, rewrite, now)?;
     let pauses = |trace: &Trace| {
         let is_pause = |step: &&crate::program::path::Step| step.kind == Kind::Pause;
         trace.steps.iter().filter(is_pause).count()
