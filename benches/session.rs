@@ -66,7 +66,15 @@ fn main() {
     {
         large_session(name, &text(), rounds / 4);
     }
-    for program in [THREE_B, ISO, THREE_B_ROUND, ISO_ROUND, ISO_HOLES] {
+    for program in [
+        THREE_B,
+        ISO,
+        THREE_B_ROUND,
+        ISO_ROUND,
+        ISO_HOLES,
+        THREE_B_TABS,
+        ISO_TABS,
+    ] {
         if is_chosen(program.session) {
             program_session(&program, rounds);
         }
@@ -213,9 +221,9 @@ fn text_session(name: &str, text: &str, rounds: usize) {
         .map_or(0, |at| at + 4);
     let line = text[..middle].matches('\n').count();
     let mut version = 1;
-    let mut change = |client: &mut Client| {
+    let mut change_in = |client: &mut Client, line: usize, text: &str| {
         version += 1;
-        let (end, new) = if version % 2 == 0 { (0, "1") } else { (1, "") };
+        let (end, new) = if version % 2 == 0 { (0, text) } else { (1, "") };
         let range = json!({ "start": { "line": line, "character": 0 }, "end": { "line": line, "character": end } });
         let changes = json!([{ "range": range, "text": new }]);
         client.notify("textDocument/didChange", json!({ "textDocument": { "uri": uri, "version": version }, "contentChanges": changes }));
@@ -223,8 +231,18 @@ fn text_session(name: &str, text: &str, rounds: usize) {
     };
     let mut edits = Edits::default();
     for _ in 0..rounds {
-        edits.time(&mut client, uri, &mut change);
+        edits.time(&mut client, uri, |client| change_in(client, line, "1"));
     }
+    // A letter before the group code of that coordinate, which is none then.
+    let mut of_code = Edits::default();
+    for _ in 0..rounds / 4 {
+        of_code.time(&mut client, uri, |client| change_in(client, line - 1, "x"));
+    }
+    of_code.rows(
+        &format!("{name}: one letter at a group code"),
+        "p50 5 ms, p99 20 ms",
+    );
+    let mut change = |client: &mut Client| change_in(client, line, "1");
     edits.rows(&format!("{name}: one character"), "p50 5 ms, p99 20 ms");
     let bursts = (0..if rounds > 100 { 5 } else { 1 }).map(|_| {
         let mut last = 0;
@@ -373,6 +391,20 @@ const ISO_ROUND: Program = Program {
 const ISO_HOLES: Program = Program {
     name: "5 MB ISO, holes of every size",
     text: generated::iso_holes,
+    ..ISO
+};
+
+/// Openings with tabs, cut to and fro before them.
+const THREE_B_TABS: Program = Program {
+    name: "5 MB 3B, passes before tabs",
+    text: generated::three_b_tabs,
+    refactorings: &[],
+    ..THREE_B
+};
+
+const ISO_TABS: Program = Program {
+    name: "5 MB ISO, passes before tabs",
+    text: generated::iso_tabs,
     ..ISO
 };
 

@@ -219,6 +219,60 @@ pub fn iso_holes(blocks: usize) -> String {
     text + "M02\n"
 }
 
+/// The places of a die opening cut to and fro in three passes from a stop before its tab on, and of the way back to the
+/// thread hole behind the stop, in mm.
+fn before_tab() -> (Vec<[i64; 2]>, [[i64; 2]; 2]) {
+    let pass = [[2, 0], [12, 0], [12, 10], [2, 10], [2, 3]];
+    let back = pass.iter().rev().skip(1).copied();
+    let passes = pass.iter().copied().chain(back);
+    let passes = passes.chain(pass.iter().skip(1).copied());
+    (passes.collect(), [[2, 0], [0, 0]])
+}
+
+/// An ISO program of die openings with tabs, each cut to and fro before the tab.
+pub fn iso_tabs(blocks: usize) -> String {
+    let (passes, tab) = before_tab();
+    let mut text = String::from("%\nG90\nG92 X0.000 Y0.000\n");
+    for opening in 0..blocks / 20 {
+        let (x, y) = (opening as i64 % 200 * 20, opening as i64 / 200 * 20);
+        let _ = writeln!(text, "G00 X{x}.000 Y{y}.000\nM00");
+        for part in [&passes[..], &tab] {
+            for [dx, dy] in part {
+                let _ = writeln!(text, "G01 X{}.000 Y{}.000", x + dx, y + dy);
+            }
+            text.push_str("M00\n");
+        }
+    }
+    text + "M02\n"
+}
+
+/// The same as a 3B program.
+pub fn three_b_tabs(blocks: usize) -> String {
+    let (passes, tab) = before_tab();
+    let mut text = String::with_capacity(blocks * 22);
+    for _ in 0..blocks / 17 {
+        let mut at = [0, 0];
+        for part in [&passes[..], &tab] {
+            for to in part {
+                let [dx, dy] = [(to[0] - at[0]) * 1000, (to[1] - at[1]) * 1000];
+                let quadrant = match (dx > 0, dy > 0) {
+                    (true, _) if dy >= 0 => 1,
+                    (_, true) => 2,
+                    (false, _) if dx < 0 => 3,
+                    _ => 4,
+                };
+                let (dx, dy) = (dx.abs(), dy.abs());
+                let axis = if dx > dy { 'X' } else { 'Y' };
+                let _ = writeln!(text, "B{dx}B{dy}B{}G{axis}L{quadrant}", dx.max(dy));
+                at = *to;
+            }
+            text.push_str("D\n");
+        }
+        text.push_str("B20000B0B20000GXL1\nD\n");
+    }
+    text + "DD\n"
+}
+
 /// Vertices of one closed polyline of `count` vertices: a saw round a large circle, every tenth tooth rounded.
 pub fn long_outline(count: usize) -> Vec<[f64; 3]> {
     let radius = count as f64 * 0.2;

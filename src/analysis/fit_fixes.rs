@@ -5,6 +5,7 @@ use super::fits::Fitted;
 use crate::drawing::{Drawing, DrawingEdit, Outline};
 use crate::finding::{Finding, Fix, FixKind, Place, Side};
 use crate::fit::{self, Held, SegmentOf, Spot};
+use crate::geometry::Point;
 use crate::rules::small_radius::{self, Travel};
 use crate::settings::Partners;
 use std::sync::Arc;
@@ -18,10 +19,10 @@ impl Analysis {
         };
         let (_, clearance) = self.settings.fit().ok()?;
         let before = self.pair_at(drawing, (entity, segment))?;
-        let spot = spot_at(&before.held.spots, (entity, segment)).filter(|spot| spot.turn > 0.0)?;
+        let spot = spot_at(&before, (entity, segment)).filter(|spot| spot.turn > 0.0)?;
         let corner = Corner {
             before: &before.held,
-            spot,
+            spot: &spot,
             clearance: clearance / self.limits.unit_mm,
             is_drawn: self.chains.contour_of(spot.segment.0)
                 != self.chains.contour_of(spot.other.0),
@@ -199,19 +200,10 @@ impl Analysis {
         let place = (spot.segment.0, 0);
         let pair = after.pair_at(&edited, place)?;
         let wide = self.wide(corner.clearance, spot.clearance);
-        let near = |other: &&Spot| (other.at - spot.at).norm() <= wide;
-        let left = pair
-            .held
-            .spots
-            .iter()
-            .filter(near)
-            .map(|spot| spot.clearance);
-        let binding = |held: &Held| {
-            held.spots
-                .iter()
-                .filter(|spot| spot.clearance < -self.limits.tolerances.report)
-                .count()
-        };
+        let near = |(at, _): &(Point, f64)| (at - spot.at).norm() <= wide;
+        let left = pair.held.clearances().filter(near).map(|(_, left)| left);
+        let binds = |(_, left): &(Point, f64)| *left < -self.limits.tolerances.report;
+        let binding = |held: &Held| held.clearances().filter(binds).count();
         let left = left.fold(corner.clearance, f64::min);
         (left < 0.0 || binding(&pair.held) < binding(corner.before)).then_some(left)
     }
@@ -233,9 +225,9 @@ impl Corner<'_> {
     }
 }
 
-/// The place of a finding about these spots of a pair.
-fn spot_at(spots: &[Spot], at: SegmentOf) -> Option<&Spot> {
-    let is_there = |spot: &&Spot| spot.segment == at || spot.other == at;
-    let there = spots.iter().filter(is_there);
+/// The place of a finding about a pair.
+fn spot_at(pair: &Fitted, at: SegmentOf) -> Option<Spot> {
+    let is_there = |spot: &Spot| spot.segment == at || spot.other == at;
+    let there = pair.spots().filter(is_there);
     there.min_by(|a, b| a.clearance.total_cmp(&b.clearance))
 }

@@ -30,6 +30,13 @@ pub(crate) struct Fitted {
     pub(super) held: Held,
 }
 
+impl Fitted {
+    /// Where less clearance is left than there should be.
+    pub(super) fn spots(&self) -> impl Iterator<Item = Spot> {
+        self.held.spots(self.parts.each_ref().map(|part| &**part))
+    }
+}
+
 /// What is left of a contour.
 #[derive(Clone, Debug)]
 pub(crate) struct Left {
@@ -260,19 +267,17 @@ impl Analysis {
         let Some(fitted) = self.fit_of(drawing, both) else {
             return;
         };
-        let pair = &fitted.held;
+        let held = &fitted.held;
         let (rounding, wanted) = (
             self.limits.tolerances.report,
             self.settings.pair.clearance.unwrap_or(0.0) / self.limits.unit_mm,
         );
         let corners = LazyCell::new(|| {
-            let mut corners = Grid::default();
-            for (index, corner) in pair.spots.iter().enumerate() {
-                if corner.turn > 0.0 {
-                    corners.insert(index, Bounds::of_disc(corner.at, self.wide(wanted, 0.0)));
-                }
+            let (corners, mut places) = (held.corners().collect::<Vec<_>>(), Grid::default());
+            for (index, (at, _)) in corners.iter().enumerate() {
+                places.insert(index, Bounds::of_disc(*at, self.wide(wanted, 0.0)));
             }
-            corners
+            (corners, places)
         });
         // Walls are deepest where they end, in a corner.
         let corner_of = |spot: &Spot| {
@@ -281,16 +286,17 @@ impl Analysis {
             }
             let wide = self.wide(wanted, spot.clearance);
             let mut first: Option<usize> = None;
-            corners.near(
+            let (corners, places) = &*corners;
+            places.near(
                 &Bounds::of_disc(spot.at, spot.clearance.abs()),
                 |index, _| {
-                    let is_near = (pair.spots[index].at - spot.at).norm() <= wide;
+                    let is_near = (corners[index].0 - spot.at).norm() <= wide;
                     if is_near && first.is_none_or(|first| index < first) {
                         first = Some(index);
                     }
                 },
             );
-            Some(pair.spots.get(first?)?.of.clone())
+            Some(corners.get(first?)?.1.clone())
         };
         let arc_radius = |(entity, segment): SegmentOf| {
             let geometry = drawing.segment(entity, segment)?;
@@ -307,11 +313,11 @@ impl Analysis {
                 (None, None) => Cause::Wall,
             }
         };
-        let is_binding = |spot: &&Spot| spot.clearance < -rounding;
-        let count = pair.spots.iter().filter(is_binding).count();
+        let is_binding = |clearance: f64| clearance < -rounding;
+        let count = held.clearances().filter(|it| is_binding(it.1)).count();
         let of_each = if is_cut_twice { 1 } else { 2 };
         report.count(Rule::DoesNotFit, None, of_each * count);
-        for spot in pair.spots.iter().filter(is_binding) {
+        for spot in fitted.spots().filter(|spot| is_binding(spot.clearance)) {
             if report.is_full(Rule::DoesNotFit, None) {
                 break;
             }
@@ -323,7 +329,7 @@ impl Analysis {
                         wanted,
                         of: of.clone(),
                         partner: partner.clone(),
-                        cause: cause(spot, at, other),
+                        cause: cause(&spot, at, other),
                     };
                     let detail = Detail::DoesNotFit(Box::new(misfit));
                     report.add(

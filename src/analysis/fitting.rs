@@ -51,8 +51,8 @@ impl Analysis {
                 continue;
             };
             let held = &fitted.held;
-            let binds = held.spots.iter().map(|spot| spot.clearance < -rounding);
-            let binding = binds.filter(|binds| *binds).count();
+            let binds = |(_, clearance): &(_, f64)| *clearance < -rounding;
+            let binding = held.clearances().filter(binds).count();
             let known = fitting.get_or_insert(Fitting {
                 pairs: 0,
                 binding: 0,

@@ -1,16 +1,20 @@
 //! The program that wedm writes for a drawing, to be compared with another one.
 
 use super::sides::Sides;
-use super::traced::{Motion, Traced};
+use super::traced::{Motion, Traced, Traits};
 use crate::drawing::{Drawing, EntityId, Outline};
 use crate::geometry::{Point, Segment, Vector};
+use crate::program::notes::Notes;
 use crate::program::write::scaled;
 use crate::program::{Document, Format, Language};
-use crate::settings::{Effective, Layout};
+use crate::settings::{Effective, Jumps, Layout};
+use crate::text::SourceText;
 use crate::toolpath::{Source, WirePath, plan};
 
 /// Of more entities, or of contours of more segments, no program is written for a comparison.
 const MOST: usize = 20_000;
+/// A program of more blocks is not read again where that shows nothing beyond what was noted when it was written.
+const LONG: usize = 500;
 
 /// A program written for the comparison, and the paths it was written from, µm.
 #[derive(Debug)]
@@ -77,13 +81,7 @@ impl Reference {
             under.handles.as_deref(),
         )
         .ok()?;
-        let text = format.write(&paths, of.unit_mm, settings, &mut |_, _| true);
-        let language = match format {
-            Format::Iso | Format::Milling => Language::Iso,
-            Format::ThreeB | Format::FourB => Language::ThreeB,
-        };
-        let document = Document::read(language, text.ok()?.text.into_bytes(), settings);
-        let traced = Traced::of(&document);
+        let traced = written(*format, &paths, of.unit_mm, settings)?;
         let scale = of.unit_mm * 1e3;
         let shift = match traced.is_placed {
             true => Vector::zeros(),
@@ -141,5 +139,151 @@ impl Reference {
             }
         }
         nearest?.segment()
+    }
+}
+
+/// The program that is written along paths.
+fn written(
+    format: Format,
+    paths: &[WirePath],
+    unit_mm: f64,
+    settings: &Effective,
+) -> Option<Traced> {
+    let mut notes = Notes::default();
+    let text = format.write_noting(paths, unit_mm, settings, Some(&mut notes), &mut |_, _| true);
+    let text = text.ok()?.text;
+    let language = match format {
+        Format::Iso | Format::Milling => Language::Iso,
+        Format::ThreeB | Format::FourB => Language::ThreeB,
+    };
+    // Where the wire is taken by hand, the coordinates behind blocks show it.
+    let is_taken = settings.jumps == Jumps::None && settings.layout == Layout::Checking;
+    if notes.steps.len() <= LONG || is_taken || !paths.iter().all(returns) {
+        let document = Document::read(language, text.into_bytes(), settings);
+        return Some(Traced::of(&document));
+    }
+    Some(of_notes(notes, text, language, settings))
+}
+
+/// The same by what was noted.
+fn of_notes(notes: Notes, text: String, language: Language, settings: &Effective) -> Traced {
+    let traits = Traits {
+        language,
+        four_b: notes.four_b,
+        mills: false,
+        states_ends: language == Language::ThreeB && settings.layout == Layout::Checking,
+    };
+    let trace = notes.into_trace(text.as_bytes());
+    Traced::of_trace(trace, &SourceText::new(text.into_bytes()), traits)
+}
+
+/// The wire comes back to its thread hole: each stop behind such a path stands between two contours.
+fn returns(path: &WirePath) -> bool {
+    !path.segments.is_empty() && !path.cut_off && !path.is_open() && path.begin() == path.end()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::{Contour, Entity, Geometry, Kind, Role, Unit, Vertex};
+    use crate::settings::from_toml;
+
+    /// A punch, and an opening beside it.
+    fn drawn() -> (Drawing, Vec<Outline>) {
+        let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
+        let mut outlines = Vec::new();
+        for (handle, x, role) in [("2A", 0.0, Role::Punch), ("2B", 40.0, Role::Opening)] {
+            let vertices = [
+                Vertex::new(x, 0.0, 0.0),
+                Vertex::new(x + 20.1234, 0.4567, 0.3),
+                Vertex::new(x + 18.3, 12.3, -0.2),
+                Vertex::new(x + 4.5, 14.1, 0.0),
+            ];
+            let id = drawing.push(Entity {
+                handle: handle.into(),
+                layer: "0".into(),
+                role: None,
+                kind: Kind::LightPolyline,
+                geometry: Geometry::Polyline {
+                    closed: true,
+                    vertices: vertices.into(),
+                },
+            });
+            let contour = Contour::new(&drawing, [(id, false)], true);
+            outlines.push(Outline {
+                twice_area: contour.twice_area(&drawing),
+                contour,
+                role,
+            });
+        }
+        (drawing, outlines)
+    }
+
+    fn are_alike(one: &Motion, other: &Motion) -> bool {
+        match (one, other) {
+            (Motion::Cut(one), Motion::Cut(other)) => [0.0, 0.5, 1.0]
+                .iter()
+                .all(|share| (one.point_at(*share) - other.point_at(*share)).norm() < 1e-6),
+            (Motion::Way(one, by), Motion::Way(other, other_by)) => {
+                (one - other).norm() + (by - other_by).norm() < 1e-6
+            }
+            _ => one == other,
+        }
+    }
+
+    #[test]
+    fn what_is_noted_of_a_program_is_what_is_read() {
+        let (drawing, outlines) = drawn();
+        for (format, keys) in [
+            (Format::ThreeB, ""),
+            (Format::ThreeB, "layout = \"checking\""),
+            (Format::ThreeB, "header = true\njumps = \"none\""),
+            (Format::FourB, "layout = \"aligned\""),
+            (Format::Iso, ""),
+            (Format::Iso, "jumps = \"none\"\nprofile = \"robofil\""),
+            (Format::Iso, "compensation = \"controller\""),
+            (Format::Iso, "profile = \"fast-wire\""),
+        ] {
+            let passes = match format {
+                Format::FourB => "correction = 0.1",
+                _ => "passes.corrections = [0.2, 0.1]",
+            };
+            let (set, errors) = from_toml(&format!("{passes}\n[program]\n{keys}\n"));
+            assert!(errors.is_empty(), "{errors:?}");
+            let settings = Effective::of(&set);
+            let paths = plan(&drawing, &outlines, &format.settings(&settings), None).unwrap();
+            assert!(paths.iter().all(returns));
+            let mut notes = Notes::default();
+            let text = format
+                .write_noting(&paths, 1.0, &settings, Some(&mut notes), &mut |_, _| true)
+                .unwrap()
+                .text;
+            let language = match format {
+                Format::Iso => Language::Iso,
+                _ => Language::ThreeB,
+            };
+            let bytes = text.clone().into_bytes();
+            let read = Traced::of(&Document::read(language, bytes, &settings));
+            let noted = of_notes(notes, text.clone(), language, &settings);
+            for (one, other) in noted.blocks.iter().zip(&read.blocks) {
+                assert!(
+                    are_alike(&one.motion, &other.motion),
+                    "{one:?} {other:?}\n{text}"
+                );
+            }
+            // The rest is just the same.
+            let rest = |traced: &Traced| {
+                let blocks = traced.blocks.iter();
+                let blocks = blocks.map(|block| (block.range.clone(), block.line, block.is_offset));
+                let flags = [
+                    traced.is_placed,
+                    traced.counts,
+                    traced.four_b,
+                    traced.states_ends,
+                ];
+                (blocks.collect::<Vec<_>>(), traced.cuts.clone(), flags)
+            };
+            assert_eq!(rest(&noted), rest(&read), "{text}");
+        }
     }
 }

@@ -3,7 +3,7 @@
 use super::BETWEEN;
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::block_words::BlockWords;
-use crate::program::path::{self, Kind};
+use crate::program::path::{self, Kind, Trace};
 use crate::program::{Document, Format, Language};
 use crate::text::SourceText;
 use std::ops::Range;
@@ -27,6 +27,15 @@ pub struct Traced {
     pub(super) mills: bool,
     /// The text, unless it is too long to compare.
     pub(super) text: SourceText,
+    /// Coordinates stand behind blocks.
+    pub(super) states_ends: bool,
+}
+
+/// What is known of a program beside its trace.
+pub(super) struct Traits {
+    pub(super) language: Language,
+    pub(super) four_b: bool,
+    pub(super) mills: bool,
     /// Coordinates stand behind blocks.
     pub(super) states_ends: bool,
 }
@@ -63,7 +72,30 @@ impl Block {
 
 impl Traced {
     pub fn of(program: &Document) -> Traced {
-        let trace = program.trace();
+        let four_b = match program {
+            Document::ThreeB(program) => program.first_four_b_line().is_some(),
+            Document::Iso(_) => false,
+        };
+        Traced::of_trace(
+            program.trace(),
+            program.text(),
+            Traits {
+                language: program.language(),
+                four_b,
+                mills: program.mills(),
+                states_ends: program.states_ends(),
+            },
+        )
+    }
+
+    /// A program by its trace.
+    pub(super) fn of_trace(trace: Trace, text: &SourceText, traits: Traits) -> Traced {
+        let Traits {
+            language,
+            four_b,
+            mills,
+            states_ends,
+        } = traits;
         let cuts = path::cuts(&trace);
         let cuts = cuts.iter().filter(|cut| !cut.is_way);
         // A cut that does not return to its start may be a part of a contour that is cut before or behind.
@@ -73,7 +105,6 @@ impl Traced {
             [cut.steps.clone(), if is_one { contour } else { 0..0 }]
         });
         let cuts = cuts.collect();
-        let language = program.language();
         let (is_placed, counts) = match language {
             Language::ThreeB => (trace.start_is_known, true),
             Language::Iso => (true, false),
@@ -95,16 +126,12 @@ impl Traced {
             is_lost: step.kind == Kind::Arc && step.ideal.is_none(),
             range: step.range,
         });
-        let four_b = match program {
-            Document::ThreeB(program) => program.first_four_b_line().is_some(),
-            Document::Iso(_) => false,
-        };
-        let text = match program.text().len() <= LONGEST {
-            true => program.text().clone(),
+        let text = match text.len() <= LONGEST {
+            true => text.clone(),
             false => SourceText::default(),
         };
         Traced {
-            states_ends: program.states_ends(),
+            states_ends,
             text,
             blocks: blocks.collect(),
             cuts,
@@ -112,7 +139,7 @@ impl Traced {
             counts,
             language,
             four_b,
-            mills: program.mills(),
+            mills,
         }
     }
 

@@ -1,6 +1,6 @@
 //! Options that several commands share. Those for keys of the settings are declared there; here is only the list.
 
-use crate::settings::{Row, Settings, rows};
+use crate::settings::{LARGEST, Row, Settings, rows};
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, ValueEnum};
 use std::path::PathBuf;
@@ -196,7 +196,8 @@ pub(crate) fn parser(row: &'static Row) -> ValueParser {
 
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(length) if length.is_finite() && length > 0.0 => Ok(length),
+        Ok(length) if length > 0.0 && length <= LARGEST => Ok(length),
+        Ok(length) if length.is_finite() && length > 0.0 => Err(say!(a_number_up_to, LARGEST)),
         _ => Err(say!(expected_a_length_in_mm_above_0).into()),
     }
 }
@@ -232,7 +233,7 @@ mod tests {
     #[test]
     fn a_correction_is_above_zero() {
         assert_eq!(positive("0.1"), Ok(0.1));
-        for text in ["0", "-0.1", "nan", "inf", "thick"] {
+        for text in ["0", "-0.1", "nan", "inf", "1e308", "thick"] {
             assert!(positive(text).is_err(), "{text}");
             assert!(
                 Settings::of_option(row("correction"), text).is_err(),

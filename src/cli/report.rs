@@ -193,7 +193,7 @@ fn row_at(
         .collect();
     if matches!(finding.detail, Detail::SetAside(_)) {
         let told = |fix: Fix<Vec<Keep>>| {
-            let title = finding::title(&fix.kind, document.unit_mm());
+            let title = fix.kind.title(document.unit_mm());
             (title, settings::as_lines(&fix.edit))
         };
         row.keeps = document.keeps(finding).map(told).collect();

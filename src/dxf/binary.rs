@@ -1,6 +1,8 @@
 //! Translates binary DXF to the equivalent text, so that one reader reads both.
 //!
-//! Source: DXF reference, "Binary DXF files" and "Group code value types".
+//! Source: DXF reference, "Binary DXF files".
+
+use super::value_type::ValueType;
 
 /// The first bytes of a binary file.
 const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
@@ -82,58 +84,44 @@ impl<'a> Tags<'a> {
     /// Writes the value behind `code`; an error says why there is none.
     fn value(&mut self, code: i16, text: &mut Vec<u8>) -> Result<(), String> {
         let cut = || say!(the_file_ends_inside_the_value_of_group_code, code);
-        let written = match code {
-            -5..=9
-            | 100..=105
-            | 300..=309
-            | 320..=369
-            | 390..=399
-            | 410..=419
-            | 430..=439
-            | 470..=481
-            | 999..=1003
-            | 1005..=1009 => {
+        let value_type = ValueType::of(code).ok_or_else(|| say!(group_code_is_not_known, code))?;
+        let written = match value_type {
+            ValueType::Text => {
                 let rest = self.bytes.get(self.at..).unwrap_or_default();
                 let end = memchr::memchr(0, rest).ok_or_else(cut)?;
                 // A line end within a value would begin another line.
-                text.extend(rest.iter().take(end).map(|&byte| {
-                    if matches!(byte, b'\r' | b'\n') {
-                        b' '
-                    } else {
-                        byte
-                    }
-                }));
+                let plain = |&byte: &u8| match byte {
+                    b'\r' | b'\n' => b' ',
+                    byte => byte,
+                };
+                text.extend(rest.iter().take(end).map(plain));
                 self.at += end + 1;
                 return Ok(());
             }
-            310..=319 | 1004 => {
+            ValueType::Bytes => {
                 let [length] = self.take::<1>().ok_or_else(cut)?;
                 let end = self.at + usize::from(length);
                 let chunk = self.bytes.get(self.at..end).ok_or_else(cut)?;
                 self.at = end;
-                text.extend(
-                    chunk
-                        .iter()
-                        .flat_map(|byte| format!("{byte:02X}").into_bytes()),
-                );
+                for byte in chunk {
+                    text.extend_from_slice(format!("{byte:02X}").as_bytes());
+                }
                 return Ok(());
             }
-            10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => self
-                .take()
-                .map(|bytes| format!("{:?}", f64::from_le_bytes(bytes))),
-            60..=79 | 170..=179 | 270..=289 | 370..=389 | 400..=409 | 1060..=1070 => self
+            ValueType::Real => {
+                let number = self.take().map(f64::from_le_bytes);
+                number.map(|number| format!("{number:?}"))
+            }
+            ValueType::Flag => self.take::<1>().map(|[byte]| byte.to_string()),
+            ValueType::Short => self
                 .take()
                 .map(|bytes| i16::from_le_bytes(bytes).to_string()),
-            90..=99 | 420..=429 | 440..=459 | 1071 => self
+            ValueType::Long => self
                 .take()
                 .map(|bytes| i32::from_le_bytes(bytes).to_string()),
-            160..=169 => self
+            ValueType::Huge => self
                 .take()
                 .map(|bytes| i64::from_le_bytes(bytes).to_string()),
-            290..=299 => self.take::<1>().map(|[byte]| byte.to_string()),
-            _ => {
-                return Err(say!(group_code_is_not_known, code));
-            }
         };
         text.extend_from_slice(written.ok_or_else(cut)?.as_bytes());
         Ok(())

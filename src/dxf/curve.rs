@@ -62,13 +62,7 @@ pub(super) fn read_ellipse(
         lexer.damage(start.value_line(), sentence);
         return Err(Refused::Damaged);
     }
-    Ok(common.finish(
-        lexer,
-        layers,
-        Kind::Ellipse,
-        (Shape::Ellipse(arc), lies),
-        None,
-    ))
+    Ok(common.finish(lexer, layers, Kind::Ellipse, (Shape::Ellipse(arc), lies)))
 }
 
 /// Points in space in the order of the text: x opens one.
@@ -238,7 +232,6 @@ pub(super) fn read_spline(
             layers,
             Kind::Spline,
             (Shape::Spline(Box::new(spline)), lies),
-            None,
         )),
         // An entity that is not cut anyway is reported once.
         Err(_) if matches!(lies, Lies::Aslant(..)) => {

@@ -414,7 +414,6 @@ impl Common {
         layers: &mut Layers,
         kind: Kind,
         (shape, lies): (Shape, Lies),
-        vertices: Option<VertexLines>,
     ) -> Read {
         let appearance = self.appearance(lexer, layers);
         let (handle, layer) = (self.handle(lexer), self.layer(lexer, layers));
@@ -425,7 +424,7 @@ impl Common {
             kind,
             shape,
             lies,
-            vertices,
+            vertices: None,
             frames: Vec::new(),
         }
     }

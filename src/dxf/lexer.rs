@@ -5,6 +5,7 @@
 use super::fault::{self, quoted};
 use super::lines::Lines;
 use super::number::{self, Code, Number};
+use super::value_type::ValueType;
 use crate::finding::Finding;
 use std::ops::Range;
 
@@ -320,24 +321,14 @@ fn is_name(value: &[u8]) -> bool {
 
 /// True when `value` is of the type that `code` demands.
 fn fits(code: i16, value: &[u8]) -> bool {
-    match code {
-        0 => is_name(value),
-        10..=59 | 140..=149 | 210..=239 | 460..=469 | 1010..=1059 => {
-            number::number(value) != Number::Bad
-        }
-        60..=79
-        | 90..=99
-        | 170..=179
-        | 270..=289
-        | 370..=389
-        | 400..=409
-        | 420..=429
-        | 440..=459
-        | 1060..=1071 => {
+    match ValueType::of(code) {
+        _ if code == 0 => is_name(value),
+        Some(ValueType::Real) => number::number(value) != Number::Bad,
+        Some(ValueType::Flag | ValueType::Short | ValueType::Long | ValueType::Huge) => {
             let text = number::trimmed(value);
             let digits = text.strip_prefix(b"-").unwrap_or(text);
             !digits.is_empty() && digits.iter().all(u8::is_ascii_digit)
         }
-        _ => true,
+        Some(ValueType::Text | ValueType::Bytes) | None => true,
     }
 }

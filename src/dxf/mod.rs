@@ -42,6 +42,7 @@ pub(crate) mod table;
 mod tests;
 mod uncut;
 mod unit;
+mod value_type;
 mod vertex_run;
 mod write;
 

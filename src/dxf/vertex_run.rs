@@ -224,7 +224,7 @@ impl Document {
         let old = all.get(run.clone())?;
         let equal = |(one, other): &(&Vertex, &Vertex)| one == other;
         let before = old.iter().zip(&vertices).take_while(equal).count();
-        let (old, new) = (&old[before..], &vertices[before..]);
+        let (old, new) = (old.get(before..)?, vertices.get(before..)?);
         let behind = old.iter().rev().zip(new.iter().rev());
         let behind = behind.take_while(equal).count();
         let (removed, inserted) = (old.len() - behind, new.len() - behind);

@@ -1,4 +1,4 @@
-//! Entities drawn to be read and not to be cut, as data of a finding.
+//! Entities drawn to be read and not to be cut: their data and their sentence.
 
 use std::sync::Arc;
 
@@ -24,3 +24,27 @@ pub struct SetAside {
 
 /// At most this many handles go into a setting.
 pub(crate) const MOST_HANDLES: usize = 50;
+
+/// The most names in a list.
+const LISTED: usize = 8;
+
+pub(super) fn set_aside(parts: &[SetAside]) -> String {
+    let count: usize = parts.iter().map(|part| part.count).sum();
+    let entities = say!(entities, count);
+    let are = if count == 1 { say!(is) } else { say!(are) };
+    let mut said: Vec<String> = parts
+        .iter()
+        .take(LISTED)
+        .map(|SetAside { why, count, .. }| match why {
+            Aside::Linetype(name) => say!(in_a_linetype, count, name),
+            Aside::Layer(name) => say!(on_a_layer, count, name),
+            Aside::Lone if *count == 1 => say!(n1_lone_line).into(),
+            Aside::Lone => say!(lone_lines, count),
+        })
+        .collect();
+    let others: usize = parts.iter().skip(LISTED).map(|part| part.count).sum();
+    if others > 0 {
+        said.push(say!(others_of_them, others));
+    }
+    say!(drawn_to_be_read_and_not_cut, entities, are, said.join(", "))
+}

@@ -1,5 +1,6 @@
-//! Faults in a program of any language, as numbers.
+//! Faults in a program of any language: their numbers, their rules, and the sentences about them.
 
+use super::lengths::{absurd, mm, told_apart};
 use super::{Rule, Severity, Side};
 use crate::geometry::Vector;
 
@@ -26,211 +27,216 @@ impl Axis {
     }
 }
 
-/// The numbers of a fault in a program. Lengths in µm unless they say otherwise.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Fault {
+/// The rows of faults: as [`told`], with the rule of each.
+macro_rules! faults {
+    ($(
+        $(#[$doc:meta])*
+        $variant:ident $({ $($(#[$of:meta])* $field:ident: $kind:ty),+ })? [$rule:expr]
+            => $said:expr;
+    )+) => {
+        told! {
+            /// The numbers of a fault in a program. Lengths in µm unless they say otherwise.
+            enum Fault;
+            /// The fault, and its effect at the machine.
+            fn sentence();
+            $($(#[$doc])* $variant $({ $($(#[$of])* $field: $kind),+ })? => $said;)+
+        }
+
+        impl Fault {
+            #[allow(unused_variables, reason = "only one of them tells its rule")]
+            pub(crate) fn rule(&self) -> Rule {
+                match self {
+                    $(Fault::$variant $({ $($field),+ })? => $rule,)+
+                }
+            }
+        }
+    };
+}
+
+faults! {
     /// A rule with a sentence of its own, where nobody else needs its numbers.
-    Said {
-        rule: Rule,
-        sentence: String,
-    },
+    Said { rule: Rule, sentence: String } [*rule] => sentence.as_str();
     /// One of a block's three `B` is missing.
-    MissingB,
-    BlockNumberAsB {
-        number: u32,
-    },
+    MissingB [Rule::MissingB] => say!(a_missing_b_shifts_the_numbers);
+    BlockNumberAsB { number: u32 } [Rule::BlockNumberAsB]
+        => say!(b_stands_where_the_block_number_was_meant, number);
     /// J is the length of the line, but must be the `projection`.
-    LengthInJ {
-        j: i64,
-        projection: i64,
-        axis: Axis,
-    },
+    LengthInJ { j: i64, projection: i64, axis: Axis } [Rule::LengthInJ]
+        => say!(j_is_the_length_of_the_line, j, axis.letter(), projection);
     /// J is not the line's projection.
-    WrongJ {
-        j: i64,
-        projection: i64,
-        axis: Axis,
-    },
+    WrongJ { j: i64, projection: i64, axis: Axis } [Rule::WrongJ] => match (j, axis.letter()) {
+        (0, axis) => say!(j_is_0_beside_a_projection, axis, projection),
+        (j, axis) => {
+            let (off, is_more) = ((j - projection).abs(), j > projection);
+            let how = if is_more { say!(too_far) } else { say!(too_early) };
+            say!(j_is_not_the_projection_of_the_line, j, axis, projection, off, how)
+        }
+    };
     /// J does not lead to the contour's end: with `meant` it closes.
     JKeepsOpen {
         j: i64,
         meant: i64,
         /// Other evidence than the closing supports it.
-        is_sure: bool,
-    },
+        is_sure: bool
+    } [Rule::WrongJ] => keeps_open(&format!("J {j}"), &format!("J {meant}"), *is_sure);
     /// J is more than one turn counts.
-    JOverTurn {
-        j: i64,
-        turn: i64,
-    },
+    JOverTurn { j: i64, turn: i64 } [Rule::JOverTurn] => say!(j_is_more_than_one_turn_counts, j, turn);
     /// A line counts its smaller projection.
-    SmallerProjection {
-        axis: Axis,
-        counted: i64,
-        larger: i64,
-    },
+    SmallerProjection { axis: Axis, counted: i64, larger: i64 } [Rule::WrongCountingAxis] => {
+        let [own, other] = [*axis, axis.other()].map(Axis::letter);
+        say!(g_counts_the_smaller_projection, own, counted, larger, other)
+    };
     /// With the other axis the contour closes.
     AxisKeepsOpen {
         axis: Axis,
         /// Other evidence than the closing supports it.
-        is_sure: bool,
-    },
+        is_sure: bool
+    } [Rule::WrongCountingAxis] => {
+        let [own, other] = [*axis, axis.other()].map(|axis| format!("G{}", axis.letter()));
+        keeps_open(&own, &other, *is_sure)
+    };
     /// `found` is not the quadrant of a line along an axis.
-    AxisQuadrant {
-        found: &'static str,
-        expected: [&'static str; 2],
-        axis: Axis,
-    },
+    AxisQuadrant { found: &'static str, expected: [&'static str; 2], axis: Axis } [Rule::WrongQuadrant]
+        => say!(contradicts_a_line_along_an_axis, found, axis.letter(), expected[0], expected[1]);
     /// The same where the contour closes with it: a zero has no sign.
-    UnusualQuadrant {
-        found: &'static str,
-        expected: [&'static str; 2],
-        axis: Axis,
-    },
+    UnusualQuadrant { found: &'static str, expected: [&'static str; 2], axis: Axis } [Rule::WrongQuadrant]
+        => say!(is_unusual_for_a_line_along_an_axis, found, axis.letter(), expected[0], expected[1]);
     /// With `meant` instead of `found` the contour closes.
     QuadrantKeepsOpen {
         found: &'static str,
         meant: &'static str,
         /// Other evidence than the closing supports it.
-        is_sure: bool,
-    },
+        is_sure: bool
+    } [Rule::WrongQuadrant] => keeps_open(found, meant, *is_sure);
     /// With `meant` instead of `value` the contour closes.
-    NumberKeepsOpen {
-        axis: Axis,
-        value: i64,
-        meant: i64,
-    },
+    NumberKeepsOpen { axis: Axis, value: i64, meant: i64 } [Rule::SuspectBlock] => {
+        let [found, meant] = [value, meant].map(|number| format!("{} {number}", axis.letter()));
+        keeps_open(&found, &meant, true)
+    };
     /// With X and Y exchanged the contour closes.
-    ExchangedKeepsOpen,
+    ExchangedKeepsOpen [Rule::SuspectBlock] => say!(x_and_y_stand_for_each_other);
     /// The block stands twice: without it the contour closes.
-    TwinKeepsOpen,
+    TwinKeepsOpen [Rule::DoubledBlock] => say!(without_its_double_the_contour_closes);
     /// An arc whose centre is one of its ends, or is missing.
-    ArcWithoutRadius,
+    ArcWithoutRadius [Rule::ArcWithoutRadius] => say!(the_arc_has_no_radius);
     /// `field` holds more than `digits` digits.
-    TooManyDigits {
-        field: &'static str,
-        value: i64,
-        digits: u32,
-    },
+    TooManyDigits { field: &'static str, value: i64, digits: u32 } [Rule::TooManyDigits]
+        => say!(a_number_has_more_digits_than_the_controller_takes, field, value, digits);
     /// A cut ends this far beside its beginning.
-    NotClosed {
-        x: f64,
-        y: f64,
-    },
-    MissingEnd {
-        word: String,
-    },
-    TextAfterEnd {
-        word: String,
-    },
-    DoubledNumber {
-        number: u32,
-    },
+    NotClosed { x: f64, y: f64 } [Rule::NotClosed]
+        => say!(the_cut_does_not_close, mm(x.hypot(*y) / 1000.0), x / 1000.0, y / 1000.0);
+    MissingEnd { word: String } [Rule::MissingEnd] => say!(the_program_lacks_its_end, word);
+    TextAfterEnd { word: String } [Rule::TextAfterEnd] => say!(text_behind_which_ends_the_program, word);
+    DoubledNumber { number: u32 } [Rule::BlockNumber] => say!(block_number_n_stands_twice, number);
     /// `expected` should follow, but `number` does.
-    NumberOutOfOrder {
-        expected: u32,
-        number: u32,
-    },
-    Unnumbered {
-        expected: u32,
-    },
+    NumberOutOfOrder { expected: u32, number: u32 } [Rule::BlockNumber]
+        => say!(block_number_n_is_out_of_turn_expected_n, number, expected);
+    Unnumbered { expected: u32 } [Rule::BlockNumber] => say!(the_block_has_no_number_expected_n, expected);
     /// The coordinates behind the block differ from its end.
-    PositionMismatch {
-        x: f64,
-        y: f64,
-    },
+    PositionMismatch { x: f64, y: f64 } [Rule::PositionMismatch] => {
+        let off = mm(x.hypot(*y) / 1000.0);
+        say!(the_coordinates_are_not_where_the_block_ends, off, x / 1000.0, y / 1000.0)
+    };
     /// The path meets the block on line `other` (from 0) at a point, mm from the contour's start, and from that of its
     /// own block.
-    PathCrossesItself {
-        at: [f64; 2],
-        from_block: Option<Vector>,
-        other: usize,
-    },
+    PathCrossesItself { at: [f64; 2], from_block: Option<Vector>, other: usize } [Rule::PathCrossesItself]
+        => say!(the_wire_crosses_its_own_path, other + 1, at[0], at[1]);
     /// The start of an arc is `start` from its centre, its end `end`.
-    OffRadius {
-        start: f64,
-        end: f64,
-    },
+    OffRadius { start: f64, end: f64 } [Rule::ArcOffRadius] => {
+        let (near, far) = told_apart(start / 1e3, end / 1e3);
+        say!(the_ends_of_the_arc_are_not_on_one_circle, near, far)
+    };
     /// Compensation is switched with an arc, or with a rapid.
-    Switch {
-        on: bool,
-        arc: bool,
-    },
+    Switch { on: bool, arc: bool } [Rule::CompensationSwitch] => match (on, arc) {
+        (true, true) => say!(the_correction_is_switched_on_by_an_arc),
+        (false, true) => say!(the_correction_is_switched_off_by_an_arc),
+        (_, false) => say!(the_correction_is_switched_on_by_a_rapid),
+    };
     /// The wire runs on `side` of a contour, which makes it a punch (or an opening) against the settings.
-    RoleSide {
-        side: Side,
-        punch: bool,
-    },
+    RoleSide { side: Side, punch: bool } [Rule::WrongSide] => {
+        let (is, wanted) = match punch {
+            true => (say!(outside), say!(opening)),
+            false => (say!(inside), say!(punch)),
+        };
+        say!(the_settings_say_the_other_side, runs_on(*side), is, wanted)
+    };
     /// The wire runs on `side` of a contour but approaches it from the other side.
-    EntrySide {
-        side: Side,
-    },
+    EntrySide { side: Side } [Rule::WrongSide] => say!(it_comes_from_the_other_side, runs_on(*side));
     /// `word` stands `count` times.
-    Foreign {
-        word: String,
-        count: usize,
-    },
+    Foreign { word: String, count: usize } [Rule::MachineDependent] => match count {
+        1 => say!(is_a_matter_of_the_machine, word),
+        count => say!(is_often_a_matter_of_the_machine, word, count),
+    };
     /// A subprogram that is not in the text.
-    NoSubprogram {
-        number: u32,
-    },
-    EndlessCalls,
+    NoSubprogram { number: u32 } [Rule::MachineDependent]
+        => say!(subprogram_does_not_stand_in_this_text, number);
+    EndlessCalls [Rule::MachineDependent] => say!(the_subprograms_call_each_other_without_end);
     /// G02 for G03, or the other way round; `is_sure` where the way turns back on itself.
-    ReversedArc {
-        is_sure: bool,
-    },
+    ReversedArc { is_sure: bool } [Rule::ReversedArc] => match is_sure {
+        true => say!(the_arc_runs_the_wrong_way_round),
+        false => say!(the_arc_may_run_the_wrong_way_round),
+    };
     /// Out and back by this much.
-    Spur {
-        length: f64,
-    },
+    Spur { length: f64 } [Rule::Spur]
+        => say!(the_wire_goes_out_mm_and_back_on_the_same, mm(length / 1e3));
     /// An arc that goes round once more, or a line that leads nowhere.
-    DoubledBlock {
-        arc: bool,
-    },
-    NoOffset {
-        side: Side,
-    },
+    DoubledBlock { arc: bool } [Rule::DoubledBlock] => match arc {
+        true => say!(the_block_stands_twice_and_goes_round),
+        false => say!(the_block_stands_twice_and_moves_nothing),
+    };
+    NoOffset { side: Side } [Rule::MissingOffset] => say!(nothing_says_by_how_much, runs_on(*side));
     /// The wire changes to `side` from the other one.
-    SideChange {
-        side: Side,
-    },
-    StillOn,
+    SideChange { side: Side } [Rule::SideChange]
+        => say!(the_side_changes_within_the_cut, runs_on(*side));
+    StillOn [Rule::MissingCancel] => say!(the_program_ends_with_the_correction_on);
     /// Subprogram `number` runs on into the blocks behind it.
-    NoReturn {
-        number: u32,
-    },
+    NoReturn { number: u32 } [Rule::MissingReturn] => say!(subprogram_has_no_m99, number);
     /// `word` stands for the first of `count`.
-    Bare {
-        word: String,
-        count: usize,
-    },
+    Bare { word: String, count: usize } [Rule::MixedNumbers] => match count {
+        1 => say!(has_no_decimal_point, word),
+        count => say!(several_have_no_decimal_point, word, count),
+    };
     /// A number with a decimal point among numbers without one.
-    Pointed {
-        word: String,
-    },
+    Pointed { word: String } [Rule::MixedNumbers] => say!(has_a_decimal_point, word);
     /// A number with other decimals than all others, which have `usual`.
-    Places {
-        word: String,
-        usual: u8,
-    },
+    Places { word: String, usual: u8 } [Rule::MixedNumbers]
+        => say!(has_other_decimals_than_the_others, word, usual);
     /// mm, of a program that does not state its unit.
-    LooksLikeInches {
-        size: f64,
-    },
+    LooksLikeInches { size: f64 } [Rule::Units] => say!(the_program_does_not_say_its_unit, mm(*size));
     /// mm: no wire cuts a part of this size.
-    AbsurdSize {
-        size: f64,
-    },
+    AbsurdSize { size: f64 } [Rule::Units]
+        => say!(the_program_is_meant_in_another_unit, mm(*size), absurd(*size));
     /// A place of the table that depends on one which the program does not fill.
-    UnknownValue {
-        word: String,
-    },
+    UnknownValue { word: String } [Rule::MachineDependent]
+        => say!(hangs_on_an_empty_place_of_the_table, word);
     /// With `meant` instead of `found` the program is sound.
-    Suspect {
-        found: String,
-        meant: String,
-        closes: bool,
-    },
+    Suspect { found: String, meant: String, closes: bool } [Rule::SuspectBlock] => {
+        let comes_of_it = match closes {
+            true => say!(the_cut_does_not_close_and_it_would),
+            false => say!(the_cut_would_be_sound),
+        };
+        match (found.is_empty(), meant.is_empty()) {
+            (true, _) => say!(may_be_missing_here, meant, comes_of_it),
+            (_, true) => say!(may_be_one_too_many, found, comes_of_it),
+            _ => say!(may_be_wrong_here, found, comes_of_it, meant),
+        }
+    };
+}
+
+/// A field that keeps a contour open, as far as the contour alone shows.
+fn keeps_open(found: &str, meant: &str, is_sure: bool) -> String {
+    match is_sure {
+        true => say!(keeps_the_contour_open_with, found, meant),
+        false => say!(may_keep_the_contour_open, found, meant),
+    }
+}
+
+/// The word that lets the wire run on a side.
+fn runs_on(side: Side) -> &'static str {
+    match side {
+        Side::Left => say!(g41_lets_the_wire_run_on_the_left),
+        Side::Right => say!(g42_lets_the_wire_run_on_the_right),
+    }
 }
 
 impl Fault {
@@ -253,52 +259,6 @@ impl Fault {
     pub(crate) fn said(rule: Rule, sentence: impl Into<String>) -> Fault {
         let sentence = sentence.into();
         Fault::Said { rule, sentence }
-    }
-
-    pub(crate) fn rule(&self) -> Rule {
-        match self {
-            Fault::Said { rule, .. } => *rule,
-            Fault::MissingB => Rule::MissingB,
-            Fault::BlockNumberAsB { .. } => Rule::BlockNumberAsB,
-            Fault::LengthInJ { .. } => Rule::LengthInJ,
-            Fault::WrongJ { .. } | Fault::JKeepsOpen { .. } => Rule::WrongJ,
-            Fault::JOverTurn { .. } => Rule::JOverTurn,
-            Fault::SmallerProjection { .. } | Fault::AxisKeepsOpen { .. } => {
-                Rule::WrongCountingAxis
-            }
-            Fault::AxisQuadrant { .. }
-            | Fault::UnusualQuadrant { .. }
-            | Fault::QuadrantKeepsOpen { .. } => Rule::WrongQuadrant,
-            Fault::ArcWithoutRadius => Rule::ArcWithoutRadius,
-            Fault::TooManyDigits { .. } => Rule::TooManyDigits,
-            Fault::NotClosed { .. } => Rule::NotClosed,
-            Fault::MissingEnd { .. } => Rule::MissingEnd,
-            Fault::TextAfterEnd { .. } => Rule::TextAfterEnd,
-            Fault::DoubledNumber { .. }
-            | Fault::NumberOutOfOrder { .. }
-            | Fault::Unnumbered { .. } => Rule::BlockNumber,
-            Fault::PositionMismatch { .. } => Rule::PositionMismatch,
-            Fault::PathCrossesItself { .. } => Rule::PathCrossesItself,
-            Fault::OffRadius { .. } => Rule::ArcOffRadius,
-            Fault::Switch { .. } => Rule::CompensationSwitch,
-            Fault::RoleSide { .. } | Fault::EntrySide { .. } => Rule::WrongSide,
-            Fault::Foreign { .. }
-            | Fault::NoSubprogram { .. }
-            | Fault::EndlessCalls
-            | Fault::UnknownValue { .. } => Rule::MachineDependent,
-            Fault::ReversedArc { .. } => Rule::ReversedArc,
-            Fault::Spur { .. } => Rule::Spur,
-            Fault::DoubledBlock { .. } | Fault::TwinKeepsOpen => Rule::DoubledBlock,
-            Fault::NoOffset { .. } => Rule::MissingOffset,
-            Fault::SideChange { .. } => Rule::SideChange,
-            Fault::StillOn => Rule::MissingCancel,
-            Fault::NoReturn { .. } => Rule::MissingReturn,
-            Fault::Bare { .. } | Fault::Pointed { .. } | Fault::Places { .. } => Rule::MixedNumbers,
-            Fault::LooksLikeInches { .. } | Fault::AbsurdSize { .. } => Rule::Units,
-            Fault::Suspect { .. } | Fault::NumberKeepsOpen { .. } | Fault::ExchangedKeepsOpen => {
-                Rule::SuspectBlock
-            }
-        }
     }
 
     /// That of its rule, unless the case is more or less severe than usual.

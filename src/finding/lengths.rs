@@ -1,5 +1,38 @@
 //! Lengths as people read them.
 
+/// The subject of a finding: a plain number is the unit of a drawing for the wire.
+#[derive(Clone, Copy, Debug)]
+pub struct Telling {
+    /// mm of the drawing's unit.
+    pub unit_mm: f64,
+    /// An electrode cuts, not a wire.
+    pub mills: bool,
+}
+
+impl From<f64> for Telling {
+    fn from(unit_mm: f64) -> Telling {
+        Telling {
+            unit_mm,
+            mills: false,
+        }
+    }
+}
+
+impl Telling {
+    /// A length of the drawing, as people read it.
+    pub(super) fn mm(self, length: f64) -> String {
+        mm(length * self.unit_mm)
+    }
+
+    /// The cutting tool, within a sentence.
+    pub(super) fn tool(self) -> &'static str {
+        match self.mills {
+            true => say!(the_electrode_that_mills),
+            false => say!(the_wire_that_cuts),
+        }
+    }
+}
+
 /// A length in mm with three decimals, or with as many as its first digit needs.
 pub(super) fn mm(length: f64) -> String {
     let places = if length != 0.0 && length.abs() < 0.0005 {

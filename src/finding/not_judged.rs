@@ -1,21 +1,21 @@
-//! What was left out because it would have taken too much, as numbers; [`crate::message`] has the sentence.
+//! What was left out because it would have taken too much: its numbers and sentences.
 
-/// Work on one document is bounded in counted steps, so that the same document always leaves out the same.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NotJudged {
+told! {
+    /// Work on one document is bounded in counted steps, so that the same document always leaves out the same.
+    enum NotJudged;
+    fn sentence();
+
     /// Too much lies on or across each other: `count` stretches of contours were not compared with their neighbours.
-    Pairs { count: usize },
+    Pairs { count: usize } => say!(thousands_of_entities_lie_on_each_other, count);
     /// Too much of a contour of this many blocks lies in one place: not all crossings were looked for.
-    Crossings { blocks: usize },
+    Crossings { blocks: usize } => say!(so_much_of_the_way_lies_on_one_place, blocks);
     /// A reference to a block would draw this many copies and segments: `most` is the limit for all references of a
     /// file.
-    Reference {
-        copies: u64,
-        segments: u64,
-        most: u64,
-    },
+    Reference { copies: u64, segments: u64, most: u64 }
+        => say!(this_insert_draws_too_much, copies, segments, most);
     /// A curve takes this many arcs; all curves of a drawing together may take `most` beyond what each has free.
-    Curve { arcs: usize, most: u64 },
+    Curve { arcs: usize, most: u64 } => say!(this_curve_would_take_too_many_arcs, arcs, most);
     /// The calls of subprograms come to more than `lines` lines, or more than `calls` calls.
-    Calls { lines: usize, calls: usize },
+    Calls { lines: usize, calls: usize }
+        => say!(the_calls_of_subprograms_come_to_too_much, lines, calls);
 }

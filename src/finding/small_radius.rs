@@ -1,5 +1,6 @@
-//! An arc that is too tight to cut, in numbers.
+//! An arc that is too tight to cut: its numbers and their sentence.
 
+use super::lengths::{Telling, told_apart};
 use crate::geometry::{Arc, Point, Side};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -76,5 +77,45 @@ impl SmallRadius {
             taken_by_skims: false,
             no_fix: None,
         }
+    }
+    /// What is too small, what comes of it, and why there is no fix.
+    pub(super) fn sentence(&self, telling: Telling) -> String {
+        let unit_mm = telling.unit_mm;
+        let (radius, required) = told_apart(self.radius * unit_mm, self.required * unit_mm);
+        let pass = self.pass.map_or(String::new(), |pass| say!(of_pass, pass));
+        let stock_left = self
+            .stock_left
+            .is_finite()
+            .then(|| telling.mm(self.stock_left));
+        let mut text = say!(arc_r_mm_is_below_the_correction_mm, radius, required, pass);
+        if self.taken_by_skims {
+            text += &match &stock_left {
+                Some(stock) => say!(the_later_passes_find_mm_more_stock, stock),
+                None => say!(the_later_passes_find_more_stock).to_owned(),
+            };
+        } else if self.overcut * unit_mm >= 0.5e-6 {
+            let overcut = telling.mm(self.overcut);
+            text += &say!(the_wire_overcuts_the_contour_by_mm, overcut, telling.tool());
+            text += &stock_left.map_or_else(String::new, |stock| say!(or_leaves_stock, stock));
+        } else {
+            text += say!(the_control_loses_the_arc);
+        }
+        text += &self.no_fix.map_or_else(String::new, |why| match why {
+            NoFix::NarrowSlot => {
+                let least = telling.mm(2.0 * self.required);
+                say!(
+                    no_arc_of_the_required_radius_fits_here,
+                    least,
+                    telling.tool()
+                )
+            }
+            NoFix::SealsContour => say!(the_arc_that_fits_would_seal_the_slot).into(),
+            NoFix::ShortSegment => say!(the_arc_that_fits_would_leave_a_segment_too_short).into(),
+            NoFix::Spoils => say!(the_arc_that_fits_here_would_bring_another_fault).into(),
+            NoFix::NoNeighbour => say!(no_neighbours_for_a_larger_arc).into(),
+            NoFix::Program => say!(repair_it_in_the_drawing_and_make_the_program_again).into(),
+            NoFix::NotEditable => say!(it_is_part_of_an_entity_that_cannot_be_edited_here).into(),
+        });
+        text
     }
 }

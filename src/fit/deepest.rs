@@ -1,7 +1,7 @@
 //! How deep an edge stands in the other part.
 
 use crate::geometry::{Bounds, Point, Segment};
-use crate::toolpath::Part;
+use crate::toolpath::Nearby;
 
 /// The most looks at one edge.
 const MOST: usize = 2_000;
@@ -19,23 +19,23 @@ struct Look {
     nearest: usize,
 }
 
-/// The deepest place of a segment, beyond what the wire has cut of a part; nothing where nothing of it is deeper than the rounding. `asked`
+/// The deepest place of a segment, beyond what the wire has cut half a kerf about its way; nothing where nothing of it is deeper than the rounding. `asked`
 /// takes in all that this hangs on.
 ///
 /// The depth changes by no more than the way along the segment. And it is no more than how far one piece of the way of the wire is: from a
 /// straight one no place of a straight stretch is farther than one of its ends.
 pub(super) fn deepest(
     segment: &Segment,
-    part: &Part,
-    rounding: f64,
+    way: &mut Nearby,
+    [half, rounding]: [f64; 2],
     asked: &mut Bounds,
 ) -> Option<(f64, Point)> {
     let length = segment.length();
-    let (way, half) = (&part.path, part.half);
+    let walls = way.walls();
     let mut worst: Option<(f64, Point)> = None;
     let mut look = |share: f64, near: Option<usize>| {
         let at = segment.point_at(share);
-        let reach = near.map_or(half, |near| way.segment(near).distance_to(at));
+        let reach = near.map_or(half, |near| walls.segment(near).distance_to(at));
         let (away, nearest) = way.nearest_to(at, reach)?;
         asked.merge(&Bounds::of_disc(at, away));
         let depth = away - half;
@@ -62,7 +62,7 @@ pub(super) fn deepest(
             let along = (to.share - from.share) * length;
             let farthest = (from.depth + to.depth + along) / 2.0;
             let is_beside = |nearest: usize| {
-                let piece = way.segment(nearest);
+                let piece = walls.segment(nearest);
                 let is_within = |at: Point| piece.distance_to(at) - half <= most.max(rounding);
                 piece.as_arc().is_none() && is_within(from.at) && is_within(to.at)
             };

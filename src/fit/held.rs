@@ -11,8 +11,9 @@ use super::since::Since;
 use crate::geometry::{
     Bounds, Few, Point, Segment, Vector, cross, line_circle, line_line, reached,
 };
-use crate::toolpath::Part;
-use rayon::iter::{IntoParallelIterator, ParallelIterator};
+use crate::toolpath::{Nearby, Part, Walls};
+use rayon::iter::{IntoParallelIterator, ParallelExtend, ParallelIterator};
+use rayon::slice::ParallelSlice;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -31,10 +32,12 @@ pub(super) struct Limits {
 pub(crate) struct Held {
     /// The least clearance all round.
     pub least: f64,
-    /// Where less is left than there should be, in the order of the outline of the punch, then of that of the plate.
-    pub spots: Vec<Spot>,
     /// Corners of the punch, those of the plate, and walls of the punch.
     pub(super) looks: [Looks; 3],
+    /// What stands for all walls, where they lie too near to each other everywhere.
+    apart: Option<Spot>,
+    /// What the two are called.
+    names: [Arc<str>; 2],
 }
 
 /// A corner is looked round up to so many half kerfs from where the wire turned.
@@ -59,22 +62,33 @@ pub(super) fn held(
     let [punch, plate] = parts;
     let turned = [plate, punch];
     let looks = [
-        looks(0, since, parts, |_, edge, asked| {
-            corner(parts, edge, limits, asked)
-        }),
-        looks(1, since, turned, |_, edge, asked| {
-            corner(turned, edge, limits, asked)
-        }),
+        looks(
+            0,
+            since,
+            parts,
+            [&plate.near, &punch.path],
+            |about, edge| corner(parts, edge, about, limits),
+        ),
+        looks(
+            1,
+            since,
+            turned,
+            [&punch.near, &plate.path],
+            |about, edge| corner(turned, edge, about, limits),
+        ),
         match limits.along_walls {
             Some(_) => Looks::default(),
-            None => looks(2, since, parts, |beside, edge, asked| {
-                wall(parts, edge, beside, limits, asked)
-            }),
+            None => looks(
+                2,
+                since,
+                parts,
+                [&plate.near, &plate.path],
+                |about, edge| wall(parts, edge, about, limits),
+            ),
         },
     ];
     let [of_punch, of_plate] = names.each_ref();
-    let mut spots = Vec::with_capacity(looks.iter().map(|looks| looks.verdicts.len()).sum());
-    let mut least = limits.clearance;
+    let (mut least, mut all_apart) = (limits.clearance, None);
     if let Some(apart) = limits.along_walls
         && apart < limits.clearance - limits.rounding
     {
@@ -85,7 +99,7 @@ pub(super) fn held(
             && let (Some(segment), Some(other)) =
                 (punch.segment_at(0, at), plate.segment_at(near, at))
         {
-            spots.push(Spot {
+            all_apart = Some(Spot {
                 at,
                 turn: 0.0,
                 clearance: apart,
@@ -97,40 +111,87 @@ pub(super) fn held(
             });
         }
     }
-    for (which, looks) in looks.iter().enumerate() {
-        let is_of_plate = which == 1;
-        let ([one, other], [of, partner]) = match is_of_plate {
-            true => (turned, [of_plate, of_punch]),
-            false => (parts, [of_punch, of_plate]),
-        };
-        let spot = |verdict: &Verdict| {
-            let edge = &one.edges[verdict.edge as usize];
-            let turn = edge.turned_about.and(edge.geometry.as_arc());
-            Some(Spot {
-                at: verdict.at,
-                turn: turn.map_or(0.0, |arc| arc.sweep.abs()),
-                clearance: verdict.clearance,
-                is_of_plate,
-                segment: one.segment_at(verdict.edge as usize, verdict.at)?,
-                of: of.clone(),
-                other: other.segment_at(verdict.other as usize, verdict.at_other)?,
-                partner: partner.clone(),
-            })
-        };
-        spots.extend(looks.verdicts.iter().filter_map(spot));
-    }
-    least = spots
-        .iter()
-        .map(|spot| spot.clearance)
+    let held = Held {
+        least,
+        looks,
+        apart: all_apart,
+        names: names.clone(),
+    };
+    least = (held.clearances())
+        .map(|(_, clearance)| clearance)
         .fold(least, f64::min);
-    if limits.asks_least && spots.is_empty() {
+    if limits.asks_least && held.clearances().next().is_none() {
         least = more_than_wanted(parts, names, limits);
     }
-    Held {
-        least,
-        spots,
-        looks,
+    Held { least, ..held }
+}
+
+impl Held {
+    /// Where less is left than there should be, and what, in the order of the outline of the punch, then of that of the plate.
+    pub(crate) fn clearances(&self) -> impl Iterator<Item = (Point, f64)> {
+        let verdicts = self.looks.iter().flat_map(|looks| &looks.verdicts);
+        let apart = self.apart.iter().map(|spot| (spot.at, spot.clearance));
+        apart.chain(verdicts.map(|verdict| (verdict.at, verdict.clearance)))
     }
+
+    /// Of these the corners, each with what the part is called whose wire turned there.
+    pub(crate) fn corners(&self) -> impl Iterator<Item = (Point, &Arc<str>)> {
+        let corners = self.looks.iter().zip(&self.names);
+        corners.flat_map(|(looks, of)| looks.verdicts.iter().map(move |verdict| (verdict.at, of)))
+    }
+
+    /// All of these, of the parts that were held against each other.
+    pub(crate) fn spots<'a>(&'a self, parts: [&'a Part; 2]) -> impl Iterator<Item = Spot> + 'a {
+        let of_looks = self.looks.iter().enumerate();
+        let of_looks = of_looks.flat_map(move |(which, looks)| {
+            let verdicts = looks.verdicts.iter();
+            verdicts.filter_map(move |verdict| spot(which, verdict, parts, &self.names))
+        });
+        self.apart.iter().cloned().chain(of_looks)
+    }
+
+    /// The same by all cores.
+    pub(super) fn all_spots(&self, parts: [&Part; 2]) -> Vec<Spot> {
+        let count = self.looks.iter().map(|looks| looks.verdicts.len());
+        let mut all = Vec::with_capacity(1 + count.sum::<usize>());
+        all.extend(self.apart.clone());
+        for (which, looks) in self.looks.iter().enumerate() {
+            let some = looks.verdicts.par_chunks(AT_A_TIME);
+            all.par_extend(some.flat_map_iter(|verdicts| {
+                // Cores that count the uses of one name wait for each other.
+                let names = self.names.each_ref().map(|name| Arc::from(&**name));
+                let spots = verdicts.iter();
+                spots.filter_map(move |verdict| spot(which, verdict, parts, &names))
+            }));
+        }
+        all
+    }
+}
+
+/// The place of which a look speaks.
+fn spot(
+    which: usize,
+    verdict: &Verdict,
+    [punch, plate]: [&Part; 2],
+    [of_punch, of_plate]: &[Arc<str>; 2],
+) -> Option<Spot> {
+    let is_of_plate = which == 1;
+    let ([one, other], [of, partner]) = match is_of_plate {
+        true => ([plate, punch], [of_plate, of_punch]),
+        false => ([punch, plate], [of_punch, of_plate]),
+    };
+    let edge = &one.edges[verdict.edge as usize];
+    let turn = edge.turned_about.and(edge.geometry.as_arc());
+    Some(Spot {
+        at: verdict.at,
+        turn: turn.map_or(0.0, |arc| arc.sweep.abs()),
+        clearance: verdict.clearance,
+        is_of_plate,
+        segment: one.segment_at(verdict.edge as usize, verdict.at)?,
+        of: of.clone(),
+        other: other.segment_at(verdict.other as usize, verdict.at_other)?,
+        partner: partner.clone(),
+    })
 }
 
 /// How much is left where it is tightest, of parts that have the clearance everywhere: so much more is asked for that it is missing.
@@ -154,12 +215,25 @@ fn more_than_wanted(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &Limits) -
     }
 }
 
-/// What a look at each edge of `one` says, of which it is handed what the look before it has found, and the box of all that it asks.
+/// What lies about the edge that is looked at.
+struct About<'a> {
+    /// Edges of the other part.
+    edges: Nearby<'a>,
+    /// The way of a wire.
+    way: Nearby<'a>,
+    /// A piece of that which the edge before lies beside.
+    beside: Option<usize>,
+    /// The box of all that was asked about this edge.
+    asked: Bounds,
+}
+
+/// What a look at each edge of `one` says, among edges and beside a way.
 fn looks(
     which: usize,
     since: Option<&Since>,
     [one, _]: [&Part; 2],
-    look: impl Fn(&mut Option<usize>, usize, &mut Bounds) -> Option<Verdict> + Sync,
+    [edges_of, way]: [&Walls; 2],
+    look: impl Fn(&mut About, usize) -> Option<Verdict> + Sync,
 ) -> Looks {
     let count = one.edges.len();
     let some = |edges: Range<usize>| {
@@ -167,13 +241,19 @@ fn looks(
             asked: Vec::with_capacity(edges.len()),
             verdicts: Vec::new(),
         };
-        let (mut beside, mut known) = (None, since.map(|since| since.of(which)));
+        let mut about = About {
+            edges: Nearby::of(edges_of),
+            way: Nearby::of(way),
+            beside: None,
+            asked: Bounds::EMPTY,
+        };
+        let mut known = since.map(|since| since.of(which));
         for edge in edges {
             let kept = known.as_mut().and_then(|known| known.kept(edge));
             let (asked, verdict) = kept.unwrap_or_else(|| {
-                let mut asked = Bounds::EMPTY;
-                let verdict = look(&mut beside, edge, &mut asked);
-                (asked, verdict)
+                about.asked = Bounds::EMPTY;
+                let verdict = look(&mut about, edge);
+                (about.asked, verdict)
             });
             looks.asked.push(asked);
             looks.verdicts.extend(verdict);
@@ -203,11 +283,11 @@ fn looks(
 fn corner(
     [one, other]: [&Part; 2],
     edge: usize,
+    about: &mut About,
     limits: &Limits,
-    asked: &mut Bounds,
 ) -> Option<Verdict> {
     let turned = one.edges[edge].turned_about?;
-    let (far, at_other, on) = farthest([one, other], edge, turned, limits, asked)?;
+    let (far, at_other, on) = farthest([one, other], edge, turned, about, limits)?;
     Some(Verdict {
         edge: edge as u32,
         at: turned + (at_other - turned) * (one.half / far),
@@ -223,8 +303,8 @@ fn farthest(
     [one, other]: [&Part; 2],
     index: usize,
     turned: Point,
+    about: &mut About,
     limits: &Limits,
-    asked: &mut Bounds,
 ) -> Option<(f64, Point, usize)> {
     let arc = one.edges[index].geometry.as_arc()?;
     let (from, to) = (arc.start - turned, arc.end - turned);
@@ -238,9 +318,9 @@ fn farthest(
     let widest = (arc.sweep / 2.0).cos().max(1.0 / FARTHEST);
     let reach = (one.half + 2.0 * limits.clearance) / widest;
     let mut places: Vec<(f64, Point, usize)> = Vec::new();
-    let about = Bounds::of_disc(turned, reach);
-    asked.merge(&about);
-    other.near.find(&about, |edge| {
+    let area = Bounds::of_disc(turned, reach);
+    about.asked.merge(&area);
+    about.edges.find(&area, |edge| {
         let geometry = &other.edges[edge].geometry;
         let ends = [geometry.start(), geometry.end()];
         let mut own: Few<Point, 8> = ends.into_iter().collect();
@@ -274,8 +354,8 @@ fn farthest(
     });
     places.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.2.cmp(&b.2)));
     let mut is_nearest = |&(far, at, _): &(f64, Point, usize)| {
-        asked.merge(&Bounds::of_disc(at, far));
-        one.path.nearer(at, far - limits.rounding).is_none()
+        about.asked.merge(&Bounds::of_disc(at, far));
+        about.way.nearer(at, far - limits.rounding).is_none()
     };
     places.into_iter().find(|place| is_nearest(place))
 }
@@ -291,14 +371,12 @@ fn crossed(segment: &Segment, from: Point, ray: Vector) -> Few<Point, 2> {
     found.into_iter().filter(|at| segment.spans(*at)).collect()
 }
 
-/// A wall of a drawn punch that lies too near to one of the plate, or runs into it. `beside` is a piece of the way of the wire that the edge
-/// before it lies beside.
+/// A wall of a drawn punch that lies too near to one of the plate, or runs into it.
 fn wall(
     [punch, plate]: [&Part; 2],
     index: usize,
-    beside: &mut Option<usize>,
+    about: &mut About,
     limits: &Limits,
-    asked: &mut Bounds,
 ) -> Option<Verdict> {
     let plain = |part: &Part, index: usize| part.edges[index].turned_about.is_none();
     if !plain(punch, index) {
@@ -306,9 +384,9 @@ fn wall(
     }
     let geometry = &punch.edges[index].geometry;
     let mut nearest: (f64, Option<usize>) = (limits.clearance - limits.rounding, None);
-    let about = geometry.bounds().grown(limits.clearance);
-    asked.merge(&about);
-    plate.near.find(&about, |other| {
+    let area = geometry.bounds().grown(limits.clearance);
+    about.asked.merge(&area);
+    about.edges.find(&area, |other| {
         let most = nearest.0 + TIE * limits.rounding;
         if plain(plate, other)
             && let Some(apart) = plate.near.distance_below(geometry, other, most)
@@ -322,13 +400,16 @@ fn wall(
     // What lies beyond the other's edge, or crosses it, is as deep as it is away from what the wire has cut.
     let mut is_deep = |at: Point| {
         let reach = plate.half + limits.rounding;
-        asked.merge(&Bounds::of_disc(at, reach));
-        *beside = plate.path.nearer_from(*beside, at, reach);
-        beside.is_none()
+        about.asked.merge(&Bounds::of_disc(at, reach));
+        about.beside = plate.path.nearer_from(about.beside, at, reach);
+        about.beside.is_none()
     };
     let is_through = nearest.1.is_some() && nearest.0 <= limits.rounding;
     let deepest = match is_through || is_deep(geometry.start()) {
-        true => deepest(geometry, plate, limits.rounding, asked),
+        true => {
+            let reach = [plate.half, limits.rounding];
+            deepest(geometry, &mut about.way, reach, &mut about.asked)
+        }
         false => None,
     };
     let (clearance, at, other) = match (deepest, nearest) {
@@ -340,8 +421,8 @@ fn wall(
         (None, (_, None)) => return None,
     };
     let nearest_edge = || {
-        let (away, edge) = plate.near.nearest_to(at, plate.half)?;
-        asked.merge(&Bounds::of_disc(at, away));
+        let (away, edge) = about.edges.nearest_to(at, plate.half)?;
+        about.asked.merge(&Bounds::of_disc(at, away));
         Some(edge)
     };
     Some(Verdict {

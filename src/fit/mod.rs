@@ -72,11 +72,11 @@ pub struct Fit {
 
 impl Pair {
     fn of(held: Held, parts: [&Part; 2]) -> Pair {
-        let [punch, plate] =
-            parts.map(|part| part.edges.iter().map(|edge| edge.geometry).collect());
+        let outline = |part: &Part| part.edges.iter().map(|edge| edge.geometry).collect();
+        let (spots, [punch, plate]) = rayon::join(|| held.all_spots(parts), || parts.map(outline));
         Pair {
             least: held.least,
-            spots: held.spots,
+            spots,
             punch,
             plate,
         }

@@ -3,7 +3,7 @@
 use super::change::Change;
 use super::workpiece_of;
 use crate::drawing::{Contour, Drawing, Outline};
-use crate::geometry::{Bounds, Point, Segment};
+use crate::geometry::{Bounds, Segment};
 use crate::settings::Effective;
 use crate::toolpath::Walls;
 use rayon::iter::ParallelIterator;
@@ -198,13 +198,22 @@ fn are_near<'a>(
     reach: f64,
 ) -> bool {
     let mut beside = None;
-    let mut is_near = |at: Point| {
-        beside = other.nearer_from(beside, at, reach);
-        beside.is_some()
-    };
     segments.all(|segment| {
-        [0.0, 0.25, 0.5, 0.75]
-            .into_iter()
-            .all(|share| is_near(segment.point_at(share)))
+        // No place of a line is farther from another one than one of its ends.
+        let is_along = |wall: &usize| {
+            let ends = [segment.start(), segment.end()];
+            let wall = other.segment(*wall);
+            wall.as_arc().is_none() && ends.iter().all(|end| wall.distance_to(*end) < reach)
+        };
+        if let (Segment::Line(_), Some(last)) = (segment, beside)
+            && let Some(wall) = other.beside(last).into_iter().find(is_along)
+        {
+            beside = Some(wall);
+            return true;
+        }
+        [0.0, 0.25, 0.5, 0.75].into_iter().all(|share| {
+            beside = other.nearer_from(beside, segment.point_at(share), reach);
+            beside.is_some()
+        })
     })
 }

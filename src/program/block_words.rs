@@ -55,8 +55,8 @@ impl BlockWords {
 
     fn of_iso(line: &[u8]) -> BlockWords {
         let mut said = BlockWords::default();
-        iso::words(line, 1, |token| {
-            let Token::Word { letter, number, .. } = token else {
+        iso::words(line, 1, |token, _| {
+            let Token::Word { letter, number } = token else {
                 return;
             };
             let value = number.mantissa as f64 / 10_f64.powi(number.decimals.into());

@@ -1,7 +1,7 @@
 //! A program as an open document, in any language. A new language adds its variant here and is complete when this
 //! compiles.
 
-use super::path::{Chain, Cut, Step, Trace, cut_of};
+use super::path::{Cut, CutSteps, Step, Trace, cut_of};
 use super::repair::gate;
 use super::report::Report;
 use super::steps::{self, Program};
@@ -212,26 +212,26 @@ impl Document {
 
     /// The moves between two stops of which one touches a byte, by their ends, and the number of that one among them.
     /// Of two that touch it, the one that begins there.
-    pub(crate) fn chain_at(&self, offset: usize) -> Option<(Chain<'static>, usize)> {
-        steps::chain_at(self.program(), offset, Chain::ENDS)
+    pub(crate) fn ends_of_cut_at(&self, offset: usize) -> Option<(CutSteps<'static>, usize)> {
+        steps::cut_at(self.program(), offset, CutSteps::ENDS)
     }
 
-    /// The same with every step of the chain.
-    pub(crate) fn whole_chain_at(&self, offset: usize) -> Option<(Chain<'static>, usize)> {
-        steps::chain_at(self.program(), offset, usize::MAX)
+    /// The same with every step of it.
+    pub(crate) fn whole_cut_at(&self, offset: usize) -> Option<(CutSteps<'static>, usize)> {
+        steps::cut_at(self.program(), offset, usize::MAX)
     }
 
-    /// The chain of moves that touches a byte, its totals, and the number of the touching one.
-    pub(crate) fn cut_at(&self, offset: usize) -> Option<(Chain<'static>, Cut, usize)> {
-        let (mut chain, mut nth) = self.chain_at(offset)?;
-        let cut = match cut_of(&chain) {
+    /// The steps of the cut that touches a byte, its division, and the number of the touching one.
+    pub(crate) fn cut_at(&self, offset: usize) -> Option<(CutSteps<'static>, Cut, usize)> {
+        let (mut held, mut nth) = self.ends_of_cut_at(offset)?;
+        let cut = match cut_of(&held) {
             Some(cut) => cut,
             None => {
-                (chain, nth) = self.whole_chain_at(offset)?;
-                cut_of(&chain)?
+                (held, nth) = self.whole_cut_at(offset)?;
+                cut_of(&held)?
             }
         };
-        Some((chain, cut, nth))
+        Some((held, cut, nth))
     }
 
     /// The first stop behind a byte.

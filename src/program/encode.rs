@@ -2,7 +2,9 @@
 //! way.
 
 use super::grid::{Node, chord_count, in_pieces, largest_distance, sagitta, snap};
+use super::write::Piece;
 use crate::geometry::{Arc, Segment};
+use crate::toolpath::each;
 use std::f64::consts::PI;
 
 /// The largest distance of a block from its piece of the path, anywhere, µm: centres are on the grid, ends are snapped.
@@ -44,6 +46,37 @@ pub(super) trait Encoder {
     ) -> Option<()> {
         encode(self, piece, from, to, 0, blocks)
     }
+}
+
+/// Pieces of which one core takes the blocks at a time.
+const AT_A_TIME: usize = 64;
+
+/// Blocks, each with the number of its piece, as many in a list as one core takes at a time.
+pub(super) type Numbered<B> = Vec<Vec<(usize, B)>>;
+
+/// The blocks of pieces; where one cannot be written, that.
+pub(super) fn encode_all<'a, E>(
+    encoder: &E,
+    pieces: &'a [Piece],
+) -> Result<Numbered<E::Block>, &'a Piece>
+where
+    E: Encoder + Sync,
+    E::Block: Send,
+{
+    let of = |chunk: usize| {
+        let (mut made, mut own) = (Vec::with_capacity(2 * AT_A_TIME), Vec::new());
+        let first = chunk * AT_A_TIME;
+        for (nth, piece) in pieces.iter().enumerate().skip(first).take(AT_A_TIME) {
+            encoder
+                .encode(&piece.segment, piece.from, piece.to, &mut own)
+                .ok_or(piece)?;
+            made.extend(own.drain(..).map(|block| (nth, block)));
+        }
+        Ok(made)
+    };
+    each(pieces.len().div_ceil(AT_A_TIME), 2, of)
+        .into_iter()
+        .collect()
 }
 
 fn encode<E: Encoder + ?Sized>(

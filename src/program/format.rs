@@ -1,6 +1,7 @@
 //! The formats that programs are written in, by name.
 
-use super::write::{ProofError, ProvedProgram};
+use super::notes::Notes;
+use super::write::{Proved, ProvedProgram};
 use super::{iso, three_b};
 use crate::settings::{Compensation, Effective};
 use crate::toolpath::WirePath;
@@ -69,11 +70,23 @@ impl Format {
         unit_mm: f64,
         settings: &Effective,
         go_on: &mut dyn FnMut(usize, usize) -> bool,
-    ) -> Result<ProvedProgram, ProofError> {
+    ) -> Proved<ProvedProgram> {
+        self.write_noting(paths, unit_mm, settings, None, go_on)
+    }
+
+    /// The same; `notes` are taken of every block, not of milling.
+    pub(crate) fn write_noting(
+        self,
+        paths: &[WirePath],
+        unit_mm: f64,
+        settings: &Effective,
+        notes: Option<&mut Notes>,
+        go_on: &mut dyn FnMut(usize, usize) -> bool,
+    ) -> Proved<ProvedProgram> {
         match self {
-            Format::ThreeB => three_b::write_with(paths, unit_mm, settings, go_on),
-            Format::FourB => three_b::write_four_b(paths, unit_mm, settings, go_on),
-            Format::Iso => iso::write_with(paths, unit_mm, settings, go_on),
+            Format::ThreeB => three_b::write_with(paths, unit_mm, settings, notes, go_on),
+            Format::FourB => three_b::write_four_b(paths, unit_mm, settings, notes, go_on),
+            Format::Iso => iso::write_with(paths, unit_mm, settings, notes, go_on),
             Format::Milling => iso::write_milled(paths, unit_mm, settings, go_on),
         }
     }

@@ -1,7 +1,7 @@
 //! The grid of a program: its nodes, and the best centre on it for an arc.
 
-use crate::geometry::{Arc, Point, Segment, direction, left_normal};
-use std::f64::consts::PI;
+use crate::geometry::{Arc, Point, Segment, Vector, direction, left_normal};
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
 
 /// A node of a program on its grid, in absolute coordinates. A step is 1 µm, except in ISO profiles with more decimals.
@@ -33,41 +33,80 @@ pub(crate) fn point_of(node: Node) -> Point {
 
 /// A grid point as a candidate for an arc's centre.
 #[derive(Clone, Copy)]
-pub(crate) struct GridCenter {
-    pub(crate) node: Node,
-    /// The largest distance of the arc about it from the true one, or of its end from the intended one; in hundredths
-    /// of a step.
+struct Candidate {
+    node: Node,
+    /// The largest distance of the arc about it from the true one, or of its end from the intended one, in hundredths
+    /// of a step; where that `is_known`, else no more than that.
     cost: i64,
+    is_known: bool,
     /// Distance from the true centre.
     away: f64,
 }
 
 /// The nine grid points around the true centre, the best first: its arc stays nearest to the true one over its whole
 /// length and ends nearest to its node. Of equally good ones, the nearest to the true centre.
-pub(crate) fn grid_centers(arc: &Arc, from: Node, to: Node) -> [GridCenter; 9] {
+///
+/// Each is measured only when nothing else can come before it.
+pub(crate) fn grid_centers(arc: &Arc, from: Node, to: Node) -> impl Iterator<Item = Node> {
+    let arc = *arc;
+    let hundredths = |cost: f64| (cost * 100.0).round().min(1e15) as i64;
     let nearest = Node {
         x: arc.center.x.round() as i64,
         y: arc.center.y.round() as i64,
     };
-    let mut centers = std::array::from_fn(|index| {
+    let middle = middle_of(&arc);
+    let mut left: [Candidate; 9] = std::array::from_fn(|index| {
         let node = Node {
             x: nearest.x + index as i64 / 3 - 1,
             y: nearest.y + index as i64 % 3 - 1,
         };
-        let cost = (cost_of(arc, node, from, to) * 100.0).round().min(1e15) as i64;
-        GridCenter {
+        Candidate {
             node,
-            cost,
+            cost: hundredths(least_cost(&arc, middle, node, from, to)),
+            is_known: false,
             away: (point_of(node) - arc.center).norm(),
         }
     });
-    centers.sort_by(|a: &GridCenter, b| a.cost.cmp(&b.cost).then(a.away.total_cmp(&b.away)));
-    centers
+    let mut count = left.len();
+    std::iter::from_fn(move || {
+        loop {
+            let all = left[..count].iter().enumerate();
+            let (at, best) =
+                all.min_by(|(_, a), (_, b)| a.cost.cmp(&b.cost).then(a.away.total_cmp(&b.away)))?;
+            if best.is_known {
+                let node = best.node;
+                left.copy_within(at + 1..count, at);
+                count -= 1;
+                return Some(node);
+            }
+            let cost = hundredths(cost_of(&arc, best.node, from, to));
+            (left[at].cost, left[at].is_known) = (cost, true);
+        }
+    })
 }
 
 /// The best of [`grid_centers`].
 pub(crate) fn best_center(arc: &Arc, from: Node, to: Node) -> Node {
-    grid_centers(arc, from, to)[0].node
+    grid_centers(arc, from, to).next().unwrap_or(from)
+}
+
+/// From the centre of an arc to its middle, where that lies between the ends of any arc of [`grid_centers`].
+fn middle_of(arc: &Arc) -> Option<Vector> {
+    const STEPS: f64 = 6.0;
+    let half = arc.sweep.abs() / 2.0;
+    let is_between = half * arc.radius > STEPS && half < FRAC_PI_2 && !arc.is_shallow();
+    is_between.then(|| direction(arc.start_angle + arc.sweep / 2.0))
+}
+
+/// What the error of an arc about a grid point is at the least: at its middle, and from its start to its end.
+fn least_cost(arc: &Arc, middle: Option<Vector>, center: Node, from: Node, to: Node) -> f64 {
+    let miss = radii_differ(center, from, to);
+    let Some(middle) = middle else { return miss };
+    let own = point_of(center);
+    let at = own + middle * (point_of(from) - own).norm();
+    // What rounding may take from it far out.
+    let rounding = 1e-6 + 1e-14 * (arc.center.coords.abs().sum() + arc.radius);
+    miss.max(((at - arc.center).norm() - arc.radius).abs() - rounding)
 }
 
 /// An arc as it is written: from node to node about a grid point. `None` where that is one of its ends.
@@ -95,14 +134,13 @@ fn cost_of(arc: &Arc, center: Node, from: Node, to: Node) -> f64 {
 
 /// The largest distance of a written line or arc from its piece of the path, over its whole length.
 pub(crate) fn largest_distance(written: &Segment, piece: &Segment) -> f64 {
-    let look = |share: f64| {
-        (0.0..=1.0)
-            .contains(&share)
-            .then(|| written.point_at(share))
-    };
     // Between its ends it is farthest where it is parallel to the piece.
     let between = match (written, piece) {
-        (Segment::Line(line), Segment::Arc(arc)) => [look(line.share_of(arc.center)), None, None],
+        (Segment::Line(line), Segment::Arc(arc)) => {
+            let share = line.share_of(arc.center);
+            let is_between = (0.0..=1.0).contains(&share);
+            [is_between.then(|| written.point_at(share)), None, None]
+        }
         (Segment::Line(_), Segment::Line(_)) => [None; 3],
         (Segment::Arc(own), piece) => {
             let along = match piece {
@@ -114,13 +152,10 @@ pub(crate) fn largest_distance(written: &Segment, piece: &Segment) -> f64 {
             } else {
                 along
             };
+            let look = |place: Point| own.spans(place).then_some(place);
             // It reaches its end at its own radius, which may miss that end a little.
-            let end = own.center + direction(own.start_angle + own.sweep) * own.radius;
-            [
-                look(own.share_of(own.center + by)),
-                look(own.share_of(own.center - by)),
-                Some(end),
-            ]
+            let end = own.center + (own.end - own.center).normalize() * own.radius;
+            [look(own.center + by), look(own.center - by), Some(end)]
         }
     };
     let ends = [written.start(), written.end()];
@@ -245,7 +280,20 @@ mod tests {
             let cost = |node| cost_of(&arc, node, from, to);
             prop_assert!(cost(best) <= 1.5, "{}", cost(best));
             // No other one is better by more than the steps in which they are compared.
-            prop_assert!(grid_centers(&arc, from, to).iter().all(|center| cost(center.node) >= cost(best) - 0.011));
+            prop_assert!(grid_centers(&arc, from, to).all(|center| cost(center) >= cost(best) - 0.011));
+        }
+
+        #[test]
+        fn the_centres_come_in_the_order_of_their_cost((arc, from, to) in arc()) {
+            let nearest = snap(arc.center).unwrap();
+            let around = (0..9).map(|index| Node { x: nearest.x + index / 3 - 1, y: nearest.y + index % 3 - 1 });
+            let mut all: Vec<Node> = around.collect();
+            let key = |node: &Node| {
+                let cost = (cost_of(&arc, *node, from, to) * 100.0).round().min(1e15) as i64;
+                (cost, (point_of(*node) - arc.center).norm())
+            };
+            all.sort_by(|a, b| key(a).partial_cmp(&key(b)).unwrap());
+            prop_assert_eq!(grid_centers(&arc, from, to).collect::<Vec<_>>(), all);
         }
     }
 }

@@ -15,6 +15,7 @@ pub(crate) mod grid;
 pub mod iso;
 mod layout;
 mod lookalikes;
+pub(crate) mod notes;
 pub mod path;
 mod profile;
 mod refactor;

@@ -1,13 +1,17 @@
 //! The machine's way in a part of a program: an answer costs the part, and a glance at each chunk.
 
-use super::path::{Chain, Kind, Step, Trace, Writing};
+use super::path::{CutSteps, Kind, Step, Totals, Trace, Writing};
 use crate::geometry::{Point, Vector};
 use crate::text::SourceText;
+use crate::toolpath::each;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
+/// Chunks that one core follows at a time.
+const CHUNKS: usize = 4;
+
 /// A program of any language, chunk by chunk in the order in which the machine runs them.
-pub(crate) trait Program {
+pub(crate) trait Program: Sync {
     fn text(&self) -> &SourceText;
 
     /// How its blocks give their ends.
@@ -67,9 +71,21 @@ pub(crate) fn trace(program: &dyn Program) -> Trace {
         ..Trace::default()
     };
     let mut contour = 0;
-    for chunk in 0..program.chunk_count() {
-        program.walk(chunk, &mut contour, &mut |step| trace.steps.push(step));
-    }
+    let begins = (0..program.chunk_count()).map(|chunk| {
+        let begin = contour;
+        contour += program.sum_of(chunk).contours;
+        begin
+    });
+    let begins: Vec<usize> = begins.collect();
+    let of_chunks = each(begins.len(), CHUNKS, |chunk| {
+        let (mut contour, mut steps) = (begins[chunk], Vec::new());
+        program.walk(chunk, &mut contour, &mut |step| steps.push(step));
+        steps
+    });
+    trace.steps.reserve(of_chunks.iter().map(Vec::len).sum());
+    of_chunks
+        .into_iter()
+        .for_each(|steps| trace.steps.extend(steps));
     trace
 }
 
@@ -96,11 +112,11 @@ pub(crate) fn steps_in(program: &dyn Program, range: Range<usize>) -> Vec<Step> 
 
 /// The moves between two stops of which one touches a byte, and the number of that one among them: of two that touch
 /// it, the one that begins there. At least `ends` moves of either end are held, if there are as many.
-pub(crate) fn chain_at(
+pub(crate) fn cut_at(
     program: &dyn Program,
     offset: usize,
     ends: usize,
-) -> Option<(Chain<'static>, usize)> {
+) -> Option<(CutSteps<'static>, usize)> {
     let line = program.text().line_of(offset);
     let mut walk = Walk::through(program);
     let touches =
@@ -112,11 +128,11 @@ pub(crate) fn chain_at(
             let step = walk.steps(chunk).iter().rposition(touches)?;
             Some(At { chunk, step })
         })?;
-    walk.chain(at, None, ends)
+    walk.cut(at, None, ends)
 }
 
 /// The moves from the last stop on that stand before a byte, by their ends.
-pub(crate) fn chain_before(program: &dyn Program, offset: usize) -> Option<Chain<'static>> {
+pub(crate) fn cut_before(program: &dyn Program, offset: usize) -> Option<CutSteps<'static>> {
     let line = program.text().line_of(offset);
     let mut walk = Walk::through(program);
     let at = (0..program.chunk_count())
@@ -131,8 +147,8 @@ pub(crate) fn chain_before(program: &dyn Program, offset: usize) -> Option<Chain
                 .rposition(|step| step.range.end <= offset)?;
             Some(At { chunk, step })
         })?;
-    let (chain, _) = walk.chain(at, Some(at), Chain::ENDS)?;
-    Some(chain)
+    let (held, _) = walk.cut(at, Some(at), CutSteps::ENDS)?;
+    Some(held)
 }
 
 /// The first stop behind a byte.
@@ -205,8 +221,13 @@ impl<'a> Walk<'a> {
         })
     }
 
-    /// The chain of a step that moves, up to `until`, and the number of the step in it.
-    fn chain(&mut self, at: At, until: Option<At>, ends: usize) -> Option<(Chain<'static>, usize)> {
+    /// The cut of a step that moves, up to `until`, and the number of the step in it.
+    fn cut(
+        &mut self,
+        at: At,
+        until: Option<At>,
+        ends: usize,
+    ) -> Option<(CutSteps<'static>, usize)> {
         let step = self
             .steps(at.chunk)
             .get(at.step)
@@ -253,10 +274,10 @@ impl<'a> Walk<'a> {
             head.extend(own.filter(|step| step.moves()).cloned());
         }
         let writing = self.program.writing();
-        let chain = |chain: Chain<'static>| chain.stopping(stop.filter(|stop| *stop < count));
+        let stop = stop.filter(|stop| *stop < count);
         let left = count - head.len();
         if left == 0 {
-            return Some((chain(Chain::of(head, writing)), nth));
+            return Some((CutSteps::of(head, writing).stopping(stop), nth));
         }
         let mut tail: Vec<Step> = Vec::new();
         for chunk in (first.chunk..=last.chunk).rev() {
@@ -270,11 +291,16 @@ impl<'a> Walk<'a> {
         }
         tail.truncate(left);
         tail.reverse();
-        let by_ends = Chain::by_ends(head, tail, (count, arcs), meant, writing);
-        Some((chain(by_ends), nth))
+        let totals = Totals {
+            count,
+            arcs,
+            writing,
+            stop,
+        };
+        Some((CutSteps::by_ends(head, tail, meant, totals), nth))
     }
 
-    /// The first step of a chain, or the last one where it is searched for `ahead` of one of its steps.
+    /// The first step of a cut, or the last one where it is searched for `ahead` of one of its steps.
     fn end_of(&mut self, own: &Own, at: At, ahead: bool) -> At {
         let mut found = at;
         let chunks = match ahead {
@@ -318,7 +344,7 @@ fn towards(range: Range<usize>, ahead: bool) -> impl Iterator<Item = usize> {
     range.map(move |at| if ahead { at } else { first + end - 1 - at })
 }
 
-/// The common properties of the moves of a chain.
+/// The common properties of the moves of a cut.
 struct Own {
     contour: usize,
     rapid: bool,

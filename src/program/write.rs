@@ -11,7 +11,7 @@ use crate::toolpath::{Milled, Source, WirePath};
 use std::fmt;
 
 /// A program that has been decoded again and compared with its path.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ProvedProgram {
     pub text: String,
     /// Number of blocks.
@@ -27,6 +27,24 @@ pub struct ProvedProgram {
     /// The totals of milling, for an electrode.
     pub milled: Option<Milled>,
 }
+
+impl ProvedProgram {
+    /// The program of a text, whose totals have been counted in steps of its grid.
+    pub(super) fn finished(self, text: Vec<u8>, step_um: f64) -> Proved<ProvedProgram> {
+        let text = String::from_utf8(text)
+            .map_err(|_| ProofError::Mismatch(say!(the_program_is_not_text).into()))?;
+        let [length, jumps] = [self.length, self.jumps].map(|steps| steps * step_um / 1000.0);
+        Ok(ProvedProgram {
+            text,
+            length,
+            jumps,
+            ..self
+        })
+    }
+}
+
+/// What is written, or why it is not.
+pub(crate) type Proved<T = ()> = Result<T, ProofError>;
 
 /// Why there is no program.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,48 +88,41 @@ pub(super) fn too_far_out(point: Point) -> ProofError {
 /// The largest gap between consecutive pieces of a path, µm.
 const GAP: f64 = 1.5;
 
+/// Pieces that are handed to a writer at a time.
+const PIECES: usize = 4096;
+
+/// A piece of a path between two nodes, which are its snapped ends.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Piece {
+    pub(crate) segment: Segment,
+    pub(crate) from: Node,
+    pub(crate) to: Node,
+    pub(crate) source: Source,
+}
+
 /// Puts pieces of a path into the text of one language and proves them. Nodes and pieces are in steps of the language's grid.
 pub(crate) trait Writer {
     /// A path begins at `first`. `from` is the program's position, `None` before the first path: the wire must be taken
     /// there.
-    fn begin(&mut self, from: Option<Node>, first: Node, path: &WirePath)
-    -> Result<(), ProofError>;
-    /// One piece of the path between two nodes, which are its snapped ends.
-    fn piece(
-        &mut self,
-        piece: &Segment,
-        from: Node,
-        to: Node,
-        source: Source,
-    ) -> Result<(), ProofError>;
+    fn begin(&mut self, from: Option<Node>, first: Node, path: &WirePath) -> Proved;
+    /// Pieces of the path, one behind the other.
+    fn pieces(&mut self, pieces: &[Piece]) -> Proved;
     /// The path ends at `last`; it is closed where both its ends coincide. `goes_on`: after a stop the next one
     /// continues it from here.
-    fn end(
-        &mut self,
-        closed: bool,
-        first: Node,
-        last: Node,
-        goes_on: bool,
-    ) -> Result<(), ProofError>;
+    fn end(&mut self, closed: bool, first: Node, last: Node, goes_on: bool) -> Proved;
     /// A path along an open contour ended at `last`. `for_good`: the contour is complete, and the wire does not return
     /// to the thread hole. `stops` more stops, two with those before the next path, show that this is meant.
-    fn end_open(&mut self, last: Node, for_good: bool, stops: usize) -> Result<(), ProofError>;
+    fn end_open(&mut self, last: Node, for_good: bool, stops: usize) -> Proved;
 
     /// The machine stops, by a `word` of the settings if one is set.
-    fn stop(&mut self, at: Node, word: Option<&str>) -> Result<(), ProofError>;
+    fn stop(&mut self, at: Node, word: Option<&str>) -> Proved;
     /// The table moves without the wire.
-    fn move_over(&mut self, from: Node, to: Node) -> Result<(), ProofError>;
+    fn move_over(&mut self, from: Node, to: Node) -> Proved;
     /// The table has been moved by hand.
-    fn moved_by_hand(&mut self, to: Node) -> Result<(), ProofError>;
+    fn moved_by_hand(&mut self, to: Node) -> Proved;
 
     /// From one path to the next: the wire is taken out, the table moves, the wire is threaded; from pass to pass there is a pause.
-    fn go_over(
-        &mut self,
-        from: Node,
-        to: Node,
-        path: &WirePath,
-        settings: &Effective,
-    ) -> Result<(), ProofError> {
+    fn go_over(&mut self, from: Node, to: Node, path: &WirePath, settings: &Effective) -> Proved {
         if path.goes_back_along_tab() && from == to {
             return Ok(());
         }
@@ -136,10 +147,11 @@ pub(crate) fn walk(
     step_um: f64,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
     writer: &mut dyn Writer,
-) -> Result<(), ProofError> {
+) -> Proved {
     let total = paths.iter().map(|path| path.segments.len()).sum();
-    let mut done = 0;
+    let (mut done, mut told) = (0, 0);
     let mut node: Option<Node> = None;
+    let mut pieces: Vec<Piece> = Vec::new();
     for (index, path) in paths.iter().enumerate() {
         // Where the wire can only stand, it is threaded and cuts nothing.
         let (begin, end) = (path.begin() * steps, path.end() * steps);
@@ -147,25 +159,37 @@ pub(crate) fn walk(
         writer.begin(node, first_node, path)?;
         let mut from = first_node;
         let mut reached = begin;
-        for segment in &path.segments {
-            if done % 4096 == 0 && !go_on(done, total) {
-                return Err(ProofError::Cancelled);
+        for segments in path.segments.chunks(PIECES) {
+            if done >= told {
+                told = done + PIECES;
+                if !go_on(done, total) {
+                    return Err(ProofError::Cancelled);
+                }
             }
-            done += 1;
-            let piece = scaled(&segment.geometry, steps);
-            let gap = (piece.start() - reached).norm() * step_um;
-            if gap > GAP || gap.is_nan() {
-                return Err(ProofError::Mismatch(say!(
-                    the_path_has_a_gap_before_a_segment,
-                    gap,
-                    done
-                )));
+            pieces.clear();
+            for own in segments {
+                done += 1;
+                let segment = scaled(&own.geometry, steps);
+                let gap = (segment.start() - reached).norm() * step_um;
+                if gap > GAP || gap.is_nan() {
+                    return Err(ProofError::Mismatch(say!(
+                        the_path_has_a_gap_before_a_segment,
+                        gap,
+                        done
+                    )));
+                }
+                reached = segment.end();
+                let to = node_of(reached)?;
+                pieces.push(Piece {
+                    segment,
+                    from,
+                    to,
+                    source: own.source,
+                });
+                // A skipped piece leaves the node where it is, as both its ends.
+                from = to;
             }
-            reached = piece.end();
-            let to = node_of(piece.end())?;
-            writer.piece(&piece, from, to, segment.source)?;
-            // A skipped piece leaves the node where it is, as both its ends.
-            from = to;
+            writer.pieces(&pieces)?;
         }
         let closed = (begin - end).norm() * step_um <= 1e-3;
         let goes_on = paths.get(index + 1).is_some_and(|next| {
@@ -190,7 +214,7 @@ pub(crate) fn cuts(paths: &[WirePath]) -> bool {
     paths.is_empty() || paths.iter().any(|path| !path.segments.is_empty())
 }
 
-pub(crate) fn node_of(point: Point) -> Result<Node, ProofError> {
+pub(crate) fn node_of(point: Point) -> Proved<Node> {
     snap(point).ok_or_else(|| too_far_out(point))
 }
 

@@ -46,6 +46,7 @@ pub use keys::{Settings, rows};
 pub use milling::Electrode;
 pub(crate) use pair::{Partners, Use};
 pub(crate) use passes::{PassFault, pass_faults, passes_table};
+pub(crate) use row::LARGEST;
 pub use row::Row;
 pub use shipped::shipped_profiles;
 pub(crate) use spelling::nearest;

@@ -1,6 +1,6 @@
 //! Reads tables of settings from a tree of values: each key is checked, a misfit is left out and reported.
 
-use super::row::{Range, Row};
+use super::row::{LARGEST, Range, Row};
 use super::spelling::{listed, named, nearest, snake_case};
 use super::value::{Entry, Node, Value};
 use super::{LengthSetting, PointSetting, RuleSeverity, SettingsError, shipped_profiles};
@@ -137,7 +137,7 @@ impl Reader {
                 let numbers = items.iter().enumerate().map(|(index, item)| {
                     let key = format!("{key}[{index}]");
                     match item.value {
-                        Value::Null => self.misfit(&key, item, &range.expected()),
+                        Value::Null => self.misfit(&key, item, &range.expected(None)),
                         _ => self.number(&key, item, range),
                     }
                 });
@@ -258,7 +258,8 @@ impl Reader {
         match node.value {
             Value::Null => None,
             Value::Number(number) if range.holds(number) => Some(number),
-            _ => self.misfit(key, node, &range.expected()),
+            Value::Number(number) => self.misfit(key, node, &range.expected(Some(number))),
+            _ => self.misfit(key, node, &range.expected(None)),
         }
     }
 
@@ -385,7 +386,10 @@ impl Reader {
                     && x.is_finite()
                     && y.is_finite()
                 {
-                    return Some([*x, *y]);
+                    if x.abs().max(y.abs()) <= LARGEST {
+                        return Some([*x, *y]);
+                    }
+                    return self.misfit(key, node, &say!(a_point_of_numbers_up_to, LARGEST));
                 }
             }
             _ => {}

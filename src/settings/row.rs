@@ -2,6 +2,13 @@
 
 use super::shipped_profiles;
 
+/// The largest number of any setting: with it no coordinate that a machine or a drawing may have is lost, and none becomes
+/// infinite.
+pub(crate) const LARGEST: f64 = 1e12;
+
+/// The smallest number above zero: what is divided by it stays finite.
+const SMALLEST: f64 = 1e-12;
+
 /// The range of a key's numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
@@ -28,14 +35,20 @@ impl Range {
     }
 
     pub(super) fn holds(&self, number: f64) -> bool {
-        number.is_finite()
+        number.abs() <= LARGEST
+            && (number == 0.0 || number.abs() >= SMALLEST)
             && number <= self.most
             && (number > self.least || self.is_least && number == self.least)
     }
 
-    pub(super) fn expected(&self) -> String {
+    /// The number that is expected in place of another.
+    pub(super) fn expected(&self, instead_of: Option<f64>) -> String {
         let Range { least, most, .. } = self;
+        let is_large = instead_of.is_some_and(|number| number > LARGEST && number.is_finite());
+        let is_small = instead_of.is_some_and(|number| number > 0.0 && number < SMALLEST);
         match (most.is_finite(), self.is_least) {
+            (false, _) if is_large => say!(a_number_up_to, LARGEST),
+            (false, _) if is_small => say!(a_number_of_or_above, SMALLEST),
             (true, _) => say!(a_number_from_to, least, most),
             (false, true) => say!(a_number_of_or_above, least),
             (false, false) => say!(a_number_above, least),

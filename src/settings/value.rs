@@ -52,6 +52,13 @@ impl Value {
         match self {
             Value::Null => say!(not_set).into(),
             Value::Truth(truth) => truth.to_string(),
+            // Hundreds of digits say less.
+            Value::Number(number)
+                if number.is_finite()
+                    && (number.abs() >= 1e15 || number.abs() < 1e-9 && *number != 0.0) =>
+            {
+                format!("{number:e}")
+            }
             Value::Number(number) => number.to_string(),
             Value::Text(text) => format!("\"{}\"", text.escape_debug()),
             Value::List(_) => say!(a_list).into(),

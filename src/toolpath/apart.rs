@@ -74,8 +74,33 @@ fn between_arcs(a: &Arc, b: &Arc) -> f64 {
 pub(super) fn are_apart(a: &Segment, b: &Segment, distance: f64) -> bool {
     keeps_off(a, b, distance)
         || keeps_off(b, a, distance)
+        || lies_beyond(a, b, distance)
+        || lies_beyond(b, a, distance)
         || lies_behind(a, b, distance)
         || lies_behind(b, a, distance)
+}
+
+/// True where `segment` is a line, and `other` lies beyond one of its ends, which is then what of the line is nearest to all of it, and keeps
+/// the distance from that. So lies the wall of a round corner that the path comes out of.
+fn lies_beyond(segment: &Segment, other: &Segment, distance: f64) -> bool {
+    let Segment::Line(line) = segment else {
+        return false;
+    };
+    let along = line.end - line.start;
+    let ends = [(line.end, along), (line.start, -along)];
+    ends.into_iter().any(|(end, way)| {
+        let past = |point: Point| (point - end).dot(&way);
+        let is_past = |round: &Arc| {
+            let length = way.norm();
+            let nearest = || round.center - way * (round.radius / length);
+            !round.is_shallow()
+                && (past(round.center) >= round.radius * length || !round.spans(nearest()))
+        };
+        past(other.start()) >= 0.0
+            && past(other.end()) >= 0.0
+            && other.as_arc().is_none_or(is_past)
+            && other.distance_to(end) >= distance
+    })
 }
 
 /// True where `segment` is an arc, and `other` lies behind it: nowhere further out than its radius less `distance`, in the direction of any
@@ -159,11 +184,11 @@ fn keeps_off_circle(segment: &Segment, circle: &Arc, distance: f64) -> bool {
                 true => nearest >= far,
                 false => farthest <= near,
             };
-            let is_off_at = |sense: f64| {
-                let top = arc.center + between * (sense * arc.radius / apart);
-                !arc.spans(top) || is_off(away(top))
-            };
-            is_all_off || apart == 0.0 || is_off_at(1.0) && is_off_at(-1.0)
+            let reach = between * (arc.radius / apart);
+            let is_off_at = |top: Point| !arc.spans(top) || is_off(away(top));
+            is_all_off
+                || apart == 0.0
+                || is_off_at(arc.center + reach) && is_off_at(arc.center - reach)
         }
     }
 }

@@ -1,13 +1,13 @@
 //! How near a path comes to the walls, for contours of any size.
 
+use super::about::{About, FAN, merged};
 use super::apart::{are_apart, distance_between};
 use super::cores::{each, sum};
 use super::offset::Wall;
 use crate::geometry::{Bounds, Point, Segment, Vector, left_normal};
-use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+use rayon::slice::ParallelSliceMut;
 use std::ops::Range;
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Walls in boxes of boxes: a few that follow each other along the contour in one, and of these, where there are many, a few that lie
 /// together anywhere, as the turns of a spiral do.
@@ -26,26 +26,11 @@ pub(crate) struct Walls {
     twice_area: OnceLock<f64>,
 }
 
-const FAN: usize = 8;
-
 /// Up to so many walls lie together as they follow each other.
 const MOST_IN_ORDER: usize = 1024;
 
-/// So many walls about each few are kept on an average.
-const MOST_ABOUT: usize = 64;
-
 /// One core takes so many walls at a time.
 const AT_A_TIME: usize = 2048;
-
-/// Of each few walls those whose boxes come near to theirs.
-#[derive(Debug)]
-struct About {
-    /// The box of each few, and so far about it.
-    boxes: Vec<Bounds>,
-    /// Where those of each few begin, and where the last ones end.
-    begins: Vec<u32>,
-    walls: Vec<u32>,
-}
 
 impl Walls {
     pub(super) fn of(walls: &[Wall]) -> Walls {
@@ -68,11 +53,7 @@ impl Walls {
         let mut levels = Vec::new();
         let mut order = Vec::new();
         while level.len() > 1 {
-            let above = level.chunks(FAN).map(|boxes| {
-                let mut bounds = Bounds::EMPTY;
-                boxes.iter().for_each(|inner| bounds.merge(inner));
-                bounds
-            });
+            let above = level.chunks(FAN).map(|boxes| merged(boxes.iter()));
             let mut above: Vec<Bounds> = above.collect();
             if levels.is_empty() && segments.len() > MOST_IN_ORDER {
                 order = by_place(&above);
@@ -126,13 +107,7 @@ impl Walls {
 
     /// The box of all.
     pub(crate) fn bounds(&self) -> Bounds {
-        let mut all = Bounds::EMPTY;
-        self.levels
-            .last()
-            .into_iter()
-            .flatten()
-            .for_each(|few| all.merge(few));
-        all
+        merged(self.levels.last().into_iter().flatten())
     }
 
     pub(crate) fn bounds_of(&self, index: usize) -> &Bounds {
@@ -156,14 +131,12 @@ impl Walls {
         let bounds = path.bounds();
         let (area, boxes) = (bounds.grown(distance), &self.levels[0]);
         let about = self.about.get().and_then(Option::as_ref);
-        let few = own / FAN;
         // All that comes near to what lies in the box is among those.
-        let is_known = |about: &&About| about.boxes[few].holds(&area);
+        let is_known = |about: &&About| boxes[own].grown(about.reach).holds(&area);
         let Some(about) = about.filter(is_known) else {
             return self.too_near(path, distance);
         };
-        let range = about.begins[few] as usize..about.begins[few + 1] as usize;
-        let mut walls = about.walls[range].iter().map(|&wall| wall as usize);
+        let mut walls = about.walls_of(own);
         walls.find(|&wall| {
             (with_own || wall != own)
                 && boxes[wall].touches(&area)
@@ -175,62 +148,38 @@ impl Walls {
     /// on several of them already.
     pub(crate) fn know_about(&self, distance: f64) {
         if self.about.get().is_none() {
-            let made = self.about(2.1 * distance);
+            let few_near = |area: &Bounds, few: &mut Vec<_>| self.few_near(area, few);
+            let made = About::of(&self.levels[0], 2.1 * distance, few_near);
             self.about.get_or_init(|| made);
         }
     }
 
-    fn about(&self, reach: f64) -> Option<About> {
+    /// Those few walls whose box touches `reach`, by the first of them and with that box, in the order in which they are found.
+    pub(super) fn few_near(&self, reach: &Bounds, found: &mut Vec<(u32, Bounds)>) {
+        let top = self.levels.len() - 1;
+        self.few_in(top, 0..self.levels[top].len(), reach, found);
+    }
+
+    /// The first of a few walls with a box that touches `reach` of which `is_it` says so.
+    pub(super) fn find_among(
+        &self,
+        first: usize,
+        reach: &Bounds,
+        mut is_it: impl FnMut(usize) -> bool,
+    ) -> Option<usize> {
         let boxes = &self.levels[0];
-        let few = boxes.len().div_ceil(FAN);
-        let (most, found) = (MOST_ABOUT * few, AtomicUsize::new(0));
-        let part = |boxes: &[Bounds]| {
-            let mut about = About {
-                boxes: Vec::with_capacity(boxes.len().div_ceil(FAN)),
-                begins: Vec::with_capacity(boxes.len().div_ceil(FAN)),
-                walls: Vec::with_capacity(2 * boxes.len()),
-            };
-            for boxes in boxes.chunks(FAN) {
-                let mut all = Bounds::EMPTY;
-                boxes.iter().for_each(|own| all.merge(own));
-                let all = all.grown(reach);
-                about.boxes.push(all);
-                let begin = about.walls.len();
-                about.begins.push(begin as u32);
-                self.find(&all, |wall| {
-                    about.walls.push(wall as u32);
-                    false
-                });
-                let own = about.walls.len() - begin;
-                if found.fetch_add(own, Ordering::Relaxed) + own > most {
-                    return None;
-                }
-            }
-            Some(about)
-        };
-        let parts: Vec<&[Bounds]> = boxes.chunks(AT_A_TIME).collect();
-        let parts: Vec<About> = match &parts[..] {
-            [only] => vec![part(only)?],
-            several => several
-                .par_iter()
-                .map(|boxes| part(boxes))
-                .collect::<Option<_>>()?,
-        };
-        let mut about = About {
-            boxes: Vec::with_capacity(few),
-            begins: Vec::with_capacity(few + 1),
-            walls: Vec::with_capacity(parts.iter().map(|part| part.walls.len()).sum()),
-        };
-        for part in parts {
-            let before = about.walls.len() as u32;
-            about.boxes.extend(part.boxes);
-            about
-                .begins
-                .extend(part.begins.iter().map(|begin| before + begin));
-            about.walls.extend(part.walls);
-        }
-        about.begins.push(about.walls.len() as u32);
-        Some(about)
+        let mut few = first..(first + FAN).min(boxes.len());
+        few.find(|&index| boxes[index].touches(reach) && is_it(index))
+    }
+
+    /// How large the box of a few is, on an average of some.
+    pub(super) fn size_of_few(&self) -> f64 {
+        let boxes = &self.levels[self.levels.len().min(2) - 1];
+        let some = boxes.iter().step_by(boxes.len().div_ceil(FAN).max(1));
+        let (count, sum) = some.fold((0.0, 0.0), |(count, sum), few| {
+            (count + 1.0, sum + few.width().max(few.height()))
+        });
+        if count > 0.0 { sum / count } else { 0.0 }
     }
 
     /// How far a path is from a wall, where that is less than `distance`.
@@ -263,22 +212,12 @@ impl Walls {
 
     /// The nearest one, of several the first, and how far it is.
     pub(crate) fn nearest_to(&self, point: Point, reach: f64) -> Option<(f64, usize)> {
-        let mut reach = reach.max(f64::MIN_POSITIVE);
-        loop {
-            let mut nearest = None;
-            self.find(&Bounds::of_disc(point, reach), |index| {
-                let found = (self.segments[index].distance_to(point), index);
-                if nearest.is_none_or(|nearest| found < nearest) {
-                    nearest = Some(found);
-                }
+        nearest_by(&self.segments, point, reach, |area, each| {
+            self.find(area, |index| {
+                each(index);
                 false
             });
-            let is_within = nearest.is_some_and(|(away, _)| away <= reach);
-            if is_within || self.segments.is_empty() || reach == f64::INFINITY {
-                return nearest;
-            }
-            reach *= 4.0;
-        }
+        })
     }
 
     /// The first wall found that is nearer to a point than `distance`.
@@ -295,12 +234,16 @@ impl Walls {
         point: Point,
         distance: f64,
     ) -> Option<usize> {
-        let count = self.segments.len();
-        let beside = |last: usize| [0, 1, count - 1, 2].map(|step| (last + step) % count);
-        let beside = last.map(beside);
+        let beside = last.map(|last| self.beside(last));
         let is_nearer = |wall: &usize| self.segments[*wall].distance_to(point) < distance;
         let beside = beside.into_iter().flatten().find(is_nearer);
         beside.or_else(|| self.nearer(point, distance))
+    }
+
+    /// One and those that follow on it.
+    pub(crate) fn beside(&self, last: usize) -> [usize; 4] {
+        let count = self.segments.len();
+        [0, 1, count - 1, 2].map(|step| (last + step) % count)
     }
 
     /// The first segment with a box that touches `reach` of which `is_it` says so.
@@ -337,6 +280,50 @@ impl Walls {
                 self.find_in(level - 1, within, reach, is_it)
             })
     }
+
+    fn few_in(
+        &self,
+        level: usize,
+        range: Range<usize>,
+        reach: &Bounds,
+        found: &mut Vec<(u32, Bounds)>,
+    ) {
+        let boxes = &self.levels[level];
+        for index in range.rev().filter(|&index| boxes[index].touches(reach)) {
+            if level <= 1 {
+                let few = self.order.get(index).copied().unwrap_or(index as u32);
+                found.push((few * FAN as u32, boxes[index]));
+            } else {
+                let below = self.levels[level - 1].len();
+                let within = index * FAN..((index + 1) * FAN).min(below);
+                self.few_in(level - 1, within, reach, found);
+            }
+        }
+    }
+}
+
+/// The nearest of some segments; `look` hands on all whose box touches an area.
+pub(super) fn nearest_by(
+    segments: &[Segment],
+    point: Point,
+    reach: f64,
+    mut look: impl FnMut(&Bounds, &mut dyn FnMut(usize)),
+) -> Option<(f64, usize)> {
+    let mut reach = reach.max(f64::MIN_POSITIVE);
+    loop {
+        let mut nearest = None;
+        look(&Bounds::of_disc(point, reach), &mut |index| {
+            let found = (segments[index].distance_to(point), index);
+            if nearest.is_none_or(|nearest| found < nearest) {
+                nearest = Some(found);
+            }
+        });
+        let is_within = nearest.is_some_and(|(away, _)| away <= reach);
+        if is_within || segments.is_empty() || reach == f64::INFINITY {
+            return nearest;
+        }
+        reach *= 4.0;
+    }
 }
 
 /// The directions of a segment at its ends; of an arc by where they lie about its centre, if that is known well.
@@ -357,8 +344,7 @@ fn tangents_of(segment: &Segment) -> [Vector; 2] {
 
 /// The order of boxes in which those that lie together stand together: by the bits of column and row of their middles in turn.
 fn by_place(boxes: &[Bounds]) -> Vec<u32> {
-    let mut all = Bounds::EMPTY;
-    boxes.iter().for_each(|one| all.merge(one));
+    let all = merged(boxes.iter());
     let scale = f64::from(u16::MAX) / all.width().max(all.height()).max(f64::MIN_POSITIVE);
     let spread = |coordinate: f64| {
         let mut bits = u32::from((coordinate * scale) as u16);
@@ -377,7 +363,7 @@ fn by_place(boxes: &[Bounds]) -> Vec<u32> {
         spread(middle.x) | spread(middle.y) << 1
     };
     let mut keys: Vec<(u32, u32)> = boxes.iter().map(place).zip(0..).collect();
-    keys.sort_unstable();
+    keys.par_sort_unstable();
     keys.into_iter().map(|(_, index)| index).collect()
 }
 

@@ -12,7 +12,7 @@ const STEP: usize = 1024;
 const ROUND: usize = 32;
 
 /// What comes of each of so many, in their order. A core takes so many at a time; to wake one takes as long as some microseconds of work.
-pub(super) fn each<Made: Send>(
+pub(crate) fn each<Made: Send>(
     count: usize,
     at_a_time: usize,
     made: impl Fn(usize) -> Made + Sync + Send,
@@ -42,6 +42,18 @@ pub(super) fn sum(count: usize, of: impl Fn(usize) -> f64 + Sync + Send) -> f64 
         numbers.map(&of).sum::<f64>()
     });
     parts.into_iter().sum()
+}
+
+/// True where that is so for one of so many.
+pub(super) fn any(
+    count: usize,
+    at_a_time: usize,
+    is_it: impl Fn(usize) -> bool + Sync + Send,
+) -> bool {
+    match count <= at_a_time {
+        true => (0..count).any(is_it),
+        false => over_cores(count, at_a_time).any(is_it),
+    }
 }
 
 fn over_cores(count: usize, at_a_time: usize) -> impl IndexedParallelIterator<Item = usize> {

@@ -9,7 +9,9 @@ use super::offset::{Offset, Wall, offset};
 use super::path::Source;
 use crate::geometry::{
     Arc, Few, Point, Segment, Vector, circle_circle, cross, left_normal, line_circle, line_line,
+    positive_angle,
 };
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 /// One core takes so many elements at a time.
@@ -87,8 +89,11 @@ impl Offsets<'_> {
 
     /// The way behind a wall.
     pub(super) fn way(&self, wall: usize) -> Way {
-        let turn = [self.tangents[wall][1], self.tangents[self.behind(wall)][0]];
-        corner(self.walls[wall].geometry.end(), turn, self.joining)
+        corner(
+            self.walls[wall].geometry.end(),
+            self.turn(wall),
+            self.joining,
+        )
     }
 
     fn shifted(&self, wall: usize) -> Offset {
@@ -117,14 +122,42 @@ impl Offsets<'_> {
 
     /// The way round the end of a wall, where there is one.
     pub(super) fn roll(&self, wall: usize) -> Option<Segment> {
-        let Way::Roll([from, to]) = self.way(wall) else {
-            return None;
-        };
-        let vertex = self.walls[wall].geometry.end();
-        Some(Segment::Arc(Arc {
+        match self.way(wall) {
+            Way::Roll(ends) => Some(self.roll_between(wall, ends, None)),
+            Way::Through(_) => None,
+        }
+    }
+
+    /// The way round the end of a wall between its ends. Its angle at the begin, and how far it turns, are the same at every correction: they
+    /// may be known.
+    pub(super) fn roll_between(
+        &self,
+        wall: usize,
+        [start, end]: [Point; 2],
+        angles: Option<[f64; 2]>,
+    ) -> Segment {
+        let [start_angle, sweep] = angles.unwrap_or_else(|| {
+            let side = self.joining.side;
+            let [from, to] = self.turn(wall).map(|along| {
+                let out = left_normal(along) * side;
+                out.y.atan2(out.x)
+            });
+            let forward = positive_angle(to - from);
+            [from, if side < 0.0 { forward } else { forward - TAU }]
+        });
+        Segment::Arc(Arc {
+            center: self.walls[wall].geometry.end(),
             radius: self.joining.correction,
-            ..Arc::about(vertex, from, to, self.joining.side < 0.0)
-        }))
+            start_angle,
+            sweep,
+            start,
+            end,
+        })
+    }
+
+    /// The directions before and behind the end of a wall.
+    fn turn(&self, wall: usize) -> [Vector; 2] {
+        [self.tangents[wall][1], self.tangents[self.behind(wall)][0]]
     }
 
     /// Those that the wire's centre cannot follow at all are points.
@@ -141,7 +174,7 @@ impl Offsets<'_> {
     }
 
     /// Where one begins and where it ends.
-    fn ends(&self, key: usize) -> [Point; 2] {
+    pub(super) fn ends(&self, key: usize) -> [Point; 2] {
         if is_roll(key)
             && let Way::Roll(ends) = self.way(key / 2)
         {
@@ -306,36 +339,52 @@ pub(super) fn corner(vertex: Point, [before, behind]: [Vector; 2], joining: &Joi
 
 /// Where the lines or circles that carry two segments meet.
 pub(super) fn meetings(a: &Segment, b: &Segment) -> Few<Point, 2> {
-    let met: Few<Point, 2> = match (a, b) {
+    let met = nearly_meetings(a, b).into_iter();
+    met.map(|point| nearer_to_both(a, b, point)).collect()
+}
+
+/// The same but for rounding, which about a centre that is far away shows.
+pub(super) fn nearly_meetings(a: &Segment, b: &Segment) -> Few<Point, 2> {
+    match (a, b) {
         (Segment::Line(a), Segment::Line(b)) => {
-            return line_line(a.start, a.end - a.start, b.start, b.end - b.start)
+            line_line(a.start, a.end - a.start, b.start, b.end - b.start)
                 .into_iter()
-                .collect();
+                .collect()
         }
         (Segment::Line(line), Segment::Arc(arc)) | (Segment::Arc(arc), Segment::Line(line)) => {
             line_circle(line.start, line.end - line.start, arc.center, arc.radius)
         }
         (Segment::Arc(a), Segment::Arc(b)) => circle_circle(a.center, a.radius, b.center, b.radius),
-    };
-    met.into_iter()
-        .map(|point| nearer_to_both(a, b, point))
-        .collect()
+    }
 }
 
-/// A meeting of two carriers, one step nearer to both: about a centre that is far away, rounding shows.
-fn nearer_to_both(a: &Segment, b: &Segment, point: Point) -> Point {
+/// A meeting of two carriers, one step nearer to both.
+pub(super) fn nearer_to_both(a: &Segment, b: &Segment, point: Point) -> Point {
     let off = |segment: &Segment| match segment {
         Segment::Line(line) => {
             let normal = left_normal(line.direction());
             (normal.dot(&(point - line.start)), normal)
         }
-        Segment::Arc(arc) => (
-            arc.rise_of(point),
-            (point - arc.center)
-                .try_normalize(0.0)
-                .unwrap_or_else(Vector::zeros),
-        ),
+        Segment::Arc(arc) => {
+            let out = point - arc.center;
+            let away = out.norm();
+            let rise = match arc.is_shallow() {
+                true => arc.rise_of(point),
+                false => away - arc.radius,
+            };
+            (
+                rise,
+                if away > 0.0 {
+                    out / away
+                } else {
+                    Vector::zeros()
+                },
+            )
+        }
     };
+    if let (Segment::Line(_), Segment::Line(_)) = (a, b) {
+        return point;
+    }
     let ((from_a, normal_a), (from_b, normal_b)) = (off(a), off(b));
     let between = cross(normal_a, normal_b);
     if between.abs() < 1e-3 {

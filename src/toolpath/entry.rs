@@ -9,7 +9,11 @@ use super::wanted::Wanted;
 use crate::drawing::{Drawing, Outline};
 use crate::geometry::{Arc, Point, Segment};
 use crate::settings::Lead;
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use std::f64::consts::TAU;
+
+/// One core looks at so many pieces of a path at a time.
+const AT_A_TIME: usize = 4096;
 
 /// A place on the walls.
 #[derive(Clone, Copy, Debug)]
@@ -57,14 +61,14 @@ pub(super) fn default_entry(walls: &[Wall]) -> Option<Entry> {
         _ => (crate::drawing::EntityId(u32::MAX), 0),
     };
     let longest = |arcs: bool| {
-        let mut best: Option<usize> = None;
+        let mut best: Option<(usize, f64)> = None;
         for (index, wall) in walls
             .iter()
             .enumerate()
             .filter(|(_, wall)| wall.geometry.as_arc().is_some() == arcs)
         {
-            let better = best.is_none_or(|best| {
-                let (length, least) = (wall.geometry.length(), walls[best].geometry.length());
+            let length = wall.geometry.length();
+            let better = best.is_none_or(|(best, least)| {
                 let equal = (length - least).abs() <= 1e-9 * least;
                 if equal {
                     rank(wall) < rank(&walls[best])
@@ -73,10 +77,10 @@ pub(super) fn default_entry(walls: &[Wall]) -> Option<Entry> {
                 }
             });
             if better {
-                best = Some(index);
+                best = Some((index, length));
             }
         }
-        best
+        best.map(|(best, _)| best)
     };
     let wall = longest(false).or_else(|| longest(true))?;
     let segment = &walls[wall].geometry;
@@ -113,11 +117,11 @@ pub(super) fn path_point(
     let own = |element: &Element| {
         element.wall == entry.wall && !matches!(element.source, Source::Corner { .. })
     };
-    let away = |index: &usize| path[*index].geometry.distance_to(wanted);
-    let own = (0..path.len())
-        .filter(|&index| own(&path[index]))
-        .min_by(|a, b| away(a).total_cmp(&away(b)));
-    let Some(index) = own else {
+    let all = path.par_iter().enumerate().with_min_len(AT_A_TIME);
+    let own = all.filter(|(_, element)| own(element));
+    let own = own.map(|(index, element)| (element.geometry.distance_to(wanted), index));
+    let own = own.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let Some((_, index)) = own else {
         // Elements stand in the order of their walls.
         let index = path
             .iter()

@@ -17,7 +17,7 @@ use super::spliced::spliced;
 use super::tips::with_tips;
 use crate::drawing::ContourSegment;
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment, cross};
 use crate::settings::Corner;
 use std::borrow::Cow;
 use std::sync::atomic::Ordering::Relaxed;
@@ -421,12 +421,22 @@ pub(super) fn goes_out_and_back(path: &[Element]) -> bool {
     let Some(origin) = path.first().map(|element| element.geometry.start()) else {
         return false;
     };
-    let area: f64 = path
-        .iter()
-        .map(|element| element.geometry.twice_area(origin))
-        .sum();
-    let length: f64 = path.iter().map(|element| element.geometry.length()).sum();
+    let area = twice_area(path, origin);
+    let length = sum(path.len(), |at| path[at].geometry.length());
     area.abs() <= 1e-9 * length * length
+}
+
+/// Twice the area that a path goes round. The sine of how far an arc turns is known by its ends, well enough where it turns by more than a
+/// little.
+fn twice_area(path: &[Element], origin: Point) -> f64 {
+    sum(path.len(), |at| match path[at].geometry {
+        Segment::Arc(arc) if arc.sweep.abs() > 0.1 => {
+            let chord = cross(arc.start - origin, arc.end - origin);
+            let triangle = cross(arc.start - arc.center, arc.end - arc.center);
+            chord + arc.radius * arc.radius * arc.sweep - triangle
+        }
+        segment => segment.twice_area(origin),
+    })
 }
 
 /// True when a path runs round as its contour does, inside an opening and outside a punch. Out and back along a line is no way round.
@@ -435,7 +445,7 @@ fn keeps_its_side(path: &[Element], walls: &[Wall], own: &Walls, side: f64) -> b
         return false;
     };
     let contour = own.twice_area();
-    let area = sum(path.len(), |at| path[at].geometry.twice_area(origin));
+    let area = twice_area(path, origin);
     let grows = (area - contour) * contour.signum();
     let inside = grows * side * contour.signum() <= 0.0;
     // To the left of a counter-clockwise contour lies its inside.

@@ -3,11 +3,14 @@
 //! The corrections of two passes differ by little, and nearly always the same is left of what is cut. Whether that is so, the proof
 //! says: where it does not, the path is laid from nothing.
 
-use super::corners::{AT_A_TIME, Element, Joint, Way, between, goes_backwards, is_roll};
+use super::corners::{
+    AT_A_TIME, Element, Joining, Joint, Offsets, Way, between, goes_backwards, is_all_of, is_roll,
+};
 use super::kept::follows_of;
 use super::nest::Before;
 use super::proof::{Proof, There};
 use super::ring::{is_point, meeting};
+use super::seen::is_rest_about_foot;
 use crate::geometry::{Point, Segment};
 use rayon::iter::{
     IndexedParallelIterator, IntoParallelIterator, IntoParallelRefIterator, ParallelExtend,
@@ -46,6 +49,8 @@ pub(super) fn along_before(
 struct Sweep<'a> {
     proof: &'a Proof<'a>,
     before: Before<'a>,
+    /// How the corners of the first path were made.
+    of_first: Joining,
     goes_on: &'a (dyn Fn() -> bool + Sync),
     /// This is no way to find the path.
     fails: AtomicBool,
@@ -71,6 +76,10 @@ impl<'a> Sweep<'a> {
         Sweep {
             proof,
             before,
+            of_first: Joining {
+                correction: before.correction,
+                ..*proof.offsets.joining
+            },
             goes_on,
             fails: AtomicBool::new(false),
             is_through: AtomicBool::new(false),
@@ -127,15 +136,23 @@ impl<'a> Sweep<'a> {
 
     /// What a piece is cut from.
     fn whole(&self, at: usize) -> Option<Segment> {
-        let key = self.key(at);
+        let (key, offsets) = (self.key(at), &self.proof.offsets);
         if !is_roll(key) {
-            return self.proof.offsets.along(key / 2);
+            return offsets.along(key / 2);
         }
-        let roll = self.proof.offsets.roll(key / 2);
-        if roll.is_none() {
+        let Way::Roll(ends) = offsets.way(key / 2) else {
             self.is_through.store(true, Relaxed);
-        }
-        roll
+            return None;
+        };
+        let of_first = Offsets {
+            joining: &self.of_first,
+            ..*offsets
+        };
+        let [from, to] = of_first.ends(key);
+        let first = self.before.path[at].geometry;
+        let first = first.as_arc().filter(|_| is_all_of(&first, from, to));
+        let angles = first.map(|first| [first.start_angle, first.sweep]);
+        Some(offsets.roll_between(key / 2, ends, angles))
     }
 
     /// Where a piece ends, and whether the one behind it is what comes next of all; of both what they are cut from.
@@ -199,7 +216,13 @@ impl<'a> Sweep<'a> {
                 self.proof.is_taken(&stretch, walls.map(Some), is_at_end)
             })
         };
+        // Most is cut off at a corner, by the wall that comes next.
+        let is_cut = |from: Point, to: Point, by: usize| {
+            let by = &place.walls[path[by].wall].geometry;
+            from == to || is_rest_about_foot(&whole, [from, to], by, place.correction)
+        };
         let is_taken = (is_all
+            || is_cut(start, whole.start(), before) && is_cut(end, whole.end(), behind)
             || is_taken(&whole, &pieces, [path[before].wall, path[behind].wall]))
             && (leads_on
                 || self.between(at).all(|key| {
@@ -251,7 +274,7 @@ impl<'a> Sweep<'a> {
 #[cfg(test)]
 mod tests {
     use super::super::clearance::Walls;
-    use super::super::corners::{Joining, Offsets, Raw};
+    use super::super::corners::Raw;
     use super::super::offset::Wall;
     use super::super::path::Source;
     use super::super::proof::Beside;

@@ -4,7 +4,9 @@
 //! correction, lies at it everywhere but on the tips of corners, and leaves out nothing that the wire can reach: `proof`. Where that
 //! cannot be, there is an error finding at the place and no path. Everything is in drawing units; settings are in mm.
 
+mod about;
 mod apart;
+mod begun;
 mod clearance;
 mod containment;
 mod cores;
@@ -20,6 +22,7 @@ mod later;
 mod leads;
 mod loops;
 pub(crate) mod milling;
+mod nearby;
 mod nest;
 mod offset;
 mod open;
@@ -44,11 +47,13 @@ mod way;
 mod work;
 
 pub(crate) use clearance::Walls;
+pub(crate) use cores::each;
 pub(crate) use finished::Finished;
 pub use hole::StartHole;
 pub(crate) use hole::hole_faults;
 pub(crate) use kept::{NEW, which_it_is, which_it_was};
 pub use milling::{Milled, MilledContour};
+pub(crate) use nearby::Nearby;
 pub(crate) use part::{Cutting, Part, part};
 pub(crate) use path::lengths;
 pub use path::{PathSegment, Refusal, Source, WirePath};

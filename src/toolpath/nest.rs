@@ -4,7 +4,7 @@
 //! place on the same normal of the wall lies in it: there the later path keeps as clear, and only what reaches beyond is to be proved.
 
 use super::corners::Element;
-use crate::geometry::{Arc, Point, Segment, left_normal};
+use crate::geometry::{Arc, Point, Segment, Vector, left_normal};
 
 /// The path of an earlier pass, proved, beside the same walls on the same side, at no smaller correction.
 #[derive(Clone, Copy)]
@@ -15,8 +15,10 @@ pub(super) struct Before<'a> {
 
 /// How the later path runs beside one wall.
 #[derive(Clone, Copy)]
-pub(super) struct BesideWall {
-    pub(crate) wall: Segment,
+pub(super) struct BesideWall<'a> {
+    pub(crate) wall: &'a Segment,
+    /// The direction in which the wall begins.
+    pub(crate) along: Vector,
     pub(crate) side: f64,
     pub(crate) correction: f64,
     /// How far a path may be off by rounding.
@@ -76,7 +78,7 @@ impl Before<'_> {
         match (element.geometry, earlier.geometry) {
             (Segment::Line(inner), Segment::Line(outer)) => {
                 let own = beside.wall;
-                let along = own.start_tangent();
+                let along = beside.along;
                 let out = left_normal(along) * beside.side;
                 let place = |point: Point, correction: f64| {
                     let from = point - own.start();
@@ -105,7 +107,8 @@ impl Before<'_> {
             }
             (Segment::Arc(inner), Segment::Arc(outer)) => {
                 let is_on = |arc: &Arc, point: Point| {
-                    ((point - arc.center).norm() - arc.radius).abs() <= slack
+                    let squared = (point - arc.center).norm_squared();
+                    (squared - arc.radius * arc.radius).abs() <= slack * arc.radius
                 };
                 let is_exact = |arc: &Arc| {
                     !arc.is_shallow()
@@ -127,10 +130,12 @@ impl Before<'_> {
                     return None;
                 }
                 let least = slack / inner.radius;
+                let share = inner.radius / outer.radius;
+                let foot_of = |end: Point| inner.center + (end - inner.center) * share;
                 if ahead > least {
                     parts[0] = Some(Segment::Arc(Arc {
                         sweep: sense * ahead,
-                        end: inner.point_at(ahead / extent),
+                        end: foot_of(outer.start),
                         ..inner
                     }));
                 }
@@ -138,7 +143,7 @@ impl Before<'_> {
                     parts[1] = Some(Segment::Arc(Arc {
                         start_angle: inner.start_angle + inner.sweep - sense * behind,
                         sweep: sense * behind,
-                        start: inner.point_at(1.0 - behind / extent),
+                        start: foot_of(outer.end),
                         ..inner
                     }));
                 }
@@ -205,7 +210,8 @@ mod tests {
         };
         let (outer, inner) = (laid(0.3), laid(0.1));
         let beside = |element: &Element| BesideWall {
-            wall: walls[element.wall].geometry,
+            wall: &walls[element.wall].geometry,
+            along: own.tangents()[element.wall][0],
             side: 1.0,
             correction: 0.1,
             rounding: 1e-6,

@@ -1,6 +1,6 @@
 //! The offset of one segment, with its source. Corners join them, see `corners`.
 
-use super::cores::each;
+use super::cores::{any, each};
 use super::path::Source;
 use crate::drawing::ContourSegment;
 use crate::geometry::{Arc, Line, Point, Segment, Vector, left_normal};
@@ -72,8 +72,14 @@ pub(super) fn walls(
         }
         return walls;
     }
-    for index in 0..if closed { count } else { count - 1 } {
-        let next = if index + 1 == count { 0 } else { index + 1 };
+    let next = |index: usize| if index + 1 == count { 0 } else { index + 1 };
+    let joints = if closed { count } else { count - 1 };
+    let is_gap = |index: usize| walls[index].geometry.end() != walls[next(index)].geometry.start();
+    if !any(joints, AT_A_TIME, is_gap) {
+        return walls;
+    }
+    for index in 0..joints {
+        let next = next(index);
         let (end, start) = (walls[index].geometry.end(), walls[next].geometry.start());
         if end != start {
             let middle = end + (start - end) * 0.5;

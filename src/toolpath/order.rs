@@ -1,10 +1,9 @@
 //! Which contours are cut, in which direction, and where on them the cut begins.
 
 use super::containment::{Nesting, Places};
-use super::corners::{Element, between};
 use super::path::{Refusal, WirePath};
 use crate::drawing::{Contour, Drawing, EntityId, Outline};
-use crate::geometry::{Arc, Point, Segment};
+use crate::geometry::Point;
 use crate::settings::{Direction, Order};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::cmp::Ordering;
@@ -295,39 +294,6 @@ pub(super) fn directed(
         },
         turn,
     )
-}
-
-/// A closed path turned round so that it begins and ends in `point` of element `index`, which is split there.
-pub(super) fn begin_at(mut path: Vec<Element>, index: usize, point: Point) -> Vec<Element> {
-    let Some(&element) = path.get(index) else {
-        return path;
-    };
-    if let (1, Segment::Arc(arc)) = (path.len(), element.geometry) {
-        let turned = Arc {
-            radius: arc.radius,
-            ..Arc::about(arc.center, point, point, arc.sweep > 0.0)
-        };
-        return vec![Element {
-            geometry: Segment::Arc(turned),
-            ..element
-        }];
-    }
-    let share = element.geometry.share_of(point);
-    let length = element.geometry.length();
-    let (first, split) = match share * length {
-        along if along <= 1e-9 => (index, false),
-        along if along >= length - 1e-9 => ((index + 1) % path.len(), false),
-        _ => (index, true),
-    };
-    path.rotate_left(first);
-    if split && let Some(begun) = path.first_mut() {
-        begun.geometry = between(&element.geometry, point, element.geometry.end());
-        path.push(Element {
-            geometry: between(&element.geometry, element.geometry.start(), point),
-            ..element
-        });
-    }
-    path
 }
 
 #[cfg(test)]

@@ -136,11 +136,12 @@ pub(crate) fn part(
         })
         .collect();
     let near_path = Walls::of(&beside);
-    if let [Segment::Line(stand)] = beside
-        .iter()
-        .map(|wall| wall.geometry)
-        .collect::<Vec<_>>()
-        .as_slice()
+    if let [
+        Wall {
+            geometry: Segment::Line(stand),
+            ..
+        },
+    ] = beside.as_slice()
     {
         // The wire only stands, and leaves a hole as large as its kerf.
         let start = stand.start + crate::geometry::direction(0.0) * half;

@@ -1,6 +1,7 @@
 //! The paths of all contours of one request, with their leads, each held against all contours.
 
 use super::Planned;
+use super::begun::Begun;
 use super::clearance::Walls;
 use super::cores::each;
 use super::corners::{Element, elements};
@@ -10,7 +11,7 @@ use super::job::{Job, ROUNDING};
 use super::laid::{Along, Fault, Laid};
 use super::leads::{Contours, Kerfs, fault};
 use super::offset::Wall;
-use super::order::{begin_at, directed, name};
+use super::order::{directed, name};
 use super::path::{Refusal, Source, WirePath};
 use super::wanted::Wanted;
 use super::way::Landing;
@@ -323,7 +324,7 @@ impl Job<'_> {
         let path = if contour.closed {
             let path = elements(&walls);
             match self.entry(index, &walls, wanted)? {
-                Some(entry) => begin_at(path, entry.wall, entry.point),
+                Some(entry) => Begun::at(path, entry.wall, entry.point).into_path(),
                 None => path,
             }
         } else {
@@ -445,7 +446,7 @@ impl Job<'_> {
         &self,
         index: usize,
         wanted: &Wanted,
-    ) -> Result<(Vec<Element>, Option<Side>), Refusal> {
+    ) -> Result<(Begun, Option<Side>), Refusal> {
         let outline = &self.outlines[index];
         let (contour, turned) = self.towards(index, wanted)?;
         let side = outline
@@ -453,7 +454,7 @@ impl Job<'_> {
             .map(|side| if turned { side.reversed() } else { side });
         let walls = self.walls(&contour);
         if !contour.closed {
-            return Ok((elements(&walls), side));
+            return Ok((Begun::whole(elements(&walls)), side));
         }
         let Some(entry) = self
             .entry(index, &walls, wanted)?
@@ -464,6 +465,7 @@ impl Job<'_> {
                 name(self.drawing, outline)
             )));
         };
-        Ok((begin_at(elements(&walls), entry.wall, entry.point), side))
+        let path = Begun::at(elements(&walls), entry.wall, entry.point);
+        Ok((path, side))
     }
 }

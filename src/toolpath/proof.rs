@@ -95,9 +95,14 @@ impl Beside<'_> {
     }
 
     /// How the path runs beside a wall.
-    pub(super) fn beside_wall(&self, wall: usize) -> BesideWall {
+    pub(super) fn beside_wall(&self, wall: usize) -> BesideWall<'_> {
+        let geometry = &self.walls[wall].geometry;
         BesideWall {
-            wall: self.walls[wall].geometry,
+            wall: geometry,
+            along: match self.closed {
+                true => self.own.tangents()[wall][0],
+                false => geometry.start_tangent(),
+            },
             side: self.side,
             correction: self.correction,
             rounding: self.rounding,

@@ -1,7 +1,7 @@
 //! The path that is left where neighbours are cut with each other, and what they use up is taken out.
 
 use super::cores::{each, extend};
-use super::corners::{Element, Joint, Raw, between, close_up, meetings};
+use super::corners::{Element, Joint, Raw, between, close_up, nearer_to_both, nearly_meetings};
 use crate::geometry::{Point, Segment};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -228,21 +228,20 @@ pub(super) fn meeting(a: &Segment, b: &Segment, near: Point) -> Option<Point> {
     let is_on = |segment: &Segment, point: Point| {
         segment.spans(point) || (-1e-9..=1.0 + 1e-9).contains(&segment.share_of(point))
     };
-    let is_on_both = |point: &Point| is_on(a, *point) && is_on(b, *point);
-    let away = |point: &Point| (point - near).norm_squared();
-    let met = meetings(a, b);
+    let is_on_both = |point: Point| is_on(a, point) && is_on(b, point);
+    let away = |point: Point| (point - near).norm_squared();
+    let exact = |point: Point| nearer_to_both(a, b, point);
+    let met = nearly_meetings(a, b);
     let best = match met[..] {
         [one, other] => {
-            let (nearer, farther) = match away(&other) < away(&one) {
-                true => (other, one),
-                false => (one, other),
+            let (nearer, farther) = match away(other) < away(one) {
+                true => (exact(other), one),
+                false => (exact(one), other),
             };
-            match !is_on_both(&nearer) && is_on_both(&farther) {
-                true => farther,
-                false => nearer,
-            }
+            let farther = (!is_on_both(nearer)).then(|| exact(farther));
+            farther.filter(|at| is_on_both(*at)).unwrap_or(nearer)
         }
-        _ => *met.first()?,
+        _ => exact(*met.first()?),
     };
     (best.x.is_finite() && best.y.is_finite()).then_some(best)
 }

@@ -81,19 +81,54 @@ pub(super) fn is_all_about_foot(stretch: &Segment, wall: &Segment, distance: f64
         let is_within = |corner: &Point| (corner - foot).norm_squared() <= most * most;
         (half_way - foot).norm_squared() < least * least && corners.iter().all(is_within)
     };
-    let foot_of = |end: Point| match wall {
+    let ends = [corners[0], corners[1]].into_iter();
+    let mut feet = ends.filter_map(|end| foot_of(wall, end));
+    feet.any(is_about)
+}
+
+/// The place of a wall that is nearest to a point; `None` beside an arc that does not reach there.
+fn foot_of(wall: &Segment, point: Point) -> Option<Point> {
+    match wall {
         Segment::Line(line) => {
-            let share = line.share_of(end).clamp(0.0, 1.0);
+            let share = line.share_of(point).clamp(0.0, 1.0);
             Some(line.start + (line.end - line.start) * share)
         }
-        Segment::Arc(arc) if arc.is_shallow() || !arc.spans(end) => None,
+        Segment::Arc(arc) if arc.is_shallow() || !arc.spans(point) => None,
         Segment::Arc(arc) => {
-            let out = (end - arc.center).try_normalize(0.0)?;
+            let out = (point - arc.center).try_normalize(0.0)?;
             Some(arc.center + out * arc.radius)
         }
+    }
+}
+
+/// The same of the way along a raw element, from a place of it to one of its ends, about the place of a wall that is nearest to the first,
+/// at less cost.
+pub(super) fn is_rest_about_foot(
+    raw: &Segment,
+    [from, to]: [Point; 2],
+    wall: &Segment,
+    distance: f64,
+) -> bool {
+    // Nothing of it lies farther out than this.
+    let apex = match raw {
+        Segment::Line(line) => {
+            let along = line.end - line.start;
+            let is_on = (0.0..=along.norm_squared()).contains(&along.dot(&(from - line.start)));
+            is_on.then(|| from + (to - from) * 0.5)
+        }
+        Segment::Arc(arc) => {
+            let (out, last) = (from - arc.center, to - arc.center);
+            let (squared, is_narrow) = (arc.radius * arc.radius, arc.sweep.abs() <= 2.0);
+            let is_on = is_narrow && !arc.is_shallow() && arc.spans(from);
+            is_on.then(|| arc.center + (out + last) * (squared / (squared + out.dot(&last))))
+        }
     };
-    let mut feet = [corners[0], corners[1]].into_iter().filter_map(foot_of);
-    feet.any(is_about)
+    let Some((apex, foot)) = apex.zip(foot_of(wall, from)) else {
+        return false;
+    };
+    let is_within = |point: Point, most: f64| (point - foot).norm_squared() <= most * most;
+    let most = distance * (1.0 + 1e-9);
+    is_within(from, most) && is_within(to, most) && is_within(apex, distance * (1.0 - 2e-7))
 }
 
 /// True when a stretch is seen to lie within `distance` of a wall, all but its ends nearer than that. False says nothing.
@@ -122,4 +157,51 @@ pub(super) fn is_all_within(stretch: &Segment, wall: &Segment, distance: f64) ->
         && arc.is_minor()
         && corners.iter().all(|corner| arc.spans(*corner))
         && sides.iter().all(keeps_out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of lines and arcs cut at a place beside lines and arcs, from a fixed sequence: what is said to lie about a foot is nearer to the wall
+    /// everywhere between its ends.
+    #[test]
+    fn what_is_seen_to_lie_about_a_foot_does() {
+        let mut state = 11_u64;
+        let mut number = || {
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (state >> 33) as f64 / (1_u64 << 31) as f64
+        };
+        let mut seen = 0;
+        for _ in 0..200_000 {
+            let mut segment = |size: f64| {
+                let start = Point::new(number(), number());
+                let way = Vector::new(number() - 0.5, number() - 0.5) * size;
+                let bulge = if number() < 0.4 {
+                    0.0
+                } else {
+                    1.6 * number() - 0.8
+                };
+                Segment::from_bulge(start, start + way, bulge)
+            };
+            let (raw, wall) = (segment(0.8), segment(2.0));
+            let share = number();
+            let (from, to) = (raw.point_at(share), if number() < 0.5 { 0.0 } else { 1.0 });
+            let distance = wall.distance_to(from) * (1.0 + 1e-12);
+            if !is_rest_about_foot(&raw, [from, raw.point_at(to)], &wall, distance) {
+                continue;
+            }
+            seen += 1;
+            for part in 1..20 {
+                let at = raw.point_at(share + (to - share) * f64::from(part) / 20.0);
+                assert!(
+                    wall.distance_to(at) < distance,
+                    "{raw:?} {wall:?} {share} {to}"
+                );
+            }
+        }
+        assert!(seen > 10_000, "{seen}");
+    }
 }

@@ -4,13 +4,13 @@
 //! next. Passes that all go one way come back to the thread hole from where the tab begins. Then the tab is cut in passes of its own, to and
 //! fro from where the wire stands, or one way from the thread hole.
 
-use super::cores::extend;
+use super::begun::Begun;
 use super::corners::Element;
 use super::entry::{Entry, path_point};
 use super::job::{Job, ROUNDING};
 use super::leads::{Contours, Kerfs, fault};
 use super::offset::normal;
-use super::order::{begin_at, name};
+use super::order::name;
 use super::path::{PathSegment, Refusal, Source, WirePath};
 use super::paths::{Pass, Unled};
 use super::threading::lead;
@@ -19,21 +19,20 @@ use super::way::{Landing, lead_in, lead_out};
 use crate::drawing::Role;
 use crate::geometry::{Point, Segment, Side};
 use crate::settings::{Compensation, Lead, Sequence};
-use rayon::iter::{IntoParallelIterator, ParallelIterator};
+use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
 /// How much further than the correction the wire goes from a part's contour at a tab, where the control switches the correction, mm.
 const CLEAR: f64 = 0.01;
 
-/// One core takes so many pieces of a path at a time.
-const PIECES_AT_A_TIME: usize = 4096;
-
 /// One pass, from the entry on.
 #[derive(Default)]
 struct Round {
-    /// All of it but for the tab.
-    main: Vec<Element>,
+    /// All of it but for the tab, as it is gone.
+    main: Vec<PathSegment>,
+    /// The first piece of that is the straight way from the thread hole.
+    is_led: bool,
     /// Along the tab, which ends at the entry.
-    held: Vec<Element>,
+    held: Begun,
     /// Drawing units; 0 where the contour is the path.
     correction: f64,
     /// Where the wire goes at the tab to have its correction switched.
@@ -59,8 +58,18 @@ impl Job<'_> {
         let passes = std::mem::take(&mut unled.passes);
         let count = passes.len();
         let (mut rounds, mut side) = (Vec::with_capacity(count), None);
-        let made = passes.into_par_iter();
-        let made = made.map(|pass| self.round(&unled, wanted, pass, tab.as_ref(), count));
+        let is_open = !self.outlines[unled.outline].contour.closed;
+        let made = passes.into_par_iter().enumerate().map(|(number, pass)| {
+            let back = self.settings.runs_back(number);
+            // The far end of an open contour is where a tab would begin, and there is none.
+            let is_led = is_straight && !((tab.is_some() || is_open) && back);
+            let form = Form {
+                back,
+                thread: is_led.then_some(thread),
+                count,
+            };
+            self.round(&unled, wanted, pass, tab.as_ref(), form)
+        });
         for made in made.collect::<Vec<_>>() {
             let (round, of_control) = made?;
             rounds.push(round);
@@ -77,19 +86,28 @@ impl Job<'_> {
             .map(|number| (number, false))
             .chain(cut_off.filter(|_| tab.is_some()));
         for (number, cut_off) in stages {
-            let round = &rounds[number];
+            let round = &mut rounds[number];
             let back = match cut_off {
                 true => at_tab.is_none() && !returns,
                 false => self.settings.runs_back(number),
             };
-            // The far end of an open contour is where a tab would begin, and there is none.
             let from_tab = (tab.is_some() || !closed) && cut_off != back;
             let to_tab = (tab.is_some() || !closed) && !from_tab;
-            let way = Directed {
-                way: if cut_off { &round.held } else { &round.main },
-                back,
+            let overlaps = overlap > 0.0 && closed && !to_tab && (cut_off || tab.is_none());
+            let main = round.main.iter().skip(usize::from(round.is_led));
+            let beyond = match back == self.settings.runs_back(number) {
+                _ if !overlaps => Vec::new(),
+                true => beyond(main.copied(), overlap),
+                false => beyond(main.rev().map(reversed), overlap),
             };
-            let (begin, end) = match (way.first(), way.last()) {
+            let is_led = round.is_led && !cut_off;
+            let mut segments = match cut_off {
+                true => std::mem::take(&mut round.held).into_segments(back, None),
+                // What lies beyond the tab is asked of it once more.
+                false if tab.is_some() && overlap > 0.0 => round.main.clone(),
+                false => std::mem::take(&mut round.main),
+            };
+            let (begin, end) = match (segments.get(usize::from(is_led)), segments.last()) {
                 (Some(first), Some(last)) => (first.geometry.start(), last.geometry.end()),
                 _ => (thread, thread),
             };
@@ -108,40 +126,27 @@ impl Job<'_> {
                 way.map(|way| way.pieces(thread, landing, true))
                     .map_err(|finding| Refusal::Findings(vec![finding]))
             };
-            let mut segments: Vec<PathSegment> = Vec::with_capacity(way.way.len() + 5);
-            match (from_tab && !returns, round.aside) {
-                (false, _) if begin == thread => {}
+            let to_begin: Vec<PathSegment> = match (from_tab && !returns, round.aside) {
+                (false, _) if begin == thread || is_led => Vec::new(),
                 (false, _) if is_straight && !from_tab => {
-                    segments.extend(lead(thread, begin, Source::LeadIn));
+                    lead(thread, begin, Source::LeadIn).into_iter().collect()
                 }
                 (false, _) => {
-                    let along = way.first().map(|first| first.geometry.start_tangent());
+                    let along = segments.first().map(|first| first.geometry.start_tangent());
                     let along = along.unwrap_or_default();
                     let landing = Landing::of_begin(begin, along, of_travel, control);
-                    segments.extend(lead_in(hold(&landing)?));
+                    lead_in(hold(&landing)?).collect()
                 }
-                (true, Some(_)) => {
-                    segments.extend(lead(at_tab.unwrap_or(begin), begin, Source::LeadIn));
+                (true, aside) => {
+                    let source = aside.map_or(Source::Tab, |_| Source::LeadIn);
+                    let step = lead(at_tab.unwrap_or(begin), begin, source);
+                    step.into_iter().collect()
                 }
-                (true, None) => {
-                    segments.extend(lead(at_tab.unwrap_or(begin), begin, Source::Tab));
-                }
+            };
+            if !to_begin.is_empty() {
+                segments.splice(0..0, to_begin);
             }
-            extend(&mut segments, way.way.len(), PIECES_AT_A_TIME, |index| {
-                let element = way.element(index);
-                PathSegment {
-                    geometry: element.geometry,
-                    source: element.source,
-                }
-            });
-            let overlaps = overlap > 0.0 && closed && !to_tab && (cut_off || tab.is_none());
-            if overlaps {
-                let way = Directed {
-                    way: &round.main,
-                    back,
-                };
-                segments.extend(beyond(way, overlap));
-            }
+            segments.extend(beyond);
             let last = segments.last().map_or(end, |piece| piece.geometry.end());
             at_tab = match (to_tab && !returns, round.aside) {
                 (true, Some(aside)) => {
@@ -188,8 +193,18 @@ impl Job<'_> {
         wanted: &Wanted,
         pass: Pass,
         tab: Option<&Entry>,
-        count: usize,
+        form: Form,
     ) -> Result<(Round, Option<Side>), Refusal> {
+        let Form {
+            back,
+            thread,
+            count,
+        } = form;
+        let main = |way: Begun| {
+            let led = thread.zip(way.begin_of(back));
+            let led = led.and_then(|(thread, begin)| lead(thread, begin, Source::LeadIn));
+            (led.is_some(), way.into_segments(back, led))
+        };
         let wire = pass.correction;
         let closed = self.outlines[unled.outline].contour.closed;
         let (ring, tab_at, correction, side) =
@@ -200,8 +215,8 @@ impl Job<'_> {
                 let at =
                     tab.and_then(|tab| path_point(&pass.path, &unled.walls, tab, wire, unled.side));
                 let ring = match closed {
-                    true => begin_at(pass.path, pass.element, pass.begin),
-                    false => pass.path,
+                    true => Begun::at(pass.path, pass.element, pass.begin),
+                    false => Begun::whole(pass.path),
                 };
                 (ring, at.map(|(_, at)| at), wire, None)
             };
@@ -219,24 +234,28 @@ impl Job<'_> {
                 share: 1.0,
                 point: last.geometry.end(),
             });
+            let (is_led, main) = main(ring);
             let round = Round {
-                main: ring,
+                main,
+                is_led,
+                held: Begun::default(),
                 correction,
                 aside: far_end.as_ref().and_then(aside),
-                ..Round::default()
             };
             return Ok((round, side));
         };
-        let (main, held) = split(ring, at, self.units(ROUNDING));
+        let (before, held) = split(ring.into_path(), at, self.units(ROUNDING));
         let wall = &unled.walls[tab.wall];
-        if main.is_empty() || held.is_empty() {
+        if before.is_empty() || held.is_empty() {
             let sentence = say!(no_tab_fits_at, tab.point.x, tab.point.y);
             let finding = fault(self.severity(), Some(wall.source), sentence, None);
             return Err(Refusal::Findings(vec![finding]));
         }
+        let (is_led, main) = main(Begun::whole(before));
         let round = Round {
             main,
-            held,
+            is_led,
+            held: Begun::whole(held),
             correction,
             aside: aside(tab),
         };
@@ -322,36 +341,19 @@ impl Job<'_> {
     }
 }
 
-/// A way, gone back where that is asked for.
-#[derive(Clone, Copy)]
-struct Directed<'a> {
-    way: &'a [Element],
+/// How a pass is gone.
+struct Form {
     back: bool,
+    /// Where a straight way leads to it from.
+    thread: Option<Point>,
+    /// How many passes there are.
+    count: usize,
 }
 
-impl<'a> Directed<'a> {
-    fn element(self, index: usize) -> Element {
-        if !self.back {
-            return self.way[index];
-        }
-        let element = self.way[self.way.len() - 1 - index];
-        Element {
-            geometry: element.geometry.reversed(),
-            ..element
-        }
-    }
-
-    fn first(self) -> Option<Element> {
-        self.elements().next()
-    }
-
-    fn last(self) -> Option<Element> {
-        let last = self.way.len().checked_sub(1)?;
-        Some(self.element(last))
-    }
-
-    fn elements(self) -> impl Iterator<Item = Element> + 'a {
-        (0..self.way.len()).map(move |index| self.element(index))
+fn reversed(piece: &PathSegment) -> PathSegment {
+    PathSegment {
+        geometry: piece.geometry.reversed(),
+        ..*piece
     }
 }
 
@@ -400,15 +402,15 @@ fn with_ends(mut segment: Segment, start: Point, end: Point) -> Segment {
 }
 
 /// The first so much of a way once more.
-fn beyond(way: Directed, length: f64) -> Vec<PathSegment> {
+fn beyond(way: impl Iterator<Item = PathSegment>, length: f64) -> Vec<PathSegment> {
     let (mut left, mut pieces) = (length, Vec::new());
-    for element in way.elements() {
-        let along = element.geometry.length();
+    for PathSegment { geometry, source } in way {
+        let along = geometry.length();
         let geometry = match left < along {
-            true => element.geometry.part(0.0, left / along),
-            false => element.geometry,
+            true => geometry.part(0.0, left / along),
+            false => geometry,
         };
-        let source = match element.source {
+        let source = match source {
             Source::Segment { entity, segment } | Source::Corner { entity, segment } => {
                 Source::Overlap { entity, segment }
             }

@@ -63,3 +63,45 @@ fn long_programs_of_short_arcs_follow_their_drawing() {
         assert_eq!(lines, [line_of(&text, block.start)], "{keys}");
     }
 }
+
+/// What we write for a drawing of several contours in several passes is what is read, to every block.
+#[test]
+fn long_programs_of_several_contours_follow_their_drawing() {
+    let corrections = ["correction = 0.1", "[passes]\ncorrections = [0.15, 0.1]"];
+    let rows = [
+        (Format::ThreeB, 0, ""),
+        (Format::ThreeB, 1, "layout = \"checking\""),
+        (Format::ThreeB, 0, "jumps = \"none\"\nheader = true"),
+        (Format::ThreeB, 0, "tab = 2.5\nclosing-overlap = 0.5"),
+        (Format::FourB, 0, "layout = \"aligned\""),
+        (
+            Format::Iso,
+            0,
+            "profile = \"robofil\"\ncompensation = \"controller\"",
+        ),
+        (Format::Iso, 1, "profile = \"fast-wire\""),
+        (Format::Iso, 0, "jumps = \"none\""),
+    ];
+    for (format, passes, keys) in rows {
+        let settings = settings_of(&format!("{}\n[program]\n{keys}\n", corrections[passes]));
+        let circle = |at: f64, radius| (Shape::Circle([at, 0.0], radius), Role::Opening);
+        let ring = (Shape::Polyline(ring(400)), Role::Punch);
+        let document = document(&[ring, circle(-5.0, 4.0), circle(6.0, 5.0)], &settings);
+        let text = program_of(&document, format).unwrap();
+        let drawn = document.drawn().unwrap();
+        let told = |text: &str| -> Vec<usize> {
+            let found = compare(&drawn, &traced(text, format, &settings)).unwrap();
+            found.differences.iter().map(|found| found.line).collect()
+        };
+        assert_eq!(told(&text), [0; 0], "{format:?} {keys}");
+        let found = compare(&drawn, &traced(&text, format, &settings)).unwrap();
+        let block = &found.follows[found.follows.len() / 2];
+        let wrong = [0, 1]
+            .into_iter()
+            .find_map(|axis| changed(&text, block, 3, axis));
+        if let Some(wrong) = wrong {
+            let line = line_of(&text, block.start);
+            assert_eq!(told(&wrong), [line], "{format:?} {keys}");
+        }
+    }
+}

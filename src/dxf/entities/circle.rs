@@ -53,13 +53,7 @@ pub(super) fn arc(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Result<
             end_angle,
         }
     };
-    Ok(common.finish(
-        lexer,
-        layers,
-        Kind::Arc,
-        (Shape::Plain(geometry), lies),
-        None,
-    ))
+    Ok(common.finish(lexer, layers, Kind::Arc, (Shape::Plain(geometry), lies)))
 }
 
 /// Start and end of an arc, counter-clockwise again after x is reversed. Its own inverse.
@@ -86,5 +80,5 @@ pub(super) fn circle(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Resu
         center: Point::new(x, y),
         radius,
     });
-    Ok(common.finish(lexer, layers, Kind::Circle, (shape, lies), None))
+    Ok(common.finish(lexer, layers, Kind::Circle, (shape, lies)))
 }

@@ -34,11 +34,5 @@ pub(super) fn line(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Result
             Vector3::new(end_x, end_y, high),
         ])),
     };
-    Ok(common.finish(
-        lexer,
-        layers,
-        Kind::Line,
-        (Shape::Plain(geometry), lies),
-        None,
-    ))
+    Ok(common.finish(lexer, layers, Kind::Line, (Shape::Plain(geometry), lies)))
 }

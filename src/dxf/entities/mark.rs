@@ -79,7 +79,7 @@ pub(super) fn text(
     } else {
         Vec::new()
     };
-    let read = common.finish(lexer, layers, kind, (Shape::Plain(geometry), lies), None);
+    let read = common.finish(lexer, layers, kind, (Shape::Plain(geometry), lies));
     Ok(Read { frames, ..read })
 }
 
@@ -94,11 +94,5 @@ pub(super) fn point(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Resul
         text: "O".into(),
     };
     let lies = Lies::Level(numbers.values[2].unwrap_or(0.0));
-    Ok(common.finish(
-        lexer,
-        layers,
-        Kind::Point,
-        (Shape::Plain(geometry), lies),
-        None,
-    ))
+    Ok(common.finish(lexer, layers, Kind::Point, (Shape::Plain(geometry), lies)))
 }

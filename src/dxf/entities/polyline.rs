@@ -234,13 +234,11 @@ fn polyline_of(
         own,
         count,
     };
-    Ok(common.finish(
-        lexer,
-        layers,
-        kind,
-        (Shape::Plain(geometry), lies),
-        Some(vertices),
-    ))
+    let read = common.finish(lexer, layers, kind, (Shape::Plain(geometry), lies));
+    Ok(Read {
+        vertices: Some(vertices),
+        ..read
+    })
 }
 
 /// A vertex after x is reversed. Its own inverse.

@@ -48,7 +48,7 @@ fn pair(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize
         Kind::Pause => document.stop_behind(own.range.start)?,
         Kind::End => document.first_move()?,
         Kind::Line | Kind::Arc | Kind::Rapid => {
-            let (chain, cut, index) = document.cut_at(own.range.start)?;
+            let (held, cut, index) = document.cut_at(own.range.start)?;
             let contour = cut.contour_steps();
             let lead_out = contour.end..cut.steps.end;
             let target = if index < contour.start {
@@ -65,7 +65,7 @@ fn pair(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize
             } else {
                 contour.end.checked_sub(1)?
             };
-            chain.step(target)?.range.clone()
+            held.step(target)?.range.clone()
         }
     };
     Some((own.range.clone(), other))

@@ -27,14 +27,14 @@ pub(crate) fn selections(document: &Document, offset: usize) -> Vec<Range<usize>
     }
     wider(text.line_range(line));
     let step = touching.or_else(|| own.iter().find(|step| step.line == line));
-    if let Some((chain, cut, index)) = step
+    if let Some((held, cut, index)) = step
         .filter(|step| step.moves())
         .and_then(|step| document.cut_at(step.range.start))
     {
         let lines = |steps: Range<usize>| {
             let (first, last) = (
-                chain.step(steps.start)?,
-                chain.step(steps.end.checked_sub(1)?)?,
+                held.step(steps.start)?,
+                held.step(steps.end.checked_sub(1)?)?,
             );
             Some(text.line_start(first.line)..text.line_range(last.line).end)
         };

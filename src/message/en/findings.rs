@@ -1,6 +1,66 @@
-//! What is found, and how it is repaired.
+//! What each rule is called in lists, what is found, and how it is repaired.
 
 declare! {
+    an_arc_is_tighter_than_the_correction_the_wire_cannot_follow_it => "An arc is tighter than the correction: the wire cannot follow it";
+    a_corner_that_the_wire_leaves_rounded => "A corner that the wire leaves rounded";
+    a_slot_narrower_than_the_wire_s_way_through_it => "A slot narrower than the wire's way through it";
+    the_offset_loses_a_part_of_the_outline => "The offset loses a part of the outline";
+    nothing_is_left_of_the_outline_at_this_correction => "Nothing is left of the outline at this correction";
+    a_contour_that_does_not_close => "A contour that does not close";
+    two_ends_that_belong_together_do_not_meet => "Two ends that belong together do not meet";
+    two_entities_lie_in_the_same_place => "Two entities lie in the same place";
+    two_segments_run_on_one_another => "Two segments run on one another";
+    a_segment_too_short_to_cut => "A segment too short to cut";
+    two_segments_are_nearly_tangent_but_not_quite => "Two segments are nearly tangent, but not quite";
+    a_contour_touches_or_crosses_itself_or_another => "A contour touches or crosses itself or another";
+    an_arc_drawn_as_short_lines => "An arc drawn as short lines";
+    no_path_of_the_wire_holds_its_proof_here => "No path of the wire holds its proof here";
+    a_punch_does_not_go_into_its_plate => "A punch does not go into its plate";
+    a_start_hole_has_no_room_beside_the_contours => "A start hole has no room beside the contours";
+    the_lead_in_is_too_short_or_crosses_a_contour => "The lead-in is too short or crosses a contour";
+    the_corrections_of_the_passes_do_not_fall_or_no_wire_is_so_thin => "The corrections of the passes do not fall, or no wire is so thin";
+    something_in_the_drawing_is_not_cut => "Something in the drawing is not cut";
+    the_unit_is_missing_or_absurd => "The unit is missing, or the size speaks for another one";
+    the_ends_of_an_arc_are_not_on_one_circle_about_its_centre => "The ends of an arc are not on one circle about its centre";
+    an_arc_whose_centre_is_its_start => "An arc whose centre is its start";
+    the_correction_is_switched_by_an_arc_or_a_rapid => "The correction is switched by an arc or a rapid";
+    the_correction_sends_the_wire_to_the_side_of_the_part => "The correction sends the wire to the side of the part";
+    i_or_j_beside_a_straight_cut => "I or J beside a straight cut";
+    a_word_stands_twice_in_a_line => "A word stands twice in a line";
+    an_arc_that_runs_the_wrong_way_round => "An arc that runs the wrong way round";
+    a_cut_that_goes_out_and_back_on_the_same_way => "A cut that goes out and back on the same way";
+    a_block_that_stands_twice => "A block that stands twice";
+    g41_or_g42_without_the_place_of_its_correction => "G41 or G42 without the place of its correction";
+    the_correction_changes_its_side_within_a_cut => "The correction changes its side within a cut";
+    the_correction_is_still_on_at_the_end => "The correction is still on at the end";
+    a_subprogram_without_its_return => "A subprogram without its return";
+    an_arc_has_no_room_for_a_wire_that_leans => "An arc has no room for a wire that leans";
+    the_word_for_a_corner_finds_none => "The word for a corner finds none";
+    numbers_with_and_without_a_decimal_point => "Numbers with and without a decimal point";
+    a_block_that_may_be_wrong => "A block that may be wrong";
+    the_arcs_do_not_tell_how_their_centres_are_meant => "The arcs do not tell how their centres are meant";
+    a_word_that_machines_take_in_different_ways => "A word that machines take in different ways";
+    a_block_that_has_lost_a_b => "A block that has lost a B";
+    a_block_number_that_is_written_with_b => "A block number that is written with B";
+    j_holds_the_length_of_a_line_not_its_projection => "J holds the length of a line, not its projection";
+    j_is_not_what_the_block_counts => "J is not what the block counts";
+    j_of_an_arc_counts_more_than_one_turn => "J of an arc counts more than one turn";
+    g_counts_the_wrong_axis => "G counts the wrong axis";
+    z_names_the_wrong_quadrant => "Z names the wrong quadrant";
+    a_block_that_moves_nothing => "A block that moves nothing";
+    a_number_with_more_digits_than_the_controller_has => "A number with more digits than the controller has";
+    coordinates_that_are_not_where_the_block_ends => "Coordinates that are not where the block ends";
+    a_path_that_goes_through_itself => "A path that goes through itself";
+    a_cut_that_does_not_close => "A cut that does not close";
+    a_program_without_its_end => "A program without its end";
+    text_behind_the_end_of_a_program => "Text behind the end of a program";
+    a_block_number_that_stands_twice_is_out_of_turn_or_missing => "A block number that stands twice, is out of turn or missing";
+    the_file_is_damaged => "The file is damaged";
+    a_setting_does_not_fit => "A setting does not fit";
+    a_part_that_was_left_out_since_it_would_have_taken_too_much => "A part that was left out, since it would have taken too much";
+    stands_for_further_findings => "Stands for further findings";
+    a_program_and_its_drawing_are_not_alike => "A program and its drawing are not alike";
+
     the_block_does_not_follow_its_drawing(segment, handle, drawing, off) => "block does not follow segment {segment} of {handle} in {drawing}: it ends {off} mm from where the drawing has it";
     the_contour_does_not_begin_where_its_drawing_has_it(handle, drawing, off) => "contour begins {off} mm from where {drawing} has it ({handle})";
     the_way_does_not_lead_where_its_drawing_has_it(drawing, off) => "way of the wire in, out or between contours leads {off} mm from where {drawing} and its settings have it";

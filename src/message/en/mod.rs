@@ -11,14 +11,13 @@ mod ide;
 mod job;
 mod pages;
 mod program;
-mod rules;
 mod server;
 mod settings;
 mod toolpath;
 
 pub(super) use {
     amounts::*, cli::*, codes::*, drawing::*, files::*, findings::*, help::*, ide::*, job::*,
-    pages::*, program::*, rules::*, server::*, settings::*, toolpath::*,
+    pages::*, program::*, server::*, settings::*, toolpath::*,
 };
 
 /// Every sentence, in the language that is spoken.
@@ -26,6 +25,6 @@ pub(crate) mod said {
     pub(crate) use super::{
         amounts::said::*, cli::said::*, codes::said::*, drawing::said::*, files::said::*,
         findings::said::*, ide::said::*, job::said::*, pages::said::*, program::said::*,
-        rules::said::*, server::said::*, settings::said::*, toolpath::said::*,
+        server::said::*, settings::said::*, toolpath::said::*,
     };
 }

@@ -3,6 +3,7 @@
 declare! {
     a_number_above(least) => "a number above {least}";
     a_number_of_or_above(least) => "a number of {least} or above";
+    a_number_up_to(most) => "a number up to {most}";
     a_number_from_to(least, most) => "a number from {least} to {most}";
     a_whole_number_from_to(least, most) => "a whole number from {least} to {most}";
     a_list_of_numbers_one_for_each_pass => "a list of numbers above 0, one for each pass";
@@ -18,6 +19,7 @@ declare! {
     a_list => "a list";
     not_set => "not set";
     a_point => "a point [x, y]";
+    a_point_of_numbers_up_to(most) => "a point [x, y] of numbers up to {most}";
     a_word_of_letters_and_digits => "a word of letters and digits such as \"DD\"";
     colors_that_are_known => "red, yellow, green, cyan, blue, magenta, white, a number from 1 to 255 or #rrggbb";
     the_reason_in_words => "the reason in words";

@@ -1,6 +1,66 @@
-//! What is found, and how it is repaired.
+//! What each rule is called in lists, what is found, and how it is repaired.
 
 translate! {
+    an_arc_is_tighter_than_the_correction_the_wire_cannot_follow_it => "圆弧半径小于补偿量：电极丝走不出来";
+    a_corner_that_the_wire_leaves_rounded => "电极丝切不出的尖角，会留圆角";
+    a_slot_narrower_than_the_wire_s_way_through_it => "槽太窄，电极丝过不去";
+    the_offset_loses_a_part_of_the_outline => "偏移后丢失一部分轮廓";
+    nothing_is_left_of_the_outline_at_this_correction => "按此补偿量偏移，轮廓全部消失";
+    a_contour_that_does_not_close => "轮廓不封闭";
+    two_ends_that_belong_together_do_not_meet => "本应相接的两端没有接上";
+    two_entities_lie_in_the_same_place => "两个图元重合";
+    two_segments_run_on_one_another => "两段线相互重叠";
+    a_segment_too_short_to_cut => "线段太短，无法切割";
+    two_segments_are_nearly_tangent_but_not_quite => "两段线接近相切，但不相切";
+    a_contour_touches_or_crosses_itself_or_another => "轮廓与自身或其他轮廓相碰、相交";
+    an_arc_drawn_as_short_lines => "圆弧画成了短直线";
+    no_path_of_the_wire_holds_its_proof_here => "此处的切割路线通不过校核";
+    a_punch_does_not_go_into_its_plate => "凸模装不进凹模";
+    a_start_hole_has_no_room_beside_the_contours => "穿丝孔离轮廓太近，放不下";
+    the_lead_in_is_too_short_or_crosses_a_contour => "引入线太短，或与轮廓相交";
+    the_corrections_of_the_passes_do_not_fall_or_no_wire_is_so_thin => "各次切割的补偿量不递减，或没有这么细的丝";
+    something_in_the_drawing_is_not_cut => "图形中有不切割的内容";
+    the_unit_is_missing_or_absurd => "没有单位，或尺寸表明是别的单位";
+    the_ends_of_an_arc_are_not_on_one_circle_about_its_centre => "圆弧两端不在同一个圆上";
+    an_arc_whose_centre_is_its_start => "圆弧的圆心就是起点";
+    the_correction_is_switched_by_an_arc_or_a_rapid => "用圆弧或快速移动建立、取消补偿";
+    the_correction_sends_the_wire_to_the_side_of_the_part => "补偿方向使电极丝切到工件一侧";
+    i_or_j_beside_a_straight_cut => "直线切割带有 I 或 J";
+    a_word_stands_twice_in_a_line => "一行中同一字母出现两次";
+    an_arc_that_runs_the_wrong_way_round => "圆弧方向反了";
+    a_cut_that_goes_out_and_back_on_the_same_way => "切出去又原路返回";
+    a_block_that_stands_twice => "程序段重复";
+    g41_or_g42_without_the_place_of_its_correction => "G41 或 G42 没有补偿号";
+    the_correction_changes_its_side_within_a_cut => "切割中途改变补偿方向";
+    the_correction_is_still_on_at_the_end => "程序结束时补偿未取消";
+    a_subprogram_without_its_return => "子程序没有返回";
+    an_arc_has_no_room_for_a_wire_that_leans => "圆弧太小，倾斜的丝过不去";
+    the_word_for_a_corner_finds_none => "拐角指令找不到拐角";
+    numbers_with_and_without_a_decimal_point => "有的数带小数点，有的不带";
+    a_block_that_may_be_wrong => "程序段可能有错";
+    the_arcs_do_not_tell_how_their_centres_are_meant => "从圆弧看不出圆心的写法";
+    a_word_that_machines_take_in_different_ways => "各机床解释不同的代码";
+    a_block_that_has_lost_a_b => "程序段缺一个 B";
+    a_block_number_that_is_written_with_b => "段号误写成 B";
+    j_holds_the_length_of_a_line_not_its_projection => "J 写成了线段长度，不是投影长度";
+    j_is_not_what_the_block_counts => "J 与程序段的计数长度不符";
+    j_of_an_arc_counts_more_than_one_turn => "圆弧的 J 超过一整圈";
+    g_counts_the_wrong_axis => "计数方向 G 错误";
+    z_names_the_wrong_quadrant => "加工指令 Z 的象限错误";
+    a_block_that_moves_nothing => "程序段没有移动";
+    a_number_with_more_digits_than_the_controller_has => "数字位数超过控制器的允许位数";
+    coordinates_that_are_not_where_the_block_ends => "注明的坐标与程序段终点不符";
+    a_path_that_goes_through_itself => "切割路线穿过自身";
+    a_cut_that_does_not_close => "切割不封闭";
+    a_program_without_its_end => "程序没有结束码";
+    text_behind_the_end_of_a_program => "程序结束码后还有内容";
+    a_block_number_that_stands_twice_is_out_of_turn_or_missing => "段号重复、乱序或缺失";
+    the_file_is_damaged => "文件已损坏";
+    a_setting_does_not_fit => "设置不合适";
+    a_part_that_was_left_out_since_it_would_have_taken_too_much => "计算量过大而略去的部分";
+    stands_for_further_findings => "代表其余未列出的问题";
+    a_program_and_its_drawing_are_not_alike => "程序与图形不符";
+
     the_block_does_not_follow_its_drawing(segment, handle, drawing, off) => "该程序段不沿 {drawing} 中 {handle} 的第 {segment} 段：终点偏离图形位置 {off} mm";
     the_contour_does_not_begin_where_its_drawing_has_it(handle, drawing, off) => "轮廓的起点偏离 {drawing} 中的位置 {off} mm（{handle}）";
     the_way_does_not_lead_where_its_drawing_has_it(drawing, off) => "引线或轮廓之间的空走线偏离 {drawing} 及其设置给出的位置 {off} mm";

@@ -11,12 +11,11 @@ mod ide;
 mod job;
 mod pages;
 mod program;
-mod rules;
 mod server;
 mod settings;
 mod toolpath;
 
 pub(super) use {
     amounts::*, cli::*, codes::*, drawing::*, files::*, findings::*, help::*, ide::*, job::*,
-    pages::*, program::*, rules::*, server::*, settings::*, toolpath::*,
+    pages::*, program::*, server::*, settings::*, toolpath::*,
 };

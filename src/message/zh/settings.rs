@@ -3,6 +3,7 @@
 translate! {
     a_number_above(least) => "大于 {least} 的数";
     a_number_of_or_above(least) => "不小于 {least} 的数";
+    a_number_up_to(most) => "不超过 {most} 的数";
     a_number_from_to(least, most) => "{least} 到 {most} 的数";
     a_whole_number_from_to(least, most) => "{least} 到 {most} 的整数";
     a_list_of_numbers_one_for_each_pass => "大于 0 的数的列表，每次切割一个";
@@ -18,6 +19,7 @@ translate! {
     a_list => "列表";
     not_set => "未设置";
     a_point => "点 [x, y]";
+    a_point_of_numbers_up_to(most) => "点 [x, y]，其中的数不超过 {most}";
     a_word_of_letters_and_digits => "由字母和数字组成的代码，如 \"DD\"";
     colors_that_are_known => "red、yellow、green、cyan、blue、magenta、white、1 到 255 的数或 #rrggbb";
     the_reason_in_words => "用文字写明理由";

@@ -217,6 +217,20 @@ impl Code {
         Code(1 << 31 | hasher.finish() as u32)
     }
 
+    /// The code of a text that begins with bytes of the machine's own, this many of them.
+    fn of_text(text: &[u8], length: usize) -> Code {
+        match text {
+            [b':', ..] => Code::SECOND,
+            // `TP0.0` or `TN20.0`.
+            [b'T' | b't', b'P' | b'p' | b'N' | b'n', next, ..]
+                if length > 2 && !next.is_ascii_alphabetic() =>
+            {
+                Code::PLANE
+            }
+            _ => Code::of_name(text),
+        }
+    }
+
     /// 0 for a name.
     fn letter(self) -> u8 {
         u8::try_from(self.0 >> 16).unwrap_or_default()
@@ -248,157 +262,157 @@ impl Code {
 
 /// Reads one line, without its line end. Ranges are counted from `offset`.
 pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Block {
-    let mut block = Block {
-        empty: true,
-        ..Block::default()
+    let mut reader = Reader {
+        block: Block {
+            empty: true,
+            ..Block::default()
+        },
+        calls: false,
+        p: None,
     };
-    let (mut subprogram, mut calls, mut p_range) = (None, false, None);
-    let mut is_spare_p = false;
-    words(line, offset, |token| match token {
-        Token::Word {
-            letter,
-            number,
-            range,
-        } => {
-            block.empty = false;
-            let length = match letter {
-                b'X' => Some(&mut block.x),
-                b'Y' => Some(&mut block.y),
-                b'I' => Some(&mut block.i),
-                b'J' => Some(&mut block.j),
-                b'R' => Some(&mut block.r),
-                _ => None,
-            };
-            if let Some(length) = length {
-                if length.replace(number).is_some() {
-                    note(Note::Twice {
-                        letter,
-                        range: range.clone(),
-                    });
-                }
-                if number.mantissa != 0 {
-                    note(Note::Length {
-                        pointed: number.point,
-                        range,
-                    });
-                }
-                return;
-            }
-            match letter {
-                b'G' => {
-                    if block.motion.is_some() && Motion::of(number).is_some() {
-                        note(Note::Twice {
-                            letter,
-                            range: range.clone(),
-                        });
-                    }
-                    if !block.prepare(number) {
-                        note(Note::foreign(letter, number, range));
-                    }
-                }
-                b'M' => match number.whole() {
-                    Some(0 | 1) => block.stop = Some(Stop::Pause),
-                    Some(2 | 30) => block.stop = Some(Stop::End),
-                    Some(98) => calls = true,
-                    Some(99) => block.returns = true,
-                    _ => note(Note::foreign(letter, number, range)),
-                },
-                b'N' => block.number = Some(index(number)),
-                b'O' => block.program = Some(index(number)),
-                b'D' | b'H' => {
-                    block.offset = Some(Offset {
-                        letter,
-                        index: index(number),
-                    })
-                }
-                b'P' => {
-                    (subprogram, p_range, is_spare_p) = (
-                        number.whole().and_then(|whole| u32::try_from(whole).ok()),
-                        Some(range),
-                        true,
-                    );
-                }
-                b'L' => block.repeat = Some(index(number)),
-                // The feed does not change where the wire goes.
-                b'F' => {}
-                b'Z' => {
-                    block.z = Some(number);
-                    note(Note::foreign(letter, number, range));
-                }
-                _ => note(Note::foreign(letter, number, range)),
-            }
-        }
-        Token::Definition {
-            letter,
-            index: place,
-            value,
-            range,
-        } => {
-            block.empty = false;
-            let term = |value| Term {
-                is_negative: false,
-                value: Value::Number(value),
-            };
-            let terms = value.map(|value| vec![term(value)]);
-            note(Note::of_table(letter, place, terms, range));
-        }
-        Token::Sum {
-            letter,
-            index: place,
-            terms,
-            range,
-        } => {
-            block.empty = false;
-            note(Note::of_table(letter, place, Some(terms), range));
-        }
-        Token::Corner { round, number, .. } => {
-            block.empty = false;
-            block.corner = Some(Corner {
-                round,
-                size: number,
-            });
-        }
-        Token::Foreign { range } => {
-            block.empty = false;
-            let text = line.get(range.start - offset..).unwrap_or_default();
-            let code = match text.first() {
-                Some(b':') => Code::SECOND,
-                Some(b'T' | b't') if range.len() > 2 && is_plane(line, range.start - offset) => {
-                    Code::PLANE
-                }
-                _ => Code::of_name(text),
-            };
-            note(Note::Foreign { code, range });
-        }
-        Token::Skip { range } => note(Note::Foreign {
-            code: Code::SKIP,
-            range,
-        }),
-        Token::Comment { .. } | Token::Tape { .. } => {}
-        Token::Fault { fault, range } => {
-            block.empty = false;
-            block.broken |= !fault.is_read();
-            note(Note::Fault { fault, range });
-        }
+    words(line, offset, |token, range| {
+        let at = range.start - offset;
+        reader.take(token, range, line.get(at..).unwrap_or_default(), &mut note)
     });
-    if calls {
-        block.call = subprogram;
-    } else if is_spare_p
-        && !block.takes_coordinates
-        && let Some(range) = p_range
-    {
-        note(Note::Foreign {
-            code: Code(u32::from(b'P') << 16),
-            range,
-        });
+    let Reader { block, calls, p } = reader;
+    match p {
+        Some((subprogram, _)) if calls => Block {
+            call: subprogram,
+            ..block
+        },
+        Some((_, range)) if !block.takes_coordinates => {
+            let code = Code(u32::from(b'P') << 16);
+            note(Note::Foreign { code, range });
+            block
+        }
+        _ => block,
     }
-    block
 }
 
-/// `TP0.0` or `TN20.0` stands there.
-fn is_plane(line: &[u8], at: usize) -> bool {
-    let behind = line.get(at + 1..).unwrap_or_default();
-    matches!(behind, [b'P' | b'p' | b'N' | b'n', next, ..] if !next.is_ascii_alphabetic())
+/// A line as far as it has been read.
+struct Reader {
+    block: Block,
+    /// M98 stands in it.
+    calls: bool,
+    /// The number behind P, which M98 or a word that takes the coordinates explains.
+    p: Option<(Option<u32>, Range<usize>)>,
+}
+
+impl Reader {
+    /// Takes a token; `text` is the line from there on.
+    fn take(
+        &mut self,
+        token: Token,
+        range: Range<usize>,
+        text: &[u8],
+        note: &mut impl FnMut(Note),
+    ) {
+        self.block.empty &= matches!(token, Token::Skip | Token::Comment | Token::Tape);
+        match token {
+            Token::Word { letter, number } => self.word(letter, number, range, note),
+            Token::Definition {
+                letter,
+                index: place,
+                value,
+            } => {
+                let term = |value| Term {
+                    is_negative: false,
+                    value: Value::Number(value),
+                };
+                let terms = value.map(|value| vec![term(value)]);
+                note(Note::of_table(letter, place, terms, range));
+            }
+            Token::Sum {
+                letter,
+                index: place,
+                terms,
+            } => note(Note::of_table(letter, place, Some(terms), range)),
+            Token::Corner { round, number } => {
+                let size = number;
+                self.block.corner = Some(Corner { round, size });
+            }
+            Token::Foreign => {
+                let code = Code::of_text(text, range.len());
+                note(Note::Foreign { code, range });
+            }
+            Token::Skip => {
+                let code = Code::SKIP;
+                note(Note::Foreign { code, range });
+            }
+            Token::Comment | Token::Tape => {}
+            Token::Fault(fault) => {
+                self.block.broken |= !fault.is_read();
+                note(Note::Fault { fault, range });
+            }
+        }
+    }
+
+    fn word(
+        &mut self,
+        letter: u8,
+        number: Number,
+        range: Range<usize>,
+        note: &mut impl FnMut(Note),
+    ) {
+        let block = &mut self.block;
+        let twice = |range: &Range<usize>| Note::Twice {
+            letter,
+            range: range.clone(),
+        };
+        let length = match letter {
+            b'X' => Some(&mut block.x),
+            b'Y' => Some(&mut block.y),
+            b'I' => Some(&mut block.i),
+            b'J' => Some(&mut block.j),
+            b'R' => Some(&mut block.r),
+            _ => None,
+        };
+        if let Some(length) = length {
+            if length.replace(number).is_some() {
+                note(twice(&range));
+            }
+            if number.mantissa != 0 {
+                let pointed = number.point;
+                note(Note::Length { pointed, range });
+            }
+            return;
+        }
+        match letter {
+            b'G' => {
+                if block.motion.is_some() && Motion::of(number).is_some() {
+                    note(twice(&range));
+                }
+                if !block.prepare(number) {
+                    note(Note::foreign(letter, number, range));
+                }
+            }
+            b'M' => match number.whole() {
+                Some(0 | 1) => block.stop = Some(Stop::Pause),
+                Some(2 | 30) => block.stop = Some(Stop::End),
+                Some(98) => self.calls = true,
+                Some(99) => block.returns = true,
+                _ => note(Note::foreign(letter, number, range)),
+            },
+            b'N' => block.number = Some(index(number)),
+            b'O' => block.program = Some(index(number)),
+            b'D' | b'H' => {
+                let index = index(number);
+                block.offset = Some(Offset { letter, index });
+            }
+            b'P' => {
+                let whole = number.whole();
+                self.p = Some((whole.and_then(|whole| u32::try_from(whole).ok()), range));
+            }
+            b'L' => block.repeat = Some(index(number)),
+            // The feed does not change where the wire goes.
+            b'F' => {}
+            b'Z' => {
+                block.z = Some(number);
+                note(Note::foreign(letter, number, range));
+            }
+            _ => note(Note::foreign(letter, number, range)),
+        }
+    }
 }
 
 fn index(number: Number) -> u32 {
@@ -454,12 +468,8 @@ pub(crate) fn word_range(
     wanted: impl Fn(u8, Number) -> bool,
 ) -> Option<Range<usize>> {
     let mut found = None;
-    words(line, offset, |token| {
-        if let Token::Word {
-            letter,
-            number,
-            range,
-        } = token
+    words(line, offset, |token, range| {
+        if let Token::Word { letter, number } = token
             && wanted(letter, number)
         {
             found = Some(range);

@@ -7,8 +7,13 @@ use std::ops::Range;
 /// takes.
 const MOST_DIGITS: u32 = 9;
 
-/// Hands out the tokens of a line in plain characters. A byte order mark may begin the first line.
-pub(super) fn scan(line: &[u8], offset: usize, is_first: bool, mut each: impl FnMut(Token)) {
+/// Hands out the tokens of a line in plain characters, each with its place. A byte order mark may begin the first line.
+pub(super) fn scan(
+    line: &[u8],
+    offset: usize,
+    is_first: bool,
+    mut each: impl FnMut(Token, Range<usize>),
+) {
     let mut cursor = Cursor {
         line,
         at: 0,
@@ -18,10 +23,10 @@ pub(super) fn scan(line: &[u8], offset: usize, is_first: bool, mut each: impl Fn
     if is_first && line.starts_with(b"\xef\xbb\xbf") {
         cursor.at = 3;
     }
-    while let Some(token) = cursor.token() {
-        each(token);
-        if let Some(fault) = cursor.fault.take() {
-            each(fault);
+    while let Some((token, range)) = cursor.token() {
+        each(token, range);
+        if let Some((fault, range)) = cursor.fault.take() {
+            each(Token::Fault(fault), range);
         }
     }
 }
@@ -36,7 +41,7 @@ struct Cursor<'a> {
     at: usize,
     offset: usize,
     /// A fault in the token that was read all the same.
-    fault: Option<Token>,
+    fault: Option<(WordFault, Range<usize>)>,
 }
 
 impl Cursor<'_> {
@@ -63,37 +68,33 @@ impl Cursor<'_> {
     }
 
     #[inline]
-    fn token(&mut self) -> Option<Token> {
+    fn token(&mut self) -> Option<(Token, Range<usize>)> {
         self.skip_space();
         let start = self.at;
         let byte = self.peek()?;
         if byte.is_ascii_alphabetic() {
-            return Some(self.word(byte.to_ascii_uppercase()));
+            let token = self.word(byte.to_ascii_uppercase());
+            return Some((token, self.range(start)));
         }
         self.at += 1;
-        Some(match byte {
+        let token = match byte {
             b'(' => self.comment(start),
             b';' => {
                 self.at = self.line.len();
-                self.comment_from(start)
+                Token::Comment
             }
-            b'%' => Token::Tape {
-                range: self.range(start),
-            },
+            b'%' => Token::Tape,
             b'/' => {
                 if self.peek().is_some_and(|byte| byte.is_ascii_digit()) {
                     self.at += 1;
                 }
-                Token::Skip {
-                    range: self.range(start),
-                }
+                Token::Skip
             }
             // A program's number as Fanuc's tapes have it.
             b':' => match self.number(b'O') {
                 Ok(Some(number)) => Token::Word {
                     letter: b'O',
                     number,
-                    range: self.range(start),
                 },
                 _ => self.other_plane(start),
             },
@@ -104,18 +105,19 @@ impl Cursor<'_> {
             }
             b'#' => {
                 self.skip_to_space();
-                self.foreign(start)
+                Token::Foreign
             }
-            _ => self.stray(start),
-        })
+            _ => self.stray(),
+        };
+        Some((token, self.range(start)))
     }
 
     /// Text that begins no word, up to the next space or letter.
-    fn stray(&mut self, start: usize) -> Token {
+    fn stray(&mut self) -> Token {
         self.skip(|byte| {
             !byte.is_ascii_alphabetic() && !matches!(byte, b' ' | b'\t' | b'(' | b';' | b'%')
         });
-        self.fault(WordFault::NoWord, start)
+        Token::Fault(WordFault::NoWord)
     }
 
     /// `: G01 X… Y…`: the move of the wire's upper end meanwhile.
@@ -123,13 +125,13 @@ impl Cursor<'_> {
         self.skip_space();
         if !self.peek().is_some_and(|byte| byte.is_ascii_alphabetic()) {
             self.at = start + 1;
-            return self.stray(start);
+            return self.stray();
         }
         self.skip(|byte| !matches!(byte, b'(' | b';' | b'%'));
         while self.at > start && matches!(self.line[self.at - 1], b' ' | b'\t') {
             self.at -= 1;
         }
-        self.foreign(start)
+        Token::Foreign
     }
 
     /// `,R2.` behind its comma.
@@ -139,34 +141,16 @@ impl Cursor<'_> {
             self.at += 1;
             self.skip_space();
             if let Ok(Some(number)) = self.number(letter) {
-                return Token::Corner {
-                    round: letter == b'R',
-                    number,
-                    range: self.range(start),
-                };
+                let round = letter == b'R';
+                return Token::Corner { round, number };
             }
         }
         self.at = start + 1;
-        self.stray(start)
+        self.stray()
     }
 
     fn skip_to_space(&mut self) {
         self.skip(|byte| !matches!(byte, b' ' | b'\t' | b'(' | b';'));
-    }
-
-    fn foreign(&self, start: usize) -> Token {
-        let range = self.range(start);
-        Token::Foreign { range }
-    }
-
-    fn comment_from(&self, start: usize) -> Token {
-        let range = self.range(start);
-        Token::Comment { range }
-    }
-
-    fn fault(&self, fault: WordFault, start: usize) -> Token {
-        let range = self.range(start);
-        Token::Fault { fault, range }
     }
 
     /// A comment behind its `(`; those within it are part of it.
@@ -180,15 +164,15 @@ impl Cursor<'_> {
                 _ => {}
             }
             if depth == 0 {
-                return self.comment_from(start);
+                return Token::Comment;
             }
         }
         // Writers that nest an opening bracket without closing it mean the first closing one.
         if let Some(closing) = self.line[start..].iter().position(|&byte| byte == b')') {
             self.at = start + closing + 1;
-            return self.comment_from(start);
+            return Token::Comment;
         }
-        self.fault(WordFault::OpenComment, start)
+        Token::Fault(WordFault::OpenComment)
     }
 
     #[inline]
@@ -201,16 +185,12 @@ impl Cursor<'_> {
                 if matches!(letter, b'C' | b'D' | b'E' | b'H' | b'T' | b'S' | b'F')
                     && self.is_definition()
                 {
-                    return self.definition(letter, number, start);
+                    return self.definition(letter, number);
                 }
-                Token::Word {
-                    letter,
-                    number,
-                    range: self.range(start),
-                }
+                Token::Word { letter, number }
             }
             Ok(None) => self.without_number(letter, start),
-            Err(fault) => self.fault(fault, start),
+            Err(fault) => Token::Fault(fault),
         }
     }
 
@@ -220,8 +200,8 @@ impl Cursor<'_> {
             Some(b'#' | b'[' | b'=') => {
                 self.skip_to_space();
                 return match leads(letter) {
-                    true => self.fault(WordFault::Expression { letter }, start),
-                    false => self.foreign(start),
+                    true => Token::Fault(WordFault::Expression { letter }),
+                    false => Token::Foreign,
                 };
             }
             _ => self.at = start + 1,
@@ -239,7 +219,7 @@ impl Cursor<'_> {
         {
             self.at = start + 2;
             if matches!(self.number(letter), Ok(Some(_))) {
-                return self.foreign(start);
+                return Token::Foreign;
             }
             self.at = start + 1;
         }
@@ -251,11 +231,11 @@ impl Cursor<'_> {
             });
             return match letter {
                 // `XABC5`: it may well be a coordinate.
-                b'X' | b'Y' => self.fault(WordFault::NoNumber { letter }, start),
-                _ => self.foreign(start),
+                b'X' | b'Y' => Token::Fault(WordFault::NoNumber { letter }),
+                _ => Token::Foreign,
             };
         }
-        self.fault(WordFault::NoNumber { letter }, start)
+        Token::Fault(WordFault::NoNumber { letter })
     }
 
     fn is_definition(&mut self) -> bool {
@@ -269,7 +249,7 @@ impl Cursor<'_> {
     }
 
     /// The value behind `H001=`: one number, or a list up to the next letter, comment or end.
-    fn definition(&mut self, letter: u8, index: Number, start: usize) -> Token {
+    fn definition(&mut self, letter: u8, index: Number) -> Token {
         self.at += 1;
         self.skip_space();
         if let Some(terms) = self.sum(letter) {
@@ -277,7 +257,6 @@ impl Cursor<'_> {
                 letter,
                 index,
                 terms,
-                range: self.range(start),
             };
         }
         let value = self.number(letter).ok().flatten();
@@ -299,7 +278,6 @@ impl Cursor<'_> {
             letter,
             index,
             value: value.filter(|_| !listed),
-            range: self.range(start),
         }
     }
 
@@ -412,17 +390,9 @@ impl Cursor<'_> {
                 // From the first to the last of them.
                 let own = self.offset + at..self.offset + at + 1;
                 match &mut self.fault {
-                    Some(Token::Fault {
-                        fault: WordFault::LetterO,
-                        range,
-                    }) => range.end = own.end,
+                    Some((WordFault::LetterO, range)) => range.end = own.end,
                     Some(_) => {}
-                    None => {
-                        self.fault = Some(Token::Fault {
-                            fault: WordFault::LetterO,
-                            range: own,
-                        })
-                    }
+                    None => self.fault = Some((WordFault::LetterO, own)),
                 }
                 if point && decimals < MOST_DIGITS {
                     mantissa *= 10;
@@ -442,10 +412,7 @@ impl Cursor<'_> {
             {
                 point = true;
                 let own = self.offset + at..self.offset + at + 1;
-                self.fault.get_or_insert(Token::Fault {
-                    fault: WordFault::DecimalComma,
-                    range: own,
-                });
+                self.fault.get_or_insert((WordFault::DecimalComma, own));
             } else {
                 break;
             }

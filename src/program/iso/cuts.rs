@@ -8,8 +8,8 @@ use super::part::Part;
 use super::stretch::StopAt;
 use crate::geometry::{Point, Segment};
 use crate::program::path::{
-    self, BehindStops, Blocks, Ends, HasCuts, HeldWay, Lay, Node, PartedWay, Way, Writing, goes_on,
-    mixed, pieces_of,
+    self, BehindStops, Blocks, Ends, HasCuts, HeldWay, KnownTabs, Lay, Node, PartedWay, Way,
+    Writing, goes_on, mixed, pieces_of,
 };
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -78,9 +78,9 @@ impl Document {
     }
 
     /// The doubtful cuts, each with its continuation behind the stop at its tab; and the stops before tabs.
-    pub(super) fn find_contours(&self) -> (Vec<JoinedCut>, Vec<StopAt>) {
+    pub(super) fn find_contours(&self, known: &mut KnownTabs) -> (Vec<JoinedCut>, Vec<StopAt>) {
         let cuts = cuts(self);
-        let tabs = tabs(self, &cuts);
+        let tabs = tabs(self, &cuts, known);
         (contours(cuts, &tabs), tabs)
     }
 }
@@ -149,7 +149,7 @@ fn contours(cuts: Vec<Option<JoinedCut>>, tabs: &[StopAt]) -> Vec<JoinedCut> {
 }
 
 /// The stops before tabs, in the order in which they run.
-fn tabs(document: &Document, cuts: &[Option<JoinedCut>]) -> Vec<StopAt> {
+fn tabs(document: &Document, cuts: &[Option<JoinedCut>], known: &mut KnownTabs) -> Vec<StopAt> {
     let mut found = Vec::new();
     let stretches = document.stretches();
     if stretches.iter().all(|stretch| stretch.pauses == 0) {
@@ -172,7 +172,7 @@ fn tabs(document: &Document, cuts: &[Option<JoinedCut>]) -> Vec<StopAt> {
                 taken: 1,
                 sum: *open.cut.sum,
             };
-            (goes_on(&mut behind) == Some(true)).then_some(first + behind.taken)
+            (goes_on(&mut behind, known) == Some(true)).then_some(first + behind.taken)
         });
         let before_stops = first..end.map_or(first, |end| end - 1);
         let stops = cuts[before_stops].iter().flatten();
@@ -231,6 +231,13 @@ impl BehindStops for Behind<'_> {
             }
         }
         way
+    }
+
+    fn last_mark(&self) -> u64 {
+        let last = self.cuts[self.taken - 1].as_ref();
+        let way = last.map_or(0, |open| self.document.mark(open.cut));
+        // What ends within the step of the program coincides.
+        mixed(way, self.document.reading().writing().slack.to_bits())
     }
 
     /// None of them goes round.

@@ -330,8 +330,8 @@ impl Document {
             *self.table = table;
             self.look_at_all();
         }
-        (self.contours, self.tabs) = self.find_contours();
         let mut crossings = std::mem::take(&mut self.crossings);
+        (self.contours, self.tabs) = self.find_contours(&mut crossings.known.tabs);
         crossings.look(self);
         self.crossings = crossings;
         for index in self.clean() {

@@ -62,8 +62,7 @@ impl Encoder for Moves {
             error_of(arc, *center, from, to) * self.step <= ASIDE_TOLERANCE
                 && radii_differ(*center, from, to) * self.step <= RADIUS_TOLERANCE
         };
-        let centers = grid_centers(arc, from, to).map(|center| center.node);
-        let Some(center) = centers.into_iter().find(fits) else {
+        let Some(center) = grid_centers(arc, from, to).find(fits) else {
             return Attempt::Misses;
         };
         let motion = Motion::turning(arc.sweep > 0.0);

@@ -2,7 +2,7 @@
 //!
 //! Numbers stay as they are: a decimal point and the number of digits mean something to a control.
 
-use super::plain::words_in;
+use super::plain::{words_at, words_in};
 use super::word::Token;
 use crate::program::edits::{self, AT_ONCE, LineEdits};
 use crate::settings::Layout;
@@ -44,15 +44,13 @@ pub(super) fn is_parted(text: &SourceText) -> bool {
     let (mut parted, mut closed) = (0, 0);
     for line in 0..text.line_count().min(LOOKED_AT) {
         let mut end = None;
-        words_in(text.line(line), |token| {
-            if let Token::Word { range, .. } = token {
-                match end {
-                    Some(end) if end == range.start => closed += 1,
-                    Some(_) => parted += 1,
-                    None => {}
-                }
-                end = Some(range.end);
+        words_at(text, line, |_, _, range| {
+            match end {
+                Some(end) if end == range.start => closed += 1,
+                Some(_) => parted += 1,
+                None => {}
             }
+            end = Some(range.end);
         });
     }
     parted >= closed
@@ -63,17 +61,11 @@ fn formed(line: &[u8], parted: bool) -> Option<String> {
     let tokens = tokens_of(line);
     let mut out = String::with_capacity(line.len() + 16);
     let (mut covered, mut may_touch) = (0, true);
-    for token in &tokens {
-        let (range, is_comment) = match token {
-            Token::Word { range, .. }
-            | Token::Definition { range, .. }
-            | Token::Sum { range, .. }
-            | Token::Corner { range, .. }
-            | Token::Tape { range }
-            | Token::Skip { range } => (range, false),
-            Token::Comment { range } => (range, true),
-            Token::Foreign { .. } | Token::Fault { .. } => return None,
-        };
+    for (token, range) in &tokens {
+        if matches!(token, Token::Foreign | Token::Fault(_)) {
+            return None;
+        }
+        let is_comment = *token == Token::Comment;
         let bytes = line.get(range.clone())?;
         if !line
             .get(covered..range.start)?
@@ -105,32 +97,33 @@ fn formed(line: &[u8], parted: bool) -> Option<String> {
             );
         }
         // Behind a comment in brackets a space precedes the next word in every form.
-        may_touch = matches!(token, Token::Skip { .. });
+        may_touch = *token == Token::Skip;
     }
     let is_blank = |rest: &[u8]| rest.iter().all(|byte| matches!(byte, b' ' | b'\t'));
     if !is_blank(line.get(covered..)?) || out.as_bytes() == line {
         return None;
     }
     let again = tokens_of(out.as_bytes());
-    let is_same = |(old, new): (&Token, &Token)| {
-        meaning(old.clone(), line) == meaning(new.clone(), out.as_bytes())
-    };
+    let is_same =
+        |(old, new): (&Placed, &Placed)| meaning(old, line) == meaning(new, out.as_bytes());
     (tokens.len() == again.len() && tokens.iter().zip(&again).all(is_same)).then_some(out)
 }
 
-fn tokens_of(line: &[u8]) -> Vec<Token> {
+/// A token and its place.
+type Placed = (Token, Range<usize>);
+
+fn tokens_of(line: &[u8]) -> Vec<Placed> {
     let mut tokens = Vec::new();
     // A line with a byte order mark stays.
-    words_in(line, |token| tokens.push(token));
+    words_in(line, |token, range| tokens.push((token, range)));
     tokens
 }
 
 /// A token without its place; comments, definitions and the machine's own words count as their text.
-fn meaning(mut token: Token, line: &[u8]) -> (Token, String) {
-    let range = std::mem::take(token.range_mut());
+fn meaning<'a>((token, range): &'a Placed, line: &[u8]) -> (&'a Token, String) {
     let said = match token {
-        Token::Word { .. } | Token::Corner { .. } | Token::Tape { .. } => String::new(),
-        _ => String::from_utf8_lossy(line.get(range).unwrap_or_default())
+        Token::Word { .. } | Token::Corner { .. } | Token::Tape => String::new(),
+        _ => String::from_utf8_lossy(line.get(range.clone()).unwrap_or_default())
             .trim_end()
             .to_ascii_uppercase()
             .replace([' ', '\t'], ""),
@@ -201,7 +194,13 @@ mod tests {
             let text = lines.join("\n");
             let once = formatted(&text, layout);
             let said = |text: &str| {
-                let of_line = |line: &str| tokens_of(line.as_bytes()).into_iter().map(|token| meaning(token, line.as_bytes())).collect::<Vec<_>>();
+                let of_line = |line: &str| {
+                    let said = |token: &Placed| {
+                        let (token, said) = meaning(token, line.as_bytes());
+                        (token.clone(), said)
+                    };
+                    tokens_of(line.as_bytes()).iter().map(said).collect::<Vec<_>>()
+                };
                 text.split('\n').map(of_line).collect::<Vec<_>>()
             };
             prop_assert_eq!(said(&once), said(&text));

@@ -154,8 +154,8 @@ pub(super) struct Line<'a> {
 }
 
 impl Line<'_> {
-    /// The line with the words that lead to `target` from the machine's position before it. All other words stay.
-    pub(crate) fn leading(&self, target: &Target, before: &Machine) -> Result<Vec<u8>, String> {
+    /// The words that lead to `target`, except that of its motion.
+    fn words_to(&self, target: &Target, before: &Machine) -> Vec<String> {
         let block = Block::of(self.bytes);
         let incremental = block.incremental.unwrap_or(before.incremental);
         let base = if incremental { before.at } else { before.zero };
@@ -167,10 +167,8 @@ impl Line<'_> {
             // An arc without coordinates is a full circle; a line without any does not move.
             let is_needed = target.to == before.at && target.bend == Bent::Line;
             if moves || had[axis] || is_needed {
-                cluster.push(format!(
-                    "{letter}{}",
-                    number(target.to[axis].wrapping_sub(base[axis]))
-                ));
+                let along = number(target.to[axis].wrapping_sub(base[axis]));
+                cluster.push(format!("{letter}{along}"));
             }
         }
         match target.bend {
@@ -182,6 +180,12 @@ impl Line<'_> {
                 cluster.extend([format!("I{i}"), format!("J{j}")]);
             }
         }
+        cluster
+    }
+
+    /// The line with the words that lead to `target` from the machine's position before it. All other words stay.
+    pub(crate) fn leading(&self, target: &Target, before: &Machine) -> Result<Vec<u8>, String> {
+        let cluster = self.words_to(target, before);
         let motion = target.motion.word();
         let mut out: Vec<u8> = Vec::with_capacity(self.bytes.len() + 24);
         let (mut copied, mut is_placed, mut has_motion) = (0, false, false);
@@ -189,15 +193,10 @@ impl Line<'_> {
         let separator = if self.parted { " " } else { "" };
         let mut fault = None;
         let mut tokens = Vec::new();
-        words_in(self.bytes, |token| tokens.push(token));
-        for token in tokens {
-            let Token::Word {
-                letter,
-                number,
-                range,
-            } = token
-            else {
-                if let Token::Fault { .. } = token {
+        words_in(self.bytes, |token, range| tokens.push((token, range)));
+        for (token, range) in tokens {
+            let Token::Word { letter, number } = token else {
+                if let Token::Fault(_) = token {
                     fault = Some(say!(the_line_cannot_be_read));
                 }
                 continue;
@@ -262,16 +261,12 @@ impl Line<'_> {
 pub(super) fn with_word(line: &[u8], word: &str, parted: bool) -> Vec<u8> {
     let mut at = 0;
     let mut is_first = true;
-    words_in(line, |token| {
-        if let Token::Word {
-            letter: b'N' | b'O',
-            range,
-            ..
-        }
-        | Token::Skip { range }
-        | Token::Tape { range } = token
-            && is_first
-        {
+    words_in(line, |token, range| {
+        let leads = match token {
+            Token::Word { letter, .. } => matches!(letter, b'N' | b'O'),
+            token => matches!(token, Token::Skip | Token::Tape),
+        };
+        if leads && is_first {
             at = range.end;
         } else {
             is_first = false;

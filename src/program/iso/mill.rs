@@ -5,12 +5,11 @@
 //! a simulation of the wear.
 
 use super::block::{Block, Motion};
-use super::encode::Encoded;
 use super::write::Lines;
 use crate::geometry::Segment;
 use crate::program::grid::Node;
 use crate::program::write::{
-    ProofError, ProvedProgram, Writer, node_of, nothing_to_write, scaled, way,
+    Piece, ProofError, Proved, ProvedProgram, Writer, node_of, nothing_to_write, scaled,
 };
 use crate::settings::{Coordinates, Effective};
 use crate::toolpath::milling::{Floor, Layers, Step};
@@ -26,7 +25,7 @@ pub(crate) fn write_milled(
     unit_mm: f64,
     settings: &Effective,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
-) -> Result<ProvedProgram, ProofError> {
+) -> Proved<ProvedProgram> {
     let electrode = settings.electrode().map_err(ProofError::Refused)?;
     let mut lines = Lines::of(settings)?;
     let per_mm = lines.per_mm();
@@ -56,14 +55,13 @@ pub(crate) fn write_milled(
                 Tool {
                     at: first,
                     height: 0,
+                    waiting: None,
                 }
             }
             Some(tool) => tool,
         };
         over.goes_over(first, clear, &mut lines)?;
         let mut floor = Floor::new(&electrode, layers.length, layers.is_closed, worn);
-        // The way since the last feed that leads to another place of the grid.
-        let mut waiting: Option<(f64, f64)> = None;
         let mut last = 0.0;
         fed_before = layers.each(&mut |step| {
             if !go_on(done, paths.len()) {
@@ -73,29 +71,15 @@ pub(crate) fn write_milled(
                 Step::Feed(depth) => {
                     floor.feed(depth);
                     last = depth;
-                    let height = -(depth * per_mm).round() as i64;
-                    if height == over.height {
-                        return Ok(());
-                    }
-                    over.goes_along(&way, waiting.take(), &mut lines)?;
-                    over.goes_to(Motion::Line, height, &mut lines)
+                    over.feeds(depth, &way, &mut lines)
                 }
                 Step::Along { from, to } => {
                     floor.along(from, to);
-                    let goes_on =
-                        |&(begin, end): &(f64, f64)| end == from && (begin < end) == (from < to);
-                    match waiting.filter(goes_on) {
-                        Some((begin, _)) => waiting = Some((begin, to)),
-                        None => {
-                            let before = waiting.replace((from, to));
-                            over.goes_along(&way, before, &mut lines)?;
-                        }
-                    }
-                    Ok(())
+                    over.goes_on(from, to, &way, &mut lines)
                 }
             }
         })?;
-        over.goes_along(&way, waiting, &mut lines)?;
+        over.goes_along(&way, &mut lines)?;
         over.goes_to(Motion::Rapid, clear, &mut lines)?;
         tool = Some(over);
         worn = floor.worn;
@@ -188,67 +172,74 @@ struct Tool {
     at: Node,
     /// Above the surface.
     height: i64,
+    /// The way since the last feed that leads to another place of the grid.
+    waiting: Option<(f64, f64)>,
 }
 
 impl Tool {
+    /// Down to a depth, mm, from where the way so far has led.
+    fn feeds(&mut self, depth: f64, way: &Way, lines: &mut Lines<'_>) -> Proved {
+        let height = -(depth * lines.per_mm()).round() as i64;
+        if height == self.height {
+            return Ok(());
+        }
+        self.goes_along(way, lines)?;
+        self.goes_to(Motion::Line, height, lines)
+    }
+
+    /// A piece of the way, which is written once it ends or turns back.
+    fn goes_on(&mut self, from: f64, to: f64, way: &Way, lines: &mut Lines<'_>) -> Proved {
+        match &mut self.waiting {
+            Some((begin, end)) if *end == from && (*begin < *end) == (from < to) => *end = to,
+            _ => {
+                self.goes_along(way, lines)?;
+                self.waiting = Some((from, to));
+            }
+        }
+        Ok(())
+    }
+
     /// Up, and over the entry of a contour.
-    fn goes_over(
-        &mut self,
-        first: Node,
-        clear: i64,
-        lines: &mut Lines<'_>,
-    ) -> Result<(), ProofError> {
+    fn goes_over(&mut self, first: Node, clear: i64, lines: &mut Lines<'_>) -> Proved {
         if self.height != clear {
             self.goes_to(Motion::Rapid, clear, lines)?;
         }
         if self.at == first {
             return Ok(());
         }
-        let piece = way(self.at, first);
-        lines.jumps += piece.length();
-        lines.step_out(&Encoded {
-            motion: Motion::Rapid,
-            from: self.at,
-            to: first,
-            center: self.at,
-            piece,
-        })?;
+        lines.move_over(self.at, first)?;
         self.at = first;
         Ok(())
     }
 
-    fn goes_to(
-        &mut self,
-        motion: Motion,
-        height: i64,
-        lines: &mut Lines<'_>,
-    ) -> Result<(), ProofError> {
+    fn goes_to(&mut self, motion: Motion, height: i64, lines: &mut Lines<'_>) -> Proved {
         lines.height_out(motion, self.height, height)?;
         self.height = height;
         Ok(())
     }
 
-    fn goes_along(
-        &mut self,
-        way: &Way,
-        between: Option<(f64, f64)>,
-        lines: &mut Lines<'_>,
-    ) -> Result<(), ProofError> {
-        let Some((from, to)) = between else {
+    fn goes_along(&mut self, way: &Way, lines: &mut Lines<'_>) -> Proved {
+        let Some((from, to)) = self.waiting.take() else {
             return Ok(());
         };
-        for (piece, source) in way.between(from, to) {
-            let end = node_of(piece.end())?;
-            lines.piece(&piece, self.at, end, source)?;
+        let mut pieces = Vec::new();
+        for (segment, source) in way.between(from, to) {
+            let end = node_of(segment.end())?;
+            pieces.push(Piece {
+                segment,
+                from: self.at,
+                to: end,
+                source,
+            });
             self.at = end;
         }
-        Ok(())
+        lines.pieces(&pieces)
     }
 }
 
 impl Lines<'_> {
     /// Writes a move up or down, and reads it back.
-    fn height_out(&mut self, motion: Motion, from: i64, to: i64) -> Result<(), ProofError> {
+    fn height_out(&mut self, motion: Motion, from: i64, to: i64) -> Proved {
         let start = self.out.len();
         let mut out = std::mem::take(&mut self.out);
         let mut separate = self.push_head(&mut out, motion);
@@ -272,7 +263,7 @@ impl Lines<'_> {
             return Err(self.refused(&say!(its_lines_change_heights, line)));
         }
         self.end_line();
-        self.blocks += 1;
+        self.made.blocks += 1;
         Ok(())
     }
 }

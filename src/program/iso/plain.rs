@@ -8,13 +8,13 @@ use crate::program::lookalikes::{Alike, alike};
 use crate::text::SourceText;
 use std::ops::Range;
 
-/// Hands each token of a line, without its line end, to `each`. Ranges are counted from `offset`.
-pub(crate) fn words(line: &[u8], offset: usize, each: impl FnMut(Token)) {
+/// Hands each token of a line, without its line end, to `each`, with its range counted from `offset`.
+pub(crate) fn words(line: &[u8], offset: usize, each: impl FnMut(Token, Range<usize>)) {
     tokens(line, offset, offset == 0, each);
 }
 
 /// The same for a line that may not begin with a byte order mark; ranges are counted from its start.
-pub(super) fn words_in(line: &[u8], each: impl FnMut(Token)) {
+pub(super) fn words_in(line: &[u8], each: impl FnMut(Token, Range<usize>)) {
     tokens(line, 0, false, each);
 }
 
@@ -24,13 +24,9 @@ pub(super) fn words_at(
     line: usize,
     mut each: impl FnMut(u8, Number, Range<usize>),
 ) {
-    tokens(text.line(line), text.line_start(line), false, |token| {
-        if let Token::Word {
-            letter,
-            number,
-            range,
-        } = token
-        {
+    let start = text.line_start(line);
+    tokens(text.line(line), start, false, |token, range| {
+        if let Token::Word { letter, number } = token {
             each(letter, number, range);
         }
     });
@@ -51,16 +47,19 @@ pub(super) fn word_at(
     found
 }
 
-fn tokens(line: &[u8], offset: usize, may_have_mark: bool, mut each: impl FnMut(Token)) {
+fn tokens(
+    line: &[u8],
+    offset: usize,
+    may_have_mark: bool,
+    mut each: impl FnMut(Token, Range<usize>),
+) {
     if !line.is_ascii()
         && let Some(plain) = Plain::of(line)
     {
-        each(Token::Fault {
-            fault: WordFault::Lookalike,
-            range: offset + plain.first.start..offset + plain.first.end,
-        });
-        scan(&plain.bytes, 0, may_have_mark, |token| {
-            each(plain.placed(token, offset))
+        let first = offset + plain.first.start..offset + plain.first.end;
+        each(Token::Fault(WordFault::Lookalike), first);
+        scan(&plain.bytes, 0, may_have_mark, |token, range| {
+            each(token, plain.placed(range, offset))
         });
         return;
     }
@@ -123,12 +122,9 @@ impl Plain {
         (!plain.first.is_empty()).then_some(plain)
     }
 
-    fn placed(&self, token: Token, offset: usize) -> Token {
-        let place = |range: Range<usize>| {
-            let at = |at: usize| self.places.get(at).copied().unwrap_or_default();
-            offset + at(range.start)..offset + at(range.end)
-        };
-        token.moved(place)
+    fn placed(&self, range: Range<usize>, offset: usize) -> Range<usize> {
+        let at = |at: usize| self.places.get(at).copied().unwrap_or_default();
+        offset + at(range.start)..offset + at(range.end)
     }
 }
 

@@ -85,13 +85,8 @@ impl Stretch {
         stretch
     }
 
-    fn line<'a>(
-        &mut self,
-        line: &[u8],
-        offset: usize,
-        ahead: &Ahead<'_, impl Lines<'a>>,
-        each: &mut Hears<'_>,
-    ) {
+    /// The block of a line, and whether the wire's upper end may go elsewhere than before.
+    fn block(&mut self, line: &[u8], offset: usize) -> (Block, bool) {
         let Stretch {
             faults,
             foreign,
@@ -101,9 +96,7 @@ impl Stretch {
             ..
         } = &mut *self;
         let (inch, known_faults) = (after.inch, faults.len());
-        // The wire's upper end may go elsewhere than before.
-        let mut leans = false;
-        let mut is_unread = false;
+        let (mut leans, mut is_unread) = (false, false);
         let block = read_line(line, offset, |note| match note {
             Note::Fault { fault, range } => {
                 // One of a kind is enough for a line: the others may follow from it.
@@ -146,30 +139,29 @@ impl Stretch {
             }
             Note::Twice { letter, range } => {
                 if faults.len() == known_faults {
-                    let letter = letter as char;
-                    faults.push(Finding::of(
-                        Fault::said(Rule::WordTwice, say!(stands_twice_in_this_line, letter)),
-                        range,
-                    ));
+                    let sentence = say!(stands_twice_in_this_line, letter as char);
+                    faults.push(Finding::of(Fault::said(Rule::WordTwice, sentence), range));
                 }
             }
         });
+        (block, leans)
+    }
+
+    fn line<'a>(
+        &mut self,
+        line: &[u8],
+        offset: usize,
+        ahead: &Ahead<'_, impl Lines<'a>>,
+        each: &mut Hears<'_>,
+    ) {
+        let known_faults = self.faults.len();
+        let (block, leans) = self.block(line, offset);
         if block.empty {
             return;
         }
         let range = words_of(line, offset);
         self.last_words = Some(range);
-        if block.program.is_some() {
-            self.programs.push(self.numbers.len() as u32);
-        }
-        self.blocks += u32::from(block.program.is_none());
-        if let Some(number) = block.number {
-            self.numbers_rise &= self
-                .numbers
-                .last()
-                .is_none_or(|(before, _)| number > *before);
-            self.numbers.push((number, range.0));
-        }
+        self.number(&block, range.0);
         self.calls |= block.call.is_some();
         if self.after.ended {
             self.behind_end.get_or_insert(range);
@@ -215,23 +207,39 @@ impl Stretch {
             None => {}
         }
         if let Some(stop) = block.stop {
-            self.sum.stops += 1;
-            self.interrupt(true);
-            if steered.is_none() && behind == Behind::Stop && stop == Stop::Pause {
-                let known = self.parts.last_mut();
-                *known.map_or(&mut self.ends_open_before, |part| &mut part.ends_open) = true;
-            }
-            if stop == Stop::Pause {
-                self.pauses += 1;
-                let known = self
-                    .parts
-                    .last_mut()
-                    .map_or(&mut self.stop_before, |part| &mut part.stop);
-                *known = Some(known.map_or(range.0, |_| SEVERAL));
-            }
-            if stop == Stop::End && self.after.side.is_some() && self.after.switches.is_none() {
-                self.fault(Fault::StillOn, range);
-            }
+            self.stop(stop, steered.is_none() && behind == Behind::Stop, range);
+        }
+    }
+
+    /// The number of a block, or where a program begins.
+    fn number(&mut self, block: &Block, place: u32) {
+        match block.program {
+            Some(_) => self.programs.push(self.numbers.len() as u32),
+            None => self.blocks += 1,
+        }
+        if let Some(number) = block.number {
+            let last = self.numbers.last();
+            self.numbers_rise &= last.is_none_or(|(before, _)| number > *before);
+            self.numbers.push((number, place));
+        }
+    }
+
+    /// The machine stops, `again` where nothing moves between this stop and the one before.
+    fn stop(&mut self, stop: Stop, again: bool, range: (u32, u32)) {
+        self.sum.stops += 1;
+        self.interrupt(true);
+        let known = self.parts.last_mut();
+        if stop == Stop::Pause {
+            self.pauses += 1;
+            let (ends_open, stops) = match known {
+                Some(part) => (&mut part.ends_open, &mut part.stop),
+                None => (&mut self.ends_open_before, &mut self.stop_before),
+            };
+            *ends_open |= again;
+            *stops = Some(stops.map_or(range.0, |_| SEVERAL));
+        }
+        if stop == Stop::End && self.after.side.is_some() && self.after.switches.is_none() {
+            self.fault(Fault::StillOn, range);
         }
     }
 
@@ -338,37 +346,7 @@ impl Stretch {
                 range,
             );
         }
-        let mut cap = 0.0;
-        if made.is_arc() {
-            // Relative to its own start, so that the result is the same to the last bit anywhere.
-            match made.at_origin().course(&self.reading) {
-                Course::Arc(arc) => {
-                    // µm² to nm².
-                    cap = (arc.twice_cap_area() * 1e6).round();
-                    if arc.radius * 1e3 < LARGEST_CORRECTION {
-                        let goes_on = self.parts.last().is_some_and(|part| part.open);
-                        let part = (self.parts.len() - usize::from(goes_on)) as u32;
-                        let tightest = if made.side.is_some() {
-                            &mut self.tightest.offset
-                        } else {
-                            &mut self.tightest.plain
-                        };
-                        *tightest = tightest.min(arc.radius);
-                        self.tight.push(Tight {
-                            arc: made,
-                            radius: arc.radius,
-                            range,
-                            part,
-                        });
-                    }
-                }
-                Course::OffRadius { start, end, .. } => {
-                    self.fault(Fault::OffRadius { start, end }, range);
-                }
-                Course::NoRadius => self.fault(Fault::ArcWithoutRadius, range),
-                Course::Line => {}
-            }
-        }
+        let cap = self.cap(made, range);
         if !made.is_cut() {
             return self.interrupt(true);
         }
@@ -387,6 +365,39 @@ impl Stretch {
             }
         }
         each(self.parts.len() - 1, &made, range);
+    }
+
+    /// Twice the area between a move and its chord, nm²; an arc is kept where it may be too tight, and its fault.
+    fn cap(&mut self, made: Move, range: (u32, u32)) -> f64 {
+        // Relative to its own start, so that the result is the same to the last bit anywhere.
+        match made.at_origin().course(&self.reading) {
+            Course::Arc(arc) => {
+                if arc.radius * 1e3 < LARGEST_CORRECTION {
+                    let goes_on = self.parts.last().is_some_and(|part| part.open);
+                    let part = (self.parts.len() - usize::from(goes_on)) as u32;
+                    let tightest = if made.side.is_some() {
+                        &mut self.tightest.offset
+                    } else {
+                        &mut self.tightest.plain
+                    };
+                    *tightest = tightest.min(arc.radius);
+                    self.tight.push(Tight {
+                        arc: made,
+                        radius: arc.radius,
+                        range,
+                        part,
+                    });
+                }
+                // µm² to nm².
+                return (arc.twice_cap_area() * 1e6).round();
+            }
+            Course::OffRadius { start, end, .. } => {
+                self.fault(Fault::OffRadius { start, end }, range);
+            }
+            Course::NoRadius => self.fault(Fault::ArcWithoutRadius, range),
+            Course::Line => {}
+        }
+        0.0
     }
 
     /// Whether the way turns back on itself at the beginning of a move.

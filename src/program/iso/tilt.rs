@@ -14,6 +14,7 @@ use super::word::{Number, Token};
 use crate::geometry::{
     Arc, Point, Segment, Side, Vector, circle_circle, left_normal, line_circle, line_line, turn,
 };
+use std::ops::Range;
 
 /// A joint that turns by less is tangent, radians.
 const TANGENT: f64 = 1e-3;
@@ -168,7 +169,7 @@ impl<'a> Reader<'a> {
     fn read(&mut self, line: usize, bytes: &[u8], machine: &Machine) {
         self.own = None;
         let mut said = Words::default();
-        words(bytes, 1, |token| said.take(token, bytes));
+        words(bytes, 1, |token, range| said.take(token, range, bytes));
         let switches = said.side.is_some() || said.upright;
         if said.upright {
             self.side = None;
@@ -296,9 +297,9 @@ struct Words {
 }
 
 impl Words {
-    fn take(&mut self, token: Token, bytes: &[u8]) {
+    fn take(&mut self, token: Token, range: Range<usize>, bytes: &[u8]) {
         match token {
-            Token::Word { letter, number, .. } => match (letter, number.whole()) {
+            Token::Word { letter, number } => match (letter, number.whole()) {
                 (b'G', Some(51 | 141)) => self.side = Some(Side::Left),
                 (b'G', Some(52 | 142)) => self.side = Some(Side::Right),
                 (b'G', Some(50 | 140)) => self.upright = true,
@@ -308,7 +309,7 @@ impl Words {
                 (b'V', _) => self.guide[1] = Some(number),
                 _ => {}
             },
-            Token::Foreign { range } => {
+            Token::Foreign => {
                 // Ranges count from 1: a byte order mark begins a text alone.
                 let (from, to) = (range.start - 1, range.end - 1);
                 let word = bytes.get(from..to).unwrap_or_default();
@@ -322,7 +323,7 @@ impl Words {
                     _ => return,
                 };
                 // Its second letter and the number, as a word.
-                words(&word[1..], 1, |token| {
+                words(&word[1..], 1, |token, _| {
                     if let Token::Word { number, .. } = token {
                         self.planes[plane] = Some(number);
                     }

@@ -28,69 +28,32 @@ impl Number {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Token {
     /// `G01`, `X-1.5`: the letter in upper case.
-    Word {
-        letter: u8,
-        number: Number,
-        range: Range<usize>,
-    },
+    Word { letter: u8, number: Number },
     /// `H001=110`, a value for the control's table, perhaps a list.
     Definition {
         letter: u8,
         index: Number,
         value: Option<Number>,
-        range: Range<usize>,
     },
     /// `H001=.0085+H175`: a value for the control's table, the sum of numbers and other places of it.
     Sum {
         letter: u8,
         index: Number,
         terms: Vec<Term>,
-        range: Range<usize>,
     },
     /// `,R2.` or `,C1.`: the corner at the end of the move is rounded, or chamfered.
-    Corner {
-        round: bool,
-        number: Number,
-        range: Range<usize>,
-    },
+    Corner { round: bool, number: Number },
     /// `STOP`, `#1=4`, or a word beside the wire's way with a variable or an expression instead of its number: it
     /// depends on the machine.
-    Foreign { range: Range<usize> },
+    Foreign,
     /// `( … )`, or `;` to the end of the line.
-    Comment { range: Range<usize> },
+    Comment,
     /// `%`: where a program begins and ends on tape.
-    Tape { range: Range<usize> },
+    Tape,
     /// `/`: a block that the operator may skip.
-    Skip { range: Range<usize> },
+    Skip,
     /// Not readable; the rest of the line is read all the same.
-    Fault {
-        fault: WordFault,
-        range: Range<usize>,
-    },
-}
-
-impl Token {
-    /// Where it stands.
-    pub(crate) fn range_mut(&mut self) -> &mut Range<usize> {
-        match self {
-            Token::Word { range, .. }
-            | Token::Definition { range, .. }
-            | Token::Sum { range, .. }
-            | Token::Corner { range, .. }
-            | Token::Foreign { range }
-            | Token::Comment { range }
-            | Token::Tape { range }
-            | Token::Skip { range }
-            | Token::Fault { range, .. } => range,
-        }
-    }
-
-    /// The same in another place.
-    pub(crate) fn moved(mut self, place: impl Fn(Range<usize>) -> Range<usize>) -> Token {
-        let range = self.range_mut();
-        *range = place(range.clone());
-        self
-    }
+    Fault(WordFault),
 }
 
 /// A term of a sum, with its sign.

@@ -2,38 +2,47 @@
 
 mod proof;
 
-use super::block::{Block, Motion, Note, read_line};
+use super::block::{Block, Motion, Note, Stop, read_line};
 use super::encode::{Encoded, Moves};
 use super::machine::Machine;
-use super::moves::{CenterRule, MICROMETRE, Place, Reading, to_center};
+use super::moves::{CenterRule, MICROMETRE, Place, Reading, micrometres, to_center};
+use super::read::words_of;
 use crate::finding::Side;
-use crate::geometry::Segment;
-use crate::program::encode::Encoder;
+use crate::program::encode::encode_all;
 use crate::program::grid::Node;
+use crate::program::notes::Notes;
+use crate::program::path::{Kind, Step};
 use crate::program::write::{
-    ProofError, ProvedProgram, Writer, cuts, nothing_to_write, push_number, push_places, walk, way,
+    Piece, ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write, push_number,
+    push_places, walk, way,
 };
 use crate::settings::{Coordinates, Effective, LineEnd, NumberUnit, Profile, Zero};
-use crate::toolpath::{Source, WirePath};
+use crate::toolpath::{Source, WirePath, each};
+use proof::Checked;
+
+/// Lines that one core reads back at a time.
+const AT_A_TIME: usize = 128;
 
 /// Writes the paths as one program and proves it. `unit_mm` is the drawing's unit in mm. An unknown profile, or one
 /// whose lines do not do what they should, is a refusal.
-pub fn write(
-    paths: &[WirePath],
-    unit_mm: f64,
-    settings: &Effective,
-) -> Result<ProvedProgram, ProofError> {
-    write_with(paths, unit_mm, settings, &mut |_, _| true)
+pub fn write(paths: &[WirePath], unit_mm: f64, settings: &Effective) -> Proved<ProvedProgram> {
+    write_with(paths, unit_mm, settings, None, &mut |_, _| true)
 }
 
-/// As [`write()`]; `go_on` gets the progress every few thousand segments, and ends the work with `false`.
+/// As [`write()`]; `go_on` gets the progress every few thousand segments, and ends the work with `false`. `notes` are
+/// taken of every move.
 pub(crate) fn write_with(
     paths: &[WirePath],
     unit_mm: f64,
     settings: &Effective,
+    notes: Option<&mut Notes>,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
-) -> Result<ProvedProgram, ProofError> {
+) -> Proved<ProvedProgram> {
     let mut lines = Lines::of(settings)?;
+    lines.notes = notes;
+    if let Some(notes) = &mut lines.notes {
+        notes.writing = lines.reading.writing();
+    }
     walk(
         paths,
         unit_mm * lines.per_mm(),
@@ -64,23 +73,13 @@ pub(super) struct Lines<'a> {
     number: u32,
     /// The modal words that a terse profile leaves out.
     motion: Option<Motion>,
-    pub(super) blocks: usize,
-    /// Steps.
-    length: f64,
-    /// Without cuts, part of the above.
-    pub(super) jumps: f64,
-    /// Steps.
-    deviation: f64,
-    encoded: Vec<Encoded>,
+    /// The totals so far, in steps.
+    pub(super) made: ProvedProgram,
+    notes: Option<&'a mut Notes>,
 }
 
 impl Writer for Lines<'_> {
-    fn begin(
-        &mut self,
-        from: Option<Node>,
-        first: Node,
-        path: &WirePath,
-    ) -> Result<(), ProofError> {
+    fn begin(&mut self, from: Option<Node>, first: Node, path: &WirePath) -> Proved {
         self.pass = path.pass;
         match from {
             None => {
@@ -111,41 +110,35 @@ impl Writer for Lines<'_> {
         Ok(())
     }
 
-    fn piece(
-        &mut self,
-        piece: &Segment,
-        from: Node,
-        to: Node,
-        source: Source,
-    ) -> Result<(), ProofError> {
-        // No control switches its correction off on an arc.
-        if source == Source::LeadOut && piece.as_arc().is_none() {
-            self.switch_off(from)?;
-        }
-        let mut encoded = std::mem::take(&mut self.encoded);
-        encoded.clear();
+    fn pieces(&mut self, pieces: &[Piece]) -> Proved {
         let moves = Moves {
             step: self.step_um(),
             full_circles: self.profile.full_circles,
         };
-        moves.encode(piece, from, to, &mut encoded).ok_or_else(|| {
-            ProofError::Mismatch(say!(no_moves_within_tolerance_lead_from_to, from, to))
+        let encoded = encode_all(&moves, pieces).map_err(|piece| {
+            ProofError::Mismatch(say!(
+                no_moves_within_tolerance_lead_from_to,
+                piece.from,
+                piece.to
+            ))
         })?;
-        for step in &encoded {
-            self.step_out(step)?;
+        let mut left = encoded.into_iter().flatten().peekable();
+        let mut steps = Vec::with_capacity(2 * pieces.len());
+        for (nth, piece) in pieces.iter().enumerate() {
+            // No control switches its correction off on an arc.
+            if piece.source == Source::LeadOut && piece.segment.as_arc().is_none() {
+                self.put(&std::mem::take(&mut steps))?;
+                self.switch_off(piece.from)?;
+            }
+            while let Some((_, step)) = left.next_if(|(of, _)| *of == nth) {
+                steps.push(step);
+            }
+            self.made.length += piece.segment.length();
         }
-        self.length += piece.length();
-        self.encoded = encoded;
-        Ok(())
+        self.put(&steps)
     }
 
-    fn end(
-        &mut self,
-        closed: bool,
-        first: Node,
-        last: Node,
-        goes_on: bool,
-    ) -> Result<(), ProofError> {
+    fn end(&mut self, closed: bool, first: Node, last: Node, goes_on: bool) -> Proved {
         if closed && first != last {
             return Err(ProofError::Mismatch(say!(
                 the_cut_begins_at_and_ends_at,
@@ -160,31 +153,31 @@ impl Writer for Lines<'_> {
         }
     }
 
-    fn end_open(&mut self, last: Node, for_good: bool, stops: usize) -> Result<(), ProofError> {
+    fn end_open(&mut self, last: Node, for_good: bool, stops: usize) -> Proved {
         let stops = if for_good { stops } else { 0 };
         (0..stops).try_for_each(|_| self.stop(last, None))
     }
 
-    fn stop(&mut self, at: Node, word: Option<&str>) -> Result<(), ProofError> {
+    fn stop(&mut self, at: Node, word: Option<&str>) -> Proved {
         match word {
             Some(word) => self.fixed(&[word.to_owned()], at),
             None => self.fixed(&self.profile.pause, at),
         }
     }
 
-    fn move_over(&mut self, from: Node, to: Node) -> Result<(), ProofError> {
+    fn move_over(&mut self, from: Node, to: Node) -> Proved {
         let piece = way(from, to);
-        self.jumps += piece.length();
-        self.step_out(&Encoded {
+        self.made.jumps += piece.length();
+        self.put(&[Encoded {
             motion: Motion::Rapid,
             from,
             to,
             center: from,
             piece,
-        })
+        }])
     }
 
-    fn moved_by_hand(&mut self, to: Node) -> Result<(), ProofError> {
+    fn moved_by_hand(&mut self, to: Node) -> Proved {
         self.fixed(&["G92 X{x} Y{y}".to_owned()], to)?;
         match self.machine.at == self.place(to) {
             true => Ok(()),
@@ -195,7 +188,7 @@ impl Writer for Lines<'_> {
 
 impl<'a> Lines<'a> {
     /// No lines yet, in the profile of the settings; an error for an unknown profile.
-    pub(super) fn of(settings: &'a Effective) -> Result<Lines<'a>, ProofError> {
+    pub(super) fn of(settings: &'a Effective) -> Proved<Lines<'a>> {
         let profile = settings
             .profile
             .as_ref()
@@ -225,11 +218,8 @@ impl<'a> Lines<'a> {
             goes_on: false,
             number: 0,
             motion: None,
-            blocks: 0,
-            length: 0.0,
-            jumps: 0.0,
-            deviation: 0.0,
-            encoded: Vec::new(),
+            made: ProvedProgram::default(),
+            notes: None,
         })
     }
 
@@ -255,7 +245,7 @@ impl<'a> Lines<'a> {
     }
 
     /// The lines before the way out of a contour that the control offsets.
-    fn switch_off(&mut self, at: Node) -> Result<(), ProofError> {
+    fn switch_off(&mut self, at: Node) -> Proved {
         if self.side.is_none() || std::mem::replace(&mut self.is_switched_off, true) {
             return Ok(());
         }
@@ -277,7 +267,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Lines of the profile; none of them may move the wire.
-    fn fixed(&mut self, lines: &[String], at: Node) -> Result<(), ProofError> {
+    fn fixed(&mut self, lines: &[String], at: Node) -> Proved {
         for line in lines {
             let word = match self.side {
                 Some(Side::Left) => "G41",
@@ -313,6 +303,13 @@ impl<'a> Lines<'a> {
             if block.motion.is_some() {
                 self.motion = None;
             }
+            if let Some(stop) = block.stop
+                && let Some(notes) = &mut self.notes
+            {
+                let (start, end) = words_of(text.as_bytes(), self.out.len());
+                let at = micrometres(self.machine.at);
+                notes.stop(start as usize..end as usize, at, stop == Stop::End);
+            }
             self.out.extend_from_slice(text.as_bytes());
             self.end_line();
         }
@@ -326,16 +323,55 @@ impl<'a> Lines<'a> {
         });
     }
 
-    /// Writes one move, and reads it back.
-    pub(super) fn step_out(&mut self, step: &Encoded) -> Result<(), ProofError> {
-        let start = self.out.len();
-        self.push_move(step);
-        let block = Block::of(&self.out[start..]);
-        let made = self.machine.run(&block, &self.reading);
-        let aside = self.check(step, made)?;
-        self.deviation = self.deviation.max(aside);
-        self.end_line();
-        self.blocks += 1;
+    /// Writes moves, and reads them back.
+    pub(super) fn put(&mut self, steps: &[Encoded]) -> Proved {
+        let mut lines = Vec::with_capacity(steps.len());
+        for step in steps {
+            let start = self.out.len();
+            self.push_move(step);
+            lines.push(start..self.out.len());
+            self.end_line();
+        }
+        self.made.blocks += steps.len();
+        let out = &self.out;
+        let read = each(lines.len(), AT_A_TIME, |nth| {
+            Block::of(&out[lines[nth].clone()])
+        });
+        let run = |block: &Block| self.machine.run(block, &self.reading);
+        let made: Vec<_> = read.iter().map(run).collect();
+        let own = &*self;
+        let checked = each(steps.len(), AT_A_TIME, |nth| {
+            own.check(&steps[nth], made[nth])
+        });
+        for ((line, block), checked) in lines.iter().zip(&read).zip(checked) {
+            let Checked {
+                made,
+                decoded,
+                aside,
+            } = checked?;
+            self.made.deviation = self.made.deviation.max(aside);
+            let Some(notes) = &mut self.notes else {
+                continue;
+            };
+            let (start, end) = words_of(&self.out[line.clone()], line.start);
+            notes.start.get_or_insert(micrometres(made.from));
+            notes.note(Step {
+                range: start as usize..end as usize,
+                line: 0,
+                number: block.number,
+                kind: match made.motion {
+                    Motion::Rapid => Kind::Rapid,
+                    Motion::Line => Kind::Line,
+                    Motion::Clockwise | Motion::CounterClockwise => Kind::Arc,
+                },
+                start: micrometres(made.from),
+                end: micrometres(made.to),
+                ideal: Some(decoded),
+                contour: 0,
+                side: made.side,
+                is_relative: made.incremental,
+            });
+        }
         Ok(())
     }
 
@@ -403,25 +439,14 @@ impl<'a> Lines<'a> {
     }
 
     /// `cuts` says that the paths hold more than thread holes.
-    pub(super) fn finish(mut self, cuts: bool) -> Result<ProvedProgram, ProofError> {
-        if self.blocks == 0 && cuts {
+    pub(super) fn finish(mut self, cuts: bool) -> Proved<ProvedProgram> {
+        if self.made.blocks == 0 && cuts {
             return Err(nothing_to_write());
         }
         self.side = None;
         self.fixed(&self.profile.end, self.zero)?;
-        let (step_um, blocks) = (self.step_um(), self.blocks);
-        let text = String::from_utf8(self.out)
-            .map_err(|_| ProofError::Mismatch(say!(the_program_is_not_text).into()))?;
-        let deviation = self.deviation;
-        Ok(ProvedProgram {
-            text,
-            blocks,
-            length: self.length * step_um / 1000.0,
-            jumps: self.jumps * step_um / 1000.0,
-            closure: [0.0, 0.0],
-            deviation,
-            milled: None,
-        })
+        let step_um = self.step_um();
+        self.made.finished(self.out, step_um)
     }
 }
 

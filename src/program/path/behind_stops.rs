@@ -1,7 +1,9 @@
 //! The continuation of an open cut behind a stop: the tab of its contour, or pieces that return to the start together.
 
 use super::contour::{Ends, is_tab};
+use super::lay::mixed;
 use super::way::Way;
+use rustc_hash::FxHashMap;
 use std::ops::Range;
 
 /// Stops in one contour, to hold the part before its last piece is cut.
@@ -21,25 +23,56 @@ pub(crate) trait BehindStops {
     /// Some of them as one way.
     fn way(&self, cuts: Range<usize>) -> impl Way;
 
+    /// Of the last of them: equal ways, with the same stops, have equal marks.
+    fn last_mark(&self) -> u64;
+
     /// The last one is a contour of its own or the way to one: no cut behind it is a tab of those before.
     fn last_stands_alone(&self) -> bool;
 }
 
+/// Whether cuts up to a stop and the one behind it are a contour and its tab, by the marks of them all: what an edit
+/// leaves alone is not asked again.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct KnownTabs {
+    found: FxHashMap<u64, Option<bool>>,
+    /// The answers in use since it was tidied.
+    used: usize,
+}
+
+impl KnownTabs {
+    fn get(&mut self, mark: u64, is_tab: impl FnOnce() -> Option<bool>) -> Option<bool> {
+        self.used += 1;
+        *self.found.entry(mark).or_insert_with(is_tab)
+    }
+
+    /// Forgets everything where much more is known than is in use.
+    pub(super) fn tidy(&mut self) {
+        if self.found.len() > 4 * self.used + 4096 {
+            self.found.clear();
+        }
+        self.used = 0;
+    }
+}
+
 /// Takes the continuation of the open cut; true where the last of it is a tab, else they return to the start together,
 /// in whatever order they are cut. `None` where there is none.
-pub(crate) fn goes_on(cuts: &mut impl BehindStops) -> Option<bool> {
+pub(crate) fn goes_on(cuts: &mut impl BehindStops, known: &mut KnownTabs) -> Option<bool> {
     let mut may_be_tab = true;
+    let mut mark = cuts.last_mark();
     for last in 1..=STOPS_WITHIN {
         cuts.take_next()?;
         may_be_tab &= last <= TABS_WITHIN;
+        mark = mixed(mark, cuts.last_mark());
         let ends = cuts.ends();
-        let ends_with_tab = may_be_tab
-            && ends.blocks > 2
-            && is_tab(
+        let cuts_off = || {
+            is_tab(
                 &cuts.way(0..last),
                 &cuts.way(last..last + 1),
                 &cuts.way(0..last + 1),
-            ) == Some(true);
+            )
+        };
+        let ends_with_tab =
+            may_be_tab && ends.blocks > 2 && known.get(mark, cuts_off) == Some(true);
         if ends_with_tab || ends.close() {
             return Some(ends_with_tab);
         }

@@ -110,7 +110,7 @@ pub(crate) fn closing(way: &dyn Way) -> Option<Closing> {
             }
         }
     }
-    if way.writing().names_places && count > 3 {
+    if way.totals().writing.names_places && count > 3 {
         // The cut may go on past the place where it closes.
         let first = way.piece(1)?;
         for lead_out in [0, 1] {

@@ -5,11 +5,12 @@
 //! an edit only changes the pairs of the part that it touched, and of parts that moved relative to it. The whole way
 //! then decides which pieces cross, so that the division into parts does not matter.
 
+use super::behind_stops::KnownTabs;
 use super::boxes::Boxes;
 use super::crossing::{
     Crossing, MOST_PAIRS, Tangle, come_near, margin, most_looks, near_each_other,
 };
-use super::parted::{Part, PartedWay, micrometres};
+use super::parted::{Blocks, Part, PartedWay, micrometres};
 use super::passes::{BESIDE, Before, MOST_PASSES, passes};
 use super::way::Way;
 use crate::finding::{Detail, Fault, Finding, NotJudged, Place, Rule, Severity};
@@ -27,7 +28,7 @@ type Pair = (u64, u64, [i64; 2], bool);
 /// Pieces of two parts that come near each other, by their indices there, and the cost of finding them.
 type Near = (Box<[(u32, u32)]>, usize);
 
-/// The known results for pairs of parts.
+/// The known results for pairs of parts, and for what goes on behind stops.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Known {
     pairs: FxHashMap<Pair, Near>,
@@ -37,6 +38,7 @@ pub(crate) struct Known {
     passed: Option<Box<Passed>>,
     /// The results in use since the last search began: pairs of parts, and cuts.
     used: [usize; 2],
+    pub(in crate::program) tabs: KnownTabs,
 }
 
 impl Known {
@@ -119,6 +121,7 @@ impl Known {
         if self.found.len() > 4 * cuts + 4096 {
             self.found.clear();
         }
+        self.tabs.tidy();
     }
 }
 
@@ -220,38 +223,87 @@ fn most_touching(parts: usize) -> usize {
 /// those.
 const AT_ONCE: [usize; 2] = [32, 1024];
 
+/// The parts of a cut that are compared, each prepared once.
+struct Search<'w> {
+    parts: &'w [Part<'w>],
+    blocks: &'w dyn Blocks,
+    /// Blocks before each part.
+    firsts: &'w [usize],
+    prepared: Vec<OnceLock<Prepared>>,
+}
+
+impl Search<'_> {
+    fn prepared(&self, index: usize) -> &Prepared {
+        self.prepared[index].get_or_init(|| Prepared::of(self.blocks.pieces(index)))
+    }
+
+    fn apart(&self, a: usize, b: usize) -> [i64; 2] {
+        let (from, to) = (self.parts[a].start, self.parts[b].start);
+        [0, 1].map(|axis| to[axis].wrapping_sub(from[axis]))
+    }
+
+    fn key(&self, a: usize, b: usize) -> Pair {
+        let [one, other] = [a, b].map(|index| self.parts[index].lay.mark);
+        (one, other, self.apart(a, b), b == a + 1)
+    }
+
+    /// Compares the pairs of parts about which nothing is known.
+    fn learn(&self, pairs: &[(usize, usize)], known: &mut Known) {
+        let mut asked = FxHashSet::default();
+        let is_unknown = |&(a, b): &(usize, usize)| {
+            let key = self.key(a, b);
+            !known.pairs.contains_key(&key) && asked.insert(key)
+        };
+        let unknown: Vec<(usize, usize)> = pairs.iter().copied().filter(is_unknown).collect();
+        let look = |&(a, b): &(usize, usize)| -> (Pair, Near) {
+            let (by, is_next) = (micrometres(self.apart(a, b)), b == a + 1);
+            let near = self.prepared(a).near(self.prepared(b), by, is_next);
+            (self.key(a, b), near)
+        };
+        let found: Vec<(Pair, Near)> = if unknown.len() > 64 {
+            unknown.par_iter().map(look).collect()
+        } else {
+            unknown.iter().map(look).collect()
+        };
+        known.pairs.extend(found);
+    }
+
+    /// Adds the blocks of a part that come near each other; false where these are not all.
+    fn within(&self, index: usize, near: &mut Vec<(usize, usize)>) -> bool {
+        let (first, lay) = (self.firsts[index], &self.parts[index].lay);
+        let own = lay.near.iter();
+        near.extend(own.map(|&(a, b)| (first + a as usize, first + b as usize)));
+        if !lay.is_tangled || near.len() > MOST_PAIRS {
+            return true;
+        }
+        let pieces = self.prepared(index).pieces.iter().copied();
+        let (found, is_all) = near_each_other(pieces, MOST_PAIRS);
+        near.extend(found.into_iter().map(|(a, b)| (first + a, first + b)));
+        is_all
+    }
+
+    /// A block of the cut in its place.
+    fn piece(&self, index: usize) -> Option<Segment> {
+        let behind = self.firsts.partition_point(|first| *first <= index);
+        let part = behind.checked_sub(1)?;
+        let own = self.prepared(part).pieces.get(index - self.firsts[part])?;
+        Some(own.moved(self.parts.get(part)?.offset()))
+    }
+}
+
 /// Finds where a cut crosses itself.
 fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
-    let (parts, blocks) = (&way.parts[..], &*way.blocks);
-    let mut firsts = Vec::with_capacity(parts.len());
-    let mut count = 0;
-    for part in parts {
-        firsts.push(count);
-        count += part.blocks;
-    }
-    let prepared: Vec<OnceLock<Prepared>> = parts.iter().map(|_| OnceLock::new()).collect();
-    let prepared =
-        |index: usize| prepared[index].get_or_init(|| Prepared::of(blocks.pieces(index)));
-    let placed: Vec<Bounds> = parts
-        .iter()
-        .map(|part| part.placed().grown(SLACK))
-        .collect();
+    let parts = &way.parts[..];
+    let count = way.count();
+    let search = Search {
+        parts,
+        blocks: &*way.blocks,
+        firsts: &way.firsts,
+        prepared: parts.iter().map(|_| OnceLock::new()).collect(),
+    };
+    let placed = |part: &Part<'_>| part.placed().grown(SLACK);
+    let placed: Vec<Bounds> = parts.iter().map(placed).collect();
     let boxes = Boxes::of(placed.iter().copied());
-    let apart = |a: usize, b: usize| {
-        [0, 1].map(|axis| parts[b].start[axis].wrapping_sub(parts[a].start[axis]))
-    };
-    let key = |a: usize, b: usize| {
-        (
-            parts[a].lay.mark,
-            parts[b].lay.mark,
-            apart(a, b),
-            b == a + 1,
-        )
-    };
-    let look = |&(a, b): &(usize, usize)| -> (Pair, Near) {
-        let by = micrometres(apart(a, b));
-        (key(a, b), prepared(a).near(prepared(b), by, b == a + 1))
-    };
     let mut near: Vec<(usize, usize)> = Vec::new();
     let mut left = most_looks(count);
     let mut is_crowded = false;
@@ -270,42 +322,22 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
         if left == 0 {
             (next, is_crowded) = (parts.len(), true);
         }
-        let mut asked = FxHashSet::default();
-        let unknown: Vec<(usize, usize)> = some
-            .iter()
-            .copied()
-            .map(|(a, b)| ((a, b), key(a, b)))
-            .filter(|(_, key)| !known.pairs.contains_key(key) && asked.insert(*key))
-            .map(|(pair, _)| pair)
-            .collect();
-        let found: Vec<(Pair, Near)> = if unknown.len() > 64 {
-            unknown.par_iter().map(look).collect()
-        } else {
-            unknown.iter().map(look).collect()
-        };
-        known.pairs.extend(found);
+        search.learn(&some, known);
         for index in behind..next {
-            let (first, lay) = (firsts[index], &parts[index].lay);
-            let own = lay.near.iter();
-            near.extend(own.map(|&(a, b)| (first + a as usize, first + b as usize)));
-            if lay.is_tangled && near.len() <= MOST_PAIRS {
-                let pieces = prepared(index).pieces.iter().copied();
-                let (found, is_all) = near_each_other(pieces, MOST_PAIRS);
-                near.extend(found.into_iter().map(|(a, b)| (first + a, first + b)));
-                is_crowded |= !is_all;
-            }
+            is_crowded |= !search.within(index, &mut near);
         }
         for &(a, b) in &some {
             // Earlier results count as well: they must not change how much of a cut is searched.
-            let Some((found, cost)) = known.pairs.get(&key(a, b)).filter(|_| left > 0) else {
+            let key = search.key(a, b);
+            let Some((found, cost)) = known.pairs.get(&key).filter(|_| left > 0) else {
                 is_crowded = true;
                 break;
             };
-            near.extend(
-                found
-                    .iter()
-                    .map(|&(i, j)| (firsts[a] + i as usize, firsts[b] + j as usize)),
-            );
+            let in_cut = |&(i, j): &(u32, u32)| {
+                let [one, other] = [a, b].map(|part| search.firsts[part]);
+                (one + i as usize, other + j as usize)
+            };
+            near.extend(found.iter().map(in_cut));
             left = left.saturating_sub(*cost);
         }
         (gone, behind) = (gone + some.len(), next);
@@ -321,17 +353,10 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
             pairs: gone,
         };
     }
-    let piece = |index: usize| {
-        let part = firsts
-            .partition_point(|first| *first <= index)
-            .checked_sub(1)?;
-        let own = prepared(part).pieces.get(index - firsts[part])?;
-        Some(own.moved(parts.get(part)?.offset()))
-    };
     let (found, is_all) = Tangle {
-        piece: &piece,
+        piece: &|index| search.piece(index),
         count,
-        margin: margin(way.arcs()),
+        margin: margin(way.totals().arcs),
         aside: aside_at_stop(way),
         steps: Cell::new(0),
     }

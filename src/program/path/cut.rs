@@ -2,7 +2,7 @@
 //! to the contour.
 
 use super::contour::closing;
-use super::trace::{Chain, Kind, Step, Trace};
+use super::trace::{CutSteps, Kind, Step, Trace};
 use std::ops::Range;
 
 /// A contour with its ways in and out, or the way between two contours.
@@ -67,11 +67,11 @@ fn cut_in(trace: &Trace, steps: Range<usize>) -> Cut {
         .filter(|(_, step)| step.moves())
         .map(|(index, _)| index)
         .collect();
-    let chain = if places.len() == own.len() {
-        Chain::of(own, trace.writing)
+    let held = if places.len() == own.len() {
+        CutSteps::of(own, trace.writing)
     } else {
         let stop = own.iter().position(|step| !step.moves());
-        Chain::of(
+        CutSteps::of(
             own.iter()
                 .filter(|step| step.moves())
                 .cloned()
@@ -80,8 +80,8 @@ fn cut_in(trace: &Trace, steps: Range<usize>) -> Cut {
         )
         .stopping(stop)
     };
-    // A chain with all its steps lacks none.
-    let cut = cut_of(&chain).unwrap_or_default();
+    // With all its steps it lacks none.
+    let cut = cut_of(&held).unwrap_or_default();
     // Pauses count as steps here.
     let place = |nth: usize| places.get(nth).copied().unwrap_or(own.len());
     let contour = cut.contour_steps();
@@ -94,13 +94,13 @@ fn cut_in(trace: &Trace, steps: Range<usize>) -> Cut {
     }
 }
 
-/// The division of a chain of steps, counted from 0; `None` where it depends on steps that the chain does not hold.
-pub(crate) fn cut_of(chain: &Chain<'_>) -> Option<Cut> {
-    let first = chain.step(0);
+/// The division of a cut, its steps counted from 0; `None` where it depends on steps that are not held.
+pub(crate) fn cut_of(held: &CutSteps<'_>) -> Option<Cut> {
+    let first = held.step(0);
     let contour = first.map_or(0, |step| step.contour);
     let all = Cut {
         contour,
-        steps: 0..chain.count(),
+        steps: 0..held.count(),
         lead_in: 0,
         lead_out: 0,
         closed: false,
@@ -112,7 +112,7 @@ pub(crate) fn cut_of(chain: &Chain<'_>) -> Option<Cut> {
             ..all
         });
     }
-    let closing = closing(chain)?;
+    let closing = closing(held)?;
     Some(Cut {
         lead_in: closing.lead_in,
         lead_out: closing.lead_out,

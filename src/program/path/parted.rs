@@ -1,7 +1,7 @@
 //! Ways in parts, so that the unchanged parts of an edited way are reused.
 
 use super::lay::Lay;
-use super::way::{Node, Way, Writing};
+use super::way::{Node, Totals, Way, Writing};
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -55,12 +55,9 @@ pub(crate) struct PartedWay<'a> {
     pub(crate) blocks: Box<dyn Blocks + 'a>,
     pub(crate) parts: Vec<Part<'a>>,
     /// Blocks before each part.
-    firsts: Vec<usize>,
+    pub(super) firsts: Vec<usize>,
     pieces: Vec<OnceCell<Vec<Segment>>>,
-    count: usize,
-    arcs: usize,
-    /// Blocks before the stop at its tab.
-    stop: Option<usize>,
+    totals: Totals,
     /// Before and behind the first and the last block, where they are known beforehand.
     ends: Option<[[Node; 2]; 2]>,
 }
@@ -75,20 +72,23 @@ impl<'a> PartedWay<'a> {
         stop: Option<usize>,
         ends: Option<[[Node; 2]; 2]>,
     ) -> PartedWay<'a> {
-        let mut count = 0;
+        let mut totals = Totals {
+            writing: blocks.writing(),
+            stop,
+            ..Totals::default()
+        };
         let firsts = parts.iter().map(|part| {
-            count += part.blocks;
-            count - part.blocks
+            totals.count += part.blocks;
+            totals.arcs += part.arcs;
+            totals.count - part.blocks
         });
         let firsts = firsts.collect();
         PartedWay {
             blocks,
             firsts,
             pieces: parts.iter().map(|_| OnceCell::new()).collect(),
-            arcs: parts.iter().map(|part| part.arcs).sum(),
             parts,
-            count,
-            stop,
+            totals,
             ends,
         }
     }
@@ -137,36 +137,25 @@ impl<'a> PartedWay<'a> {
 }
 
 impl Way for PartedWay<'_> {
-    fn count(&self) -> usize {
-        self.count
-    }
-
-    fn arcs(&self) -> usize {
-        self.arcs
-    }
-
-    fn writing(&self) -> Writing {
-        self.blocks.writing()
-    }
-
-    fn stop(&self) -> Option<usize> {
-        self.stop
+    fn totals(&self) -> Totals {
+        self.totals
     }
 
     fn node(&self, index: usize) -> Option<Node> {
+        let count = self.totals.count;
         let known = self.ends.and_then(|[first, last]| match index {
             0 => Some(first[0]),
             1 => Some(first[1]),
-            _ if index == self.count => Some(last[1]),
-            _ if index + 1 == self.count => Some(last[0]),
+            _ if index == count => Some(last[1]),
+            _ if index + 1 == count => Some(last[0]),
             _ => None,
         });
         let told = || {
-            let part = self.part_of(index.min(self.count.checked_sub(1)?))?;
+            let part = self.part_of(index.min(count.checked_sub(1)?))?;
             self.blocks.node(part, index - self.firsts.get(part)?)
         };
         known.or_else(told).or_else(|| {
-            Some(Node::at(if index == self.count {
+            Some(Node::at(if index == count {
                 self.piece(index.checked_sub(1)?)?.end()
             } else {
                 self.piece(index)?.start()

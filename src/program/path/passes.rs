@@ -144,7 +144,7 @@ pub(super) fn crosses_itself(way: &HeldWay) -> bool {
         !found.is_empty() || !is_all
     };
     if passes.is_empty() {
-        return crosses(pieces, way.arcs());
+        return crosses(pieces, way.totals().arcs);
     }
     passes.len() == MOST_PASSES
         || passes.iter().any(|pass| {

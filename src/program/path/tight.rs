@@ -10,3 +10,31 @@ pub(crate) const UM_IN_MM: f64 = 1000.0;
 pub(crate) fn is_tight(radius: f64, correction: f64) -> bool {
     radius < correction - ROUNDING
 }
+
+/// Whether a 4B controller refuses an arc inside of which the wire runs: its radius, whole µm in a block, must be larger
+/// than the correction.
+pub(crate) fn is_tight_in_four_b(radius: f64, correction: f64) -> bool {
+    radius <= correction
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_arc_as_large_as_the_correction_is_tight_in_four_b_alone() {
+        for (radius, correction, expected) in [
+            (99.0, 100.0, [true, true]),
+            (100.0, 100.0, [false, true]),
+            (101.0, 100.0, [false, false]),
+            (100.0, 100.6, [true, true]),
+            (101.0, 100.6, [false, false]),
+        ] {
+            let found = [
+                is_tight(radius, correction),
+                is_tight_in_four_b(radius, correction),
+            ];
+            assert_eq!(found, expected, "{radius} {correction}");
+        }
+    }
+}

@@ -3,7 +3,7 @@
 //! Points are µm in the program's own frame, as `f64`: a counting machine is always on whole µm, an ISO program may
 //! have fractions. Nothing here knows how a language is written.
 
-use super::way::{Node, Way, Writing};
+use super::way::{Node, Totals, Way, Writing};
 use crate::finding::Side;
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use std::borrow::Cow;
@@ -148,34 +148,33 @@ impl Trace {
 
 /// Consecutive steps that move, between two stops; of many only the first and the last are held.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Chain<'a> {
+pub(crate) struct CutSteps<'a> {
     /// The first steps; all of them where `tail` is empty.
     head: Cow<'a, [Step]>,
     tail: Vec<Step>,
-    count: usize,
-    arcs: usize,
-    writing: Writing,
-    /// Steps before the stop at its tab.
-    stop: Option<usize>,
-    /// From the chain's beginning to that of each step of the head, and behind the last, as the blocks mean it, µm.
+    totals: Totals,
+    /// From the cut's beginning to that of each step of the head, and behind the last, as the blocks mean it, µm.
     to_head: Vec<Vector>,
     /// The same for the steps of the tail.
     to_tail: Vec<Vector>,
 }
 
-impl<'a> Chain<'a> {
-    /// The number of steps held at either end of a long chain.
+impl<'a> CutSteps<'a> {
+    /// The number of steps held at either end of a long cut.
     pub(crate) const ENDS: usize = 24;
 
-    /// A chain that holds all its steps.
-    pub(crate) fn of(steps: impl Into<Cow<'a, [Step]>>, writing: Writing) -> Chain<'a> {
+    /// A cut that holds all its steps.
+    pub(crate) fn of(steps: impl Into<Cow<'a, [Step]>>, writing: Writing) -> CutSteps<'a> {
         let head: Cow<'a, [Step]> = steps.into();
         let arcs = head.iter().filter(|step| step.kind == Kind::Arc).count();
-        Chain {
+        let totals = Totals {
             count: head.len(),
             arcs,
             writing,
             stop: None,
+        };
+        CutSteps {
+            totals,
             to_head: sums(Vector::zeros(), &head),
             to_tail: Vec::new(),
             tail: Vec::new(),
@@ -183,50 +182,47 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// A chain of `count` steps, `arcs` of them arcs, by its first and last ones; together the blocks mean to lead by
-    /// `meant`, µm.
+    /// A cut by its first and last steps; together its blocks mean to lead by `meant`, µm.
     pub(crate) fn by_ends(
         head: Vec<Step>,
         tail: Vec<Step>,
-        (count, arcs): (usize, usize),
         meant: Vector,
-        writing: Writing,
-    ) -> Chain<'static> {
+        totals: Totals,
+    ) -> CutSteps<'static> {
         let of_tail: Vector = tail.iter().map(Step::meant).sum();
         let (to_head, to_tail) = (sums(Vector::zeros(), &head), sums(meant - of_tail, &tail));
-        Chain {
+        CutSteps {
             head: head.into(),
             tail,
-            count,
-            arcs,
-            writing,
-            stop: None,
+            totals,
             to_head,
             to_tail,
         }
     }
 
     /// The same with a stop behind this many steps, before its tab.
-    pub(crate) fn stopping(self, stop: Option<usize>) -> Chain<'a> {
-        Chain { stop, ..self }
+    pub(crate) fn stopping(mut self, stop: Option<usize>) -> CutSteps<'a> {
+        self.totals.stop = stop;
+        self
     }
 
     pub(crate) fn count(&self) -> usize {
-        self.count
+        self.totals.count
+    }
+
+    fn in_tail(&self, index: usize) -> Option<usize> {
+        (index + self.tail.len()).checked_sub(self.totals.count)
     }
 
     /// A step by its index, where it is held.
     pub(crate) fn step(&self, index: usize) -> Option<&Step> {
-        let in_tail = || {
-            self.tail
-                .get((index + self.tail.len()).checked_sub(self.count)?)
-        };
+        let in_tail = || self.tail.get(self.in_tail(index)?);
         self.head.get(index).or_else(in_tail)
     }
 
     /// Where the machine stands before a step, or behind the last.
     fn stands(&self, index: usize) -> Option<Point> {
-        if index == self.count {
+        if index == self.totals.count {
             return self.step(index.checked_sub(1)?).map(|step| step.end);
         }
         self.step(index).map(|step| step.start)
@@ -234,29 +230,14 @@ impl<'a> Chain<'a> {
 
     /// The position without the drift of counting.
     fn meant(&self, index: usize) -> Option<Point> {
-        let in_tail = || {
-            self.to_tail
-                .get((index + self.tail.len()).checked_sub(self.count)?)
-        };
+        let in_tail = || self.to_tail.get(self.in_tail(index)?);
         Some(self.stands(0)? + self.to_head.get(index).or_else(in_tail)?)
     }
 }
 
-impl Way for Chain<'_> {
-    fn count(&self) -> usize {
-        self.count
-    }
-
-    fn arcs(&self) -> usize {
-        self.arcs
-    }
-
-    fn writing(&self) -> Writing {
-        self.writing
-    }
-
-    fn stop(&self) -> Option<usize> {
-        self.stop
+impl Way for CutSteps<'_> {
+    fn totals(&self) -> Totals {
+        self.totals
     }
 
     fn node(&self, index: usize) -> Option<Node> {
@@ -278,7 +259,7 @@ impl Way for Chain<'_> {
     }
 
     fn is_held(&self) -> bool {
-        self.head.len() >= self.count
+        self.head.len() >= self.totals.count
     }
 }
 

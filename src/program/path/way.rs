@@ -40,11 +40,28 @@ pub(crate) struct Writing {
     pub(crate) slack: f64,
 }
 
+/// What is known of a way without its blocks.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Totals {
+    pub(crate) count: usize,
+    pub(crate) arcs: usize,
+    pub(crate) writing: Writing,
+    /// Blocks before its first stop, if it holds one: the tab is behind.
+    pub(crate) stop: Option<usize>,
+}
+
 /// Consecutive cutting blocks. `None` stands for one that is not held.
 pub(crate) trait Way {
-    fn count(&self) -> usize;
-    fn arcs(&self) -> usize;
-    fn writing(&self) -> Writing;
+    fn totals(&self) -> Totals;
+
+    fn count(&self) -> usize {
+        self.totals().count
+    }
+
+    fn stop(&self) -> Option<usize> {
+        self.totals().stop
+    }
+
     /// The position before a block, or behind the last.
     fn node(&self, index: usize) -> Option<Node>;
     /// The curve of a block at its intended start; a line without length where it leads nowhere.
@@ -73,12 +90,10 @@ pub(crate) trait Way {
         Some(())
     }
 
-    /// The number of blocks before its first stop, if it holds one: the tab is behind.
-    fn stop(&self) -> Option<usize>;
-
     /// The tolerance for its end at a place, µm.
     fn tolerance(&self) -> f64 {
-        tolerance(self.arcs()).max(self.writing().slack)
+        let Totals { arcs, writing, .. } = self.totals();
+        tolerance(arcs).max(writing.slack)
     }
 }
 
@@ -87,17 +102,18 @@ pub(crate) trait Way {
 pub(crate) struct HeldWay {
     nodes: Vec<Node>,
     pieces: Vec<Segment>,
-    arcs: usize,
-    writing: Writing,
-    stop: Option<usize>,
+    totals: Totals,
 }
 
 impl HeldWay {
     pub(crate) fn from(start: Node, writing: Writing) -> HeldWay {
         HeldWay {
             nodes: vec![start],
-            writing,
-            ..HeldWay::default()
+            totals: Totals {
+                writing,
+                ..Totals::default()
+            },
+            pieces: Vec::new(),
         }
     }
 
@@ -107,32 +123,21 @@ impl HeldWay {
 
     /// Marks that the next block is behind a stop.
     pub(crate) fn stop_here(&mut self) {
-        self.stop.get_or_insert(self.pieces.len());
+        self.totals.stop.get_or_insert(self.pieces.len());
     }
 
     /// Adds a block: its curve from the intended position, and the machine's position behind it.
     pub(crate) fn push(&mut self, piece: Segment, is_arc: bool, end: Node) {
         self.pieces.push(piece);
         self.nodes.push(end);
-        self.arcs += usize::from(is_arc);
+        self.totals.count += 1;
+        self.totals.arcs += usize::from(is_arc);
     }
 }
 
 impl Way for HeldWay {
-    fn count(&self) -> usize {
-        self.pieces.len()
-    }
-
-    fn arcs(&self) -> usize {
-        self.arcs
-    }
-
-    fn writing(&self) -> Writing {
-        self.writing
-    }
-
-    fn stop(&self) -> Option<usize> {
-        self.stop
+    fn totals(&self) -> Totals {
+        self.totals
     }
 
     fn node(&self, index: usize) -> Option<Node> {

@@ -8,9 +8,8 @@
 //! Lines with a comment between them stay: the comment marks the place. What the merged line leaves out lies within
 //! [`ASIDE`] of it.
 
-use super::{Content, Notation, Refactoring, Rewrite, Sheet};
+use super::{Content, Edits, Notation, Refactoring, Rewrite, Sheet};
 use crate::geometry::Line;
-use crate::text::TextEdit;
 use std::ops::Range;
 
 pub(super) fn merge<N: Notation>() -> Refactoring<N> {
@@ -25,17 +24,17 @@ pub(super) fn merge<N: Notation>() -> Refactoring<N> {
 /// snapping costs.
 const ASIDE: f64 = 0.75;
 
-fn merged<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String> {
+fn merged<N: Notation>(sheet: &Sheet<'_, N>) -> Edits {
     let content = sheet.content()?;
     let selected = sheet.selected_rows(content);
     let mut rewrite = Rewrite::new();
     for contour in &content.contours {
         // Ways in and out end where the contour begins, whatever their direction.
-        let own = contour.own_rows();
+        let own = contour.contour_steps();
         let parts = [
-            contour.rows.start..own.start,
+            contour.steps.start..own.start,
             own.clone(),
-            own.end..contour.rows.end,
+            own.end..contour.steps.end,
         ];
         for part in parts {
             let end = part.end.min(selected.end);
@@ -44,7 +43,7 @@ fn merged<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String> {
                 let run = run(sheet, content, index..end);
                 if run.len() > 1 {
                     let ends = [content.rows[run.start].from, content.rows[run.end - 1].to];
-                    let whole = N::straight(sheet, content, run.start, ends)?;
+                    let whole = N::straight(sheet.at(content, run.start), ends)?;
                     rewrite.rows.insert(run.start, whole);
                     for left_out in run.start + 1..run.end {
                         rewrite.rows.insert(left_out, Vec::new());
@@ -65,12 +64,12 @@ fn run<N: Notation>(
 ) -> Range<usize> {
     let start = rows.start;
     let mut end = start + 1;
-    if !N::runs_on(sheet, content, start, start) {
+    let runs_on = |row: usize| N::runs_on(sheet.at(content, row), start);
+    if !runs_on(start) {
         return start..end;
     }
     let from = content.rows[start].from;
-    while end < rows.end && !content.is_behind_pause(end) && N::runs_on(sheet, content, start, end)
-    {
+    while end < rows.end && !content.is_behind_pause(end) && runs_on(end) {
         let to = content.rows[end].to;
         let whole = Line {
             start: Content::<N>::point(from),

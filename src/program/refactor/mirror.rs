@@ -7,8 +7,7 @@
 //!
 //! Every number stays as it is written; axes, quadrants, letters, signs change. So the path changes exactly.
 
-use super::{Notation, Refactoring, Rewrite, Sheet, Transform};
-use crate::text::TextEdit;
+use super::{Edits, Notation, Refactoring, Rewrite, Sheet, Transform};
 
 pub(super) fn all<N: Notation>() -> [Refactoring<N>; 5] {
     [
@@ -40,15 +39,12 @@ pub(super) fn all<N: Notation>() -> [Refactoring<N>; 5] {
     ]
 }
 
-fn transformed<N: Notation>(
-    sheet: &Sheet<'_, N>,
-    [xx, xy, yx, yy]: [i64; 4],
-) -> Result<Vec<TextEdit>, String> {
+fn transformed<N: Notation>(sheet: &Sheet<'_, N>, [xx, xy, yx, yy]: [i64; 4]) -> Edits {
     let transform = Transform { xx, xy, yx, yy };
     let content = sheet.content()?;
     let mut rewrite = Rewrite::new();
     for row in 0..content.rows.len() {
-        let new = N::transformed(sheet, content, row, transform);
+        let new = N::transformed(sheet.at(content, row), transform);
         rewrite.rows.insert(row, vec![new]);
     }
     N::transform_words(sheet, transform, &mut rewrite)?;

@@ -14,7 +14,7 @@ mod scale;
 mod start_here;
 mod transform;
 
-pub(in crate::program) use notation::{Change, Content, Contour, Notation, Rewrite, Row, Sheet};
+pub(in crate::program) use notation::{At, Change, Content, News, Notation, Rewrite, Row, Sheet};
 pub(in crate::program) use scale::{INCH, scaled};
 pub(in crate::program) use transform::Transform;
 
@@ -28,17 +28,19 @@ pub struct Proposal {
     /// Kind of its code action.
     pub id: &'static str,
     pub title: String,
-    /// The edits, sorted and disjoint, or why it cannot be done: lower-case, no final dot.
-    pub edits: Result<Vec<TextEdit>, String>,
+    pub edits: Edits,
 }
+
+/// The edits, sorted and disjoint, or why it cannot be done: lower-case, no final dot.
+pub(in crate::program) type Edits = Result<Vec<TextEdit>, String>;
 
 /// One refactoring of a language.
 pub(in crate::program) struct Refactoring<N: Notation> {
     /// Kind of its code action.
     pub(crate) id: &'static str,
     pub(crate) title: fn(&Effective) -> String,
-    /// The edits, sorted and disjoint; none where there is nothing to do. Errors say why it cannot be done: lower-case, no final dot.
-    pub(crate) rewrite: fn(&Sheet<'_, N>) -> Result<Vec<TextEdit>, String>,
+    /// No edits where there is nothing to do.
+    pub(crate) rewrite: fn(&Sheet<'_, N>) -> Edits,
 }
 
 /// All of a language, in the order in which they are offered.

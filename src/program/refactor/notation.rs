@@ -1,16 +1,16 @@
 //! A program as refactorings see it, and its new form; the interface by which a language reads and writes its moves.
 
-use super::Refactoring;
 use super::transform::Transform;
+use super::{Edits, Refactoring};
 use crate::finding::Finding;
 use crate::geometry::{Point, Segment};
 use crate::program::grid::{Node, point_of};
-use crate::program::path::{Kind, Trace, cuts};
+use crate::program::path::{Cut, Kind, Trace, cuts};
 use crate::program::steps::{Program, trace};
 use crate::settings::Effective;
 use crate::text::TextEdit;
 use std::collections::BTreeMap;
-use std::ops::Range;
+use std::ops::{Deref, Range};
 
 /// The kind of change to moves.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,55 +44,25 @@ pub(in crate::program) trait Notation: Sized {
     fn rows(
         document: &Self::Document,
         trace: &Trace,
-        contours: &[Contour],
+        contours: &[Cut],
     ) -> Result<Vec<Row<Self>>, String>;
 
     /// An error where words of the program would become wrong by such a change.
     fn refuse(sheet: &Sheet<'_, Self>, change: Change) -> Result<(), String>;
 
-    /// The move of one row, replacing another.
-    fn kept(
-        sheet: &Sheet<'_, Self>,
-        content: &Content<Self>,
-        row: usize,
-        place: usize,
-    ) -> Self::New;
+    /// The move of one row, replacing that of `place`.
+    fn kept(at: At<'_, Self>, place: usize) -> Self::New;
     /// The move of a row in the other direction.
-    fn reversed(
-        sheet: &Sheet<'_, Self>,
-        content: &Content<Self>,
-        row: usize,
-    ) -> Result<Vec<Self::New>, String>;
+    fn reversed(at: At<'_, Self>) -> News<Self>;
     /// A straight cut that replaces a row.
-    fn straight(
-        sheet: &Sheet<'_, Self>,
-        content: &Content<Self>,
-        row: usize,
-        ends: [Node; 2],
-    ) -> Result<Vec<Self::New>, String>;
-    fn transformed(
-        sheet: &Sheet<'_, Self>,
-        content: &Content<Self>,
-        row: usize,
-        transform: Transform,
-    ) -> Self::New;
+    fn straight(at: At<'_, Self>, ends: [Node; 2]) -> News<Self>;
+    fn transformed(at: At<'_, Self>, transform: Transform) -> Self::New;
     /// A place of a row after scaling.
-    fn scaled_node(
-        sheet: &Sheet<'_, Self>,
-        row: &Row<Self>,
-        node: Node,
-        factor: f64,
-    ) -> Option<Node>;
+    fn scaled_node(row: &Row<Self>, node: Node, factor: f64) -> Option<Node>;
     /// The scaled move of a row between two scaled nodes; nothing where it vanishes.
-    fn scaled(
-        sheet: &Sheet<'_, Self>,
-        content: &Content<Self>,
-        row: usize,
-        ends: [Node; 2],
-        factor: f64,
-    ) -> Result<Vec<Self::New>, String>;
+    fn scaled(at: At<'_, Self>, ends: [Node; 2], factor: f64) -> News<Self>;
     /// Whether a row is a straight cut that can be merged with those before it, which begin with `first`.
-    fn runs_on(sheet: &Sheet<'_, Self>, content: &Content<Self>, first: usize, row: usize) -> bool;
+    fn runs_on(at: At<'_, Self>, first: usize) -> bool;
     /// Lengths are written in inches, so inches need no scaling.
     fn is_in_inches(_: &Content<Self>) -> bool {
         false
@@ -104,7 +74,7 @@ pub(in crate::program) trait Notation: Sized {
     fn turn_round(
         _: &Sheet<'_, Self>,
         _: &Content<Self>,
-        _: &Contour,
+        _: &Cut,
         _own: Range<usize>,
         _: &mut Rewrite<Self>,
     ) -> Result<(), String> {
@@ -124,11 +94,7 @@ pub(in crate::program) trait Notation: Sized {
     }
 
     /// The edits that make the rewritten program, sorted and disjoint; none where nothing changes.
-    fn write(
-        sheet: &Sheet<'_, Self>,
-        content: &Content<Self>,
-        rewrite: &Rewrite<Self>,
-    ) -> Result<Vec<TextEdit>, String>;
+    fn write(sheet: &Sheet<'_, Self>, content: &Content<Self>, rewrite: &Rewrite<Self>) -> Edits;
     /// An error where a move of the new program is not the intended one.
     fn agree(after: &Self::Document, row: &Row<Self>, meant: &Self::New) -> Result<(), String>;
     /// Further edits of the new program, by the path of the old one, that keep the machine's way.
@@ -136,10 +102,43 @@ pub(in crate::program) trait Notation: Sized {
         Vec::new()
     }
 
-    fn numbered(document: &Self::Document) -> Result<Vec<TextEdit>, String>;
-    fn without_numbers(document: &Self::Document) -> Result<Vec<TextEdit>, String>;
+    fn numbered(document: &Self::Document) -> Edits;
+    fn without_numbers(document: &Self::Document) -> Edits;
     /// Refactorings that it alone has.
     fn own() -> Vec<Refactoring<Self>>;
+}
+
+/// The moves that replace one.
+pub(in crate::program) type News<N> = Result<Vec<<N as Notation>::New>, String>;
+
+/// A row in its program.
+pub(in crate::program) struct At<'a, N: Notation> {
+    pub(crate) sheet: &'a Sheet<'a, N>,
+    pub(crate) content: &'a Content<N>,
+    pub(crate) index: usize,
+}
+
+impl<N: Notation> Clone for At<'_, N> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<N: Notation> Copy for At<'_, N> {}
+
+impl<N: Notation> At<'_, N> {
+    /// Its move as it is.
+    pub(crate) fn kept(self) -> N::New {
+        N::kept(self, self.index)
+    }
+}
+
+impl<N: Notation> Deref for At<'_, N> {
+    type Target = Row<N>;
+
+    fn deref(&self) -> &Row<N> {
+        &self.content.rows[self.index]
+    }
 }
 
 /// A move in its line.
@@ -151,25 +150,6 @@ pub(in crate::program) struct Row<N: Notation> {
     /// Its curve, from `from`, µm.
     pub(crate) piece: Segment,
     pub(crate) own: N::Own,
-}
-
-/// A contour in rows.
-#[derive(Clone, Debug)]
-pub(in crate::program) struct Contour {
-    /// The number that a person gives it; ways between contours are not counted.
-    pub(crate) ordinal: usize,
-    pub(crate) rows: Range<usize>,
-    pub(crate) lead_in: usize,
-    pub(crate) lead_out: usize,
-    pub(crate) closed: bool,
-    pub(crate) is_way: bool,
-}
-
-impl Contour {
-    /// The rows without the ways in and out.
-    pub(crate) fn own_rows(&self) -> Range<usize> {
-        self.rows.start + self.lead_in..self.rows.end - self.lead_out
-    }
 }
 
 /// A program for refactoring.
@@ -186,7 +166,8 @@ pub(in crate::program) struct Sheet<'a, N: Notation> {
 
 pub(in crate::program) struct Content<N: Notation> {
     pub(crate) rows: Vec<Row<N>>,
-    pub(crate) contours: Vec<Contour>,
+    /// Their steps are rows, and their contours counted as a person does, without the ways between.
+    pub(crate) contours: Vec<Cut>,
     /// The rows before which the program pauses.
     pauses: Vec<usize>,
     /// Moves name their ends, not displacements: nothing drifts.
@@ -227,6 +208,15 @@ impl<'a, N: Notation> Sheet<'a, N> {
         self.content.as_ref().map_err(Clone::clone)
     }
 
+    pub(crate) fn at<'s>(&'s self, content: &'s Content<N>, index: usize) -> At<'s, N> {
+        let sheet = self;
+        At {
+            sheet,
+            content,
+            index,
+        }
+    }
+
     /// Lines that the selection touches.
     pub(crate) fn selected_lines(&self) -> Range<usize> {
         let text = self.document.text();
@@ -246,15 +236,15 @@ impl<'a, N: Notation> Sheet<'a, N> {
     }
 
     /// The contours that the selection touches; all, where it touches none.
-    pub(crate) fn selected_contours<'c>(&self, content: &'c Content<N>) -> Vec<&'c Contour> {
+    pub(crate) fn selected_contours<'c>(&self, content: &'c Content<N>) -> Vec<&'c Cut> {
         let lines = self.selected_lines();
         let cut = || content.contours.iter().filter(|contour| !contour.is_way);
-        let touched = |contour: &&Contour| {
-            content.rows[contour.rows.clone()]
+        let touched = |contour: &&Cut| {
+            content.rows[contour.steps.clone()]
                 .iter()
                 .any(|row| lines.contains(&row.line))
         };
-        let chosen: Vec<&Contour> = cut().filter(touched).collect();
+        let chosen: Vec<&Cut> = cut().filter(touched).collect();
         if chosen.is_empty() {
             cut().collect()
         } else {
@@ -279,8 +269,8 @@ impl<N: Notation> Content<N> {
     }
 
     /// An error where the contour pauses before its tab: that pause would be misplaced.
-    pub(crate) fn refuse_pause(&self, contour: &Contour) -> Result<(), String> {
-        let within = |row: &usize| contour.rows.start < *row && *row < contour.rows.end;
+    pub(crate) fn refuse_pause(&self, contour: &Cut) -> Result<(), String> {
+        let within = |row: &usize| contour.steps.start < *row && *row < contour.steps.end;
         match self.pauses.iter().copied().find(within) {
             Some(row) => Err(say!(
                 the_contour_pauses_to_hold_the_part,
@@ -291,9 +281,9 @@ impl<N: Notation> Content<N> {
     }
 
     /// The rows of a closed contour whose ends coincide; the error says why there are none.
-    pub(crate) fn closed(&self, contour: &Contour) -> Result<Range<usize>, String> {
+    pub(crate) fn closed(&self, contour: &Cut) -> Result<Range<usize>, String> {
         self.refuse_pause(contour)?;
-        let (own, ordinal) = (contour.own_rows(), contour.ordinal);
+        let (own, ordinal) = (contour.contour_steps(), contour.contour);
         if !contour.closed || own.is_empty() {
             return Err(say!(
                 only_a_closed_contour_begins_elsewhere_or_goes_round,
@@ -337,14 +327,14 @@ impl<N: Notation> Rewrite<N> {
     pub(crate) fn meant(&self, sheet: &Sheet<'_, N>, content: &Content<N>) -> Vec<N::New> {
         let of_row = |row: usize| match self.rows.get(&row) {
             Some(news) => news.clone(),
-            None => vec![N::kept(sheet, content, row, row)],
+            None => vec![sheet.at(content, row).kept()],
         };
         (0..content.rows.len()).flat_map(of_row).collect()
     }
 }
 
 /// The contours of a program, and the rows before which it pauses.
-fn contours(trace: &Trace) -> (Vec<Contour>, Vec<usize>) {
+fn contours(trace: &Trace) -> (Vec<Cut>, Vec<usize>) {
     // Cuts count all steps, rows only those that move.
     let mut row_of = Vec::with_capacity(trace.steps.len() + 1);
     let (mut row, mut pauses) = (0, Vec::new());
@@ -364,13 +354,12 @@ fn contours(trace: &Trace) -> (Vec<Contour>, Vec<usize>) {
     let contours = cuts(trace).into_iter().map(|cut| {
         let (own, all) = (rows(cut.contour_steps()), rows(cut.steps.clone()));
         ordinal += usize::from(!cut.is_way);
-        Contour {
-            ordinal,
+        Cut {
+            contour: ordinal,
             lead_in: own.start - all.start,
             lead_out: all.end - own.end,
-            rows: all,
-            closed: cut.closed,
-            is_way: cut.is_way,
+            steps: all,
+            ..cut
         }
     });
     (contours.collect(), pauses)

@@ -1,7 +1,7 @@
 //! The proof of a refactoring: the new program, read from its text alone, makes the intended moves, ends where it
 //! should, pauses as often as before, and has no kind of error that the old one lacks.
 
-use super::{Content, Notation, Rewrite, Sheet};
+use super::{Content, Edits, Notation, Rewrite, Sheet};
 use crate::finding::{Rule, Severity};
 use crate::program::grid::point_of;
 use crate::program::path::{Kind, Trace};
@@ -13,11 +13,7 @@ const END_TOLERANCE: f64 = 2.0;
 
 impl<N: Notation> Rewrite<N> {
     /// The edits of the text, proved; none where nothing changes.
-    pub(crate) fn edits(
-        self,
-        sheet: &Sheet<'_, N>,
-        content: &Content<N>,
-    ) -> Result<Vec<TextEdit>, String> {
+    pub(crate) fn edits(self, sheet: &Sheet<'_, N>, content: &Content<N>) -> Edits {
         let edits = N::write(sheet, content, &self)?;
         if edits.is_empty() {
             return Ok(edits);
@@ -92,10 +88,7 @@ fn refuse_new_errors<N: Notation>(before: &N::Document, after: &N::Document) -> 
 }
 
 /// The edits, once the machine goes the same way behind them.
-pub(super) fn same_way<N: Notation>(
-    sheet: &Sheet<'_, N>,
-    edits: Vec<TextEdit>,
-) -> Result<Vec<TextEdit>, String> {
+pub(super) fn same_way<N: Notation>(sheet: &Sheet<'_, N>, edits: Vec<TextEdit>) -> Edits {
     let way = |trace: &Trace| {
         let steps = trace.steps.iter();
         steps

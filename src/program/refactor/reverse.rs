@@ -10,9 +10,8 @@
 //! Ways in and out stay where they are one way, there and back; leads that part (arcs that run along the contour at its
 //! start, an overlap) are reversed with it. An open path that counts is reversed where it is the whole program: it then begins at its other end.
 
-use super::{Change, Content, Contour, Notation, Refactoring, Rewrite, Sheet};
-use crate::program::path::tolerance;
-use crate::text::TextEdit;
+use super::{Change, Content, Edits, Notation, Refactoring, Rewrite, Sheet};
+use crate::program::path::{Cut, tolerance};
 use std::ops::Range;
 
 pub(super) fn reverse<N: Notation>() -> Refactoring<N> {
@@ -23,7 +22,7 @@ pub(super) fn reverse<N: Notation>() -> Refactoring<N> {
     }
 }
 
-fn reversed<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String> {
+fn reversed<N: Notation>(sheet: &Sheet<'_, N>) -> Edits {
     let content = sheet.content()?;
     N::refuse(sheet, Change::Reverse)?;
     let mut rewrite = Rewrite::new();
@@ -33,14 +32,13 @@ fn reversed<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String> 
             content.refuse_pause(contour)?;
             rewrite.start = content.rows.last().map(|row| row.to);
             rewrite.end = Some(sheet.trace.start);
-            contour.rows.clone()
+            contour.steps.clone()
         } else {
             with_leads(content, contour, content.closed(contour)?)
         };
         for (place, row) in rows.clone().zip(rows.clone().rev()) {
-            rewrite
-                .rows
-                .insert(place, N::reversed(sheet, content, row)?);
+            let reversed = N::reversed(sheet.at(content, row))?;
+            rewrite.rows.insert(place, reversed);
         }
         N::turn_round(sheet, content, contour, rows, &mut rewrite)?;
     }
@@ -48,12 +46,8 @@ fn reversed<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String> 
 }
 
 /// The rows of a contour with its leads, where these part and come back to one place; else without them.
-fn with_leads<N: Notation>(
-    content: &Content<N>,
-    contour: &Contour,
-    own: Range<usize>,
-) -> Range<usize> {
-    let (rows, all) = (&content.rows, contour.rows.clone());
+fn with_leads<N: Notation>(content: &Content<N>, contour: &Cut, own: Range<usize>) -> Range<usize> {
+    let (rows, all) = (&content.rows, contour.steps.clone());
     let [leads_in, leads_out] = [&rows[all.start..own.start], &rows[own.end..all.end]];
     let (Some(first), Some(last)) = (leads_in.first(), leads_out.last()) else {
         return own;

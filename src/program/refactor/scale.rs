@@ -8,8 +8,7 @@
 //! Nodes are scaled and snapped to the grid in absolute coordinates, so that contours close again; arcs are calculated
 //! again.
 
-use super::{Change, Content, Notation, Refactoring, Rewrite, Sheet};
-use crate::text::TextEdit;
+use super::{Change, Content, Edits, Notation, Refactoring, Rewrite, Sheet};
 
 pub(super) fn all<N: Notation>() -> [Refactoring<N>; 2] {
     [
@@ -30,7 +29,7 @@ pub(super) fn all<N: Notation>() -> [Refactoring<N>; 2] {
 pub(in crate::program) const INCH: f64 = 25.4;
 
 /// No edits where a word of the program states the unit.
-fn between_units<N: Notation>(sheet: &Sheet<'_, N>, factor: f64) -> Result<Vec<TextEdit>, String> {
+fn between_units<N: Notation>(sheet: &Sheet<'_, N>, factor: f64) -> Edits {
     if N::is_in_inches(sheet.content()?) {
         return Ok(Vec::new());
     }
@@ -41,10 +40,7 @@ fn between_units<N: Notation>(sheet: &Sheet<'_, N>, factor: f64) -> Result<Vec<T
 const FACTORS: std::ops::RangeInclusive<f64> = 1e-4..=1e4;
 
 /// The edits that scale a program. Errors: a factor that is far from 1, or with which a block vanishes or grows too long.
-pub(in crate::program) fn scaled<N: Notation>(
-    sheet: &Sheet<'_, N>,
-    factor: f64,
-) -> Result<Vec<TextEdit>, String> {
+pub(in crate::program) fn scaled<N: Notation>(sheet: &Sheet<'_, N>, factor: f64) -> Edits {
     if !FACTORS.contains(&factor) {
         let (least, most) = (FACTORS.start(), FACTORS.end());
         return Err(say!(the_factor_is_expected_between, factor, least, most));
@@ -52,7 +48,7 @@ pub(in crate::program) fn scaled<N: Notation>(
     let content = sheet.content()?;
     N::refuse(sheet, Change::Scale)?;
     let node = |row, node| {
-        N::scaled_node(sheet, row, node, factor)
+        N::scaled_node(row, node, factor)
             .ok_or_else(|| say!(the_scaled_path_runs_too_far_out_for_a_program).to_owned())
     };
     let mut rewrite = Rewrite::new();
@@ -61,7 +57,7 @@ pub(in crate::program) fn scaled<N: Notation>(
         let begin = from.map_or_else(|| node(row, row.from), Ok)?;
         let to = node(row, row.to)?;
         rewrite.start = rewrite.start.or(Some(begin));
-        let news = N::scaled(sheet, content, index, [begin, to], factor)?;
+        let news = N::scaled(sheet.at(content, index), [begin, to], factor)?;
         if news.is_empty() {
             return Err(say!(the_block_becomes_shorter_than_1_um, row.line + 1));
         }

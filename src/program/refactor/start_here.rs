@@ -6,10 +6,9 @@
 //! B0B10000B10000GYL2         B10000B0B10000GXL3          Y10              X0 Y0
 //! ```
 
-use super::{Change, Content, Notation, Refactoring, Rewrite, Sheet};
+use super::{Change, Content, Edits, Notation, Refactoring, Rewrite, Sheet};
 use crate::geometry::{Segment, meetings};
 use crate::program::grid::Node;
-use crate::text::TextEdit;
 use std::ops::Range;
 
 pub(super) fn start_here<N: Notation>() -> Refactoring<N> {
@@ -23,14 +22,14 @@ pub(super) fn start_here<N: Notation>() -> Refactoring<N> {
 /// A way in or out may meet the contour only within this distance of its end, µm.
 const TOUCH: f64 = 3.0;
 
-fn begun_here<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String> {
+fn begun_here<N: Notation>(sheet: &Sheet<'_, N>) -> Edits {
     let content = sheet.content()?;
     let (rows, line) = (&content.rows, sheet.selected_lines().start);
     let first = rows.iter().position(|row| row.line == line);
     let first = first.ok_or(say!(no_block_is_selected))?;
     let mut contours = content.contours.iter();
     let contour = contours
-        .find(|contour| contour.rows.contains(&first))
+        .find(|contour| contour.steps.contains(&first))
         .ok_or(say!(no_contour_is_selected))?;
     let own = content.closed(contour)?;
     if !own.contains(&first) {
@@ -39,13 +38,13 @@ fn begun_here<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String
     if first == own.start {
         return Ok(Vec::new());
     }
-    let all = contour.rows.clone();
+    let all = contour.steps.clone();
     let lines = rows[all.start].line..rows[all.end - 1].line + 1;
     N::refuse(sheet, Change::StartHere(lines))?;
     let begin = rows[first].from;
     let mut rewrite = Rewrite::new();
     for (place, row) in own.clone().zip((first..own.end).chain(own.start..first)) {
-        let kept = N::kept(sheet, content, row, place);
+        let kept = N::kept(sheet.at(content, row), place);
         rewrite.rows.insert(place, vec![kept]);
     }
     match (own.start - all.start, all.end - own.end) {
@@ -61,7 +60,7 @@ fn begun_here<N: Notation>(sheet: &Sheet<'_, N>) -> Result<Vec<TextEdit>, String
                     return Err(say!(the_way_is_an_arc, rows[row].line + 1));
                 }
                 refuse_crossing(content, own.clone(), far, begin)?;
-                let straight = N::straight(sheet, content, row, ends)?;
+                let straight = N::straight(sheet.at(content, row), ends)?;
                 rewrite.rows.insert(row, straight);
                 Ok(())
             };

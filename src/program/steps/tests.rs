@@ -1,15 +1,15 @@
 //! Answers about a part of a program equal those of the whole trace, for programs of both languages under edits.
 
-use super::chain_before;
-use crate::program::path::{Chain, Cut, Kind, Step, Trace, cuts};
+use super::cut_before;
+use crate::program::path::{Cut, CutSteps, Kind, Step, Trace, cuts};
 use crate::program::whereabouts::Stand;
 use crate::program::{Document, Language};
 use crate::settings::Effective;
 use proptest::prelude::*;
 use std::ops::Range;
 
-/// The chain about a byte out of the whole trace: its steps without those of stops, the number of the touched one, and the stop within.
-fn chain_by_trace(trace: &Trace, offset: usize) -> Option<(Vec<Step>, usize, Option<usize>)> {
+/// The cut about a byte out of the whole trace: its steps without those of stops, the number of the touched one, and the stop within.
+fn cut_by_trace(trace: &Trace, offset: usize) -> Option<(Vec<Step>, usize, Option<usize>)> {
     let touches =
         |step: &Step| step.moves() && step.range.start <= offset && offset <= step.range.end;
     let touched = trace.steps.iter().rposition(touches)?;
@@ -105,25 +105,25 @@ fn assert_parts_are_of_the_whole(document: &Document) -> Result<(), TestCaseErro
             document.stop_behind(offset),
             stop.map(|step| step.range.clone())
         );
-        let whole = chain_by_trace(&trace, offset);
-        let found = document.whole_chain_at(offset);
+        let whole = cut_by_trace(&trace, offset);
+        let found = document.whole_cut_at(offset);
         prop_assert_eq!(
             &found,
             &whole
                 .clone()
-                .map(|(steps, nth, stop)| { (Chain::of(steps, writing).stopping(stop), nth) })
+                .map(|(steps, nth, stop)| { (CutSteps::of(steps, writing).stopping(stop), nth) })
         );
-        let by_ends = document.chain_at(offset);
+        let by_ends = document.ends_of_cut_at(offset);
         prop_assert_eq!(by_ends.is_some(), whole.is_some());
-        if let (Some((chain, nth)), Some((steps, index, _))) = (by_ends, whole) {
-            prop_assert_eq!((chain.count(), nth), (steps.len(), index));
+        if let (Some((held, nth)), Some((steps, index, _))) = (by_ends, whole) {
+            prop_assert_eq!((held.count(), nth), (steps.len(), index));
             for (index, step) in steps.iter().enumerate() {
-                prop_assert!(chain.step(index).is_none_or(|held| held == step));
+                prop_assert!(held.step(index).is_none_or(|held| held == step));
             }
             for index in (0..steps.len())
-                .filter(|index| index.min(&(steps.len() - 1 - index)) < &Chain::ENDS)
+                .filter(|index| index.min(&(steps.len() - 1 - index)) < &CutSteps::ENDS)
             {
-                prop_assert!(chain.step(index).is_some());
+                prop_assert!(held.step(index).is_some());
             }
             let cut = document.cut_at(offset).map(|(_, cut, _)| cut);
             let touched = trace
@@ -153,10 +153,10 @@ fn assert_parts_are_of_the_whole(document: &Document) -> Result<(), TestCaseErro
         let last = trace.steps.iter().rfind(|step| step.range.end <= offset);
         let before = last
             .filter(|step| step.moves())
-            .and_then(|step| chain_by_trace(&trace, step.range.start));
-        let chain = chain_before(document.program(), offset);
+            .and_then(|step| cut_by_trace(&trace, step.range.start));
+        let held = cut_before(document.program(), offset);
         prop_assert_eq!(
-            chain.map(|chain| chain.count()),
+            held.map(|held| held.count()),
             before.map(|(_, nth, _)| nth + 1)
         );
     }

@@ -407,11 +407,11 @@ mod tests {
         }
 
         #[test]
-        fn what_a_chain_tells_by_its_ends_is_what_all_its_steps_tell(
+        fn what_a_cut_tells_by_its_ends_is_what_all_its_steps_tell(
             text in PROGRAM,
             (leads, rounds) in (0_usize..4, 0_usize..100),
         ) {
-            // A contour of more blocks than a chain holds, with ways in and out.
+            // A contour of more blocks than a cut holds, with ways in and out.
             let way = 100 * rounds;
             let long = format!(
                 "{}{}B0B50B50GYL4\nB{way}B0B{way}GXL3\nB0B50B50GYL2\n{}",
@@ -425,13 +425,13 @@ mod tests {
             for (index, step) in trace.steps.iter().enumerate().filter(|(index, step)| step.moves() && index % 13 == 0) {
                 let whole = all.iter().find(|cut| cut.steps.contains(&index)).cloned();
                 let Some(whole) = whole else { return Err(TestCaseError::fail("no cut")) };
-                let Some((chain, cut, nth)) = document.cut_at(step.range.start) else {
-                    return Err(TestCaseError::fail("no chain"));
+                let Some((held, cut, nth)) = document.cut_at(step.range.start) else {
+                    return Err(TestCaseError::fail("no cut"));
                 };
-                // A pause before a tab is a step of the trace and none of the chain.
+                // A pause before a tab is a step of the trace and none of the cut.
                 let moves = |steps: std::ops::Range<usize>| trace.steps[steps].iter().filter(|step| step.moves()).count();
                 prop_assert_eq!(nth, moves(whole.steps.start..index));
-                prop_assert_eq!(chain.step(nth).is_none_or(|held| held == step), true);
+                prop_assert_eq!(held.step(nth).is_none_or(|held| held == step), true);
                 let (steps, own) = (whole.steps.clone(), whole.contour_steps());
                 let (lead_in, lead_out) = (moves(steps.start..own.start), moves(own.end..steps.end));
                 prop_assert_eq!(cut, Cut { steps: 0..moves(steps), lead_in, lead_out, ..whole });

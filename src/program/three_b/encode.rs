@@ -36,8 +36,8 @@ pub(crate) fn encode(
 }
 
 /// Blocks with no number above the largest.
-struct Blocks {
-    largest: i64,
+pub(super) struct Blocks {
+    pub(super) largest: i64,
 }
 
 impl Encoder for Blocks {
@@ -114,9 +114,7 @@ pub(crate) fn line_block(from: Node, to: Node) -> Block {
 /// The block about the best centre. Where it leads too far from the arc, as a grid centre two µm off can past a half
 /// turn, the block about the next best one.
 fn arc_block(arc: &Arc, from: Node, to: Node, full_turn: bool) -> Option<Block> {
-    grid_centers(arc, from, to)
-        .iter()
-        .find_map(|center| block_about(center.node, arc, from, to, full_turn))
+    grid_centers(arc, from, to).find_map(|center| block_about(center, arc, from, to, full_turn))
 }
 
 /// Other blocks for the same arc within tolerance: about another centre, or counting 1 µm more or less.
@@ -130,7 +128,7 @@ pub(crate) fn alternatives(encoded: &Encoded, largest: i64) -> Vec<Block> {
     }
     let mut found = Vec::new();
     for center in grid_centers(arc, from, to) {
-        let Some(block) = block_about(center.node, arc, from, to, false) else {
+        let Some(block) = block_about(center, arc, from, to, false) else {
             continue;
         };
         let counts = [block.j - 1, block.j, block.j + 1].map(|j| Block { j, ..block });

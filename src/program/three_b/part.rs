@@ -8,7 +8,8 @@
 use crate::finding::{Detail, Finding, Place, Rule, Severity, Side, Unwritable};
 use crate::geometry::{Arc, Locus, Point, Segment, left_normal, turn};
 use crate::program::grid::{best_center, point_of, snap};
-use crate::program::write::{ProofError, scaled, too_far_out};
+use crate::program::path::is_tight_in_four_b;
+use crate::program::write::{ProofError, Proved, scaled, too_far_out};
 use crate::toolpath::{PathSegment, Source, WirePath};
 use std::f64::consts::PI;
 
@@ -22,7 +23,7 @@ pub(super) fn rounded_with_tab(
     scale: f64,
     correction: f64,
     radius: f64,
-) -> Result<Vec<WirePath>, ProofError> {
+) -> Proved<Vec<WirePath>> {
     let Some(tab) = tab else {
         return Ok(vec![rounded(path, scale, correction, radius)?]);
     };
@@ -66,7 +67,7 @@ pub(super) fn rounded(
     scale: f64,
     correction: f64,
     radius: f64,
-) -> Result<WirePath, ProofError> {
+) -> Proved<WirePath> {
     let refused = |sentence: String| Err(ProofError::Refused(sentence));
     let Some(side) = path.side else {
         return refused(say!(n4b_needs_the_side_of_the_contour).into());
@@ -87,7 +88,7 @@ pub(super) fn rounded(
     for piece in &contour {
         if let Segment::Arc(arc) = piece.geometry
             && is_concave(&arc, side)
-            && arc.radius <= correction
+            && is_tight_in_four_b(arc.radius, correction)
         {
             let fault = Unwritable::TightArc {
                 at: mm(arc.start),
@@ -115,22 +116,7 @@ pub(super) fn rounded(
     let thread = path.thread_hole * scale;
     let begin = entry + by;
     let mut segments = Vec::with_capacity(contour.len() + 2);
-    let leads = (thread - begin).norm() > 1.0;
-    let arc_of = |source: Source| {
-        let own = path.segments.iter().filter(|piece| piece.source == source);
-        let mut arcs = own.filter_map(|piece| scaled(&piece.geometry, scale).as_arc().copied());
-        arcs.next()
-    };
-    // Towards the contour, both.
-    let ways = [
-        arc_of(Source::LeadIn),
-        arc_of(Source::LeadOut).map(|arc| arc.reversed()),
-    ];
-    let [way_in, mut way_out] = ways.map(|arc| match arc {
-        _ if !leads => Vec::new(),
-        Some(arc) => along_wire(thread, &arc, begin, correction),
-        None => vec![Segment::line(thread, begin)],
-    });
+    let [way_in, mut way_out] = leads(path, scale, begin, correction);
     if !closed {
         way_out.clear();
     }
@@ -151,6 +137,22 @@ pub(super) fn rounded(
         thread_hole: thread,
         correction: 0.0,
         ..path.clone()
+    })
+}
+
+/// The way in and the way out, both towards the begin of the contour.
+fn leads(path: &WirePath, scale: f64, begin: Point, correction: f64) -> [Vec<Segment>; 2] {
+    let thread = path.thread_hole * scale;
+    let arc_of = |source: Source| {
+        let own = path.segments.iter().filter(|piece| piece.source == source);
+        let mut arcs = own.filter_map(|piece| scaled(&piece.geometry, scale).as_arc().copied());
+        arcs.next()
+    };
+    let way_out = arc_of(Source::LeadOut).map(|arc| arc.reversed());
+    [arc_of(Source::LeadIn), way_out].map(|arc| match arc {
+        _ if (thread - begin).norm() <= 1.0 => Vec::new(),
+        Some(arc) => along_wire(thread, &arc, begin, correction),
+        None => vec![Segment::line(thread, begin)],
     })
 }
 
@@ -200,7 +202,7 @@ fn with_transitions(
     contour: &[PathSegment],
     radius: f64,
     correction: f64,
-) -> Result<Vec<PathSegment>, ProofError> {
+) -> Proved<Vec<PathSegment>> {
     let mut rounded: Vec<PathSegment> = Vec::with_capacity(contour.len() * 2);
     for piece in contour {
         let Some(before) = rounded.last_mut() else {
@@ -222,7 +224,7 @@ fn with_transitions(
             before: cut,
             arc,
             behind,
-        }) = fitting.find(|made| on_grid(&made.arc) > correction)
+        }) = fitting.find(|made| !is_tight_in_four_b(on_grid(&made.arc), correction))
         else {
             let fault = Unwritable::NoTransition {
                 at: mm(piece.geometry.start()),

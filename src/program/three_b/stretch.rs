@@ -11,25 +11,30 @@ use super::fault::Flaw;
 use super::parse::{Item, read_line};
 use super::rules::block_number::Numbering;
 use super::rules::position_mismatch::Positions;
-use super::rules::{self, Counts, Limits, Spot};
+use super::rules::{self, Counts, Limits, Observation, Spot};
 use super::sum::{Sum, is_jump, may_cross_itself};
 use super::words::{Word, Words};
-use crate::finding::{Detail, Fault, Rule};
+use crate::finding::{Fault, Rule};
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::program::path::{HeldWay, Lay, Node, Writing, may_be_odd, odd_joint};
 use std::borrow::Cow;
-use std::ops::Range;
+use std::ops::{Deref, Range};
 
 /// A finding at bytes of the stretch.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Local {
     pub(crate) range: Range<usize>,
-    pub(crate) rule: Rule,
-    pub(crate) detail: Detail,
-    pub(crate) spot: Spot,
-    pub(crate) counts: Counts,
+    observation: Observation,
     /// Index of the part that it lies in.
     pub(crate) part: usize,
+}
+
+impl Deref for Local {
+    type Target = Observation;
+
+    fn deref(&self) -> &Observation {
+        &self.observation
+    }
 }
 
 /// Blocks up to a word or to the end of the stretch.
@@ -234,13 +239,13 @@ impl Stretch {
         let own = self.entries.get(part.entries()).unwrap_or_default();
         let blocks = || own.iter().filter(|entry| entry.block().is_some());
         for (nth, fault) in odd {
-            let range = blocks().nth(nth).map_or(0..0, Entry::range);
-            self.faults.push(Local {
-                range,
-                rule: fault.rule(),
-                detail: Detail::Program(Box::new(fault)),
-                spot: Spot::Block,
+            let observation = Observation {
                 counts: Counts::IfAlone,
+                ..Observation::at(Spot::Block, fault)
+            };
+            self.faults.push(Local {
+                range: blocks().nth(nth).map_or(0..0, Entry::range),
+                observation,
                 part: self.parts.len(),
             });
         }
@@ -325,6 +330,14 @@ impl Stretch {
         }
     }
 
+    fn observe(&mut self, range: Range<usize>, observation: Observation) {
+        self.faults.push(Local {
+            range,
+            observation,
+            part: self.parts.len(),
+        });
+    }
+
     fn take(&mut self, item: Item, line: u32, base: usize, open: &mut Open, limits: &Limits) {
         let local = |range: Range<usize>| range.start - base..range.end - base;
         match item {
@@ -337,27 +350,13 @@ impl Stretch {
             } => {
                 let entry = BlockEntry::new(block, part, stated_end);
                 let range = local(range);
-                let part_index = self.parts.len();
                 for observation in rules::check(&block, part, limits) {
                     // An unusual block, or one too tight, leads where it says.
                     open.sum.errors += usize::from(
                         observation.counts == Counts::Always
                             && observation.rule != Rule::SmallRadius,
                     );
-                    let (rule, spot, counts, detail) = (
-                        observation.rule,
-                        observation.spot,
-                        observation.counts,
-                        observation.detail,
-                    );
-                    self.faults.push(Local {
-                        range: range.clone(),
-                        rule,
-                        detail,
-                        spot,
-                        counts,
-                        part: part_index,
-                    });
+                    self.observe(range.clone(), observation);
                 }
                 self.stated += usize::from(entry.stated_end().is_some());
                 open.push(&block);
@@ -400,28 +399,7 @@ impl Stretch {
                     self.positions.anchor = Some(None);
                     self.push(local(fault.range.clone()), line, fault.number, What::Unread);
                 }
-                let sentence = || Detail::Said(fault.sentence());
-                let program = |fault| Detail::Program(Box::new(fault));
-                let (rule, detail) = match fault.flaw {
-                    Flaw::Unreadable(_)
-                    | Flaw::LetterO
-                    | Flaw::NotPlain(_)
-                    | Flaw::DecimalCommas => (Rule::Syntax, sentence()),
-                    Flaw::MissingB { .. } => (Rule::MissingB, program(Fault::MissingB)),
-                    Flaw::BlockNumberAsB { number } => (
-                        Rule::BlockNumberAsB,
-                        program(Fault::BlockNumberAsB { number }),
-                    ),
-                };
-                let part = self.parts.len();
-                self.faults.push(Local {
-                    range: local(fault.range.clone()),
-                    rule,
-                    detail,
-                    spot: Spot::Block,
-                    counts: Counts::Always,
-                    part,
-                });
+                self.observe(local(fault.range.clone()), Observation::of(&fault));
             }
         }
     }

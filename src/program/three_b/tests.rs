@@ -354,10 +354,16 @@ fn a_program_that_is_not_wanted_any_more_ends() {
             .collect(),
     )];
     let mut heard = Vec::new();
-    let outcome = write_with(&paths, 1.0, &Effective::default(), &mut |done, total| {
-        heard.push((done, total));
-        done < 8000
-    });
+    let outcome = write_with(
+        &paths,
+        1.0,
+        &Effective::default(),
+        None,
+        &mut |done, total| {
+            heard.push((done, total));
+            done < 8000
+        },
+    );
     assert_eq!(outcome, Err(ProofError::Cancelled));
     assert_eq!(heard, [(0, 10_000), (4096, 10_000), (8192, 10_000)]);
 }

@@ -3,38 +3,44 @@
 use super::block::Node;
 use super::block::PartArc;
 use super::decode::decode;
-use super::encode::{Encoded, encode};
+use super::encode::{self, Encoded};
 use super::layout::{push_block, push_start_point};
+use super::machine::travel;
 use super::parse::{Item, read_line};
 use super::part::{is_concave, rounded, rounded_with_tab};
-use super::proof::Proof;
-use super::words::Words;
+use super::proof::{Proof, check_line};
+use super::words::{Word, Words};
 use crate::finding::Side;
 use crate::geometry::{Segment, Vector, turn};
+use crate::program::encode::encode_all;
 use crate::program::grid::point_of;
+use crate::program::notes::Notes;
+use crate::program::path::{Kind, Step, is_tight_in_four_b};
 use crate::program::write::{
-    ProofError, ProvedProgram, Writer, cuts, nothing_to_write, scaled, walk, way,
+    Piece, ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write, scaled, walk, way,
 };
 use crate::settings::Effective;
-use crate::toolpath::{PathSegment, Source, WirePath};
+use crate::toolpath::{PathSegment, Source, WirePath, each};
+use std::ops::Range;
+
+/// Blocks that one core reads back at a time.
+const AT_A_TIME: usize = 128;
 
 /// Writes the paths as one program and proves it. `unit_mm` is the drawing's unit in mm.
-pub fn write(
-    paths: &[WirePath],
-    unit_mm: f64,
-    settings: &Effective,
-) -> Result<ProvedProgram, ProofError> {
-    write_with(paths, unit_mm, settings, &mut |_, _| true)
+pub fn write(paths: &[WirePath], unit_mm: f64, settings: &Effective) -> Proved<ProvedProgram> {
+    write_with(paths, unit_mm, settings, None, &mut |_, _| true)
 }
 
-/// As [`write()`]; `go_on` gets the progress every few thousand segments, and ends the work with `false`.
+/// As [`write()`]; `go_on` gets the progress every few thousand segments, and ends the work with `false`. `notes` are
+/// taken of every block.
 pub(crate) fn write_with(
     paths: &[WirePath],
     unit_mm: f64,
     settings: &Effective,
+    notes: Option<&mut Notes>,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
-) -> Result<ProvedProgram, ProofError> {
-    let mut blocks = Blocks::new(settings, None);
+) -> Proved<ProvedProgram> {
+    let mut blocks = Blocks::new(settings, None, notes);
     walk(paths, unit_mm * 1000.0, 1.0, go_on, &mut blocks)?;
     blocks.finish(cuts(paths))
 }
@@ -45,8 +51,9 @@ pub(crate) fn write_four_b(
     paths: &[WirePath],
     unit_mm: f64,
     settings: &Effective,
+    notes: Option<&mut Notes>,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
-) -> Result<ProvedProgram, ProofError> {
+) -> Proved<ProvedProgram> {
     let (correction, radius) = transitions(settings);
     let is_of_tab = |path: &WirePath| path.cut_off && path.pass > 1;
     if paths.iter().any(is_of_tab) || settings.closing_overlap > 0.0 {
@@ -77,6 +84,7 @@ pub(crate) fn write_four_b(
             side: Side::Left,
             direction: None,
         }),
+        notes,
     );
     walk(&paths, 1.0, 1.0, go_on, &mut blocks)?;
     blocks.finish(cuts(&paths))
@@ -137,22 +145,24 @@ struct Blocks<'a> {
     settings: &'a Effective,
     words: Words<'a>,
     out: Vec<u8>,
-    blocks: usize,
-    /// µm.
-    length: f64,
-    /// Without cuts, part of the above.
-    jumps: f64,
+    /// The totals so far, in µm.
+    made: ProvedProgram,
     proof: Proof,
-    encoded: Vec<Encoded>,
+    notes: Option<&'a mut Notes>,
+    /// The table moves without the wire.
+    is_jump: bool,
+}
+
+/// A block as it is written.
+struct Line {
+    /// Bytes of the text, without the line end.
+    range: Range<usize>,
+    block: Encoded,
+    part: Option<PartArc>,
 }
 
 impl Writer for Blocks<'_> {
-    fn begin(
-        &mut self,
-        from: Option<Node>,
-        first: Node,
-        path: &WirePath,
-    ) -> Result<(), ProofError> {
+    fn begin(&mut self, from: Option<Node>, first: Node, path: &WirePath) -> Proved {
         if let (Some(part), Some(side)) = (&mut self.part, path.side) {
             (part.side, part.direction) = (side, None);
         } else if path.side.is_some() {
@@ -162,113 +172,150 @@ impl Writer for Blocks<'_> {
         }
         match from {
             Some(from) => self.go_over(from, first, path, self.settings)?,
-            None if self.settings.header => push_start_point(&mut self.out, first),
+            None if self.settings.header => {
+                push_start_point(&mut self.out, first);
+                if let Some(notes) = &mut self.notes {
+                    notes.start = Some(point_of(first));
+                }
+            }
             None => {}
         }
         Ok(())
     }
 
-    fn piece(
-        &mut self,
-        piece: &Segment,
-        from: Node,
-        to: Node,
-        source: Source,
-    ) -> Result<(), ProofError> {
-        let mut encoded = std::mem::take(&mut self.encoded);
-        encoded.clear();
-        encode(
-            piece,
-            from,
-            to,
-            self.settings.largest_number(),
-            &mut encoded,
-        )
-        .ok_or_else(|| {
-            ProofError::Mismatch(say!(no_blocks_within_tolerance_lead_from_to, from, to))
+    fn pieces(&mut self, pieces: &[Piece]) -> Proved {
+        let largest = self.settings.largest_number();
+        let encoded = encode_all(&encode::Blocks { largest }, pieces).map_err(|piece| {
+            ProofError::Mismatch(say!(
+                no_blocks_within_tolerance_lead_from_to,
+                piece.from,
+                piece.to
+            ))
         })?;
-        for block in &encoded {
-            // 4B's radius is the block's own.
-            let block = &if self.part.is_none() {
-                self.proof.steadied(block, self.settings.largest_number())
-            } else {
-                *block
-            };
-            self.blocks += 1;
+        // 4B's radius is the block's own.
+        let largest = self.part.is_none().then_some(largest);
+        let mut lines = Vec::with_capacity(2 * pieces.len());
+        for (piece, block) in encoded.into_iter().flatten() {
+            let block = self.proof.taken(&block, largest);
+            self.made.blocks += 1;
             let start = self.out.len();
-            let part = self.part_of(block, source)?;
+            let part = self.part_of(&block, pieces[piece].source)?;
             push_block(
                 &mut self.out,
                 self.settings.layout,
-                self.blocks,
+                self.made.blocks,
                 &block.block,
                 part.as_ref(),
                 block.to,
             );
-            let line = &self.out[start..self.out.len() - 1];
-            self.proof
-                .check_line(line, &self.words, block, part)
-                .map_err(ProofError::Mismatch)?;
+            lines.push(Line {
+                range: start..self.out.len() - 1,
+                block,
+                part,
+            });
         }
-        self.length += piece.length();
-        self.encoded = encoded;
-        Ok(())
+        for piece in pieces {
+            self.made.length += piece.segment.length();
+        }
+        self.prove(&lines)
     }
 
-    fn end(&mut self, closed: bool, first: Node, last: Node, _: bool) -> Result<(), ProofError> {
+    fn end(&mut self, closed: bool, first: Node, last: Node, _: bool) -> Proved {
         self.proof
             .finish_contour(closed, first, last)
             .map_err(ProofError::Mismatch)
     }
 
     /// Some straight blocks between two pauses would be read as the way to the next contour.
-    fn end_open(&mut self, last: Node, _: bool, stops: usize) -> Result<(), ProofError> {
+    fn end_open(&mut self, last: Node, _: bool, stops: usize) -> Proved {
         (0..stops).try_for_each(|_| self.stop(last, None))
     }
 
-    fn stop(&mut self, _: Node, word: Option<&str>) -> Result<(), ProofError> {
+    fn stop(&mut self, _: Node, word: Option<&str>) -> Proved {
         self.push_word(word.unwrap_or(self.words.pause))
     }
 
-    fn move_over(&mut self, from: Node, to: Node) -> Result<(), ProofError> {
-        let cut = self.length;
-        self.piece(&way(from, to), from, to, Source::LeadIn)?;
-        self.jumps += self.length - cut;
-        self.length = cut;
+    fn move_over(&mut self, from: Node, to: Node) -> Proved {
+        let cut = self.made.length;
+        self.is_jump = true;
+        self.pieces(&[Piece {
+            segment: way(from, to),
+            from,
+            to,
+            source: Source::LeadIn,
+        }])?;
+        self.is_jump = false;
+        self.made.jumps += self.made.length - cut;
+        self.made.length = cut;
         Ok(())
     }
 
     /// The blocks count from the table's position.
-    fn moved_by_hand(&mut self, _: Node) -> Result<(), ProofError> {
+    fn moved_by_hand(&mut self, _: Node) -> Proved {
         Ok(())
     }
 }
 
 impl<'a> Blocks<'a> {
-    fn new(settings: &'a Effective, part: Option<Part>) -> Blocks<'a> {
+    fn new(
+        settings: &'a Effective,
+        part: Option<Part>,
+        notes: Option<&'a mut Notes>,
+    ) -> Blocks<'a> {
         Blocks {
             part,
+            notes,
+            is_jump: false,
             settings,
             words: Words {
                 pause: settings.pause.trim(),
                 end: settings.end.trim(),
             },
             out: Vec::new(),
-            blocks: 0,
-            length: 0.0,
-            jumps: 0.0,
+            made: ProvedProgram::default(),
             proof: Proof::default(),
-            encoded: Vec::new(),
         }
+    }
+
+    /// Reads lines back, compares them with the path, and notes what they do.
+    fn prove(&mut self, lines: &[Line]) -> Proved {
+        let (out, words) = (&self.out, &self.words);
+        let read = each(lines.len(), AT_A_TIME, |nth| {
+            let Line { range, block, part } = &lines[nth];
+            check_line(&out[range.clone()], range.start, words, block, *part)
+        });
+        for (line, read) in lines.iter().zip(read) {
+            let read = read.map_err(ProofError::Mismatch)?;
+            self.proof.deviation = self.proof.deviation.max(read.aside);
+            let Some(notes) = &mut self.notes else {
+                continue;
+            };
+            let start = notes.at();
+            let by = travel(&line.block.block).map_or(Vector::zeros(), |to| point_of(to).coords);
+            notes.four_b |= line.part.is_some();
+            notes.note(Step {
+                range: read.range,
+                line: 0,
+                number: read.number,
+                kind: match read.decoded {
+                    _ if self.is_jump => Kind::Rapid,
+                    Segment::Line(_) => Kind::Line,
+                    Segment::Arc(_) => Kind::Arc,
+                },
+                start,
+                end: start + by,
+                ideal: Some(read.decoded.moved(start - point_of(line.block.from))),
+                contour: 0,
+                side: None,
+                is_relative: true,
+            });
+        }
+        Ok(())
     }
 
     /// The additional part of an arc's 4B block, proved: the wire's arc has a radius, and the wire's path joins before
     /// it.
-    fn part_of(
-        &mut self,
-        encoded: &Encoded,
-        source: Source,
-    ) -> Result<Option<PartArc>, ProofError> {
+    fn part_of(&mut self, encoded: &Encoded, source: Source) -> Proved<Option<PartArc>> {
         let Some(part) = &mut self.part else {
             return Ok(None);
         };
@@ -296,7 +343,7 @@ impl<'a> Blocks<'a> {
         };
         let concave = is_concave(&arc, part.side);
         let radius = arc.radius.round();
-        if concave && radius <= part.correction {
+        if concave && is_tight_in_four_b(radius, part.correction) {
             return Err(ProofError::Refused(say!(
                 n4b_cannot_have_an_arc_inside_of_which_the_wire_runs,
                 radius / 1e3,
@@ -310,9 +357,20 @@ impl<'a> Blocks<'a> {
     }
 
     /// Writes a word between blocks, and reads it back: it comes from the settings.
-    fn push_word(&mut self, word: &str) -> Result<(), ProofError> {
+    fn push_word(&mut self, word: &str) -> Proved {
         let mut read = Vec::new();
         read_line(word.as_bytes(), 1, &self.words, |item| read.push(item));
+        if let Some(notes) = &mut self.notes {
+            let is_end = matches!(
+                read[..],
+                [Item::Word {
+                    word: Word::End,
+                    ..
+                }]
+            );
+            let start = self.out.len();
+            notes.stop(start..start + word.len(), notes.at(), is_end);
+        }
         let sound = matches!(read[..], [Item::Word { .. }])
             && word.bytes().all(|byte| byte.is_ascii_alphanumeric());
         if !sound {
@@ -328,21 +386,16 @@ impl<'a> Blocks<'a> {
     }
 
     /// `cuts` says that the paths hold more than thread holes.
-    fn finish(mut self, cuts: bool) -> Result<ProvedProgram, ProofError> {
-        if self.blocks == 0 && cuts {
+    fn finish(mut self, cuts: bool) -> Proved<ProvedProgram> {
+        if self.made.blocks == 0 && cuts {
             return Err(nothing_to_write());
         }
         self.push_word(self.words.end)?;
-        let text = String::from_utf8(self.out)
-            .map_err(|_| ProofError::Mismatch(say!(the_program_is_not_text).into()))?;
-        Ok(ProvedProgram {
-            text,
-            blocks: self.blocks,
-            length: self.length / 1000.0,
-            jumps: self.jumps / 1000.0,
+        let made = ProvedProgram {
             closure: [self.proof.drift.x, self.proof.drift.y],
             deviation: self.proof.deviation,
-            milled: None,
-        })
+            ..self.made
+        };
+        made.finished(self.out, 1.0)
     }
 }

@@ -1,7 +1,7 @@
 //! `textDocument/codeAction`: the fixes of findings, one action that makes every safe fix, and the refactorings of programs.
 
 use crate::document::{Document, Source};
-use crate::finding::{self, Edit, Finding, Keep, Place};
+use crate::finding::{Edit, Finding, Keep, Place};
 use crate::job::{self, Repairs};
 use crate::program;
 use crate::protocol::{self, FindingData, method};
@@ -57,7 +57,7 @@ fn actions(
                 convert::diagnostic(document, &finding, data, context.encoding, related_of);
             for (index, fix) in document.fixes(&finding).iter().enumerate() {
                 let action = CodeAction {
-                    title: finding::title(&fix.kind, unit_mm),
+                    title: fix.kind.title(unit_mm),
                     kind: Some(CodeActionKind::QUICKFIX),
                     diagnostics: convert::lsp_diagnostic(&diagnostic)
                         .map(|diagnostic| vec![diagnostic]),

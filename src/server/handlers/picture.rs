@@ -3,7 +3,7 @@
 
 use super::Task;
 use crate::drawing::{Drawing, DrawingEdit, Touched};
-use crate::finding::{self, Edit, Finding, Place};
+use crate::finding::{Edit, Finding, Place};
 use crate::job;
 use crate::picture::Image;
 use crate::protocol::{
@@ -65,7 +65,7 @@ pub(in crate::server) fn repairs(context: &RequestContext, asked: RepairsOf) -> 
             return None;
         };
         Some(Repair {
-            title: finding::title(&fix.kind, unit_mm),
+            title: fix.kind.title(unit_mm),
             segments: ghost(drawing, edit)?,
         })
     });

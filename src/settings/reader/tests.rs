@@ -163,6 +163,21 @@ fn a_misfit_is_named_with_its_place_and_the_other_keys_hold() {
         "correction is NaN, expected a number above 0",
     );
     check(
+        "program = { start-hole = 1e308 }",
+        "1e308",
+        "program.start-hole is 1e308, expected a number up to 1000000000000",
+    );
+    check(
+        "passes = { rates = [1e-300] }",
+        "1e-300",
+        "passes.rates[0] is 1e-300, expected a number of 0.000000000001 or above",
+    );
+    check(
+        "program = { entry = [0.5, -2e12] }",
+        "[0.5, -2e12]",
+        "program.entry is a list, expected a point [x, y] of numbers up to 1000000000000",
+    );
+    check(
         "correction = \"0.1\"",
         "\"0.1\"",
         "correction is \"0.1\", expected a number above 0",

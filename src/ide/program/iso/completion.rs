@@ -71,27 +71,21 @@ impl Typed {
     /// `None` in a comment.
     fn of(before: &[u8], start: usize) -> Option<Typed> {
         let mut last = None;
-        words(before, start.max(1), |token| last = Some(token));
+        words(before, start.max(1), |token, range| {
+            last = Some((token, range))
+        });
         // Counted from 1 in the first line, so that no byte order mark is looked for.
         let by = start.max(1) - start;
         let end = start + before.len();
+        let last = last.filter(|(_, range)| range.end - by == end);
         let (letter, number, begun) = match last {
-            Some(
-                Token::Comment { range }
-                | Token::Fault {
-                    fault: WordFault::OpenComment,
-                    range,
-                },
-            ) if range.end - by == end => return None,
-            Some(Token::Word {
-                letter,
-                number,
-                range,
-            }) if range.end - by == end => (Some(letter), Some(number), range.start - by),
-            Some(Token::Fault {
-                fault: WordFault::NoNumber { letter },
-                range,
-            }) if range.end - by == end => (Some(letter), None, range.start - by),
+            Some((Token::Comment | Token::Fault(WordFault::OpenComment), _)) => return None,
+            Some((Token::Word { letter, number }, range)) => {
+                (Some(letter), Some(number), range.start - by)
+            }
+            Some((Token::Fault(WordFault::NoNumber { letter }), range)) => {
+                (Some(letter), None, range.start - by)
+            }
             _ => (None, None, end),
         };
         let head = before.get(..begun - start)?.to_vec();
@@ -154,10 +148,8 @@ impl Offer<'_> {
         }
         for line in self.document.limits.lines() {
             let line = line.replace(['{', '}'], " ");
-            words(line.as_bytes(), 1, |token| {
-                if let Token::Word {
-                    letter: its, range, ..
-                } = token
+            words(line.as_bytes(), 1, |token, range| {
+                if let Token::Word { letter: its, .. } = token
                     && its == letter
                     && let Some(word) = line.get(range.start - 1..range.end - 1)
                 {

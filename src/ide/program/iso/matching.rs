@@ -16,20 +16,20 @@ pub(super) fn partner(document: &Document, offset: usize) -> Option<(Range<usize
     let range = text.line_range(line);
     let bytes = text.bytes().get(range.clone())?;
     let mut own = None;
-    words(bytes, range.start, |token| {
-        if let Token::Word { range, .. } | Token::Tape { range } = &token
+    words(bytes, range.start, |token, range| {
+        if matches!(token, Token::Word { .. } | Token::Tape)
             && range.start <= offset
             && offset <= range.end
             && (own.is_none() || offset < range.end)
         {
-            own = Some(token);
+            own = Some((token, range));
         }
     });
-    match own? {
+    let (token, range) = own?;
+    match token {
         Token::Word {
             letter: b'G',
             number,
-            range,
         } => match number.whole()? {
             40 => Some((
                 range,
@@ -45,7 +45,6 @@ pub(super) fn partner(document: &Document, offset: usize) -> Option<(Range<usize
         },
         Token::Word {
             letter: b'M' | b'P',
-            range,
             ..
         } => {
             let block = read_line(bytes, range.start, |_| {});
@@ -66,7 +65,7 @@ pub(super) fn partner(document: &Document, offset: usize) -> Option<(Range<usize
                 Some((range.clone(), label_in(document, line, called)?))
             })
         }
-        Token::Tape { range } => {
+        Token::Tape => {
             let other = (line..text.line_count())
                 .chain(0..line)
                 .find_map(|line| tape_in(document, line, &range))?;
@@ -113,10 +112,8 @@ fn tape_in(document: &Document, line: usize, besides: &Range<usize>) -> Option<R
     let bytes = document.text().bytes().get(range.clone())?;
     let mut found = None;
     if bytes.contains(&b'%') {
-        words(bytes, range.start, |token| {
-            if let Token::Tape { range } = token
-                && range != *besides
-            {
+        words(bytes, range.start, |token, range| {
+            if token == Token::Tape && range != *besides {
                 found.get_or_insert(range);
             }
         });

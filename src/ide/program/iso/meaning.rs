@@ -17,8 +17,8 @@ pub(crate) fn meaning(document: &Document, word: Range<usize>) -> Option<String>
     let range = text.line_range(line);
     let bytes = text.bytes().get(range.clone())?;
     let mut found = None;
-    words(bytes, range.start, |mut token| {
-        if token.range_mut().start == word.start {
+    words(bytes, range.start, |token, range| {
+        if range.start == word.start {
             found = Some(token);
         }
     });
@@ -31,7 +31,7 @@ pub(crate) fn meaning(document: &Document, word: Range<usize>) -> Option<String>
     };
     let of_table = |letter: u8| matches!(letter, b'D' | b'H');
     Some(match found? {
-        Token::Word { letter, number, .. } => {
+        Token::Word { letter, number } => {
             let word = about.word(letter, number);
             match about.row_of(letter, number) {
                 Some(row) => format!("{word}\n\n{row}"),
@@ -59,19 +59,19 @@ pub(crate) fn meaning(document: &Document, word: Range<usize>) -> Option<String>
             );
             say!(value_reckoned_from_others, shown, holds)
         }
-        Token::Corner { round, number, .. } => {
+        Token::Corner { round, number } => {
             let length = about.length_in(number, about.before.inch);
             match round {
                 true => say!(the_corner_is_rounded, shown, length),
                 false => say!(the_corner_is_chamfered, shown, length),
             }
         }
-        Token::Definition { .. } | Token::Sum { .. } | Token::Foreign { .. } => {
+        Token::Definition { .. } | Token::Sum { .. } | Token::Foreign => {
             say!(matter_of_the_machine, shown)
         }
-        Token::Tape { .. } => say!(begin_and_end_on_tape).into(),
-        Token::Skip { .. } => say!(block_that_may_be_left_out).into(),
-        Token::Comment { .. } | Token::Fault { .. } => return None,
+        Token::Tape => say!(begin_and_end_on_tape).into(),
+        Token::Skip => say!(block_that_may_be_left_out).into(),
+        Token::Comment | Token::Fault(_) => return None,
     })
 }
 

@@ -34,33 +34,28 @@ impl Language for Document {
 
     fn words(&self, line: &[u8], offset: usize) -> Vec<Part> {
         let mut parts = Vec::new();
-        words(line, 0, |token| {
+        words(line, 0, |token, range| {
             // Part of a word that is read all the same.
-            if let Token::Fault { range, .. } = &token
+            if let Token::Fault(_) = token
                 && parts
                     .last()
                     .is_some_and(|last: &Part| offset + range.start < last.range.end)
             {
                 return;
             }
-            let (kind, range) = match token {
-                Token::Word { letter, range, .. } => (
-                    match letter {
-                        b'N' | b'O' => WordKind::Number,
-                        b'G' => WordKind::Motion,
-                        b'M' | b'T' => WordKind::Stop,
-                        b'X' | b'Y' | b'I' | b'J' | b'R' | b'U' | b'V' => WordKind::Length,
-                        _ => WordKind::Setting,
-                    },
-                    range,
-                ),
-                Token::Corner { range, .. } => (WordKind::Length, range),
-                Token::Definition { range, .. }
-                | Token::Sum { range, .. }
-                | Token::Foreign { range } => (WordKind::Setting, range),
-                Token::Comment { range } => (WordKind::Comment, range),
-                Token::Tape { range } | Token::Skip { range } => (WordKind::Lead, range),
-                Token::Fault { range, .. } => (WordKind::Strange, range),
+            let kind = match token {
+                Token::Word { letter, .. } => match letter {
+                    b'N' | b'O' => WordKind::Number,
+                    b'G' => WordKind::Motion,
+                    b'M' | b'T' => WordKind::Stop,
+                    b'X' | b'Y' | b'I' | b'J' | b'R' | b'U' | b'V' => WordKind::Length,
+                    _ => WordKind::Setting,
+                },
+                Token::Corner { .. } => WordKind::Length,
+                Token::Definition { .. } | Token::Sum { .. } | Token::Foreign => WordKind::Setting,
+                Token::Comment => WordKind::Comment,
+                Token::Tape | Token::Skip => WordKind::Lead,
+                Token::Fault(_) => WordKind::Strange,
             };
             if !range.is_empty() {
                 parts.push(Part {

@@ -100,11 +100,10 @@ pub(super) fn line_of_row(document: &Document, letter: u8, index: u32) -> Option
 /// Hands each name of a line to `each`.
 fn each_in(line: &[u8], offset: usize, mut each: impl FnMut(Name, Range<usize>, Role)) {
     let call = read_line(line, offset, |_| {}).call;
-    words(line, offset, |token| match token {
+    words(line, offset, |token, range| match token {
         Token::Word {
             letter: b'N' | b'O',
             number,
-            range,
         } => {
             if let Some(number) = whole(number) {
                 each(Name::Line(number), range, Role::Defines);
@@ -113,33 +112,19 @@ fn each_in(line: &[u8], offset: usize, mut each: impl FnMut(Name, Range<usize>, 
         Token::Word {
             letter: b'P',
             number,
-            range,
         } => {
             if let Some(number) = whole(number).filter(|number| call == Some(*number)) {
                 each(Name::Line(number), range, Role::Uses);
             }
         }
-        Token::Word {
-            letter,
-            number,
-            range,
-        } if is_of_table(letter) => {
+        Token::Word { letter, number } if is_of_table(letter) => {
             if let Some(index) = whole(number) {
                 each(Name::Row { letter, index }, range, Role::Uses);
             }
         }
-        Token::Definition {
-            letter,
-            index,
-            range,
-            ..
-        }
-        | Token::Sum {
-            letter,
-            index,
-            range,
-            ..
-        } if is_of_table(letter) => {
+        Token::Definition { letter, index, .. } | Token::Sum { letter, index, .. }
+            if is_of_table(letter) =>
+        {
             let of_row = line.get(range.start - offset..range.end - offset);
             let Some((row, of_row)) = whole(index).zip(of_row) else {
                 return;

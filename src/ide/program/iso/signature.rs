@@ -43,17 +43,12 @@ pub(crate) fn signature(document: &Document, offset: usize) -> Option<Signature>
 fn word_before(bytes: &[u8], cursor: usize) -> Option<(u8, bool)> {
     let (mut last, mut is_comment) = (None, false);
     // Counted from 1 so that no byte order mark is looked for.
-    words(bytes, 1, |token| match token {
-        Token::Word { letter, range, .. }
-        | Token::Fault {
-            fault: WordFault::NoNumber { letter },
-            range,
-        } if range.start <= cursor => last = Some((letter, range.end > cursor)),
-        Token::Comment { range }
-        | Token::Fault {
-            fault: WordFault::OpenComment,
-            range,
-        } if range.start <= cursor => is_comment = range.end > cursor,
+    words(bytes, 1, |token, range| match token {
+        _ if range.start > cursor => {}
+        Token::Word { letter, .. } | Token::Fault(WordFault::NoNumber { letter }) => {
+            last = Some((letter, range.end > cursor))
+        }
+        Token::Comment | Token::Fault(WordFault::OpenComment) => is_comment = range.end > cursor,
         _ => {}
     });
     last.filter(|_| !is_comment)

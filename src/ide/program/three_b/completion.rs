@@ -239,12 +239,12 @@ fn beginnings(document: &Document, start: usize, offset: usize) -> Vec<Completio
     let word = |text: &str, about| Completion::new(text, about, &range, CompletionKind::Word);
     let mut found = Vec::new();
     let mut targets: Vec<(&'static str, Point)> = Vec::new();
-    if let Some(chain) = steps::chain_before(document, start)
-        && let Some(first) = chain.step(0)
+    if let Some(held) = steps::cut_before(document, start)
+        && let Some(first) = held.step(0)
     {
         targets.push((say!(line_back_to_the_start_of_the_contour), first.start));
         // Where the contour is closed, only the way out is left.
-        if chain.count() == 1 || !cut_of(&chain).is_some_and(|cut| cut.closed) {
+        if held.count() == 1 || !cut_of(&held).is_some_and(|cut| cut.closed) {
             targets.push((say!(line_to_the_end_of_the_lead_in), first.end));
         }
     }

@@ -6,8 +6,7 @@
 
 use super::Iso;
 use crate::program::iso::moves::{Bend, CenterRule, Reading};
-use crate::program::refactor::{Refactoring, Rewrite, Sheet};
-use crate::text::TextEdit;
+use crate::program::refactor::{Edits, Refactoring, Rewrite, Sheet};
 
 pub(super) const START_TO_CENTER: Refactoring<Iso> = Refactoring {
     id: "refactor.rewrite.centers.startToCenter",
@@ -25,7 +24,7 @@ pub(super) const ABSOLUTE: Refactoring<Iso> = Refactoring {
     rewrite: |sheet| converted(sheet, CenterRule::Absolute),
 };
 
-fn converted(sheet: &Sheet<'_, Iso>, rule: CenterRule) -> Result<Vec<TextEdit>, String> {
+fn converted(sheet: &Sheet<'_, Iso>, rule: CenterRule) -> Edits {
     let content = sheet.content()?;
     let old = sheet.document.reading();
     let with_center = |incremental: bool| {

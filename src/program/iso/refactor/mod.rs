@@ -21,9 +21,9 @@ use super::word::Token;
 use crate::finding::{Finding, Side};
 use crate::geometry::Arc;
 use crate::program::grid::{Node, best_center, snap};
-use crate::program::path::Trace;
+use crate::program::path::{Cut, Trace};
 use crate::program::refactor::{
-    Change, Content, Contour, Notation, Refactoring, Rewrite, Row, Sheet, Transform,
+    At, Change, Content, Edits, News, Notation, Refactoring, Rewrite, Row, Sheet, Transform,
 };
 use crate::settings::Effective;
 use crate::text::TextEdit;
@@ -54,7 +54,7 @@ impl Notation for Iso {
         document.plain_findings()
     }
 
-    fn rows(document: &Document, _: &Trace, _: &[Contour]) -> Result<Vec<Row<Iso>>, String> {
+    fn rows(document: &Document, _: &Trace, _: &[Cut]) -> Result<Vec<Row<Iso>>, String> {
         rows::rows(document)
     }
 
@@ -69,47 +69,33 @@ impl Notation for Iso {
         }
     }
 
-    fn kept(sheet: &Sheet<'_, Iso>, content: &Content<Iso>, row: usize, place: usize) -> Target {
+    fn kept(at: At<'_, Iso>, place: usize) -> Target {
         // The side depends on the place in the program.
         Target {
-            side: content.rows[place].own.made.side,
-            ..Target::of(&content.rows[row].own.made, sheet.document.reading())
+            side: at.content.rows[place].own.made.side,
+            ..Target::of(&at.own.made, at.sheet.document.reading())
         }
     }
 
-    fn reversed(
-        sheet: &Sheet<'_, Iso>,
-        content: &Content<Iso>,
-        row: usize,
-    ) -> Result<Vec<Target>, String> {
-        let made = content.rows[row].own.made;
+    fn reversed(at: At<'_, Iso>) -> News<Iso> {
+        let made = at.own.made;
         Ok(vec![Target {
             motion: made.motion.reversed(),
             to: made.from,
-            ..Target::of(&made, sheet.document.reading())
+            ..Target::of(&made, at.sheet.document.reading())
         }])
     }
 
-    fn straight(
-        sheet: &Sheet<'_, Iso>,
-        content: &Content<Iso>,
-        row: usize,
-        [_, to]: [Node; 2],
-    ) -> Result<Vec<Target>, String> {
+    fn straight(at: At<'_, Iso>, [_, to]: [Node; 2]) -> News<Iso> {
         Ok(vec![Target {
             to: place_of(to),
-            ..Iso::kept(sheet, content, row, row)
+            ..at.kept()
         }])
     }
 
-    fn transformed(
-        sheet: &Sheet<'_, Iso>,
-        content: &Content<Iso>,
-        row: usize,
-        transform: Transform,
-    ) -> Target {
+    fn transformed(at: At<'_, Iso>, transform: Transform) -> Target {
         let of_place = |place| place_of(transform.of_node(node_of(place)));
-        let kept = Iso::kept(sheet, content, row, row);
+        let kept = at.kept();
         let mirrors = transform.mirrors();
         Target {
             motion: if mirrors {
@@ -128,22 +114,15 @@ impl Notation for Iso {
         }
     }
 
-    fn scaled_node(_: &Sheet<'_, Iso>, row: &Row<Iso>, node: Node, factor: f64) -> Option<Node> {
+    fn scaled_node(row: &Row<Iso>, node: Node, factor: f64) -> Option<Node> {
         let style = row.own.style;
         let of_length = |length: i64| style.rounded((length as f64 * factor).round() as i64);
         Some(node_of(place_of(node).map(of_length)))
     }
 
-    fn scaled(
-        sheet: &Sheet<'_, Iso>,
-        content: &Content<Iso>,
-        row: usize,
-        [from, to]: [Node; 2],
-        factor: f64,
-    ) -> Result<Vec<Target>, String> {
-        let style = content.rows[row].own.style;
-        let old = Iso::kept(sheet, content, row, row);
-        let [from, to] = [from, to].map(place_of);
+    fn scaled(at: At<'_, Iso>, ends: [Node; 2], factor: f64) -> News<Iso> {
+        let (style, old) = (at.own.style, at.kept());
+        let [from, to] = ends.map(place_of);
         let bend = match old.bend {
             Bent::Line => Bent::Line,
             Bent::Radius(radius) => {
@@ -157,15 +136,15 @@ impl Notation for Iso {
         Ok(vec![Target { to, bend, ..old }])
     }
 
-    fn runs_on(sheet: &Sheet<'_, Iso>, content: &Content<Iso>, first: usize, row: usize) -> bool {
-        let (made, begun) = (content.rows[row].own.made, content.rows[first].own.made);
+    fn runs_on(at: At<'_, Iso>, first: usize) -> bool {
+        let (made, begun) = (at.own.made, at.content.rows[first].own.made);
         made.motion == Motion::Line
             && made.corner.is_none()
-            && (row == first
+            && (at.index == first
                 || made.switches.is_none()
                     && begun.switches.is_none()
                     && (made.side, made.offset) == (begun.side, begun.offset)
-                    && says_only_where(sheet.document, content.rows[row].line))
+                    && says_only_where(at.sheet.document, at.line))
     }
 
     fn is_in_inches(content: &Content<Iso>) -> bool {
@@ -179,22 +158,22 @@ impl Notation for Iso {
     fn turn_round(
         sheet: &Sheet<'_, Iso>,
         content: &Content<Iso>,
-        contour: &Contour,
+        contour: &Cut,
         own: Range<usize>,
         rewrite: &mut Rewrite<Iso>,
     ) -> Result<(), String> {
         // The correction's word is before the way in.
-        let before = contour.rows.start.checked_sub(1);
+        let before = contour.steps.start.checked_sub(1);
         let before = before.map_or(0, |row| content.rows[row].line + 1);
         let last = content.rows[own.end - 1].line;
         let words = swapped_sides(sheet.document, before..last + 1);
-        let mut of_contour = content.rows[contour.rows.clone()].iter();
+        let mut of_contour = content.rows[contour.steps.clone()].iter();
         if words.is_empty() && of_contour.any(|row| row.own.made.side.is_some()) {
             return Err(say!(the_correction_was_switched_on_for_another_contour).into());
         }
         rewrite.extra.words.extend(words);
-        for index in contour.rows.clone() {
-            let kept = || vec![Iso::kept(sheet, content, index, index)];
+        for index in contour.steps.clone() {
+            let kept = || vec![sheet.at(content, index).kept()];
             for target in rewrite.rows.entry(index).or_insert_with(kept) {
                 target.side = content.rows[index].own.made.side.map(Side::reversed);
             }
@@ -219,11 +198,7 @@ impl Notation for Iso {
         planes::scale(sheet.document, factor, &mut rewrite.extra.words)
     }
 
-    fn write(
-        sheet: &Sheet<'_, Iso>,
-        content: &Content<Iso>,
-        rewrite: &Rewrite<Iso>,
-    ) -> Result<Vec<TextEdit>, String> {
+    fn write(sheet: &Sheet<'_, Iso>, content: &Content<Iso>, rewrite: &Rewrite<Iso>) -> Edits {
         write::edits(sheet, content, rewrite)
     }
 
@@ -239,11 +214,11 @@ impl Notation for Iso {
         }
     }
 
-    fn numbered(document: &Document) -> Result<Vec<TextEdit>, String> {
+    fn numbered(document: &Document) -> Edits {
         numbers::numbered(document, 10)
     }
 
-    fn without_numbers(document: &Document) -> Result<Vec<TextEdit>, String> {
+    fn without_numbers(document: &Document) -> Edits {
         numbers::without_numbers(document)
     }
 
@@ -269,9 +244,9 @@ fn place_of(node: Node) -> Place {
 /// True where a line only has its number and target, and can be removed.
 fn says_only_where(document: &Document, line: usize) -> bool {
     let mut only = true;
-    words_in(document.line_bytes(line), |token| {
+    words_in(document.line_bytes(line), |token, _| {
         only &= match token {
-            Token::Word { letter, number, .. } => {
+            Token::Word { letter, number } => {
                 matches!(letter, b'N' | b'X' | b'Y') || letter == b'G' && number.whole() == Some(1)
             }
             _ => false,
@@ -308,7 +283,7 @@ fn fitting(ends: [Place; 2], center: Place, factor: f64, style: &Style) -> Optio
 }
 
 /// The position set by G92, scaled.
-fn positions(document: &Document, factor: f64) -> Result<Vec<TextEdit>, String> {
+fn positions(document: &Document, factor: f64) -> Edits {
     let text = document.text();
     let mut edits = Vec::new();
     for line in 0..text.line_count() {

@@ -10,7 +10,7 @@ use super::Iso;
 use crate::program::iso::moves::{CenterRule, Reading};
 use crate::program::iso::plain::words_at;
 use crate::program::iso::taper::{Words, refuse_anywhere};
-use crate::program::refactor::{Refactoring, Rewrite, Sheet};
+use crate::program::refactor::{Edits, Refactoring, Rewrite, Sheet};
 use crate::text::TextEdit;
 
 pub(super) const ABSOLUTE: Refactoring<Iso> = Refactoring {
@@ -24,7 +24,7 @@ pub(super) const INCREMENTAL: Refactoring<Iso> = Refactoring {
     rewrite: |sheet| converted(sheet, true),
 };
 
-fn converted(sheet: &Sheet<'_, Iso>, incremental: bool) -> Result<Vec<TextEdit>, String> {
+fn converted(sheet: &Sheet<'_, Iso>, incremental: bool) -> Edits {
     let content = sheet.content()?;
     if content
         .rows

@@ -22,10 +22,10 @@ pub(super) fn scale(
         let start = document.text().line_start(line);
         let mut has_planes = false;
         // Ranges count from 1: a byte order mark begins a text alone.
-        words(bytes, 1, |token| {
-            let Token::Foreign { range } = token else {
+        words(bytes, 1, |token, range| {
+            if token != Token::Foreign {
                 return;
-            };
+            }
             let word = bytes.get(range.start - 1..range.end - 1);
             let Some([b'T' | b't', b'P' | b'p' | b'N' | b'n', ..]) = word else {
                 return;
@@ -38,7 +38,7 @@ pub(super) fn scale(
             words(
                 word.and_then(|word| word.get(1..)).unwrap_or_default(),
                 1,
-                |token| {
+                |token, _| {
                     if let Token::Word { number, .. } = token {
                         let length = document.reading().length(number, inch) as f64 * factor;
                         let number = Style::of(document, inch).number(length.round() as i64);

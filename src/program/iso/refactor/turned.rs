@@ -42,13 +42,8 @@ fn line_words(
     let (mut fault, mut is_wait) = (None, false);
     // X and Y, I and J: place and text of the number without its sign.
     let mut pairs: [[Option<Turned>; 2]; 2] = Default::default();
-    words_in(line, |token| {
-        let Token::Word {
-            letter,
-            number,
-            range,
-        } = token
-        else {
+    words_in(line, |token, range| {
+        let Token::Word { letter, number } = token else {
             return;
         };
         let slot = match letter {

@@ -6,7 +6,7 @@ use crate::program::iso::layout::is_parted;
 use crate::program::iso::line::{Line, Target, prove, push_changed, with_word};
 use crate::program::iso::moves::Reading;
 use crate::program::iso::style::Style;
-use crate::program::refactor::{Content, Rewrite, Sheet};
+use crate::program::refactor::{Content, Edits, Rewrite, Sheet};
 use crate::text::{TextEdit, edited};
 
 /// Changes besides the moves.
@@ -25,7 +25,7 @@ pub(super) fn edits(
     sheet: &Sheet<'_, Iso>,
     content: &Content<Iso>,
     rewrite: &Rewrite<Iso>,
-) -> Result<Vec<TextEdit>, String> {
+) -> Edits {
     let Extra {
         words: all_words,
         reading,

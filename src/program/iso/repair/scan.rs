@@ -219,8 +219,8 @@ impl<'a> Way<'a> {
                 }
                 let end = self.ends[at]?;
                 let [from, to] = [end.from, end.to].map(|place| added(place, by));
-                let closing = closing(own, from, to, self.reading);
-                Some(whole.plus(closing).minus(end.cost))
+                let open = against_end(own, from, to, self.reading);
+                Some(whole.plus(open).minus(end.cost))
             }
             _ => None,
         }
@@ -415,14 +415,15 @@ impl Scan {
         self.said = None;
         let cut = cut?;
         let (from, to) = (cut.last.from, cut.last.to);
-        let cost = closing(&cut, from, to, reading);
+        let cost = against_end(&cut, from, to, reading);
         self.against = self.against.plus(cost);
         Some(End { from, to, cost })
     }
 }
 
-/// The evidence against the closing of a cut that ends with a move.
-fn closing(cut: &CutUnderWay, from: Place, to: Place, reading: &Reading) -> Against {
+/// The evidence against a cut that ends with a move. Whether it closes in the end is asked of [`crate::program::path`];
+/// this weighs thousands of ways by their ends alone, the way out before the thread hole among them.
+fn against_end(cut: &CutUnderWay, from: Place, to: Place, reading: &Reading) -> Against {
     if !cut.whole {
         return Against::default();
     }

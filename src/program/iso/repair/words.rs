@@ -158,32 +158,30 @@ impl Words<'_> {
     /// Slips within the words.
     fn of_tokens(&mut self) {
         let mut tokens = Vec::new();
-        words_in(self.bytes, |token| tokens.push(token));
+        words_in(self.bytes, |token, range| tokens.push((token, range)));
         // Where each letter stands, the last one first.
         let mut places: FxHashMap<u8, Vec<Range<usize>>> = FxHashMap::default();
         let (mut motion, mut twice) = (None, None);
-        for token in &tokens {
+        for (token, range) in tokens {
             match token {
                 Token::Word {
                     letter: letter @ (b'X' | b'Y' | b'I' | b'J' | b'R'),
                     number,
-                    range,
                 } => {
-                    self.of_number(*letter, *number, range.clone());
-                    let known = places.entry(*letter).or_default();
+                    self.of_number(letter, number, range.clone());
+                    let known = places.entry(letter).or_default();
                     if !known.is_empty() {
-                        twice = Some(*letter);
+                        twice = Some(letter);
                     }
-                    known.insert(0, range.clone());
+                    known.insert(0, range);
                 }
                 Token::Word {
                     letter: b'G',
                     number,
-                    range,
                 } if number.decimals == 0 && (0..=3).contains(&number.mantissa) => {
-                    motion = Some((number.mantissa, range.clone()));
+                    motion = Some((number.mantissa, range));
                 }
-                Token::Fault { fault, range } => self.of_fault(*fault, range.clone()),
+                Token::Fault(fault) => self.of_fault(fault, range),
                 _ => {}
             }
         }
@@ -347,12 +345,8 @@ impl Words<'_> {
         }
         let meant = format!("{}{}", letter as char, style.number(length));
         let mut places = Vec::new();
-        words_in(self.bytes, |token| {
-            if let Token::Word {
-                letter,
-                number,
-                range,
-            } = token
+        words_in(self.bytes, |token, range| {
+            if let Token::Word { letter, number } = token
                 && matches!(letter, b'X' | b'Y' | b'I' | b'J' | b'G' | b'N')
             {
                 places.push((letter, number, range));
@@ -426,13 +420,12 @@ fn solved(made: &Move, center: Place, axis: usize) -> Option<i64> {
 
 fn number_of(text: &str) -> Option<Number> {
     let mut found = None;
-    words_in(format!("X{text}").as_bytes(), |token| {
+    words_in(format!("X{text}").as_bytes(), |token, range| {
         found = match (token, found) {
             (
                 Token::Word {
                     letter: b'X',
                     number,
-                    range,
                 },
                 None,
             ) if range.len() == text.len() + 1 => Some(Some(number)),

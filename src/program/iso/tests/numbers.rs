@@ -6,20 +6,19 @@ use super::*;
 fn words_have_their_numbers_and_places() {
     let tokens = |line: &str| {
         let mut tokens = Vec::new();
-        words(line.as_bytes(), 10, |token| tokens.push(token));
+        words(line.as_bytes(), 10, |token, range| {
+            tokens.push((token, range))
+        });
         tokens
     };
     let word =
         |letter: u8, mantissa: i64, decimals: u8, point: bool, range: std::ops::Range<usize>| {
-            Token::Word {
-                letter,
-                number: Number {
-                    mantissa,
-                    decimals,
-                    point,
-                },
-                range,
-            }
+            let number = Number {
+                mantissa,
+                decimals,
+                point,
+            };
+            (Token::Word { letter, number }, range)
         };
     assert_eq!(
         tokens("g01X-1.50y +.5 (up) Z2. ; rest"),
@@ -27,24 +26,23 @@ fn words_have_their_numbers_and_places() {
             word(b'G', 1, 0, false, 10..13),
             word(b'X', -150, 2, true, 13..19),
             word(b'Y', 5, 1, true, 19..24),
-            Token::Comment { range: 25..29 },
+            (Token::Comment, 25..29),
             word(b'Z', 2, 0, true, 30..33),
-            Token::Comment { range: 34..40 },
+            (Token::Comment, 34..40),
         ]
     );
-    let definition = |index: i64, value: Option<i64>, range| Token::Definition {
-        letter: b'H',
-        index: Number {
-            mantissa: index,
-            decimals: 0,
-            point: false,
-        },
-        value: value.map(|mantissa| Number {
+    let definition = |index: i64, value: Option<i64>, range| {
+        let number = |mantissa| Number {
             mantissa,
             decimals: 0,
             point: false,
-        }),
-        range,
+        };
+        let token = Token::Definition {
+            letter: b'H',
+            index: number(index),
+            value: value.map(number),
+        };
+        (token, range)
     };
     assert_eq!(
         tokens("H001=110  H002 = +105 "),
@@ -60,7 +58,7 @@ fn words_have_their_numbers_and_places() {
             word(b'G', 40, 0, false, 18..21)
         ]
     );
-    let fault = |fault, range| Token::Fault { fault, range };
+    let fault = |fault, range| (Token::Fault(fault), range);
     assert_eq!(
         tokens("X Y1"),
         [
@@ -86,7 +84,7 @@ fn words_have_their_numbers_and_places() {
     assert_eq!(
         tokens("(a(b)c) (open"),
         [
-            Token::Comment { range: 10..17 },
+            (Token::Comment, 10..17),
             fault(WordFault::OpenComment, 18..23)
         ]
     );
@@ -94,7 +92,7 @@ fn words_have_their_numbers_and_places() {
         tokens("X#101 STOP"),
         [
             fault(WordFault::Expression { letter: b'X' }, 10..15),
-            Token::Foreign { range: 16..20 }
+            (Token::Foreign, 16..20)
         ]
     );
     assert_eq!(tokens("é"), [fault(WordFault::NoWord, 10..12)]);
@@ -106,7 +104,7 @@ fn words_have_their_numbers_and_places() {
             word(b'N', 1, 0, false, 16..18)
         ]
     );
-    assert_eq!(tokens(": G01 X1"), [Token::Foreign { range: 10..18 }]);
+    assert_eq!(tokens(": G01 X1"), [(Token::Foreign, 10..18)]);
 }
 
 #[test]

@@ -12,10 +12,7 @@ pub(super) fn fixed(text: &str, rule: &str, title: &str) -> String {
         .find(|finding| finding.rule.name() == rule)
         .unwrap_or_else(|| panic!("no {rule} in {text}"));
     let fixes = document.fixes(&finding);
-    let titles: Vec<String> = fixes
-        .iter()
-        .map(|fix| finding::title(&fix.kind, 1.0))
-        .collect();
+    let titles: Vec<String> = fixes.iter().map(|fix| fix.kind.title(1.0)).collect();
     let index = titles
         .iter()
         .position(|its| its.starts_with(title))
@@ -161,7 +158,9 @@ fn no_line_is_offered_where_what_follows_would_be_cut_otherwise() {
             .find(|finding| finding.rule.name() == "not-closed")
             .expect(&text);
         let is_close = |fix: &finding::TextFix| {
-            finding::title(&fix.kind, 1.0).starts_with("Close the contour with a line")
+            fix.kind
+                .title(1.0)
+                .starts_with("Close the contour with a line")
         };
         assert_eq!(
             document.fixes(&finding).iter().any(is_close),

@@ -6,12 +6,20 @@ use crate::program::encode::ASIDE_TOLERANCE;
 use crate::program::grid::{largest_distance, point_of};
 use crate::program::iso::encode::Encoded;
 use crate::program::iso::moves::{Course, Move, Place, micrometres};
-use crate::program::write::{ProofError, scaled};
+use crate::program::write::{ProofError, Proved, scaled};
+
+/// A line that was read back and is as it should be.
+pub(super) struct Checked {
+    pub(super) made: Move,
+    /// Its line or arc, µm.
+    pub(super) decoded: Segment,
+    /// Its largest distance from its piece of the path, µm.
+    pub(super) aside: f64,
+}
 
 impl Lines<'_> {
-    /// Compares the control's move for the line with the node and the piece of the path; returns the largest distance,
-    /// µm.
-    pub(super) fn check(&self, step: &Encoded, made: Option<Move>) -> Result<f64, ProofError> {
+    /// Compares the control's move for the line with the node and the piece of the path.
+    pub(super) fn check(&self, step: &Encoded, made: Option<Move>) -> Proved<Checked> {
         let Some(made) = made else {
             return Err(ProofError::Mismatch(say!(
                 a_written_move_does_not_move,
@@ -59,6 +67,10 @@ impl Lines<'_> {
                 aside.max(middles)
             )));
         }
-        Ok(aside)
+        Ok(Checked {
+            made,
+            decoded,
+            aside,
+        })
     }
 }

@@ -82,13 +82,9 @@ impl Document {
         let mut cut: Option<JoinedCut> = None;
         let (mut stretch, mut index) = start;
         while let Some(of) = self.stretches.get(stretch) {
+            let at = |entry: usize| At { stretch, entry };
             for (nth, part) in of.parts.iter().enumerate().skip(index) {
-                if end.is_some_and(|end| {
-                    end < At {
-                        stretch,
-                        entry: part.entries().start,
-                    }
-                }) {
+                if end.is_some_and(|end| end < at(part.entries().start)) {
                     return cut;
                 }
                 let own = cut.get_or_insert(JoinedCut {
@@ -102,11 +98,7 @@ impl Document {
                 own.parts[1] = (stretch, nth);
                 own.sum = own.sum.then(&of.sum(part));
                 if part.word.is_some() {
-                    let is_end = end
-                        == Some(At {
-                            stretch,
-                            entry: part.entries().end,
-                        });
+                    let is_end = end == Some(at(part.entries().end));
                     own.is_jump = start != (0, 0)
                         && self.is_behind_word(start)
                         && !is_end

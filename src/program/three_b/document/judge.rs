@@ -12,7 +12,7 @@ use crate::finding::{Axis, Detail, Fault, Finding, Rule, Severity};
 use crate::geometry::{Bounds, Vector};
 use crate::program::chunks::Reread;
 use crate::program::path::{
-    BehindStops, Ends, HasCuts, Known, Way, absurd_size, goes_on, tolerance,
+    BehindStops, Ends, HasCuts, Known, KnownTabs, Way, absurd_size, goes_on, tolerance,
 };
 use std::borrow::Cow;
 use std::ops::Range;
@@ -60,6 +60,10 @@ impl BehindStops for OpenCuts<'_> {
         })
     }
 
+    fn last_mark(&self) -> u64 {
+        self.document.mark(&self.cuts[self.cuts.len() - 1])
+    }
+
     fn last_stands_alone(&self) -> bool {
         let last = &self.cuts[self.cuts.len() - 1];
         last.sum.blocks > 0 && (last.is_jump || self.document.is_closed(last))
@@ -84,7 +88,7 @@ impl Document {
         let off = self.off_positions();
         view.taken = self.taken(&view, &off);
         view.begins = self.begins(&view.taken);
-        self.judge_contours(&mut view);
+        self.judge_contours(&mut view, &mut known.tabs);
         self.judge_joints(&mut view);
         self.judge_crossings(&mut view, known, clean);
         self.judge_end(&mut view);
@@ -123,7 +127,7 @@ impl Document {
 
     /// `not-closed`, and the block to blame where that is plain. A contour that stops before its tab goes on behind the
     /// stop.
-    fn judge_contours(&self, view: &mut View) {
+    fn judge_contours(&self, view: &mut View, known: &mut KnownTabs) {
         let is_open = |cut: &JoinedCut| !cut.is_jump && !self.goes_round(cut);
         let mut candidates: Vec<JoinedCut> = self
             .inner_cuts(view.end, |stretch| &stretch.open)
@@ -163,7 +167,7 @@ impl Document {
             if is_empty || self.ends_open(view, &cut) {
                 continue;
             }
-            match self.goes_on(view, &cut) {
+            match self.goes_on(view, &cut, known) {
                 Some(goes_on) => {
                     view.tabs.extend(goes_on.begins);
                     view.held.extend(goes_on.held);
@@ -194,7 +198,7 @@ impl Document {
 
     /// The continuation of an open cut behind a stop: a tab, or blocks that return to the start together, in whatever
     /// order they are cut. `None` where there is none.
-    fn goes_on(&self, view: &View, cut: &JoinedCut) -> Option<GoesOn> {
+    fn goes_on(&self, view: &View, cut: &JoinedCut, known: &mut KnownTabs) -> Option<GoesOn> {
         let mut open = OpenCuts {
             document: self,
             end: view.end,
@@ -202,7 +206,7 @@ impl Document {
             wholes: vec![cut.clone()],
             begins: Vec::new(),
         };
-        let is_tab = goes_on(&mut open)?;
+        let is_tab = goes_on(&mut open, known)?;
         let whole = open.wholes.pop()?;
         Some(GoesOn {
             begins: open.begins,

@@ -134,16 +134,15 @@ impl Document {
         let (mut compared, mut ordinal) = (0, 0);
         let mut off: Vec<OffPosition> = Vec::new();
         for (stretch, of) in self.stretches.iter().enumerate() {
-            let positions = &of.positions;
+            let (positions, at) = (&of.positions, |entry: usize| At { stretch, entry });
             if let (Some(before), Some((entry, stated, travel))) = (&anchor, &positions.first) {
                 compared += 1;
-                let entry = *entry;
                 let by = position_mismatch::mismatch(before, travel, stated);
-                off.extend(by.map(|by| (ordinal, At { stretch, entry }, by)));
+                off.extend(by.map(|by| (ordinal, at(*entry), by)));
             }
             compared += positions.compared;
             let own = positions.off.iter();
-            off.extend(own.map(|&(nth, entry, by)| (ordinal + nth, At { stretch, entry }, by)));
+            off.extend(own.map(|(nth, entry, by)| (ordinal + nth, at(*entry), *by)));
             ordinal += of.blocks;
             anchor = positions.anchor.unwrap_or(anchor);
         }
@@ -232,10 +231,8 @@ impl Document {
             });
             before = (!goes_back).then_some((ordinal, [x, y]));
             if !goes_back {
-                view.findings.push(Finding::of(
-                    Fault::PositionMismatch { x, y },
-                    self.range_of(at),
-                ));
+                let fault = Fault::PositionMismatch { x, y };
+                view.findings.push(Finding::of(fault, self.range_of(at)));
             }
         }
     }

@@ -14,7 +14,8 @@ use super::{ThreeB, refuse_four_b};
 use crate::drawing::{self, Drawing, Entity, Geometry, Outline, Role, Unit, Vertex};
 use crate::geometry::Segment;
 use crate::program::grid::{Node, point_of, snap};
-use crate::program::refactor::{Content, Contour, Refactoring, Sheet};
+use crate::program::path::Cut;
+use crate::program::refactor::{Content, Edits, Refactoring, Sheet};
 use crate::program::three_b::layout::push_start_point;
 use crate::program::three_b::write;
 use crate::settings::{Compensation, Direction, Effective, Layout, PointSetting};
@@ -33,7 +34,7 @@ pub(super) const PUNCH: Refactoring<ThreeB> = Refactoring {
     rewrite: |sheet| corrected(sheet, Role::Punch),
 };
 
-fn corrected(sheet: &Sheet<'_, ThreeB>, role: Role) -> Result<Vec<TextEdit>, String> {
+fn corrected(sheet: &Sheet<'_, ThreeB>, role: Role) -> Edits {
     let content = sheet.content()?;
     refuse_four_b(content)?;
     let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
@@ -44,13 +45,16 @@ fn corrected(sheet: &Sheet<'_, ThreeB>, role: Role) -> Result<Vec<TextEdit>, Str
         if !contour.closed {
             return Err(say!(
                 the_contour_is_open_and_the_side_of_the_wire_unknown,
-                contour.ordinal
+                contour.contour
             ));
         }
-        let handle = contour.ordinal.to_string();
-        let first = contour.own_rows().start;
+        let handle = contour.contour.to_string();
+        let first = contour.contour_steps().start;
         entries.insert(handle.clone(), in_mm(content.rows[first].from));
-        threads.insert(handle.clone(), in_mm(content.rows[contour.rows.start].from));
+        threads.insert(
+            handle.clone(),
+            in_mm(content.rows[contour.steps.start].from),
+        );
         let geometry = geometry(content, contour);
         let id = drawing.push(Entity {
             handle: handle.into(),
@@ -102,7 +106,7 @@ fn replaced(
     content: &Content<ThreeB>,
     program: &str,
     begin: Option<Node>,
-) -> Result<Vec<TextEdit>, String> {
+) -> Edits {
     let text = sheet.document.text();
     let first = content
         .rows
@@ -139,8 +143,8 @@ fn replaced(
     Ok(edits)
 }
 
-fn geometry(content: &Content<ThreeB>, contour: &Contour) -> Geometry {
-    let own = &content.rows[contour.own_rows()];
+fn geometry(content: &Content<ThreeB>, contour: &Cut) -> Geometry {
+    let own = &content.rows[contour.contour_steps()];
     if let [row] = own
         && let Segment::Arc(arc) = row.piece
     {

@@ -5,10 +5,9 @@
 //! ```
 
 use super::ThreeB;
-use crate::program::refactor::{Refactoring, Sheet};
+use crate::program::refactor::{Edits, Refactoring, Sheet};
 use crate::program::three_b::format::format;
 use crate::settings::Layout;
-use crate::text::TextEdit;
 
 pub(super) const COMPACT: Refactoring<ThreeB> = Refactoring {
     id: "refactor.rewrite.layout.compact",
@@ -26,7 +25,7 @@ pub(super) const CHECKING: Refactoring<ThreeB> = Refactoring {
     rewrite: |sheet| laid_out(sheet, Layout::Checking),
 };
 
-fn laid_out(sheet: &Sheet<'_, ThreeB>, layout: Layout) -> Result<Vec<TextEdit>, String> {
+fn laid_out(sheet: &Sheet<'_, ThreeB>, layout: Layout) -> Edits {
     let text = sheet.document.text();
     Ok(format(
         text,

@@ -20,9 +20,9 @@ use crate::finding::Finding;
 use crate::geometry::{Arc, Segment};
 use crate::program::encode::aside;
 use crate::program::grid::Node;
-use crate::program::path::Trace;
+use crate::program::path::{Cut, Trace};
 use crate::program::refactor::{
-    Change, Content, Contour, Notation, Refactoring, Rewrite, Row, Sheet, Transform,
+    At, Change, Content, Edits, News, Notation, Refactoring, Rewrite, Row, Sheet, Transform,
 };
 use crate::program::write::scaled;
 use crate::settings::Effective;
@@ -68,7 +68,7 @@ impl Notation for ThreeB {
     fn rows(
         document: &Document,
         trace: &Trace,
-        contours: &[Contour],
+        contours: &[Cut],
     ) -> Result<Vec<Row<ThreeB>>, String> {
         rows::rows(document, trace, contours)
     }
@@ -80,34 +80,28 @@ impl Notation for ThreeB {
         }
     }
 
-    fn kept(_: &Sheet<'_, ThreeB>, content: &Content<ThreeB>, index: usize, _: usize) -> New {
-        let row = &content.rows[index];
+    fn kept(at: At<'_, ThreeB>, _: usize) -> New {
         New {
             encoded: Encoded {
-                block: row.own.block,
-                from: row.from,
-                to: row.to,
-                piece: row.piece,
+                block: at.own.block,
+                from: at.from,
+                to: at.to,
+                piece: at.piece,
             },
-            part: row.own.part,
-            source: index,
+            part: at.own.part,
+            source: at.index,
             exact: true,
         }
     }
 
-    fn reversed(
-        sheet: &Sheet<'_, ThreeB>,
-        content: &Content<ThreeB>,
-        index: usize,
-    ) -> Result<Vec<New>, String> {
-        let row = &content.rows[index];
-        let (piece, ends) = (row.piece.reversed(), [row.to, row.from]);
-        let Motion::Line(quadrant) = row.own.block.motion else {
-            return encoded(sheet, &piece, ends, row.own.part, index);
+    fn reversed(at: At<'_, ThreeB>) -> News<ThreeB> {
+        let (piece, ends) = (at.piece.reversed(), [at.to, at.from]);
+        let Motion::Line(quadrant) = at.own.block.motion else {
+            return encoded(at, &piece, ends, at.own.part);
         };
         // The same numbers into the opposite quadrant.
         let opposite = Quadrant::ALL[(quadrant as usize + 2) % 4];
-        let mut new = ThreeB::kept(sheet, content, index, index);
+        let mut new = at.kept();
         let [from, to] = ends;
         new.encoded = Encoded {
             from,
@@ -119,23 +113,13 @@ impl Notation for ThreeB {
         Ok(vec![new])
     }
 
-    fn straight(
-        sheet: &Sheet<'_, ThreeB>,
-        _: &Content<ThreeB>,
-        index: usize,
-        ends: [Node; 2],
-    ) -> Result<Vec<New>, String> {
+    fn straight(at: At<'_, ThreeB>, ends: [Node; 2]) -> News<ThreeB> {
         let [start, end] = ends.map(point_of);
-        encoded(sheet, &Segment::line(start, end), ends, None, index)
+        encoded(at, &Segment::line(start, end), ends, None)
     }
 
-    fn transformed(
-        sheet: &Sheet<'_, ThreeB>,
-        content: &Content<ThreeB>,
-        index: usize,
-        transform: Transform,
-    ) -> New {
-        let kept = ThreeB::kept(sheet, content, index, index);
+    fn transformed(at: At<'_, ThreeB>, transform: Transform) -> New {
+        let kept = at.kept();
         let Encoded {
             block,
             from,
@@ -153,31 +137,18 @@ impl Notation for ThreeB {
         }
     }
 
-    fn scaled_node(
-        _: &Sheet<'_, ThreeB>,
-        _: &Row<ThreeB>,
-        node: Node,
-        factor: f64,
-    ) -> Option<Node> {
+    fn scaled_node(_: &Row<ThreeB>, node: Node, factor: f64) -> Option<Node> {
         snap(point_of(node) * factor)
     }
 
-    fn scaled(
-        sheet: &Sheet<'_, ThreeB>,
-        content: &Content<ThreeB>,
-        index: usize,
-        ends: [Node; 2],
-        factor: f64,
-    ) -> Result<Vec<New>, String> {
-        let piece = scaled(&content.rows[index].piece, factor);
-        encoded(sheet, &piece, ends, None, index)
+    fn scaled(at: At<'_, ThreeB>, ends: [Node; 2], factor: f64) -> News<ThreeB> {
+        encoded(at, &scaled(&at.piece, factor), ends, None)
     }
 
-    fn runs_on(_: &Sheet<'_, ThreeB>, content: &Content<ThreeB>, first: usize, row: usize) -> bool {
-        let own = &content.rows[row].own;
-        matches!(own.block.motion, Motion::Line(_))
-            && own.part.is_none()
-            && (row == first || own.comment.is_none())
+    fn runs_on(at: At<'_, ThreeB>, first: usize) -> bool {
+        matches!(at.own.block.motion, Motion::Line(_))
+            && at.own.part.is_none()
+            && (at.index == first || at.own.comment.is_none())
     }
 
     fn longest(settings: &Effective) -> i64 {
@@ -188,7 +159,7 @@ impl Notation for ThreeB {
         sheet: &Sheet<'_, ThreeB>,
         content: &Content<ThreeB>,
         rewrite: &Rewrite<ThreeB>,
-    ) -> Result<Vec<TextEdit>, String> {
+    ) -> Edits {
         slot::edits(sheet, content, rewrite)
     }
 
@@ -230,11 +201,11 @@ impl Notation for ThreeB {
         }
     }
 
-    fn numbered(document: &Document) -> Result<Vec<TextEdit>, String> {
+    fn numbered(document: &Document) -> Edits {
         Ok(numbers::numbered(document))
     }
 
-    fn without_numbers(document: &Document) -> Result<Vec<TextEdit>, String> {
+    fn without_numbers(document: &Document) -> Edits {
         Ok(numbers::without_numbers(document))
     }
 
@@ -258,21 +229,20 @@ fn refuse_four_b(content: &Content<ThreeB>) -> Result<(), String> {
     }
 }
 
-/// The blocks of a piece between two nodes, for the row `source`; no number is above the largest.
+/// The blocks of a piece between two nodes, for a row; no number is above the largest.
 fn encoded(
-    sheet: &Sheet<'_, ThreeB>,
+    at: At<'_, ThreeB>,
     piece: &Segment,
     [from, to]: [Node; 2],
     part: Option<PartArc>,
-    source: usize,
-) -> Result<Vec<New>, String> {
-    let (mut blocks, largest) = (Vec::new(), sheet.document.largest());
+) -> News<ThreeB> {
+    let (mut blocks, largest) = (Vec::new(), at.sheet.document.largest());
     encode(&fitted(piece, from, to), from, to, largest, &mut blocks)
         .ok_or_else(|| say!(no_blocks_within_tolerance_lead_from_to, from, to))?;
     let new = |encoded| New {
         encoded,
         part,
-        source,
+        source: at.index,
         exact: false,
     };
     Ok(blocks.into_iter().map(new).collect())

@@ -2,8 +2,8 @@
 
 use super::ThreeB;
 use crate::geometry::{Point, Segment, Vector};
-use crate::program::path::{Kind, Trace};
-use crate::program::refactor::{Contour, Row};
+use crate::program::path::{Cut, Kind, Trace};
+use crate::program::refactor::Row;
 use crate::program::three_b::Document;
 use crate::program::three_b::block::{Block, Node, PartArc};
 use crate::program::three_b::encode::{point_of, snap};
@@ -31,7 +31,7 @@ pub(in crate::program) struct Own {
 pub(super) fn rows(
     document: &Document,
     trace: &Trace,
-    contours: &[Contour],
+    contours: &[Cut],
 ) -> Result<Vec<Row<ThreeB>>, String> {
     let text = document.text();
     let words = document.words();
@@ -130,7 +130,7 @@ type Way = (Point, Point, Segment);
 
 /// The nodes of each row on the µm grid, from and to. Contours close exactly: the drift of their arcs is taken back arc
 /// by arc.
-fn nodes(pieces: &[Way], contours: &[Contour]) -> Result<Vec<(Node, Node)>, String> {
+fn nodes(pieces: &[Way], contours: &[Cut]) -> Result<Vec<(Node, Node)>, String> {
     let node = |point: Point| {
         snap(point).ok_or_else(|| say!(the_path_runs_too_far_out_for_a_program).to_owned())
     };
@@ -139,7 +139,7 @@ fn nodes(pieces: &[Way], contours: &[Contour]) -> Result<Vec<(Node, Node)>, Stri
     // What has been taken back so far.
     let mut shift = Vector::zeros();
     for contour in contours {
-        let own = contour.own_rows();
+        let own = contour.contour_steps();
         let rows = pieces.get(own.clone()).unwrap_or_default();
         let drift = match (rows.first(), rows.last()) {
             (Some(first), Some(last)) if contour.closed => last.1 - first.0,
@@ -147,7 +147,7 @@ fn nodes(pieces: &[Way], contours: &[Contour]) -> Result<Vec<(Node, Node)>, Stri
         };
         let arcs = rows.iter().filter(|row| is_arc(row)).count().max(1) as f64;
         let (before, mut passed) = (shift, 0.0);
-        for index in contour.rows.clone() {
+        for index in contour.steps.clone() {
             let Some(row) = pieces.get(index) else { break };
             let from = node(row.0 - rounded(shift))?;
             if own.contains(&index) && is_arc(row) {

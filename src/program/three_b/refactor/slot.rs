@@ -2,7 +2,7 @@
 
 use super::{New, ThreeB};
 use crate::program::grid::Node;
-use crate::program::refactor::{Content, Rewrite, Sheet};
+use crate::program::refactor::{Content, Edits, Rewrite, Sheet};
 use crate::program::three_b::layout::{
     push_end_point, push_fields, push_start_point, push_to_comment_column,
 };
@@ -14,7 +14,7 @@ pub(super) fn edits(
     sheet: &Sheet<'_, ThreeB>,
     content: &Content<ThreeB>,
     rewrite: &Rewrite<ThreeB>,
-) -> Result<Vec<TextEdit>, String> {
+) -> Edits {
     let text = sheet.document.text();
     let mut edits = Vec::new();
     if let (Some(start), Some(header)) = (rewrite.start, sheet.document.header()) {

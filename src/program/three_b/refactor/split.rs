@@ -6,8 +6,7 @@
 //! ```
 
 use super::{ThreeB, encoded};
-use crate::program::refactor::{Refactoring, Rewrite, Sheet};
-use crate::text::TextEdit;
+use crate::program::refactor::{Edits, Refactoring, Rewrite, Sheet};
 
 pub(super) const SPLIT: Refactoring<ThreeB> = Refactoring {
     id: "refactor.rewrite.split",
@@ -15,12 +14,12 @@ pub(super) const SPLIT: Refactoring<ThreeB> = Refactoring {
     rewrite: split,
 };
 
-fn split(sheet: &Sheet<'_, ThreeB>) -> Result<Vec<TextEdit>, String> {
+fn split(sheet: &Sheet<'_, ThreeB>) -> Edits {
     let content = sheet.content()?;
     let largest = sheet.settings.largest_number();
     let mut rewrite = Rewrite::new();
     for index in sheet.selected_rows(content) {
-        let row = &content.rows[index];
+        let row = sheet.at(content, index);
         let block = &row.own.block;
         if block.x.max(block.y).max(block.j) <= largest {
             continue;
@@ -28,7 +27,7 @@ fn split(sheet: &Sheet<'_, ThreeB>) -> Result<Vec<TextEdit>, String> {
         if row.own.part.is_some() {
             return Err(say!(a_4b_block_cannot_be_calculated_anew, row.line + 1));
         }
-        let news = encoded(sheet, &row.piece, [row.from, row.to], None, index)?;
+        let news = encoded(row, &row.piece, [row.from, row.to], None)?;
         rewrite.rows.insert(index, news);
     }
     rewrite.edits(sheet, content)

@@ -23,6 +23,7 @@ pub(super) mod position_mismatch;
 pub(super) mod text_after_end;
 
 use super::block::{Block, Motion, PartArc};
+use super::fault::{Flaw, SyntaxFault};
 use super::fields::Fields;
 use crate::finding::{Detail, Fault, Fix, FixKind, Rule};
 use crate::settings::{Compensation, Effective, SideSetting};
@@ -125,12 +126,28 @@ pub(super) struct Observation {
 }
 
 impl Observation {
-    fn at(spot: Spot, fault: Fault) -> Observation {
+    pub(crate) fn at(spot: Spot, fault: Fault) -> Observation {
         Observation {
             rule: fault.rule(),
             spot,
             detail: Detail::Program(Box::new(fault)),
             counts: Counts::Always,
+        }
+    }
+
+    /// The fault of a line as text.
+    pub(crate) fn of(fault: &SyntaxFault) -> Observation {
+        match fault.flaw {
+            Flaw::MissingB { .. } => Observation::at(Spot::Block, Fault::MissingB),
+            Flaw::BlockNumberAsB { number } => {
+                Observation::at(Spot::Block, Fault::BlockNumberAsB { number })
+            }
+            _ => Observation {
+                rule: Rule::Syntax,
+                spot: Spot::Block,
+                detail: Detail::Said(fault.sentence()),
+                counts: Counts::Always,
+            },
         }
     }
 }

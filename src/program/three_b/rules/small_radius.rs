@@ -6,7 +6,7 @@
 use super::{BlockRule, Counts, Observation, Outlook, Spot};
 use crate::finding::{Detail, Rule, SmallRadius};
 use crate::geometry::{Point, Segment};
-use crate::program::path::{UM_IN_MM, is_tight};
+use crate::program::path::{UM_IN_MM, is_tight, is_tight_in_four_b};
 use crate::program::three_b::block::Motion;
 use crate::program::three_b::decode::decode;
 use crate::settings::SideSetting;
@@ -43,11 +43,9 @@ fn check(outlook: &Outlook) -> Option<Observation> {
         outlook.radius()
     };
     let required = outlook.limits.correction * 1000.0;
-    // A 4B controller refuses an arc as large as its correction, too.
-    let is_tight = if outlook.part.is_some() {
-        !is_tight(required, radius)
-    } else {
-        is_tight(radius, required)
+    let is_tight = match outlook.part {
+        Some(_) => is_tight_in_four_b(radius.round(), required),
+        None => is_tight(radius, required),
     };
     let Ok(Segment::Arc(arc)) = decode(outlook.block, Point::origin()) else {
         return None;

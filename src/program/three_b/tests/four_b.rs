@@ -33,7 +33,8 @@ fn four_b(side: crate::finding::Side, last: [f64; 2]) -> Result<String, ProofErr
     );
     path.thread_hole = Point::new(10.0, out);
     path.side = Some(side);
-    write_four_b(&[path], 1.0, &Effective::default(), &mut |_, _| true).map(|program| program.text)
+    write_four_b(&[path], 1.0, &Effective::default(), None, &mut |_, _| true)
+        .map(|program| program.text)
 }
 
 #[test]
@@ -84,12 +85,13 @@ fn the_parts_contour_in_four_b_turns_in_arcs_only() {
         &[path_of(vec![line([0.0, 0.0], [1.0, 0.0])])],
         1.0,
         &Effective::default(),
+        None,
         &mut |_, _| true,
     );
     refused(unknown.map(|program| program.text), "say opening or punch");
     let mut tight = path_of(vec![arc([0.0, 0.0], [0.1, 0.0], [0.1, 0.0], true)]);
     tight.side = Some(Side::Left);
-    let tight = write_four_b(&[tight], 1.0, &Effective::default(), &mut |_, _| true);
+    let tight = write_four_b(&[tight], 1.0, &Effective::default(), None, &mut |_, _| true);
     refused(
         tight.map(|program| program.text),
         "expected more than the correction 0.100 mm",
@@ -113,7 +115,7 @@ fn part_of(
     };
     let mut path = path_of(vertices.iter().enumerate().map(piece).collect());
     path.side = Some(side);
-    let program = write_four_b(&[path], 1.0, settings, &mut |_, _| true)?;
+    let program = write_four_b(&[path], 1.0, settings, None, &mut |_, _| true)?;
     let (items, faults) = read(program.text.as_bytes(), &Words::default());
     assert_eq!(faults, [], "{}", program.text);
     let mut at = Point::origin();

@@ -1,0 +1,156 @@
+//! What is found: the numbers of each kind of finding, and the sentence that they make.
+
+use super::aside::{SetAside, set_aside};
+use super::fault::Fault;
+use super::lengths::{Telling, absurd, told_apart};
+use super::misfit::Misfit;
+use super::not_judged::NotJudged;
+use super::small_radius::SmallRadius;
+use super::unlike::Unlike;
+use super::unwritable::Unwritable;
+use crate::drawing::Visibility;
+use crate::geometry::Point;
+use std::sync::Arc;
+
+told! {
+    /// The numbers of a finding. One variant for each kind of sentence.
+    enum Detail;
+    fn sentence(telling: Telling);
+
+    SmallRadius(numbers: Box<SmallRadius>) => numbers.sentence(telling);
+    /// A corner concave to the wire turns by `turn` (radians): the wire leaves `radius` and does not cut `uncut`. Where
+    /// the wire side is not known, one finding stands for the `count` corners of its contour, and `uncut` is that of a
+    /// corner if the wire runs inside of it; else `count` is `None`.
+    SharpCorner { turn: f64, radius: f64, uncut: f64, count: Option<usize> }
+        => match (count, telling.mm(*radius)) {
+            (None, radius) => {
+                let (turn, uncut) = (turn.abs().to_degrees(), telling.mm(*uncut));
+                say!(corner_of_degrees_is_left_with_r_mm, turn, radius, uncut)
+            }
+            (Some(1), radius) => {
+                let turn = turn.abs().to_degrees();
+                say!(a_sharp_corner_that_the_wire_runs_inside, turn, radius, telling.tool())
+            }
+            (Some(count), radius) => {
+                say!(sharp_corners_that_the_wire_runs_inside, count, radius, telling.tool())
+            }
+        };
+    /// Facing walls are `width` apart, the wire needs `required`.
+    NarrowSlot { width: f64, required: f64 } => {
+        let (width, required) = told_apart(width * telling.unit_mm, required * telling.unit_mm);
+        say!(the_slot_is_too_narrow, width, required, telling.tool())
+    };
+    /// The offset loses a part of the outline, near a point.
+    LostPocket { near: Point } => say!(the_offset_loses_this_part_of_the_outline, telling.tool());
+    /// The wire comes no further between two walls: the rest stays uncut, and `near` is farthest from the wire, by this
+    /// much.
+    DeadEnd { near: Point, uncut: f64 } => say!(
+        the_wire_does_not_reach_this_part_of_the_outline,
+        telling.mm(*uncut),
+        telling.tool()
+    );
+    /// The offset of the outline is empty at this correction.
+    OffsetCollapse {
+        required: f64,
+        /// A point is left: the wire can stand there, and cuts nothing more.
+        point: bool
+    } => match (point, telling.mm(*required)) {
+        (true, required) => say!(a_point_is_left_of_the_outline, required, telling.tool()),
+        (false, required) => say!(nothing_is_left_of_the_outline, required, telling.tool()),
+    };
+    /// The planned path of the wire fails its proof, near a point.
+    UnprovedPath { near: Point }
+        => say!(no_path_of_the_wire_along_this_contour_holds, telling.tool());
+    /// There is a path, but the language of the program cannot express it.
+    Unwritable(what: Unwritable) => what.sentence();
+    /// The ends of a contour are `distance` apart.
+    OpenContour { distance: f64 } => say!(contour_is_open_its_ends_are_mm, telling.mm(*distance));
+    /// Two ends that belong together are `distance` apart.
+    Gap { distance: f64 } => say!(ends_do_not_meet, telling.mm(*distance));
+    /// This many entities of a contour lie there more than once.
+    DuplicateEntity { count: usize } => match count {
+        1 => say!(entity_lies_in_the_same_place_as_another, telling.tool()),
+        count => say!(entities_of_the_outline_lie_there_twice, count, telling.tool()),
+    };
+    /// Two segments coincide over `length`.
+    Overlap { length: f64 } => say!(segment_runs_on_another_one_over_mm, telling.mm(*length));
+    NotJudged(what: NotJudged) => what.sentence();
+    ShortSegment { length: f64 } => match *length == 0.0 {
+        true => say!(segment_has_no_length).to_owned(),
+        false => say!(the_segment_is_too_short, telling.mm(*length)),
+    };
+    /// Two segments meet at `turn` radians: nearly tangent, but not quite.
+    NearTangent { turn: f64 }
+        => say!(contour_kinks_by_degrees, turn.abs().to_degrees(), telling.tool());
+    /// Segments cross, or only touch, at a point: the first of `count` along one of the two, where that meets many.
+    SelfIntersection { at: Point, touches: bool, count: usize } => {
+        let how = match touches {
+            true => say!(touches_itself_or_another),
+            false => say!(crosses_itself_or_another),
+        };
+        match *count > 1 {
+            true => say!(the_wire_would_cut_into_the_part_each_time, how, count, telling.tool()),
+            false => say!(the_wire_would_cut_into_the_part, how, telling.tool()),
+        }
+    };
+    /// `chords` lines in a row lie on one circle, within `deviation`.
+    ArcAsChords { chords: usize, center: Point, radius: f64, deviation: f64 } => {
+        // Less than a nanometre is rounding.
+        let within = match deviation * telling.unit_mm < 1e-6 {
+            true => String::new(),
+            false => say!(within_mm, telling.mm(*deviation)),
+        };
+        say!(chords_lie_on_one_arc, chords, telling.mm(*radius), within, telling.tool())
+    };
+    /// A fault in a block or contour of a program.
+    Program(fault: Box<Fault>) => fault.sentence();
+    DoesNotFit(parts: Box<Misfit>) => parts.sentence(telling);
+    /// A contour of the workpiece `of` has no partner in another.
+    NoPartner {
+        of: Arc<str>,
+        /// Workpieces without any entity.
+        missing: Vec<String>
+    } => match (say!(the_contour_has_no_partner, of), missing.is_empty()) {
+        (sentence, true) => sentence,
+        (sentence, false) => sentence + &say!(nothing_is_drawn_of, missing.join(", ")),
+    };
+    /// A program and its drawing differ.
+    NotTheDrawing(what: Box<Unlike>) => what.sentence(telling.unit_mm);
+    /// The `kind` of entity, and the number of them; the place is the first.
+    UnsupportedEntity { kind: String, count: usize, why: &'static str } => match count {
+        1 => say!(is_not_cut, kind, why),
+        count => say!(of_them_is_not_cut, kind, count, why),
+    };
+    /// `count` entities are drawn on a layer that is not simply shown, or are invisible themselves.
+    Unseen { layer: Arc<str>, visibility: Visibility, count: usize }
+        => unseen(layer, *visibility, *count);
+    /// Entities drawn to be read and not to be cut.
+    SetAside(parts: Vec<SetAside>) => set_aside(parts);
+    /// The larger side of the largest contour, which suggests another unit.
+    Size { size: f64 } => {
+        let what = absurd(size * telling.unit_mm);
+        say!(the_size_of_the_part_is_absurd, telling.mm(*size), what)
+    };
+    /// Only what the sentence says: what was found and what was expected, lower-case, no final dot.
+    Said(sentence: String) => sentence.as_str();
+    More { count: usize } => say!(more_findings_are_not_shown, count);
+}
+
+fn unseen(layer: &str, visibility: Visibility, count: usize) -> String {
+    let entities = say!(entities, count);
+    let are = if count == 1 { say!(is) } else { say!(are) };
+    let of_layer = |what: &str| say!(entities_of_a_layer_are_not_cut, layer, what, entities, are);
+    match visibility {
+        Visibility::Frozen => of_layer(say!(frozen)),
+        Visibility::Off => of_layer(say!(switched_off)),
+        Visibility::Invisible => say!(invisible_entities_are_not_cut, entities, are),
+        Visibility::Unplotted | Visibility::Shown => {
+            say!(
+                entities_of_a_layer_that_is_not_plotted_are_cut,
+                layer,
+                entities,
+                are
+            )
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Two parts that do not go into each other: how they bind, and the sentence.
+
+use super::lengths::Telling;
+use crate::geometry::Point;
+use std::sync::Arc;
+
+/// Two parts of a pair bind. Lengths in drawing units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Misfit {
+    /// On the outline that protrudes.
+    pub at: Point,
+    /// The remaining clearance; below 0.
+    pub clearance: f64,
+    /// The required clearance.
+    pub wanted: f64,
+    /// The part at whose segment the finding stands, and its partner: `punch` and `plate`, or names of workpieces.
+    pub of: Arc<str>,
+    pub partner: Arc<str>,
+    pub(crate) cause: Cause,
+}
+
+/// Why two parts bind.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Cause {
+    /// The wire leaves too much in a corner of this part.
+    Corner(Arc<str>),
+    /// Both are drawn as arcs there, of radii that do not differ by the clearance: that of the part at whose segment the finding stands first.
+    /// Drawing units.
+    Radii([f64; 2]),
+    /// They lie too near to each other, which no corner radius mends.
+    Wall,
+}
+
+impl Misfit {
+    pub(super) fn sentence(&self, telling: Telling) -> String {
+        let um = |length: f64| length * telling.unit_mm * 1e3;
+        let (depth, wanted) = (um(-self.clearance), um(self.wanted));
+        let (of, partner) = (&self.of, &self.partner);
+        match &self.cause {
+            Cause::Corner(corner_of) => {
+                say!(the_parts_bind_here, of, partner, depth, corner_of, wanted)
+            }
+            Cause::Radii(radii) => {
+                let [own, other] = radii.map(|radius| telling.mm(radius));
+                say!(
+                    the_parts_bind_along_an_arc,
+                    of,
+                    partner,
+                    depth,
+                    own,
+                    other,
+                    wanted
+                )
+            }
+            Cause::Wall => say!(the_parts_bind_along_a_wall, of, partner, depth, wanted),
+        }
+    }
+}

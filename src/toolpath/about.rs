@@ -1,0 +1,116 @@
+//! What lies about each wall of a contour, for paths that run beside it; of walls nothing is known here but their boxes.
+
+use crate::geometry::Bounds;
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// So many walls that follow each other are a few.
+pub(super) const FAN: usize = 8;
+
+/// So many walls about each few are kept on an average.
+const MOST_ABOUT: usize = 64;
+
+/// Of a few that has more about it, no wall has a list of its own.
+const MOST_OF_EACH: usize = 24;
+
+/// One core takes so many walls at a time.
+const AT_A_TIME: usize = 2048;
+
+/// Of each wall those whose boxes come near to its own.
+#[derive(Debug)]
+pub(super) struct About {
+    pub(super) reach: f64,
+    /// Where those of each begin and end among `walls`; of a few that lies close to many they are the same.
+    ranges: Vec<[u32; 2]>,
+    walls: Vec<u32>,
+}
+
+impl About {
+    /// What lies so far about each, by the boxes of all; `None` where that is too much. `few_near` adds those few whose box touches another, by
+    /// the first of them and with that box.
+    pub(super) fn of(
+        boxes: &[Bounds],
+        reach: f64,
+        few_near: impl Fn(&Bounds, &mut Vec<(u32, Bounds)>) + Sync,
+    ) -> Option<About> {
+        let (most, found) = (MOST_ABOUT * boxes.len().div_ceil(FAN), AtomicUsize::new(0));
+        let part = |first: usize| {
+            let last = (first + AT_A_TIME).min(boxes.len());
+            let mut about = About {
+                reach,
+                ranges: Vec::with_capacity(last - first),
+                walls: Vec::with_capacity(4 * (last - first)),
+            };
+            let (mut near_all, mut near) = (Vec::new(), Vec::new());
+            for (at, few) in boxes[first..last].chunks(FAN).enumerate() {
+                if at.is_multiple_of(FAN) {
+                    // What is near to one few is among what is near to several.
+                    let several = &boxes[first + at * FAN..last];
+                    let several = several.iter().take(FAN * FAN);
+                    near_all.clear();
+                    few_near(&merged(several).grown(reach), &mut near_all);
+                }
+                let all = merged(few.iter()).grown(reach);
+                near.clear();
+                for &(first, _) in near_all.iter().filter(|(_, few)| few.touches(&all)) {
+                    let walls = (first..).zip(&boxes[first as usize..]).take(FAN);
+                    let walls = walls.filter(|(_, bounds)| bounds.touches(&all));
+                    near.extend(walls.map(|(wall, _)| wall));
+                }
+                let begin = about.walls.len() as u32;
+                if near.len() > MOST_OF_EACH {
+                    about.walls.extend_from_slice(&near);
+                    let end = about.walls.len() as u32;
+                    about.ranges.extend(few.iter().map(|_| [begin, end]));
+                } else {
+                    for own in few {
+                        let begin = about.walls.len() as u32;
+                        let own = own.grown(reach);
+                        let is_about = |wall: &&u32| boxes[**wall as usize].touches(&own);
+                        about.walls.extend(near.iter().filter(is_about));
+                        about.ranges.push([begin, about.walls.len() as u32]);
+                    }
+                }
+                if found.fetch_add(near.len(), Ordering::Relaxed) + near.len() > most {
+                    return None;
+                }
+            }
+            Some(about)
+        };
+        let firsts: Vec<usize> = (0..boxes.len()).step_by(AT_A_TIME).collect();
+        let parts: Vec<About> = match &firsts[..] {
+            [only] => vec![part(*only)?],
+            several => several
+                .par_iter()
+                .map(|first| part(*first))
+                .collect::<Option<_>>()?,
+        };
+        let mut about = About {
+            reach,
+            ranges: Vec::with_capacity(boxes.len()),
+            walls: Vec::with_capacity(parts.iter().map(|part| part.walls.len()).sum()),
+        };
+        for part in parts {
+            let before = about.walls.len() as u32;
+            let ranges = part.ranges.iter();
+            about
+                .ranges
+                .extend(ranges.map(|ends| ends.map(|end| before + end)));
+            about.walls.extend(part.walls);
+        }
+        Some(about)
+    }
+
+    /// Those about one.
+    pub(super) fn walls_of(&self, wall: usize) -> impl Iterator<Item = usize> {
+        let [begin, end] = self.ranges[wall].map(|place| place as usize);
+        self.walls[begin..end].iter().map(|&wall| wall as usize)
+    }
+}
+
+/// The box that holds all.
+pub(super) fn merged<'a>(boxes: impl Iterator<Item = &'a Bounds>) -> Bounds {
+    let mut all = Bounds::EMPTY;
+    boxes.for_each(|one| all.merge(one));
+    all
+}
