@@ -147,15 +147,12 @@ pub(crate) fn largest_distance(written: &Segment, piece: &Segment) -> f64 {
                 Segment::Line(line) => left_normal(line.direction()),
                 Segment::Arc(arc) => own.center - arc.center,
             };
-            let by = if along.norm() > 0.0 {
-                along.normalize() * own.radius
-            } else {
-                along
-            };
-            let look = |place: Point| own.spans(place).then_some(place);
+            // About one centre every place is as far.
+            let by = along.try_normalize(0.0).map(|along| along * own.radius);
+            let look = |by: Vector| Some(own.center + by).filter(|&place| own.spans(place));
             // It reaches its end at its own radius, which may miss that end a little.
             let end = own.center + (own.end - own.center).normalize() * own.radius;
-            [look(own.center + by), look(own.center - by), Some(end)]
+            [by.and_then(look), by.and_then(|by| look(-by)), Some(end)]
         }
     };
     let ends = [written.start(), written.end()];
