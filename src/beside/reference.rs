@@ -7,7 +7,7 @@ use crate::geometry::{Point, Segment, Vector};
 use crate::program::notes::Notes;
 use crate::program::write::scaled;
 use crate::program::{Document, Format, Language};
-use crate::settings::{Effective, Layout};
+use crate::settings::{Effective, Jumps, Layout};
 use crate::text::SourceText;
 use crate::toolpath::{Source, WirePath, plan};
 
@@ -156,7 +156,9 @@ fn written(
         Format::Iso | Format::Milling => Language::Iso,
         Format::ThreeB | Format::FourB => Language::ThreeB,
     };
-    if notes.steps.len() <= LONG || !paths.iter().all(returns) {
+    // Where the wire is taken by hand, the coordinates behind blocks show it.
+    let is_taken = settings.jumps == Jumps::None && settings.layout == Layout::Checking;
+    if notes.steps.len() <= LONG || is_taken || !paths.iter().all(returns) {
         let document = Document::read(language, text.into_bytes(), settings);
         return Some(Traced::of(&document));
     }

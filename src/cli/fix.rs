@@ -227,6 +227,15 @@ fn summarise(path: &Path, repair: &Repair) {
                 .count()
         };
         let gone = count(&repair.before).saturating_sub(count(&repair.after));
+        // Where what is right now shows faults that were hidden, those are told below.
+        let is_gone = |row: &&Row| {
+            let same = |other: &Row| (other.rule, other.line) == (row.rule, row.line);
+            row.severity <= Severity::Warning && !repair.after.iter().any(same)
+        };
+        let gone = match gone {
+            0 => repair.before.iter().filter(is_gone).count().max(1),
+            gone => gone,
+        };
         let repaired = styled(output::GOOD, say!(repaired, say!(findings, gone)));
         output::say(&say!(says, name, repaired));
     } else if is_sound {

@@ -71,6 +71,10 @@ pub(crate) fn convert(
         let reason = say!(the_line_cannot_be_read);
         return Err(Refusal::Sentence(say!(line_by_number, line + 1, reason)));
     }
+    if let Some(line) = program.unfollowed_line().filter(|_| !force) {
+        let reason = say!(the_program_is_not_followed_as_a_whole);
+        return Err(Refusal::Sentence(say!(line_by_number, line + 1, reason)));
+    }
     if program.mills() {
         return Err(Refusal::Sentence(say!(it_is_milled).into()));
     }

@@ -102,12 +102,15 @@ pub fn cuts(document: &Document) -> Cuts {
     }
     let mut open = CutPath::default();
     let mut spans = spans.iter().peekable();
-    let mut node = trace.start;
+    let (mut node, mut stands) = (trace.start, trace.start);
     let mut arcs = 0_usize;
     for (index, step) in trace.steps.iter().enumerate() {
         while spans.next_if(|span| span.steps.end <= index).is_some() {
             cuts.close(std::mem::take(&mut open));
         }
+        // The program may state a place anew: the wire was taken there.
+        node += step.start - stands;
+        stands = step.end;
         if !step.moves() {
             let is_within = spans.peek().is_some_and(|span| span.steps.contains(&index));
             cuts.stops.extend(is_within.then_some(step.line));

@@ -176,6 +176,14 @@ impl Document {
         self.program().unread_line()
     }
 
+    /// The line from which the program runs on further than it is followed: it calls its subprograms too often.
+    pub(crate) fn unfollowed_line(&self) -> Option<usize> {
+        match self {
+            Document::ThreeB(_) => None,
+            Document::Iso(program) => program.order()?.left_out,
+        }
+    }
+
     /// The machine's position at a finding.
     pub(crate) fn whereabouts(&self) -> Whereabouts<'_> {
         Whereabouts::within(self.program())

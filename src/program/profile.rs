@@ -58,6 +58,10 @@ fn paths(
     document: &Document,
     settings: &Effective,
 ) -> Result<Vec<crate::toolpath::WirePath>, String> {
+    if let Some(line) = document.unfollowed_line() {
+        let reason = say!(the_program_is_not_followed_as_a_whole);
+        return Err(say!(line_by_number, line + 1, reason));
+    }
     let cuts = cuts(document);
     if let Some(line) = cuts.lost.first() {
         return Err(say!(the_arc_of_a_line_leads_nowhere, line + 1));

@@ -95,7 +95,7 @@ pub(crate) struct Simulation {
 }
 
 impl Simulation {
-    /// `feed` in mm/min; one that is not above 0 says no time.
+    /// `feed` in mm/min, of the cuts alone; one that is not above 0 says no time.
     pub(crate) fn of(trace: &Trace, feed: Option<f64>) -> Simulation {
         let closure = trace.closure();
         let (cut, jumps) = trace.lengths();
@@ -122,7 +122,7 @@ impl Simulation {
             }),
             minutes: feed
                 .filter(|feed| *feed > 0.0 && feed.is_finite())
-                .map(|feed| length / feed),
+                .map(|feed| cut / feed),
         }
     }
 }

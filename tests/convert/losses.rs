@@ -27,6 +27,10 @@ fn the_correction_is_never_lost_without_a_word() {
         "mixed.iso",
         "G92 X0 Y0\nG90\nG01 X5. Y0.\nY5.\nG41 D1\nG01 X-5.\nY-5.\nX5.\nG40\nG01 Y0.\nX0.\nM02\n",
     );
+    put(
+        "calls.iso",
+        "N1 G92 X0 Y0\nM98 P2 L99999\nM02\nO2\nM98 P3 L99999\nM99\nO3\nG91 G01 X.001\nM99\n",
+    );
     for (from, to, said) in [
         (
             "part.4b",
@@ -72,6 +76,10 @@ fn the_correction_is_never_lost_without_a_word() {
         assert!(errors.contains(said), "{from} to {to}: {errors}");
         assert!(!folder.path().join(format!("out.{to}")).exists());
     }
+    // Nor what a program does behind the calls that are followed.
+    let (code, _, errors) = wedm(folder.path(), "convert calls.iso --format 3b -o out.calls");
+    let said = "line 5: the program is not followed as a whole";
+    assert!(code == 1 && errors.contains(said), "{errors}");
     for (from, to, said) in [
         ("part.4b", "dxf", "the correction is not in them"),
         ("late.iso", "dxf", "the correction is not in them"),

@@ -238,3 +238,44 @@ fn several_contours_keep_their_ways() {
         }
     }
 }
+
+/// Where the wire was taken to by hand, the next contour begins.
+#[test]
+fn a_place_that_is_stated_anew_behind_a_stop_is_kept() {
+    let square = |x: i64| {
+        let at = [[2, 0], [2, 5], [-2, 5], [-2, 0], [2, 0], [0, 0]];
+        let line = |[a, b]: [i64; 2]| format!("G01 X{}. Y{b}.\n", a + x);
+        at.map(line).concat()
+    };
+    let text = format!(
+        "G92 X0 Y0\nG90\n{}M00\nG92 X30. Y0.\n{}M02\n",
+        square(0),
+        square(30)
+    );
+    let own = Effective::default();
+    let cuts = convert::cuts(&read(Language::Iso, &text, &own));
+    let holes = |cuts: &convert::Cuts| {
+        let paths = cuts.paths();
+        let at = paths.iter().map(|path| path.thread_hole / 1e3);
+        at.map(|at| [at.x, at.y]).collect::<Vec<_>>()
+    };
+    assert_eq!(holes(&cuts), [[0.0, 0.0], [30.0, 0.0]]);
+    for (layout, jumps) in [
+        (Layout::Compact, "blocks"),
+        (Layout::Checking, "blocks"),
+        (Layout::Checking, "none"),
+    ] {
+        let settings = Effective {
+            layout,
+            ..settings(&format!("[program]\njumps = \"{jumps}\"\n"))
+        };
+        for (format, language) in [
+            (Format::ThreeB, Language::ThreeB),
+            (Format::Iso, Language::Iso),
+        ] {
+            let new = written(format, &cuts.paths(), 1e-3, &settings);
+            let again = convert::cuts(&read(language, &new, &settings));
+            assert_eq!(holes(&again), [[0.0, 0.0], [30.0, 0.0]], "{new}");
+        }
+    }
+}

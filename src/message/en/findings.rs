@@ -266,6 +266,8 @@ declare! {
     may_be_one_too_many(found, comes_of_it) => "{found} may be one too many: {comes_of_it} without it, and nothing else changed";
     may_be_wrong_here(found, comes_of_it, meant) => "{found} may be wrong: {comes_of_it} with {meant} here, and nothing else changed";
     full_circles_do_not_tell_how_i_and_j_are_meant => "full circles alone do not tell how I and J are meant: they are taken as leading from the start to the centre";
+    i_and_j_are_taken_from_the_center_to_the_start => "the arcs fit two readings of I and J: they are taken as leading from the centre to the start";
+    i_and_j_are_taken_as_the_centers_coordinates => "the arcs fit two readings of I and J: they are taken as the centre's own coordinates";
     of_pass(pass) => " of pass {pass}";
     arc_r_mm_is_below_the_correction_mm(radius, required, pass) => "arc R {radius} mm is below the correction {required} mm{pass}";
     the_wire_overcuts_the_contour_by_mm(overcut, tool) => ": {tool} overcuts the contour by {overcut} mm";

@@ -266,6 +266,8 @@ translate! {
     may_be_one_too_many(found, comes_of_it) => "{found} 可能多余：只去掉它，{comes_of_it}";
     may_be_wrong_here(found, comes_of_it, meant) => "{found} 可能有错：只把这里改为 {meant}，{comes_of_it}";
     full_circles_do_not_tell_how_i_and_j_are_meant => "只有整圆，看不出 I 和 J 的写法：按从起点到圆心处理";
+    i_and_j_are_taken_from_the_center_to_the_start => "圆弧符合 I 和 J 的两种写法：按从圆心到起点处理";
+    i_and_j_are_taken_as_the_centers_coordinates => "圆弧符合 I 和 J 的两种写法：按圆心坐标处理";
     of_pass(pass) => "（第 {pass} 次切割）";
     arc_r_mm_is_below_the_correction_mm(radius, required, pass) => "圆弧 R {radius} mm 小于补偿量 {required} mm{pass}";
     the_wire_overcuts_the_contour_by_mm(overcut, tool) => "：{tool}过切轮廓 {overcut} mm";

@@ -33,8 +33,8 @@ pub(super) fn passes(cuts: &[CutPath]) -> Option<(Vec<Ring>, usize)> {
     };
     let count = cuts.iter().take_while(begins_there).count();
     let cuts = cuts.get(..count).filter(|cuts| cuts.len() > 1)?;
-    let whole: Option<Vec<Ring>> = cuts.iter().map(|cut| whole(cut, near)).collect();
-    let rings = whole.filter(|rings| all_beside(rings)).or_else(|| {
+    let wholes: Option<Vec<Ring>> = cuts.iter().map(whole).collect();
+    let rings = wholes.filter(|rings| all_beside(rings)).or_else(|| {
         let runs: Vec<&[Segment]> = cuts.iter().flat_map(runs).collect();
         let all = 0..runs.len();
         let with_tabs = all.filter_map(|run| with_tab(&runs, run, begin, near));
@@ -44,8 +44,25 @@ pub(super) fn passes(cuts: &[CutPath]) -> Option<(Vec<Ring>, usize)> {
         let largest = largest.max_by(|one, other| one.width().total_cmp(&other.width()))?;
         rings.retain(|ring| lie_beside(&largest, &ring.bounds()));
         Some(rings).filter(|rings| all_beside(rings))
-    })?;
-    Some((rings, count))
+    });
+    let rings = rings.map(|rings| (rings, count));
+    rings.or_else(|| first_passes(cuts))
+}
+
+/// The first of some cuts that lie beside each other, each with a way to it. Where the wire is taken to the next
+/// contour by hand, and no coordinates say so, that begins in the same place.
+fn first_passes(cuts: &[CutPath]) -> Option<(Vec<Ring>, usize)> {
+    let led = cuts.iter().take_while(|cut| cut.lead_in > 0);
+    let mut rings: Vec<Ring> = Vec::new();
+    for ring in led.map_while(whole) {
+        let is_beside = |first: &Ring| lie_beside(&first.bounds(), &ring.bounds());
+        if !rings.first().is_none_or(is_beside) {
+            break;
+        }
+        rings.push(ring);
+    }
+    let count = rings.len();
+    (count > 1).then_some((rings, count))
 }
 
 /// Several, each beside the first.
@@ -74,20 +91,9 @@ fn runs(cut: &CutPath) -> impl Iterator<Item = &[Segment]> {
 }
 
 /// A cut that closes by itself, without a stop.
-fn whole(cut: &CutPath, near: f64) -> Option<Ring> {
+fn whole(cut: &CutPath) -> Option<Ring> {
     let all = &cut.segments[..];
-    let known = cut.lead_in..all.len().saturating_sub(cut.lead_out);
-    // Ways in and out along an arc end in one place of the contour, but reach it by two.
-    let closes = |from: usize| {
-        let begin = all.get(from)?.start();
-        let ends = (from + 1..all.len()).rev().take(2 * LEAD + 1);
-        let mut there = ends.filter(|to| (all[to - 1].end() - begin).norm() <= near);
-        there.next().map(|to| from..to)
-    };
-    let contour = match cut.lead_in {
-        0 => (1..=LEAD).rev().find_map(closes).unwrap_or(known),
-        _ => known,
-    };
+    let contour = cut.lead_in..all.len().saturating_sub(cut.lead_out);
     let segments = all.get(contour.clone())?;
     let leads = all[..contour.start].iter().chain(&all[contour.end..]);
     (cut.closed && cut.stops.is_empty() && !segments.is_empty()).then(|| Ring {

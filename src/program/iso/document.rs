@@ -105,7 +105,7 @@ impl Document {
         &self.evidence
     }
 
-    pub(super) fn order(&self) -> Option<&Order> {
+    pub(in crate::program) fn order(&self) -> Option<&Order> {
         self.order.as_ref()
     }
 

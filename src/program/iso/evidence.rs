@@ -99,19 +99,25 @@ impl Arcs {
     }
 
     /// The rule with the fewest misfits, then the fewest arcs far from their centre, then the fewest wide turns; on a
-    /// tie `preferred`, then the first.
+    /// tie `preferred`, then the first. Between the centre's own coordinates and the way from the centre to the start
+    /// turns tell nothing: the latter is rare.
     fn rule(&self, preferred: CenterRule, rules: &[CenterRule]) -> CenterRule {
         let against = |rule: CenterRule| {
             let rule = rule as usize;
             (self.off[rule], self.far[rule], self.wide[rule])
         };
-        let least = rules.iter().copied().map(against).min().unwrap_or_default();
-        if rules.contains(&preferred) && against(preferred) == least {
+        // An arc that ends in the zero fits both of these: one about the mirrored centre, the rest of a whole turn.
+        let fit = |rule: CenterRule| (self.off[rule as usize], self.far[rule as usize]);
+        let fits_absolute = rules.contains(&CenterRule::Absolute)
+            && fit(CenterRule::Absolute) == fit(CenterRule::CenterToStart)
+            && preferred != CenterRule::CenterToStart;
+        let is_rarer = |rule: CenterRule| rule == CenterRule::CenterToStart && fits_absolute;
+        let rules = || rules.iter().copied().filter(|rule| !is_rarer(*rule));
+        let least = rules().map(against).min().unwrap_or_default();
+        if rules().any(|rule| rule == preferred) && against(preferred) == least {
             return preferred;
         }
-        rules
-            .iter()
-            .copied()
+        rules()
             .find(|&rule| against(rule) == least)
             .unwrap_or(CenterRule::StartToCenter)
     }

@@ -19,7 +19,7 @@ use crate::geometry::cross;
 use crate::program::path::{HasCuts, tolerance};
 use crate::program::repair::gate::Tried;
 use crate::program::report::{self, Found, place_of};
-use crate::settings::SideSetting;
+use crate::settings::{CenterRule, SideSetting};
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
@@ -91,7 +91,19 @@ impl Document {
         if self.evidence().leaves_centers_open()
             && let Some(range) = report.first_center()
         {
-            let sentence = say!(full_circles_do_not_tell_how_i_and_j_are_meant);
+            let reading = self.reading();
+            let rules = [reading.absolute, reading.incremental];
+            let taken = match self.evidence().absolute.all {
+                0 => rules[1],
+                _ => rules[0],
+            };
+            let sentence = match taken {
+                CenterRule::StartToCenter => {
+                    say!(full_circles_do_not_tell_how_i_and_j_are_meant)
+                }
+                CenterRule::CenterToStart => say!(i_and_j_are_taken_from_the_center_to_the_start),
+                CenterRule::Absolute => say!(i_and_j_are_taken_as_the_centers_coordinates),
+            };
             report.add(range, Fault::said(Rule::AmbiguousCenter, sentence));
         }
         report.finish()

@@ -85,10 +85,8 @@ pub(crate) fn closing(way: &dyn Way) -> Option<Closing> {
         {
             leads += 1;
         }
-        if leads == 0
-            && let Some(lead_out) = overlapping(way, tolerance)?
-        {
-            return closed(1, lead_out);
+        if let Some([lead_in, lead_out]) = forked(way, leads, tolerance)? {
+            return closed(lead_in, lead_out);
         }
         return closed(leads, leads);
     }
@@ -138,35 +136,110 @@ pub(crate) fn closing(way: &dyn Way) -> Option<Closing> {
     Some(meeting(way, tolerance)?.unwrap_or_default())
 }
 
-/// Blocks behind the closing point of a contour, where it goes on along its first blocks and then back to the thread
-/// hole.
-fn overlapping(way: &dyn Way, tolerance: f64) -> Option<Option<usize>> {
-    let count = way.count();
-    for lead_out in 2..=LONGEST_OVERLAP {
-        if lead_out + 3 > count {
-            break;
-        }
-        let closes = way
-            .node(1)?
-            .is_near(&way.node(count - lead_out)?, tolerance);
-        if !closes || !encloses(way, 1, lead_out)? {
-            continue;
-        }
-        let mut goes_on = true;
-        for nth in 1..lead_out {
-            let (along, first) = (way.piece(count - lead_out + nth - 1)?, way.piece(nth)?);
-            let is_on = |share| first.distance_to(along.point_at(share)) <= tolerance;
-            goes_on &= is_on(0.5) && is_on(1.0);
-        }
-        if goes_on {
-            return Some(Some(lead_out));
+/// Blocks in and out of a way whose leads part on their way between the thread hole and the contour, behind the first
+/// `shared` blocks and before as many at the end: arcs that begin and end on the contour in its direction, a cut that
+/// goes on past the place where the contour closes, leads that are short beside it.
+fn forked(way: &dyn Way, shared: usize, tolerance: f64) -> Option<Option<[usize; 2]>> {
+    let longest = 2 * LONGEST_FORK + LONGEST_OVERLAP;
+    let room = way.count().saturating_sub(2 * shared);
+    for both in 2..=longest.min(room) {
+        for own_in in 1..both.min(longest - LONGEST_FORK) {
+            let [lead_in, lead_out] = [shared + own_in, shared + both - own_in];
+            if lead_in + lead_out >= way.count() {
+                continue;
+            }
+            let (begin, end) = (way.node(lead_in)?, way.node(way.count() - lead_out)?);
+            if begin.is_near(&end, tolerance)
+                && encloses(way, lead_in, lead_out)?
+                && are_leads(way, shared, [lead_in, lead_out], tolerance)?
+            {
+                return Some(Some([lead_in, lead_out]));
+            }
         }
     }
     Some(None)
 }
 
-/// The most blocks of an overlap past the closing point, with the way out.
-const LONGEST_OVERLAP: usize = 4;
+/// The most blocks of either of two leads that part, without an overlap.
+const LONGEST_FORK: usize = 3;
+
+/// The most blocks of an overlap past the closing point.
+const LONGEST_OVERLAP: usize = 9;
+
+/// Two directions are one within this angle, rad, beside what the rounding of short blocks turns them by.
+const TANGENT: f64 = 0.1;
+
+/// A contour this many times as long as what leads to it and away from it is the contour, however these lie.
+const DOMINANT: f64 = 3.0;
+
+/// Whether the blocks before a closed piece of a way and those behind it are leads, not a part of a contour that
+/// touches itself.
+fn are_leads(
+    way: &dyn Way,
+    shared: usize,
+    [lead_in, lead_out]: [usize; 2],
+    tolerance: f64,
+) -> Option<bool> {
+    let (closes, end) = (way.count() - lead_out, way.count() - shared);
+    let length = |pieces: std::ops::Range<usize>, enough: f64| {
+        let mut length = 0.0;
+        for index in pieces {
+            length += way.piece(index)?.length();
+            if length > enough {
+                break;
+            }
+        }
+        Some(length)
+    };
+    let all = f64::INFINITY;
+    let leads = length(shared..lead_in, all)? + length(closes..end, all)?;
+    let place = way.node(lead_in)?.meant;
+    if (way.node(shared)?.meant - place).norm() <= 2.0 * tolerance {
+        return Some(false);
+    }
+    // The cut goes on along the first blocks of the contour, or has begun along the last ones.
+    let runs_along = |index: usize, other: usize| {
+        let (along, whole) = (way.piece(index)?, way.piece(other)?);
+        let is_on = |share| whole.distance_to(along.point_at(share)) <= tolerance;
+        Some([0.0, 0.5, 1.0].into_iter().all(is_on))
+    };
+    let contour = closes - lead_in;
+    let mut past = 0;
+    while past < (lead_out - shared).min(contour) && runs_along(closes + past, lead_in + past)? {
+        past += 1;
+    }
+    let mut before = 0;
+    while before < (lead_in - shared).min(contour)
+        && runs_along(lead_in - 1 - before, closes - 1 - before)?
+    {
+        before += 1;
+    }
+    let own = [lead_in - shared - before, lead_out - shared - past];
+    if own.iter().any(|own| !(1..=LONGEST_FORK).contains(own)) {
+        return Some(false);
+    }
+    let overlap = length(lead_in - before..lead_in, all)? + length(closes..closes + past, all)?;
+    if overlap > 2.0 * tolerance {
+        return Some(true);
+    }
+    let is_tangent = |one: usize, other: usize| {
+        let (one, other) = (way.piece(one)?, way.piece(other)?);
+        let angle = one
+            .end_tangent()
+            .dot(&other.start_tangent())
+            .clamp(-1.0, 1.0)
+            .acos();
+        let rounding = 2.0 / one.length().min(other.length()).max(1.0);
+        Some(angle <= TANGENT + rounding)
+    };
+    let is_arc = |index: usize| Some(way.piece(index)?.as_arc().is_some());
+    let are_arcs = is_arc(lead_in - 1)? && is_arc(closes)?;
+    if are_arcs && is_tangent(lead_in - 1, lead_in)? && is_tangent(closes - 1, closes)? {
+        return Some(true);
+    }
+    let enough = DOMINANT * leads;
+    Some(length(lead_in..closes, enough)? > enough)
+}
 
 /// A way whose tab meets the part cut before its stop elsewhere than at the stop.
 fn meeting(way: &dyn Way, tolerance: f64) -> Option<Option<Closing>> {

@@ -323,9 +323,26 @@ impl Tangle<'_> {
     }
 
     /// The way goes on along its first blocks past its closing point, and out from there: it only cuts its own way in.
-    /// A way in or out is a block, or a block and an arc.
+    /// A way in or out is a block, or a block and an arc. The same of a way that was turned round: it begins along its
+    /// last blocks.
     fn goes_on_past_its_start(&self, first: usize, second: usize, at: Point) -> bool {
+        let places = [first, second];
+        self.overlaps(places, at, false) || self.overlaps(places, at, true)
+    }
+
+    fn overlaps(&self, [one, other]: [usize; 2], at: Point, is_turned: bool) -> bool {
         let most = MOST_BEYOND + 2;
+        let turned = |index: usize| self.count.checked_sub(index + 1);
+        let piece = |index: usize| match is_turned {
+            true => turned(index)
+                .and_then(|index| self.at(index))
+                .map(|piece| piece.reversed()),
+            false => self.at(index),
+        };
+        let (first, second) = match (is_turned, turned(other), turned(one)) {
+            (true, Some(first), Some(second)) => (first, second),
+            _ => (one, other),
+        };
         if first > most || second + most + 1 < self.count {
             return false;
         }
@@ -341,8 +358,7 @@ impl Tangle<'_> {
                 return false;
             }
             let runs_along = |number: usize| {
-                let (Some(along), Some(again)) =
-                    (self.at(way_in + number), self.at(closes + number))
+                let (Some(along), Some(again)) = (piece(way_in + number), piece(closes + number))
                 else {
                     return false;
                 };
@@ -351,17 +367,17 @@ impl Tangle<'_> {
                     .all(|&point| along.distance_to(point) <= self.margin)
             };
             let starts =
-                [self.at(way_in), self.at(closes)].map(|piece| piece.map(|piece| piece.start()));
+                [piece(way_in), piece(closes)].map(|piece| piece.map(|piece| piece.start()));
             let [Some(begin), Some(again)] = starts else {
                 return false;
             };
             let is_on = |number: usize| {
-                let along = self.at(way_in + number);
+                let along = piece(way_in + number);
                 along.is_some_and(|along| along.distance_to(at) <= self.margin)
             };
             (begin - again).norm() <= 2.0 * self.margin
                 && (0..beyond).all(runs_along)
-                && ((0..beyond).any(is_on) || self.run_beside(first, second, at, begin))
+                && ((0..beyond).any(is_on) || self.run_beside(one, other, at, begin))
         })
     }
 

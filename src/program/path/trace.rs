@@ -95,10 +95,12 @@ impl Trace {
     }
 
     /// The same program as its blocks mean it: every step begins at the intended end of the one before, without the
-    /// drift of a counting machine.
+    /// drift of a counting machine. Where the program states a place anew, it begins there.
     pub(crate) fn into_meant(mut self) -> Trace {
-        let mut at = self.start;
+        let (mut at, mut stands) = (self.start, self.start);
         for step in &mut self.steps {
+            at += step.start - stands;
+            stands = step.end;
             let by = at - step.start;
             step.ideal = step.ideal.as_ref().map(|ideal| ideal.moved(by));
             step.end = step.ideal.as_ref().map_or(step.end + by, Segment::end);

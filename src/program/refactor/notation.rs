@@ -171,7 +171,7 @@ pub(in crate::program) struct Content<N: Notation> {
     /// The rows before which the program pauses.
     pauses: Vec<usize>,
     /// Moves name their ends, not displacements: nothing drifts.
-    names_places: bool,
+    pub(crate) names_places: bool,
 }
 
 impl<'a, N: Notation> Sheet<'a, N> {

@@ -7,9 +7,12 @@
 //! B5000B0B5000GXL3           B5000B0B5000GXL3          G03 X5 Y0 I5 J0             G02 X5 Y0 I5 J0
 //! ```
 //!
-//! Ways in and out stay. An open path that counts is reversed where it is the whole program: it then begins at its other end.
+//! Ways in and out stay where they are one way, there and back; leads that part (arcs that run along the contour at its
+//! start, an overlap) are reversed with it. An open path that counts is reversed where it is the whole program: it then begins at its other end.
 
-use super::{Change, Edits, Notation, Refactoring, Rewrite, Sheet};
+use super::{Change, Content, Edits, Notation, Refactoring, Rewrite, Sheet};
+use crate::program::path::{Cut, tolerance};
+use std::ops::Range;
 
 pub(super) fn reverse<N: Notation>() -> Refactoring<N> {
     Refactoring {
@@ -31,7 +34,7 @@ fn reversed<N: Notation>(sheet: &Sheet<'_, N>) -> Edits {
             rewrite.end = Some(sheet.trace.start);
             contour.steps.clone()
         } else {
-            content.closed(contour)?
+            with_leads(content, contour, content.closed(contour)?)
         };
         for (place, row) in rows.clone().zip(rows.clone().rev()) {
             let reversed = N::reversed(sheet.at(content, row))?;
@@ -40,4 +43,26 @@ fn reversed<N: Notation>(sheet: &Sheet<'_, N>) -> Edits {
         N::turn_round(sheet, content, contour, rows, &mut rewrite)?;
     }
     rewrite.edits(sheet, content)
+}
+
+/// The rows of a contour with its leads, where these part and come back to one place; else without them.
+fn with_leads<N: Notation>(content: &Content<N>, contour: &Cut, own: Range<usize>) -> Range<usize> {
+    let (rows, all) = (&content.rows, contour.steps.clone());
+    let [leads_in, leads_out] = [&rows[all.start..own.start], &rows[own.end..all.end]];
+    let (Some(first), Some(last)) = (leads_in.first(), leads_out.last()) else {
+        return own;
+    };
+    let place = |node| Content::<N>::point(node);
+    let near = tolerance(content.arcs());
+    let mut both = leads_in.iter().zip(leads_out.iter().rev());
+    let is_one_way = leads_in.len() == leads_out.len()
+        && both.all(|(there, back)| {
+            let middles = [&there.piece, &back.piece].map(|piece| piece.point_at(0.5));
+            (middles[0] - middles[1]).norm() <= 2.0 * near
+        });
+    let comes_back = match content.names_places {
+        true => first.from == last.to,
+        false => (place(first.from) - place(last.to)).norm() <= near,
+    };
+    if is_one_way || !comes_back { own } else { all }
 }

@@ -19,7 +19,7 @@ use super::stretch::Stretch;
 use super::sum::Sum;
 use super::words::Words;
 use crate::finding::Finding;
-use crate::geometry::Point;
+use crate::geometry::{Point, Vector};
 use crate::program::chunks::{ChunkReader, Chunks, Reread};
 use crate::program::path::Known;
 use crate::settings::Effective;
@@ -90,6 +90,8 @@ pub(crate) struct JoinedCut {
 struct View {
     /// The machine's position before each stretch, µm.
     begins: Vec<Point>,
+    /// Where the wire was taken by hand behind a stop, as the coordinates say: the first block there, and how far, µm.
+    taken: Vec<(At, Vector)>,
     /// The cuts that reach over the end of a stretch, or begin or end the text, in their order. The others are parts of one stretch.
     outer: Vec<JoinedCut>,
     /// The starts of the contours that do not close.

@@ -11,6 +11,9 @@ pub(super) struct Sum {
     pub(crate) blocks: usize,
     pub(crate) arcs: usize,
     pub(crate) travel: Move,
+    /// All that its blocks go along each axis, µm, and all that they go from their starts to their ends, nm.
+    pub(crate) along: [i64; 2],
+    pub(crate) length: i64,
     /// Twice the area between the way and its chord, µm²; only its sign is used.
     pub(crate) twice_area: f64,
     /// Faults that change where the way leads.
@@ -39,6 +42,8 @@ impl Sum {
             blocks: self.blocks + next.blocks,
             arcs: self.arcs + next.arcs,
             travel: self.travel.plus(next.travel),
+            along: [0, 1].map(|axis| self.along[axis].saturating_add(next.along[axis])),
+            length: self.length.saturating_add(next.length),
             twice_area: self.twice_area + next.twice_area + a[0] * b[1] - a[1] * b[0],
             errors: self.errors + next.errors,
             unread: self.unread + next.unread,
@@ -76,6 +81,8 @@ impl Sum {
             blocks: 1,
             arcs: usize::from(!matches!(block.motion, Motion::Line(_))),
             travel,
+            along: travel.machine.map(i64::saturating_abs),
+            length: nanometres(travel.machine),
             twice_area: segment
                 .and_then(Segment::as_arc)
                 .map_or(0.0, |arc| Segment::Arc(*arc).twice_area(origin)),
@@ -114,14 +121,39 @@ fn mark_of(block: &Block) -> u64 {
     fields.into_iter().fold(POLYNOMIAL, mixed)
 }
 
-/// A way of at most this many lines between two pauses leads from one contour to the next.
-pub(super) const JUMP_BLOCKS: usize = 3;
+/// A way of at most this many lines between two pauses leads from one contour to the next, wherever it turns.
+const JUMP_BLOCKS: usize = 3;
+
+/// A way of at most this many lines that never turns back on an axis does so, too: no contour with one fault in it
+/// looks like that.
+const STAIR_BLOCKS: usize = 8;
+
+/// How much longer than straight a way is that leads straight on, for each of its blocks, nm: they end on whole µm.
+const NOT_STRAIGHT: i64 = 10;
 
 /// True for the way between two pauses from one contour to the next. A way that returns to its start is not one: that
 /// is how a tab is cut off, from and to the thread hole.
 pub(super) fn is_jump(sum: &Sum) -> bool {
-    let is_way = (1..=JUMP_BLOCKS).contains(&sum.blocks) && sum.arcs == 0;
-    is_way && sum.travel.machine != [0, 0]
+    if sum.blocks == 0 || sum.arcs > 0 || sum.travel.machine == [0, 0] {
+        return false;
+    }
+    let blocks = sum.blocks as i64;
+    let turns_back = |axis: usize| {
+        let straight = sum.travel.machine[axis].saturating_abs();
+        sum.along[axis].saturating_sub(straight) > blocks
+    };
+    let is_straight = || {
+        sum.length.saturating_sub(nanometres(sum.travel.machine))
+            <= blocks.saturating_mul(NOT_STRAIGHT)
+    };
+    sum.blocks <= JUMP_BLOCKS
+        || (sum.blocks <= STAIR_BLOCKS && !turns_back(0) && !turns_back(1))
+        || is_straight()
+}
+
+/// How far a displacement in µm leads, nm.
+fn nanometres(um: [i64; 2]) -> i64 {
+    ((um[0] as f64).hypot(um[1] as f64) * 1e3).round() as i64
 }
 
 /// True for a part that is searched for crossings: behind a faulty block the path is not the intended one.

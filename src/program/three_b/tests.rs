@@ -255,6 +255,72 @@ fn several_contours_are_joined_by_pauses_and_a_jump() {
 }
 
 #[test]
+fn the_wire_is_taken_to_the_next_contour_where_its_coordinates_say_so() {
+    let square = |x: f64, y: f64| {
+        let corners = [
+            [0.0, 0.0],
+            [2.0, 0.0],
+            [2.0, 5.0],
+            [-2.0, 5.0],
+            [-2.0, 0.0],
+            [2.0, 0.0],
+            [0.0, 0.0],
+        ];
+        let at = corners.map(|[a, b]| [a + x, b + y]);
+        path_of(at.windows(2).map(|pair| line(pair[0], pair[1])).collect())
+    };
+    let settings = Effective {
+        jumps: Jumps::None,
+        layout: Layout::Checking,
+        header: true,
+        ..Effective::default()
+    };
+    let places = [[0.0, 0.0], [30.0, 1.0], [30.0, -40.0], [0.35, 0.2]];
+    let paths = places.map(|[x, y]| square(x, y));
+    let text = write(&paths, 1.0, &settings).expect("a program").text;
+    let document = Document::read(text.clone().into_bytes());
+    assert_eq!(document.findings(), [], "{text}");
+    let all = crate::program::convert::cuts(&crate::program::Document::ThreeB(document.clone()));
+    let begins: Vec<[f64; 2]> = all
+        .cuts
+        .iter()
+        .map(|cut| cut.segments[0].start() / 1e3)
+        .map(|at| [at.x, at.y])
+        .collect();
+    assert_eq!(begins, places);
+    // Each refactoring keeps them where they are, relative to the start.
+    let trace = document.trace();
+    assert_eq!(trace.end(), Point::new(350.0, 200.0));
+    // A wrong number in a second pass from the same hole takes the wire nowhere.
+    let twice = write(&[square(0.0, 0.0), square(0.0, 0.0)], 1.0, &settings)
+        .expect("a program")
+        .text;
+    let behind = twice.find("D\n").unwrap();
+    let slip = twice[behind..].replacen(
+        "B   2000 B      0 B   2000",
+        "B   2900 B      0 B   2900",
+        1,
+    );
+    let wrong = Document::read(format!("{}{slip}", &twice[..behind]).into_bytes());
+    let rules: Vec<&str> = wrong
+        .findings()
+        .iter()
+        .map(|finding| finding.rule.name())
+        .collect();
+    assert!(rules.contains(&"position-mismatch"), "{rules:?}");
+    // An edit says the same as a fresh reading, wherever it is.
+    for at in (0..text.len()).step_by(7) {
+        for new in ["", "7", "D\n"] {
+            let mut edited = document.clone();
+            edited.edit(at..at + 1, new);
+            let fresh = Document::read(edited.text().bytes().to_vec());
+            assert_eq!(edited.trace(), fresh.trace(), "{at} {new:?}");
+            assert_eq!(edited.findings(), fresh.findings(), "{at} {new:?}");
+        }
+    }
+}
+
+#[test]
 fn what_is_not_a_path_is_never_a_program() {
     let gap = [path_of(vec![
         line([0.0, 0.0], [1.0, 0.0]),

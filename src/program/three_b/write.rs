@@ -9,7 +9,6 @@ use super::machine::travel;
 use super::parse::{Item, read_line};
 use super::part::{is_concave, rounded, rounded_with_tab};
 use super::proof::{Proof, check_line};
-use super::sum::JUMP_BLOCKS;
 use super::words::{Word, Words};
 use crate::finding::Side;
 use crate::geometry::{Segment, Vector, turn};
@@ -299,7 +298,7 @@ impl<'a> Blocks<'a> {
                 line: 0,
                 number: read.number,
                 kind: match read.decoded {
-                    _ if self.is_jump && lines.len() <= JUMP_BLOCKS => Kind::Rapid,
+                    _ if self.is_jump => Kind::Rapid,
                     Segment::Line(_) => Kind::Line,
                     Segment::Arc(_) => Kind::Arc,
                 },

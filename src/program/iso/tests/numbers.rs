@@ -383,3 +383,23 @@ fn a_number_that_the_control_passes_over_does_not_stand_for_one_with_other_decim
         assert_eq!(told, [&(line, "mixed-numbers")], "{between}");
     }
 }
+
+#[test]
+fn an_arc_that_ends_in_the_zero_is_about_a_center_by_its_coordinates() {
+    // About I, J, or about the mirrored centre: both fit.
+    let text = "G92 X0 Y0\nG90\nG01 X-1.360 Y0.436\nG01 X-3.075 Y-4.905\nG01 X-1.716 Y-5.341\n\
+                G02 X0.000 Y0.000 I-10.728 J0.500\nM02\n";
+    let document = Document::read(text.into());
+    let steps = document.trace().steps;
+    let arcs = steps
+        .iter()
+        .filter_map(|step| step.ideal?.as_arc().copied());
+    let turns: Vec<f64> = arcs.map(|arc| arc.sweep.to_degrees().round()).collect();
+    assert_eq!(turns, [-330.0]);
+    let told = document.plain_findings();
+    let told = told
+        .iter()
+        .find(|finding| finding.rule.name() == "ambiguous-center");
+    let sentence = told.map(|finding| crate::finding::sentence(finding, 1.0));
+    assert!(sentence.is_some_and(|told| told.contains("own coordinates")));
+}

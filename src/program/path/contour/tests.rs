@@ -215,6 +215,129 @@ fn two_stops_with_a_way_between_are_a_jump() {
     assert_eq!(contours, [(0, false), (1, true), (2, false)]);
 }
 
+/// The ways in and out of each contour of a program, and whether it closes.
+fn leads(language: Language, text: &str) -> Vec<(usize, usize, bool)> {
+    let document = Document::read(language, text.into(), &Effective::default());
+    let all = cuts(&document.trace());
+    let contours = all.iter().filter(|cut| !cut.is_way);
+    contours
+        .map(|cut| (cut.lead_in, cut.lead_out, cut.closed))
+        .collect()
+}
+
+/// A way in and out, and a contour between, that begins and ends in one place: each as its program is written.
+#[test]
+fn leads_that_part_are_no_part_of_their_contour() {
+    let programs = [
+        // Tangent arcs, each with a straight piece.
+        (
+            "B2450B1415B2450GXL4\nB816B1416B1852GYNR3\nB4900B0B19600GYNR1\nB1634B1B2450GXNR1\nB2450B1415B2450GXL3\nDD\n",
+            (2, 2),
+        ),
+        // A full circle, an arc further, and straight back.
+        (
+            "B500B0B500GXL3\nB5146B0B20584GYSR4\nB5146B0B300GYSR4\nB509B300B509GXL1\nDD\n",
+            (1, 2),
+        ),
+        // The same turned round: it begins along its end.
+        (
+            "B509B300B509GXL3\nB5137B304B300GYNR4\nB5146B0B20584GYNR1\nB500B0B500GXL1\nDD\n",
+            (2, 1),
+        ),
+        // One way, there and back.
+        (
+            "B9900B0B9900GXL1\nB9900B0B39600GYNR1\nB9900B0B9900GXL3\nDD\n",
+            (1, 1),
+        ),
+        ("B5000B0B20000GYNR1\nDD\n", (0, 0)),
+    ];
+    for (text, (lead_in, lead_out)) in programs {
+        let expected = [(lead_in, lead_out, true)];
+        assert_eq!(leads(Language::ThreeB, text), expected, "{text}");
+    }
+    // A small triangle on the way is a way in and out; one that is as large as what it leads to is a part of the
+    // contour, which touches itself there.
+    let touching = |size: i64| {
+        let lobe = [[5000, 0], [9000, -4000], [9000, 4000], [5000, 0]];
+        some(&[&lobe[..], &[[5000 - size, size], [0, 0]]].concat())
+    };
+    for (size, expected) in [(500, (1, 2, true)), (5000, (0, 0, true))] {
+        let mut way = touching(size);
+        if size == 500 {
+            // From nearby.
+            let near = |at: [i64; 2]| Some([at[0] - 4800, at[1]]);
+            way = way.into_iter().flatten().map(near).collect();
+            way.pop();
+            way.push(Some([0, 0]));
+        }
+        assert_eq!(
+            leads(Language::ThreeB, &three_b(&way)),
+            [expected],
+            "{way:?}"
+        );
+        assert_eq!(leads(Language::Iso, &iso(&way)), [expected], "{way:?}");
+    }
+}
+
+#[test]
+fn a_way_between_two_stops_is_a_jump_however_many_blocks_it_has() {
+    let square = [
+        [1000, 0],
+        [1000, 2000],
+        [-1000, 2000],
+        [-1000, 0],
+        [1000, 0],
+        [0, 0],
+    ];
+    let program = |way: &[[i64; 2]]| {
+        let mut steps = some(&square);
+        steps.push(None);
+        steps.extend(some(way));
+        steps.push(None);
+        let [x, y] = way[way.len() - 1];
+        steps.extend(square.map(|[a, b]| Some([a + x, b + y])));
+        three_b(&steps)
+    };
+    let is_way = |way: &[[i64; 2]]| {
+        let text = program(way);
+        let document = Document::read(Language::ThreeB, text.clone().into(), &Effective::default());
+        let trace = document.trace();
+        let all = cuts(&trace);
+        assert_eq!(all.len(), 3, "{text}");
+        assert!(answers(Language::ThreeB, &text) || !all[1].is_way, "{text}");
+        all[1].is_way
+    };
+    // Straight on, in any direction, cut into blocks of whole micrometres.
+    for (x, y) in [(70_000, 0), (-70_001, 3), (12_345, 67_890), (-999, -70_000)] {
+        for blocks in 1..60_i64 {
+            let node = |nth: i64| [x * nth / blocks, y * nth / blocks];
+            assert!(
+                is_way(&(1..=blocks).map(node).collect::<Vec<_>>()),
+                "{x} {y} {blocks}"
+            );
+        }
+    }
+    // Stairs of some steps.
+    for blocks in 2..9_i64 {
+        let node = |nth: i64| [9_000 * ((nth + 1) / 2), 9_000 * (nth / 2)];
+        assert!(
+            is_way(&(1..=blocks).map(node).collect::<Vec<_>>()),
+            "{blocks}"
+        );
+    }
+    // A square with one wrong number is none.
+    for wrong in 0..4 {
+        let mut square = [[9_000, 0], [0, 9_000], [-9_000, 0], [0, -9_000]];
+        let longer = |side: &mut [i64; 2]| side.iter_mut().for_each(|by| *by *= 3);
+        longer(&mut square[wrong]);
+        let nodes = square.iter().scan([0, 0], |at: &mut [i64; 2], by| {
+            *at = [at[0] + by[0], at[1] + by[1]];
+            Some(*at)
+        });
+        assert!(!is_way(&nodes.collect::<Vec<_>>()), "{wrong}");
+    }
+}
+
 /// A ring of places about a middle, none of which lie on one line.
 fn ring() -> impl Strategy<Value = Vec<[i64; 2]>> {
     (
@@ -268,5 +391,38 @@ proptest! {
             let is_plain = !way_in.is_empty() || back || way_out.is_empty();
             prop_assert!(!is_plain || said == expected, "{said}, expected {expected}\n{text}");
         }
+    }
+
+    #[test]
+    fn arcs_that_run_along_a_contour_where_they_meet_it_lead_there(
+        ring in ring(), (hole, radii) in ((-9_000_i64..9_000, -9_000_i64..9_000), (200.0_f64..3_000.0, 200.0_f64..3_000.0)),
+    ) {
+        use crate::geometry::{Point, Vector};
+        let place = |at: [i64; 2]| Point::new(at[0] as f64, at[1] as f64);
+        let begin = place(ring[0]);
+        let hole = begin + Vector::new(hole.0 as f64 * 0.5 + 50.0, hole.1 as f64 * 0.5);
+        // To the left of the first and the last side, which is inside.
+        let arc = |along: Vector, radius: f64| {
+            let left = Vector::new(-along.y, along.x) * (radius / along.norm());
+            (begin + left, left)
+        };
+        let (center_in, left_in) = arc(place(ring[1]) - begin, radii.0);
+        let (center_out, left_out) = arc(begin - place(ring[ring.len() - 1]), radii.1);
+        let [start, end] = [
+            center_in - Vector::new(left_in.y, -left_in.x),
+            center_out + Vector::new(left_out.y, -left_out.x),
+        ];
+        let mut text = "G92 X0. Y0.\nG90\n".to_owned();
+        let shift = |at: Point| format!("X{:.3} Y{:.3}", (at.x - hole.x) / 1e3, (at.y - hole.y) / 1e3);
+        let from_start = |center: Point, start: Point| format!("I{:.3} J{:.3}", (center.x - start.x) / 1e3, (center.y - start.y) / 1e3);
+        text += &format!("G01 {}\n", shift(start));
+        text += &format!("G03 {} {}\n", shift(begin), from_start(center_in, start));
+        for at in ring[1..].iter().chain([&ring[0]]) {
+            text += &format!("G01 {}\n", shift(place(*at)));
+        }
+        text += &format!("G03 {} {}\n", shift(end), from_start(center_out, begin));
+        text += &format!("G01 {}\nM02\n", shift(hole));
+        let found = leads(Language::Iso, &text);
+        prop_assert_eq!(found, [(2, 2, true)], "{}", text);
     }
 }

@@ -12,6 +12,7 @@ use super::super::rules::{
     self, Site, TextFix, block_number, missing_end, position_mismatch, text_after_end,
 };
 use super::super::sum::Sum;
+use super::sequence::place_before;
 use super::{At, Document};
 use crate::finding::{Detail, Fault, Finding, FixKind, Place};
 use crate::program::lookalikes::{Alike, alike};
@@ -83,6 +84,16 @@ impl Document {
             closes: self.closes(&self.view, &cut),
             closes_with: &|blocks| self.closes_with(at, entry, blocks),
         }))
+    }
+
+    /// Where a block begins by the coordinates: those behind the block before, or those of the start, or where the
+    /// wire was taken.
+    pub(super) fn stated_begin(&self, at: At) -> Option<StatedPoint> {
+        if self.taken_before(at).is_some() {
+            let block = self.entry(at)?.block()?;
+            return Some(place_before(&block.stated_end()?, &block.travel()));
+        }
+        self.stated_before(at)
     }
 
     /// The coordinates that stand behind the block before, or those of the start.

@@ -105,7 +105,11 @@ impl Document {
             .filter_map(Entry::block);
         let by = travels.map(|block| block.travel().machine);
         let begin = view.begins.get(at.stretch).copied().unwrap_or_default();
-        by.fold(begin, |at, [x, y]| at + Vector::new(x as f64, y as f64))
+        let of_stretch = |(own, _): &&(At, Vector)| own.stretch == at.stretch && *own <= at;
+        let taken: Vector = view.taken.iter().filter(of_stretch).map(|(_, by)| by).sum();
+        by.fold(begin + taken, |at, [x, y]| {
+            at + Vector::new(x as f64, y as f64)
+        })
     }
 
     /// Whether an odd joint of a cut is reported.

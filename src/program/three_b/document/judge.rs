@@ -78,23 +78,23 @@ impl Document {
         known: &mut Known,
         clean: &mut Vec<PartAt>,
     ) -> View {
-        let mut view = View {
-            begins: self.begins(),
-            ..View::default()
-        };
+        let mut view = View::default();
         view.end = self.end_word();
         view.outer = match before {
             Some((before, reread)) => self.outer_cuts_after(before, &reread, view.end),
             None => self.outer_cuts(view.end),
         };
         view.last_block = self.last_block(view.end);
+        let off = self.off_positions();
+        view.taken = self.taken(&view, &off);
+        view.begins = self.begins(&view.taken);
         self.judge_contours(&mut view, &mut known.tabs);
         self.judge_joints(&mut view);
         self.judge_crossings(&mut view, known, clean);
         self.judge_end(&mut view);
         self.judge_texts(&mut view);
         self.judge_numbers(&mut view);
-        self.judge_positions(&mut view);
+        self.judge_positions(&mut view, off);
         self.judge_size(&mut view);
         view
     }

@@ -177,7 +177,7 @@ impl Document {
         let first = places.first().copied();
         Path {
             pieces,
-            start: first.and_then(|first| self.stated_before(first)),
+            start: first.and_then(|first| self.stated_begin(first)),
             number: first.and_then(|first| self.number_before(first)),
             step: self.number_step(),
             limits: &self.limits,
@@ -390,7 +390,7 @@ impl Document {
         push_fields(&mut made, layout, block, None);
         let before = match index.checked_sub(1) {
             Some(before) => item(before).and_then(|item| item.stated),
-            None => places.first().and_then(|first| self.stated_before(*first)),
+            None => places.first().and_then(|first| self.stated_begin(*first)),
         };
         let is_stated = item(model).is_some_and(|item| item.stated.is_some());
         let [x, y] = travel_of(block).meant_um();

@@ -1,10 +1,30 @@
 //! The sequence of blocks: their numbers, and their stated places.
 
-use super::super::entry::{Entry, What};
+use super::super::around::StatedPoint;
+use super::super::entry::{Entry, Move, What};
 use super::super::rules::block_number::{self, Numbered, Numbering, Sequence};
 use super::super::rules::position_mismatch;
 use super::{At, Document, View};
 use crate::finding::{Fault, Finding};
+use crate::geometry::Vector;
+
+/// A block by its number in the program and its place, and by how much its end point is off, µm.
+pub(super) type OffPosition = (usize, At, [f64; 2]);
+
+/// How far coordinates may miss the place that they come back to, mm.
+const RETURNS: f64 = 0.01;
+
+/// Within so many stops a contour that begins elsewhere comes back.
+const STOPS: usize = 16;
+
+/// The place from which a block leads to a stated one.
+pub(super) fn place_before(stated: &StatedPoint, travel: &Move) -> StatedPoint {
+    let [x, y] = travel.meant_um();
+    StatedPoint {
+        at: [stated.at[0] - x / 1e3, stated.at[1] - y / 1e3],
+        ..*stated
+    }
+}
 
 impl Document {
     pub(super) fn judge_numbers(&self, view: &mut View) {
@@ -107,10 +127,12 @@ impl Document {
         })
     }
 
-    pub(super) fn judge_positions(&self, view: &mut View) {
+    /// The end points that are not where their blocks lead from those before, with the number of their block, by how
+    /// much, µm; none where so many are off that the numbers mean something else.
+    pub(super) fn off_positions(&self) -> Vec<OffPosition> {
         let mut anchor = None;
         let (mut compared, mut ordinal) = (0, 0);
-        let mut off: Vec<(usize, At, [f64; 2])> = Vec::new();
+        let mut off: Vec<OffPosition> = Vec::new();
         for (stretch, of) in self.stretches.iter().enumerate() {
             let (positions, at) = (&of.positions, |entry: usize| At { stretch, entry });
             if let (Some(before), Some((entry, stated, travel))) = (&anchor, &positions.first) {
@@ -125,10 +147,84 @@ impl Document {
             anchor = positions.anchor.unwrap_or(anchor);
         }
         if off.len() > 2 && off.len() as f64 > position_mismatch::FOREIGN * compared as f64 {
-            return;
+            off.clear();
         }
+        off
+    }
+
+    /// Where the wire was taken by hand, behind a stop without a way: the first block there, and how far, µm.
+    pub(super) fn taken(&self, view: &View, off: &[OffPosition]) -> Vec<(At, Vector)> {
+        let behind_stops = off.iter().filter(|(_, at, _)| {
+            let mut before = self.before(*at).map(|(_, entry)| &entry.what);
+            let is_stop =
+                |what: &&What| matches!(what, What::Block(_) | What::Word { .. } | What::Unread);
+            matches!(before.find(is_stop), Some(What::Word { .. }))
+        });
+        let taken = behind_stops.filter_map(|&(_, at, by)| {
+            let own = self.cut_of_part(view, (at.stretch, self.part_of(at)))?;
+            let (stretch, part) = own.parts[0];
+            let before = part.checked_sub(1).map(|part| (stretch, part));
+            let before = before.and_then(|before| self.cut_of_part(view, before));
+            let is_behind_way = before.is_some_and(|cut| cut.is_jump);
+            (!is_behind_way && self.returns_beside(at)).then_some((at, Vector::from(by)))
+        });
+        taken.collect()
+    }
+
+    /// Whether the coordinates behind the blocks from this one on, which are not where it leads to from the place
+    /// before, come back to where it begins by them, and not to the place before: then the wire was taken there, and
+    /// the block is right.
+    fn returns_beside(&self, at: At) -> bool {
+        let first = self.entry(at).and_then(Entry::block);
+        let (Some(first), Some(before)) = (first, self.stated_before(at)) else {
+            return false;
+        };
+        let Some(stated) = first.stated_end() else {
+            return false;
+        };
+        let begin = place_before(&stated, &first.travel());
+        let is_at = |one: &StatedPoint, other: &StatedPoint| {
+            let rounding = 10_f64.powi(-i32::from(one.decimals.min(other.decimals)));
+            let near = |axis: usize| (one.at[axis] - other.at[axis]).abs() <= RETURNS + rounding;
+            near(0) && near(1)
+        };
+        let mut travel = Move::default();
+        let (mut last, mut goes_on) = (stated, None);
+        let mut stops = 0;
+        for (_, entry) in self.from(at) {
+            match &entry.what {
+                What::Block(block) => {
+                    if travel != Move::default() && goes_on.is_none() {
+                        let next = block.stated_end();
+                        let off =
+                            |next| position_mismatch::mismatch(&stated, &block.travel(), &next);
+                        goes_on = Some(next.is_none_or(|next| off(next).is_none()));
+                    }
+                    travel = travel.plus(block.travel());
+                    last = block.stated_end().unwrap_or(last);
+                }
+                What::Unread => return false,
+                What::Word { .. } => {
+                    stops += 1;
+                    if stops > STOPS || goes_on == Some(false) || is_at(&last, &before) {
+                        return false;
+                    }
+                    if is_at(&last, &begin) {
+                        return true;
+                    }
+                }
+                _ => {}
+            }
+        }
+        goes_on != Some(false) && !is_at(&last, &before) && is_at(&last, &begin)
+    }
+
+    pub(super) fn judge_positions(&self, view: &mut View, off: Vec<OffPosition>) {
         let mut before: Option<(usize, [f64; 2])> = None;
         for (ordinal, at, [x, y]) in off {
+            if view.taken.binary_search_by_key(&at, |(at, _)| *at).is_ok() {
+                continue;
+            }
             // One wrong end point is off once on the way there and once on the way back.
             let goes_back = before.is_some_and(|(last, [a, b])| {
                 last + 1 == ordinal && (a + x).abs() <= 4.0 && (b + y).abs() <= 4.0

@@ -52,15 +52,26 @@ impl Document {
     }
 
     /// The machine's position before each stretch, µm.
-    pub(super) fn begins(&self) -> Vec<Point> {
+    pub(super) fn begins(&self, taken: &[(At, Vector)]) -> Vec<Point> {
         let (mut at, _) = self.begin();
-        let begins = self.stretches.iter().map(|stretch| {
+        let mut taken = taken.iter().peekable();
+        let begins = self.stretches.iter().enumerate().map(|(index, stretch)| {
             let before = at;
             let [x, y] = stretch.travel.machine;
             at += Vector::new(x as f64, y as f64);
+            while let Some((_, by)) = taken.next_if(|(at, _)| at.stretch == index) {
+                at += by;
+            }
             before
         });
         begins.collect()
+    }
+
+    /// How far the wire was taken before a block, µm.
+    pub(super) fn taken_before(&self, at: At) -> Option<Vector> {
+        let taken = &self.view.taken;
+        let found = taken.binary_search_by_key(&at, |(at, _)| *at).ok()?;
+        Some(taken.get(found)?.1)
     }
 }
 
@@ -134,6 +145,7 @@ impl Program for Document {
             }
             let (kind, end, ideal) = match &what.what {
                 What::Block(block) => {
+                    start += self.taken_before(own).unwrap_or_default();
                     let [x, y] = block.travel().machine;
                     let kind = match block.is_line() {
                         _ if is_jump => Kind::Rapid,

@@ -9,12 +9,14 @@
 //! The path is that of `wedm/generate`, with its proof. It begins at the thread hole of the program and goes the same
 //! way round. Comments before the first block stay; others would stand at the wrong blocks and go.
 
+use super::slot::new_header;
 use super::{ThreeB, refuse_four_b};
 use crate::drawing::{self, Drawing, Entity, Geometry, Outline, Role, Unit, Vertex};
 use crate::geometry::Segment;
-use crate::program::grid::{Node, point_of};
+use crate::program::grid::{Node, point_of, snap};
 use crate::program::path::Cut;
 use crate::program::refactor::{Content, Edits, Refactoring, Sheet};
+use crate::program::three_b::layout::push_start_point;
 use crate::program::three_b::write;
 use crate::settings::{Compensation, Direction, Effective, Layout, PointSetting};
 use crate::text::TextEdit;
@@ -92,11 +94,19 @@ fn corrected(sheet: &Sheet<'_, ThreeB>, role: Role) -> Edits {
         ),
     })?;
     let program = write(&paths, 1.0, &settings).map_err(|error| error.to_string())?;
-    replaced(sheet, content, &program.text)
+    // A contour without a way in begins beside itself.
+    let begin = paths.first().and_then(|path| snap(path.begin() * 1000.0));
+    let begin = begin.filter(|begin| content.rows.first().is_some_and(|row| row.from != *begin));
+    replaced(sheet, content, &program.text, begin)
 }
 
-/// The new program, replacing all blocks and words.
-fn replaced(sheet: &Sheet<'_, ThreeB>, content: &Content<ThreeB>, program: &str) -> Edits {
+/// The new program, replacing all blocks and words; its new start, where that is not the present one.
+fn replaced(
+    sheet: &Sheet<'_, ThreeB>,
+    content: &Content<ThreeB>,
+    program: &str,
+    begin: Option<Node>,
+) -> Edits {
     let text = sheet.document.text();
     let first = content
         .rows
@@ -110,16 +120,27 @@ fn replaced(sheet: &Sheet<'_, ThreeB>, content: &Content<ThreeB>, program: &str)
         .max()
         .unwrap_or(0);
     let end = text.line_range(last).end;
-    let has_header = sheet.document.header().is_some();
-    // The present header is right as well, and the start stays where it was.
+    let header = sheet.document.header();
+    // The present header is right as well where the start stays where it was.
     let blocks = match program.strip_prefix("; Start Point") {
-        Some(rest) if has_header || !sheet.trace.start_is_known => {
-            rest.split_once('\n').map_or(rest, |(_, rest)| rest)
-        }
-        _ => program,
+        Some(rest) => rest.split_once('\n').map_or(rest, |(_, rest)| rest),
+        None => program,
     };
-    let new = blocks.trim_end().replace('\n', text.line_end(0));
-    Ok(vec![TextEdit::new(first..end.max(first), new)])
+    let mut new = String::new();
+    let mut edits = Vec::new();
+    match (&header, begin) {
+        (Some(header), Some(begin)) => edits.push(new_header(text, header, begin)?),
+        (None, Some(begin)) => {
+            let mut line = Vec::new();
+            push_start_point(&mut line, begin);
+            new = String::from_utf8(line).map_err(|error| error.to_string())?;
+        }
+        (_, None) => {}
+    }
+    new.push_str(blocks.trim_end());
+    let new = new.replace('\n', text.line_end(0));
+    edits.push(TextEdit::new(first..end.max(first), new));
+    Ok(edits)
 }
 
 fn geometry(content: &Content<ThreeB>, contour: &Cut) -> Geometry {

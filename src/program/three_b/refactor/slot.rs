@@ -26,7 +26,11 @@ pub(super) fn edits(
     Ok(text.changing(edits))
 }
 
-fn new_header(text: &SourceText, header: &Range<usize>, start: Node) -> Result<TextEdit, String> {
+pub(super) fn new_header(
+    text: &SourceText,
+    header: &Range<usize>,
+    start: Node,
+) -> Result<TextEdit, String> {
     let mut line = Vec::new();
     push_start_point(&mut line, start);
     let line = String::from_utf8(line).map_err(|error| error.to_string())?;

@@ -55,6 +55,16 @@ fn contours_are_reversed_between_their_ways() {
     let reversed = "; R10\nN1 B9900B0B9900GXL1 ; in\nN2 B9900B0B19800GYSR4\nN3 B9900B0B19800GYSR2 ; half\nN4 B9900B0B9900GXL3\nDD\n";
     check("reverse", HOLE, reversed);
     check("reverse", reversed, HOLE);
+    // Leads that part are turned round with it: arcs, and an overlap.
+    let arcs = "B2450B1415B2450GXL4\nB816B1416B1852GYNR3\nB4900B0B19600GYNR1\nB1634B1B2450GXNR1\nB2450B1415B2450GXL3\nDD\n";
+    let turned = "B2450B1415B2450GXL1\nB816B1416B1852GYSR2\nB4900B0B19600GYSR4\nB1634B1B2450GXSR4\nB2450B1415B2450GXL2\nDD\n";
+    check("reverse", arcs, turned);
+    let past = "B0B900B900GYL2\nB2000B0B2000GXL1\nB0B3000B3000GYL2\nB4000B0B4000GXL3\nB0B3000B3000GYL4\nB2000B0B2000GXL1\nB300B0B300GXL1\nB300B900B900GYL3\nDD\n";
+    let begun = "B300B900B900GYL1\nB300B0B300GXL3\nB2000B0B2000GXL3\nB0B3000B3000GYL2\nB4000B0B4000GXL1\nB0B3000B3000GYL4\nB2000B0B2000GXL3\nB0B900B900GYL4\nDD\n";
+    check("reverse", past, begun);
+    check("reverse", begun, past);
+    assert_eq!(read(past).findings(), []);
+    assert_eq!(read(begun).findings(), []);
     // Only the contour that the cursor is in.
     check(
         "reverse",
@@ -180,6 +190,17 @@ fn long_blocks_are_split_and_merge_again() {
 
 #[test]
 fn the_correction_is_applied_to_the_parts_contour() {
+    // Where no way leads to the contour, the start is another one, and is said.
+    check(
+        "correct.opening",
+        "B5000B0B20000GYNR1\nDD\n",
+        "; Start Point = -0.100 , 0.000\nB4900B0B19600GYNR1\nDD\n",
+    );
+    check(
+        "correct.punch",
+        "; Start Point = 5.000 , 0.000\nB5000B0B20000GYNR1\nDD\n",
+        "; Start Point = 5.100 , 0.000\nB5100B0B20400GYNR1\nDD\n",
+    );
     let part = "; plate\nB10000B0B10000GXL1\nB10000B0B40000GYNR1\nB10000B0B10000GXL3\nDD\n";
     check(
         "correct.opening",
