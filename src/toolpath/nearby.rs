@@ -72,6 +72,9 @@ mod tests {
     use crate::geometry::{Segment, Vector};
 
     /// Along a wave of lines, at distances that grow beyond what is looked up at once, what is found is what all walls say.
+    /// Hands each wall that it finds to another one, which ends the search with true.
+    type Finds<'a> = &'a mut dyn FnMut(&mut dyn FnMut(usize) -> bool);
+
     #[test]
     fn what_is_found_is_what_is_found_among_all() {
         let at = |index: usize| {
@@ -89,7 +92,7 @@ mod tests {
                 let point = at(index) + Vector::new(0.3, -0.2) * (index % 5) as f64;
                 for reach in [0.01, 0.3, 2.0, 50.0] {
                     let area = Bounds::of_disc(point, reach);
-                    let all = |find: &mut dyn FnMut(&mut dyn FnMut(usize) -> bool)| {
+                    let all = |find: Finds| {
                         let mut found = Vec::new();
                         find(&mut |wall| {
                             found.push(wall);
