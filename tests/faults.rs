@@ -21,6 +21,8 @@ mod judge;
 mod known;
 #[path = "faults/properties.rs"]
 mod properties;
+#[path = "faults/rivals.rs"]
+mod rivals;
 
 use chance::Chance;
 use contours::{Group, program};
