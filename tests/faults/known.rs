@@ -1,6 +1,5 @@
 //! Faults that once were made worse, or should be set right: what fix-all makes of each, and what the first fix does.
 
-use super::chance::Chance;
 use super::contours::Group;
 use super::judge::{findings, read};
 use wedm::document::Document;
