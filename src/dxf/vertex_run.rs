@@ -131,7 +131,7 @@ impl Document {
             _ => Vec::new(),
         };
         let delta = if read.is_damaged {
-            let (suspended, delta) = match suspended {
+            let (mut suspended, delta) = match suspended {
                 Some(suspended) => (suspended, Delta::default()),
                 None => {
                     let elsewhere = [whole.start..run.start, run.end..whole.end];
@@ -145,11 +145,8 @@ impl Document {
                     (self.suspend(item, id)?, Delta { touched })
                 }
             };
-            self.suspended = Some(Box::new(Suspended {
-                changed: vertices,
-                moved,
-                ..*suspended
-            }));
+            (suspended.changed, suspended.moved) = (vertices, moved);
+            self.suspended = Some(suspended);
             delta
         } else {
             self.replace_run(

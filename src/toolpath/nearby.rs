@@ -71,10 +71,10 @@ mod tests {
     use super::*;
     use crate::geometry::{Segment, Vector};
 
-    /// Along a wave of lines, at distances that grow beyond what is looked up at once, what is found is what all walls say.
     /// Hands each wall that it finds to another one, which ends the search with true.
     type Finds<'a> = &'a mut dyn FnMut(&mut dyn FnMut(usize) -> bool);
 
+    /// Along a wave of lines, at distances that grow beyond what is looked up at once, what is found is what all walls say.
     #[test]
     fn what_is_found_is_what_is_found_among_all() {
         let at = |index: usize| {

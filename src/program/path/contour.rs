@@ -141,14 +141,20 @@ pub(crate) fn closing(way: &dyn Way) -> Option<Closing> {
 /// goes on past the place where the contour closes, leads that are short beside it.
 fn forked(way: &dyn Way, shared: usize, tolerance: f64) -> Option<Option<[usize; 2]>> {
     let longest = 2 * LONGEST_FORK + LONGEST_OVERLAP;
-    let room = way.count().saturating_sub(2 * shared);
-    for both in 2..=longest.min(room) {
+    let count = way.count();
+    let longest_here = longest.min(count.saturating_sub(2 * shared));
+    // What is asked of many pairs is found once: to find a node may take a walk to it.
+    let begins = (0..longest_here).map(|own| way.node(shared + own));
+    let ends = (0..longest_here).map(|own| way.node(count - shared - own));
+    let (begins, ends): (Vec<_>, Vec<_>) = (begins.collect(), ends.collect());
+    for both in 2..=longest_here {
         for own_in in 1..both.min(longest - LONGEST_FORK) {
-            let [lead_in, lead_out] = [shared + own_in, shared + both - own_in];
-            if lead_in + lead_out >= way.count() {
+            let own_out = both - own_in;
+            let [lead_in, lead_out] = [shared + own_in, shared + own_out];
+            if lead_in + lead_out >= count {
                 continue;
             }
-            let (begin, end) = (way.node(lead_in)?, way.node(way.count() - lead_out)?);
+            let (begin, end) = ((*begins.get(own_in)?)?, (*ends.get(own_out)?)?);
             if begin.is_near(&end, tolerance)
                 && encloses(way, lead_in, lead_out)?
                 && are_leads(way, shared, [lead_in, lead_out], tolerance)?
