@@ -134,13 +134,16 @@ impl Document {
     pub(super) fn is_at_fault(&self, lines: &Range<usize>) -> bool {
         let near = self.text.line_start(lines.start.saturating_sub(LOOKBACK));
         let end = self.text.line_start(lines.end);
-        let behind = self
-            .findings
-            .partition_point(|finding| range_key(finding).0 < end);
+        let begun_before = |at: usize| {
+            self.findings
+                .partition_point(|finding| range_key(finding).0 < at)
+        };
+        // Some lines that are no tags, begun long before, may reach as far as here.
+        let first = begun_before(near).saturating_sub(3);
         self.findings
             .iter()
-            .take(behind)
-            .skip(behind.saturating_sub(3))
+            .take(begun_before(end))
+            .skip(first)
             .any(|finding| {
                 matches!(&finding.place, Place::Text { range } if range.end >= near)
                     && finding.rule == Rule::Syntax

@@ -188,6 +188,42 @@ fn shown(document: &mut Document) -> (Vec<String>, Vec<String>) {
     )
 }
 
+/// What is said of a line that is missing may hang on the lines of the next polyline.
+#[test]
+fn what_is_typed_behind_a_damaged_polyline_is_read_as_if_afresh() {
+    let settings = Arc::new(Effective::of(&Settings::default()));
+    let read = |text: &str| {
+        let text = text.to_owned().into_bytes();
+        Document::new(Source::Dxf(dxf::Document::read(text)), settings.clone())
+    };
+    for (first, second) in [(0, 1), (1, 2), (2, 3)] {
+        let whole = typed_text(15);
+        let begins = |text: &str, number| {
+            let found = text.match_indices("0\nLWPOLYLINE").nth(number);
+            found.map_or(0, |(at, _)| at)
+        };
+        let lines_from = |text: &str, at: usize| -> Vec<usize> {
+            let behind = text[at..].match_indices('\n').map(|(end, _)| at + end + 1);
+            std::iter::once(at).chain(behind).collect()
+        };
+        let ends = lines_from(&whole, begins(&whole, first));
+        let last = ends.partition_point(|&at| at < begins(&whole, second));
+        for lost in last.saturating_sub(8)..last {
+            let mut damaged = whole.clone();
+            damaged.replace_range(ends[lost]..ends[lost + 1], "");
+            let lines = lines_from(&damaged, begins(&damaged, second));
+            for line in lines.windows(2).take(34).map(|it| it[0]..it[1]) {
+                for (range, new) in [(line.clone(), ""), (line.start..line.start, "x")] {
+                    let (mut document, mut text) = (read(&damaged), damaged.clone());
+                    text.replace_range(range.clone(), new);
+                    document.edit_text(range, new);
+                    assert_eq!(shown(&mut document), shown(&mut read(&text)), "{text}");
+                }
+            }
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: cases(300), failure_persistence: None, ..ProptestConfig::default() })]
 
