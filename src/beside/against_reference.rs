@@ -10,7 +10,7 @@ use super::reference::{Reference, Under};
 use super::traced::{Block, Motion, Traced};
 use super::walk::Kind;
 use crate::drawing::EntityId;
-use crate::geometry::{Point, Segment, Vector};
+use crate::geometry::{Arc, Point, Segment, Vector};
 
 /// The largest deviation of a block, or of one of its numbers, from the rewritten one, µm; and that under settings that
 /// are not known to the last digit.
@@ -56,12 +56,12 @@ impl Told {
     }
 
     /// Several moved ways in and out come from another setting, whether or not they are one change, and so does one
-    /// that is moved by more than `most`, mm; any other was changed by somebody.
-    pub(crate) fn without_leads(mut self, most: f64) -> Told {
+    /// that is moved by so many mm that it is none of `is_slip`; any other was changed by somebody.
+    pub(crate) fn without_leads(mut self, is_slip: impl Fn(f64) -> bool) -> Told {
         let is_lead = |one: &Difference| one.kind == Kind::Lead;
         let all = &mut self.comparison.differences;
         let leads = || all.iter().filter(|one| is_lead(one));
-        if self.ways > 1 || leads().any(|one| one.off > most) {
+        if self.ways > 1 || leads().any(|one| !is_slip(one.off)) {
             self.elsewhere += leads().count();
             all.retain(|one| !is_lead(one));
         }
@@ -245,8 +245,7 @@ impl<'a> Pairs<'a> {
             .filter(|pair| !pair.words.are_same)
             .count();
         let is_in_our_words = 2 * rewritten <= traced.blocks.len();
-        let (mut before, mut beside) = (false, 0.0);
-        let mut all = Vec::with_capacity(self.pairs.len());
+        let (mut before, mut beside, mut all) = (false, 0.0, Vec::new());
         for pair in &self.pairs {
             let (own, meant, words) = (pair.own, pair.meant, pair.words);
             if own.is_offset != meant.is_offset {
@@ -256,8 +255,11 @@ impl<'a> Pairs<'a> {
             let away = away(&own.motion, &meant.motion, from, is_behind);
             // Behind a block that is lost or superfluous the next one may be of another kind.
             let away = away.or(pair.behind_gap.then_some(0.0))?;
+            // J of a circle is off by four times what its radius is; where it is wrong, so is the end.
+            let arc = meant.segment().and_then(Segment::as_arc);
+            let is_circle = !traced.four_b && arc.is_some_and(Arc::is_full_turn);
             let off = match words.apart {
-                Some(apart) if is_in_our_words => away.max(apart),
+                Some(apart) if is_in_our_words && !is_circle => away.max(apart),
                 _ => away,
             };
             beside += if off <= ALIKE { away } else { 0.0 };

@@ -4,6 +4,7 @@
 //! overlap. What cannot is tried: for each guess the program is generated; the guess that shares most blocks is
 //! refined, one setting at a time.
 
+use super::about_stops::{FAR, differs_from_stop_to_stop, is_amid, parts_at_a_stop};
 use super::against_reference::{Told, against_reference};
 use super::cache::Guess;
 use super::comparison::{Difference, FEW};
@@ -13,7 +14,7 @@ use super::passes::corrections;
 use super::reference::{Reference, Under};
 use super::sides::Sides;
 use super::tabs::{tabs, threads};
-use super::traced::{Block, Motion, Traced};
+use super::traced::Traced;
 use super::walk::Kind;
 use super::way::{Way, way};
 use crate::settings::{
@@ -29,8 +30,6 @@ const MOST_AGAIN: usize = 30_000;
 const LEAST_COST: usize = 60;
 /// A program whose blocks deviate by more than this in the mean is by another writer, µm.
 const OURS: f64 = 0.5;
-/// The deviation of a block at a stop where a tab was guessed wrong, mm.
-const FAR: f64 = 0.05;
 /// A guess of the sides whose score is lower by at most this may still be right.
 const LESS: f64 = 0.05;
 /// A smaller deviation may come from a guess that is not exact, mm.
@@ -42,8 +41,9 @@ const STEPS: i32 = 12;
 /// A way in or out that deviates by more has another setting, mm; and the same where it depends on unknown settings.
 const SLIP: f64 = 1e-2;
 const SLIGHT: f64 = 5e-3;
-/// A tab, an overlap or a lead of another length shows at most this many blocks from a stop or an end.
-const ABOUT: usize = 3;
+/// One that deviates by less does so by the rounding of a setting, mm; and how far a whole number may be off, µm.
+const LEAST_SLIP: f64 = 2.9e-3;
+const WHOLE: f64 = 0.1;
 /// A diameter of thread holes for which there is room nearly everywhere, mm.
 const HOLE: f64 = 0.5;
 
@@ -54,7 +54,7 @@ pub(super) fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Told> {
     if let Some(Guess { under, left, .. }) = &known
         && let Some(under) = under
         && let Some(told) = against_reference(drawn, traced, under)
-        && (is_certain(traced, &told)
+        && (is_certain(traced, &told, under)
             || is_near && told.elsewhere == 0 && told.comparison.differences.len() <= *left)
         && is_told(traced, &told)
     {
@@ -108,11 +108,19 @@ pub(super) fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Told> {
 /// Where the control adds the correction, the program does not state it, and ways in and out depend on it.
 fn without_leads(traced: &Traced, told: Told) -> Told {
     let is_offset = traced.blocks.iter().any(|block| block.is_offset);
-    told.without_leads(if is_offset { SLIGHT } else { SLIP })
+    let most = if is_offset { SLIGHT } else { SLIP };
+    // One number that was changed moves a way by whole micrometres; a guess that is not exact moves both of its ends.
+    let is_whole = |um: f64| (um - um.round()).abs() <= WHOLE;
+    told.without_leads(|off| (LEAST_SLIP..=most).contains(&off) && is_whole(off * 1e3))
 }
 
 /// Nothing differs, or one block of a contour that no setting changes by itself.
-fn is_certain(traced: &Traced, told: &Told) -> bool {
+fn is_certain(traced: &Traced, told: &Told, under: &Under) -> bool {
+    // Corners of another kind may differ in one place alone.
+    let most = match under.settings.corrections.len() {
+        0 | 1 => f64::INFINITY,
+        _ => FAR,
+    };
     match &told.comparison.differences[..] {
         _ if told.elsewhere > 0 => false,
         [] => told.is_exact(),
@@ -122,25 +130,12 @@ fn is_certain(traced: &Traced, told: &Told) -> bool {
             if told.is_exact()
                 && !told.has_gap
                 && one.kind == Kind::Block
-                && one.off >= SLIGHTLY =>
+                && (SLIGHTLY..=most).contains(&one.off) =>
         {
             is_amid(traced, one)
         }
         _ => false,
     }
-}
-
-/// The wire does not stop near a block, and no way in or out is near.
-fn is_amid(traced: &Traced, one: &Difference) -> bool {
-    let is_one = |block: &Block| block.range == one.range;
-    let blocks = &traced.blocks;
-    let at = blocks.iter().position(is_one).unwrap_or(0);
-    let about = at.saturating_sub(ABOUT)..=at + ABOUT;
-    let is_cut = |index: &usize| {
-        let block = blocks.get(*index);
-        block.is_some_and(|block| block.segment().is_some())
-    };
-    at >= ABOUT && about.clone().filter(is_cut).count() == about.count()
 }
 
 /// Of guesses that are not exact the nearest comes first: one that is farther off may hide a change. They come before
@@ -182,24 +177,7 @@ fn is_told(traced: &Traced, told: &Told) -> bool {
             told.mean < OURS && all.len() < 2 && !told.has_gap && all.iter().all(is_change)
         }
     };
-    is_ours && !parts_at_a_stop(traced, told)
-}
-
-/// The large differences end where the wire stops or begins, or lie on both sides of a stop: the tab has another length
-/// than was guessed, and nobody changed anything.
-fn parts_at_a_stop(traced: &Traced, told: &Told) -> bool {
-    let off = |block: &Block| {
-        let mut all = told.comparison.differences.iter();
-        let of = all.find(|difference| difference.range == block.range);
-        of.map_or(0.0, |difference| difference.off)
-    };
-    traced.blocks.windows(3).any(|about| match about {
-        [before, stop, behind] if stop.motion == Motion::Stop => {
-            let (one, other) = (off(before), off(behind));
-            one.max(other) > FAR || one.min(other) > 0.0
-        }
-        _ => false,
-    })
+    is_ours && !parts_at_a_stop(traced, told) && !differs_from_stop_to_stop(traced, told)
 }
 
 struct Search<'a> {
@@ -266,7 +244,7 @@ impl<'a> Search<'a> {
     fn is_done(&self) -> bool {
         self.told
             .as_ref()
-            .is_some_and(|(told, _)| is_certain(self.traced, told))
+            .is_some_and(|(told, under)| is_certain(self.traced, told, under))
     }
 
     /// Guesses of corrections alone.

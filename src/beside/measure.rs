@@ -54,6 +54,32 @@ fn apart(one: &Bounds, other: &Bounds, shift: Vector) -> f64 {
     away + (wider - higher).abs() + wider.abs().max(higher.abs()) / 8.0
 }
 
+/// Whether two cuts are passes of one contour: one box holds them, or, where a sharp corner leads one of them farther
+/// out, they run side by side.
+fn are_passes(traced: &Traced, one: &Range<usize>, other: &Range<usize>) -> bool {
+    let [own, next] = [one, other].map(|cut| bounds(traced, cut.clone()));
+    if (own.min - next.min).amax() <= BESIDE && (own.max - next.max).amax() <= BESIDE {
+        return true;
+    }
+    let is_like = |one: f64, other: f64| one.max(other) <= 2.0 * one.min(other);
+    let are_alike = is_like(own.width(), next.width()) && is_like(own.height(), next.height());
+    let (mut sum, mut beside) = (0.0, 0.0);
+    for block in segments(traced, other.clone())
+        .take(VOTERS)
+        .filter(|_| are_alike)
+    {
+        let mut all = segments(traced, one.clone()).take(VOTERS);
+        let is_near = |own: &Segment| aside(own, block).is_some_and(|by| by.abs() <= BESIDE);
+        sum += block.length();
+        beside += if all.any(is_near) {
+            block.length()
+        } else {
+            0.0
+        };
+    }
+    2.0 * beside > sum
+}
+
 /// The contours of the drawing that a program cuts, each by the name of one of its entities, in the order of the cuts;
 /// `None` where that is not known or needs no setting.
 pub(super) fn contours(drawn: &Drawn, traced: &Traced) -> Option<Vec<String>> {
@@ -75,16 +101,15 @@ pub(super) fn contours(drawn: &Drawn, traced: &Traced) -> Option<Vec<String>> {
             Some((of, drawn.handle(entity)))
         })
         .collect();
-    let mut groups: Vec<Bounds> = Vec::new();
+    let mut first_passes: Vec<Range<usize>> = Vec::new();
     for cut in cuts(traced) {
-        let own = bounds(traced, cut);
-        let is_same = |last: &Bounds| {
-            (last.min - own.min).amax() <= BESIDE && (last.max - own.max).amax() <= BESIDE
-        };
-        if !groups.last().is_some_and(is_same) {
-            groups.push(own);
+        let is_same = |last: &Range<usize>| are_passes(traced, last, &cut);
+        if !first_passes.last().is_some_and(is_same) {
+            first_passes.push(cut);
         }
     }
+    let groups = first_passes.into_iter().map(|cut| bounds(traced, cut));
+    let groups: Vec<Bounds> = groups.collect();
     let first = *groups.first()?;
     let pairs = outlines
         .len()
@@ -120,11 +145,7 @@ pub(super) fn passes(traced: &Traced) -> Vec<Vec<Segment>> {
     let Some(longest) = cuts(traced).max_by_key(|cut| cut.len()) else {
         return Vec::new();
     };
-    let own = bounds(traced, longest);
-    let beside = cuts(traced).filter(|cut| {
-        let other = bounds(traced, cut.clone());
-        (other.min - own.min).amax() <= BESIDE && (other.max - own.max).amax() <= BESIDE
-    });
+    let beside = cuts(traced).filter(|cut| are_passes(traced, &longest, cut));
     let mut passes: Vec<Vec<Segment>> = Vec::new();
     for cut in beside {
         let blocks = traced.blocks.get(cut).unwrap_or_default();

@@ -8,6 +8,7 @@
 //! may leave out contours, begin anywhere, go either way round, cut in several passes and leave a tab. Everything is in
 //! µm.
 
+mod about_stops;
 mod against_reference;
 mod anchor;
 mod cache;

@@ -92,6 +92,58 @@ fn rows() -> Vec<Row> {
             "[passes]\ncorrections = [0.191, 0.1212]\n[program]\nclosing-overlap = 1.5\nlead-in = 1.7\nlead = \"arc\"\nlayout = \"checking\"\n",
             false,
         ),
+        // J of a circle is off by four times what its radius is off.
+        (
+            Shape::Circle([1.5905323306923371, -7.379123356854911], 5.0),
+            Role::Opening,
+            Format::ThreeB,
+            "[passes]\ncorrections = [0.2321, 0.2176, 0.1811]\n[program]\nlead = \"straight\"\n",
+            false,
+        ),
+        // A guess that is a tenth of a micrometre off has one of the ways of the wire elsewhere by a grid point.
+        (
+            slot(
+                [-1.1946225053050674, -1.7151087380524843],
+                [5.940942760020874, 7.430217476104968],
+            ),
+            Role::Opening,
+            Format::Iso,
+            "[passes]\ncorrections = [0.231, 0.2107, 0.16]\n[program]\nlead-in = 4\nlead = \"arc\"\n",
+            false,
+        ),
+        (
+            Shape::Polyline(vec![
+                [31.551, 8.238, 0.0],
+                [14.565, 12.049, 0.0],
+                [9.714, 24.665, -0.17930930344798296],
+                [-6.066, 26.618, -0.3219913327150464],
+                [-9.379, 15.131, 0.0],
+                [-22.08, 10.578, 0.0],
+                [-25.306, -7.619, 0.2842509971885704],
+                [-20.838, -14.796, 0.09449715123114688],
+                [-8.374, -18.308, 0.0],
+                [8.666, -17.7, 0.0],
+                [11.094, -10.708, 0.0],
+                [18.021, -5.233, 0.0],
+            ]),
+            Role::Opening,
+            Format::FourB,
+            "correction = 0.217\n[program]\nlead-in = 1.7\n",
+            true,
+        ),
+        // A corner so sharp that it leads the second pass millimetres farther out: that was none of the same contour.
+        (
+            Shape::Polyline(vec![
+                [36.924921, 14.460148, 0.0],
+                [50.285078, 2.718044, 0.0],
+                [46.50376, 6.418225, 0.0],
+                [47.2499, 13.009929, 0.0],
+            ]),
+            Role::Opening,
+            Format::ThreeB,
+            "[passes]\ncorrections = [0.277, 0.104]\n[program]\ndirection = \"cw\"\ntab = 2.5\nlead = \"arc\"\nclosing-overlap = 0.5\n",
+            true,
+        ),
         // Nothing was alike: passes with corners of their own, a lead along an arc, passes of 4B.
         (
             Shape::Polyline(vec![

@@ -10,7 +10,7 @@ use crate::geometry::{Arc, Locus, Point, Segment, left_normal, turn};
 use crate::program::grid::{best_center, point_of, snap};
 use crate::program::path::is_tight_in_four_b;
 use crate::program::write::{ProofError, Proved, scaled, too_far_out};
-use crate::toolpath::{PathSegment, Source, WirePath};
+use crate::toolpath::{PathSegment, Source, WirePath, each};
 use std::f64::consts::PI;
 
 /// A joint that turns by less is tangent, radians: the wire's path has a step of less than 1 µm there for each millimetre of correction.
@@ -194,6 +194,9 @@ pub(super) fn is_concave(arc: &Arc, side: Side) -> bool {
 /// The least length of a piece between its transitions, µm.
 const LEAST_LEFT: f64 = 1.0;
 
+/// Transitions that one core holds against the grid at a time.
+const AT_A_TIME: usize = 64;
+
 /// How much larger a transition may become so that it exceeds the correction on the grid, too, µm.
 const LARGER: i32 = 3;
 
@@ -203,7 +206,29 @@ fn with_transitions(
     radius: f64,
     correction: f64,
 ) -> Proved<Vec<PathSegment>> {
+    let is_sound = |arc: &Arc| !is_tight_in_four_b(on_grid(arc), correction);
+    // Most are sound as they are: all of them are held against the grid at once.
+    let (rounded, arcs) = transitions(contour, radius, |_, _| true).unwrap_or_default();
+    let are_sound = each(arcs.len(), AT_A_TIME, |nth| is_sound(&arcs[nth]));
+    if !rounded.is_empty() && !are_sound.contains(&false) {
+        return Ok(rounded);
+    }
+    let known = |nth: usize, arc: &Arc| match arcs.get(nth) {
+        Some(own) if own == arc => are_sound[nth],
+        _ => is_sound(arc),
+    };
+    transitions(contour, radius, known).map(|(rounded, _)| rounded)
+}
+
+/// Transition arcs of `radius`, or as little more as makes them sound, which is asked of each by its number; beside the
+/// whole, those arcs.
+fn transitions(
+    contour: &[PathSegment],
+    radius: f64,
+    is_sound: impl Fn(usize, &Arc) -> bool,
+) -> Proved<(Vec<PathSegment>, Vec<Arc>)> {
     let mut rounded: Vec<PathSegment> = Vec::with_capacity(contour.len() * 2);
+    let mut arcs = Vec::new();
     for piece in contour {
         let Some(before) = rounded.last_mut() else {
             rounded.push(*piece);
@@ -224,7 +249,7 @@ fn with_transitions(
             before: cut,
             arc,
             behind,
-        }) = fitting.find(|made| !is_tight_in_four_b(on_grid(&made.arc), correction))
+        }) = fitting.find(|made| is_sound(arcs.len(), &made.arc))
         else {
             let fault = Unwritable::NoTransition {
                 at: mm(piece.geometry.start()),
@@ -234,6 +259,7 @@ fn with_transitions(
             return Err(unwritable(piece, fault));
         };
         before.geometry = cut;
+        arcs.push(arc);
         rounded.push(PathSegment {
             geometry: Segment::Arc(arc),
             ..*piece
@@ -243,7 +269,7 @@ fn with_transitions(
             ..*piece
         });
     }
-    Ok(rounded)
+    Ok((rounded, arcs))
 }
 
 /// The radius of the block that an arc becomes, µm: between nodes of the grid it may be a micrometre smaller.

@@ -1,7 +1,7 @@
 //! Decodes the written text and compares it with the path, block by block.
 
 use super::block::{Block, Motion, Node, PartArc};
-use super::decode::decode;
+use super::decode::{DecodeFault, decode};
 use super::encode::{ASIDE_TOLERANCE, END_TOLERANCE, Encoded, alternatives, point_of};
 use super::parse::{Item, read_line};
 use super::words::Words;
@@ -9,6 +9,9 @@ use crate::geometry::{Segment, Vector};
 use crate::program::grid::largest_distance;
 use crate::program::path::tolerance;
 use std::ops::Range;
+
+/// A block as it runs from its own node.
+type Decoded = Result<Segment, DecodeFault>;
 
 /// The results for the blocks of one program so far.
 #[derive(Clone, Debug, Default)]
@@ -23,28 +26,36 @@ pub(super) struct Proof {
 }
 
 impl Proof {
-    /// Takes a block, or another one for the same arc where a counting controller would else drift further and further:
-    /// equal arcs in a row miss their ends alike. No number is above `largest`; without it there is no other one.
-    pub(crate) fn taken(&mut self, encoded: &Encoded, largest: Option<i64>) -> Encoded {
+    /// Takes a block, decoded from its own node, or another one for the same arc where a counting controller would else
+    /// drift further and further: equal arcs in a row miss their ends alike. No number is above `largest`; without it
+    /// there is no other one.
+    pub(crate) fn taken(
+        &mut self,
+        encoded: Encoded,
+        decoded: Decoded,
+        largest: Option<i64>,
+    ) -> (Encoded, Decoded) {
         let drift = self.drift - self.drift_at_start;
-        let miss = |block: &Block| match decode(block, point_of(encoded.from)) {
+        let miss = |decoded: &Decoded| match decoded {
             Ok(decoded) => decoded.end() - point_of(encoded.to),
             Err(_) => Vector::new(f64::INFINITY, f64::INFINITY),
         };
-        let drifted = |block: &Block| (drift + miss(block)).norm();
+        let drifted = |decoded: &Decoded| (drift + miss(decoded)).norm();
         let allowed = tolerance(self.arcs - self.arcs_at_start) / 2.0;
-        let (mut block, mut own) = (encoded.block, miss(&encoded.block));
-        if let Some(largest) = largest.filter(|_| (drift + own).norm() > allowed) {
-            let best = alternatives(encoded, largest)
-                .into_iter()
-                .min_by(|a, b| drifted(a).total_cmp(&drifted(b)));
-            if let Some(best) = best.filter(|block| drifted(block) < (drift + own).norm()) {
-                (block, own) = (best, miss(&best));
+        let mut taken = (encoded, decoded);
+        if let Some(largest) = largest.filter(|_| drifted(&taken.1) > allowed) {
+            let others = alternatives(&encoded, largest).into_iter().map(|block| {
+                let decoded = decode(&block, point_of(encoded.from));
+                (Encoded { block, ..encoded }, decoded)
+            });
+            let best = others.min_by(|a, b| drifted(&a.1).total_cmp(&drifted(&b.1)));
+            if let Some(best) = best.filter(|(_, other)| drifted(other) < drifted(&taken.1)) {
+                taken = best;
             }
         }
-        self.drift += own;
-        self.arcs += usize::from(!matches!(block.motion, Motion::Line(_)));
-        Encoded { block, ..*encoded }
+        self.drift += miss(&taken.1);
+        self.arcs += usize::from(!matches!(taken.0.block.motion, Motion::Line(_)));
+        taken
     }
 
     /// Ends one contour: its drift must stay within the tolerance of closing.

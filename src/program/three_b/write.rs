@@ -194,12 +194,19 @@ impl Writer for Blocks<'_> {
         })?;
         // 4B's radius is the block's own.
         let largest = self.part.is_none().then_some(largest);
-        let mut lines = Vec::with_capacity(2 * pieces.len());
-        for (piece, block) in encoded.into_iter().flatten() {
-            let block = self.proof.taken(&block, largest);
+        let encoded: Vec<(usize, Encoded)> = encoded.into_iter().flatten().collect();
+        let decoded = each(encoded.len(), AT_A_TIME, |nth| {
+            let own = &encoded[nth].1;
+            decode(&own.block, point_of(own.from))
+        });
+        let mut lines = Vec::with_capacity(encoded.len());
+        for ((piece, block), decoded) in encoded.into_iter().zip(decoded) {
+            let (block, decoded) = self.proof.taken(block, decoded, largest);
             self.made.blocks += 1;
             let start = self.out.len();
-            let part = self.part_of(&block, pieces[piece].source)?;
+            let decoded = decoded
+                .map_err(|_| ProofError::Mismatch(say!(a_block_cannot_be_decoded, block.block)))?;
+            let part = self.part_of(&block, &decoded, pieces[piece].source)?;
             push_block(
                 &mut self.out,
                 self.settings.layout,
@@ -315,7 +322,12 @@ impl<'a> Blocks<'a> {
 
     /// The additional part of an arc's 4B block, proved: the wire's arc has a radius, and the wire's path joins before
     /// it.
-    fn part_of(&mut self, encoded: &Encoded, source: Source) -> Proved<Option<PartArc>> {
+    fn part_of(
+        &mut self,
+        encoded: &Encoded,
+        decoded: &Segment,
+        source: Source,
+    ) -> Proved<Option<PartArc>> {
         let Some(part) = &mut self.part else {
             return Ok(None);
         };
@@ -323,8 +335,6 @@ impl<'a> Blocks<'a> {
             part.direction = None;
             return Ok(None);
         }
-        let decoded = decode(&encoded.block, point_of(encoded.from))
-            .map_err(|_| ProofError::Mismatch(say!(a_block_cannot_be_decoded, encoded.block)))?;
         if let Some(direction) = part.direction {
             let gap = 2.0
                 * part.correction
@@ -341,7 +351,7 @@ impl<'a> Blocks<'a> {
         let Segment::Arc(arc) = decoded else {
             return Ok(None);
         };
-        let concave = is_concave(&arc, part.side);
+        let concave = is_concave(arc, part.side);
         let radius = arc.radius.round();
         if concave && is_tight_in_four_b(radius, part.correction) {
             return Err(ProofError::Refused(say!(
