@@ -17,7 +17,7 @@ const MOST_OF_EACH: usize = 24;
 const AT_A_TIME: usize = 2048;
 
 /// Of each wall those whose boxes come near to its own.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct About {
     pub(super) reach: f64,
     /// Where those of each begin and end among `walls`; of a few that lies close to many they are the same.

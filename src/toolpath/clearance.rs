@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 
 /// Walls in boxes of boxes: a few that follow each other along the contour in one, and of these, where there are many, a few that lie
 /// together anywhere, as the turns of a spiral do.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Walls {
     segments: Vec<Segment>,
     /// Boxes of `FAN` segments, then boxes of `FAN` of those, up to one.
@@ -69,6 +69,52 @@ impl Walls {
             about: OnceLock::new(),
             tangents: OnceLock::new(),
             twice_area: OnceLock::new(),
+        }
+    }
+
+    /// Puts others in the place of some segments, by index, and hands out those. The ends of stretches of the contour stay.
+    pub(crate) fn replace(&mut self, new: &[(usize, Segment)]) -> Vec<(usize, Segment)> {
+        self.about = OnceLock::new();
+        let origin = new.first().map(|(_, first)| first.start());
+        let mut grown = 0.0;
+        let gone = new.iter().map(|&(index, segment)| {
+            let gone = std::mem::replace(&mut self.segments[index], segment);
+            if let Some(tangents) = self.tangents.get_mut() {
+                tangents[index] = tangents_of(&segment);
+            }
+            let area_of = |segment: &Segment| origin.map_or(0.0, |it| segment.twice_area(it));
+            grown += area_of(&segment) - area_of(&gone);
+            (index, gone)
+        });
+        let gone = gone.collect();
+        if let Some(twice_area) = self.twice_area.get_mut() {
+            *twice_area += grown;
+        }
+        for &(index, _) in new {
+            self.levels[0][index] = self.segments[index].bounds();
+        }
+        let mut last = None;
+        for few in new.iter().map(|(index, _)| index / FAN) {
+            if last.replace(few) != Some(few) {
+                self.box_again(few);
+            }
+        }
+        gone
+    }
+
+    /// The boxes of a few segments and of all that holds these, where a segment has changed.
+    fn box_again(&mut self, few: usize) {
+        let (mut within, mut at) = (few, few);
+        for level in 1..self.levels.len() {
+            if let (1, Some(place)) = (level, self.order.iter().position(|of| *of as usize == few))
+            {
+                at = place;
+            }
+            let boxes = self.levels[level - 1].chunks(FAN).nth(within);
+            let all = boxes.map_or(Bounds::EMPTY, |boxes| merged(boxes.iter()));
+            self.levels[level][at] = all;
+            at /= FAN;
+            within = at;
         }
     }
 

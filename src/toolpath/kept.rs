@@ -2,6 +2,8 @@
 
 use super::clearance::Walls;
 use super::corners::Element;
+use super::offset::Wall;
+use super::path::Source;
 use crate::geometry::Bounds;
 
 /// Where more walls have changed, all is looked at.
@@ -107,6 +109,21 @@ impl<'a> Kept<'a> {
     pub(super) fn followed(&self, element: &Element, wall: usize) -> Option<u32> {
         let was = self.was[wall];
         (was != NEW).then(|| follows_of(was, element))
+    }
+
+    /// A piece as it was, beside a wall that is now that one.
+    pub(super) fn piece(&self, piece: usize, wall: usize, walls: &[Wall]) -> Element {
+        let source = match walls.get(wall).map_or(Source::Tab, |wall| wall.source) {
+            Source::Segment { entity, segment } if self.follows[piece] % 2 == 1 => {
+                Source::Corner { entity, segment }
+            }
+            source => source,
+        };
+        Element {
+            geometry: *self.pieces.segment(piece),
+            source,
+            wall,
+        }
     }
 
     /// True for a piece that is as proved as it was; `about` are the boxes of what is new.
