@@ -15,12 +15,28 @@ impl Held {
             if looks.asked.is_empty() {
                 continue;
             }
-            let own = if which == 1 { moved[1] } else { moved[0] };
+            let [own, other] = match which {
+                1 => [moved[1], moved[0]],
+                _ => moved,
+            };
+            for (gone, new) in &own.edges {
+                let new = std::iter::repeat_n(Bounds::EMPTY, *new);
+                looks.asked.splice(gone.clone(), new);
+            }
+            let mut again: Vec<usize> = own.new().collect();
+            looks.verdicts.retain_mut(|verdict| {
+                let Some(edge) = own.is(verdict.edge as usize) else {
+                    return false;
+                };
+                verdict.edge = edge as u32;
+                match other.is(verdict.other as usize) {
+                    Some(other) => verdict.other = other as u32,
+                    None => again.push(edge),
+                }
+                true
+            });
             let asked = looks.asked.iter().enumerate();
-            let mut again: Vec<usize> = asked
-                .filter_map(|(edge, asked)| is_new(asked).then_some(edge))
-                .chain(own.edges.iter().copied())
-                .collect();
+            again.extend(asked.filter_map(|(edge, asked)| is_new(asked).then_some(edge)));
             again.sort_unstable();
             again.dedup();
             let mut about = About::of(which, parts);

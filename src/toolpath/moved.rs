@@ -1,10 +1,10 @@
-//! A part of whose contour an edit has moved something, changed where it is: a segment for each that was there, and as many pieces of the
-//! path and edges beside them. What such an edit costs hangs on what it touches.
+//! A part of whose contour an edit has moved something, changed where it is: the pieces of the path, and the edges, beside what has moved. What
+//! such an edit costs hangs on what it touches; only where there are more pieces or fewer all behind them are numbered anew.
 
-use super::clearance::Walls;
+use super::clearance::area_about;
 use super::corners::Element;
 use super::job::{Job, ROUNDING};
-use super::kept::{Kept, NEW, follows_of};
+use super::kept::{Kept, NEW, follows_of, which_it_is};
 use super::laid::Along;
 use super::offset::Wall;
 use super::part::{Cut, Cutting, Edge, Part};
@@ -22,14 +22,44 @@ const MOST: usize = 64;
 /// What of a part is not as it was.
 #[derive(Debug, Default)]
 pub(crate) struct Moved {
-    /// Edges, by index.
-    pub edges: Vec<usize>,
+    /// Edges that are gone, and how many stand in their place; the last ones first.
+    pub edges: Vec<(Range<usize>, usize)>,
     /// The boxes of all that has changed, as it was and as it is: edges, and the way of the wire.
     pub boxes: Vec<Bounds>,
 }
 
-/// A piece of the path by its place, with what it follows.
-type Piece = (usize, Wall, u32);
+impl Moved {
+    /// Where an edge stands now that stood there; nothing where it is gone.
+    pub(crate) fn is(&self, edge: usize) -> Option<usize> {
+        let mut is = edge;
+        for (gone, new) in &self.edges {
+            if gone.contains(&edge) {
+                return None;
+            }
+            if gone.end <= edge {
+                is = is - gone.len() + new;
+            }
+        }
+        Some(is)
+    }
+
+    /// The edges that are new.
+    pub(crate) fn new(&self) -> impl Iterator<Item = usize> {
+        let mut first = 0;
+        let mut before = 0;
+        let stretches = self.edges.iter().rev().map(move |(gone, new)| {
+            first = first + (gone.start - before);
+            before = gone.end;
+            let stretch = first..first + new;
+            first += new;
+            stretch
+        });
+        stretches.flatten()
+    }
+}
+
+/// Pieces of the path, by their places, and those in their place, each with what it follows.
+type Stretch = (Range<usize>, Vec<(Wall, u32)>);
 
 impl Part {
     /// Follows an edit of the contour, under the same settings, of which it is known which segments may have changed, none of which came or
@@ -122,17 +152,22 @@ impl Part {
         Some(self.own.as_mut()?.replace(new))
     }
 
-    /// Puts other pieces of the path in the place of some, and hands out those.
-    fn put_path(&mut self, new: &[Piece]) -> Vec<Piece> {
-        let geometry = |(place, piece, _): &Piece| (*place, piece.geometry);
-        let geometries: Vec<(usize, Segment)> = new.iter().map(geometry).collect();
-        self.path.replace(&geometries);
-        let put = |&(place, piece, follows): &Piece| {
-            let piece = std::mem::replace(&mut self.ways[place], piece);
-            let follows = std::mem::replace(&mut self.path_follows[place], follows);
-            (place, piece, follows)
+    /// Puts other pieces of the path in the place of some, one stretch after the other, and hands out how that is undone.
+    fn put_path(&mut self, stretches: &[Stretch]) -> Vec<Stretch> {
+        let origin = self.drawn[0].geometry.start();
+        let put = |(stretch, new): &Stretch| {
+            let geometries: Vec<Segment> = new.iter().map(|(piece, _)| piece.geometry).collect();
+            self.path.splice(stretch.clone(), &geometries, origin);
+            let pieces = new.iter().map(|(piece, _)| *piece);
+            let pieces: Vec<Wall> = self.ways.splice(stretch.clone(), pieces).collect();
+            let follows = new.iter().map(|(_, follows)| *follows);
+            let follows = self.path_follows.splice(stretch.clone(), follows);
+            let gone = pieces.into_iter().zip(follows).collect();
+            (stretch.start..stretch.start + new.len(), gone)
         };
-        new.iter().map(put).collect()
+        let mut undone: Vec<Stretch> = stretches.iter().map(put).collect();
+        undone.reverse();
+        undone
     }
 
     fn path_follows_on(
@@ -149,38 +184,42 @@ impl Part {
             rounding: job.units(ROUNDING),
             closed: true,
         };
-        let changed = changed.iter().map(|(index, _)| *index);
-        let laid = relaid(job, &drawn, changed, &self.path, &self.path_follows)?;
-        let piece = |(place, element): (usize, Element)| {
+        let count = self.drawn.len();
+        let mut was: Vec<u32> = (0..count as u32).collect();
+        changed.iter().for_each(|(index, _)| was[*index] = NEW);
+        let kept = Kept::new(count, was, &self.path, &self.path_follows, true);
+        let piece = |element: Element| {
             let (geometry, source) = (element.geometry, self.drawn[element.wall].source);
             let follows = follows_of(element.wall as u32, &element);
-            (place, Wall { geometry, source }, follows)
+            (Wall { geometry, source }, follows)
         };
-        let is_new = |(place, piece, follows): &Piece| {
-            piece.geometry != self.ways[*place].geometry || *follows != self.path_follows[*place]
-        };
-        let pieces: Vec<Piece> = laid.into_iter().map(piece).filter(is_new).collect();
+        let stretches = relaid(job, &drawn, &kept)?.into_iter();
+        let stretches = stretches.map(|(gone, new)| (gone, new.into_iter().map(piece).collect()));
+        let stretches: Vec<Stretch> = stretches.collect();
         let mut moved = Moved::default();
-        let boxes = |part: &Part, moved: &mut Moved| {
-            let boxes = pieces
-                .iter()
-                .map(|(place, ..)| *part.path.bounds_of(*place));
+        let before = self.ways.len();
+        let mut was: Vec<u32> = (0..before as u32).collect();
+        for (gone, new) in &stretches {
+            let boxes = gone.clone().map(|piece| *self.path.bounds_of(piece));
             moved.boxes.extend(boxes);
-        };
-        boxes(self, &mut moved);
-        let gone = self.put_path(&pieces);
-        boxes(self, &mut moved);
-        let done = self.edges_follow_on(job, &pieces, second, &mut moved);
+            moved
+                .boxes
+                .extend(new.iter().map(|(piece, _)| piece.geometry.bounds()));
+            was.splice(gone.clone(), new.iter().map(|_| NEW));
+        }
+        let undone = self.put_path(&stretches);
+        let done = self.edges_follow_on(job, (was, before), second, &mut moved);
         if done.is_none() {
-            self.put_path(&gone);
+            self.put_path(&undone);
         }
         done.map(|()| moved)
     }
 
+    /// `was` says of each piece of the path which it was, of so many before.
     fn edges_follow_on(
         &mut self,
         job: &Job,
-        changed: &[Piece],
+        (was, before): (Vec<u32>, usize),
         (side, correction): (f64, f64),
         moved: &mut Moved,
     ) -> Option<()> {
@@ -192,68 +231,64 @@ impl Part {
             rounding: job.units(ROUNDING),
             closed: true,
         };
-        let changed = changed.iter().map(|(place, ..)| *place);
-        let laid = relaid(job, &beside, changed, &self.near, &self.edges_follow)?;
-        let mut new = Vec::new();
-        for (place, element) in laid {
-            let edge = Edge::of(&element, &self.path_follows);
-            let was = std::mem::replace(&mut self.edges[place], edge);
-            self.edges_follow[place] = follows_of(element.wall as u32, &element);
-            if was.geometry != edge.geometry || was.turned_about != edge.turned_about {
-                moved.edges.push(place);
-                moved.boxes.push(*self.near.bounds_of(place));
-                new.push((place, edge.geometry));
-            }
+        let kept = Kept::new(before, was, &self.near, &self.edges_follow, true);
+        let stretches = relaid(job, &beside, &kept)?;
+        let is = which_it_is(&kept.was, kept.before);
+        for follows in &mut self.edges_follow {
+            // Of one that is gone the edge goes, too.
+            *follows = 2 * is[*follows as usize / 2].min(NEW / 4) + *follows % 2;
         }
-        self.near.replace(&new);
-        let boxes = moved.edges.iter().map(|place| *self.near.bounds_of(*place));
-        moved.boxes.extend(boxes);
+        let origin = self.drawn[0].geometry.start();
+        for (gone, new) in stretches {
+            let geometries: Vec<Segment> = new.iter().map(|element| element.geometry).collect();
+            moved.boxes.extend(geometries.iter().map(Segment::bounds));
+            moved
+                .boxes
+                .extend(gone.clone().map(|edge| *self.near.bounds_of(edge)));
+            self.near.splice(gone.clone(), &geometries, origin);
+            let follows = new
+                .iter()
+                .map(|element| follows_of(element.wall as u32, element));
+            self.edges_follow.splice(gone.clone(), follows);
+            let edges = new
+                .iter()
+                .map(|element| Edge::of(element, &self.path_follows));
+            self.edges.splice(gone.clone(), edges);
+            moved.edges.push((gone, new.len()));
+        }
         Some(())
     }
 }
 
-/// The pieces beside the walls that have changed, each with its place in the path, proved, as is what lies about them.
-fn relaid(
-    job: &Job,
-    beside: &Beside,
-    changed: impl Iterator<Item = usize>,
-    pieces: &Walls,
-    follows: &[u32],
-) -> Option<Vec<(usize, Element)>> {
+/// Where the path is not as it was, the last stretch first, and what stands there, proved, as is what lies about it.
+fn relaid(job: &Job, beside: &Beside, kept: &Kept) -> Option<Vec<(Range<usize>, Vec<Element>)>> {
     let Beside { walls, own, .. } = *beside;
-    let mut was: Vec<u32> = (0..walls.len() as u32).collect();
-    changed.for_each(|wall| was[wall] = NEW);
-    let kept = Kept::new(walls.len(), was, pieces, follows, true);
+    let (pieces, follows) = (kept.pieces, kept.follows);
     let joining = job.joining(Along {
         side: beside.side,
         correction: beside.correction,
         corner: Default::default(),
         closed: true,
     });
-    let laid = Splice::of(&kept, walls, &joining)?.in_place(&kept)?;
-    let about = kept.about(own, beside.correction);
-    let is_near = |piece: usize| {
-        let bounds = pieces.bounds_of(piece);
-        about.iter().any(|new| new.touches(bounds))
-    };
+    let laid = Splice::of(kept, walls, &joining)?.stretches(kept)?;
     let holds = |element: &Element| beside.holds_beyond(element, None).is_ok();
-    let (mut all_hold, mut grown) = (true, 0.0);
-    let origin = laid.first().map(|(_, element)| element.geometry.start())?;
-    for (piece, element) in &laid {
-        let was = pieces.segment(*piece);
-        let stays = kept.followed(element, element.wall) == Some(follows[*piece])
-            && *was == element.geometry;
-        all_hold &= stays && !is_near(*piece) || holds(element);
-        grown += element.geometry.twice_area(origin) - was.twice_area(origin);
-    }
-    let is_laid = |piece: usize| laid.iter().any(|(place, _)| *place == piece);
+    let is = which_it_is(&kept.was, kept.before);
     let fails = |piece: usize| {
-        let wall = follows[piece] as usize / 2;
-        !is_laid(piece) && !holds(&kept.piece(piece, wall, walls))
+        let wall = is[follows[piece] as usize / 2];
+        !laid.iter().any(|(gone, _)| gone.contains(&piece))
+            && (wall == NEW || !holds(&kept.piece(piece, wall as usize, walls)))
     };
-    all_hold &= about.iter().all(|new| pieces.find(new, fails).is_none());
+    let about = kept.about(own, beside.correction);
+    let mut new = laid.iter().flat_map(|(_, new)| new);
+    let all_hold = new.all(holds) && about.iter().all(|new| pieces.find(new, fails).is_none());
     // It runs round as the contour does, on the side of the wire.
-    let (contour, area) = (own.twice_area(), pieces.twice_area() + grown);
+    let origin = walls.first()?.geometry.start();
+    let grown = laid.iter().map(|(gone, new)| {
+        let new: Vec<Segment> = new.iter().map(|element| element.geometry).collect();
+        let gone = &pieces.segments()[gone.clone()];
+        area_about(&new, origin) - area_about(gone, origin)
+    });
+    let (contour, area) = (own.twice_area(), pieces.twice_area() + grown.sum::<f64>());
     let keeps_its_side = (area - contour) * beside.side <= 0.0 && area * contour > 0.0;
     (all_hold && keeps_its_side).then_some(laid)
 }

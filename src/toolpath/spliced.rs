@@ -6,7 +6,7 @@
 
 use super::clearance::Walls;
 use super::corners::{Element, Joining, Offsets, Raw};
-use super::kept::{Kept, NEW, which_it_is};
+use super::kept::{Kept, which_it_is};
 use super::offset::Wall;
 use super::open::there_and_back;
 use super::ring::trimmed;
@@ -112,43 +112,37 @@ impl Splice {
         (path.len() >= 2 && path.windows(2).all(is_in_order)).then_some(path)
     }
 
-    /// Each new piece with its place in the path, of walls none of which has come or gone; `None` where a piece has.
-    pub(super) fn in_place(self, kept: &Kept) -> Option<Vec<(usize, Element)>> {
-        let count = kept.follows.len();
-        let places: Vec<usize> = match self.before_the_end {
-            Some(before) => {
-                let is_as_many =
-                    self.left + 1 + before == count && self.new.len() - before == self.right;
-                let places = (self.left + 1..count).chain(0..self.right);
-                is_as_many.then(|| places.collect())?
-            }
-            None => {
-                let places = self.left + 1..self.right;
-                (places.len() == self.new.len()).then(|| places.collect())?
-            }
-        };
-        let wall_of = |piece: usize| kept.follows[piece] as usize / 2;
+    /// Where the path is not as it was, the last stretch first: which pieces go, and what stands in their place.
+    pub(super) fn stretches(self, kept: &Kept) -> Option<Vec<(Range<usize>, Vec<Element>)>> {
+        let is = which_it_is(&kept.was, kept.before);
+        let wall_of = |piece: usize| is[kept.follows[piece] as usize / 2] as usize;
         let walls = std::iter::once(wall_of(self.left))
             .chain(self.new.iter().map(|element| element.wall))
             .chain([wall_of(self.right)]);
         let walls: Vec<usize> = walls.collect();
         // They go over the end of the contour once at most.
         let falls = walls.windows(2).filter(|pair| pair[0] > pair[1]).count();
-        let is_in_order = falls == usize::from(self.before_the_end.is_some());
-        is_in_order.then(|| places.into_iter().zip(self.new).collect())
+        let (left, right, mut new) = (self.left + 1, self.right, self.new);
+        let stretches = match self.before_the_end {
+            Some(before) if falls == 1 && right <= left => {
+                let behind = new.split_off(before);
+                vec![(left..kept.follows.len(), new), (0..right, behind)]
+            }
+            None if falls == 0 && left <= right => vec![(left..right, new)],
+            _ => return None,
+        };
+        let changed = stretches.into_iter().map(|stretch| kept.changed(stretch));
+        Some(
+            changed
+                .filter(|(gone, new)| !gone.is_empty() || !new.is_empty())
+                .collect(),
+        )
     }
 }
 
 /// The first wall of the stretch round the contour that holds all that has changed, and how many it holds.
 fn changed(kept: &Kept, count: usize) -> Option<(usize, usize)> {
-    let leads_on = |wall: usize| {
-        let (was, next) = (
-            kept.was[wall],
-            kept.was[if wall + 1 == count { 0 } else { wall + 1 }],
-        );
-        was != NEW && (next == was + 1 || next == 0 && was as usize + 1 == kept.before)
-    };
-    let breaks: Vec<usize> = (0..count).filter(|&wall| !leads_on(wall)).collect();
+    let breaks: Vec<usize> = (0..count).filter(|&wall| !kept.leads_on(wall)).collect();
     let (Some(&first), Some(&last)) = (breaks.first(), breaks.last()) else {
         return Some((0, 1));
     };
