@@ -1,15 +1,8 @@
 //! A closed path from one of its points on.
 
-use super::cores::extend;
 use super::corners::{Element, between};
 use super::path::{PathSegment, Source};
 use crate::geometry::{Arc, Point, Segment};
-
-/// One core takes so many pieces at a time.
-const AT_A_TIME: usize = 2048;
-
-/// Up to so small a share of a path is moved behind the rest of it.
-const FEW: usize = 8;
 
 /// A path that is gone from one of its points on, as it lies: nothing of a long one is moved for that.
 #[derive(Default)]
@@ -76,29 +69,37 @@ impl Begun {
         Some(if back { piece.end() } else { piece.start() })
     }
 
-    /// The pieces of it, or of the way back along it, behind a lead. Where few of them are moved for that, they take the place of the path.
-    pub(super) fn into_segments(self, back: bool, lead: Option<PathSegment>) -> Vec<PathSegment> {
-        if back || self.first > self.path.len() / FEW {
-            return self.segments(back, lead);
+    /// The pieces of it, or of the way back along it, behind a lead. They take the place of the path: a long one is not copied.
+    pub(super) fn into_segments(
+        mut self,
+        back: bool,
+        lead: Option<PathSegment>,
+    ) -> Vec<PathSegment> {
+        let count = self.path.len();
+        if back {
+            self.path.reverse();
+            self.first = match self.split {
+                Some(_) => count - 1 - self.first,
+                None if self.first == 0 => 0,
+                None => count - self.first,
+            };
+            self.split = self.split.map(|[behind, before]| [before, behind]);
         }
-        let of = |element: &Element| PathSegment {
-            geometry: element.geometry,
-            source: element.source,
+        let piece = |geometry: Segment, source: Source| PathSegment {
+            geometry: if back { geometry.reversed() } else { geometry },
+            source,
         };
-        let mut path = self.path;
-        let mut last: Vec<PathSegment> = path[..self.first].iter().map(of).collect();
-        if let Some(first) = path.get_mut(self.first)
+        let of = |element: &Element| piece(element.geometry, element.source);
+        let mut last: Vec<PathSegment> = self.path[..self.first].iter().map(of).collect();
+        if let Some(first) = self.path.get_mut(self.first)
             && let Some([behind, before]) = self.split
         {
             first.geometry = behind;
-            last.push(PathSegment {
-                geometry: before,
-                source: first.source,
-            });
+            last.push(piece(before, first.source));
         }
         // What comes next, as long as something stands in its place.
         let mut next = lead;
-        let rest = path.into_iter().skip(self.first);
+        let rest = self.path.into_iter().skip(self.first);
         let mut all: Vec<PathSegment> = rest
             .map(|element| match &mut next {
                 Some(next) => std::mem::replace(next, of(&element)),
@@ -107,30 +108,6 @@ impl Begun {
             .collect();
         all.extend(next);
         all.append(&mut last);
-        all
-    }
-
-    /// The same, of which all are moved, by all cores.
-    fn segments(&self, back: bool, lead: Option<PathSegment>) -> Vec<PathSegment> {
-        let count = self.path.len();
-        let pieces = count + usize::from(self.split.is_some());
-        let piece = |at: usize| {
-            let at = if back { pieces - 1 - at } else { at };
-            let on = self.first + at % count;
-            let element = &self.path[if on < count { on } else { on - count }];
-            let geometry = match self.split {
-                Some([behind, _]) if at == 0 => behind,
-                Some([_, before]) if at == count => before,
-                _ => element.geometry,
-            };
-            PathSegment {
-                geometry: if back { geometry.reversed() } else { geometry },
-                source: element.source,
-            }
-        };
-        let mut all = Vec::with_capacity(pieces + 1);
-        all.extend(lead);
-        extend(&mut all, pieces, AT_A_TIME, piece);
         all
     }
 
