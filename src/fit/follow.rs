@@ -23,7 +23,7 @@ impl Held {
                 let new = std::iter::repeat_n(Bounds::EMPTY, *new);
                 looks.asked.splice(gone.clone(), new);
             }
-            let mut again: Vec<usize> = own.new().collect();
+            let mut again: Vec<usize> = own.come().collect();
             looks.verdicts.retain_mut(|verdict| {
                 let Some(edge) = own.is(verdict.edge as usize) else {
                     return false;

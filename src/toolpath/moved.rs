@@ -44,11 +44,11 @@ impl Moved {
     }
 
     /// The edges that are new.
-    pub(crate) fn new(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn come(&self) -> impl Iterator<Item = usize> {
         let mut first = 0;
         let mut before = 0;
         let stretches = self.edges.iter().rev().map(move |(gone, new)| {
-            first = first + (gone.start - before);
+            first += gone.start - before;
             before = gone.end;
             let stretch = first..first + new;
             first += new;
