@@ -12,6 +12,11 @@ use std::rc::Rc;
 /// A run of segments of one contour.
 pub(crate) type RunId = (ContourKey, u32);
 
+/// Two runs, as the key of their pair.
+pub(super) fn ordered(one: RunId, other: RunId) -> (RunId, RunId) {
+    (one.min(other), one.max(other))
+}
+
 /// A segment by its contour and its index in there.
 pub(crate) type SegmentId = (ContourKey, usize);
 

@@ -141,7 +141,8 @@ impl Analysis {
     ) {
         let mut notable = std::mem::take(&mut self.notable);
         // What is suspended is not in the drawing.
-        let suspended = self.suspended.and_then(|id| self.chains.contour_of(id));
+        let suspended = self.suspended.as_ref();
+        let suspended = suspended.and_then(|it| self.chains.contour_of(it.entity));
         let open_is_an_error = report.open_is_an_error();
         let sums = notable.sums(
             sides_stay,

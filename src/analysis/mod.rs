@@ -1,5 +1,6 @@
 //! Drawing → contours → findings, and what can be reused after an edit.
 
+mod again;
 mod arcs;
 mod compare;
 mod contours;
@@ -44,7 +45,7 @@ use drafting::{AsideEntities, LoneLines};
 use fitting::Fitting;
 use known::{Answer, Known};
 use notable::Notables;
-use pairs::Pairs;
+use pairs::{Pairs, ToldAside};
 use report::Tally;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::{Arc, OnceLock};
@@ -80,7 +81,7 @@ pub struct Analysis {
     aside: AsideEntities,
     /// A removed entity that may come back nearly unchanged, as while a number of it is being typed: all that is known
     /// of it is kept until the next change. Nothing of it shows, since it is not in the drawing.
-    suspended: Option<EntityId>,
+    suspended: Option<Suspended>,
     pairs: Pairs,
     /// Whether a fix was found for a fault, and the region on which the answer depends.
     answers: FxHashMap<(ContourKey, usize), (Option<NoFix>, Bounds)>,
@@ -100,6 +101,13 @@ pub struct Analysis {
     tally: OnceLock<Tally>,
     /// How parts of pairs lie in each other, once that has been asked for.
     fitting: OnceLock<Option<Fitting>>,
+}
+
+/// A removed entity of which everything is still known, and what was told of pairs while it was there.
+#[derive(Clone, Debug)]
+struct Suspended {
+    entity: EntityId,
+    told: ToldAside,
 }
 
 impl Analysis {
@@ -189,22 +197,24 @@ impl Analysis {
             self.outlines = OnceLock::new();
         }
         let mut moved = Vec::new();
-        let suspended = self.suspended.take();
-        if suspended.is_some() {
-            self.pairs.renumber();
-        }
-        match (suspended, delta.touched.as_slice()) {
-            (Some(_), []) => {
-                self.suspended = suspended;
+        match (self.suspended.take(), delta.touched.as_slice()) {
+            (Some(suspended), []) => {
+                self.suspended = Some(suspended);
                 return;
             }
-            (Some(entity), [Touched::Vertices { entity: woken, .. }]) if *woken == entity => {
+            (Some(Suspended { entity, told }), [Touched::Vertices { entity: woken, .. }])
+                if *woken == entity =>
+            {
+                self.pairs.tell_again(told);
                 self.order = OnceLock::new()
             }
-            (Some(entity), _) => moved.push(entity),
-            (None, [Touched::Removed { entity }]) if self.may_be_suspended(*entity) => {
-                self.suspended = Some(*entity);
+            (Some(Suspended { entity, .. }), _) => {
                 self.pairs.renumber();
+                moved.push(entity);
+            }
+            (None, &[Touched::Removed { entity }]) if self.may_be_suspended(entity) => {
+                let told = self.pairs.set_told_aside();
+                self.suspended = Some(Suspended { entity, told });
                 self.order = OnceLock::new();
                 return;
             }

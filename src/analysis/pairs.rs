@@ -1,9 +1,10 @@
 //! The observations of the rules on pairs of segments, by the runs of the two segments.
 
-use super::compare::{Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId};
+use super::again::Again;
+use super::compare::{Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId, ordered};
 use super::ends::DeadEnds;
 use super::observations::Observations;
-use super::search::{BOXES_OF_A_LOOK, Looked, Search, shell_of};
+use super::search::{BOXES_OF_A_LOOK, Looked, Search, shells_where_crowded};
 use super::told::Told;
 use crate::drawing::{ContourIndex, ContourKey};
 use crate::finding::Rule;
@@ -21,10 +22,6 @@ const BATCH: usize = 8192;
 const MANY_RUNS: usize = 512;
 /// Runs per task.
 const SHARE: usize = 64;
-/// The sample of runs for which neighbours are counted, how many of those may really come near, and how many neighbours
-/// are a crowd.
-const SAMPLES: usize = 32;
-const CROWDED: usize = 64;
 
 /// The runs of all contours by place, and the observations between them.
 #[derive(Clone, Debug, Default)]
@@ -50,6 +47,8 @@ pub(crate) struct Pairs {
     /// something has changed that the compared ones may see.
     untold: FxHashSet<RunId>,
     is_disturbed: bool,
+    /// The other forgotten runs, where the limit was reached.
+    again: Again,
     /// The findings of the observed pairs, while these stay.
     pub(super) told: Option<Arc<Told>>,
     /// The dead ends, and the runs about which something has come or gone since these were found.
@@ -57,6 +56,14 @@ pub(crate) struct Pairs {
     pub(super) changed: FxHashSet<RunId>,
     /// There are workpieces: those do not meet.
     are_parts: bool,
+}
+
+/// What is told of pairs, set aside.
+#[derive(Clone, Debug)]
+pub(super) struct ToldAside {
+    told: Option<Arc<Told>>,
+    ends: Option<DeadEnds>,
+    changed: FxHashSet<RunId>,
 }
 
 impl Pairs {
@@ -94,6 +101,19 @@ impl Pairs {
         (self.told, self.ends) = (None, None);
     }
 
+    /// Takes away what is told, which holds again once the contour that goes now is back.
+    pub(super) fn set_told_aside(&mut self) -> ToldAside {
+        ToldAside {
+            told: self.told.take(),
+            ends: self.ends.take(),
+            changed: std::mem::take(&mut self.changed),
+        }
+    }
+
+    pub(super) fn tell_again(&mut self, aside: ToldAside) {
+        (self.told, self.ends, self.changed) = (aside.told, aside.ends, aside.changed);
+    }
+
     /// Everything has been compared, in the order of the drawing.
     pub(crate) fn settle(&mut self) {
         self.is_disturbed = false;
@@ -108,6 +128,7 @@ impl Pairs {
             && self.left_to_ask >= half
             && !self.is_disturbed
             && self.untold.is_empty()
+            && self.again.is_empty()
     }
 
     /// True for a run that was left out of the comparison, and that none of the compared ones has met.
@@ -125,14 +146,20 @@ impl Pairs {
             && self.left_to_ask >= half
     }
 
-    /// True when no observation between others depends on this contour, and the search is complete.
+    /// True when no observation between others depends on this contour, and the search among these is complete.
     pub(crate) fn may_spare(&self, key: ContourKey) -> bool {
         let depends = |each: &Observed| {
             each.disc.is_some() && !each.own_disc && each.one.0 != key && each.other.0 != key
         };
-        self.uncompared.is_empty()
-            && self.seen_count < self.most_seen
-            && !self.seen.all().any(depends)
+        let is_complete = if self.seen_count < self.most_seen {
+            self.uncompared.is_empty()
+        } else {
+            // Of this contour more is seen than is looked for; without it the limit is not reached.
+            let among_others = |each: &&Observed| each.one.0 != key && each.other.0 != key;
+            self.uncompared.iter().all(|run| run.0 == key)
+                && self.seen.all().filter(among_others).count() < self.most_seen
+        };
+        is_complete && !self.seen.all().any(depends)
     }
 
     /// Forgets a contour as it was at the last comparison.
@@ -146,13 +173,16 @@ impl Pairs {
     pub(crate) fn forget_run(&mut self, run: RunId, bounds: &Bounds) {
         self.grid.remove(run, bounds);
         self.disturb_ends(run);
+        let is_limited = self.seen_count >= self.most_seen || !self.again.is_empty();
         if self.is_left_out(&run) {
             self.untold.insert(run);
+        } else if is_limited && !self.uncompared.contains(&run) {
+            self.again.forget(run, self.seen_count);
         } else {
             self.is_disturbed = true;
         }
         self.uncompared.remove(&run);
-        self.disturb(bounds);
+        self.disturb(run, bounds);
         for partner in self.partners.remove(&run).unwrap_or_default() {
             let gone = self.seen.remove(&ordered(run, partner)).unwrap_or_default();
             self.seen_count -= gone.len();
@@ -181,22 +211,28 @@ impl Pairs {
         self.grid.any_near(&area, |(other, _)| other != key)
     }
 
-    /// Something has come or gone within these bounds.
-    fn disturb(&mut self, bounds: &Bounds) {
+    /// A run has come or gone within these bounds.
+    fn disturb(&mut self, of: RunId, bounds: &Bounds) {
         if self.partners.is_empty() {
             return;
         }
         let (partners, stale) = (&self.partners, &mut self.stale);
         let (uncompared, untold) = (&self.uncompared, &self.untold);
-        let mut is_seen = false;
+        let (mut is_seen, mut is_near_the_end) = (false, false);
         self.grid.near(&bounds.grown(self.reach), |run, _| {
+            let is_behind = uncompared.contains(&run) || untold.contains(&run);
+            is_near_the_end |= is_behind;
             if partners.contains_key(&run) {
                 stale.insert(run);
                 is_seen = true;
             }
-            is_seen |= !uncompared.contains(&run) && !untold.contains(&run);
+            is_seen |= !is_behind;
         });
-        self.is_disturbed |= is_seen;
+        if !self.again.holds(&of) {
+            self.is_disturbed |= is_seen;
+        } else if is_near_the_end {
+            self.again.comes_near_the_end();
+        }
     }
 
     /// The same for many new runs: each of the others is asked whether one of these has come near.
@@ -252,13 +288,16 @@ impl Pairs {
                 let bounds = outlook.index.bounds_of_run(run.1 as usize);
                 self.grid.insert(run, bounds);
                 if runs.len() < MANY_RUNS {
-                    self.disturb(&bounds);
+                    self.disturb(run, &bounds);
                 }
             }
         }
         // A new run may or may not be behind the end of the comparison.
-        let is_known = |run| self.untold.contains(run);
+        let is_again = runs.iter().all(|run| self.again.holds(run));
+        let is_known = |run| self.untold.contains(run) || self.again.holds(run);
         self.is_disturbed |= !runs.iter().all(is_known);
+        // What has been compared is compared again to its end.
+        let most_seen = self.most_seen.saturating_mul(1 + usize::from(is_again));
         for run in runs {
             self.disturb_ends(*run);
             self.untold.remove(run);
@@ -272,13 +311,13 @@ impl Pairs {
         if runs.len() >= MANY_RUNS {
             self.disturb_about(outlook, &new);
         }
-        let shells = self.shells(outlook, runs);
+        let shells = shells_where_crowded(&self.grid, self.reach, outlook, runs);
         let search = Search {
             grid: &self.grid,
             shells: shells.as_ref(),
             rules: &rules,
             reach: self.reach,
-            most_seen: self.most_seen,
+            most_seen,
             new: &new,
             are_parts: self.are_parts,
             keeps: runs.len() >= MANY_RUNS,
@@ -291,7 +330,7 @@ impl Pairs {
             // A run that was not compared here because of the limit is compared below, if at all.
             let (looks, found) = (AtomicU64::new(0), AtomicUsize::new(0));
             let is_enough =
-                || looks.load(Relaxed) >= left || count + found.load(Relaxed) >= self.most_seen;
+                || looks.load(Relaxed) >= left || count + found.load(Relaxed) >= most_seen;
             let look = |kept: &mut Kept, (at, &run): (usize, &RunId)| {
                 (!is_enough()).then(|| {
                     let looked = search.look(kept, first + at, run, left);
@@ -309,7 +348,7 @@ impl Pairs {
             let mut ahead = ahead.into_iter();
             for (at, &run) in runs.iter().enumerate() {
                 let ahead = ahead.next().flatten();
-                if count >= self.most_seen || left == 0 {
+                if count >= most_seen || left == 0 {
                     self.uncompared.insert(run);
                     continue;
                 }
@@ -317,7 +356,7 @@ impl Pairs {
                 left = left.saturating_sub(looked.before);
                 let mut is_whole = !looked.is_cut_short;
                 for (other, looks, found) in looked.each {
-                    if count >= self.most_seen || left == 0 {
+                    if count >= most_seen || left == 0 {
                         is_whole = false;
                         break;
                     }
@@ -333,6 +372,10 @@ impl Pairs {
             }
         }
         (self.left, self.seen_count) = (left, count);
+        let is_cut_short = |run| self.uncompared.contains(run);
+        if is_again && !(self.again.compared(runs, count) && !runs.iter().any(is_cut_short)) {
+            self.is_disturbed = true;
+        }
         for (run, other, found) in all_seen {
             if found.iter().any(|seen| seen.disc.is_some()) {
                 self.stale.insert(run);
@@ -351,41 +394,9 @@ impl Pairs {
         }
         // A long line that comes or goes may make many stale that it comes nowhere near.
         let stale: Vec<RunId> = self.stale.iter().copied().collect();
-        let shells = shells.or_else(|| self.shells(outlook, &stale));
+        let shells =
+            shells.or_else(|| shells_where_crowded(&self.grid, self.reach, outlook, &stale));
         self.ask_again(&mut kept, limits, shells.as_ref());
-    }
-
-    /// All runs by how they lie within each other, where the boxes near most new runs are too many to tell much.
-    fn shells(&self, outlook: Outlooks, runs: &[RunId]) -> Option<Shells<RunId>> {
-        let step = (runs.len() >= CROWDED).then_some(runs.len() / SAMPLES)?;
-        // It has to be worth putting all of them into a tree.
-        let samples = || runs.iter().step_by(step).take(SAMPLES);
-        let read = samples().map(|&run| {
-            let bounds = outlook(run.0).map(|it| it.index.bounds_of_run(run.1 as usize));
-            let area = bounds.unwrap_or(Bounds::EMPTY).grown(self.reach);
-            self.grid.near(&area, |_, _| {}) as usize
-        });
-        let read: usize = read.sum();
-        if read * runs.len() < SAMPLES * CROWDED * self.grid.len() {
-            return None;
-        }
-        let shell = |run: RunId| Some(shell_of(&outlook(run.0)?, run.1));
-        let mut meet = 0;
-        for &run in samples() {
-            let own = shell(run)?;
-            let mut near = Vec::new();
-            let area = own.bounds().grown(self.reach);
-            self.grid.near(&area, |other, _| near.push(other));
-            let tried = near.iter().step_by(near.len().div_ceil(SAMPLES).max(1));
-            let shells: Vec<Shell> = tried.filter_map(|&other| shell(other)).collect();
-            let meeting = shells.iter().filter(|it| it.may_meet(&own, self.reach));
-            meet += near.len() * meeting.count() / shells.len().max(1);
-        }
-        (meet * 8 < read).then(|| {
-            let runs: Vec<RunId> = self.grid.keys().collect();
-            let shells = runs.par_iter().filter_map(|&run| Some((run, shell(run)?)));
-            Shells::new(shells.collect())
-        })
     }
 
     /// Checks whether the discs of the stale runs' observations are empty, while looks are left. The others make no
@@ -412,11 +423,7 @@ impl Pairs {
         let mut place = |(key, run): RunId| (rank(key), key, run);
         asked.sort_by_cached_key(|&(one, other)| {
             let (one, other) = (place(one), place(other));
-            if one <= other {
-                (one, other)
-            } else {
-                (other, one)
-            }
+            (one.min(other), one.max(other))
         });
         asked.dedup();
         for pair in asked {
@@ -486,13 +493,5 @@ impl Pairs {
     /// The number of runs that have not been compared with all their neighbours.
     pub(crate) fn uncompared(&self) -> usize {
         self.uncompared.len()
-    }
-}
-
-fn ordered(one: RunId, other: RunId) -> (RunId, RunId) {
-    if one <= other {
-        (one, other)
-    } else {
-        (other, one)
     }
 }

@@ -1,13 +1,21 @@
 //! The search for the runs that come near a run, and the comparison with each. Knows nothing of what was found before.
 
-use super::compare::{Comparison, Kept, LOOKS_OF_A_PAIR, Observed, RunId, Walled, Walls, passes};
+use super::compare::{
+    Comparison, Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId, Walled, Walls, passes,
+};
 use crate::geometry::{Bounds, Grid, Segment, Shell, Shells};
 use crate::rules::Outlook;
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
 
 /// One look of the budget: the comparison of two segments, or of this many boxes of the grid.
 pub(super) const BOXES_OF_A_LOOK: u64 = 4;
+
+/// The sample of runs for which neighbours are counted, how many of those may really come near, and how many neighbours
+/// are a crowd.
+const SAMPLES: usize = 32;
+const CROWDED: usize = 64;
 
 /// The partners of new runs.
 pub(super) struct Search<'a> {
@@ -46,7 +54,7 @@ impl Looked {
 }
 
 /// Where a run of a contour lies.
-pub(super) fn shell_of(outlook: &Outlook, run: u32) -> Shell {
+fn shell_of(outlook: &Outlook, run: u32) -> Shell {
     let range = outlook.index.range_of(run as usize);
     let segments = outlook.contour.segments_in(outlook.drawing, range);
     let segments: Vec<Segment> = segments.map(|segment| segment.geometry).collect();
@@ -126,4 +134,42 @@ impl Search<'_> {
         }
         looked
     }
+}
+
+/// All runs by how they lie within each other, where the boxes near most new runs are too many to tell much.
+pub(super) fn shells_where_crowded(
+    grid: &Grid<RunId>,
+    reach: f64,
+    outlook: Outlooks,
+    runs: &[RunId],
+) -> Option<Shells<RunId>> {
+    let step = (runs.len() >= CROWDED).then_some(runs.len() / SAMPLES)?;
+    // It has to be worth putting all of them into a tree.
+    let samples = || runs.iter().step_by(step).take(SAMPLES);
+    let read = samples().map(|&run| {
+        let bounds = outlook(run.0).map(|it| it.index.bounds_of_run(run.1 as usize));
+        let area = bounds.unwrap_or(Bounds::EMPTY).grown(reach);
+        grid.near(&area, |_, _| {}) as usize
+    });
+    let read: usize = read.sum();
+    if read * runs.len() < SAMPLES * CROWDED * grid.len() {
+        return None;
+    }
+    let shell = |run: RunId| Some(shell_of(&outlook(run.0)?, run.1));
+    let mut meet = 0;
+    for &run in samples() {
+        let own = shell(run)?;
+        let mut near = Vec::new();
+        let area = own.bounds().grown(reach);
+        grid.near(&area, |other, _| near.push(other));
+        let tried = near.iter().step_by(near.len().div_ceil(SAMPLES).max(1));
+        let shells: Vec<Shell> = tried.filter_map(|&other| shell(other)).collect();
+        let meeting = shells.iter().filter(|it| it.may_meet(&own, reach));
+        meet += near.len() * meeting.count() / shells.len().max(1);
+    }
+    (meet * 8 < read).then(|| {
+        let runs: Vec<RunId> = grid.keys().collect();
+        let shells = runs.par_iter().filter_map(|&run| Some((run, shell(run)?)));
+        Shells::new(shells.collect())
+    })
 }

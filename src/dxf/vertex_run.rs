@@ -231,7 +231,7 @@ impl Document {
         // Who has seen it go has to see it come.
         let (start, removed, inserted) = match (removed, inserted) {
             (0, 0) if !comes_back => return Some(Delta::default()),
-            (0, 0) => (0, 1, 1),
+            (0, 0) => (0, 0, 0),
             _ => (before, removed, inserted),
         };
         let new = vertices.get(start..start + inserted)?;

@@ -149,7 +149,7 @@ fn typed_text(closed: u8) -> String {
 }
 
 /// Findings with their places in the text, and the contours.
-fn shown(document: &mut Document) -> (Vec<String>, Vec<String>) {
+pub(super) fn shown(document: &mut Document) -> (Vec<String>, Vec<String>) {
     let (findings, _) = document.findings(usize::MAX);
     let line = |finding: &wedm::finding::Finding| {
         let related: Vec<_> = finding

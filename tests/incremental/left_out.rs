@@ -1,5 +1,6 @@
 //! What is left out since it would take too much.
 
+use super::drawings::shown;
 use super::*;
 
 /// What is found, entities by their place in the machining order: that of another drawing with the same entities is the same.
@@ -73,6 +74,7 @@ proptest! {
         most_seen in prop_oneof![Just(40usize), Just(200), Just(700), Just(1_000_000)],
         closed in any::<bool>(),
         edits in proptest::collection::vec((0..800usize, -1.0..1.0f64, -1.0..1.0f64, 0..8usize), 1..5),
+        far in prop::sample::select(vec![1.0, 0.01]),
     ) {
         const ROW: usize = 200;
         let settings = Effective::of(&Settings { correction: Some(0.1), ..Settings::default() });
@@ -92,7 +94,7 @@ proptest! {
         let mut analysis = Analysis::new(&drawing, settings.clone());
         for (at, x, y, kind) in edits {
             let at = at % (rows * ROW);
-            let point = vertex(at).point + nalgebra::Vector2::new(x, y);
+            let point = vertex(at).point + nalgebra::Vector2::new(x, y) * far;
             let moved = Vertex { point, bulge: if kind == 1 { x } else { 0.0 } };
             let edit = match kind {
                 0 => Edit::Splice(0, at, 1, vec![moved, moved]),
@@ -102,6 +104,66 @@ proptest! {
             let touched = apply(&mut drawing, &edit).into_iter().collect();
             analysis.update(&drawing, &Delta { touched });
             prop_assert_eq!(found(&drawing, analysis.clone()), found(&drawing, Analysis::new(&drawing, settings.clone())));
+        }
+    }
+}
+
+/// A comb in which more is seen than is looked for, and a square, the one or the other first: a number, a code and a new vertex are typed,
+/// and are none for a while.
+#[test]
+fn what_is_typed_in_a_contour_of_which_the_end_is_not_compared_is_read_as_if_afresh() {
+    const COUNT: usize = 240;
+    let comb = |i: usize| {
+        let (x, y) = (i as f64 * 0.08, (i % 2) as f64 * 1.5);
+        format!("10\n{x}\n20\n{y}\n")
+    };
+    let comb = (0..COUNT).map(comb).collect::<String>();
+    let comb = format!("0\nLWPOLYLINE\n5\n1\n8\nDIE\n90\n{COUNT}\n70\n1\n{comb}");
+    let square = |y: f64| {
+        let corners = [(0.0, y), (9.0, y), (9.0, y + 9.0), (0.0, y + 9.0)];
+        let corners = corners.map(|(x, y)| format!("10\n{x}\n20\n{y}\n")).concat();
+        format!("0\nLWPOLYLINE\n5\n2\n8\nDIE\n90\n4\n70\n1\n{corners}")
+    };
+    for (most_seen, outlines) in [40, 300, 1_000_000].into_iter().flat_map(|most| {
+        [
+            (most, format!("{comb}{}", square(20.0))),
+            (most, format!("{}{comb}", square(-20.0))),
+            // The square lies over the comb.
+            (most, format!("{}{comb}", square(1.45))),
+        ]
+    }) {
+        let settings = Effective::of(&Settings::default());
+        let budget = Budget {
+            most_seen,
+            ..settings.budget
+        };
+        let settings = Arc::new(Effective { budget, ..settings });
+        let mut text = format!("0\nSECTION\n2\nENTITIES\n{outlines}0\nENDSEC\n0\nEOF\n");
+        let read = |text: &str| {
+            let text = text.to_owned().into_bytes();
+            Document::new(Source::Dxf(dxf::Document::read(text)), settings.clone())
+        };
+        let mut document = read(&text);
+        // A number, a code and a line, early and late in the comb.
+        for at in [30, 225] {
+            let number = text
+                .match_indices("\n10\n")
+                .nth(at)
+                .map_or(0, |(at, _)| at + 4);
+            for (home, new) in [
+                (number, "x"),
+                (number - 3, "x"),
+                (number, "5\n"),
+                (number, ""),
+            ] {
+                let typed = home..home;
+                text.replace_range(typed.clone(), new);
+                document.edit_text(typed, new);
+                assert_eq!(shown(&mut document), shown(&mut read(&text)), "{at} {new}");
+                text.replace_range(home..home + new.len(), "");
+                document.edit_text(home..home + new.len(), "");
+                assert_eq!(shown(&mut document), shown(&mut read(&text)), "{at} {new}");
+            }
         }
     }
 }
