@@ -2,7 +2,8 @@
 
 use super::Analysis;
 use super::fits::Fitted;
-use crate::drawing::{Drawing, DrawingEdit, Outline};
+use super::own_walls::Own;
+use crate::drawing::{ContourKey, Drawing, DrawingEdit, Outline};
 use crate::finding::{Finding, Fix, FixKind, Place, Side};
 use crate::fit::{self, Held, SegmentOf, Spot};
 use crate::geometry::Point;
@@ -90,11 +91,17 @@ impl Analysis {
             Partners::CutTwice(_) => [at, at],
             Partners::Drawn => {
                 let mut walls_of = |index: usize, outline: &Outline| {
-                    let known = self.walls.get(&keys[index]).cloned();
+                    let known = self.walls.get(&keys[index]).filter(|own| own.is_new());
+                    let known = known.map(|own| own.walls.clone());
                     known.unwrap_or_else(|| fit::walls_of(drawing, &outline.contour))
                 };
-                let (settings, mut beside) = (&self.settings, self.beside.clone());
-                let drawn = fit::partners(drawing, outlines, settings, &mut walls_of, &mut beside);
+                let is_new = |key: &ContourKey| self.walls.get(key).is_some_and(Own::is_new);
+                let known = |both: [usize; 2]| {
+                    let both = both.map(|index| keys[index]);
+                    both.iter().all(is_new) && self.beside.contains(&both)
+                };
+                let settings = &self.settings;
+                let (drawn, _) = fit::partners(drawing, outlines, settings, &mut walls_of, &known);
                 drawn.pairs.into_iter().find(|pair| pair.contains(&at))?
             }
         };

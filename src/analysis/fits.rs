@@ -1,14 +1,15 @@
 //! Punches that do not go into their plates: `does-not-fit`.
 
 use super::Analysis;
+use super::edited::Edited;
+use super::own_walls::Own;
 use super::report::Report;
 use crate::drawing::{ContourKey, Drawing, Outline, Role};
 use crate::finding::{Cause, Detail, Misfit, Place, Rule, Severity, Side};
 use crate::fit::{self, Held, SegmentOf, Spot};
-use crate::geometry::{Bounds, Grid};
 use crate::settings::{Compensation, Partners};
 use crate::toolpath::Part;
-use std::cell::LazyCell;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// A contour of more segments is not compared with its partner at every edit.
@@ -24,7 +25,7 @@ pub(crate) struct Answer {
 }
 
 /// A punch and its plate, one laid in the other.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Fitted {
     parts: [Arc<Part>; 2],
     pub(super) held: Held,
@@ -41,8 +42,8 @@ impl Fitted {
 #[derive(Clone, Debug)]
 pub(crate) struct Left {
     part: Arc<Part>,
-    /// The contour has been edited since: what of it still holds need not be worked out again.
-    is_old: bool,
+    /// Where the contour has been edited since: what of it still holds need not be worked out again.
+    edited: Edited,
 }
 
 /// The contours of a drawing that are pairs, by their indices among all outlines.
@@ -60,12 +61,14 @@ pub(super) struct Paired {
 const ROLES: [Role; 2] = [Role::Punch, Role::Opening];
 
 impl Analysis {
-    /// The results between an edited contour and its partner hold no longer, except where the edit has not touched
-    /// them.
-    pub(super) fn outdate_fits(&mut self, key: ContourKey) {
-        self.walls.remove(&key);
-        for ((of, _), left) in &mut self.parts {
-            left.is_old |= *of == key;
+    /// The results between a contour that has been edited, there or anywhere, and its partner hold no longer, except where the edit has not
+    /// touched them.
+    pub(super) fn outdate_fits(&mut self, key: ContourKey, there: Option<&[Range<usize>]>) {
+        if let Some(own) = self.walls.get_mut(&key) {
+            own.edited.merge(there);
+        }
+        for (_, left) in self.parts.iter_mut().filter(|((of, _), _)| *of == key) {
+            left.edited.merge(there);
         }
         for ((one, other), answer) in &mut self.fits {
             answer.is_old |= *one == key || *other == key;
@@ -75,6 +78,7 @@ impl Analysis {
     /// Forgets the results for a contour that is gone.
     pub(super) fn forget_fits(&mut self, key: ContourKey) {
         self.walls.remove(&key);
+        self.beside.retain(|both| !both.contains(&key));
         self.parts.retain(|(of, _), _| *of != key);
         self.fits
             .retain(|(one, other), _| *one != key && *other != key);
@@ -128,15 +132,20 @@ impl Analysis {
                 paired.pairs = twice.map(|index| [(keys[index], index); 2]).collect();
             }
             Partners::Drawn => {
-                let (mut walls, beside) = (std::mem::take(&mut self.walls), &mut self.beside);
+                self.walls_again(drawing, &keys, outlines);
+                let mut walls = std::mem::take(&mut self.walls);
                 let mut walls_of = |index: usize, outline: &Outline| {
-                    let walls = walls.entry(keys[index]);
-                    let walls = walls.or_insert_with(|| fit::walls_of(drawing, &outline.contour));
-                    walls.clone()
+                    let own = walls.entry(keys[index]);
+                    let own = own.or_insert_with(|| Own::of(drawing, outline));
+                    own.walls.clone()
                 };
+                let known = |both: [usize; 2]| self.beside.contains(&both.map(|it| keys[it]));
                 let settings = &self.settings;
-                let drawn = fit::partners(drawing, outlines, settings, &mut walls_of, beside);
+                let (drawn, together) =
+                    fit::partners(drawing, outlines, settings, &mut walls_of, &known);
                 self.walls = walls;
+                let together = together.into_iter();
+                self.beside = together.map(|both| both.map(|it| keys[it])).collect();
                 let with_keys = |pair: [usize; 2]| pair.map(|index| (keys[index], index));
                 paired.pairs = drawn.pairs.into_iter().map(with_keys).collect();
                 (paired.alone, paired.missing) = (drawn.alone, drawn.missing);
@@ -185,19 +194,20 @@ impl Analysis {
             return answer.known.clone();
         }
         let is_small = punch.contour.len().max(plate.contour.len()) <= MOST_SEGMENTS;
+        if is_small && let Some(known) = self.followed(drawing, both) {
+            return Some(known);
+        }
         for (key, outline) in both.into_iter().filter(|_| is_small) {
-            let walls = self.walls.entry(key);
-            walls.or_insert_with(|| fit::walls_of(drawing, &outline.contour));
+            let own = self.walls.entry(key);
+            let own = own.or_insert_with(|| Own::of(drawing, outline));
+            if !own.is_new() {
+                *own = Own::of(drawing, outline);
+            }
         }
         let known = is_small.then(|| self.fitted(drawing, both)).flatten();
         let known = known.map(Arc::new);
-        for ((key, role), known) in [one, other].into_iter().zip(ROLES).zip([&known; 2]) {
-            if let Some(known) = known {
-                let [punch, plate] = &known.parts;
-                let part = if role == ROLES[0] { punch } else { plate }.clone();
-                let is_old = false;
-                self.parts.insert((key, role), Left { part, is_old });
-            }
+        if let Some(known) = &known {
+            self.keep_parts([one, other], known.parts.clone());
         }
         let answer = Answer {
             known: known.clone(),
@@ -205,6 +215,68 @@ impl Analysis {
         };
         self.fits.insert((one, other), answer);
         known
+    }
+
+    /// The parts of contours as they are now.
+    fn keep_parts(&mut self, keys: [ContourKey; 2], parts: [Arc<Part>; 2]) {
+        for ((key, role), part) in keys.into_iter().zip(ROLES).zip(parts) {
+            let edited = Edited::not();
+            self.parts.insert((key, role), Left { part, edited });
+        }
+    }
+
+    /// The knowledge of two partners that were held against each other before an edit, where both parts follow that.
+    fn followed(
+        &mut self,
+        drawing: &Drawing,
+        both: [(ContourKey, &Outline); 2],
+    ) -> Option<Arc<Fitted>> {
+        let keys = both.map(|(key, _)| key);
+        let [one, other] = keys;
+        let [of_punch, of_plate] = [(one, ROLES[0]), (other, ROLES[1])];
+        let known = self.fits.get(&(one, other))?.known.as_ref()?;
+        let is_sound = |of: &(ContourKey, Role), part: &Arc<Part>| {
+            let left = self.parts.get(of);
+            left.is_some_and(|left| left.edited.within().is_some() && Arc::ptr_eq(&left.part, part))
+        };
+        let [punch, plate] = &known.parts;
+        if !is_sound(&of_punch, punch) || !is_sound(&of_plate, plate) {
+            return None;
+        }
+        // They are changed where they are, if nobody else looks at them.
+        let known = self.fits.remove(&(one, other))?.known?;
+        let edited = [of_punch, of_plate].map(|of| self.parts.remove(&of).map(|left| left.edited));
+        let mut fitted = Arc::unwrap_or_clone(known);
+        let Fitted { parts, held } = &mut fitted;
+        let edited = edited.map(|edited| edited.unwrap_or(Edited::Anywhere));
+        let outlines = [0, 1].map(|which| {
+            let within = edited[which].within().unwrap_or_default();
+            (both[which].1, within)
+        });
+        let settings = &self.settings;
+        let have = fit::follow(drawing, outlines, settings, one == other, (parts, held));
+        let have_all = have == [true; 2];
+        let have_any = have_all || (0..2).any(|which| have[which] && edited[which].is_any());
+        self.keep_parts(keys, fitted.parts.clone());
+        for (of, (edited, has)) in [of_punch, of_plate]
+            .iter()
+            .zip(edited.into_iter().zip(have))
+        {
+            if let Some(left) = self.parts.get_mut(of).filter(|_| !has) {
+                left.edited = edited;
+            }
+        }
+        if have_any && !have_all {
+            // What was held is of no parts that are there.
+            return None;
+        }
+        let known = Some(Arc::new(fitted));
+        let answer = Answer {
+            known: known.clone(),
+            is_old: !have_all,
+        };
+        self.fits.insert((one, other), answer);
+        known.filter(|_| have_all)
     }
 
     /// Two outlines, or one that is cut twice, laid in each other. What still holds from before an edit is not checked
@@ -217,7 +289,10 @@ impl Analysis {
         let settings = &self.settings;
         let [(one, punch), (other, plate)] = both;
         let left = |key: ContourKey, role: Role| self.parts.get(&(key, role));
-        let walls = |key: ContourKey| self.walls.get(&key).map(|walls| &**walls);
+        let walls = |key: ContourKey| {
+            let own = self.walls.get(&key).filter(|own| own.is_new());
+            own.map(|own| &*own.walls)
+        };
         let old = self
             .fits
             .get(&(one, other))
@@ -236,7 +311,7 @@ impl Analysis {
             Partners::Drawn => {
                 let part_of = |key: ContourKey, outline: &Outline, role: Role| {
                     let before = left(key, role);
-                    if let Some(left) = before.filter(|left| !left.is_old) {
+                    if let Some(left) = before.filter(|left| !left.edited.is_any()) {
                         return Some(left.part.clone());
                     }
                     let before = before.map(|left| &*left.part);
@@ -267,36 +342,19 @@ impl Analysis {
         let Some(fitted) = self.fit_of(drawing, both) else {
             return;
         };
-        let held = &fitted.held;
+        let Fitted { parts, held } = &*fitted;
         let (rounding, wanted) = (
             self.limits.tolerances.report,
             self.settings.pair.clearance.unwrap_or(0.0) / self.limits.unit_mm,
         );
-        let corners = LazyCell::new(|| {
-            let (corners, mut places) = (held.corners().collect::<Vec<_>>(), Grid::default());
-            for (index, (at, _)) in corners.iter().enumerate() {
-                places.insert(index, Bounds::of_disc(*at, self.wide(wanted, 0.0)));
-            }
-            (corners, places)
-        });
         // Walls are deepest where they end, in a corner.
         let corner_of = |spot: &Spot| {
             if spot.turn > 0.0 {
                 return Some(spot.of.clone());
             }
             let wide = self.wide(wanted, spot.clearance);
-            let mut first: Option<usize> = None;
-            let (corners, places) = &*corners;
-            places.near(
-                &Bounds::of_disc(spot.at, spot.clearance.abs()),
-                |index, _| {
-                    let is_near = (corners[index].0 - spot.at).norm() <= wide;
-                    if is_near && first.is_none_or(|first| index < first) {
-                        first = Some(index);
-                    }
-                },
-            );
-            Some(corners.get(first?)?.1.clone())
+            let corner = held.corner_near(parts.each_ref().map(|part| &**part), spot.at, wide);
+            corner.cloned()
         };
         let arc_radius = |(entity, segment): SegmentOf| {
             let geometry = drawing.segment(entity, segment)?;

@@ -56,12 +56,12 @@ impl Analysis {
             let known = fitting.get_or_insert(Fitting {
                 pairs: 0,
                 binding: 0,
-                least: held.least,
+                least: held.least(),
                 rounding,
             });
             known.pairs += 1;
             known.binding += binding;
-            known.least = known.least.min(held.least);
+            known.least = known.least.min(held.least());
         }
         fitting
     }

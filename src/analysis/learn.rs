@@ -5,7 +5,7 @@ use super::contours::role_of;
 use super::known::Known;
 use super::notable::{Notability, Notable};
 use super::{Analysis, MANY};
-use crate::drawing::{ContourIndex, ContourKey, Drawing, EntityId, RUN, stated_role};
+use crate::drawing::{ContourIndex, ContourKey, Drawing, EntityId, Piece, RUN, stated_role};
 use crate::fit;
 use crate::rules::{AtHand, CONTOUR_RULES, NEIGHBOURS, Outlook, units};
 use rayon::prelude::*;
@@ -141,7 +141,13 @@ impl Analysis {
             self.answers.retain(|(other, _), _| *other != key);
         }
         self.lost.remove(&key);
-        self.outdate_fits(key);
+        let edited = self.chains.piece_of(entity).filter(|_| !recounted);
+        let edited = edited.zip(vertices).map(|(piece, vertices)| {
+            let own = segments_of(Some(vertices), piece.count(), geometry.is_closed());
+            own.into_iter().map(|own| within(&piece, own)).collect()
+        });
+        let edited: Option<Vec<Range<usize>>> = edited;
+        self.outdate_fits(key, edited.as_deref());
         let (Some(piece), Some(known)) = (self.chains.piece_of(entity), self.take_known(key))
         else {
             return false;
@@ -161,13 +167,7 @@ impl Analysis {
         }
         let is_all = contour.pieces.len() == 1;
         let ranges = own.into_iter().map(|range| {
-            let (start, end) = match piece.reversed {
-                true => (
-                    piece.range().end - range.end,
-                    piece.range().end - range.start,
-                ),
-                false => (piece.first() + range.start, piece.first() + range.end),
-            };
+            let Range { start, end } = within(&piece, range);
             // What lies behind has other indices now; in a piece travelled against its own direction, and in the pieces
             // behind this one, that reaches past the splice.
             start..if recounted { contour.len() } else { end }
@@ -298,4 +298,13 @@ fn segments_of(
     let own = start.saturating_sub(1).min(end)..end;
     let closing = (closed && start == 0 && count > 0).then(|| count - 1..count);
     once(own).chain(closing).collect()
+}
+
+/// Segments of a piece as those of its contour.
+fn within(piece: &Piece, own: Range<usize>) -> Range<usize> {
+    let Range { start, end } = piece.range();
+    match piece.reversed {
+        true => end - own.end..end - own.start,
+        false => start + own.start..start + own.end,
+    }
 }

@@ -6,6 +6,7 @@ mod compare;
 mod contours;
 mod dead_ends;
 mod drafting;
+mod edited;
 mod end_index;
 mod ends;
 mod fit_fixes;
@@ -17,6 +18,7 @@ mod known;
 mod learn;
 mod notable;
 mod observations;
+mod own_walls;
 mod pair_findings;
 mod pairs;
 mod pockets;
@@ -35,11 +37,9 @@ use crate::drawing::{
     Chains, Contour, ContourKey, Delta, Drawing, EntityId, Outline, RUN, Role, Touched,
 };
 use crate::finding::{Finding, NoFix};
-use crate::fit::Beside;
 use crate::geometry::{Bounds, Grid};
 use crate::rules::{Limits, Outlook};
 use crate::settings::Effective;
-use crate::toolpath;
 use contours::set_aside;
 use drafting::{AsideEntities, LoneLines};
 use fitting::Fitting;
@@ -92,9 +92,9 @@ pub struct Analysis {
     /// What the wire leaves of contours of a pair.
     parts: FxHashMap<(ContourKey, Role), fits::Left>,
     /// The segments of contours that may belong to a pair, for questions about what is near.
-    walls: FxHashMap<ContourKey, Arc<toolpath::Walls>>,
-    /// Which contours run beside each other.
-    beside: Beside,
+    walls: FxHashMap<ContourKey, own_walls::Own>,
+    /// Which contours run beside each other, each time the smaller one first.
+    beside: FxHashSet<[ContourKey; 2]>,
     order: OnceLock<Vec<ContourKey>>,
     outlines: OnceLock<Arc<Vec<Outline>>>,
     /// All findings, once they have been asked for.
@@ -135,7 +135,7 @@ impl Analysis {
             fits: FxHashMap::default(),
             parts: FxHashMap::default(),
             walls: FxHashMap::default(),
-            beside: Beside::default(),
+            beside: FxHashSet::default(),
             order: OnceLock::new(),
             outlines: OnceLock::new(),
             tally: OnceLock::new(),

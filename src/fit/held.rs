@@ -11,7 +11,7 @@ use super::since::Since;
 use crate::geometry::{
     Bounds, Few, Point, Segment, Vector, cross, line_circle, line_line, reached,
 };
-use crate::toolpath::{Nearby, Part, Walls};
+use crate::toolpath::{Nearby, Part};
 use rayon::iter::{IntoParallelIterator, ParallelExtend, ParallelIterator};
 use rayon::slice::ParallelSlice;
 use std::ops::Range;
@@ -30,14 +30,14 @@ pub(super) struct Limits {
 /// What comes of two parts, one laid in the other.
 #[derive(Clone, Debug)]
 pub(crate) struct Held {
-    /// The least clearance all round.
-    pub least: f64,
+    /// The least clearance where no edge stands too far out.
+    pub(super) unless: f64,
     /// Corners of the punch, those of the plate, and walls of the punch.
     pub(super) looks: [Looks; 3],
     /// What stands for all walls, where they lie too near to each other everywhere.
-    apart: Option<Spot>,
+    pub(super) apart: Option<Spot>,
     /// What the two are called.
-    names: [Arc<str>; 2],
+    pub(super) names: [Arc<str>; 2],
 }
 
 /// A corner is looked round up to so many half kerfs from where the wire turned.
@@ -49,6 +49,9 @@ const AT_A_TIME: usize = 256;
 /// How often twice as much clearance is asked for to see how much is left: partners lie within five of each other.
 const DOUBLINGS: u32 = 6;
 
+/// Corners lie on their edges but for a rounding: those are looked for so much farther.
+const WIDER: f64 = 1.0 + 1e-3;
+
 /// Of two edges that are as near as each other but for so small a share of the rounding the first one counts.
 const TIE: f64 = 1e-3;
 
@@ -59,74 +62,57 @@ pub(super) fn held(
     limits: &Limits,
     since: Option<&Since>,
 ) -> Held {
-    let [punch, plate] = parts;
-    let turned = [plate, punch];
-    let looks = [
-        looks(
-            0,
-            since,
-            parts,
-            [&plate.near, &punch.path],
-            |about, edge| corner(parts, edge, about, limits),
-        ),
-        looks(
-            1,
-            since,
-            turned,
-            [&punch.near, &plate.path],
-            |about, edge| corner(turned, edge, about, limits),
-        ),
-        match limits.along_walls {
-            Some(_) => Looks::default(),
-            None => looks(
-                2,
-                since,
-                parts,
-                [&plate.near, &plate.path],
-                |about, edge| wall(parts, edge, about, limits),
-            ),
-        },
-    ];
-    let [of_punch, of_plate] = names.each_ref();
-    let (mut least, mut all_apart) = (limits.clearance, None);
-    if let Some(apart) = limits.along_walls
-        && apart < limits.clearance - limits.rounding
-    {
-        least = apart;
-        let first = punch.edges.first().map(|edge| edge.geometry.point_at(0.5));
-        if let Some(at) = first
-            && let Some((_, near)) = plate.near.nearest_to(at, plate.half)
-            && let (Some(segment), Some(other)) =
-                (punch.segment_at(0, at), plate.segment_at(near, at))
-        {
-            all_apart = Some(Spot {
-                at,
-                turn: 0.0,
-                clearance: apart,
-                is_of_plate: false,
-                segment,
-                of: of_punch.clone(),
-                other,
-                partner: of_plate.clone(),
-            });
-        }
-    }
-    let held = Held {
-        least,
+    let looks = [0, 1, 2].map(|which| match which {
+        2 if limits.along_walls.is_some() => Looks::default(),
+        which => looks(which, since, parts, limits),
+    });
+    let (unless, apart) = all_apart(parts, names, limits);
+    let mut held = Held {
+        unless,
         looks,
-        apart: all_apart,
+        apart,
         names: names.clone(),
     };
-    least = (held.clearances())
-        .map(|(_, clearance)| clearance)
-        .fold(least, f64::min);
     if limits.asks_least && held.clearances().next().is_none() {
-        least = more_than_wanted(parts, names, limits);
+        held.unless = more_than_wanted(parts, names, limits);
     }
-    Held { least, ..held }
+    held
+}
+
+/// What is left where no edge stands too far out, and what stands for all walls where that is less than there should be.
+pub(super) fn all_apart(
+    [punch, plate]: [&Part; 2],
+    [of_punch, of_plate]: &[Arc<str>; 2],
+    limits: &Limits,
+) -> (f64, Option<Spot>) {
+    let is_less = |apart: &f64| *apart < limits.clearance - limits.rounding;
+    let Some(apart) = limits.along_walls.filter(is_less) else {
+        return (limits.clearance, None);
+    };
+    let spot = || {
+        let at = punch.edges.first()?.geometry.point_at(0.5);
+        let (_, near) = plate.near.nearest_to(at, plate.half)?;
+        Some(Spot {
+            at,
+            turn: 0.0,
+            clearance: apart,
+            is_of_plate: false,
+            segment: punch.segment_at(0, at)?,
+            of: of_punch.clone(),
+            other: plate.segment_at(near, at)?,
+            partner: of_plate.clone(),
+        })
+    };
+    (apart, spot())
 }
 
 impl Held {
+    /// The least clearance all round.
+    pub(crate) fn least(&self) -> f64 {
+        let clearances = self.clearances().map(|(_, clearance)| clearance);
+        clearances.fold(self.unless, f64::min)
+    }
+
     /// Where less is left than there should be, and what, in the order of the outline of the punch, then of that of the plate.
     pub(crate) fn clearances(&self) -> impl Iterator<Item = (Point, f64)> {
         let verdicts = self.looks.iter().flat_map(|looks| &looks.verdicts);
@@ -134,10 +120,19 @@ impl Held {
         apart.chain(verdicts.map(|verdict| (verdict.at, verdict.clearance)))
     }
 
-    /// Of these the corners, each with what the part is called whose wire turned there.
-    pub(crate) fn corners(&self) -> impl Iterator<Item = (Point, &Arc<str>)> {
-        let corners = self.looks.iter().zip(&self.names);
-        corners.flat_map(|(looks, of)| looks.verdicts.iter().map(move |verdict| (verdict.at, of)))
+    /// What the part is called whose wire turned in a corner, of these the first one so far about a place.
+    pub(crate) fn corner_near(&self, parts: [&Part; 2], at: Point, wide: f64) -> Option<&Arc<str>> {
+        let of_each = self.looks.iter().zip(parts).zip(&self.names);
+        let mut first = of_each.filter_map(|((looks, part), name)| {
+            let mut is_any = false;
+            part.near.find(&Bounds::of_disc(at, wide * WIDER), |edge| {
+                let verdict = looks.of(edge);
+                is_any |= verdict.is_some_and(|verdict| (verdict.at - at).norm() <= wide);
+                is_any
+            });
+            is_any.then_some(name)
+        });
+        first.next()
     }
 
     /// All of these, of the parts that were held against each other.
@@ -203,7 +198,7 @@ fn more_than_wanted(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &Limits) -
             ..*limits
         };
         let held = held(parts, names, &more, None);
-        (held.least < clearance).then_some(held.least)
+        Some(held.least()).filter(|least| *least < clearance)
     };
     match limits.along_walls {
         Some(apart) if apart > limits.clearance => least(apart).unwrap_or(apart),
@@ -216,7 +211,7 @@ fn more_than_wanted(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &Limits) -
 }
 
 /// What lies about the edge that is looked at.
-struct About<'a> {
+pub(super) struct About<'a> {
     /// Edges of the other part.
     edges: Nearby<'a>,
     /// The way of a wire.
@@ -224,35 +219,56 @@ struct About<'a> {
     /// A piece of that which the edge before lies beside.
     beside: Option<usize>,
     /// The box of all that was asked about this edge.
-    asked: Bounds,
+    pub(super) asked: Bounds,
 }
 
-/// What a look at each edge of `one` says, among edges and beside a way.
-fn looks(
+impl About<'_> {
+    /// What lies about corners of the punch, about those of the plate, or about walls of the punch.
+    pub(super) fn of(which: usize, [punch, plate]: [&Part; 2]) -> About<'_> {
+        let (edges, way) = match which {
+            0 => (&plate.near, &punch.path),
+            1 => (&punch.near, &plate.path),
+            _ => (&plate.near, &plate.path),
+        };
+        About {
+            edges: Nearby::of(edges),
+            way: Nearby::of(way),
+            beside: None,
+            asked: Bounds::EMPTY,
+        }
+    }
+}
+
+/// What one of these says of an edge.
+pub(super) fn look(
     which: usize,
-    since: Option<&Since>,
-    [one, _]: [&Part; 2],
-    [edges_of, way]: [&Walls; 2],
-    look: impl Fn(&mut About, usize) -> Option<Verdict> + Sync,
-) -> Looks {
-    let count = one.edges.len();
+    [punch, plate]: [&Part; 2],
+    edge: usize,
+    about: &mut About,
+    limits: &Limits,
+) -> Option<Verdict> {
+    match which {
+        0 => corner([punch, plate], edge, about, limits),
+        1 => corner([plate, punch], edge, about, limits),
+        _ => wall([punch, plate], edge, about, limits),
+    }
+}
+
+/// What a look at each edge says.
+fn looks(which: usize, since: Option<&Since>, parts: [&Part; 2], limits: &Limits) -> Looks {
+    let count = parts[usize::from(which == 1)].edges.len();
     let some = |edges: Range<usize>| {
         let mut looks = Looks {
             asked: Vec::with_capacity(edges.len()),
             verdicts: Vec::new(),
         };
-        let mut about = About {
-            edges: Nearby::of(edges_of),
-            way: Nearby::of(way),
-            beside: None,
-            asked: Bounds::EMPTY,
-        };
+        let mut about = About::of(which, parts);
         let mut known = since.map(|since| since.of(which));
         for edge in edges {
             let kept = known.as_mut().and_then(|known| known.kept(edge));
             let (asked, verdict) = kept.unwrap_or_else(|| {
                 about.asked = Bounds::EMPTY;
-                let verdict = look(&mut about, edge);
+                let verdict = look(which, parts, edge, &mut about, limits);
                 (about.asked, verdict)
             });
             looks.asked.push(asked);

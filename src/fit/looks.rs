@@ -11,6 +11,15 @@ pub(super) struct Looks {
     pub verdicts: Vec<Verdict>,
 }
 
+impl Looks {
+    /// What was seen of an edge that stands too far out.
+    pub(super) fn of(&self, edge: usize) -> Option<&Verdict> {
+        let edge_of = |verdict: &Verdict| verdict.edge as usize;
+        let at = self.verdicts.binary_search_by_key(&edge, edge_of);
+        self.verdicts.get(at.ok()?)
+    }
+}
+
 /// An edge that stands too far out, by indices and places: whose segments these are is told anew each time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Verdict {

@@ -5,6 +5,7 @@
 
 mod change;
 mod deepest;
+mod follow;
 mod held;
 mod looks;
 mod partners;
@@ -12,14 +13,16 @@ mod since;
 
 pub(crate) use held::Held;
 pub use partners::Drawn;
-pub(crate) use partners::{Beside, partners, walls_of};
+pub(crate) use partners::{changed_since, partners, reach, still_beside, walls_of};
 
 use crate::drawing::{Contour, Drawing, EntityId, Outline, Role, wire_side};
 use crate::geometry::{Point, Segment, Side};
 use crate::settings::{Effective, Partners, Use};
-use crate::toolpath::{Cutting, Part, Refusal, Walls, part};
+use crate::toolpath::{Cutting, Moved, Part, Refusal, Walls, part};
+use held::Limits;
 use rustc_hash::FxHashMap;
 use since::Since;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// A segment of a drawing.
@@ -75,7 +78,7 @@ impl Pair {
         let outline = |part: &Part| part.edges.iter().map(|edge| edge.geometry).collect();
         let (spots, [punch, plate]) = rayon::join(|| held.all_spots(parts), || parts.map(outline));
         Pair {
-            least: held.least,
+            least: held.least(),
             spots,
             punch,
             plate,
@@ -138,8 +141,7 @@ pub fn fit(
                 let walls = walls.or_insert_with(|| walls_of(drawing, &outline.contour));
                 walls.clone()
             };
-            let beside = &mut Beside::default();
-            let drawn = partners(drawing, outlines, settings, &mut walls_of, beside);
+            let (drawn, _) = partners(drawing, outlines, settings, &mut walls_of, &|_| false);
             for &[punch, plate] in &drawn.pairs {
                 let walls = [punch, plate].map(|index| walls_of(index, &outlines[index]));
                 let (punch, plate) = (&outlines[punch], &outlines[plate]);
@@ -214,18 +216,63 @@ pub(crate) fn cut_twice(
     before: Option<Before>,
 ) -> Held {
     let names = [Use::Punch.name().into(), Use::Plate.name().into()];
-    let unit_mm = settings.unit_of(drawing).mm;
-    let clearance = settings.pair.clearance.unwrap_or(0.0) / unit_mm;
-    // Beside straight walls the two lie as far apart as their kerfs leave it.
-    let along_walls = punch_and_plate_apart(settings).map_or(clearance, |mm| mm / unit_mm);
-    let limits = held::Limits {
-        clearance,
-        rounding: settings.tolerances.report / unit_mm,
-        along_walls: Some(along_walls),
+    let limits = Limits {
         asks_least,
+        ..limits(drawing, settings, true)
     };
     let since = before.and_then(|(before, held)| Since::new(&held.looks, before, parts));
     held::held(parts, &names, &limits, since.as_ref())
+}
+
+/// What the clearance of two parts is held against, that are cut along one contour, or both drawn.
+fn limits(drawing: &Drawing, settings: &Effective, is_cut_twice: bool) -> Limits {
+    let unit_mm = settings.unit_of(drawing).mm;
+    let clearance = settings.pair.clearance.unwrap_or(0.0) / unit_mm;
+    // Beside straight walls the two lie as far apart as their kerfs leave it.
+    let apart = || punch_and_plate_apart(settings).map_or(clearance, |mm| mm / unit_mm);
+    Limits {
+        clearance,
+        rounding: settings.tolerances.report / unit_mm,
+        along_walls: is_cut_twice.then(apart),
+        asks_least: false,
+    }
+}
+
+/// Two parts laid in each other follow an edit of their outlines, of each of which it is known which segments may have changed. Where one of the
+/// parts cannot, it stays as it was, and so does what was held: which of the two have followed is told.
+pub(crate) fn follow(
+    drawing: &Drawing,
+    outlines: [(&Outline, &[Range<usize>]); 2],
+    settings: &Effective,
+    is_cut_twice: bool,
+    (parts, held): (&mut [Arc<Part>; 2], &mut Held),
+) -> [bool; 2] {
+    let follow = |which: usize, part: &mut Arc<Part>| {
+        let (outline, edited) = outlines[which];
+        if edited.is_empty() {
+            return Some(Moved::default());
+        }
+        let of = [Use::Punch, Use::Plate][which];
+        let own = is_cut_twice.then(|| settings.of_use(of));
+        let (own, is_other) = match &own {
+            Some(own) => own.as_ref().map(|(own, is_other)| (own, *is_other))?,
+            None => (settings, false),
+        };
+        let cutting = Cutting {
+            side: side_of(outline, of.role()).ok()?,
+            is_other,
+            settings: own,
+            walls: None,
+        };
+        Arc::make_mut(part).follow(drawing, &outline.contour, cutting, edited)
+    };
+    let [punch, plate] = parts;
+    let moved = [follow(0, punch), follow(1, plate)];
+    if let [Some(of_punch), Some(of_plate)] = &moved {
+        let limits = limits(drawing, settings, is_cut_twice);
+        held.follow([punch, plate], [of_punch, of_plate], &limits);
+    }
+    moved.map(|moved| moved.is_some())
 }
 
 /// How far apart the walls of the two parts lie that are cut along one contour, mm.
@@ -268,12 +315,9 @@ pub(crate) fn drawn_pair(
     before: Option<Before>,
 ) -> Held {
     let names = outlines.map(|it| name_of(drawing, &it.contour, settings));
-    let unit_mm = settings.unit_of(drawing).mm;
-    let limits = held::Limits {
-        clearance: settings.pair.clearance.unwrap_or(0.0) / unit_mm,
-        rounding: settings.tolerances.report / unit_mm,
-        along_walls: None,
+    let limits = Limits {
         asks_least,
+        ..limits(drawing, settings, false)
     };
     let since = before.and_then(|(before, held)| Since::new(&held.looks, before, parts));
     held::held(parts, &names, &limits, since.as_ref())

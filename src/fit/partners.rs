@@ -27,10 +27,6 @@ pub struct Drawn {
     pub missing: Vec<String>,
 }
 
-/// The contours that were found to run beside each other, to ask only of what has changed since.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Beside(Vec<[Arc<Walls>; 2]>);
-
 /// One contour that may have a partner.
 struct Candidate {
     outline: usize,
@@ -49,16 +45,15 @@ pub(crate) fn walls_of(drawing: &Drawing, contour: &Contour) -> Arc<Walls> {
 }
 
 /// The partners among the contours of workpieces. A contour has one: of several the one whose box fits best. `walls_of` hands out those of
-/// an outline, the same ones where it has not changed; what ran `beside` each other at the last question is known.
+/// an outline. Which ran beside each other is told, too, by their outlines; of some that is `known`.
 pub(crate) fn partners(
     drawing: &Drawing,
     outlines: &[Outline],
     settings: &Effective,
     walls_of: &mut dyn FnMut(usize, &Outline) -> Arc<Walls>,
-    beside: &mut Beside,
-) -> Drawn {
-    let unit_mm = settings.unit_of(drawing).mm;
-    let reach = FARTHEST * settings.pair.clearance.unwrap_or(0.0) / unit_mm;
+    known: &dyn Fn([usize; 2]) -> bool,
+) -> (Drawn, Vec<[usize; 2]>) {
+    let reach = reach(drawing, settings);
     let candidates: Vec<Candidate> = outlines
         .iter()
         .enumerate()
@@ -105,14 +100,14 @@ pub(crate) fn partners(
             } else {
                 (other, one)
             };
-            let both = [punch, plate].map(|index| &candidates[index].walls);
-            if beside.run_together(both, reach) {
-                together.push(both.map(Arc::clone));
+            let both = [punch, plate].map(|index| &candidates[index]);
+            let outlines = both.map(|candidate| candidate.outline);
+            if known(outlines) || run_together(both.map(|it| &*it.walls), reach) {
+                together.push(outlines);
                 found.push((off, punch, plate));
             }
         }
     }
-    beside.0 = together;
     let place = |index: usize| candidates[index].outline;
     found.sort_by(|a, b| {
         let by_off = a.0.total_cmp(&b.0);
@@ -141,7 +136,13 @@ pub(crate) fn partners(
         .filter(|(_, taken)| !taken)
         .map(|(candidate, _)| candidate.outline)
         .collect();
-    drawn
+    (drawn, together)
+}
+
+/// Partners lie no farther apart.
+pub(crate) fn reach(drawing: &Drawing, settings: &Effective) -> f64 {
+    let unit_mm = settings.unit_of(drawing).mm;
+    FARTHEST * settings.pair.clearance.unwrap_or(0.0) / unit_mm
 }
 
 /// The farthest that an edge of one box lies from that of another.
@@ -153,42 +154,38 @@ fn apart(a: &Bounds, b: &Bounds) -> f64 {
         .fold(0.0, f64::max)
 }
 
-impl Beside {
-    /// True where no place of the one contour is farther from the other than `reach`, as far as ends and places between them tell.
-    fn run_together(&self, both: [&Arc<Walls>; 2], reach: f64) -> bool {
-        let known = |[punch, plate]: &[Arc<Walls>; 2]| match [
-            Arc::ptr_eq(punch, both[0]),
-            Arc::ptr_eq(plate, both[1]),
-        ] {
-            [true, true] => Some(true),
-            [true, false] => still_beside(plate, both[1], punch, reach),
-            [false, true] => still_beside(punch, both[0], plate, reach),
-            [false, false] => None,
-        };
-        if let Some(known) = self.0.iter().find_map(known) {
-            return known;
-        }
-        let keeps = |own: &Walls, other: &Walls| {
-            let some = own.segments().par_chunks(AT_A_TIME);
-            some.all(|segments| are_near(&mut segments.iter(), other, reach))
-        };
-        let [punch, plate] = both;
-        keeps(punch, plate) && keeps(plate, punch)
-    }
+/// True where no place of the one contour is farther from the other than `reach`, as far as ends and places between them tell.
+fn run_together([punch, plate]: [&Walls; 2], reach: f64) -> bool {
+    let keeps = |own: &Walls, other: &Walls| {
+        let some = own.segments().par_chunks(AT_A_TIME);
+        some.all(|segments| are_near(&mut segments.iter(), other, reach))
+    };
+    keeps(punch, plate) && keeps(plate, punch)
 }
 
-/// Whether a contour that was beside another one `before` an edit still is; nothing where too much of it has changed to say.
-fn still_beside(before: &Walls, now: &Walls, other: &Walls, reach: f64) -> Option<bool> {
+/// The segments of a contour that are gone, and those that are new; nothing where that is too much to say.
+pub(crate) fn changed_since(before: &Walls, now: &Walls) -> Option<[Vec<Segment>; 2]> {
     let change = Change::of(before.segments(), now.segments(), PartialEq::eq)?;
+    let gone = change.gone().map(|gone| *before.segment(gone));
+    let new = change.come().map(|new| *now.segment(new));
+    Some([gone.collect(), new.collect()])
+}
+
+/// Whether a contour that was beside another one before an edit still is, where these segments are gone and these new.
+pub(crate) fn still_beside(
+    [gone, new]: [&[Segment]; 2],
+    now: &Walls,
+    other: &Walls,
+    reach: f64,
+) -> bool {
     let mut beside_gone = Vec::new();
-    for gone in change.gone() {
-        other.find(&before.bounds_of(gone).grown(reach), |wall| {
+    for gone in gone {
+        other.find(&gone.bounds().grown(reach), |wall| {
             beside_gone.push(other.segment(wall));
             false
         });
     }
-    let mut new = change.come().map(|new| now.segment(new));
-    Some(are_near(&mut new, other, reach) && are_near(&mut beside_gone.into_iter(), now, reach))
+    are_near(&mut new.iter(), other, reach) && are_near(&mut beside_gone.into_iter(), now, reach)
 }
 
 /// True where no end of some segments, and no place between, is farther from `other` than `reach`.

@@ -100,12 +100,12 @@ pub fn pair(
 /// The role of each contour that has a partner, by the handle of its first entity.
 fn roles_of_partners(snapshot: &Snapshot) -> Vec<(String, Role)> {
     let (drawing, outlines) = (&snapshot.drawing, &snapshot.outlines);
-    let drawn = fit::partners(
+    let (drawn, _) = fit::partners(
         drawing,
         outlines,
         &snapshot.settings,
         &mut |_, outline| fit::walls_of(drawing, &outline.contour),
-        &mut Default::default(),
+        &|_| false,
     );
     let both = drawn
         .pairs

@@ -2,6 +2,7 @@
 
 use crate::geometry::Bounds;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+use rayon::slice::ParallelSliceMut;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// So many walls that follow each other are a few.
@@ -17,7 +18,7 @@ const MOST_OF_EACH: usize = 24;
 const AT_A_TIME: usize = 2048;
 
 /// Of each wall those whose boxes come near to its own.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct About {
     pub(super) reach: f64,
     /// Where those of each begin and end among `walls`; of a few that lies close to many they are the same.
@@ -113,4 +114,29 @@ pub(super) fn merged<'a>(boxes: impl Iterator<Item = &'a Bounds>) -> Bounds {
     let mut all = Bounds::EMPTY;
     boxes.for_each(|one| all.merge(one));
     all
+}
+
+/// The order of boxes in which those that lie together stand together: by the bits of column and row of their middles in turn.
+pub(super) fn by_place(boxes: &[Bounds]) -> Vec<u32> {
+    let all = merged(boxes.iter());
+    let scale = f64::from(u16::MAX) / all.width().max(all.height()).max(f64::MIN_POSITIVE);
+    let spread = |coordinate: f64| {
+        let mut bits = u32::from((coordinate * scale) as u16);
+        for (shift, mask) in [
+            (8, 0x00ff_00ff),
+            (4, 0x0f0f_0f0f),
+            (2, 0x3333_3333),
+            (1, 0x5555_5555),
+        ] {
+            bits = (bits | bits << shift) & mask;
+        }
+        bits
+    };
+    let place = |one: &Bounds| {
+        let middle = (one.min - all.min + (one.max - all.min)) / 2.0;
+        spread(middle.x) | spread(middle.y) << 1
+    };
+    let mut keys: Vec<(u32, u32)> = boxes.iter().map(place).zip(0..).collect();
+    keys.par_sort_unstable();
+    keys.into_iter().map(|(_, index)| index).collect()
 }

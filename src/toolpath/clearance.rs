@@ -1,17 +1,16 @@
 //! How near a path comes to the walls, for contours of any size.
 
-use super::about::{About, FAN, merged};
+use super::about::{About, FAN, by_place, merged};
 use super::apart::{are_apart, distance_between};
 use super::cores::{each, sum};
 use super::offset::Wall;
 use crate::geometry::{Bounds, Point, Segment, Vector, left_normal};
-use rayon::slice::ParallelSliceMut;
 use std::ops::Range;
 use std::sync::OnceLock;
 
 /// Walls in boxes of boxes: a few that follow each other along the contour in one, and of these, where there are many, a few that lie
 /// together anywhere, as the turns of a spiral do.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Walls {
     segments: Vec<Segment>,
     /// Boxes of `FAN` segments, then boxes of `FAN` of those, up to one.
@@ -49,26 +48,101 @@ impl Walls {
     }
 
     fn within(segments: Vec<Segment>, boxes: Vec<Bounds>) -> Walls {
-        let mut level = boxes;
-        let mut levels = Vec::new();
-        let mut order = Vec::new();
-        while level.len() > 1 {
-            let above = level.chunks(FAN).map(|boxes| merged(boxes.iter()));
-            let mut above: Vec<Bounds> = above.collect();
-            if levels.is_empty() && segments.len() > MOST_IN_ORDER {
-                order = by_place(&above);
-                above = order.iter().map(|&few| above[few as usize]).collect();
-            }
-            levels.push(std::mem::replace(&mut level, above));
-        }
-        levels.push(level);
-        Walls {
+        let mut walls = Walls {
             segments,
-            levels,
-            order,
+            levels: vec![boxes],
+            order: Vec::new(),
             about: OnceLock::new(),
             tangents: OnceLock::new(),
             twice_area: OnceLock::new(),
+        };
+        walls.box_all();
+        walls
+    }
+
+    /// The boxes of boxes, where those of all segments are known; a few that are as many as there were stand in the order in which they stood.
+    fn box_all(&mut self) {
+        self.levels.truncate(1);
+        while let Some(level) = self.levels.last().filter(|level| level.len() > 1) {
+            let above = level.chunks(FAN).map(|boxes| merged(boxes.iter()));
+            let mut above: Vec<Bounds> = above.collect();
+            if self.levels.len() == 1 {
+                match self.segments.len() > MOST_IN_ORDER {
+                    true if self.order.len() != above.len() => self.order = by_place(&above),
+                    true => {}
+                    false => self.order.clear(),
+                }
+                if !self.order.is_empty() {
+                    above = self.order.iter().map(|&few| above[few as usize]).collect();
+                }
+            }
+            self.levels.push(above);
+        }
+    }
+
+    /// Puts others in the place of a stretch of segments. Of several stretches that are changed at once, which begin and end where they did, all
+    /// areas are those about one `origin`.
+    pub(super) fn splice(&mut self, stretch: Range<usize>, new: &[Segment], origin: Point) {
+        self.about = OnceLock::new();
+        if let Some(tangents) = self.tangents.get_mut() {
+            tangents.splice(stretch.clone(), new.iter().map(tangents_of));
+        }
+        self.levels[0].splice(stretch.clone(), new.iter().map(Segment::bounds));
+        let gone = self.segments.splice(stretch.clone(), new.iter().copied());
+        let gone: Vec<Segment> = gone.collect();
+        if let Some(twice_area) = self.twice_area.get_mut() {
+            *twice_area += area_about(new, origin) - area_about(&gone, origin);
+        }
+        let few = stretch.start / FAN..stretch.end.div_ceil(FAN);
+        match gone.len() == new.len() {
+            true => few.for_each(|few| self.box_again(few)),
+            false => self.box_all(),
+        }
+    }
+
+    /// Puts others in the place of some segments, by index, and hands out those. The ends of stretches of the contour stay.
+    pub(crate) fn replace(&mut self, new: &[(usize, Segment)]) -> Vec<(usize, Segment)> {
+        self.about = OnceLock::new();
+        let origin = new.first().map(|(_, first)| first.start());
+        let mut grown = 0.0;
+        let gone = new.iter().map(|&(index, segment)| {
+            let gone = std::mem::replace(&mut self.segments[index], segment);
+            if let Some(tangents) = self.tangents.get_mut() {
+                tangents[index] = tangents_of(&segment);
+            }
+            let area_of = |segment: &Segment| origin.map_or(0.0, |it| segment.twice_area(it));
+            grown += area_of(&segment) - area_of(&gone);
+            (index, gone)
+        });
+        let gone = gone.collect();
+        if let Some(twice_area) = self.twice_area.get_mut() {
+            *twice_area += grown;
+        }
+        for &(index, _) in new {
+            self.levels[0][index] = self.segments[index].bounds();
+        }
+        let mut last = None;
+        for few in new.iter().map(|(index, _)| index / FAN) {
+            if last.replace(few) != Some(few) {
+                self.box_again(few);
+            }
+        }
+        gone
+    }
+
+    /// The boxes of a few segments and of all that holds these, where a segment has changed.
+    fn box_again(&mut self, few: usize) {
+        let (mut within, mut at) = (few, few);
+        for level in 1..self.levels.len() {
+            if let (1, Some(place)) = (level, self.order.iter().position(|of| *of as usize == few))
+            {
+                at = place;
+            }
+            let boxes = self.levels[level - 1].chunks(FAN).nth(within);
+            let all = boxes.map_or(Bounds::EMPTY, |boxes| merged(boxes.iter()));
+            self.levels[level][at] = all;
+            at /= FAN;
+            within = at;
         }
     }
 
@@ -326,6 +400,12 @@ pub(super) fn nearest_by(
     }
 }
 
+/// Twice the area that some segments share in what they go round, about a point.
+pub(super) fn area_about(segments: &[Segment], origin: Point) -> f64 {
+    let areas = segments.iter().map(|segment| segment.twice_area(origin));
+    areas.sum()
+}
+
 /// The directions of a segment at its ends; of an arc by where they lie about its centre, if that is known well.
 fn tangents_of(segment: &Segment) -> [Vector; 2] {
     match segment {
@@ -340,31 +420,6 @@ fn tangents_of(segment: &Segment) -> [Vector; 2] {
         }
         arc => [arc.start_tangent(), arc.end_tangent()],
     }
-}
-
-/// The order of boxes in which those that lie together stand together: by the bits of column and row of their middles in turn.
-fn by_place(boxes: &[Bounds]) -> Vec<u32> {
-    let all = merged(boxes.iter());
-    let scale = f64::from(u16::MAX) / all.width().max(all.height()).max(f64::MIN_POSITIVE);
-    let spread = |coordinate: f64| {
-        let mut bits = u32::from((coordinate * scale) as u16);
-        for (shift, mask) in [
-            (8, 0x00ff_00ff),
-            (4, 0x0f0f_0f0f),
-            (2, 0x3333_3333),
-            (1, 0x5555_5555),
-        ] {
-            bits = (bits | bits << shift) & mask;
-        }
-        bits
-    };
-    let place = |one: &Bounds| {
-        let middle = (one.min - all.min + (one.max - all.min)) / 2.0;
-        spread(middle.x) | spread(middle.y) << 1
-    };
-    let mut keys: Vec<(u32, u32)> = boxes.iter().map(place).zip(0..).collect();
-    keys.par_sort_unstable();
-    keys.into_iter().map(|(_, index)| index).collect()
 }
 
 #[cfg(test)]

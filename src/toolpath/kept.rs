@@ -2,7 +2,10 @@
 
 use super::clearance::Walls;
 use super::corners::Element;
+use super::offset::Wall;
+use super::path::Source;
 use crate::geometry::Bounds;
+use std::ops::Range;
 
 /// Where more walls have changed, all is looked at.
 const MOST_CHANGED: usize = 64;
@@ -107,6 +110,56 @@ impl<'a> Kept<'a> {
     pub(super) fn followed(&self, element: &Element, wall: usize) -> Option<u32> {
         let was = self.was[wall];
         (was != NEW).then(|| follows_of(was, element))
+    }
+
+    /// True for a wall that was there, and before the one that it is before now.
+    pub(super) fn leads_on(&self, wall: usize) -> bool {
+        let next = if wall + 1 == self.was.len() {
+            0
+        } else {
+            wall + 1
+        };
+        let (was, next) = (self.was[wall], self.was[next]);
+        was != NEW && (next == was + 1 || next == 0 && was as usize + 1 == self.before)
+    }
+
+    /// A stretch of pieces and what stands in their place, without those at its ends that are as they were.
+    pub(super) fn changed(
+        &self,
+        (mut gone, mut new): (Range<usize>, Vec<Element>),
+    ) -> (Range<usize>, Vec<Element>) {
+        let stays = |piece: usize, element: &Element| {
+            self.followed(element, element.wall) == Some(self.follows[piece])
+                && (!element.is_roll() || self.leads_on(element.wall))
+                && *self.pieces.segment(piece) == element.geometry
+        };
+        let both = gone.clone().zip(&new);
+        let first = both.take_while(|(piece, it)| stays(*piece, it)).count();
+        gone.start += first;
+        new.drain(..first);
+        while let Some(last) = new.last()
+            && !gone.is_empty()
+            && stays(gone.end - 1, last)
+        {
+            gone.end -= 1;
+            new.pop();
+        }
+        (gone, new)
+    }
+
+    /// A piece as it was, beside a wall that is now that one.
+    pub(super) fn piece(&self, piece: usize, wall: usize, walls: &[Wall]) -> Element {
+        let source = match walls.get(wall).map_or(Source::Tab, |wall| wall.source) {
+            Source::Segment { entity, segment } if self.follows[piece] % 2 == 1 => {
+                Source::Corner { entity, segment }
+            }
+            source => source,
+        };
+        Element {
+            geometry: *self.pieces.segment(piece),
+            source,
+            wall,
+        }
     }
 
     /// True for a piece that is as proved as it was; `about` are the boxes of what is new.

@@ -115,6 +115,16 @@ impl Job<'_> {
         Ok((walls, own, laid))
     }
 
+    /// How corners are made of a path.
+    pub(super) fn joining(&self, along: Along) -> Joining {
+        Joining {
+            correction: along.correction,
+            side: along.side,
+            touch: self.units(1e-7),
+            tolerance: self.units(self.settings.tolerances.report),
+        }
+    }
+
     /// The path along a contour, as `laid_within` has it, of which nothing has been proved before.
     pub(super) fn laid(
         &self,
@@ -147,12 +157,7 @@ impl Job<'_> {
             true => Cow::Borrowed(walls),
             false => Cow::Owned(there_and_back(walls)),
         };
-        let joining = Joining {
-            correction,
-            side,
-            touch: self.units(1e-7),
-            tolerance: self.units(self.settings.tolerances.report),
-        };
+        let joining = self.joining(along);
         self.go_on()?;
         let rounding = self.units(ROUNDING);
         if let Some(kept) = &mut known.kept

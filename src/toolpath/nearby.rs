@@ -116,4 +116,63 @@ mod tests {
             }
         }
     }
+
+    /// Walls of which some have been changed where they are say what walls say that were made of the same segments.
+    #[test]
+    fn what_has_been_changed_is_what_is_made_anew() {
+        let at = |index: usize, away: f64| {
+            let (sin, cos) = (index as f64 * 0.01).sin_cos();
+            Point::new(cos, sin) * (20.0 + away)
+        };
+        for count in [9, 100, 600, 3000] {
+            let ring = |from: usize, to: usize, away: f64, step: usize| -> Vec<Segment> {
+                let away = |index: usize| {
+                    if index == from || index == to {
+                        0.0
+                    } else {
+                        away
+                    }
+                };
+                let ends = (from..to).step_by(step);
+                let end = |index: usize| (index + step).min(to);
+                let line = |it: usize| Segment::line(at(it, away(it)), at(end(it), away(end(it))));
+                ends.map(line).collect()
+            };
+            for (from, to, step) in [(0, 5, 1), (3, 8, 2), (0, count, 3), (count - 3, count, 1)] {
+                let mut walls = Walls::new(ring(0, count, 0.0, 1));
+                let (area, _) = (walls.twice_area(), walls.tangents());
+                let new = ring(from, to, 0.7, step);
+                walls.splice(from..to, &new, at(0, 0.0));
+                let moved = new[0].reversed();
+                let gone = walls.replace(&[(from, moved)]);
+                assert_eq!(gone, [(from, new[0])]);
+                let anew = Walls::new(walls.segments().to_vec());
+                assert_eq!(walls.segments()[from + 1..from + new.len()], new[1..]);
+                assert_eq!(walls.tangents(), anew.tangents());
+                assert_eq!(walls.bounds(), anew.bounds());
+                walls.replace(&gone);
+                walls.splice(from..from + new.len(), &ring(from, to, 0.0, 1), at(0, 0.0));
+                assert!((walls.twice_area() - area).abs() < 1e-9 * count as f64);
+                let before = Walls::new(ring(0, count, 0.0, 1));
+                for index in 0..anew.segments().len() {
+                    assert_eq!(
+                        walls.bounds_of(index % count),
+                        &walls.segment(index % count).bounds()
+                    );
+                    let area = anew.bounds_of(index).grown(0.1);
+                    let all = |walls: &Walls| {
+                        let mut found = Vec::new();
+                        walls.find(&area, |wall| {
+                            found.push(*walls.segment(wall));
+                            false
+                        });
+                        found.len()
+                    };
+                    if index % 50 == 0 {
+                        assert_eq!(all(&walls), all(&before), "{count} {from} {index}");
+                    }
+                }
+            }
+        }
+    }
 }

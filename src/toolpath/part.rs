@@ -28,7 +28,7 @@ pub(crate) struct Edge {
 }
 
 /// A part as the wire leaves it. Lengths in drawing units.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Part {
     /// Along the contour.
     pub edges: Vec<Edge>,
@@ -39,13 +39,43 @@ pub(crate) struct Part {
     /// Half the kerf of the last pass.
     pub half: f64,
     /// The contour as it is drawn.
-    drawn: Vec<Wall>,
+    pub(super) drawn: Vec<Wall>,
+    /// The same, to ask what is near.
+    pub(super) own: Option<Walls>,
+    /// The pieces of the path.
+    pub(super) ways: Vec<Wall>,
     /// Of each piece of the path its wall; nothing where it has not been proved beside the contour at the correction.
-    path_follows: Vec<u32>,
+    pub(super) path_follows: Vec<u32>,
     /// Of each edge the piece of the path; nothing where it is not the offset of the path.
-    edges_follow: Vec<u32>,
+    pub(super) edges_follow: Vec<u32>,
     /// The path, and the outline, are those of neighbours cut with each other.
-    is_by_neighbours: [bool; 2],
+    pub(super) is_by_neighbours: [bool; 2],
+}
+
+impl Edge {
+    /// That of an element beside a path, of each piece of which it is known what it follows.
+    pub(super) fn of(element: &Element, path_follows: &[u32]) -> Edge {
+        let wall = |piece: usize| path_follows[piece] as usize / 2;
+        let next = match element.wall + 1 {
+            next if next < path_follows.len() => next,
+            _ => 0,
+        };
+        let before = wall(element.wall);
+        let geometry = element.geometry;
+        let turn = geometry.as_arc().filter(|_| element.is_roll());
+        Edge {
+            geometry,
+            turned_about: turn.map(|arc| arc.center),
+            walls: [
+                before,
+                if element.is_roll() {
+                    wall(next)
+                } else {
+                    before
+                },
+            ],
+        }
+    }
 }
 
 impl Part {
@@ -90,30 +120,13 @@ pub(crate) fn part(
     before: Option<&Part>,
     goes_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Part, Refusal> {
-    let Cutting {
-        side,
-        is_other,
-        settings,
-        walls,
-    } = cutting;
-    let job = Job {
-        drawing,
-        outlines: &[],
-        settings,
-        picks: FxHashMap::default(),
-        unit_mm: settings.unit_of(drawing).mm,
-        finishes: false,
-        a_loop_will_do: true,
-        searched: Default::default(),
-        goes_on,
-    };
-    let passes = settings.each_correction();
-    let half = settings.half_kerf(passes.len() - 1);
-    let (Some(&last), Some(half)) = (passes.last(), half) else {
-        return Err(Refusal::Sentence(say!(no_path_can_be_made).into()));
-    };
-    let (last, half) = (job.units(last), job.units(half));
-    let away = if is_other { side.reversed() } else { side };
+    let Cut {
+        job,
+        half,
+        last,
+        away,
+    } = Cut::of(drawing, cutting, goes_on)?;
+    let Cutting { side, walls, .. } = cutting;
     let segment = |at: usize| match walls {
         Some(walls) => contour.segment_with(drawing, at, *walls.segment(at)),
         None => contour.segment(drawing, at),
@@ -122,12 +135,14 @@ pub(crate) fn part(
         count: contour.len(),
         segment: &segment,
     };
-    let (drawn, path, is_proved) = job.last_path(contour, away, last, before)?;
+    let Last {
+        walls: drawn,
+        own,
+        path,
+        is_proved,
+    } = job.last_path(contour, away, last, before)?;
     let is_path_by_neighbours = !job.searched.swap(false, Relaxed);
-    let path_follows = match is_proved {
-        true => follows(&path),
-        false => Vec::new(),
-    };
+    let path_follows = follows(&path);
     let beside: Vec<Wall> = path
         .iter()
         .map(|element| Wall {
@@ -156,6 +171,8 @@ pub(crate) fn part(
             path: near_path,
             half,
             drawn,
+            own,
+            ways: beside,
             path_follows: Vec::new(),
             edges_follow: Vec::new(),
             is_by_neighbours: [false; 2],
@@ -193,20 +210,7 @@ pub(crate) fn part(
         }
     };
     let is_by_neighbours = [is_path_by_neighbours, !job.searched.load(Relaxed)];
-    let edge = |element: &Element| {
-        let is_turn = matches!(element.source, Source::Corner { .. });
-        let next = (element.wall + 1) % path.len();
-        let before = path[element.wall].wall;
-        Edge {
-            geometry: element.geometry,
-            turned_about: element
-                .geometry
-                .as_arc()
-                .filter(|_| is_turn)
-                .map(|arc| arc.center),
-            walls: [before, if is_turn { path[next].wall } else { before }],
-        }
-    };
+    let edge = |element: &Element| Edge::of(element, &path_follows);
     let edges: Vec<Edge> = outline.iter().map(edge).collect();
     Ok(Part {
         near: Walls::new(edges.iter().map(|edge| edge.geometry).collect()),
@@ -214,14 +218,68 @@ pub(crate) fn part(
         path: near_path,
         half,
         drawn,
-        path_follows,
+        own,
+        ways: beside,
+        path_follows: if is_proved { path_follows } else { Vec::new() },
         edges_follow: follows(&outline),
         is_by_neighbours,
     })
 }
 
-/// The walls of a contour, and the path beside them.
-type WallsAndPath = (Vec<Wall>, Vec<Element>);
+/// What a part is cut by.
+pub(super) struct Cut<'a> {
+    pub(super) job: Job<'a>,
+    /// Half the kerf of the last pass, and its correction. Drawing units.
+    pub(super) half: f64,
+    pub(super) last: f64,
+    /// The side of the contour on which the wire runs.
+    pub(super) away: Side,
+}
+
+impl<'a> Cut<'a> {
+    pub(super) fn of(
+        drawing: &'a Drawing,
+        cutting: Cutting<'a>,
+        goes_on: &'a (dyn Fn() -> bool + Sync),
+    ) -> Result<Cut<'a>, Refusal> {
+        let settings = cutting.settings;
+        let job = Job {
+            drawing,
+            outlines: &[],
+            settings,
+            picks: FxHashMap::default(),
+            unit_mm: settings.unit_of(drawing).mm,
+            finishes: false,
+            a_loop_will_do: true,
+            searched: Default::default(),
+            goes_on,
+        };
+        let passes = settings.each_correction();
+        let half = settings.half_kerf(passes.len() - 1);
+        let (Some(&last), Some(half)) = (passes.last(), half) else {
+            return Err(Refusal::Sentence(say!(no_path_can_be_made).into()));
+        };
+        Ok(Cut {
+            half: job.units(half),
+            last: job.units(last),
+            away: match cutting.is_other {
+                true => cutting.side.reversed(),
+                false => cutting.side,
+            },
+            job,
+        })
+    }
+}
+
+/// The path of the last pass along a closed contour.
+struct Last {
+    walls: Vec<Wall>,
+    /// The walls once more, to ask what is near; nothing where nobody has asked.
+    own: Option<Walls>,
+    path: Vec<Element>,
+    /// It has been proved at its correction.
+    is_proved: bool,
+}
 
 /// The segments of a closed contour in the direction of travel.
 #[derive(Clone, Copy)]
@@ -231,15 +289,15 @@ struct Segments<'a> {
 }
 
 impl Job<'_> {
-    /// The walls of a closed contour, the path of the last pass along them on a side, and whether it has been proved at its correction; one
-    /// line without length where the wire can only stand.
+    /// The walls of a closed contour, and the path of the last pass along them on a side; one line without length where the wire can only
+    /// stand.
     fn last_path(
         &self,
         contour: Segments,
         side: Side,
         last: f64,
         before: Option<&Part>,
-    ) -> Result<(Vec<Wall>, Vec<Element>, bool), Refusal> {
+    ) -> Result<Last, Refusal> {
         let settings = self.settings;
         let rough = self.units(settings.correction);
         let is_beside_rough = settings.passes.skim_corner() == SkimCorner::ConstantStock
@@ -248,13 +306,18 @@ impl Job<'_> {
         if last <= self.units(super::job::ROUNDING) {
             let walls = self.closed_walls(contour);
             let path = elements(&walls);
-            return Ok((walls, path, false));
+            return Ok(Last {
+                walls,
+                own: None,
+                path,
+                is_proved: false,
+            });
         }
         let is_plain = !is_beside_rough && settings.corner == Corner::Arc;
         if let Some(before) = before.filter(|_| is_plain)
-            && let Some((walls, path)) = self.mended(contour, side, last, before)?
+            && let Some(mended) = self.mended(contour, side, last, before)?
         {
-            return Ok((walls, path, true));
+            return Ok(mended);
         }
         let first = if is_beside_rough { rough } else { last };
         let (walls, own, laid) =
@@ -275,15 +338,26 @@ impl Job<'_> {
             }
             (laid, _) => laid,
         };
+        let own = Some(own);
         match laid {
-            Ok(Laid::Path(path)) => Ok((walls, path, is_plain)),
+            Ok(Laid::Path(path)) => Ok(Last {
+                walls,
+                own,
+                path,
+                is_proved: is_plain,
+            }),
             Ok(Laid::Point(stand)) => {
                 let element = Element {
                     geometry: Segment::line(stand, stand),
                     source: Source::Tab,
                     wall: 0,
                 };
-                Ok((walls, vec![element], false))
+                Ok(Last {
+                    walls,
+                    own,
+                    path: vec![element],
+                    is_proved: false,
+                })
             }
             Err(fault) => Err(Refusal::Findings(vec![self.no_path(&fault, &walls, first)])),
         }
@@ -301,7 +375,7 @@ impl Job<'_> {
         side: Side,
         correction: f64,
         before: &Part,
-    ) -> Result<Option<WallsAndPath>, Refusal> {
+    ) -> Result<Option<Last>, Refusal> {
         let walls = self.closed_walls(contour);
         let own = Walls::of(&walls);
         let is_same = |before: &Wall, now: &Wall| before.geometry == now.geometry;
@@ -326,7 +400,12 @@ impl Job<'_> {
             ..Known::default()
         };
         Ok(match self.laid_within(&walls, &own, along, known)? {
-            Ok(Laid::Path(path)) => Some((walls, path)),
+            Ok(Laid::Path(path)) => Some(Last {
+                walls,
+                own: Some(own),
+                path,
+                is_proved: true,
+            }),
             _ => None,
         })
     }

@@ -6,10 +6,9 @@
 
 use super::clearance::Walls;
 use super::corners::{Element, Joining, Offsets, Raw};
-use super::kept::{Kept, NEW, which_it_is};
+use super::kept::{Kept, which_it_is};
 use super::offset::Wall;
 use super::open::there_and_back;
-use super::path::Source;
 use super::ring::trimmed;
 use crate::geometry::Segment;
 use std::ops::Range;
@@ -28,78 +27,122 @@ struct Stretch {
     pieces: Vec<(usize, Element)>,
 }
 
+/// What stands in the place of some pieces of a path.
+pub(super) struct Splice {
+    /// The pieces before and behind, which stay, by where they were.
+    left: usize,
+    right: usize,
+    /// Those between, in the order in which they are gone.
+    new: Vec<Element>,
+    /// Where the end of the contour lies among them, so many come before it.
+    before_the_end: Option<usize>,
+}
+
 /// The path beside the walls, where what is kept says most of it; `None` where it does not.
 pub(super) fn spliced(kept: &Kept, walls: &[Wall], joining: &Joining) -> Option<Vec<Element>> {
-    let count = walls.len();
-    if !kept.is_by_neighbours || count <= MOST + 4 * ABOUT || !kept.follows.is_sorted() {
-        return None;
+    Splice::of(kept, walls, joining)?.path(kept, walls)
+}
+
+impl Splice {
+    /// What stands beside the walls that have changed; `None` where what is kept does not say all the rest.
+    pub(super) fn of(kept: &Kept, walls: &[Wall], joining: &Joining) -> Option<Splice> {
+        let count = walls.len();
+        if !kept.is_by_neighbours || count <= MOST + 4 * ABOUT || !kept.follows.is_sorted() {
+            return None;
+        }
+        let (first, changed) = changed(kept, count)?;
+        let stretch = Stretch::laid(walls, (first + count - ABOUT) % count, changed, joining)?;
+        let on_left = |piece: &usize| (2..ABOUT - 2).contains(&stretch.place(*piece));
+        let (right_first, right_last) = (stretch.count - ABOUT + 1, stretch.count - 2);
+        let on_right = |piece: &usize| (right_first..right_last).contains(&stretch.place(*piece));
+        let parted = |piece: usize| Some((piece, stretch.parts_two(kept, count, piece)?));
+        let mut all = 1..stretch.pieces.len().checked_sub(1)?;
+        let (first, left) = all.clone().rev().filter(on_left).find_map(parted)?;
+        let (last, right) = all.find_map(|piece| parted(piece).filter(|_| on_right(&piece)))?;
+        let is_behind = |piece: usize| stretch.first + stretch.place(piece) >= count;
+        let goes_over_the_end = is_behind(last) != is_behind(first);
+        // What goes there may hang on what is looked at first.
+        if goes_over_the_end && !stretch.goes_at_once(first, last) {
+            return None;
+        }
+        let new = stretch.pieces.get(first + 1..last)?.iter();
+        let new: Vec<Element> = new
+            .map(|(_, element)| Element {
+                wall: (stretch.first + element.wall) % count,
+                ..*element
+            })
+            .collect();
+        let before_the_end = goes_over_the_end.then(|| {
+            let mut between = first + 1..last;
+            between.position(is_behind).unwrap_or(new.len())
+        });
+        Some(Splice {
+            left,
+            right,
+            new,
+            before_the_end,
+        })
     }
-    let (first, changed) = changed(kept, count)?;
-    let stretch = Stretch::laid(walls, (first + count - ABOUT) % count, changed, joining)?;
-    let on_left = |piece: &usize| (2..ABOUT - 2).contains(&stretch.place(*piece));
-    let (right_first, right_last) = (stretch.count - ABOUT + 1, stretch.count - 2);
-    let on_right = |piece: &usize| (right_first..right_last).contains(&stretch.place(*piece));
-    let parted = |piece: usize| Some((piece, stretch.parts_two(kept, count, piece)?));
-    let mut all = 1..stretch.pieces.len().checked_sub(1)?;
-    let (left, left_was) = all.clone().rev().filter(on_left).find_map(parted)?;
-    let (right, right_was) = all.find_map(|piece| parted(piece).filter(|_| on_right(&piece)))?;
-    let is_behind = |piece: usize| stretch.first + stretch.place(piece) >= count;
-    let goes_over_the_end = is_behind(right) != is_behind(left);
-    // What goes there may hang on what is looked at first.
-    if goes_over_the_end && !stretch.goes_at_once(left, right) {
-        return None;
-    }
-    // Of the pieces between, those behind the end of the contour come first.
-    let end = (left + 1..right).find(|piece| is_behind(*piece));
-    let end = end.unwrap_or(right);
-    let is = which_it_is(&kept.was, kept.before);
-    let mut path = Vec::with_capacity(kept.follows.len() + stretch.pieces.len());
-    let new = |pieces: Range<usize>, path: &mut Vec<Element>| {
-        path.extend(stretch.pieces[pieces].iter().map(|(_, element)| Element {
-            wall: (stretch.first + element.wall) % count,
-            ..*element
-        }));
-    };
-    let old = |pieces: Range<usize>, path: &mut Vec<Element>| {
-        path.extend(pieces.map(|piece| {
-            let follows = kept.follows[piece];
-            let wall = is[follows as usize / 2] as usize;
-            let source = match walls.get(wall).map_or(Source::Tab, |wall| wall.source) {
-                Source::Segment { entity, segment } if follows % 2 == 1 => {
-                    Source::Corner { entity, segment }
-                }
-                source => source,
-            };
-            Element {
-                geometry: *kept.pieces.segment(piece),
-                source,
-                wall,
+
+    /// All of the path.
+    fn path(&self, kept: &Kept, walls: &[Wall]) -> Option<Vec<Element>> {
+        let is = which_it_is(&kept.was, kept.before);
+        let mut path = Vec::with_capacity(kept.follows.len() + self.new.len());
+        let old = |pieces: Range<usize>, path: &mut Vec<Element>| {
+            path.extend(pieces.map(|piece| {
+                let wall = is[kept.follows[piece] as usize / 2] as usize;
+                kept.piece(piece, wall, walls)
+            }));
+        };
+        match self.before_the_end {
+            // Of the pieces between, those behind the end of the contour come first.
+            Some(before) => {
+                path.extend(&self.new[before..]);
+                old(self.right..self.left + 1, &mut path);
+                path.extend(&self.new[..before]);
             }
-        }));
-    };
-    if goes_over_the_end {
-        new(end..right, &mut path);
-        old(right_was..left_was + 1, &mut path);
-        new(left + 1..end, &mut path);
-    } else {
-        old(0..left_was + 1, &mut path);
-        new(left + 1..right, &mut path);
-        old(right_was..kept.follows.len(), &mut path);
+            None => {
+                old(0..self.left + 1, &mut path);
+                path.extend(&self.new);
+                old(self.right..kept.follows.len(), &mut path);
+            }
+        }
+        let count = walls.len();
+        let is_in_order = |pair: &[Element]| pair[0].wall <= pair[1].wall && pair[1].wall < count;
+        (path.len() >= 2 && path.windows(2).all(is_in_order)).then_some(path)
     }
-    let is_in_order = |pair: &[Element]| pair[0].wall <= pair[1].wall && pair[1].wall < count;
-    (path.len() >= 2 && path.windows(2).all(is_in_order)).then_some(path)
+
+    /// Where the path is not as it was, the last stretch first: which pieces go, and what stands in their place.
+    pub(super) fn stretches(self, kept: &Kept) -> Option<Vec<(Range<usize>, Vec<Element>)>> {
+        let is = which_it_is(&kept.was, kept.before);
+        let wall_of = |piece: usize| is[kept.follows[piece] as usize / 2] as usize;
+        let walls = std::iter::once(wall_of(self.left))
+            .chain(self.new.iter().map(|element| element.wall))
+            .chain([wall_of(self.right)]);
+        let walls: Vec<usize> = walls.collect();
+        // They go over the end of the contour once at most.
+        let falls = walls.windows(2).filter(|pair| pair[0] > pair[1]).count();
+        let (left, right, mut new) = (self.left + 1, self.right, self.new);
+        let stretches = match self.before_the_end {
+            Some(before) if falls == 1 && right <= left => {
+                let behind = new.split_off(before);
+                vec![(left..kept.follows.len(), new), (0..right, behind)]
+            }
+            None if falls == 0 && left <= right => vec![(left..right, new)],
+            _ => return None,
+        };
+        let changed = stretches.into_iter().map(|stretch| kept.changed(stretch));
+        Some(
+            changed
+                .filter(|(gone, new)| !gone.is_empty() || !new.is_empty())
+                .collect(),
+        )
+    }
 }
 
 /// The first wall of the stretch round the contour that holds all that has changed, and how many it holds.
 fn changed(kept: &Kept, count: usize) -> Option<(usize, usize)> {
-    let leads_on = |wall: usize| {
-        let (was, next) = (
-            kept.was[wall],
-            kept.was[if wall + 1 == count { 0 } else { wall + 1 }],
-        );
-        was != NEW && (next == was + 1 || next == 0 && was as usize + 1 == kept.before)
-    };
-    let breaks: Vec<usize> = (0..count).filter(|&wall| !leads_on(wall)).collect();
+    let breaks: Vec<usize> = (0..count).filter(|&wall| !kept.leads_on(wall)).collect();
     let (Some(&first), Some(&last)) = (breaks.first(), breaks.last()) else {
         return Some((0, 1));
     };

@@ -1,0 +1,56 @@
+//! Two parts laid in each other follow an edit: looked at again is what has changed, and what had asked about a place where something has.
+
+use super::held::{About, Held, Limits, all_apart, look};
+use crate::geometry::Bounds;
+use crate::toolpath::{Moved, Part};
+
+impl Held {
+    /// What comes of two parts of which it is known what of them has moved, in their places, under the same limits.
+    pub(super) fn follow(&mut self, parts: [&Part; 2], moved: [&Moved; 2], limits: &Limits) {
+        let boxes = || moved.iter().flat_map(|moved| &moved.boxes);
+        let mut all = Bounds::EMPTY;
+        boxes().for_each(|bounds| all.merge(bounds));
+        let is_new = |asked: &Bounds| all.touches(asked) && boxes().any(|it| it.touches(asked));
+        for (which, looks) in self.looks.iter_mut().enumerate() {
+            if looks.asked.is_empty() {
+                continue;
+            }
+            let [own, other] = match which {
+                1 => [moved[1], moved[0]],
+                _ => moved,
+            };
+            for (gone, new) in &own.edges {
+                let new = std::iter::repeat_n(Bounds::EMPTY, *new);
+                looks.asked.splice(gone.clone(), new);
+            }
+            let mut again: Vec<usize> = own.come().collect();
+            looks.verdicts.retain_mut(|verdict| {
+                let Some(edge) = own.is(verdict.edge as usize) else {
+                    return false;
+                };
+                verdict.edge = edge as u32;
+                match other.is(verdict.other as usize) {
+                    Some(other) => verdict.other = other as u32,
+                    None => again.push(edge),
+                }
+                true
+            });
+            let asked = looks.asked.iter().enumerate();
+            again.extend(asked.filter_map(|(edge, asked)| is_new(asked).then_some(edge)));
+            again.sort_unstable();
+            again.dedup();
+            let mut about = About::of(which, parts);
+            for edge in again {
+                about.asked = Bounds::EMPTY;
+                let verdict = look(which, parts, edge, &mut about, limits);
+                looks.asked[edge] = about.asked;
+                let known = &mut looks.verdicts;
+                let at = known.partition_point(|known| (known.edge as usize) < edge);
+                let is_known = |at: usize| known.get(at).map(|it| it.edge as usize) == Some(edge);
+                let gone = at..at + usize::from(is_known(at));
+                known.splice(gone, verdict);
+            }
+        }
+        (self.unless, self.apart) = all_apart(parts, &self.names, limits);
+    }
+}
