@@ -372,9 +372,10 @@ impl Pairs {
             }
         }
         (self.left, self.seen_count) = (left, count);
-        let is_cut_short = |run| self.uncompared.contains(run);
-        if is_again && !(self.again.compared(runs, count) && !runs.iter().any(is_cut_short)) {
-            self.is_disturbed = true;
+        if is_again {
+            let is_cut_short = |run| self.uncompared.contains(run);
+            let ends_there = self.again.compared(runs, count);
+            self.is_disturbed |= !ends_there || runs.iter().any(is_cut_short);
         }
         for (run, other, found) in all_seen {
             if found.iter().any(|seen| seen.disc.is_some()) {
