@@ -182,6 +182,12 @@ impl Chains {
         !self.group_of.contains_key(&key)
     }
 
+    /// All contours of the group of a contour; none for a contour that is a group by itself.
+    pub(crate) fn grouped_with(&self, key: Key) -> &[Key] {
+        let group = self.group_of.get(&key).and_then(|it| self.groups.get(it));
+        group.map_or(&[], Vec::as_slice)
+    }
+
     /// Tells that the number of segments of an entity has changed: its contour counts them again.
     pub(crate) fn recount(&mut self, drawing: &Drawing, entity: EntityId) {
         let Some(chain) = self
@@ -348,28 +354,37 @@ impl Chains {
         (entities, parts): (Vec<EntityId>, Vec<u16>),
     ) -> Vec<Key> {
         let is_of_one = parts.windows(2).all(|pair| pair[0] == pair[1]);
+        let ends_of = std::mem::take(&mut self.ends_of);
         // A group is rechained as a whole, whatever workpiece its entities are of.
-        let joints = Joints::new(drawing, self.cells, &entities, &self.ends_of);
+        let joints = Joints::new(drawing, self.cells, &entities, &ends_of);
         let new = if is_of_one {
-            self.link(drawing, &entities, &joints)
+            self.link(drawing, &entities, &ends_of, &joints)
         } else {
             let mut by_part: BTreeMap<u16, Vec<EntityId>> = BTreeMap::new();
             for (&id, &part) in entities.iter().zip(&parts) {
                 by_part.entry(part).or_default().push(id);
             }
             let of_part = |of_part: Vec<EntityId>| {
-                let joints = Joints::new(drawing, self.cells, &of_part, &self.ends_of);
-                self.link(drawing, &of_part, &joints)
+                let joints = Joints::new(drawing, self.cells, &of_part, &ends_of);
+                self.link(drawing, &of_part, &ends_of, &joints)
             };
             by_part.into_values().flat_map(of_part).collect()
         };
-        self.group(&entities, &joints);
+        self.group(&entities, &ends_of, &joints);
+        drop(joints);
+        self.ends_of = ends_of;
         new
     }
 
     /// Makes contours of entities with these joints.
-    fn link(&mut self, drawing: &Drawing, entities: &[EntityId], joints: &Joints) -> Vec<Key> {
-        let linked = Linked::new(drawing, entities, &self.ends_of, joints);
+    fn link(
+        &mut self,
+        drawing: &Drawing,
+        entities: &[EntityId],
+        ends_of: &[Ends],
+        joints: &Joints,
+    ) -> Vec<Key> {
+        let linked = Linked::new(drawing, entities, ends_of, joints);
         let chain = |way: &Way| {
             let pieces = linked.pieces[way.range.clone()]
                 .iter()

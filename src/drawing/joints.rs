@@ -6,6 +6,7 @@ use super::{Drawing, EntityId};
 use crate::geometry::Point;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::borrow::Cow;
 use std::cmp::{Ordering, Reverse};
 
 /// The ends of cells with more than these are sorted into smaller ones.
@@ -26,8 +27,8 @@ pub(super) struct Joints<'a> {
     drawing: &'a Drawing,
     entities: &'a [EntityId],
     cells: Cells,
-    /// By end; NaN where there is none, or where the entity is set aside.
-    places: Vec<Point>,
+    /// Of each entity; NaN where there are none, or where the entity is set aside. Those of a whole drawing are not copied.
+    places: Cow<'a, [Ends]>,
     all: Numbered,
     /// Ends of dense cells in smaller ones.
     dense: Option<Dense>,
@@ -59,19 +60,23 @@ impl<'a> Joints<'a> {
         drawing: &'a Drawing,
         cells: Cells,
         entities: &'a [EntityId],
-        ends_of: &[Ends],
+        ends_of: &'a [Ends],
     ) -> Joints<'a> {
         let count = entities.len();
-        let mut places = Vec::with_capacity(2 * count);
-        let mut all = Numbered::new(count, 2 * count);
-        for (at, id) in (0..).zip(entities) {
-            let ends = ends_of.get(id.0 as usize).copied().unwrap_or(NO_ENDS);
-            places.extend([ends.0, ends.1]);
-            if has_ends(&ends) {
-                End::both(at)
-                    .into_iter()
-                    .for_each(|end| all.insert(cells.of(end.of(ends)), end));
+        let are_all = count == ends_of.len() && (0..).zip(entities).all(|(at, id)| id.0 == at);
+        let places = match are_all {
+            true => Cow::Borrowed(ends_of),
+            false => {
+                let ends = |id: &EntityId| ends_of.get(id.0 as usize).copied();
+                let each = entities.iter().map(|id| ends(id).unwrap_or(NO_ENDS));
+                Cow::Owned(each.collect())
             }
+        };
+        let mut all = Numbered::new(count, 2 * count);
+        for (at, &ends) in (0..).zip(&*places).filter(|(_, ends)| has_ends(ends)) {
+            End::both(at)
+                .into_iter()
+                .for_each(|end| all.insert(cells.of(end.of(ends)), end));
         }
         let mut joints = Joints {
             drawing,
@@ -88,9 +93,7 @@ impl<'a> Joints<'a> {
         if !pairs.is_empty() {
             joints.doubles = joints.set_aside(&pairs);
             for &double in joints.doubles.aside.keys() {
-                End::both(double)
-                    .into_iter()
-                    .for_each(|end| joints.places[end.index()] = NO_ENDS.0);
+                joints.places.to_mut()[double as usize] = NO_ENDS;
             }
             joints.sort_dense();
             joints.meet();
@@ -100,11 +103,11 @@ impl<'a> Joints<'a> {
     }
 
     pub(crate) fn end_count(&self) -> usize {
-        self.places.len()
+        2 * self.places.len()
     }
 
     pub(crate) fn place(&self, end: End) -> Point {
-        self.places[end.index()]
+        end.of(self.places[end.entity() as usize])
     }
 
     /// The distance of two ends; 0 where they lie in one point.
@@ -187,7 +190,7 @@ impl<'a> Joints<'a> {
         }
         let (mut is_dense, mut is_own) = (false, true);
         let mut see = |other: End, cells: &Cells, cell: Cell| {
-            let at = self.places[other.index()];
+            let at = self.place(other);
             let apart = at - place;
             // Most ends of a list are far off, and those of other cells are seen from there.
             if apart.x.abs() > self.cells.join || apart.y.abs() > self.cells.join || other == end {
@@ -330,7 +333,7 @@ impl<'a> Joints<'a> {
     /// Finds the possible partner of each end; returns pairs of entities that lie in one place.
     fn meet(&mut self) -> Vec<(u32, u32)> {
         const STEP: usize = 4096;
-        let mut met = vec![NOTHING; self.places.len()];
+        let mut met = vec![NOTHING; self.end_count()];
         let joints = &*self;
         let look = |(step, met): (usize, &mut [u32])| {
             let mut pairs = Vec::new();
@@ -339,7 +342,7 @@ impl<'a> Joints<'a> {
             }
             pairs
         };
-        let mut pairs: Vec<(u32, u32)> = if self.places.len() < FEW {
+        let mut pairs: Vec<(u32, u32)> = if self.end_count() < FEW {
             met.chunks_mut(STEP).enumerate().flat_map(look).collect()
         } else {
             let found: Vec<Vec<(u32, u32)>> =

@@ -2,25 +2,30 @@
 
 use super::{Chains, Key, SHARE};
 use crate::drawing::EntityId;
-use crate::drawing::ends::{Cell, End};
+use crate::drawing::ends::{Cell, End, Ends};
 use crate::drawing::joints::Joints;
 use rayon::prelude::*;
 use std::ops::Range;
 
 impl Chains {
     /// Makes groups of the contours of entities.
-    pub(super) fn group(&mut self, entities: &[EntityId], joints: &Joints) {
-        for (one, other) in self.neighbours(entities, joints) {
+    pub(super) fn group(&mut self, entities: &[EntityId], ends_of: &[Ends], joints: &Joints) {
+        for (one, other) in self.neighbours(entities, ends_of, joints) {
             self.unite(one, other);
         }
     }
 
     /// Contours with an end in one cell, or in adjacent cells near the border.
-    fn neighbours(&self, entities: &[EntityId], joints: &Joints) -> Vec<(Key, Key)> {
+    fn neighbours(
+        &self,
+        entities: &[EntityId],
+        ends_of: &[Ends],
+        joints: &Joints,
+    ) -> Vec<(Key, Key)> {
         let count = joints.list_count();
         let of_share = |nth: usize| {
             let lists = nth * SHARE..((nth + 1) * SHARE).min(count);
-            self.neighbours_in(lists, entities, joints)
+            self.neighbours_in(lists, (entities, ends_of), joints)
         };
         match count.div_ceil(SHARE) {
             0 | 1 => of_share(0),
@@ -35,14 +40,14 @@ impl Chains {
     fn neighbours_in(
         &self,
         lists: Range<usize>,
-        entities: &[EntityId],
+        (entities, ends_of): (&[EntityId], &[Ends]),
         joints: &Joints,
     ) -> Vec<(Key, Key)> {
         let mut neighbours = Vec::new();
         let at = |end: End| {
             let id = entities[end.entity() as usize];
             (
-                end.of(self.ends_of[id.0 as usize]),
+                end.of(ends_of[id.0 as usize]),
                 self.contour_of[id.0 as usize],
             )
         };
