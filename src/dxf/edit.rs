@@ -117,7 +117,7 @@ impl Document {
         let inside = range.start > self.text.line_start(zone.start)
             && range.end < self.text.line_start(zone.end)
             && zone.end < lines.count();
-        if !inside || self.is_at_fault(&zone) {
+        if !inside || self.is_at_fault(zone.start, zone.end) {
             return None;
         }
         let (_, others) = plain_vertex(lines, zone.clone())?;
@@ -130,10 +130,10 @@ impl Document {
         })
     }
 
-    /// True where a fault in some lines, or near before them, was judged by them.
-    pub(super) fn is_at_fault(&self, lines: &Range<usize>) -> bool {
-        let near = self.text.line_start(lines.start.saturating_sub(LOOKBACK));
-        let end = self.text.line_start(lines.end);
+    /// True where a fault that begins before the line `end` may have been judged by the line `from`, or lies behind it.
+    pub(super) fn is_at_fault(&self, from: usize, end: usize) -> bool {
+        let near = self.text.line_start(from.saturating_sub(LOOKBACK));
+        let end = self.text.line_start(end);
         let begun_before = |at: usize| {
             self.findings
                 .partition_point(|finding| range_key(finding).0 < at)

@@ -50,7 +50,7 @@ impl Document {
             && own.end < lines.count()
             && !self.table.left_out.contains_key(&first)
             && self.table.frames.is_empty()
-            && !self.is_at_fault(&own)
+            && !self.is_at_fault(own.start, own.end)
             && !self.is_spoken_of(&own);
         (stands && is_value && is_within_line && is_number()).then(|| ReferenceZone {
             item,

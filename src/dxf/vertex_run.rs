@@ -69,15 +69,13 @@ impl Document {
         // What begins in the first line of the edit may become a part of the vertex before.
         let from = begun_by(known.lines.get(..=changed.start)?, line - 1).checked_sub(1)?;
         let to = changed.end + begun_by(known.lines.get(changed.end..)?, last - moved);
-        let byte_of = |line: i64| {
-            let line = of_item.start as i64 + line;
-            self.text.line_start(line.max(0) as usize)
-        };
+        let byte_of = |line: i64| self.text.line_start(of_item.start + line.max(0) as usize);
         let first = i64::from(*known.lines.get(from)?);
         // A decision there, or in what stands before the polyline, may have looked at the edited lines.
         let near = byte_of(line - LOOKBACK as i64)..byte_of(first);
-        let is_at_fault =
-            self.is_at_fault_in(near, &self.bytes_of_tag(known.count_line(of_item.start)));
+        let edited = of_item.start + line.max(0) as usize;
+        let is_at_fault = self.is_at_fault(edited, of_item.start)
+            || self.is_at_fault_in(near, &self.bytes_of_tag(known.count_line(of_item.start)));
         (to <= known.own as usize && !is_at_fault).then_some(VertexRun {
             item,
             id,

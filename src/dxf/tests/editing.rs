@@ -250,8 +250,8 @@ fn an_edit_of_a_polyline_touches_the_vertices_about_it() {
             matches!(
                 back[..],
                 [Touched::Vertices {
-                    removed: 1,
-                    inserted: 1,
+                    removed: 0,
+                    inserted: 0,
                     ..
                 }]
             ),
