@@ -110,6 +110,10 @@ fn judge_otherwise(of: &Otherwise, picks: &[(f64, usize, bool)]) -> Vec<(&'stati
     if !whole.differences.is_empty() {
         return vec![("invented", format!("{:?}\n{text}", whole.differences))];
     }
+    // How it was written is not known, and no block of it is held against the drawing.
+    if whole.follows.is_empty() {
+        return vec![("nothing", format!("no block is known\n{text}"))];
+    }
     let lines: Vec<&str> = text.lines().collect();
     let end = if text.contains("\r\n") { "\r\n" } else { "\n" };
     for &(share, _, is_more) in picks {
