@@ -12,8 +12,8 @@ use std::rc::Rc;
 /// A run of segments of one contour.
 pub(crate) type RunId = (ContourKey, u32);
 
-/// Two runs, as the key of their pair.
-pub(super) fn ordered(one: RunId, other: RunId) -> (RunId, RunId) {
+/// A pair in one order, whichever comes first: of two runs, the key of what is seen between them.
+pub(super) fn ordered<T: Ord + Copy>(one: T, other: T) -> (T, T) {
     (one.min(other), one.max(other))
 }
 

@@ -422,10 +422,7 @@ impl Pairs {
             })
         };
         let mut place = |(key, run): RunId| (rank(key), key, run);
-        asked.sort_by_cached_key(|&(one, other)| {
-            let (one, other) = (place(one), place(other));
-            (one.min(other), one.max(other))
-        });
+        asked.sort_by_cached_key(|&(one, other)| ordered(place(one), place(other)));
         asked.dedup();
         for pair in asked {
             let Some(mut seen) = self.seen.remove(&pair) else {

@@ -10,7 +10,6 @@ use crate::drawing::{Drawing, Outline, Role, winding};
 use crate::finding::{Finding, Place, Rule, Severity};
 use crate::geometry::{Point, Vector};
 use crate::settings::{Compensation, Effective, Order};
-use rustc_hash::FxHashMap;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::f64::consts::SQRT_2;
@@ -39,15 +38,8 @@ pub(crate) fn hole_faults(
     settings: &Effective,
 ) -> Vec<Finding> {
     let job = Job {
-        drawing,
         outlines,
-        settings,
-        picks: FxHashMap::default(),
-        unit_mm: settings.unit_of(drawing).mm,
-        finishes: false,
-        a_loop_will_do: false,
-        searched: Default::default(),
-        goes_on: &|| true,
+        ..Job::of(drawing, settings)
     };
     job.hole_faults().unwrap_or_default()
 }

@@ -28,6 +28,23 @@ pub(super) struct Job<'a> {
     pub(crate) goes_on: &'a (dyn Fn() -> bool + Sync),
 }
 
+impl<'a> Job<'a> {
+    /// A request for contours of a drawing, none of which is picked, that is answered to its end.
+    pub(super) fn of(drawing: &'a Drawing, settings: &'a Effective) -> Job<'a> {
+        Job {
+            drawing,
+            outlines: &[],
+            settings,
+            picks: FxHashMap::default(),
+            unit_mm: settings.unit_of(drawing).mm,
+            finishes: false,
+            a_loop_will_do: false,
+            searched: Default::default(),
+            goes_on: &|| true,
+        }
+    }
+}
+
 impl Job<'_> {
     pub(crate) fn go_on(&self) -> Result<(), Refusal> {
         if (self.goes_on)() {

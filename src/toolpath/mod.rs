@@ -199,15 +199,11 @@ pub(crate) fn plan_while(
         }
     }
     let job = Job {
-        drawing,
         outlines,
-        settings,
         picks,
-        unit_mm: settings.unit_of(drawing).mm,
         finishes,
-        a_loop_will_do: false,
-        searched: Default::default(),
         goes_on,
+        ..Job::of(drawing, settings)
     };
     job.go_on()?;
     let contours = Contours::new(drawing, outlines);
@@ -283,17 +279,7 @@ pub(crate) fn misfit(
     settings: &Effective,
 ) -> Option<Finding> {
     let side = outline.wire_side()?.sign();
-    let job = Job {
-        drawing,
-        outlines: &[],
-        settings,
-        picks: FxHashMap::default(),
-        unit_mm: settings.unit_of(drawing).mm,
-        finishes: false,
-        a_loop_will_do: false,
-        searched: Default::default(),
-        goes_on: &|| true,
-    };
+    let job = Job::of(drawing, settings);
     let correction = job.units(settings.correction);
     let contour = &outline.contour;
     let segment = |at: usize| contour.segment(drawing, at);

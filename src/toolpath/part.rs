@@ -14,7 +14,6 @@ use super::skim::Rough;
 use crate::drawing::{Contour, ContourSegment, Drawing, EntityId};
 use crate::geometry::{Arc, Point, Segment, Side};
 use crate::settings::{Corner, Effective, SkimCorner};
-use rustc_hash::FxHashMap;
 use std::sync::atomic::Ordering::Relaxed;
 
 /// One edge of the outline of a part.
@@ -244,15 +243,9 @@ impl<'a> Cut<'a> {
     ) -> Result<Cut<'a>, Refusal> {
         let settings = cutting.settings;
         let job = Job {
-            drawing,
-            outlines: &[],
-            settings,
-            picks: FxHashMap::default(),
-            unit_mm: settings.unit_of(drawing).mm,
-            finishes: false,
             a_loop_will_do: true,
-            searched: Default::default(),
             goes_on,
+            ..Job::of(drawing, settings)
         };
         let passes = settings.each_correction();
         let half = settings.half_kerf(passes.len() - 1);

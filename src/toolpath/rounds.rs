@@ -7,7 +7,6 @@ use super::skim::Rough;
 use crate::drawing::{ContourSegment, Drawing};
 use crate::geometry::Side;
 use crate::settings::Effective;
-use rustc_hash::FxHashMap;
 
 /// The paths of all passes beside a contour whose segments are in the direction of travel, in that direction, from anywhere;
 /// corrections in mm. Of a pass that has no path nothing is there. Everything else is in the unit of so many mm.
@@ -20,15 +19,8 @@ pub(crate) fn rounds(
 ) -> Vec<Option<Vec<PathSegment>>> {
     let (drawing, side) = (Drawing::default(), side.sign());
     let job = Job {
-        drawing: &drawing,
-        outlines: &[],
-        settings,
-        picks: FxHashMap::default(),
         unit_mm,
-        finishes: false,
-        a_loop_will_do: false,
-        searched: Default::default(),
-        goes_on: &|| true,
+        ..Job::of(&drawing, settings)
     };
     let rough = job.units(corrections.iter().copied().fold(0.0, f64::max));
     let segment = |at: usize| segments.get(at).copied();
