@@ -36,7 +36,7 @@ pub(crate) struct Pairs {
     /// Runs that have not been compared with all their neighbours because of the limit.
     pub(super) uncompared: FxHashSet<RunId>,
     /// The largest reach of a rule.
-    reach: f64,
+    pub(super) reach: f64,
     /// The looks at the start of the last full comparison, and those that are left: for comparing, and for checking
     /// whether discs are empty.
     granted: u64,
@@ -203,6 +203,11 @@ impl Pairs {
             .map(|other| other.0)
             .filter(|other| *other != key)
             .collect()
+    }
+
+    /// The contours of which a run touches an area; each as often as runs do.
+    pub(super) fn each_near(&self, area: &Bounds, mut found: impl FnMut(ContourKey)) {
+        self.grid.near(area, |(key, _), _| found(key));
     }
 
     /// Whether runs of other contours come near these bounds of one.
