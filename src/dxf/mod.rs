@@ -51,7 +51,7 @@ pub use write::write;
 use crate::drawing::{Drawing, EntityId, Unit};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::Tolerances;
-use crate::text::SourceText;
+use crate::text::{Again, SourceText};
 use blocks::Blocks;
 use code_page::CodePage;
 use layer_table::LayerStates;
@@ -149,6 +149,14 @@ impl Document {
 
     pub fn text(&self) -> &SourceText {
         &self.text
+    }
+
+    /// Keeps no more of the text than its lines: what of it somebody asks for is read `again`. Not for a binary file, whose text is none of
+    /// the file's bytes.
+    pub(crate) fn set_text_aside(&mut self, again: Again) {
+        if !self.is_binary {
+            self.text.set_aside(again);
+        }
     }
 
     /// Sets the largest distance, in mm, of arcs from the ellipses and splines that they replace. If the drawing has
