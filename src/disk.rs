@@ -304,6 +304,20 @@ mod tests {
         );
     }
 
+    #[test]
+    fn a_part_is_read_again_until_somebody_writes_to_the_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        std::fs::write(&path, "12345").unwrap();
+        let file = File::open(&path).unwrap();
+        let unchanged = Unchanged::of(&file).unwrap();
+        assert_eq!(read_at_most(&file, 5), Ok(b"12345".to_vec()));
+        assert_eq!(unchanged.read(1..3), Some(b"23".to_vec()));
+        assert_eq!(unchanged.read(0..5), Some(b"12345".to_vec()));
+        std::fs::write(&path, "1234").unwrap();
+        assert_eq!(unchanged.read(1..3), None);
+    }
+
     #[cfg(unix)]
     #[test]
     fn what_has_no_end_is_read_up_to_the_cap() {

@@ -112,11 +112,10 @@ impl SourceText {
         }
     }
 
-    /// A copy of some bytes with room for typing, so that the first edit need not move them all.
-    pub(crate) fn with_room(bytes: &[u8]) -> Vec<u8> {
-        let mut copy = Vec::with_capacity(bytes.len() + gap::ROOM_FOR_THE_FIRST);
-        copy.extend_from_slice(bytes);
-        copy
+    /// The bytes with room for typing, so that the first edit need not move them all.
+    pub(crate) fn with_room(mut bytes: Vec<u8>) -> Vec<u8> {
+        bytes.reserve_exact(gap::ROOM_FOR_THE_FIRST);
+        bytes
     }
 
     /// Keeps the lines and not the bytes: whoever asks for some has them read `again`.

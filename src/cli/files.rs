@@ -117,8 +117,12 @@ const LARGEST: u64 = u32::MAX as u64 - 1;
 /// The same for a device or a pipe, which may have no end.
 const LARGEST_STREAM: u64 = 256 * 1024 * 1024;
 
-/// From this many bytes on the text of a drawing is read again rather than kept.
-const LARGE: usize = 16 * 1024 * 1024;
+/// From this many bytes on the text of a drawing is read again rather than kept; in debug builds, which tests run, that of a small one, too.
+const LARGE: usize = if cfg!(debug_assertions) {
+    256
+} else {
+    16 * 1024 * 1024
+};
 
 /// A file, and whether it is none but a file.
 fn regular(path: &Path) -> Result<(File, bool), String> {

@@ -133,6 +133,16 @@ impl Document {
         document
     }
 
+    /// The same for a text that somebody holds on to: nothing of it is copied.
+    pub(crate) fn of_text(text: SourceText) -> Document {
+        let mut document = Document {
+            text,
+            ..Document::default()
+        };
+        document.read_all();
+        document
+    }
+
     fn take(&mut self, bytes: Vec<u8>) {
         let too_long = bytes.len() >= u32::MAX as usize;
         self.text = SourceText::new(if too_long { Vec::new() } else { bytes });

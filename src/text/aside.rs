@@ -9,9 +9,9 @@ use std::sync::{Arc, OnceLock};
 pub(crate) type Again = Arc<dyn Fn(Range<usize>) -> Option<Vec<u8>> + Send + Sync>;
 
 /// Bytes of a part.
-const PART: usize = 4096;
+const PART: usize = 1024;
 /// Bytes behind a part that are read with it: lines are short, and none that begins in it is cut.
-const BEHIND: usize = 256;
+const BEHIND: usize = 128;
 
 pub(super) struct Aside {
     length: usize,
