@@ -27,7 +27,7 @@ pub(crate) struct Known {
     /// Number of runs at the last check.
     runs: u32,
     /// What each local rule has seen; empty where none has seen anything, as in most contours.
-    by_rule: Vec<Seen>,
+    by_rule: Box<[Seen]>,
 }
 
 /// The observations of one local rule.
@@ -46,7 +46,7 @@ impl Known {
             stated,
             part,
             runs: 0,
-            by_rule: Vec::new(),
+            by_rule: Box::default(),
         }
     }
 
@@ -130,7 +130,9 @@ impl Known {
                 if seen.is_empty() && known.is_none_or(|known| known.observations.is_empty()) {
                     continue;
                 }
-                self.by_rule.resize_with(LOCAL_RULES.len(), Seen::default);
+                if self.by_rule.is_empty() {
+                    self.by_rule = vec![Seen::default(); LOCAL_RULES.len()].into();
+                }
                 let known = &mut self.by_rule[number];
                 known.observations.resize(runs, Vec::new());
                 let counts = &mut known.counts;

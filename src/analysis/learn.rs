@@ -73,9 +73,14 @@ impl Analysis {
         };
     }
 
+    /// Arcs with a smaller radius are below the correction.
+    fn tight_below(&self) -> f64 {
+        self.limits.correction - self.limits.tolerances.report
+    }
+
     /// Looks at whole contours for the first time.
     pub(super) fn learn(&mut self, drawing: &Drawing, keys: &[ContourKey]) {
-        let tight = self.limits.correction - self.limits.tolerances.report;
+        let tight = self.tight_below();
         let learned = each_of(keys, |key| {
             let contour = self.chains.get(key)?;
             // Most contours are short: their segments are worked out once.
@@ -234,7 +239,7 @@ impl Analysis {
         }
         for range in ranges {
             let mut changed = known.index.bounds_about(range.clone());
-            known.index.update(drawing, contour, range.clone());
+            (known.index).update(drawing, contour, self.tight_below(), range.clone());
             changed.merge(&known.index.bounds_about(range.clone()));
             known.check(
                 drawing,

@@ -241,7 +241,7 @@ impl Pairs {
     }
 
     /// The same for many new runs: each of the others is asked whether one of these has come near.
-    fn disturb_about(&mut self, outlook: Outlooks, new: &FxHashMap<RunId, usize>) {
+    fn disturb_about(&mut self, outlook: Outlooks, new: &FxHashMap<RunId, u32>) {
         let is_disturbed = |run: &&RunId| {
             let bounds = outlook(run.0).map(|it| it.index.bounds_of_run(run.1 as usize));
             let is_new = |other: RunId| new.contains_key(&other);
@@ -308,11 +308,7 @@ impl Pairs {
             self.untold.remove(run);
         }
         // Their order is that of the contours, whatever their keys.
-        let new: FxHashMap<RunId, usize> = runs
-            .iter()
-            .enumerate()
-            .map(|(at, &run)| (run, at))
-            .collect();
+        let new: FxHashMap<RunId, u32> = (0..).zip(runs).map(|(at, &run)| (run, at)).collect();
         if runs.len() >= MANY_RUNS {
             self.disturb_about(outlook, &new);
         }

@@ -360,6 +360,7 @@ impl Chains {
                 by_part.entry(part).or_default().push(id);
             }
         }
+        drop(parts);
         let ends_of = std::mem::take(&mut self.ends_of);
         // A group is rechained as a whole, whatever workpiece its entities are of.
         let joints = Joints::new(drawing, self.cells, &entities, &ends_of);

@@ -33,12 +33,11 @@ pub(crate) struct ContourIndex {
     first: Run,
     /// The runs behind it.
     others: Vec<Run>,
-    /// Indices within the contour of arcs with a radius below the threshold, rising.
+    /// Indices within the contour of arcs with a radius below a threshold, rising.
     tight: Vec<u32>,
-    segments: usize,
+    segments: u32,
     /// The area is summed relative to a point near the contour, so that far-off coordinates cost no digits.
     origin: Point,
-    threshold: f64,
 }
 
 impl ContourIndex {
@@ -52,11 +51,10 @@ impl ContourIndex {
             first: Run::EMPTY,
             others: Vec::with_capacity(segments.div_ceil(RUN).saturating_sub(1)),
             tight: Vec::new(),
-            segments,
+            segments: segments as u32,
             origin,
-            threshold,
         };
-        index.extend(drawing, contour, 0);
+        index.extend(drawing, contour, threshold, 0);
         index
     }
 
@@ -66,33 +64,38 @@ impl ContourIndex {
             first: Run::EMPTY,
             others: Vec::new(),
             tight: Vec::new(),
-            segments: segments.len(),
+            segments: segments.len() as u32,
             origin: segments
                 .first()
                 .map_or_else(Point::origin, |first| first.geometry.start()),
-            threshold,
         };
         let mut tight = Vec::new();
-        index.first = index.look(0, segments.iter().copied(), &mut tight);
+        index.first = index.look(0, segments.iter().copied(), threshold, &mut tight);
         index.tight = tight;
         index
     }
 
     /// Reads the segments of `changed` again; everything behind its start when the count has changed too.
-    pub(crate) fn update(&mut self, drawing: &Drawing, contour: &Contour, changed: Range<usize>) {
+    pub(crate) fn update(
+        &mut self,
+        drawing: &Drawing,
+        contour: &Contour,
+        threshold: f64,
+        changed: Range<usize>,
+    ) {
         let first = changed.start / RUN;
-        if contour.len() != self.segments {
+        if contour.len() != self.len() {
             let kept = first.min(self.run_count());
             self.others.truncate(kept.saturating_sub(1));
             self.tight.truncate(self.tight_before(kept * RUN));
-            self.segments = contour.len();
-            self.extend(drawing, contour, kept);
+            self.segments = contour.len() as u32;
+            self.extend(drawing, contour, threshold, kept);
             return;
         }
         for run in first..changed.end.div_ceil(RUN).min(self.run_count()) {
             let mut tight = Vec::new();
             let segments = contour.segments_in(drawing, self.range_of(run));
-            self.set_run(run, self.look(run, segments, &mut tight));
+            self.set_run(run, self.look(run, segments, threshold, &mut tight));
             let old = self.tight_before(run * RUN)..self.tight_before((run + 1) * RUN);
             self.tight.splice(old, tight);
         }
@@ -105,7 +108,7 @@ impl ContourIndex {
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.segments
+        self.segments as usize
     }
 
     fn run(&self, run: usize) -> Option<&Run> {
@@ -124,14 +127,14 @@ impl ContourIndex {
     }
 
     /// Reads the runs from one on.
-    fn extend(&mut self, drawing: &Drawing, contour: &Contour, from: usize) {
+    fn extend(&mut self, drawing: &Drawing, contour: &Contour, threshold: f64, from: usize) {
         if self.segments == 0 {
             self.first = Run::EMPTY;
         }
         for run in from..self.run_count() {
             let mut tight = Vec::new();
             let segments = contour.segments_in(drawing, self.range_of(run));
-            let looked = self.look(run, segments, &mut tight);
+            let looked = self.look(run, segments, threshold, &mut tight);
             self.set_run(run, looked);
             self.tight.append(&mut tight);
         }
@@ -141,6 +144,7 @@ impl ContourIndex {
         &self,
         run: usize,
         segments: impl Iterator<Item = ContourSegment>,
+        threshold: f64,
         tight: &mut Vec<u32>,
     ) -> Run {
         let mut found = Run::EMPTY;
@@ -150,7 +154,7 @@ impl ContourIndex {
             if segment
                 .geometry
                 .as_arc()
-                .is_some_and(|arc| arc.radius < self.threshold)
+                .is_some_and(|arc| arc.radius < threshold)
             {
                 tight.push(index as u32);
             }
@@ -160,7 +164,7 @@ impl ContourIndex {
 
     /// Segments of a run.
     pub(crate) fn range_of(&self, run: usize) -> Range<usize> {
-        run * RUN..((run + 1) * RUN).min(self.segments)
+        run * RUN..((run + 1) * RUN).min(self.len())
     }
 
     /// Twice the signed area, positive counter-clockwise; meaningful for a closed contour. Zero for a contour that
@@ -179,7 +183,7 @@ impl ContourIndex {
 
     /// Number of runs.
     pub(crate) fn run_count(&self) -> usize {
-        self.segments.div_ceil(RUN)
+        self.len().div_ceil(RUN)
     }
 
     /// The box of a run; empty past the last one.
@@ -188,7 +192,7 @@ impl ContourIndex {
     }
 
     pub(crate) fn bounds(&self) -> Bounds {
-        self.bounds_about(0..self.segments)
+        self.bounds_about(0..self.len())
     }
 
     /// A box that holds the segments of `range`, and some beside them.
