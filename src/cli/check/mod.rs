@@ -20,6 +20,7 @@ use crate::text::SourceText;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 #[derive(Args, Debug)]
@@ -114,6 +115,14 @@ struct Checked {
     docs_url: Option<String>,
 }
 
+/// The findings as JSON.
+#[derive(Serialize)]
+struct Printed<'a> {
+    diagnostics: &'a [Row],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    suppressed: Option<&'a Vec<Row>>,
+}
+
 /// Everything that was checked.
 struct Survey {
     files: usize,
@@ -147,10 +156,10 @@ fn report(arguments: &Arguments) -> Result<Verdict, Failure> {
         Format::Grouped => output::print(lines::grouped(&survey) + &text::summary(&survey))?,
         Format::Github => output::print(lines::github(&survey))?,
         Format::Junit => output::print(lines::junit(&survey))?,
-        Format::Json if survey.shows_suppressed => output::print_json(
-            &serde_json::json!({ "diagnostics": survey.rows, "suppressed": survey.suppressed }),
-        )?,
-        Format::Json => output::print_json(&serde_json::json!({ "diagnostics": survey.rows }))?,
+        Format::Json => output::print_json(&Printed {
+            diagnostics: &survey.rows,
+            suppressed: survey.shows_suppressed.then_some(&survey.suppressed),
+        })?,
         Format::Sarif => output::print_json_text(&format!("{:#}\n", sarif::log(&survey)))?,
     }
     survey
