@@ -79,6 +79,8 @@ mod tests {
             false,
         );
         check(format!("\"{}", "[],".repeat(9_000_000)), false);
+        let of_dxf = "  0\\nLINE\\n 10\\n1.0\\n".repeat(200_000);
+        check(format!("{{\"text\":\"{of_dxf}\"}}"), false);
     }
 
     #[test]
