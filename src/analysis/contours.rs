@@ -9,7 +9,6 @@ use crate::drawing::{
 use crate::finding::{Aside, Side};
 use crate::fit;
 use crate::settings::Effective;
-use rustc_hash::FxHashSet;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -54,14 +53,13 @@ impl Analysis {
     /// Keys of all contours in machining order: that of the first entity of each.
     pub(super) fn in_machining_order(&self, drawing: &Drawing) -> &[ContourKey] {
         self.order.get_or_init(|| {
-            let mut seen = FxHashSet::default();
             let mut last = None;
             let mut keys = Vec::new();
             for &id in drawing.order() {
                 let key = self.chains.contour_of(id).filter(|&key| !self.is_lone(key));
                 if key != last
                     && let Some(key) = key
-                    && seen.insert(key)
+                    && self.chains.first_of(key) == Some(id)
                 {
                     keys.push(key);
                 }

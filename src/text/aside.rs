@@ -9,7 +9,7 @@ use std::sync::{Arc, OnceLock};
 pub(crate) type Again = Arc<dyn Fn(Range<usize>) -> Option<Vec<u8>> + Send + Sync>;
 
 /// Bytes of a part.
-const PART: usize = 2048;
+const PART: usize = 1024;
 /// Bytes behind a part that are read with it: lines are short, and none that begins in it is cut.
 const BEHIND: usize = 128;
 
