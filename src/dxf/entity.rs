@@ -92,7 +92,6 @@ impl VertexLines {
 }
 
 #[derive(Debug)]
-#[expect(clippy::large_enum_variant, reason = "nearly all are entities")]
 pub(super) enum Outcome {
     Entity(Read),
     /// A reference to a block.
