@@ -261,7 +261,10 @@ mod tests {
         }
     }
 
-    fn drawn(figures: &[(usize, f64, (i32, i32), (f64, f64))], pitch: f64) -> Drawing {
+    /// A kind of figure, its size, its column and row, and how far it is beside that place.
+    type Figure = (usize, f64, (i32, i32), (f64, f64));
+
+    fn drawn(figures: &[Figure], pitch: f64) -> Drawing {
         let mut drawing = Drawing::new(None);
         for &(kind, size, (column, row), (x, y)) in figures {
             let at = (f64::from(column) * pitch + x, f64::from(row) * pitch + y);
