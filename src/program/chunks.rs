@@ -114,6 +114,14 @@ pub(in crate::program) struct Reread {
 }
 
 impl Reread {
+    /// All chunks, in the place of none.
+    pub(crate) fn all<C>(chunks: &[C]) -> Reread {
+        Reread {
+            chunks: 0..chunks.len(),
+            before: 0,
+        }
+    }
+
     /// Where a chunk stands now; `None` for one that is gone.
     pub(crate) fn moved(&self, chunk: usize) -> Option<usize> {
         match chunk.checked_sub(self.chunks.start + self.before) {

@@ -69,10 +69,13 @@ impl Document {
             }
         }
         report.spurs();
-        for cut in self.contours() {
-            report.judge(cut, self.contours());
+        for cut in self.doubtful() {
+            report.judge(cut, self.doubtful());
         }
-        report.findings.extend(self.crossings().findings(self));
+        for (cut, found) in self.contours().crossing() {
+            let crossings = found.findings(&self.way(cut), self.text());
+            report.findings.extend(crossings);
+        }
         report.taper();
         report.definitions();
         report.bare_numbers();
@@ -109,39 +112,27 @@ impl Document {
         report.finish()
     }
 
-    /// Further stretches whose cuts are sound: those that begin and end there have no fault as a whole.
-    pub(super) fn clean(&self) -> Vec<usize> {
+    /// Of some stretches those whose cuts are sound: those that begin and end there have no fault as a whole.
+    pub(super) fn clean(&self, stretches: Range<usize>) -> Vec<usize> {
         let mut report = Report::new(self);
-        let touched = self.crossings().touched();
-        let placed = self.placed().enumerate();
-        let not_known = placed.filter(|(_, placed)| !placed.stretch.is_clean);
-        not_known
-            .filter(|(index, placed)| {
-                let inner = placed.stretch.inner();
-                inner.is_empty()
-                    || !touched.contains(index)
-                        && inner.into_iter().all(|part| {
-                            JoinedCut::of(placed, *index, part)
-                                .is_none_or(|cut| report.is_sound(&cut))
-                        })
-            })
-            .map(|(index, _)| index)
-            .collect()
+        let crossing = self.contours().crossing().iter();
+        let places = crossing.flat_map(|(cut, _)| &cut.parts);
+        let touched: FxHashSet<usize> = places.map(|(stretch, _)| *stretch).collect();
+        let mut is_clean = |index: &usize| {
+            let of = &self.stretches()[*index];
+            let mut inner = of.inner();
+            let is_sound = |part: usize| {
+                JoinedCut::of(of, *index, part).is_none_or(|cut| report.is_sound(&cut))
+            };
+            !of.is_clean && (inner.is_empty() || !touched.contains(index) && inner.all(is_sound))
+        };
+        stretches.filter(|index| is_clean(index)).collect()
     }
 
-    /// The first and the last stretch of each cut through several that is sound as a whole.
-    pub(super) fn sound_cuts(&self) -> Vec<(usize, usize)> {
+    /// Hands on the cuts that are not sound as a whole.
+    pub(super) fn doubts(&self) -> impl FnMut(&JoinedCut) -> bool + '_ {
         let mut report = Report::new(self);
-        let crossing = self.crossings().begins();
-        let sound = self.contours().iter().filter(|cut| {
-            cut.only_place().is_none()
-                && cut.before_tab.is_none()
-                && self.goes_round(cut)
-                && !crossing.contains(&cut.begin())
-                && report.is_sound(cut)
-        });
-        let stretches = sound.map(|cut| (cut.begin().0, cut.reach));
-        stretches.collect()
+        move |cut| !report.is_sound(cut)
     }
 }
 
@@ -370,7 +361,7 @@ impl<'a> Report<'a> {
                 SideSetting::Punch => inside,
                 _ => false,
             };
-            let range = || self.switch_range(cut.range.start);
+            let range = || self.switch_range(self.document.bytes_of(cut.first_line).start);
             let mut inside = is_inside(orientation);
             if is_wrong(inside) {
                 inside = self.area_with_tab(cut, all).map_or(inside, is_inside);
@@ -387,14 +378,14 @@ impl<'a> Report<'a> {
                 self.add(range(), Fault::EntrySide { side });
             }
         }
-        if let Some((place, range)) = &cut.flip {
+        if let Some((place, line)) = &cut.flip {
             // The next pass, back along the same contour, has the wire on its other side.
             let begins = [sum.first[0].from, sum.first[0].to];
             if !begins
                 .iter()
                 .any(|begin| distance(*begin, *place) / 1e3 <= self.document.tolerance(cut))
             {
-                self.side_change(range.clone());
+                self.side_change(self.document.bytes_of(*line));
             }
         }
         self.tight_arcs(cut, orientation);

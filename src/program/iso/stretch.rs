@@ -88,8 +88,6 @@ pub(crate) struct Stretch {
     pub(crate) is_clean: bool,
     /// Those of them that are not held any more: it has been enough to know that they are sound.
     pub(crate) gone: Range<usize>,
-    /// The cut that its last part begins is known to be sound as a whole, up to this many stretches further on.
-    pub(crate) sound_over: Option<usize>,
     /// Nothing is known yet about the cuts that run through it.
     pub(crate) is_fresh: bool,
     pub(crate) foreign: Vec<Foreign>,
@@ -141,7 +139,7 @@ pub(crate) struct Placed<'a> {
 }
 
 /// A stop: the index of its stretch, and its byte counted from there.
-pub(crate) type StopAt = (usize, u32);
+pub(crate) type StopAt = (usize, usize);
 
 impl Stretch {
     /// True when these lines do the same wherever the wire stands before them.
@@ -223,7 +221,7 @@ impl Stretch {
 
     /// Forgets what is known to be sound; false where its lines must be run again for that.
     pub(crate) fn look_again(&mut self) -> bool {
-        (self.is_clean, self.sound_over) = (false, None);
+        self.is_clean = false;
         self.gone.is_empty()
     }
 
