@@ -62,6 +62,9 @@ pub(in crate::program) struct Contours<C> {
     tabs: Vec<(usize, usize)>,
     /// Those that cross or coincide with themselves, and where.
     crossing: Vec<(C, Arc<Found>)>,
+    /// The cuts that the last look began with.
+    #[cfg(test)]
+    pub(crate) looked_at: usize,
 }
 
 impl<C> Default for Contours<C> {
@@ -70,6 +73,8 @@ impl<C> Default for Contours<C> {
             heads: Vec::new(),
             tabs: Vec::new(),
             crossing: Vec::new(),
+            #[cfg(test)]
+            looked_at: 0,
         }
     }
 }
@@ -139,6 +144,8 @@ impl<C: Clone> Contours<C> {
         let (mut at, mut behind) = (again.from, again.from);
         let mut gone = kept;
         known.begin();
+        #[cfg(test)]
+        (self.looked_at = 0);
         loop {
             // What belonged to a contour that is looked at again is asked again, too.
             while let Some(head) = self.heads.get(gone)
@@ -152,6 +159,8 @@ impl<C: Clone> Contours<C> {
             let Some(mut cut) = document.next_cut(at, again.to) else {
                 break;
             };
+            #[cfg(test)]
+            (self.looked_at += 1);
             let begin = document.begin(&cut);
             at = document.behind(&cut);
             let contour = (begin >= behind).then(|| document.follow(&cut, &mut known.tabs));
@@ -243,3 +252,6 @@ impl<C: Clone> Contours<C> {
         &self.crossing
     }
 }
+
+#[cfg(test)]
+mod tests;

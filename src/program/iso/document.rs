@@ -164,7 +164,7 @@ impl Document {
         self.contours.is_tab(stop)
     }
 
-    pub(super) fn contours(&self) -> &Contours<JoinedCut> {
+    pub(in crate::program) fn contours(&self) -> &Contours<JoinedCut> {
         &self.contours
     }
 

@@ -96,6 +96,11 @@ pub(crate) struct Stretch {
     pub(crate) lengths: [Vec<(u32, u32)>; 2],
     /// How many lines behind its own decide how its last ones run.
     pub(crate) ahead: u32,
+    /// Before their first rapid or stop it matters whether the wire's place was lost since the last one: not only to
+    /// the part that goes on there.
+    pub(crate) heeds_loss: bool,
+    /// There is a rapid or a stop.
+    pub(crate) leaves_cut: bool,
     /// A word of it has the control make a corner.
     pub(crate) has_corners: bool,
     /// N words with the byte at which they stand.
@@ -152,6 +157,25 @@ impl Stretch {
         self.before.at = added(self.before.at, by);
         self.after.at = added(self.after.at, by);
         self.moved = added(self.moved, by);
+    }
+
+    /// Takes it that the wire's place was lost since the last rapid or stop before, or was not; false where that is more
+    /// than whether the part that goes on there could be read.
+    pub(crate) fn tear(&mut self, torn: bool) -> bool {
+        if torn != self.before.torn {
+            if self.heeds_loss {
+                return false;
+            }
+            self.before.torn = torn;
+            if !self.leaves_cut {
+                self.after.torn = torn;
+            }
+            if let Some(part) = self.parts.first_mut().filter(|part| part.continues) {
+                part.whole = !torn;
+            }
+            self.is_fresh = true;
+        }
+        true
     }
 
     /// A cut begins or ends in here: the lines behind do not depend on those before.
