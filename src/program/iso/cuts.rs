@@ -342,7 +342,7 @@ impl Held<'_> {
                 each(step, range.0 as usize..range.1 as usize);
             }
         };
-        self.document.run_again(stretch, heard)
+        self.document.run_again((stretch, nth), heard)
     }
 }
 

@@ -13,7 +13,7 @@ use super::read::words_of;
 use super::repair::found::Repairs;
 use super::stretch::{Placed, StopAt, Stretch};
 use crate::program::chunks::{ChunkReader, Chunks, Reread};
-use crate::program::contours::{Contours, Touched};
+use crate::program::contours::{Contours, PartAt, Touched};
 use crate::program::path::Known;
 use crate::settings::Effective;
 use crate::text::SourceText;
@@ -177,14 +177,19 @@ impl Document {
         self.stretches.byte(stretch)
     }
 
-    /// Runs a stretch once more and hands each of its moves to `each`; returns the byte from which their places count.
-    pub(super) fn run_again(&self, index: usize, each: &mut Hears<'_>) -> usize {
+    /// Runs a stretch once more, up to the end of a part, and hands each of its moves to `each`; returns the byte from
+    /// which their places count.
+    pub(super) fn run_again(&self, (index, part): PartAt, each: &mut Hears<'_>) -> usize {
         let Some(placed) = self.placed_at(index) else {
             return 0;
         };
+        let Range { start, end } = placed.lines;
+        let last = placed.stretch.part_at(part).map(|part| part.last_range.0);
+        let last = last.map(|byte| self.text.line_of(placed.offset + byte as usize));
+        let count = last.map_or(end, |last| end.min(last + 1)) - start;
         Stretch::run_with(
-            lines_from(&self.text, placed.lines.start),
-            placed.lines.len(),
+            lines_from(&self.text, start),
+            count,
             placed.offset,
             placed.stretch.before,
             self.reading,
