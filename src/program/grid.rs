@@ -55,6 +55,7 @@ pub(crate) fn grid_centers(arc: &Arc, from: Node, to: Node) -> impl Iterator<Ite
         y: arc.center.y.round() as i64,
     };
     let middle = middle_of(&arc);
+    let at_ends = at_ends(&arc, from, to);
     let mut left: [Candidate; 9] = std::array::from_fn(|index| {
         let node = Node {
             x: nearest.x + index as i64 / 3 - 1,
@@ -62,7 +63,7 @@ pub(crate) fn grid_centers(arc: &Arc, from: Node, to: Node) -> impl Iterator<Ite
         };
         Candidate {
             node,
-            cost: hundredths(least_cost(&arc, middle, node, from, to)),
+            cost: hundredths(least_cost(&arc, middle, node, from, to).max(at_ends)),
             is_known: false,
             away: (point_of(node) - arc.center).norm(),
         }
@@ -79,7 +80,7 @@ pub(crate) fn grid_centers(arc: &Arc, from: Node, to: Node) -> impl Iterator<Ite
                 count -= 1;
                 return Some(node);
             }
-            let cost = hundredths(cost_of(&arc, best.node, from, to));
+            let cost = hundredths(cost_of(&arc, best.node, from, to, at_ends));
             (left[at].cost, left[at].is_known) = (cost, true);
         }
     })
@@ -88,6 +89,13 @@ pub(crate) fn grid_centers(arc: &Arc, from: Node, to: Node) -> impl Iterator<Ite
 /// The best of [`grid_centers`].
 pub(crate) fn best_center(arc: &Arc, from: Node, to: Node) -> Node {
     grid_centers(arc, from, to).next().unwrap_or(from)
+}
+
+/// How far the nodes are from an arc: about whatever centre, it runs from one to the other.
+fn at_ends(arc: &Arc, from: Node, to: Node) -> f64 {
+    let piece = Segment::Arc(*arc);
+    let ends = [from, to].map(|node| piece.distance_to(point_of(node)));
+    f64::max(ends[0], ends[1])
 }
 
 /// From the centre of an arc to its middle, where that lies between the ends of any arc of [`grid_centers`].
@@ -121,19 +129,26 @@ pub(crate) fn radii_differ(center: Node, from: Node, to: Node) -> f64 {
     (distance(from) - distance(to)).abs()
 }
 
-/// The error of an arc about a grid point, in steps; infinite where it turns the other way.
-fn cost_of(arc: &Arc, center: Node, from: Node, to: Node) -> f64 {
+/// The error of an arc about a grid point, in steps; infinite where it turns the other way. `at_ends` is how far its
+/// nodes are from the true one.
+fn cost_of(arc: &Arc, center: Node, from: Node, to: Node, at_ends: f64) -> f64 {
     let written = arc_about(arc, center, from, to);
     let Some(written) = written.filter(|written| (written.sweep - arc.sweep).abs() <= PI) else {
         return f64::INFINITY;
     };
     let miss = radii_differ(center, from, to);
     // A controller that is given the start turns about the centre at the start's distance.
-    largest_distance(&Segment::Arc(written), &Segment::Arc(*arc)).max(miss)
+    farthest_between(&Segment::Arc(written), &Segment::Arc(*arc), at_ends).max(miss)
 }
 
 /// The largest distance of a written line or arc from its piece of the path, over its whole length.
 pub(crate) fn largest_distance(written: &Segment, piece: &Segment) -> f64 {
+    let ends = [written.start(), written.end()].map(|place| piece.distance_to(place));
+    farthest_between(written, piece, f64::max(ends[0], ends[1]))
+}
+
+/// The same, with the distance of its ends, which is known.
+fn farthest_between(written: &Segment, piece: &Segment, at_ends: f64) -> f64 {
     // Between its ends it is farthest where it is parallel to the piece.
     let between = match (written, piece) {
         (Segment::Line(line), Segment::Arc(arc)) => {
@@ -155,11 +170,10 @@ pub(crate) fn largest_distance(written: &Segment, piece: &Segment) -> f64 {
             [by.and_then(look), by.and_then(|by| look(-by)), Some(end)]
         }
     };
-    let ends = [written.start(), written.end()];
-    ends.into_iter()
-        .chain(between.into_iter().flatten())
+    let places = between.into_iter().flatten();
+    places
         .map(|place| piece.distance_to(place))
-        .fold(0.0, f64::max)
+        .fold(at_ends, f64::max)
 }
 
 /// Cuts `whole` into `count` pieces of equal length with snapped nodes between them; pieces without length are left out.
@@ -274,7 +288,7 @@ mod tests {
         fn an_arc_on_the_grid_stays_near_the_true_one((arc, from, to) in arc()) {
             prop_assume!(from != to && arc.sweep.abs() * arc.radius > 20.0 && (std::f64::consts::TAU - arc.sweep.abs()) * arc.radius > 20.0);
             let best = best_center(&arc, from, to);
-            let cost = |node| cost_of(&arc, node, from, to);
+            let cost = |node| cost_of(&arc, node, from, to, at_ends(&arc, from, to));
             prop_assert!(cost(best) <= 1.5, "{}", cost(best));
             // No other one is better by more than the steps in which they are compared.
             prop_assert!(grid_centers(&arc, from, to).all(|center| cost(center) >= cost(best) - 0.011));
@@ -286,7 +300,7 @@ mod tests {
             let around = (0..9).map(|index| Node { x: nearest.x + index / 3 - 1, y: nearest.y + index % 3 - 1 });
             let mut all: Vec<Node> = around.collect();
             let key = |node: &Node| {
-                let cost = (cost_of(&arc, *node, from, to) * 100.0).round().min(1e15) as i64;
+                let cost = (cost_of(&arc, *node, from, to, at_ends(&arc, from, to)) * 100.0).round().min(1e15) as i64;
                 (cost, (point_of(*node) - arc.center).norm())
             };
             all.sort_by(|a, b| key(a).partial_cmp(&key(b)).unwrap());

@@ -200,76 +200,52 @@ const AT_A_TIME: usize = 64;
 /// How much larger a transition may become so that it exceeds the correction on the grid, too, µm.
 const LARGER: i32 = 3;
 
-/// Transition arcs of `radius` at the corners, between lines and arcs alike.
+/// Transition arcs of `radius`, or of as little more as makes them sound on the grid, at the corners between lines and
+/// arcs alike. Each corner is made from the two pieces as they are drawn.
 fn with_transitions(
     contour: &[PathSegment],
     radius: f64,
     correction: f64,
 ) -> Proved<Vec<PathSegment>> {
-    let is_sound = |arc: &Arc| !is_tight_in_four_b(on_grid(arc), correction);
-    // Most are sound as they are: all of them are held against the grid at once.
-    let (rounded, arcs) = transitions(contour, radius, |_, _| true).unwrap_or_default();
-    let are_sound = each(arcs.len(), AT_A_TIME, |nth| is_sound(&arcs[nth]));
-    if !rounded.is_empty() && !are_sound.contains(&false) {
-        return Ok(rounded);
-    }
-    let known = |nth: usize, arc: &Arc| match arcs.get(nth) {
-        Some(own) if own == arc => are_sound[nth],
-        _ => is_sound(arc),
-    };
-    transitions(contour, radius, known).map(|(rounded, _)| rounded)
-}
-
-/// Transition arcs of `radius`, or as little more as makes them sound, which is asked of each by its number; beside the
-/// whole, those arcs.
-fn transitions(
-    contour: &[PathSegment],
-    radius: f64,
-    is_sound: impl Fn(usize, &Arc) -> bool,
-) -> Proved<(Vec<PathSegment>, Vec<Arc>)> {
-    let mut rounded: Vec<PathSegment> = Vec::with_capacity(contour.len() * 2);
-    let mut arcs = Vec::new();
-    for piece in contour {
-        let Some(before) = rounded.last_mut() else {
-            rounded.push(*piece);
-            continue;
-        };
-        let angle = turn(
-            before.geometry.end_tangent(),
-            piece.geometry.start_tangent(),
-        );
-        if angle.abs() <= TANGENT {
-            rounded.push(*piece);
-            continue;
-        }
+    let corners = each(contour.len().saturating_sub(1), AT_A_TIME, |nth| {
+        let [before, behind] = [nth, nth + 1].map(|nth| &contour[nth].geometry);
+        let angle = turn(before.end_tangent(), behind.start_tangent());
         let sizes = (0..=LARGER).map(|more| radius + f64::from(more));
-        let mut fitting =
-            sizes.filter_map(|radius| transition(&before.geometry, &piece.geometry, angle, radius));
-        let Some(Transition {
-            before: cut,
-            arc,
-            behind,
-        }) = fitting.find(|made| is_sound(arcs.len(), &made.arc))
-        else {
-            let fault = Unwritable::NoTransition {
-                at: mm(piece.geometry.start()),
-                radius: radius / 1e3,
-                turn: angle,
-            };
-            return Err(unwritable(piece, fault));
+        let mut fitting = sizes.filter_map(|radius| transition(before, behind, angle, radius));
+        let is_sound = |made: &Transition| !is_tight_in_four_b(on_grid(&made.arc), correction);
+        (angle.abs() > TANGENT).then(|| (angle, fitting.find(is_sound)))
+    });
+    let mut rounded: Vec<PathSegment> = Vec::with_capacity(contour.len() * 2);
+    let mut from = 0.0;
+    for (nth, piece) in contour.iter().enumerate() {
+        let until = |share: f64| PathSegment {
+            geometry: piece.geometry.part(from, share),
+            ..*piece
         };
-        before.geometry = cut;
-        arcs.push(arc);
+        let Some((turn, made)) = corners.get(nth).copied().flatten() else {
+            rounded.push(until(1.0));
+            from = 0.0;
+            continue;
+        };
+        let behind = &contour[nth + 1];
+        let is_left =
+            |made: &Transition| piece.geometry.length() * (made.leaves - from) >= LEAST_LEFT;
+        let Some(Transition { leaves, arc, meets }) = made.filter(is_left) else {
+            let fault = Unwritable::NoTransition {
+                at: mm(behind.geometry.start()),
+                radius: radius / 1e3,
+                turn,
+            };
+            return Err(unwritable(behind, fault));
+        };
+        rounded.push(until(leaves));
         rounded.push(PathSegment {
             geometry: Segment::Arc(arc),
-            ..*piece
+            ..*behind
         });
-        rounded.push(PathSegment {
-            geometry: behind,
-            ..*piece
-        });
+        from = meets;
     }
-    Ok((rounded, arcs))
+    Ok(rounded)
 }
 
 /// The radius of the block that an arc becomes, µm: between nodes of the grid it may be a micrometre smaller.
@@ -285,14 +261,17 @@ fn on_grid(arc: &Arc) -> f64 {
     }
 }
 
-/// The result for a corner.
+/// The arc at a corner.
+#[derive(Clone, Copy)]
 struct Transition {
-    before: Segment,
+    /// The share of the piece before at which it begins.
+    leaves: f64,
     arc: Arc,
-    behind: Segment,
+    /// The share of the piece behind at which it ends.
+    meets: f64,
 }
 
-/// The arc of `radius` tangent to both sides of a corner that turns by `angle`, and the rest of the sides.
+/// The arc of `radius` tangent to both sides of a corner that turns by `angle`.
 ///
 /// Its centre lies `radius` beside both of them, on the side to which the corner turns. `None` where it meets one of
 /// them outside of it, or turns by more than a half.
@@ -304,19 +283,16 @@ fn transition(before: &Segment, behind: &Segment, angle: f64, radius: f64) -> Op
     let fitting = centers.into_iter().filter_map(|center| {
         let (leaves, meets) = (before.share_of(center), behind.share_of(center));
         let left = [before.length() * leaves, behind.length() * (1.0 - meets)];
-        let is_on = leaves < 1.0 && meets > 0.0 && left.iter().all(|left| *left >= LEAST_LEFT);
+        if leaves >= 1.0 || meets <= 0.0 || left.iter().any(|left| *left < LEAST_LEFT) {
+            return None;
+        }
         let (start, end) = (before.point_at(leaves), behind.point_at(meets));
         let arc = Arc {
             radius,
             ..Arc::about(center, start, end, side > 0.0)
         };
-        let is_tangent =
-            is_on && (before.tangent_at(leaves) - arc.tangent_at(0.0)).norm() <= TANGENT;
-        (is_tangent && arc.sweep.abs() < PI - TANGENT).then(|| Transition {
-            before: before.part(0.0, leaves),
-            arc,
-            behind: behind.part(meets, 1.0),
-        })
+        let is_tangent = (before.tangent_at(leaves) - arc.tangent_at(0.0)).norm() <= TANGENT;
+        (is_tangent && arc.sweep.abs() < PI - TANGENT).then_some(Transition { leaves, arc, meets })
     });
     fitting.min_by(|a, b| {
         (a.arc.center - corner)

@@ -89,19 +89,17 @@ pub(super) struct Checked {
     /// Bytes of the block in the text.
     pub(super) range: Range<usize>,
     pub(super) number: Option<u32>,
-    /// The block from its own node.
-    pub(super) decoded: Segment,
     /// Its largest distance from its piece of the path, µm.
     pub(super) aside: f64,
 }
 
-/// Reads `line` back, which begins at byte `at` of the text, decodes it from its own node and compares it with its piece
-/// of the path.
+/// Reads `line` back, which begins at byte `at` of the text, and compares its block, which is `decoded` from its own
+/// node, with its piece of the path.
 pub(super) fn check_line(
     line: &[u8],
     at: usize,
     words: &Words<'_>,
-    encoded: &Encoded,
+    (encoded, decoded): (&Encoded, &Segment),
     part: Option<PartArc>,
 ) -> Result<Checked, String> {
     let mut read = None;
@@ -122,12 +120,10 @@ pub(super) fn check_line(
     }
     match read {
         Some((block, read, range, number)) if block == encoded.block && read == part => {
-            let (decoded, aside) = check_block(&block, encoded)?;
             Ok(Checked {
                 range: at + range.start..at + range.end,
                 number,
-                decoded,
-                aside,
+                aside: check_block(encoded, decoded)?,
             })
         }
         _ => Err(say!(
@@ -138,9 +134,9 @@ pub(super) fn check_line(
     }
 }
 
-fn check_block(block: &Block, encoded: &Encoded) -> Result<(Segment, f64), String> {
-    let decoded = decode(block, point_of(encoded.from))
-        .map_err(|_| say!(a_block_cannot_be_decoded, block))?;
+/// The largest distance of a decoded block from its piece of the path.
+fn check_block(encoded: &Encoded, decoded: &Segment) -> Result<f64, String> {
+    let block = &encoded.block;
     let distance = (decoded.end() - point_of(encoded.to)).norm();
     if distance > END_TOLERANCE {
         return Err(say!(
@@ -150,7 +146,7 @@ fn check_block(block: &Block, encoded: &Encoded) -> Result<(Segment, f64), Strin
             encoded.to
         ));
     }
-    let aside = largest_distance(&decoded, &encoded.piece);
+    let aside = largest_distance(decoded, &encoded.piece);
     let middles = (decoded.point_at(0.5) - encoded.piece.point_at(0.5)).norm();
     if aside.max(middles) > ASIDE_TOLERANCE || aside.is_nan() || middles.is_nan() {
         return Err(say!(
@@ -160,5 +156,5 @@ fn check_block(block: &Block, encoded: &Encoded) -> Result<(Segment, f64), Strin
             encoded.from
         ));
     }
-    Ok((decoded, aside))
+    Ok(aside)
 }

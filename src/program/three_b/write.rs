@@ -158,6 +158,8 @@ struct Line {
     /// Bytes of the text, without the line end.
     range: Range<usize>,
     block: Encoded,
+    /// From its own node.
+    decoded: Segment,
     part: Option<PartArc>,
 }
 
@@ -218,6 +220,7 @@ impl Writer for Blocks<'_> {
             lines.push(Line {
                 range: start..self.out.len() - 1,
                 block,
+                decoded,
                 part,
             });
         }
@@ -288,8 +291,9 @@ impl<'a> Blocks<'a> {
     fn prove(&mut self, lines: &[Line]) -> Proved {
         let (out, words) = (&self.out, &self.words);
         let read = each(lines.len(), AT_A_TIME, |nth| {
-            let Line { range, block, part } = &lines[nth];
-            check_line(&out[range.clone()], range.start, words, block, *part)
+            let line = &lines[nth];
+            let (written, own) = (&out[line.range.clone()], (&line.block, &line.decoded));
+            check_line(written, line.range.start, words, own, line.part)
         });
         for (line, read) in lines.iter().zip(read) {
             let read = read.map_err(ProofError::Mismatch)?;
@@ -304,14 +308,14 @@ impl<'a> Blocks<'a> {
                 range: read.range,
                 line: 0,
                 number: read.number,
-                kind: match read.decoded {
+                kind: match line.decoded {
                     _ if self.is_jump => Kind::Rapid,
                     Segment::Line(_) => Kind::Line,
                     Segment::Arc(_) => Kind::Arc,
                 },
                 start,
                 end: start + by,
-                ideal: Some(read.decoded.moved(start - point_of(line.block.from))),
+                ideal: Some(line.decoded.moved(start - point_of(line.block.from))),
                 contour: 0,
                 side: None,
                 is_relative: true,
