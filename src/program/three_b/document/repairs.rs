@@ -10,7 +10,7 @@ use super::super::repair::{
     BLOCKS, Change, Item, Loose, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs,
 };
 use super::super::rules::{TextFix, block_number};
-use super::{At, Document, JoinedCut, View};
+use super::{At, Document, JoinedCut};
 use crate::finding::{Axis, Fault, Finding, FixKind, Place, Rule};
 use crate::program::grid::Node;
 use crate::program::repair::offered;
