@@ -36,7 +36,7 @@ pub struct Document {
     order: Option<Order>,
     /// The stops within contours, before their tabs, and the contours that cross themselves.
     contours: Contours<JoinedCut>,
-    /// The contours that are not sound as a whole.
+    /// The contours of which there is something to say, and those with which such a one may belong together.
     doubtful: Vec<JoinedCut>,
     /// The results of the search for crossings.
     known: Box<Known>,

@@ -73,7 +73,7 @@ impl Document {
             report.judge(cut, self.doubtful());
         }
         for (cut, found) in self.contours().crossing() {
-            let crossings = found.findings(&self.way(cut), self.text());
+            let crossings = found.findings(&self.way(cut), self.last_block(cut), self.text());
             report.findings.extend(crossings);
         }
         report.taper();
@@ -129,10 +129,13 @@ impl Document {
         stretches.filter(|index| is_clean(index)).collect()
     }
 
-    /// Hands on the cuts that are not sound as a whole.
+    /// Tells the cuts of which there is something to say, and those with which such a one may belong together.
     pub(super) fn doubts(&self) -> impl FnMut(&JoinedCut) -> bool + '_ {
         let mut report = Report::new(self);
-        move |cut| !report.is_sound(cut)
+        move |cut| {
+            let is_beside = matches!(cut.sum.side, WireSide::One(_));
+            (is_beside && report.may_belong_to_others(cut)) || report.says(cut)
+        }
     }
 }
 
@@ -298,19 +301,26 @@ impl<'a> Report<'a> {
 
     /// Whether a cut is sound as a whole, and need not be compared with others.
     fn is_sound(&mut self, cut: &JoinedCut) -> bool {
+        !self.may_belong_to_others(cut) && !self.says(cut)
+    }
+
+    /// Whether a cut may be a part of a contour with others.
+    fn may_belong_to_others(&self, cut: &JoinedCut) -> bool {
         // Passes to and fro close by themselves, and may belong to the next or to the one before.
         let only = self.document.only_lay(cut);
         let may_be_tab = only.is_some_and(|lay| lay.closes && !lay.goes_round);
         // So may what ends open.
         let is_open = cut.sum.whole && !self.document.is_closed(cut);
-        if may_be_tab || is_open || self.may_lack_its_tab(&cut.sum) {
-            return false;
-        }
+        may_be_tab || is_open || self.may_lack_its_tab(&cut.sum)
+    }
+
+    /// Whether there is something to say of a cut by itself.
+    fn says(&mut self, cut: &JoinedCut) -> bool {
         let known = self.findings.len();
         self.judge(cut, &[]);
-        let is_sound = self.findings.len() == known;
+        let says = self.findings.len() > known;
         self.findings.truncate(known);
-        is_sound
+        says
     }
 
     /// Whether a cut beside which the wire runs leads back to the thread hole from elsewhere than where it came.

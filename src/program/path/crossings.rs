@@ -180,8 +180,13 @@ impl Found {
         self.crossings.is_empty() && !self.is_crowded
     }
 
-    /// The crossings to report.
-    pub(crate) fn findings(&self, way: &PartedWay<'_>, text: &SourceText) -> Vec<Finding> {
+    /// The crossings to report of a way, whose last block stands at some bytes of the text.
+    pub(crate) fn findings(
+        &self,
+        way: &PartedWay<'_>,
+        last: Option<Range<usize>>,
+        text: &SourceText,
+    ) -> Vec<Finding> {
         let mut findings = Vec::new();
         for crossing in &self.crossings {
             let (Some(from), Some(own)) = (way.range(crossing.first), way.range(crossing.second))
@@ -202,7 +207,6 @@ impl Found {
                 ..Finding::of(fault, own)
             });
         }
-        let last = way.count().checked_sub(1).and_then(|last| way.range(last));
         if let Some(range) = last.filter(|_| self.is_crowded) {
             let what = NotJudged::Crossings {
                 blocks: way.count(),

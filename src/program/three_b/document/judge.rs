@@ -24,7 +24,8 @@ impl Document {
         self.view.odd = self.judge_joints(&mut findings);
         for (cut, found) in self.view.contours.crossing() {
             if !self.is_odd(cut) {
-                findings.extend(found.findings(&self.way(cut), &self.text));
+                let last = HasCuts::last_block(self, cut);
+                findings.extend(found.findings(&self.way(cut), last, &self.text));
             }
         }
         self.judge_end(&mut findings);
