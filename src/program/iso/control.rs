@@ -40,8 +40,8 @@ impl ChunkReader for Control {
     }
 
     /// How the moves lie relative to themselves does not depend on anything else.
-    fn finish(&self, _: &SourceText, pathless: Pathless) -> Stretch {
-        pathless.with_paths()
+    fn finish(&self, _: &SourceText, pathless: Pathless, old: &[Stretch]) -> Stretch {
+        pathless.with_paths(old)
     }
 
     fn before(stretch: &Stretch) -> Machine {

@@ -139,7 +139,7 @@ impl Document {
         let (begun, _) = self
             .control()
             .run(self.text(), lines, placed.stretch.before);
-        Some((index, self.control().finish(self.text(), begun)))
+        Some((index, self.control().finish(self.text(), begun, &[])))
     }
 
     /// The state before a line, with the wire's position; `None` for a line that does not run.

@@ -27,14 +27,17 @@ impl Pathless {
         self.stretch.after
     }
 
-    /// How each part lies relative to itself: this takes time, and depends only on the moves.
-    pub(crate) fn with_paths(self) -> Stretch {
+    /// How each part lies relative to itself: this takes time, and depends only on the moves and on how numbers are
+    /// read. `old` stretches may know it of some.
+    pub(crate) fn with_paths(self, old: &[Stretch]) -> Stretch {
         let Pathless { mut stretch, ways } = self;
         stretch.parts.shrink_to_fit();
         let inner = stretch.inner();
         for (index, ways) in ways.into_iter().enumerate() {
             let is_whole = inner.contains(&index);
-            let lay = ways.lay(&stretch.reading, is_whole, &stretch.lays);
+            let old = old.iter().filter(|old| old.reading == stretch.reading);
+            let old = old.flat_map(|old| &old.lays);
+            let lay = ways.lay(&stretch.reading, is_whole, &stretch.lays, old);
             stretch.lays.push(lay);
         }
         stretch.lays.shrink_to_fit();

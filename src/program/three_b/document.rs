@@ -256,13 +256,14 @@ impl ChunkReader for Reader<'_> {
         (lines, ())
     }
 
-    fn finish(&self, text: &SourceText, lines: Range<usize>) -> Stretch {
+    fn finish(&self, text: &SourceText, lines: Range<usize>, old: &[Stretch]) -> Stretch {
         Stretch::read(
             text.bytes(),
             text.line_start(lines.start),
             lines.map(|line| text.line_range(line)),
             &self.words,
             self.limits,
+            old,
         )
     }
 
