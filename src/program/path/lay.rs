@@ -36,7 +36,7 @@ impl Lay {
     /// One of the last of these with a mark, or of those that are gone.
     pub(crate) fn known<'a, 'b>(
         before: impl Iterator<Item = &'a Lay>,
-        old: impl Iterator<Item = &'b Lay>,
+        mut old: impl Iterator<Item = &'b Lay>,
         mark: u64,
         is_whole: bool,
     ) -> Option<Lay> {
@@ -45,7 +45,7 @@ impl Lay {
         };
         let mut before = before.take(LOOKED_BACK);
         let known = before.find(is_it).cloned();
-        known.or_else(|| old.filter(is_it).next().cloned())
+        known.or_else(|| old.find(is_it).cloned())
     }
 
     /// For a way that begins at the origin, and may be a cut by itself.
