@@ -3,8 +3,11 @@
 use rustc_hash::FxHasher;
 use std::fs::{File, Metadata};
 use std::hash::Hasher;
-use std::io::{self, ErrorKind, Read, Write};
+use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::ops::Range;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+use std::time::SystemTime;
 
 /// The identity of a file when it was read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,6 +62,37 @@ pub(crate) fn ending_of(path: &Path) -> String {
 /// [`read_at_most`] for a path.
 pub(crate) fn read_path_at_most(path: &Path, cap: u64) -> Result<Vec<u8>, String> {
     read_at_most(&File::open(path).map_err(|error| plain(&error))?, cap)
+}
+
+/// A file of which parts are read again, as long as nobody has written to it.
+pub(crate) struct Unchanged {
+    file: Mutex<File>,
+    stamp: (u64, SystemTime),
+}
+
+impl Unchanged {
+    /// The file as it is now; `None` where the system does not tell when it was written.
+    pub(crate) fn of(file: &File) -> Option<Unchanged> {
+        Some(Unchanged {
+            stamp: stamp(file)?,
+            file: Mutex::new(file.try_clone().ok()?),
+        })
+    }
+
+    /// A range of its bytes; `None` where they cannot be read, or somebody has written to the file.
+    pub(crate) fn read(&self, range: Range<usize>) -> Option<Vec<u8>> {
+        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        file.seek(SeekFrom::Start(range.start as u64)).ok()?;
+        let mut bytes = Vec::with_capacity(range.len());
+        let most = range.len() as u64;
+        (&mut *file).take(most).read_to_end(&mut bytes).ok()?;
+        (stamp(&file)? == self.stamp).then_some(bytes)
+    }
+}
+
+fn stamp(file: &File) -> Option<(u64, SystemTime)> {
+    let metadata = file.metadata().ok()?;
+    Some((metadata.len(), metadata.modified().ok()?))
 }
 
 impl Seen {
@@ -268,6 +302,20 @@ mod tests {
             read_path_at_most(&folder.path().join("b"), 4),
             Err("no such file or directory".into())
         );
+    }
+
+    #[test]
+    fn a_part_is_read_again_until_somebody_writes_to_the_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        std::fs::write(&path, "12345").unwrap();
+        let file = File::open(&path).unwrap();
+        let unchanged = Unchanged::of(&file).unwrap();
+        assert_eq!(read_at_most(&file, 5), Ok(b"12345".to_vec()));
+        assert_eq!(unchanged.read(1..3), Some(b"23".to_vec()));
+        assert_eq!(unchanged.read(0..5), Some(b"12345".to_vec()));
+        std::fs::write(&path, "1234").unwrap();
+        assert_eq!(unchanged.read(1..3), None);
     }
 
     #[cfg(unix)]

@@ -17,7 +17,7 @@ use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline, Role};
 use crate::finding::{self, Detail, Edit, Finding, Fix, FixKind, Keep, Place, Rule, Telling};
 use crate::program;
 use crate::settings::{self, Effective};
-use crate::text::{SourceText, TextEdit};
+use crate::text::{Again, SourceText, TextEdit};
 use crate::{dxf, finding::Severity};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
@@ -69,12 +69,24 @@ pub struct Snapshot {
 }
 
 impl Document {
-    pub fn new(mut source: Source, settings: Arc<Effective>) -> Document {
+    pub fn new(source: Source, settings: Arc<Effective>) -> Document {
+        Document::without_text(source, settings, None)
+    }
+
+    /// The same for a document that is only checked: where its text can be read `again`, it is not kept.
+    pub(crate) fn without_text(
+        mut source: Source,
+        settings: Arc<Effective>,
+        again: Option<Again>,
+    ) -> Document {
         if let Source::Program(program) = &mut source {
             program.set_settings(&settings);
         }
         if let Source::Dxf(text) = &mut source {
             text.set_arc_fit(settings.tolerances.arc_fit);
+            if let Some(again) = again {
+                text.set_text_aside(again);
+            }
         }
         assume_unit(&mut source, &settings);
         let analysis = judged(&source, settings);

@@ -2,11 +2,13 @@
 //!
 //! The bytes may be anything; nothing here knows what the text means. Offsets are bytes, lines count from 0.
 
+mod aside;
 mod gap;
 mod line_starts;
 mod patch;
 mod writing;
 
+pub(crate) use aside::Again;
 pub(crate) use line_starts::LineStarts;
 pub(crate) use patch::Patch;
 pub(crate) use writing::Writing;
@@ -110,11 +112,20 @@ impl SourceText {
         }
     }
 
-    /// A copy of some bytes with room for typing, so that the first edit need not move them all.
-    pub(crate) fn with_room(bytes: &[u8]) -> Vec<u8> {
-        let mut copy = Vec::with_capacity(bytes.len() + gap::ROOM_FOR_THE_FIRST);
-        copy.extend_from_slice(bytes);
-        copy
+    /// The bytes with room for typing, so that the first edit need not move them all.
+    pub(crate) fn with_room(mut bytes: Vec<u8>) -> Vec<u8> {
+        bytes.reserve_exact(gap::ROOM_FOR_THE_FIRST);
+        bytes
+    }
+
+    /// Keeps the lines and not the bytes: whoever asks for some has them read `again`.
+    pub(crate) fn set_aside(&mut self, again: Again) {
+        self.bytes = Arc::new(Bytes::aside(self.len(), again));
+    }
+
+    /// True where something that was set aside could not be read again: what was told of the text does not hold.
+    pub(crate) fn is_lost(&self) -> bool {
+        self.bytes.is_lost()
     }
 
     /// The whole text. After an edit that left a gap, the first call copies it; use the line functions to read a line.
@@ -142,6 +153,14 @@ impl SourceText {
         match self.bytes.pieces() {
             ([], whole) => (whole, &[]),
             pieces => pieces,
+        }
+    }
+
+    /// The bytes before a line, as far as they are at hand: all where there is no gap and nothing is set aside.
+    pub(crate) fn at_hand(&self) -> &[u8] {
+        match self.bytes.is_aside() {
+            true => &[],
+            false => self.pieces().0,
         }
     }
 
@@ -233,7 +252,7 @@ impl SourceText {
 
     /// The bytes of a line, without its line end.
     pub(crate) fn line(&self, line: usize) -> &[u8] {
-        self.bytes().get(self.line_range(line)).unwrap_or_default()
+        self.slice(self.line_range(line)).unwrap_or_default()
     }
 
     /// The line end of a line; of the one before it where it has none, else LF.

@@ -93,9 +93,13 @@ impl Analysis {
             .into_iter()
             .flat_map(of_contour);
         repair::most_together(replacements, self.tries(), wanted, |together, _| {
-            let edit = small_radius::drawing_edit(drawing, together)
-                .filter(|edit| self.enlarges(drawing, edit, None, &mut 0));
-            Tried::of(edit)
+            let Some(edit) = small_radius::drawing_edit(drawing, together) else {
+                return Tried::Worse;
+            };
+            let enlarges = |it: &Analysis, drawing: &Drawing, edit: &DrawingEdit| {
+                Tried::of(it.enlarges(drawing, edit, None, &mut 0).then_some(()))
+            };
+            (self.made_of(drawing, &edit, wanted, enlarges)).map(|()| edit)
         })
     }
 

@@ -24,12 +24,19 @@ pub(crate) struct Known {
     pub(crate) stated: Option<Role>,
     /// The number of its workpiece.
     pub(crate) part: u16,
-    /// For each local rule, for each run of the index, its observations; empty without any, as in most contours.
-    observations: Vec<Vec<Vec<Observation>>>,
-    /// For each local rule the numbers of its observations by side.
-    counts: Vec<Counts>,
     /// Number of runs at the last check.
-    runs: usize,
+    runs: u32,
+    /// What each local rule has seen; empty where none has seen anything, as in most contours.
+    by_rule: Box<[Seen]>,
+}
+
+/// The observations of one local rule.
+#[derive(Clone, Debug, Default)]
+struct Seen {
+    /// For each run of the index; empty without any.
+    observations: Vec<Vec<Observation>>,
+    /// Their numbers by side.
+    counts: Counts,
 }
 
 impl Known {
@@ -38,9 +45,8 @@ impl Known {
             index,
             stated,
             part,
-            observations: Vec::new(),
-            counts: Vec::new(),
             runs: 0,
+            by_rule: Box::default(),
         }
     }
 
@@ -64,8 +70,8 @@ impl Known {
             at_hand: None,
         };
         let (count, runs) = (contour.len(), self.index.run_count());
-        let recounted = self.runs != runs;
-        self.runs = runs;
+        let recounted = self.runs as usize != runs;
+        self.runs = runs as u32;
         // Which rule checks which run, run by run.
         let mut asked: Vec<(usize, usize)> = Vec::new();
         for (number, rule) in LOCAL_RULES.iter().enumerate() {
@@ -86,15 +92,12 @@ impl Known {
             if contour.closed && changed.end + behind > count {
                 ranges.push(0..(changed.end + behind - count).min(count));
             }
-            if let Some(observations) = self
-                .observations
-                .get_mut(number)
-                .filter(|observations| !observations.is_empty())
-            {
-                for gone in observations.iter().skip(runs).flatten() {
-                    self.counts[number].take(gone);
+            let seen = self.by_rule.get_mut(number);
+            if let Some(seen) = seen.filter(|seen| !seen.observations.is_empty()) {
+                for gone in seen.observations.iter().skip(runs).flatten() {
+                    seen.counts.take(gone);
                 }
-                observations.resize(runs, Vec::new());
+                seen.observations.resize(runs, Vec::new());
             }
             asked.extend(
                 ranges
@@ -123,24 +126,29 @@ impl Known {
             for &(run, number) in asked {
                 seen.clear();
                 (LOCAL_RULES[number].check)(&outlook, self.index.range_of(run), &mut seen);
-                if seen.is_empty() && self.observations.get(number).is_none_or(Vec::is_empty) {
+                let known = self.by_rule.get(number);
+                if seen.is_empty() && known.is_none_or(|known| known.observations.is_empty()) {
                     continue;
                 }
-                self.observations.resize(LOCAL_RULES.len(), Vec::new());
-                self.counts.resize(LOCAL_RULES.len(), Counts::default());
-                let observations = &mut self.observations[number];
-                observations.resize(runs, Vec::new());
-                let counts = &mut self.counts[number];
-                observations[run].iter().for_each(|gone| counts.take(gone));
+                if self.by_rule.is_empty() {
+                    self.by_rule = vec![Seen::default(); LOCAL_RULES.len()].into();
+                }
+                let known = &mut self.by_rule[number];
+                known.observations.resize(runs, Vec::new());
+                let counts = &mut known.counts;
+                known.observations[run]
+                    .iter()
+                    .for_each(|gone| counts.take(gone));
                 seen.iter().for_each(|new| counts.add(new));
-                observations[run] = seen.as_slice().into();
+                known.observations[run] = seen.as_slice().into();
             }
         }
     }
 
     /// True when a local rule has an observation.
     pub(crate) fn has_observations(&self) -> bool {
-        !self.observations.iter().flatten().all(Vec::is_empty)
+        let mut observations = self.by_rule.iter().flat_map(|seen| &seen.observations);
+        !observations.all(Vec::is_empty)
     }
 
     /// The number of findings of each kind, rule by rule. `open_is_an_error` where an open contour is reported as one.
@@ -202,10 +210,15 @@ impl Known {
     ) -> impl Iterator<Item = OfRule<'a>> {
         // An open contour is not cut: a finding that only spoils a cut is a hint until it is closed.
         let waits = !outlook.contour.closed && wire_side.is_none() && open_is_an_error;
-        let of_rules = LOCAL_RULES.iter().zip(&self.observations);
-        of_rules
-            .zip(&self.counts)
-            .map(move |((rule, observations), counts)| {
+        let of_rules = LOCAL_RULES.iter().zip(&self.by_rule);
+        of_rules.map(
+            move |(
+                rule,
+                Seen {
+                    observations,
+                    counts,
+                },
+            )| {
                 let at_the_beginning = observations.first().into_iter().flatten();
                 let fallen = at_the_beginning
                     .filter(|observation| {
@@ -224,7 +237,8 @@ impl Known {
                     is_one,
                     observations,
                 }
-            })
+            },
+        )
     }
 }
 

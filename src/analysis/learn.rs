@@ -37,30 +37,34 @@ impl Analysis {
         self.take_down(key, told);
     }
 
-    /// Whether a contour has findings of its own, and is larger than any machine.
-    fn told_by(&self, drawing: &Drawing, key: ContourKey) -> (Option<Notable>, bool) {
+    /// What findings of its own a contour may have, and whether it is larger than any machine.
+    fn told_by(&self, drawing: &Drawing, key: ContourKey) -> (Option<Notability>, bool) {
         let of_contour = |outlook: Outlook| CONTOUR_RULES.iter().any(|rule| (rule.holds)(&outlook));
         let known = self.known.get(&key);
-        let notable = self.chains.first_of(key).map(|first| Notable {
-            first,
-            what: Notability {
-                has_tight_arcs: known.is_some_and(|known| known.index.tight().next().is_some()),
-                has_observations: known.is_some_and(|known| known.has_observations()),
-                as_a_whole: self.outlook(drawing, key).is_some_and(of_contour),
-            },
-            counted: None,
-        });
-        let has_something = |Notable { what, .. }: &Notable| {
-            what.has_tight_arcs || what.has_observations || what.as_a_whole
+        let what = Notability {
+            has_tight_arcs: known.is_some_and(|known| known.index.tight().next().is_some()),
+            has_observations: known.is_some_and(|known| known.has_observations()),
+            as_a_whole: self.outlook(drawing, key).is_some_and(of_contour),
         };
+        let has_something = what.has_tight_arcs || what.has_observations || what.as_a_whole;
         let is_vast =
             known.is_some_and(|known| units::is_vast(&known.index.bounds(), self.limits.unit_mm));
-        (notable.filter(has_something), is_vast)
+        (has_something.then_some(what), is_vast)
     }
 
-    fn take_down(&mut self, key: ContourKey, (notable, is_vast): (Option<Notable>, bool)) {
-        match notable {
-            Some(notable) => self.notable.insert(key, notable),
+    fn take_down(&mut self, key: ContourKey, (what, is_vast): (Option<Notability>, bool)) {
+        match what.zip(self.chains.first_of(key)) {
+            Some((what, first)) => {
+                let counted = None;
+                self.notable.insert(
+                    key,
+                    Notable {
+                        first,
+                        what,
+                        counted,
+                    },
+                )
+            }
             None => self.notable.remove(key),
         }
         match is_vast {
@@ -69,9 +73,14 @@ impl Analysis {
         };
     }
 
+    /// Arcs with a smaller radius are below the correction.
+    fn tight_below(&self) -> f64 {
+        self.limits.correction - self.limits.tolerances.report
+    }
+
     /// Looks at whole contours for the first time.
     pub(super) fn learn(&mut self, drawing: &Drawing, keys: &[ContourKey]) {
-        let tight = self.limits.correction - self.limits.tolerances.report;
+        let tight = self.tight_below();
         let learned = each_of(keys, |key| {
             let contour = self.chains.get(key)?;
             // Most contours are short: their segments are worked out once.
@@ -230,7 +239,7 @@ impl Analysis {
         }
         for range in ranges {
             let mut changed = known.index.bounds_about(range.clone());
-            known.index.update(drawing, contour, range.clone());
+            (known.index).update(drawing, contour, self.tight_below(), range.clone());
             changed.merge(&known.index.bounds_about(range.clone()));
             known.check(
                 drawing,

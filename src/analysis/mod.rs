@@ -16,6 +16,7 @@ mod fixes;
 mod judge;
 mod known;
 mod learn;
+mod nearby;
 mod notable;
 mod observations;
 mod own_walls;

@@ -36,7 +36,7 @@ pub(crate) struct Pairs {
     /// Runs that have not been compared with all their neighbours because of the limit.
     pub(super) uncompared: FxHashSet<RunId>,
     /// The largest reach of a rule.
-    reach: f64,
+    pub(super) reach: f64,
     /// The looks at the start of the last full comparison, and those that are left: for comparing, and for checking
     /// whether discs are empty.
     granted: u64,
@@ -205,6 +205,11 @@ impl Pairs {
             .collect()
     }
 
+    /// The contours of which a run touches an area; each as often as runs do.
+    pub(super) fn each_near(&self, area: &Bounds, mut found: impl FnMut(ContourKey)) {
+        self.grid.near(area, |(key, _), _| found(key));
+    }
+
     /// Whether runs of other contours come near these bounds of one.
     pub(crate) fn comes_near_others(&self, key: ContourKey, bounds: &Bounds) -> bool {
         let area = bounds.grown(self.reach);
@@ -236,7 +241,7 @@ impl Pairs {
     }
 
     /// The same for many new runs: each of the others is asked whether one of these has come near.
-    fn disturb_about(&mut self, outlook: Outlooks, new: &FxHashMap<RunId, usize>) {
+    fn disturb_about(&mut self, outlook: Outlooks, new: &FxHashMap<RunId, u32>) {
         let is_disturbed = |run: &&RunId| {
             let bounds = outlook(run.0).map(|it| it.index.bounds_of_run(run.1 as usize));
             let is_new = |other: RunId| new.contains_key(&other);
@@ -303,11 +308,7 @@ impl Pairs {
             self.untold.remove(run);
         }
         // Their order is that of the contours, whatever their keys.
-        let new: FxHashMap<RunId, usize> = runs
-            .iter()
-            .enumerate()
-            .map(|(at, &run)| (run, at))
-            .collect();
+        let new: FxHashMap<RunId, u32> = (0..).zip(runs).map(|(at, &run)| (run, at)).collect();
         if runs.len() >= MANY_RUNS {
             self.disturb_about(outlook, &new);
         }

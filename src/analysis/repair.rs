@@ -40,12 +40,16 @@ impl<M> Tried<M> {
         better.map_or(Tried::Worse, Tried::Better)
     }
 
-    fn map<N>(self, made: impl FnOnce(M) -> N) -> Tried<N> {
+    pub(super) fn map<N>(self, made: impl FnOnce(M) -> N) -> Tried<N> {
         match self {
             Tried::Better(better) => Tried::Better(made(better)),
             Tried::Worse => Tried::Worse,
             Tried::PlainlyWorse => Tried::PlainlyWorse,
         }
+    }
+
+    pub(super) fn is_better(&self) -> bool {
+        matches!(self, Tried::Better(_))
     }
 
     fn better(self) -> Option<M> {
@@ -204,7 +208,7 @@ impl Analysis {
                     .all(|change| drawing.accepts(change).is_ok());
                 (accepted && wanted.can.is_none_or(|can| can(&fix.edit))).then_some(fix.edit)
             });
-            if let Some(edit) = self.most_of(drawing, rule, before, apart(fixes), wanted) {
+            if let Some(edit) = self.most_of(drawing, rule, apart(fixes), wanted) {
                 return Some(edit);
             }
         }
@@ -256,7 +260,6 @@ impl Analysis {
         &self,
         drawing: &Drawing,
         rule: Rule,
-        before: &Tally,
         edits: impl Iterator<Item = DrawingEdit>,
         wanted: Wanted,
     ) -> Option<DrawingEdit> {
@@ -272,8 +275,16 @@ impl Analysis {
                         .cloned()
                         .collect(),
                 };
-                let before = best.map_or(before, |(_, tally)| tally);
-                let after = self.mends(drawing, rule, before, &tried);
+                let best = best.map(|(_, tally)| tally);
+                let mends = |it: &Analysis, drawing: &Drawing, edit: &DrawingEdit| {
+                    it.mends(
+                        drawing,
+                        rule,
+                        best.unwrap_or_else(|| it.tallied(drawing)),
+                        edit,
+                    )
+                };
+                let after = self.made_of(drawing, &tried, wanted, mends);
                 after.map(|after| (tried, after))
             },
         );

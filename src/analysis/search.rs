@@ -26,7 +26,7 @@ pub(super) struct Search<'a> {
     pub(super) reach: f64,
     /// Observations beyond this number are dropped.
     pub(super) most_seen: usize,
-    pub(super) new: &'a FxHashMap<RunId, usize>,
+    pub(super) new: &'a FxHashMap<RunId, u32>,
     pub(super) are_parts: bool,
     /// Enough runs are compared that the walls of each are needed again.
     pub(super) keeps: bool,
@@ -72,7 +72,7 @@ impl Search<'_> {
         let mut near = Vec::new();
         let found = |other, bounds: &Bounds| {
             // Two new runs are compared once.
-            if self.new.get(&other).is_none_or(|&its| at <= its) {
+            if self.new.get(&other).is_none_or(|&its| at <= its as usize) {
                 near.push((other, *bounds));
             }
         };

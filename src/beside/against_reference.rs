@@ -10,7 +10,7 @@ use super::reference::{Reference, Under};
 use super::traced::{Block, Motion, Traced};
 use super::walk::Kind;
 use crate::drawing::EntityId;
-use crate::geometry::{Arc, Point, Segment, Vector};
+use crate::geometry::{Arc, Segment, Vector};
 
 /// The largest deviation of a block, or of one of its numbers, from the rewritten one, µm; and that under settings that
 /// are not known to the last digit.
@@ -221,7 +221,7 @@ impl<'a> Pairs<'a> {
     /// The place of most of the program relative to the rewritten one.
     fn away(&self) -> Vector {
         let ends = |pair: &Pair| {
-            let ([_, end], [_, meant]) = (ends_of(&pair.own.motion)?, ends_of(&pair.meant.motion)?);
+            let ([_, end], [_, meant]) = (pair.own.motion.ends()?, pair.meant.motion.ends()?);
             Some(end - meant)
         };
         let all: Vec<Vector> = self.pairs.iter().filter_map(ends).collect();
@@ -252,7 +252,11 @@ impl<'a> Pairs<'a> {
                 return None;
             }
             let is_behind = before || pair.behind_gap;
-            let away = away(&own.motion, &meant.motion, from, is_behind);
+            let away = match words.apart {
+                // The control makes no arc of it: its numbers are all there is.
+                Some(apart) if own.is_lost && is_in_our_words => Some(apart),
+                _ => own.motion.away_from(&meant.motion, from, is_behind),
+            };
             // Behind a block that is lost or superfluous the next one may be of another kind.
             let away = away.or(pair.behind_gap.then_some(0.0))?;
             // J of a circle is off by four times what its radius is; where it is wrong, so is the end.
@@ -333,7 +337,10 @@ impl<'a> Pairs<'a> {
         }
         if let Some((place, of)) = self.gap {
             let segment = reference.source_of(&of.motion);
-            let length = ends_of(&of.motion).map_or(0.0, |[start, end]| (end - start).norm());
+            let length = of
+                .motion
+                .ends()
+                .map_or(0.0, |[start, end]| (end - start).norm());
             let kind = if segment.is_some() {
                 Kind::Block
             } else {
@@ -387,7 +394,7 @@ impl<'a> Pairs<'a> {
         let Some(pair) = self.pairs.get(number) else {
             return true;
         };
-        match (ends_of(&pair.own.motion), ends_of(&pair.meant.motion)) {
+        match (pair.own.motion.ends(), pair.meant.motion.ends()) {
             (Some([_, end]), Some([_, meant])) => (end - from - meant).norm() <= most,
             _ => true,
         }
@@ -459,42 +466,4 @@ fn begun_elsewhere(traced: &Traced, reference: &Traced) -> Option<Difference> {
         off: off / 1e3,
         kind: Kind::Lead,
     })
-}
-
-/// The distance of two motions, from their starts or from the program's; `None` for different kinds.
-///
-/// `behind` a block that ends elsewhere, the radius of an arc is enough: its centre is elsewhere, too.
-fn away(own: &Motion, meant: &Motion, from: Vector, behind: bool) -> Option<f64> {
-    let ends = |[start, end]: [Point; 2], [meant_start, meant_end]: [Point; 2]| {
-        let counted = (end - start) - (meant_end - meant_start);
-        let placed = end - from - meant_end;
-        counted.norm().min(placed.norm())
-    };
-    match (own, meant) {
-        (Motion::Stop, Motion::Stop) => Some(0.0),
-        (Motion::Stop, _) | (_, Motion::Stop) => None,
-        (Motion::Cut(own), Motion::Cut(meant)) => {
-            let off = ends([own.start(), own.end()], [meant.start(), meant.end()]);
-            Some(match (own.as_arc(), meant.as_arc()) {
-                (Some(own), Some(meant)) if own.sweep * meant.sweep > 0.0 => {
-                    let counted = (own.center - own.start) - (meant.center - meant.start);
-                    let placed = own.center - from - meant.center;
-                    let centers = counted.norm().min(placed.norm());
-                    let radii = (own.radius - meant.radius).abs();
-                    off.max(if behind { centers.min(radii) } else { centers })
-                }
-                (None, None) => off,
-                _ => off.max((own.point_at(0.5) - from - meant.point_at(0.5)).norm()),
-            })
-        }
-        _ => Some(ends(ends_of(own)?, ends_of(meant)?)),
-    }
-}
-
-fn ends_of(motion: &Motion) -> Option<[Point; 2]> {
-    match motion {
-        Motion::Cut(segment) => Some([segment.start(), segment.end()]),
-        Motion::Way(start, by) => Some([*start, start + by]),
-        Motion::Stop => None,
-    }
 }

@@ -49,6 +49,8 @@ const ROUNDED: f64 = 2.5;
 const CHANGED: f64 = 2.5;
 /// For each differing block this many must be as we write them: then it is a change, and not another writer's rounding.
 const OWN: usize = 8;
+/// For each of two differing blocks this many must follow.
+const LIKE: usize = 4;
 /// The most corrections that are found for further passes.
 const FURTHER: usize = 4;
 
@@ -425,7 +427,9 @@ impl Tried {
         // Several small differences come from the guessed settings, not from a change.
         let is_change = |unlike: &Unlike| unlike.kind != Kind::Block || unlike.off >= CHANGED;
         let all = &self.unlike[..];
-        let is_likely = self.followed >= all.len().max(1)
+        // Of few blocks two are as soon as not those that another start has elsewhere.
+        let like = if all.len() < 2 { 1 } else { LIKE };
+        let is_likely = self.followed >= like * all.len().max(1)
             && (all.len() < 2 || all.iter().all(is_change))
             && (all.len() < 3 || self.is_own());
         2 * self.followed >= count && is_likely

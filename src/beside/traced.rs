@@ -61,6 +61,45 @@ pub(super) enum Motion {
     Stop,
 }
 
+impl Motion {
+    pub(super) fn ends(&self) -> Option<[Point; 2]> {
+        match self {
+            Motion::Cut(segment) => Some([segment.start(), segment.end()]),
+            Motion::Way(start, by) => Some([*start, start + by]),
+            Motion::Stop => None,
+        }
+    }
+
+    /// The distance of two motions, from their starts or from the program's; `None` for different kinds.
+    ///
+    /// `behind` a block that ends elsewhere, the radius of an arc is enough: its centre is elsewhere, too.
+    pub(super) fn away_from(&self, meant: &Motion, from: Vector, behind: bool) -> Option<f64> {
+        let off = match (self.ends(), meant.ends()) {
+            (Some([start, end]), Some([meant_start, meant_end])) => {
+                let counted = (end - start) - (meant_end - meant_start);
+                let placed = end - from - meant_end;
+                counted.norm().min(placed.norm())
+            }
+            (None, None) => return Some(0.0),
+            _ => return None,
+        };
+        let (Motion::Cut(own), Motion::Cut(meant)) = (self, meant) else {
+            return Some(off);
+        };
+        Some(match (own.as_arc(), meant.as_arc()) {
+            (Some(own), Some(meant)) if own.sweep * meant.sweep > 0.0 => {
+                let counted = (own.center - own.start) - (meant.center - meant.start);
+                let placed = own.center - from - meant.center;
+                let centers = counted.norm().min(placed.norm());
+                let radii = (own.radius - meant.radius).abs();
+                off.max(if behind { centers.min(radii) } else { centers })
+            }
+            (None, None) => off,
+            _ => off.max((own.point_at(0.5) - from - meant.point_at(0.5)).norm()),
+        })
+    }
+}
+
 impl Block {
     pub(super) fn segment(&self) -> Option<&Segment> {
         match &self.motion {

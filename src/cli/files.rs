@@ -3,7 +3,7 @@
 use super::options::{Common, FileLanguage};
 use super::report::Row;
 use super::{Failure, output};
-use crate::disk::{self, Seen, ending_of, plain};
+use crate::disk::{self, Seen, Unchanged, ending_of, plain};
 use crate::document::{Document, FileKind, Snapshot};
 use crate::drawing::Unit;
 use crate::finding;
@@ -12,7 +12,8 @@ use crate::program::{self, Language};
 use crate::protocol::FindingData;
 use crate::settings;
 use crate::settings::{Effective, Settings, SettingsError};
-use crate::text::{SourceText, Writing};
+use crate::text::{Again, SourceText, Writing};
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -41,15 +42,15 @@ impl From<FileLanguage> for FileKind {
 
 /// Reads one file with its settings: `wedm.toml` upwards from it, `--config`, then the options.
 pub(crate) fn open(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
-    let kind = match kind_of(path, common) {
-        Ok(kind) => kind,
-        Err(failure) => head(path)
-            .and_then(|head| kind_of_content(path, &head))
-            .ok_or(failure)?,
+    let (kind, settings, settings_rows) = kind_and_settings(path, common, last)?;
+    let read = || {
+        let (file, is_regular) = regular(path)?;
+        let bytes = read(&file, is_regular)?;
+        let seen = Seen::of(&file, &bytes)?;
+        Ok((bytes, seen))
     };
-    let (settings, settings_rows) = settings_for(path, common, last)?;
-    let (bytes, seen) = read(path).map_err(|reason| Failure::of(path, reason))?;
-    let (document, writing) = document(kind, bytes, Arc::new(settings));
+    let (bytes, seen) = read().map_err(|reason: String| Failure::of(path, reason))?;
+    let (document, writing) = document(kind, bytes, settings, None);
     Ok(Opened {
         path: path.to_path_buf(),
         document,
@@ -57,6 +58,40 @@ pub(crate) fn open(path: &Path, common: &Common, last: &Settings) -> Result<Open
         writing,
         settings_rows,
     })
+}
+
+/// The same for a file that is only checked. The text of a large drawing is not kept, but read again where somebody asks for it: it may be lost.
+pub(crate) fn open_to_check(
+    path: &Path,
+    common: &Common,
+    last: &Settings,
+) -> Result<(Document, Vec<Row>), Failure> {
+    let (kind, settings, rows) = kind_and_settings(path, common, last)?;
+    let read = || {
+        let (file, is_regular) = regular(path)?;
+        let as_it_is = Unchanged::of(&file).filter(|_| is_regular);
+        Ok((read(&file, is_regular)?, as_it_is))
+    };
+    let (bytes, as_it_is) = read().map_err(|reason: String| Failure::of(path, reason))?;
+    let again = as_it_is.filter(|_| bytes.len() >= LARGE);
+    let again = again.map(|file| -> Again { Arc::new(move |range| file.read(range)) });
+    Ok((document(kind, bytes, settings, again).0, rows))
+}
+
+/// What decides how a file is read: its kind, the settings, and the misfits in these.
+fn kind_and_settings(
+    path: &Path,
+    common: &Common,
+    last: &Settings,
+) -> Result<(FileKind, Arc<Effective>, Vec<Row>), Failure> {
+    let kind = match kind_of(path, common) {
+        Ok(kind) => kind,
+        Err(failure) => head(path)
+            .and_then(|head| kind_of_content(path, &head))
+            .ok_or(failure)?,
+    };
+    let (settings, rows) = settings_for(path, common, last)?;
+    Ok((kind, Arc::new(settings), rows))
 }
 
 /// The text from stdin, read as a file of the given name, and the misfits in its settings. Without a name it is a
@@ -74,7 +109,7 @@ pub(crate) fn open_stdin(
     let of_content =
         || kind_of_content(name, &bytes).or(given.is_none().then_some(FileKind::Drawing));
     let kind = kind.or_else(|failure| of_content().ok_or(failure))?;
-    Ok((document(kind, bytes, Arc::new(settings)).0, rows))
+    Ok((document(kind, bytes, Arc::new(settings), None).0, rows))
 }
 
 /// Refuses a text that is too large to hold: anything written from it would lack its end.
@@ -82,12 +117,22 @@ const LARGEST: u64 = u32::MAX as u64 - 1;
 /// The same for a device or a pipe, which may have no end.
 const LARGEST_STREAM: u64 = 256 * 1024 * 1024;
 
-fn read(path: &Path) -> Result<(Vec<u8>, Seen), String> {
-    let file = std::fs::File::open(path).map_err(|error| plain(&error))?;
+/// From this many bytes on the text of a drawing is read again rather than kept; in debug builds, which tests run, that of a small one, too.
+const LARGE: usize = if cfg!(debug_assertions) {
+    256
+} else {
+    16 * 1024 * 1024
+};
+
+/// A file, and whether it is none but a file.
+fn regular(path: &Path) -> Result<(File, bool), String> {
+    let file = File::open(path).map_err(|error| plain(&error))?;
     let is_regular = file.metadata().map_err(|error| plain(&error))?.is_file();
-    let bytes = disk::read_at_most(&file, if is_regular { LARGEST } else { LARGEST_STREAM })?;
-    let seen = Seen::of(&file, &bytes)?;
-    Ok((bytes, seen))
+    Ok((file, is_regular))
+}
+
+fn read(file: &File, is_regular: bool) -> Result<Vec<u8>, String> {
+    disk::read_at_most(file, if is_regular { LARGEST } else { LARGEST_STREAM })
 }
 
 /// The same for a command that makes something of the file, not in its place. It refuses doubtful settings.
@@ -140,7 +185,7 @@ const HEAD: u64 = 64 * 1024;
 
 /// The beginning of a regular file; nothing is taken from others, such as a pipe.
 fn head(path: &Path) -> Option<Vec<u8>> {
-    let file = std::fs::File::open(path).ok()?;
+    let file = File::open(path).ok()?;
     let mut head = Vec::new();
     file.metadata().ok()?.is_file().then_some(())?;
     std::io::Read::read_to_end(&mut std::io::Read::take(file, HEAD), &mut head).ok()?;
@@ -172,10 +217,15 @@ fn kind_of(path: &Path, common: &Common) -> Result<FileKind, Failure> {
     Err(Failure::of(path, refusal))
 }
 
-fn document(kind: FileKind, bytes: Vec<u8>, settings: Arc<Effective>) -> (Document, Writing) {
+fn document(
+    kind: FileKind,
+    bytes: Vec<u8>,
+    settings: Arc<Effective>,
+    again: Option<Again>,
+) -> (Document, Writing) {
     let (source, writing) = kind.read(bytes, &settings);
     say_encoding(writing);
-    (Document::new(source, settings), writing)
+    (Document::without_text(source, settings, again), writing)
 }
 
 /// Reports an unusual encoding once, however many files there are.

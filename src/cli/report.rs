@@ -327,7 +327,7 @@ impl Row {
 fn place(text: &SourceText, offset: usize) -> (usize, usize) {
     let line = text.line_of(offset);
     let start = text.line_range(line).start;
-    let before = text.bytes().get(start..offset).unwrap_or_default();
+    let before = text.slice(start..offset.max(start)).unwrap_or_default();
     (
         line + 1,
         String::from_utf8_lossy(before).chars().count() + 1,
@@ -337,15 +337,16 @@ fn place(text: &SourceText, offset: usize) -> (usize, usize) {
 /// The lines from the one above the fault (in DXF the group code of the number) to its end, at most six.
 fn excerpt(text: &SourceText, range: &Range<usize>) -> Option<Excerpt> {
     let stands_for_all = range.end == 0;
-    if stands_for_all || range.start > range.end || range.end > text.bytes().len() {
+    if stands_for_all || range.start > range.end || range.end > text.len() {
         return None;
     }
     let fault_line = text.line_of(range.start);
     let last_line = text
         .line_of(range.start.max(range.end - 1))
         .min(fault_line + 4);
-    let has_code = fault_line > 0 && is_group_code(&text.bytes()[text.line_range(fault_line - 1)]);
+    let has_code = fault_line > 0 && is_group_code(text.line(fault_line - 1));
     let first_line = if has_code { fault_line - 1 } else { fault_line };
+    let bytes = |range| text.slice(range).unwrap_or_default();
     let mut shown = String::new();
     let mut span = 0..0;
     for line in first_line..=last_line {
@@ -362,15 +363,15 @@ fn excerpt(text: &SourceText, range: &Range<usize>) -> Option<Excerpt> {
         if line > first_line {
             shown.push('\n');
         }
-        push_readable(&mut shown, &text.bytes()[from..fault.start]);
+        push_readable(&mut shown, bytes(from..fault.start));
         if line == fault_line {
             span.start = shown.len();
         }
-        push_readable(&mut shown, &text.bytes()[fault.clone()]);
+        push_readable(&mut shown, bytes(fault.clone()));
         if !fault.is_empty() {
             span.end = shown.len();
         }
-        push_readable(&mut shown, &text.bytes()[fault.end..to]);
+        push_readable(&mut shown, bytes(fault.end..to));
     }
     span.end = span.end.max(span.start);
     Some(Excerpt {

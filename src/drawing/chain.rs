@@ -182,6 +182,12 @@ impl Chains {
         !self.group_of.contains_key(&key)
     }
 
+    /// All contours of the group of a contour; none for a contour that is a group by itself.
+    pub(crate) fn grouped_with(&self, key: Key) -> &[Key] {
+        let group = self.group_of.get(&key).and_then(|it| self.groups.get(it));
+        group.map_or(&[], Vec::as_slice)
+    }
+
     /// Tells that the number of segments of an entity has changed: its contour counts them again.
     pub(crate) fn recount(&mut self, drawing: &Drawing, entity: EntityId) {
         let Some(chain) = self
@@ -348,63 +354,70 @@ impl Chains {
         (entities, parts): (Vec<EntityId>, Vec<u16>),
     ) -> Vec<Key> {
         let is_of_one = parts.windows(2).all(|pair| pair[0] == pair[1]);
-        let ends_of = std::mem::take(&mut self.ends_of);
-        // A group is rechained as a whole, whatever workpiece its entities are of.
-        let joints = Joints::new(drawing, self.cells, &entities, &ends_of);
-        let new = if is_of_one {
-            self.link(drawing, &entities, &ends_of, &joints)
-        } else {
-            let mut by_part: BTreeMap<u16, Vec<EntityId>> = BTreeMap::new();
+        let mut by_part: BTreeMap<u16, Vec<EntityId>> = BTreeMap::new();
+        if !is_of_one {
             for (&id, &part) in entities.iter().zip(&parts) {
                 by_part.entry(part).or_default().push(id);
             }
-            let of_part = |of_part: Vec<EntityId>| {
-                let joints = Joints::new(drawing, self.cells, &of_part, &ends_of);
-                self.link(drawing, &of_part, &ends_of, &joints)
+        }
+        drop(parts);
+        let ends_of = std::mem::take(&mut self.ends_of);
+        // A group is rechained as a whole, whatever workpiece its entities are of.
+        let joints = Joints::new(drawing, self.cells, &entities, &ends_of);
+        let linked: Vec<(&[EntityId], Linked)> = if is_of_one {
+            let linked = Linked::new(drawing, &entities, &ends_of, &joints);
+            vec![(&entities, linked)]
+        } else {
+            let of_part = |of_part| {
+                let joints = Joints::new(drawing, self.cells, of_part, &ends_of);
+                (of_part, Linked::new(drawing, of_part, &ends_of, &joints))
             };
-            by_part.into_values().flat_map(of_part).collect()
+            by_part.values().map(Vec::as_slice).map(of_part).collect()
         };
+        let before = self.next_key;
+        for (entities, linked) in &linked {
+            for way in &linked.ways {
+                let key = self.fresh_key();
+                for (at, _) in &linked.pieces[way.range.clone()] {
+                    self.contour_of[entities[*at as usize].0 as usize] = key;
+                }
+            }
+        }
+        let mut new = Vec::with_capacity((self.next_key - before) as usize);
         self.group(&entities, &ends_of, &joints);
+        // Before there are contours: they and the joints take as much memory as the ends.
         drop(joints);
         self.ends_of = ends_of;
-        new
-    }
-
-    /// Makes contours of entities with these joints.
-    fn link(
-        &mut self,
-        drawing: &Drawing,
-        entities: &[EntityId],
-        ends_of: &[Ends],
-        joints: &Joints,
-    ) -> Vec<Key> {
-        let linked = Linked::new(drawing, entities, ends_of, joints);
-        let chain = |way: &Way| {
-            let pieces = linked.pieces[way.range.clone()]
-                .iter()
-                .map(|&(at, reversed)| (entities[at as usize], reversed));
-            let mut contour = Contour::new(drawing, pieces, way.closed);
-            contour.double_of = way.double_of.map(|kept| entities[kept as usize]);
-            Arc::new(Chain {
-                contour,
-                first: entities[way.first as usize],
-                by_ends: way.by_ends,
-            })
-        };
-        let ways = linked.ways.par_iter().with_min_len(SHARE);
-        let chains: Vec<Arc<Chain>> = ways.map(chain).collect();
-        let mut new = Vec::with_capacity(chains.len());
-        self.contours.reserve(chains.len());
-        for chain in chains {
-            let key = self.fresh_key();
-            for (place, piece) in (0..).zip(&chain.contour.pieces) {
-                self.contour_of[piece.entity.0 as usize] = key;
-                self.piece_of[piece.entity.0 as usize] = place;
+        for (entities, linked) in linked {
+            let ways = linked.ways.par_iter().with_min_len(SHARE);
+            let chain = |way: &Way| Arc::new(Chain::new(drawing, entities, &linked.pieces, way));
+            let chains: Vec<Arc<Chain>> = ways.map(chain).collect();
+            self.contours.reserve(chains.len());
+            for (key, chain) in (before + 1 + new.len() as Key..).zip(chains) {
+                for (place, piece) in (0..).zip(&chain.contour.pieces) {
+                    self.piece_of[piece.entity.0 as usize] = place;
+                }
+                self.contours.insert(key, chain);
+                new.push(key);
             }
-            self.contours.insert(key, chain);
-            new.push(key);
         }
         new
+    }
+}
+
+impl Chain {
+    /// The way through some of these entities.
+    fn new(drawing: &Drawing, entities: &[EntityId], pieces: &[(u32, bool)], way: &Way) -> Chain {
+        let pieces = pieces[way.range.clone()]
+            .iter()
+            .map(|&(at, reversed)| (entities[at as usize], reversed));
+        let mut contour = Contour::new(drawing, pieces, way.closed);
+        contour.double_of = way.double_of.map(|kept| entities[kept as usize]);
+        Chain {
+            contour,
+            first: entities[way.first as usize],
+            by_ends: way.by_ends,
+        }
     }
 }
 

@@ -46,6 +46,21 @@ pub enum Change {
 }
 
 impl Change {
+    /// The same change of another entity.
+    pub(crate) fn of(&self, other: EntityId) -> Change {
+        let mut change = self.clone();
+        match &mut change {
+            Change::SetVertex { entity, .. }
+            | Change::RemoveVertex { entity, .. }
+            | Change::Reshape { entity, .. }
+            | Change::RemoveEntity { entity }
+            | Change::InsertVertex { entity, .. }
+            | Change::SetClosed { entity, .. }
+            | Change::AddEntity { after: entity, .. } => *entity = other,
+        }
+        change
+    }
+
     pub(crate) fn entity(&self) -> EntityId {
         match self {
             Change::SetVertex { entity, .. }

@@ -254,8 +254,8 @@ pub(super) struct Numbered {
     is_there: Vec<u64>,
     /// By end: the number of its list.
     of_end: Vec<u32>,
-    /// The number of ends in each list.
-    lengths: Vec<u32>,
+    /// The number of ends in each list, up to 255.
+    lengths: Vec<u8>,
 }
 
 impl Numbered {
@@ -286,7 +286,8 @@ impl Numbered {
             self.lengths.push(0);
         }
         self.of_end[end.0 as usize] = *number;
-        self.lengths[*number as usize] += 1;
+        let length = &mut self.lengths[*number as usize];
+        *length = length.saturating_add(1);
         self.lists.insert(*number as usize, end);
     }
 
@@ -301,11 +302,11 @@ impl Numbered {
     }
 
     /// The lists of more than `count` ends.
-    pub(super) fn long_lists(&self, count: usize) -> impl Iterator<Item = usize> + '_ {
+    pub(super) fn long_lists(&self, count: u8) -> impl Iterator<Item = usize> + '_ {
         self.lengths
             .iter()
             .enumerate()
-            .filter(move |(_, length)| **length as usize > count)
+            .filter(move |(_, length)| **length > count)
             .map(|(list, _)| list)
     }
 

@@ -3,6 +3,7 @@
 
 use super::{Contour, ContourSegment, Drawing};
 use crate::geometry::{Bounds, Point};
+use std::iter::once;
 use std::ops::Range;
 
 /// Segments in one run. Few enough to look through in a microsecond, many enough that a million segments make only some
@@ -18,16 +19,25 @@ struct Run {
     twice_area: f64,
 }
 
+impl Run {
+    const EMPTY: Run = Run {
+        bounds: Bounds::EMPTY,
+        twice_area: 0.0,
+    };
+}
+
 /// Boxes, area and tight arcs of one contour.
 #[derive(Clone, Debug)]
 pub(crate) struct ContourIndex {
-    runs: Vec<Run>,
-    /// Indices within the contour of arcs with a radius below the threshold, rising.
+    /// Most contours have no more; without a segment it is empty.
+    first: Run,
+    /// The runs behind it.
+    others: Vec<Run>,
+    /// Indices within the contour of arcs with a radius below a threshold, rising.
     tight: Vec<u32>,
-    segments: usize,
+    segments: u32,
     /// The area is summed relative to a point near the contour, so that far-off coordinates cost no digits.
     origin: Point,
-    threshold: f64,
 }
 
 impl ContourIndex {
@@ -38,48 +48,54 @@ impl ContourIndex {
             .segment(drawing, 0)
             .map_or_else(Point::origin, |first| first.geometry.start());
         let mut index = ContourIndex {
-            runs: Vec::with_capacity(segments.div_ceil(RUN)),
+            first: Run::EMPTY,
+            others: Vec::with_capacity(segments.div_ceil(RUN).saturating_sub(1)),
             tight: Vec::new(),
-            segments,
+            segments: segments as u32,
             origin,
-            threshold,
         };
-        index.extend(drawing, contour);
+        index.extend(drawing, contour, threshold, 0);
         index
     }
 
     /// The same of a contour of one run, whose segments are at hand.
     pub(crate) fn of_one_run(segments: &[ContourSegment], threshold: f64) -> ContourIndex {
         let mut index = ContourIndex {
-            runs: Vec::with_capacity(1),
+            first: Run::EMPTY,
+            others: Vec::new(),
             tight: Vec::new(),
-            segments: segments.len(),
+            segments: segments.len() as u32,
             origin: segments
                 .first()
                 .map_or_else(Point::origin, |first| first.geometry.start()),
-            threshold,
         };
         let mut tight = Vec::new();
-        let looked = index.look(0, segments.iter().copied(), &mut tight);
-        index.runs.push(looked);
+        index.first = index.look(0, segments.iter().copied(), threshold, &mut tight);
         index.tight = tight;
         index
     }
 
     /// Reads the segments of `changed` again; everything behind its start when the count has changed too.
-    pub(crate) fn update(&mut self, drawing: &Drawing, contour: &Contour, changed: Range<usize>) {
+    pub(crate) fn update(
+        &mut self,
+        drawing: &Drawing,
+        contour: &Contour,
+        threshold: f64,
+        changed: Range<usize>,
+    ) {
         let first = changed.start / RUN;
-        if contour.len() != self.segments {
-            self.runs.truncate(first);
-            self.tight.truncate(self.tight_before(first * RUN));
-            self.segments = contour.len();
-            self.extend(drawing, contour);
+        if contour.len() != self.len() {
+            let kept = first.min(self.run_count());
+            self.others.truncate(kept.saturating_sub(1));
+            self.tight.truncate(self.tight_before(kept * RUN));
+            self.segments = contour.len() as u32;
+            self.extend(drawing, contour, threshold, kept);
             return;
         }
-        for run in first..changed.end.div_ceil(RUN).min(self.runs.len()) {
+        for run in first..changed.end.div_ceil(RUN).min(self.run_count()) {
             let mut tight = Vec::new();
             let segments = contour.segments_in(drawing, self.range_of(run));
-            self.runs[run] = self.look(run, segments, &mut tight);
+            self.set_run(run, self.look(run, segments, threshold, &mut tight));
             let old = self.tight_before(run * RUN)..self.tight_before((run + 1) * RUN);
             self.tight.splice(old, tight);
         }
@@ -92,15 +108,34 @@ impl ContourIndex {
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.segments
+        self.segments as usize
     }
 
-    fn extend(&mut self, drawing: &Drawing, contour: &Contour) {
-        for run in self.runs.len()..self.segments.div_ceil(RUN) {
+    fn run(&self, run: usize) -> Option<&Run> {
+        match run.checked_sub(1) {
+            None => Some(&self.first),
+            Some(behind) => self.others.get(behind),
+        }
+    }
+
+    fn set_run(&mut self, run: usize, looked: Run) {
+        match run.checked_sub(1) {
+            None => self.first = looked,
+            Some(behind) if behind < self.others.len() => self.others[behind] = looked,
+            Some(_) => self.others.push(looked),
+        }
+    }
+
+    /// Reads the runs from one on.
+    fn extend(&mut self, drawing: &Drawing, contour: &Contour, threshold: f64, from: usize) {
+        if self.segments == 0 {
+            self.first = Run::EMPTY;
+        }
+        for run in from..self.run_count() {
             let mut tight = Vec::new();
             let segments = contour.segments_in(drawing, self.range_of(run));
-            let looked = self.look(run, segments, &mut tight);
-            self.runs.push(looked);
+            let looked = self.look(run, segments, threshold, &mut tight);
+            self.set_run(run, looked);
             self.tight.append(&mut tight);
         }
     }
@@ -109,19 +144,17 @@ impl ContourIndex {
         &self,
         run: usize,
         segments: impl Iterator<Item = ContourSegment>,
+        threshold: f64,
         tight: &mut Vec<u32>,
     ) -> Run {
-        let mut found = Run {
-            bounds: Bounds::EMPTY,
-            twice_area: 0.0,
-        };
+        let mut found = Run::EMPTY;
         for (index, segment) in self.range_of(run).zip(segments) {
             found.bounds.merge(&segment.geometry.bounds());
             found.twice_area += segment.geometry.twice_area(self.origin);
             if segment
                 .geometry
                 .as_arc()
-                .is_some_and(|arc| arc.radius < self.threshold)
+                .is_some_and(|arc| arc.radius < threshold)
             {
                 tight.push(index as u32);
             }
@@ -131,13 +164,14 @@ impl ContourIndex {
 
     /// Segments of a run.
     pub(crate) fn range_of(&self, run: usize) -> Range<usize> {
-        run * RUN..((run + 1) * RUN).min(self.segments)
+        run * RUN..((run + 1) * RUN).min(self.len())
     }
 
     /// Twice the signed area, positive counter-clockwise; meaningful for a closed contour. Zero for a contour that
     /// retraces itself, whose area is only rounding.
     pub(crate) fn twice_area(&self) -> f64 {
-        let twice_area: f64 = self.runs.iter().map(|run| run.twice_area).sum();
+        let others = self.others.iter().map(|run| run.twice_area);
+        let twice_area = others.fold(self.first.twice_area, |sum, area| sum + area);
         let bounds = self.bounds();
         let least = ROUNDING * (bounds.width() + bounds.height()).powi(2);
         if twice_area.abs() > least {
@@ -149,26 +183,23 @@ impl ContourIndex {
 
     /// Number of runs.
     pub(crate) fn run_count(&self) -> usize {
-        self.runs.len()
+        self.len().div_ceil(RUN)
     }
 
     /// The box of a run; empty past the last one.
     pub(crate) fn bounds_of_run(&self, run: usize) -> Bounds {
-        self.runs.get(run).map_or(Bounds::EMPTY, |run| run.bounds)
+        self.run(run).map_or(Bounds::EMPTY, |run| run.bounds)
     }
 
     pub(crate) fn bounds(&self) -> Bounds {
-        self.bounds_about(0..self.segments)
+        self.bounds_about(0..self.len())
     }
 
     /// A box that holds the segments of `range`, and some beside them.
     pub(crate) fn bounds_about(&self, range: Range<usize>) -> Bounds {
         let mut bounds = Bounds::EMPTY;
-        let runs = range.start / RUN..range.end.div_ceil(RUN).min(self.runs.len());
-        self.runs
-            .get(runs)
-            .unwrap_or_default()
-            .iter()
+        let runs = range.start / RUN..range.end.div_ceil(RUN).min(self.run_count());
+        runs.filter_map(|run| self.run(run))
             .for_each(|run| bounds.merge(&run.bounds));
         bounds
     }
@@ -180,10 +211,8 @@ impl ContourIndex {
 
     /// Ranges of segments of which some may come near `area`.
     pub(crate) fn near<'a>(&'a self, area: &'a Bounds) -> impl Iterator<Item = Range<usize>> + 'a {
-        self.runs
-            .iter()
-            .enumerate()
-            .filter(|(_, run)| run.bounds.touches(area))
+        let runs = once(&self.first).chain(&self.others).enumerate();
+        runs.filter(|(_, run)| run.bounds.touches(area))
             .map(|(run, _)| self.range_of(run))
     }
 }

@@ -10,7 +10,7 @@ use std::borrow::Cow;
 use std::cmp::{Ordering, Reverse};
 
 /// The ends of cells with more than these are sorted into smaller ones.
-const DENSE: usize = 64;
+const DENSE: u8 = 64;
 
 /// More ends than these in one small cell are a crowd, where not all pairs are compared. A drawing to be cut has a few.
 pub(super) const CROWD: usize = 256;
@@ -308,7 +308,7 @@ impl<'a> Joints<'a> {
                 .or_default()
                 .push(end);
         }
-        counts.retain(|_, ends| ends.len() > DENSE);
+        counts.retain(|_, ends| ends.len() > usize::from(DENSE));
         if counts.is_empty() {
             return;
         }

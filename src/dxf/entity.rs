@@ -22,7 +22,7 @@ pub(super) struct Read {
     pub(super) kind: Kind,
     pub(super) shape: Shape,
     pub(super) lies: Lies,
-    pub(super) vertices: Option<VertexLines>,
+    pub(super) vertices: Option<Box<VertexLines>>,
     /// Handles of the entities that form the frame of this text.
     pub(super) frames: Vec<u64>,
 }
@@ -92,7 +92,6 @@ impl VertexLines {
 }
 
 #[derive(Debug)]
-#[expect(clippy::large_enum_variant, reason = "nearly all are entities")]
 pub(super) enum Outcome {
     Entity(Read),
     /// A reference to a block.

@@ -10,7 +10,7 @@ pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 #[derive(Clone, Copy)]
 pub(crate) struct Lines<'a> {
     text: &'a SourceText,
-    /// The text before its gap, if it has one.
+    /// The text before its gap, if it has one; nothing where the text is set aside.
     head: &'a [u8],
     starts: &'a LineStarts,
     count: usize,
@@ -18,7 +18,7 @@ pub(crate) struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     pub(crate) fn new(text: &'a SourceText) -> Lines<'a> {
-        let ((head, _), starts) = (text.pieces(), text.line_starts());
+        let (head, starts) = (text.at_hand(), text.line_starts());
         let empty_last = starts
             .len()
             .checked_sub(1)
@@ -57,7 +57,10 @@ impl<'a> Lines<'a> {
     }
 
     pub(crate) fn has_byte_order_mark(&self) -> bool {
-        self.head.starts_with(BYTE_ORDER_MARK)
+        match self.head {
+            [] => self.slice(0..BYTE_ORDER_MARK.len()) == BYTE_ORDER_MARK,
+            head => head.starts_with(BYTE_ORDER_MARK),
+        }
     }
 
     pub(crate) fn range(&self, line: usize) -> Range<usize> {

@@ -51,7 +51,7 @@ pub use write::write;
 use crate::drawing::{Drawing, EntityId, Unit};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::Tolerances;
-use crate::text::SourceText;
+use crate::text::{Again, SourceText};
 use blocks::Blocks;
 use code_page::CodePage;
 use layer_table::LayerStates;
@@ -133,6 +133,16 @@ impl Document {
         document
     }
 
+    /// The same for a text that somebody holds on to: nothing of it is copied.
+    pub(crate) fn of_text(text: SourceText) -> Document {
+        let mut document = Document {
+            text,
+            ..Document::default()
+        };
+        document.read_all();
+        document
+    }
+
     fn take(&mut self, bytes: Vec<u8>) {
         let too_long = bytes.len() >= u32::MAX as usize;
         self.text = SourceText::new(if too_long { Vec::new() } else { bytes });
@@ -149,6 +159,14 @@ impl Document {
 
     pub fn text(&self) -> &SourceText {
         &self.text
+    }
+
+    /// Keeps no more of the text than its lines: what of it somebody asks for is read `again`. Not for a binary file, whose text is none of
+    /// the file's bytes.
+    pub(crate) fn set_text_aside(&mut self, again: Again) {
+        if !self.is_binary {
+            self.text.set_aside(again);
+        }
     }
 
     /// Sets the largest distance, in mm, of arcs from the ellipses and splines that they replace. If the drawing has

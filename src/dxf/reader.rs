@@ -17,10 +17,6 @@ use crate::text::head;
 
 /// The content of one item of the text.
 #[derive(Debug)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "nearly all items are entities, which would each be a piece of the heap"
-)]
 pub(super) enum Said {
     /// Kept, without a meaning here.
     Nothing,

@@ -126,7 +126,7 @@ pub(crate) struct Table {
     pub(crate) items: Vec<Item>,
     /// The item of each entity, by its id.
     pub(crate) item_of: Vec<u32>,
-    pub(crate) vertices: FxHashMap<EntityId, VertexLines>,
+    pub(crate) vertices: FxHashMap<EntityId, Box<VertexLines>>,
     pub(crate) kinds: Kinds,
     /// What of a block is not cut, and why, by the first entity that its reference became: kind and how many.
     pub(crate) left_out: FxHashMap<EntityId, Vec<(u32, usize)>>,

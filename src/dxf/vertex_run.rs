@@ -35,7 +35,7 @@ pub(super) struct Suspended {
     id: EntityId,
     entity: Arc<Entity>,
     appearance: Appearance,
-    vertices: VertexLines,
+    vertices: Box<VertexLines>,
     /// The vertices that are not as they were, and by how many lines those behind them have moved.
     changed: Range<usize>,
     moved: i64,

@@ -192,12 +192,10 @@ impl Content {
                     text,
                 } => Source::Program(program::Document::read(
                     *language,
-                    SourceText::with_room(text.bytes()),
+                    SourceText::with_room(text.bytes().to_vec()),
                     settings,
                 )),
-                Remains::Text { text, .. } => {
-                    Source::Dxf(dxf::Document::read(SourceText::with_room(text.bytes())))
-                }
+                Remains::Text { text, .. } => Source::Dxf(dxf::Document::of_text(text.clone())),
                 Remains::Drawing(drawing) => Source::Cad(drawing.clone()),
             };
             Arc::new(Document::new(source, settings.clone()))

@@ -157,7 +157,7 @@ impl Job {
                 Task::Text { kind, text } => {
                     content = Content::Unread(Remains::Text {
                         kind,
-                        text: SourceText::new(text.into_bytes()),
+                        text: SourceText::new(SourceText::with_room(text.into_bytes())),
                     })
                 }
                 Task::Drawing(drawing) => {

@@ -1,5 +1,6 @@
 //! Bytes with a gap, so that successive edits in one place move a line and not the rest of the text.
 
+use super::aside::{Again, Aside};
 use std::ops::Range;
 use std::sync::OnceLock;
 
@@ -11,6 +12,8 @@ pub(super) struct Bytes {
     gap: Range<usize>,
     /// The contiguous text, once somebody has asked for it.
     whole: OnceLock<Vec<u8>>,
+    /// In the place of all bytes, where they are not kept.
+    aside: Option<Box<Aside>>,
 }
 
 /// How much wider than needed the gap is made.
@@ -27,12 +30,34 @@ impl Bytes {
         }
     }
 
+    /// Bytes that are read again by whoever asks for them.
+    pub(crate) fn aside(length: usize, again: Again) -> Bytes {
+        Bytes {
+            aside: Some(Box::new(Aside::new(length, again))),
+            ..Bytes::default()
+        }
+    }
+
+    /// True where bytes that were not kept could not be read again.
+    pub(crate) fn is_lost(&self) -> bool {
+        self.aside.as_ref().is_some_and(|aside| aside.is_lost())
+    }
+
     pub(crate) fn len(&self) -> usize {
-        self.buffer.len() - self.gap.len()
+        let kept = self.buffer.len() - self.gap.len();
+        self.aside.as_ref().map_or(kept, |aside| aside.len())
+    }
+
+    /// True where the bytes are not kept.
+    pub(crate) fn is_aside(&self) -> bool {
+        self.aside.is_some()
     }
 
     /// The bytes before the gap, and those behind it.
     pub(crate) fn pieces(&self) -> (&[u8], &[u8]) {
+        if let Some(aside) = &self.aside {
+            return (aside.whole(), &[]);
+        }
         let before = self.buffer.get(..self.gap.start);
         let behind = self.buffer.get(self.gap.end..);
         (before.unwrap_or_default(), behind.unwrap_or_default())
@@ -41,6 +66,7 @@ impl Bytes {
     /// The contiguous text: where it has a gap, a copy that is kept until the next edit.
     pub(crate) fn whole(&self) -> &[u8] {
         match self.pieces() {
+            (whole, _) if self.is_aside() => whole,
             _ if self.gap.is_empty() => &self.buffer,
             (before, []) => before,
             ([], behind) => behind,
@@ -50,6 +76,9 @@ impl Bytes {
 
     #[inline]
     pub(crate) fn get(&self, at: usize) -> Option<&u8> {
+        if let Some(aside) = &self.aside {
+            return aside.slice(at..at + 1)?.first();
+        }
         let at = if at < self.gap.start {
             at
         } else {
@@ -61,7 +90,9 @@ impl Bytes {
     /// A range of bytes; a range within one line costs nothing.
     #[inline]
     pub(crate) fn slice(&self, range: Range<usize>) -> Option<&[u8]> {
-        if range.end <= self.gap.start {
+        if let Some(aside) = &self.aside {
+            aside.slice(range)
+        } else if range.end <= self.gap.start {
             self.buffer.get(range)
         } else if range.start >= self.gap.start {
             let gap = self.gap.len();
@@ -73,6 +104,9 @@ impl Bytes {
 
     /// Closes the gap.
     pub(crate) fn join(&mut self) {
+        if let Some(aside) = self.aside.take() {
+            self.buffer = aside.whole().to_vec();
+        }
         self.whole = OnceLock::new();
         self.buffer.drain(std::mem::take(&mut self.gap));
     }
@@ -99,6 +133,9 @@ impl Bytes {
         replacement: &[u8],
         next: usize,
     ) {
+        if self.is_aside() {
+            self.join();
+        }
         self.whole = OnceLock::new();
         let more = replacement.len().saturating_sub(range.len());
         if self.gap.is_empty() {

@@ -109,4 +109,56 @@ proptest! {
             }
         }
     }
+
+    #[test]
+    fn a_text_that_is_set_aside_is_the_same_as_if_it_were_kept(
+        lines in prop::collection::vec((0..60usize, prop::sample::select(vec!["\n", "\r\n", "\r"])), 200..900),
+        long in 0..9000usize,
+        places in prop::collection::vec((any::<prop::sample::Index>(), 0..600usize), 1..40),
+        replacement in "[x\r\n]{0,5}",
+    ) {
+        let letter = |at: usize| char::from(b'a' + (at % 26) as u8);
+        let line = |(at, (length, end)): (usize, &(usize, &str))| {
+            let length = if at == 100 { long } else { *length };
+            (0..length).map(|more| letter(at + more)).chain(end.chars()).collect::<String>()
+        };
+        let bytes: Vec<u8> = lines.iter().enumerate().map(line).collect::<String>().into_bytes();
+        let kept = SourceText::new(bytes.clone());
+        let mut aside = kept.clone();
+        aside.set_aside(Arc::new(move |range| bytes.get(range).map(<[u8]>::to_vec)));
+        prop_assert_eq!(aside.len(), kept.len());
+        for (at, length) in &places {
+            let at = at.index(kept.len() + 2);
+            prop_assert_eq!(aside.slice(at..at + length), kept.slice(at..at + length));
+            prop_assert_eq!(aside.byte(at), kept.byte(at));
+            let line = kept.line_of(at);
+            prop_assert_eq!(aside.line(line), kept.line(line));
+            prop_assert_eq!(aside.line_end(line), kept.line_end(line));
+            prop_assert_eq!(aside.position_of(at, Encoding::Utf16), kept.position_of(at, Encoding::Utf16));
+        }
+        prop_assert_eq!(&aside, &kept);
+        for (at, length) in places {
+            let at = at.index(kept.len() + 2);
+            let (mut edited, mut aside) = (kept.clone(), aside.clone());
+            edited.replace_here(at..at + length, &replacement);
+            aside.replace_here(at..at + length, &replacement);
+            prop_assert_eq!(&aside, &edited);
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_read_again_is_lost() {
+    let mut text = SourceText::new(b"0\nSECTION\n".repeat(1000));
+    text.set_aside(Arc::new(|range| {
+        (range.start == 0).then(|| vec![b'0'; range.len()])
+    }));
+    assert_eq!(text.slice(3..5), Some(&b"00"[..]));
+    assert!(!text.is_lost());
+    assert_eq!(text.slice(9000..9002), None);
+    assert!(text.is_lost());
+    assert_eq!(text.slice(3..5), Some(&b"00"[..]));
+    let mut text = SourceText::new(b"0\nSECTION\n".repeat(1000));
+    text.set_aside(Arc::new(|_| Some(b"less".to_vec())));
+    assert_eq!((text.byte(3), text.is_lost()), (None, true));
 }

@@ -55,6 +55,17 @@ fn rows() -> Vec<Row> {
             "correction = 0.1\n[program]\ndirection = \"cw\"\nlead-in = 2.25\n",
             false,
         ),
+        // Its round ends were named, each as far from its place as the other is.
+        (
+            slot(
+                [-1.3749384118198114, -0.9486617964540796],
+                [9.264373606013957, 5.897323592908158],
+            ),
+            Role::Opening,
+            Format::ThreeB,
+            "correction = 0.137\n[program]\ntab = 2\ndirection = \"cw\"\nlead-in = 2.25\nlead = \"straight\"\n",
+            false,
+        ),
         // Both ways of the wire were elsewhere by as much, and one of them was named.
         (
             slot([2.55, 0.017], [4.856, 3.966]),

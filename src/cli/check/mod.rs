@@ -11,14 +11,16 @@ use super::files;
 use super::options::Common;
 use super::report::{MOST, Row};
 use super::{Failure, Verdict, output, output::styled};
-use crate::document::FileKind;
+use crate::document::{Document, FileKind};
 use crate::finding::{Rule, Severity};
 use crate::job;
 use crate::message::help;
 use crate::settings::Settings;
+use crate::text::SourceText;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 #[derive(Args, Debug)]
@@ -102,6 +104,7 @@ enum Deny {
 }
 
 /// The result for one file.
+#[derive(Default)]
 struct Checked {
     rows: Vec<Row>,
     suppressed: Vec<Row>,
@@ -110,6 +113,14 @@ struct Checked {
     failure: Option<Failure>,
     /// The address of the rules' pages.
     docs_url: Option<String>,
+}
+
+/// The findings as JSON.
+#[derive(Serialize)]
+struct Printed<'a> {
+    diagnostics: &'a [Row],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    suppressed: Option<&'a Vec<Row>>,
 }
 
 /// Everything that was checked.
@@ -145,10 +156,10 @@ fn report(arguments: &Arguments) -> Result<Verdict, Failure> {
         Format::Grouped => output::print(lines::grouped(&survey) + &text::summary(&survey))?,
         Format::Github => output::print(lines::github(&survey))?,
         Format::Junit => output::print(lines::junit(&survey))?,
-        Format::Json if survey.shows_suppressed => output::print_json(
-            &serde_json::json!({ "diagnostics": survey.rows, "suppressed": survey.suppressed }),
-        )?,
-        Format::Json => output::print_json(&serde_json::json!({ "diagnostics": survey.rows }))?,
+        Format::Json => output::print_json(&Printed {
+            diagnostics: &survey.rows,
+            suppressed: survey.shows_suppressed.then_some(&survey.suppressed),
+        })?,
         Format::Sarif => output::print_json_text(&format!("{:#}\n", sarif::log(&survey)))?,
     }
     survey
@@ -253,39 +264,46 @@ fn check(
     } else {
         path
     };
-    let opened = if stdin {
-        files::open_stdin(given, name, common, settings)
-    } else {
-        files::open(name, common, settings).map(|opened| (opened.document, opened.settings_rows))
+    let kept = || {
+        let opened = files::open(name, common, settings)?;
+        Ok((opened.document, opened.settings_rows))
     };
-    match opened {
-        Err(failure) => Checked {
-            rows: Vec::new(),
-            suppressed: Vec::new(),
-            fixable: false,
-            failure: Some(failure),
-            docs_url: None,
-        },
-        Ok((mut document, mut rows)) => {
-            document.set_beside(folders.beside(name, &document, common, settings));
-            let (findings, count) = job::check(&mut document, MOST);
-            rows.extend(super::report::rows_of(name, &document, &findings));
-            let all = (count <= MOST).then_some(&*findings);
-            let checked = Checked {
-                rows,
-                suppressed: super::report::suppressed(name, &document),
-                // Text from stdin is in no file that could be repaired, and deselected rules are not mentioned.
-                fixable: !stdin && !arguments.is_choosy() && document.can_be_fixed(all),
-                failure: None,
-                docs_url: document.settings().docs_url.clone(),
-            };
-            if is_last {
-                // Freeing all memory piece by piece takes longer than ending.
-                std::mem::forget(document);
-            }
-            checked
+    let checked = |(mut document, mut rows): (Document, Vec<Row>)| {
+        document.set_beside(folders.beside(name, &document, common, settings));
+        let (findings, count) = job::check(&mut document, MOST);
+        rows.extend(super::report::rows_of(name, &document, &findings));
+        let all = (count <= MOST).then_some(&*findings);
+        let checked = Checked {
+            rows,
+            suppressed: super::report::suppressed(name, &document),
+            // Text from stdin is in no file that could be repaired, and deselected rules are not mentioned.
+            fixable: !stdin && !arguments.is_choosy() && document.can_be_fixed(all),
+            failure: None,
+            docs_url: document.settings().docs_url.clone(),
+        };
+        let is_lost = document.text().is_some_and(SourceText::is_lost);
+        if is_last {
+            // Freeing all memory piece by piece takes longer than ending.
+            std::mem::forget(document);
         }
-    }
+        (!is_lost).then_some(checked)
+    };
+    let once = || {
+        let opened = if stdin {
+            files::open_stdin(given, name, common, settings)?
+        } else {
+            files::open_to_check(name, common, settings)?
+        };
+        match checked(opened) {
+            Some(checked) => Ok(checked),
+            // Somebody has written to the file meanwhile.
+            None => Ok(checked(kept()?).unwrap_or_default()),
+        }
+    };
+    once().unwrap_or_else(|failure| Checked {
+        failure: Some(failure),
+        ..Checked::default()
+    })
 }
 
 /// Shown on a terminal only, and only where there is something to wait for.

@@ -236,7 +236,7 @@ fn polyline_of(
     };
     let read = common.finish(lexer, layers, kind, (Shape::Plain(geometry), lies));
     Ok(Read {
-        vertices: Some(vertices),
+        vertices: Some(Box::new(vertices)),
         ..read
     })
 }

@@ -1,6 +1,6 @@
 //! Decodes the written text and compares it with the path, block by block.
 
-use super::block::{Block, Motion, Node, PartArc};
+use super::block::{Motion, Node, PartArc};
 use super::decode::{DecodeFault, decode};
 use super::encode::{ASIDE_TOLERANCE, END_TOLERANCE, Encoded, alternatives, point_of};
 use super::parse::{Item, read_line};
