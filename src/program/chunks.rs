@@ -18,7 +18,7 @@ pub(in crate::program) trait ChunkReader: Sync {
     type State: Copy + PartialEq;
     /// Lines after the part that must be done in sequence.
     type Begun: Send;
-    type Chunk: Send;
+    type Chunk: Send + Sync;
 
     /// Lines of a chunk: it holds this many up to twice as many, so that inserting lines one by one does not leave ever
     /// shorter chunks.
@@ -35,8 +35,9 @@ pub(in crate::program) trait ChunkReader: Sync {
         before: Self::State,
     ) -> (Self::Begun, Self::State);
 
-    /// The part that can be done in parallel.
-    fn finish(&self, text: &SourceText, begun: Self::Begun) -> Self::Chunk;
+    /// The part that can be done in parallel. Of the `old` chunks that these stand in place of, what their lines have in
+    /// common may be taken.
+    fn finish(&self, text: &SourceText, begun: Self::Begun, old: &[Self::Chunk]) -> Self::Chunk;
 
     fn before(chunk: &Self::Chunk) -> Self::State;
 
@@ -114,6 +115,14 @@ pub(in crate::program) struct Reread {
 }
 
 impl Reread {
+    /// All chunks, in the place of none.
+    pub(crate) fn all<C>(chunks: &[C]) -> Reread {
+        Reread {
+            chunks: 0..chunks.len(),
+            before: 0,
+        }
+    }
+
     /// Where a chunk stands now; `None` for one that is gone.
     pub(crate) fn moved(&self, chunk: usize) -> Option<usize> {
         match chunk.checked_sub(self.chunks.start + self.before) {
@@ -123,14 +132,14 @@ impl Reread {
     }
 }
 
-impl<C: Send> Chunks<C> {
+impl<C: Send + Sync> Chunks<C> {
     /// Reads some lines of a text as if they were the first ones.
     pub(crate) fn read<L: ChunkReader<Chunk = C>>(
         language: &L,
         text: &SourceText,
         lines: Range<usize>,
     ) -> Chunks<C> {
-        let (list, places) = read(language, text, pieces::<L>(lines), language.begin());
+        let (list, places) = read(language, text, pieces::<L>(lines), language.begin(), &[]);
         Chunks { list, places }
     }
 
@@ -141,7 +150,7 @@ impl<C: Send> Chunks<C> {
         text: &SourceText,
         order: &[Range<usize>],
     ) -> Chunks<C> {
-        let (list, places) = read(language, text, order.iter().cloned(), language.begin());
+        let (list, places) = read(language, text, order.iter().cloned(), language.begin(), &[]);
         Chunks { list, places }
     }
 
@@ -190,7 +199,8 @@ impl<C: Send> Chunks<C> {
             .list
             .get(from)
             .map_or_else(|| language.begin(), L::before);
-        let (fresh, places) = read(language, text, pieces::<L>(lines), before);
+        let old = self.list.get(from..to).unwrap_or_default();
+        let (fresh, places) = read(language, text, pieces::<L>(lines), before, old);
         let first_behind = from + fresh.len();
         let mut next = first_behind;
         self.list
@@ -209,7 +219,7 @@ impl<C: Send> Chunks<C> {
             gone(chunk);
             if !L::take_on(chunk, before) {
                 let (begun, _) = language.run(text, place.lines.clone(), before);
-                *chunk = language.finish(text, begun);
+                *chunk = language.finish(text, begun, std::slice::from_ref(chunk));
             }
             next += 1;
         }
@@ -258,6 +268,7 @@ fn read<L: ChunkReader>(
     text: &SourceText,
     mut pieces: impl Iterator<Item = Range<usize>>,
     mut state: L::State,
+    old: &[L::Chunk],
 ) -> (Vec<L::Chunk>, Vec<Lines>) {
     let (mut list, mut places) = (Vec::new(), Vec::new());
     loop {
@@ -273,10 +284,13 @@ fn read<L: ChunkReader>(
             .collect();
         match some.len() {
             0 => return (list, places),
-            1 => list.extend(some.into_iter().map(|begun| language.finish(text, begun))),
+            1 => list.extend(
+                some.into_iter()
+                    .map(|begun| language.finish(text, begun, old)),
+            ),
             _ => list.par_extend(
                 some.into_par_iter()
-                    .map(|begun| language.finish(text, begun)),
+                    .map(|begun| language.finish(text, begun, old)),
             ),
         }
     }

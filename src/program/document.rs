@@ -71,6 +71,15 @@ impl Document {
         }
     }
 
+    /// The cuts that the last reading began to look at contours with.
+    #[cfg(test)]
+    pub(in crate::program) fn cuts_looked_at(&self) -> usize {
+        match self {
+            Document::ThreeB(document) => document.contours().looked_at,
+            Document::Iso(document) => document.contours().looked_at,
+        }
+    }
+
     pub(crate) fn language(&self) -> Language {
         match self {
             Document::ThreeB(_) => Language::ThreeB,

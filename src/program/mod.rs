@@ -6,6 +6,7 @@
 pub(crate) mod block_words;
 mod chunks;
 mod content;
+mod contours;
 pub mod convert;
 mod document;
 mod edits;

@@ -40,8 +40,8 @@ impl ChunkReader for Control {
     }
 
     /// How the moves lie relative to themselves does not depend on anything else.
-    fn finish(&self, _: &SourceText, pathless: Pathless) -> Stretch {
-        pathless.with_paths()
+    fn finish(&self, _: &SourceText, pathless: Pathless, old: &[Stretch]) -> Stretch {
+        pathless.with_paths(old)
     }
 
     fn before(stretch: &Stretch) -> Machine {
@@ -60,13 +60,16 @@ impl ChunkReader for Control {
 
     fn take_on(stretch: &mut Stretch, before: Machine) -> bool {
         let old = stretch.before;
-        let is_moved = stretch.is_loose()
-            && Machine {
-                at: old.at,
-                ..before
-            } == old;
+        let Machine { at, torn, .. } = before;
+        let is_moved = Machine {
+            at: old.at,
+            torn: old.torn,
+            ..before
+        } == old
+            && (at == old.at || stretch.is_loose())
+            && stretch.tear(torn);
         if is_moved {
-            stretch.shift(apart(before.at, old.at));
+            stretch.shift(apart(at, old.at));
         }
         is_moved
     }

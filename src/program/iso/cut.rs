@@ -1,20 +1,13 @@
 //! A cut: consecutive moves of an ISO program without a rapid or a stop between, put together from the parts of its
 //! stretches.
 
-use super::moves::Place;
+use super::moves::{Place, added, apart};
 use super::part::{Part, SEVERAL, changes_side};
-use super::stretch::{Placed, StopAt};
-use std::ops::Range;
+use super::stretch::{StopAt, Stretch};
+use crate::program::contours::PartAt;
 
-/// The place of a part of a cut.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct PartAt {
-    /// Indices of the stretch, and of the part in it.
-    pub(crate) stretch: usize,
-    pub(crate) part: usize,
-    /// Byte of the text from which the stretch's places count.
-    pub(crate) offset: usize,
-}
+/// Bytes of a stretch, by its index.
+pub(crate) type BytesAt = (usize, (u32, u32));
 
 /// Consecutive moves, put together from the parts of the stretches that they run through.
 #[derive(Clone, Debug)]
@@ -22,38 +15,33 @@ pub(crate) struct JoinedCut {
     pub(crate) parts: Vec<PartAt>,
     /// All of them as one.
     pub(crate) sum: Box<Part>,
-    /// The line that begins it, and the one that ends it, in the text.
-    pub(crate) range: Range<usize>,
-    pub(crate) last_range: Range<usize>,
+    /// The line that begins it, and the one that ends it.
+    pub(crate) first_line: BytesAt,
+    pub(crate) last_line: BytesAt,
     /// The stop that ended it, where it is a single one.
     stop: Option<StopAt>,
     stops: usize,
     /// Moves before the stop at its tab.
     pub(crate) before_tab: Option<u32>,
-    /// The last stretch on whose lines it depends.
-    pub(crate) reach: usize,
     /// Where the wire was first sent to the other side, and the line that did so.
-    pub(crate) flip: Option<(Place, Range<usize>)>,
+    pub(crate) flip: Option<(Place, BytesAt)>,
+    /// How far its first stretch had been moved when it was put together.
+    moved: Place,
 }
 
 impl JoinedCut {
-    pub(crate) fn of(placed: &Placed<'_>, stretch: usize, part: usize) -> Option<JoinedCut> {
-        let (offset, its) = (placed.offset, placed.stretch.part_at(part)?);
-        let place = |(start, end): (u32, u32)| offset + start as usize..offset + end as usize;
+    pub(crate) fn of(of: &Stretch, stretch: usize, part: usize) -> Option<JoinedCut> {
+        let its = of.part_at(part)?;
         let mut cut = JoinedCut {
-            parts: vec![PartAt {
-                stretch,
-                part,
-                offset,
-            }],
-            flip: its.flip.map(|(at, line)| (at, place(line))),
-            range: place(its.range),
-            last_range: place(its.last_range),
+            parts: vec![(stretch, part)],
+            flip: its.flip.map(|(at, line)| (at, (stretch, line))),
+            first_line: (stretch, its.range),
+            last_line: (stretch, its.last_range),
             sum: Box::new(its),
             stop: None,
             stops: 0,
             before_tab: None,
-            reach: stretch,
+            moved: of.moved,
         };
         cut.stopped(its.stop, stretch);
         Some(cut)
@@ -65,7 +53,7 @@ impl JoinedCut {
             Some(SEVERAL) => self.stops += 2,
             Some(at) => {
                 self.stops += 1;
-                self.stop = Some((stretch, at));
+                self.stop = Some((stretch, at as usize));
             }
         }
     }
@@ -76,35 +64,48 @@ impl JoinedCut {
             self.before_tab.get_or_insert(self.sum.moves);
         }
         let flips = self.stops == 0 && changes_side(&self.sum.last[1], &next.sum.first[0]);
-        let flip = flips.then(|| (next.sum.start(), next.range.clone()));
+        let flip = flips.then(|| (next.sum.start(), next.first_line));
         self.flip = self.flip.take().or(flip).or(next.flip);
         self.sum.append(&next.sum);
-        self.last_range = next.last_range;
+        self.last_line = next.last_line;
         self.parts.extend(next.parts);
-        self.reach = self.reach.max(next.reach);
         (self.stop, self.stops) = (next.stop, next.stops);
+    }
+
+    /// Its first stretch, and its part in there.
+    pub(crate) fn begin(&self) -> PartAt {
+        self.parts.first().copied().unwrap_or_default()
+    }
+
+    /// The stretch that holds all of it, and its part in it.
+    pub(crate) fn only_place(&self) -> Option<PartAt> {
+        let [at] = self.parts[..] else { return None };
+        Some(at)
+    }
+
+    /// Names its stretches anew.
+    pub(crate) fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
+        let parts = self.parts.iter_mut().map(|(stretch, _)| stretch);
+        let lines = [&mut self.first_line.0, &mut self.last_line.0];
+        let stop = self.stop.as_mut().map(|(stretch, _)| stretch);
+        let flip = self.flip.as_mut().map(|(_, (stretch, _))| stretch);
+        let all = parts.chain(lines).chain(stop).chain(flip);
+        all.for_each(|stretch| *stretch = moved(*stretch));
+    }
+
+    /// Takes it to where its first stretch has been moved.
+    pub(crate) fn follow(&mut self, moved: Place) {
+        let by = apart(moved, self.moved);
+        if by != [0, 0] {
+            self.moved = moved;
+            self.sum.shift(by);
+            self.flip
+                .iter_mut()
+                .for_each(|(at, _)| *at = added(*at, by));
+        }
     }
 
     pub(crate) fn single_stop(&self) -> Option<StopAt> {
         self.stop.filter(|_| self.stops == 1)
-    }
-
-    /// Indices of its stretches and of its parts in them.
-    pub(crate) fn places(&self) -> Vec<(usize, usize)> {
-        let place = |at: &PartAt| (at.stretch, at.part);
-        self.parts.iter().map(place).collect()
-    }
-
-    /// Its first stretch, and its part in there.
-    pub(crate) fn begin(&self) -> (usize, usize) {
-        self.parts
-            .first()
-            .map_or((0, 0), |at| (at.stretch, at.part))
-    }
-
-    /// The stretch that holds all of it, and its part in it.
-    pub(crate) fn only_place(&self) -> Option<(usize, usize)> {
-        let [at] = self.parts[..] else { return None };
-        Some((at.stretch, at.part))
     }
 }

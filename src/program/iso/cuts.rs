@@ -1,12 +1,14 @@
 //! The cuts of a program, put together from its stretches: whether they close, and which stops stand within a contour,
 //! before its tab.
 
-use super::cut::{JoinedCut, PartAt};
+use super::cut::{BytesAt, JoinedCut};
 use super::document::Document;
 use super::moves::{Move, Place, apart, micrometres};
 use super::part::Part;
-use super::stretch::StopAt;
+use super::stretch::Stretch;
 use crate::geometry::{Point, Segment};
+use crate::program::chunks::Reread;
+use crate::program::contours::{Contour, Followed, PartAt};
 use crate::program::path::{
     self, BehindStops, Blocks, Ends, HasCuts, HeldWay, KnownTabs, Lay, Node, PartedWay, Way,
     Writing, goes_on, mixed, pieces_of,
@@ -36,18 +38,18 @@ impl HasCuts for Document {
         let Ends { begin, end, .. } = self.ends(cut);
         let ends = [[begin[0], begin[1]], end];
         let stop = cut.before_tab.map(|moves| moves as usize);
-        way_of(self, cut.places(), stop, Some(ends))
+        way_of(self, cut.parts.clone(), stop, Some(ends))
     }
 
     fn mark(&self, cut: &JoinedCut) -> u64 {
-        let lay = |at: &PartAt| self.stretches().get(at.stretch)?.lay(at.part);
+        let lay = |&(stretch, part): &PartAt| self.stretches().get(stretch)?.lay(part);
         let stop = cut.before_tab.map_or(0, |moves| u64::from(moves) + 1);
         let marks = cut.parts.iter().filter_map(lay).map(|lay| lay.mark);
         marks.fold(stop, mixed)
     }
 
     fn last_block(&self, cut: &JoinedCut) -> Option<Range<usize>> {
-        Some(cut.last_range.clone())
+        Some(self.bytes_of(cut.last_line))
     }
 
     fn part_count(&self, cut: &JoinedCut) -> usize {
@@ -77,136 +79,190 @@ impl Document {
         }
     }
 
-    /// The doubtful cuts, each with its continuation behind the stop at its tab; and the stops before tabs.
-    pub(super) fn find_contours(&self, known: &mut KnownTabs) -> (Vec<JoinedCut>, Vec<StopAt>) {
-        let cuts = cuts(self);
-        let tabs = tabs(self, &cuts, known);
-        (contours(cuts, &tabs), tabs)
+    /// Bytes of the text.
+    pub(super) fn bytes_of(&self, (stretch, (start, end)): BytesAt) -> Range<usize> {
+        let byte = self.byte_of(stretch);
+        byte + start as usize..byte + end as usize
     }
-}
 
-/// The cuts in the order in which they run; `None` stands for sound cuts.
-fn cuts(document: &Document) -> Vec<Option<JoinedCut>> {
-    let mut cuts = Vec::new();
-    // The last one, while it may still grow.
-    let mut open: Option<JoinedCut> = None;
-    // The last stretch of a sound one.
-    let mut sound_up_to: Option<usize> = None;
-    for (index, placed) in document.placed().enumerate() {
-        let stretch = placed.stretch;
-        if let Some(cut) = open.as_mut().filter(|cut| cut.sum.open) {
-            cut.reach = index;
-            cut.sum.faulty |= stretch.faulty_before;
-            if let Some(whole) = stretch.ends_cut_before {
-                cut.sum.whole &= whole;
-                cut.sum.open = false;
-            }
+    /// The first part from a place on; behind the last stretch where there is none.
+    fn first_from(&self, (stretch, part): PartAt) -> PartAt {
+        let stretches = self.stretches();
+        let is_here = |of: &Stretch| part < of.part_count();
+        if stretches.get(stretch).is_some_and(is_here) {
+            return (stretch, part);
         }
-        if let Some(cut) = &mut open {
-            cut.stopped(stretch.stop_before, index);
-            cut.sum.ends_open |= stretch.ends_open_before;
+        let behind = stretches.iter().enumerate().skip(stretch + 1);
+        let mut with_parts = behind.filter(|(_, of)| of.part_count() > 0);
+        with_parts
+            .next()
+            .map_or((stretches.len(), 0), |(stretch, _)| (stretch, 0))
+    }
+
+    /// The cut that begins at a part; `None` for one that is known to be sound, and behind the last.
+    fn cut_from(&self, (stretch, part): PartAt) -> Option<JoinedCut> {
+        let own = self.stretches().get(stretch)?;
+        let mut cut = JoinedCut::of(own, stretch, part)?;
+        if part + 1 < own.part_count() {
+            return Some(cut);
         }
-        let inner = stretch.inner();
-        let continues = sound_up_to.is_some_and(|last| index <= last);
-        for part in 0..stretch.part_count() {
-            let is_last = part + 1 == stretch.part_count();
-            let is_sound = (part == 0 && continues && inner.start > 0)
-                || (stretch.is_clean && inner.contains(&part))
-                || (is_last && stretch.sound_over.is_some());
-            if is_sound {
-                if let Some(before) = open.take() {
-                    cuts.extend([Some(before), None]);
+        for (index, of) in self.stretches().iter().enumerate().skip(stretch + 1) {
+            if cut.sum.open {
+                cut.sum.faulty |= of.faulty_before;
+                if let Some(whole) = of.ends_cut_before {
+                    cut.sum.whole &= whole;
+                    cut.sum.open = false;
                 }
-                continue;
             }
-            let Some(own) = JoinedCut::of(&placed, index, part) else {
-                continue;
-            };
-            match &mut open {
-                Some(known) if own.sum.continues && known.sum.open => known.append(own),
-                _ => cuts.extend(open.replace(own).map(Some)),
+            cut.stopped(of.stop_before, index);
+            cut.sum.ends_open |= of.ends_open_before;
+            if of.part_count() > 0 {
+                let goes_on = |next: &JoinedCut| next.sum.continues && cut.sum.open;
+                let Some(next) = JoinedCut::of(of, index, 0).filter(goes_on) else {
+                    break;
+                };
+                cut.append(next);
+                if of.part_count() > 1 {
+                    break;
+                }
             }
         }
-        sound_up_to = stretch.sound_over.map(|over| index + over).or(sound_up_to);
+        Some(cut)
     }
-    cuts.extend(open.map(Some));
-    cuts
-}
 
-/// The doubtful cuts, each with its continuation behind the stop at its tab.
-fn contours(cuts: Vec<Option<JoinedCut>>, tabs: &[StopAt]) -> Vec<JoinedCut> {
-    let mut contours: Vec<JoinedCut> = Vec::new();
-    let mut goes_on = false;
-    for cut in cuts.into_iter().flatten() {
-        match contours.last_mut().filter(|_| goes_on) {
-            Some(before) => before.append(cut),
-            None => contours.push(cut),
-        }
-        let stop = contours.last().and_then(JoinedCut::single_stop);
-        goes_on = stop.is_some_and(|stop| tabs.binary_search(&stop).is_ok());
+    /// It does not enclose anything by itself.
+    fn is_open(&self, cut: &JoinedCut) -> bool {
+        cut.sum.whole && !self.goes_round(cut)
     }
-    contours
-}
 
-/// The stops before tabs, in the order in which they run.
-fn tabs(document: &Document, cuts: &[Option<JoinedCut>], known: &mut KnownTabs) -> Vec<StopAt> {
-    let mut found = Vec::new();
-    let stretches = document.stretches();
-    if stretches.iter().all(|stretch| stretch.pauses == 0) {
-        return found;
-    }
-    let open_cut = cuts.iter().map(|cut| {
-        let cut = cut.as_ref()?;
-        (cut.sum.whole && !document.goes_round(cut)).then(|| OpenCut {
-            cut,
-            pieces: OnceCell::new(),
-        })
-    });
-    let cuts: Vec<Option<OpenCut<'_>>> = open_cut.collect();
-    let mut first = 0;
-    while first < cuts.len() {
-        let end = cuts[first].as_ref().and_then(|open| {
-            let mut behind = Behind {
-                document,
-                cuts: &cuts[first..],
-                taken: 1,
-                sum: *open.cut.sum,
+    /// What an edit has touched of the cuts.
+    pub(super) fn touched(&self, reread: &Reread) -> (Reread, [PartAt; 2]) {
+        let Range { start, end } = reread.chunks;
+        // What was only moved lies as it did.
+        let last = (start..end)
+            .rev()
+            .find(|index| self.stretches()[*index].is_fresh);
+        let behind = last.map_or(start, |last| last + 1);
+        let reread = Reread {
+            chunks: start..behind,
+            before: reread.before - (end - behind),
+        };
+        // The stops behind the last cut before may stand in what was read.
+        let mut from = (start, 0);
+        let before = self.stretches()[..start].iter().enumerate().rev();
+        for (index, of) in before.filter(|(_, of)| of.part_count() > 0) {
+            let last = of.part_count() - 1;
+            let Some(part) = of.part_at(last) else {
+                break;
             };
-            (goes_on(&mut behind, known) == Some(true)).then_some(first + behind.taken)
-        });
-        let before_stops = first..end.map_or(first, |end| end - 1);
-        let stops = cuts[before_stops].iter().flatten();
-        found.extend(stops.filter_map(|open| open.cut.single_stop()));
-        first = end.unwrap_or(first + 1);
+            from = (index, last);
+            if last > 0 || !part.continues {
+                break;
+            }
+        }
+        (reread, [from, (behind, 0)])
     }
-    found
+}
+
+impl Followed for Document {
+    fn next_cut(&self, from: PartAt, before: PartAt) -> Option<JoinedCut> {
+        let mut at = self.first_from(from);
+        while at < before {
+            let cut = self.cut_from(at);
+            if cut.is_some() {
+                return cut;
+            }
+            at = self.first_from((at.0, at.1 + 1));
+        }
+        None
+    }
+
+    fn begin(&self, cut: &JoinedCut) -> PartAt {
+        cut.begin()
+    }
+
+    fn behind(&self, cut: &JoinedCut) -> PartAt {
+        let (stretch, part) = cut.parts.last().copied().unwrap_or_default();
+        self.first_from((stretch, part + 1))
+    }
+
+    fn follow(&self, cut: &JoinedCut, known: &mut KnownTabs) -> Option<Contour<JoinedCut>> {
+        if cut.single_stop().is_none() || !self.is_open(cut) {
+            return None;
+        }
+        let mut open = OpenCuts {
+            document: self,
+            cuts: vec![OpenCut::new(cut.clone())],
+            sum: *cut.sum,
+        };
+        let is_tab = goes_on(&mut open, known) == Some(true);
+        let last = open.cuts.last().map_or(cut, |open| &open.cut);
+        let behind = self.behind(last);
+        let reach = self
+            .cut_from(behind)
+            .map_or(behind, |next| self.behind(&next))
+            .0;
+        let mut contour = Contour {
+            tabs: Vec::new(),
+            whole: None,
+            is_open: false,
+            behind: self.behind(cut),
+            reach,
+        };
+        if is_tab {
+            let before_stops = &open.cuts[..open.cuts.len() - 1];
+            let stops = before_stops
+                .iter()
+                .filter_map(|open| open.cut.single_stop());
+            (contour.tabs, contour.behind) = (stops.collect(), behind);
+            contour.whole = open
+                .cuts
+                .into_iter()
+                .map(|open| open.cut)
+                .reduce(|mut whole, next| {
+                    whole.append(next);
+                    whole
+                });
+        }
+        Some(contour)
+    }
+
+    fn renumber(cut: &mut JoinedCut, moved: &dyn Fn(usize) -> usize) {
+        cut.renumber(moved);
+    }
 }
 
 /// A cut that does not enclose anything by itself, and its moves, once they were asked for.
-struct OpenCut<'a> {
-    cut: &'a JoinedCut,
+struct OpenCut {
+    cut: JoinedCut,
     pieces: OnceCell<Vec<Segment>>,
 }
 
+impl OpenCut {
+    fn new(cut: JoinedCut) -> OpenCut {
+        OpenCut {
+            cut,
+            pieces: OnceCell::new(),
+        }
+    }
+}
+
 /// Open cuts that continue each other behind stops.
-struct Behind<'a> {
+struct OpenCuts<'a> {
     document: &'a Document,
-    /// From the first one on; `None` for one that is not open.
-    cuts: &'a [Option<OpenCut<'a>>],
-    taken: usize,
-    /// Of all cuts so far.
+    cuts: Vec<OpenCut>,
+    /// Of all of them.
     sum: Part,
 }
 
-impl BehindStops for Behind<'_> {
+impl BehindStops for OpenCuts<'_> {
     fn take_next(&mut self) -> Option<()> {
-        let [last, next] = self.cuts.get(self.taken - 1..self.taken + 1)? else {
-            return None;
-        };
-        let (last, next) = (last.as_ref()?.cut, next.as_ref()?.cut);
-        let goes_on = last.single_stop().is_some() && last.sum.last[1].to == next.sum.first[0].from;
+        let last = &self.cuts.last()?.cut;
+        last.single_stop()?;
+        let next = self.document.cut_from(self.document.behind(last))?;
+        let goes_on = last.sum.last[1].to == next.sum.first[0].from && self.document.is_open(&next);
         self.sum.append(goes_on.then_some(&next.sum)?);
-        self.taken += 1;
+        self.cuts.push(OpenCut::new(next));
         Some(())
     }
 
@@ -216,11 +272,11 @@ impl BehindStops for Behind<'_> {
 
     /// Relative to the start of the first of them.
     fn way(&self, cuts: Range<usize>) -> impl Way {
-        let open = || self.cuts[cuts.clone()].iter().flatten();
-        let begin = open().next().map_or([0, 0], |open| open.cut.sum.start());
+        let cuts = self.cuts.get(cuts).unwrap_or_default();
+        let begin = cuts.first().map_or([0, 0], |open| open.cut.sum.start());
         let writing = self.document.reading().writing();
         let mut way = HeldWay::from(Node::at(Point::origin()), writing);
-        for (nth, OpenCut { cut, pieces }) in open().enumerate() {
+        for (nth, OpenCut { cut, pieces }) in cuts.iter().enumerate() {
             if nth > 0 {
                 way.stop_here();
             }
@@ -234,8 +290,8 @@ impl BehindStops for Behind<'_> {
     }
 
     fn last_mark(&self) -> u64 {
-        let last = self.cuts[self.taken - 1].as_ref();
-        let way = last.map_or(0, |open| self.document.mark(open.cut));
+        let last = self.cuts.last();
+        let way = last.map_or(0, |open| self.document.mark(&open.cut));
         // What ends within the step of the program coincides.
         mixed(way, self.document.reading().writing().slack.to_bits())
     }
@@ -246,19 +302,19 @@ impl BehindStops for Behind<'_> {
     }
 }
 
-/// The way of some consecutive parts, stretches and their parts, relative to the start of the first.
-pub(super) fn way_of(
+/// The way of some consecutive parts, relative to the start of the first.
+fn way_of(
     document: &Document,
-    places: Vec<(usize, usize)>,
+    places: Vec<PartAt>,
     stop: Option<usize>,
     ends: Option<[[Node; 2]; 2]>,
 ) -> PartedWay<'_> {
-    let extent = |&(index, part): &(usize, usize)| document.stretches().get(index)?.extent(part);
+    let extent = |&(index, part): &PartAt| document.stretches().get(index)?.extent(part);
     let begin = places
         .first()
         .and_then(extent)
         .map_or([0, 0], |(start, ..)| start);
-    let part = |place: &(usize, usize)| {
+    let part = |place: &PartAt| {
         let (start, moves, arcs) = extent(place)?;
         Some(path::Part {
             lay: Cow::Borrowed(document.stretches().get(place.0)?.lay(place.1)?),
@@ -274,7 +330,7 @@ pub(super) fn way_of(
 /// The moves of a cut as its stretches hold them.
 struct Held<'a> {
     document: &'a Document,
-    places: Vec<(usize, usize)>,
+    places: Vec<PartAt>,
 }
 
 impl Held<'_> {
@@ -286,7 +342,7 @@ impl Held<'_> {
                 each(step, range.0 as usize..range.1 as usize);
             }
         };
-        self.document.run_again(stretch, heard)
+        self.document.run_again((stretch, nth), heard)
     }
 }
 

@@ -12,8 +12,9 @@ use super::part::Hears;
 use super::read::words_of;
 use super::repair::found::Repairs;
 use super::stretch::{Placed, StopAt, Stretch};
-use crate::program::chunks::{ChunkReader, Chunks};
-use crate::program::path::{Found, Known};
+use crate::program::chunks::{ChunkReader, Chunks, Reread};
+use crate::program::contours::{Contours, PartAt, Touched};
+use crate::program::path::Known;
 use crate::settings::Effective;
 use crate::text::SourceText;
 use rustc_hash::FxHashMap;
@@ -33,29 +34,18 @@ pub struct Document {
     evidence: Evidence,
     /// The order of the lines, where it is not that of the text: then there is one stretch for each range in it.
     order: Option<Order>,
-    /// The doubtful cuts, each with its continuation behind the stop at its tab.
-    contours: Vec<JoinedCut>,
-    /// Where they cross themselves.
-    crossings: Box<Crossings>,
-    /// The stops within contours, before their tabs, in the order in which they run.
-    tabs: Vec<StopAt>,
+    /// The stops within contours, before their tabs, and the contours that cross themselves.
+    contours: Contours<JoinedCut>,
+    /// The contours of which there is something to say, and those with which such a one may belong together.
+    doubtful: Vec<JoinedCut>,
+    /// The results of the search for crossings.
+    known: Box<Known>,
     /// The settings that faults depend on.
     pub(crate) limits: Box<Limits>,
     /// The values that the program puts into the control's table.
     pub(crate) table: Box<Table>,
     /// The slips that may explain the findings, once somebody has asked for them.
     pub(super) repairs: OnceLock<Arc<Repairs>>,
-}
-
-/// The stretches of a cut, and its parts in there.
-type Places = Vec<(usize, usize)>;
-
-/// The findings in the cuts of a program.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Crossings {
-    pub(crate) known: Known,
-    /// The cuts that cross themselves or coincide with themselves, and where.
-    pub(crate) found: Vec<(Places, Arc<Found>)>,
 }
 
 /// The last value of each place of the control's table, nm.
@@ -75,9 +65,9 @@ impl Document {
             reading: Evidence::default().reading(limits.center),
             evidence: Evidence::default(),
             order: None,
-            contours: Vec::new(),
-            crossings: Box::default(),
-            tabs: Vec::new(),
+            contours: Contours::default(),
+            doubtful: Vec::new(),
+            known: Box::default(),
             limits: Box::new(limits),
             table: Box::default(),
             repairs: OnceLock::new(),
@@ -127,7 +117,7 @@ impl Document {
         if center {
             self.find_reading();
         }
-        self.look();
+        self.look(None);
     }
 
     /// Forgets which cuts are sound.
@@ -171,25 +161,35 @@ impl Document {
 
     /// Whether a stop stands within a contour, before its tab.
     pub(super) fn is_tab(&self, stop: StopAt) -> bool {
-        self.tabs.binary_search(&stop).is_ok()
+        self.contours.is_tab(stop)
     }
 
-    pub(super) fn contours(&self) -> &[JoinedCut] {
+    pub(in crate::program) fn contours(&self) -> &Contours<JoinedCut> {
         &self.contours
     }
 
-    pub(super) fn crossings(&self) -> &Crossings {
-        &self.crossings
+    pub(super) fn doubtful(&self) -> &[JoinedCut] {
+        &self.doubtful
     }
 
-    /// Runs a stretch once more and hands each of its moves to `each`; returns the byte from which their places count.
-    pub(super) fn run_again(&self, index: usize, each: &mut Hears<'_>) -> usize {
+    /// Byte of the text from which the places of a stretch count.
+    pub(super) fn byte_of(&self, stretch: usize) -> usize {
+        self.stretches.byte(stretch)
+    }
+
+    /// Runs a stretch once more, up to the end of a part, and hands each of its moves to `each`; returns the byte from
+    /// which their places count.
+    pub(super) fn run_again(&self, (index, part): PartAt, each: &mut Hears<'_>) -> usize {
         let Some(placed) = self.placed_at(index) else {
             return 0;
         };
+        let Range { start, end } = placed.lines;
+        let last = placed.stretch.part_at(part).map(|part| part.last_range.0);
+        let last = last.map(|byte| self.text.line_of(placed.offset + byte as usize));
+        let count = last.map_or(end, |last| end.min(last + 1)) - start;
         Stretch::run_with(
-            lines_from(&self.text, placed.lines.start),
-            placed.lines.len(),
+            lines_from(&self.text, start),
+            count,
             placed.offset,
             placed.stretch.before,
             self.reading,
@@ -216,12 +216,6 @@ impl Document {
         })
     }
 
-    /// Stops before tabs in a stretch.
-    pub(super) fn tabs_in(&self, stretch: usize) -> usize {
-        let before = |stretch: usize| self.tabs.partition_point(|tab| tab.0 < stretch);
-        before(stretch + 1) - before(stretch)
-    }
-
     /// Replaces a range of bytes and runs again what it touched.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
         self.repairs = OnceLock::new();
@@ -238,27 +232,10 @@ impl Document {
             .edit(&control, &mut self.text, (range, replacement), |gone| {
                 evidence.take(&gone.evidence)
             });
-        let read = &self.stretches[reread.chunks];
+        let read = &self.stretches[reread.chunks.clone()];
         read.iter()
             .for_each(|stretch| evidence.add(&stretch.evidence));
-        self.forget_touched();
-        self.settle();
-    }
-
-    /// A cut is not known to be sound any more where a stretch that it runs through has been read again.
-    fn forget_touched(&mut self) {
-        let mut last: Option<(usize, usize)> = None;
-        for index in 0..self.stretches.len() {
-            if self.stretches[index].is_fresh
-                && let Some((begin, end)) = last
-                && index <= end
-            {
-                self.stretches[begin].sound_over = None;
-            }
-            if let Some(over) = self.stretches[index].sound_over {
-                last = Some((index, index + over));
-            }
-        }
+        self.settle(Some(reread));
     }
 
     /// A first guess of the meaning of numbers, from the beginning of the text: it saves running everything twice.
@@ -302,7 +279,7 @@ impl Document {
     fn run_all(&mut self) {
         self.order = None;
         self.run_stretches();
-        self.settle();
+        self.settle(None);
     }
 
     fn run_stretches(&mut self) {
@@ -316,50 +293,62 @@ impl Document {
 
     /// Compares the reading with the evidence of the whole program, and runs it again where it suggests another one:
     /// first the unit and the finest step, then, measured with these, the meaning of I and J.
-    fn settle(&mut self) {
-        self.find_reading();
-        self.look();
+    fn settle(&mut self, reread: Option<Reread>) {
+        let is_run_again = self.find_reading();
+        self.look(reread.filter(|_| !is_run_again));
     }
 
-    /// Checks what depends on the program as a whole.
-    fn look(&mut self) {
-        // The findings of a cut within one stretch depend on its own lines, on the settings and on the control's table:
-        // a sound one is not judged again.
+    /// Checks what depends on the program as a whole; what an edit has not `reread` stays.
+    fn look(&mut self, mut reread: Option<Reread>) {
+        // The findings of a cut depend on its own lines, on the settings and on the control's table.
         let table = self.stated_table();
         if table != *self.table {
             *self.table = table;
             self.look_at_all();
+            reread = None;
         }
-        let mut crossings = std::mem::take(&mut self.crossings);
-        (self.contours, self.tabs) = self.find_contours(&mut crossings.known.tabs);
-        crossings.look(self);
-        self.crossings = crossings;
-        for index in self.clean() {
+        let mut contours = std::mem::take(&mut self.contours);
+        let mut doubtful = std::mem::take(&mut self.doubtful);
+        let (reread, [from, to]) = match &reread {
+            Some(reread) => self.touched(reread),
+            None => {
+                (contours, doubtful) = (Contours::default(), Vec::new());
+                let all = Reread::all(&self.stretches);
+                (all, [(0, 0), (self.stretches.len(), 0)])
+            }
+        };
+        let touched = Touched {
+            reread: &reread,
+            from,
+            to,
+        };
+        let (mut known, mut found) = (std::mem::take(&mut self.known), Vec::new());
+        let mut is_doubtful = self.doubts();
+        let looked_at = contours.look(self, touched, &mut known, |cut, crosses| {
+            let is_kept = crosses == Some(true) || is_doubtful(&cut);
+            found.extend(is_kept.then_some(cut));
+        });
+        drop(is_doubtful);
+        looked_at.splice(&mut doubtful, JoinedCut::begin, JoinedCut::renumber, found);
+        for cut in &mut doubtful {
+            cut.follow(self.stretches[cut.begin().0].moved);
+        }
+        (self.contours, self.doubtful, self.known) = (contours, doubtful, known);
+        let last = self.stretches.len().min(looked_at.to.0 + 1);
+        for index in self.clean(looked_at.from.0..last) {
             self.stretches[index].let_go();
         }
-        for (begin, reach) in self.sound_cuts() {
-            self.stretches[begin].sound_over = Some(reach - begin);
-        }
-        self.stretches
-            .iter_mut()
-            .for_each(|stretch| stretch.is_fresh = false);
-        let stretches = &self.stretches;
-        self.contours.retain(|cut| {
-            let (stretch, part) = cut.begin();
-            let own = &stretches[stretch];
-            let is_sound = match cut.only_place() {
-                Some(_) => own.is_clean && own.inner().contains(&part),
-                None => own.sound_over.is_some() && part + 1 == own.part_count(),
-            };
-            !is_sound
-        });
-        self.contours.shrink_to_fit();
+        let read = &mut self.stretches[reread.chunks.clone()];
+        read.iter_mut().for_each(|stretch| stretch.is_fresh = false);
     }
 
-    fn find_reading(&mut self) {
+    /// Runs the program again where it shows another meaning of its numbers; true where it did.
+    fn find_reading(&mut self) -> bool {
+        let mut is_run_again = false;
         if self.order.is_none() && self.stretches.iter().any(|stretch| stretch.calls) {
             self.order = Some(order(&self.text));
             self.run_stretches();
+            is_run_again = true;
         }
         debug_assert_eq!(self.evidence, self.summed(&self.stretches));
         // What an arc shows depends on the unit and the step, and these on neither: the evidence behind two runs leads to no
@@ -367,10 +356,12 @@ impl Document {
         for _ in 0..2 {
             let reading = self.evidence.reading(self.limits.center);
             if reading == self.reading {
-                return;
+                break;
             }
             self.reading = reading;
             self.run_stretches();
+            is_run_again = true;
         }
+        is_run_again
     }
 }

@@ -6,7 +6,6 @@
 pub(crate) mod block;
 mod control;
 mod corner;
-mod crossings;
 mod cursor;
 mod cut;
 mod cuts;

@@ -170,10 +170,16 @@ impl Ways {
         self.0.push(step);
     }
 
-    /// How the part lies relative to itself, where it is known how those before it lie.
-    pub(crate) fn lay(self, reading: &Reading, is_whole: bool, before: &[Lay]) -> Lay {
+    /// How the part lies relative to itself, where it is known how those before it lie, and some that are gone.
+    pub(crate) fn lay<'a>(
+        self,
+        reading: &Reading,
+        is_whole: bool,
+        before: &[Lay],
+        old: impl Iterator<Item = &'a Lay>,
+    ) -> Lay {
         let mark = self.mark(reading);
-        let known = Lay::known(before.iter().rev(), mark, is_whole);
+        let known = Lay::known(before.iter().rev(), old, mark, is_whole);
         known.unwrap_or_else(|| Lay::of(&self.way(reading), mark, is_whole))
     }
 

@@ -206,6 +206,12 @@ impl Stretch {
             None if self.after.torn => self.interrupt(false),
             None => {}
         }
+        if !self.leaves_cut {
+            let is_rapid = steered.is_some_and(|steered| !steered.said.is_cut());
+            self.leaves_cut = is_rapid || block.stop.is_some();
+            let stands = steered.is_none() && !self.leaves_cut;
+            self.heeds_loss |= stands || self.after.lost != [false, false];
+        }
         if let Some(stop) = block.stop {
             self.stop(stop, steered.is_none() && behind == Behind::Stop, range);
         }
@@ -360,6 +366,7 @@ impl Stretch {
             last => {
                 let is_first = last.is_none() && self.ends_cut_before.is_none();
                 let continues = is_first && self.before.trail.last[0].is_some();
+                self.heeds_loss |= !continues && !self.leaves_cut;
                 self.parts
                     .push(Part::begin(made, cap, range, continues, !torn));
             }

@@ -69,10 +69,13 @@ impl Document {
             }
         }
         report.spurs();
-        for cut in self.contours() {
-            report.judge(cut, self.contours());
+        for cut in self.doubtful() {
+            report.judge(cut, self.doubtful());
         }
-        report.findings.extend(self.crossings().findings(self));
+        for (cut, found) in self.contours().crossing() {
+            let crossings = found.findings(&self.way(cut), self.last_block(cut), self.text());
+            report.findings.extend(crossings);
+        }
         report.taper();
         report.definitions();
         report.bare_numbers();
@@ -109,39 +112,30 @@ impl Document {
         report.finish()
     }
 
-    /// Further stretches whose cuts are sound: those that begin and end there have no fault as a whole.
-    pub(super) fn clean(&self) -> Vec<usize> {
+    /// Of some stretches those whose cuts are sound: those that begin and end there have no fault as a whole.
+    pub(super) fn clean(&self, stretches: Range<usize>) -> Vec<usize> {
         let mut report = Report::new(self);
-        let touched = self.crossings().touched();
-        let placed = self.placed().enumerate();
-        let not_known = placed.filter(|(_, placed)| !placed.stretch.is_clean);
-        not_known
-            .filter(|(index, placed)| {
-                let inner = placed.stretch.inner();
-                inner.is_empty()
-                    || !touched.contains(index)
-                        && inner.into_iter().all(|part| {
-                            JoinedCut::of(placed, *index, part)
-                                .is_none_or(|cut| report.is_sound(&cut))
-                        })
-            })
-            .map(|(index, _)| index)
-            .collect()
+        let crossing = self.contours().crossing().iter();
+        let places = crossing.flat_map(|(cut, _)| &cut.parts);
+        let touched: FxHashSet<usize> = places.map(|(stretch, _)| *stretch).collect();
+        let mut is_clean = |index: &usize| {
+            let of = &self.stretches()[*index];
+            let mut inner = of.inner();
+            let is_sound = |part: usize| {
+                JoinedCut::of(of, *index, part).is_none_or(|cut| report.is_sound(&cut))
+            };
+            !of.is_clean && (inner.is_empty() || !touched.contains(index) && inner.all(is_sound))
+        };
+        stretches.filter(|index| is_clean(index)).collect()
     }
 
-    /// The first and the last stretch of each cut through several that is sound as a whole.
-    pub(super) fn sound_cuts(&self) -> Vec<(usize, usize)> {
+    /// Tells the cuts of which there is something to say, and those with which such a one may belong together.
+    pub(super) fn doubts(&self) -> impl FnMut(&JoinedCut) -> bool + '_ {
         let mut report = Report::new(self);
-        let crossing = self.crossings().begins();
-        let sound = self.contours().iter().filter(|cut| {
-            cut.only_place().is_none()
-                && cut.before_tab.is_none()
-                && self.goes_round(cut)
-                && !crossing.contains(&cut.begin())
-                && report.is_sound(cut)
-        });
-        let stretches = sound.map(|cut| (cut.begin().0, cut.reach));
-        stretches.collect()
+        move |cut| {
+            let is_beside = matches!(cut.sum.side, WireSide::One(_));
+            (is_beside && report.may_belong_to_others(cut)) || report.says(cut)
+        }
     }
 }
 
@@ -307,19 +301,26 @@ impl<'a> Report<'a> {
 
     /// Whether a cut is sound as a whole, and need not be compared with others.
     fn is_sound(&mut self, cut: &JoinedCut) -> bool {
+        !self.may_belong_to_others(cut) && !self.says(cut)
+    }
+
+    /// Whether a cut may be a part of a contour with others.
+    fn may_belong_to_others(&self, cut: &JoinedCut) -> bool {
         // Passes to and fro close by themselves, and may belong to the next or to the one before.
         let only = self.document.only_lay(cut);
         let may_be_tab = only.is_some_and(|lay| lay.closes && !lay.goes_round);
         // So may what ends open.
         let is_open = cut.sum.whole && !self.document.is_closed(cut);
-        if may_be_tab || is_open || self.may_lack_its_tab(&cut.sum) {
-            return false;
-        }
+        may_be_tab || is_open || self.may_lack_its_tab(&cut.sum)
+    }
+
+    /// Whether there is something to say of a cut by itself.
+    fn says(&mut self, cut: &JoinedCut) -> bool {
         let known = self.findings.len();
         self.judge(cut, &[]);
-        let is_sound = self.findings.len() == known;
+        let says = self.findings.len() > known;
         self.findings.truncate(known);
-        is_sound
+        says
     }
 
     /// Whether a cut beside which the wire runs leads back to the thread hole from elsewhere than where it came.
@@ -370,7 +371,7 @@ impl<'a> Report<'a> {
                 SideSetting::Punch => inside,
                 _ => false,
             };
-            let range = || self.switch_range(cut.range.start);
+            let range = || self.switch_range(self.document.bytes_of(cut.first_line).start);
             let mut inside = is_inside(orientation);
             if is_wrong(inside) {
                 inside = self.area_with_tab(cut, all).map_or(inside, is_inside);
@@ -387,14 +388,14 @@ impl<'a> Report<'a> {
                 self.add(range(), Fault::EntrySide { side });
             }
         }
-        if let Some((place, range)) = &cut.flip {
+        if let Some((place, line)) = &cut.flip {
             // The next pass, back along the same contour, has the wire on its other side.
             let begins = [sum.first[0].from, sum.first[0].to];
             if !begins
                 .iter()
                 .any(|begin| distance(*begin, *place) / 1e3 <= self.document.tolerance(cut))
             {
-                self.side_change(range.clone());
+                self.side_change(self.document.bytes_of(*line));
             }
         }
         self.tight_arcs(cut, orientation);

@@ -139,7 +139,7 @@ impl Document {
         let (begun, _) = self
             .control()
             .run(self.text(), lines, placed.stretch.before);
-        Some((index, self.control().finish(self.text(), begun)))
+        Some((index, self.control().finish(self.text(), begun, &[])))
     }
 
     /// The state before a line, with the wire's position; `None` for a line that does not run.
@@ -244,7 +244,7 @@ impl Program for Document {
         self.stretches()
             .get(stretch)
             .map_or_else(Sum::default, |own| Sum {
-                contours: own.pauses as usize - self.tabs_in(stretch),
+                contours: own.pauses as usize - self.contours().tabs_in(stretch),
                 ..own.sum
             })
     }
@@ -286,7 +286,7 @@ impl Program for Document {
                 Stop::Pause => Kind::Pause,
             };
             step(kind, [micrometres(ran.machine.at); 2], None, None);
-            let is_tab = self.is_tab((stretch, ran.words.start.saturating_sub(offset) as u32));
+            let is_tab = self.is_tab((stretch, ran.words.start.saturating_sub(offset)));
             *contour += usize::from(stop == Stop::Pause && !is_tab);
         });
     }

@@ -27,14 +27,17 @@ impl Pathless {
         self.stretch.after
     }
 
-    /// How each part lies relative to itself: this takes time, and depends only on the moves.
-    pub(crate) fn with_paths(self) -> Stretch {
+    /// How each part lies relative to itself: this takes time, and depends only on the moves and on how numbers are
+    /// read. `old` stretches may know it of some.
+    pub(crate) fn with_paths(self, old: &[Stretch]) -> Stretch {
         let Pathless { mut stretch, ways } = self;
         stretch.parts.shrink_to_fit();
         let inner = stretch.inner();
         for (index, ways) in ways.into_iter().enumerate() {
             let is_whole = inner.contains(&index);
-            let lay = ways.lay(&stretch.reading, is_whole, &stretch.lays);
+            let old = old.iter().filter(|old| old.reading == stretch.reading);
+            let old = old.flat_map(|old| &old.lays);
+            let lay = ways.lay(&stretch.reading, is_whole, &stretch.lays, old);
             stretch.lays.push(lay);
         }
         stretch.lays.shrink_to_fit();
@@ -88,8 +91,6 @@ pub(crate) struct Stretch {
     pub(crate) is_clean: bool,
     /// Those of them that are not held any more: it has been enough to know that they are sound.
     pub(crate) gone: Range<usize>,
-    /// The cut that its last part begins is known to be sound as a whole, up to this many stretches further on.
-    pub(crate) sound_over: Option<usize>,
     /// Nothing is known yet about the cuts that run through it.
     pub(crate) is_fresh: bool,
     pub(crate) foreign: Vec<Foreign>,
@@ -98,6 +99,11 @@ pub(crate) struct Stretch {
     pub(crate) lengths: [Vec<(u32, u32)>; 2],
     /// How many lines behind its own decide how its last ones run.
     pub(crate) ahead: u32,
+    /// Before their first rapid or stop it matters whether the wire's place was lost since the last one: not only to
+    /// the part that goes on there.
+    pub(crate) heeds_loss: bool,
+    /// There is a rapid or a stop.
+    pub(crate) leaves_cut: bool,
     /// A word of it has the control make a corner.
     pub(crate) has_corners: bool,
     /// N words with the byte at which they stand.
@@ -141,7 +147,7 @@ pub(crate) struct Placed<'a> {
 }
 
 /// A stop: the index of its stretch, and its byte counted from there.
-pub(crate) type StopAt = (usize, u32);
+pub(crate) type StopAt = (usize, usize);
 
 impl Stretch {
     /// True when these lines do the same wherever the wire stands before them.
@@ -154,6 +160,25 @@ impl Stretch {
         self.before.at = added(self.before.at, by);
         self.after.at = added(self.after.at, by);
         self.moved = added(self.moved, by);
+    }
+
+    /// Takes it that the wire's place was lost since the last rapid or stop before, or was not; false where that is more
+    /// than whether the part that goes on there could be read.
+    pub(crate) fn tear(&mut self, torn: bool) -> bool {
+        if torn != self.before.torn {
+            if self.heeds_loss {
+                return false;
+            }
+            self.before.torn = torn;
+            if !self.leaves_cut {
+                self.after.torn = torn;
+            }
+            if let Some(part) = self.parts.first_mut().filter(|part| part.continues) {
+                part.whole = !torn;
+            }
+            self.is_fresh = true;
+        }
+        true
     }
 
     /// A cut begins or ends in here: the lines behind do not depend on those before.
@@ -223,7 +248,7 @@ impl Stretch {
 
     /// Forgets what is known to be sound; false where its lines must be run again for that.
     pub(crate) fn look_again(&mut self) -> bool {
-        (self.is_clean, self.sound_over) = (false, None);
+        self.is_clean = false;
         self.gone.is_empty()
     }
 

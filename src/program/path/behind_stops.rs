@@ -35,8 +35,9 @@ pub(crate) trait BehindStops {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct KnownTabs {
     found: FxHashMap<u64, Option<bool>>,
-    /// The answers in use since it was tidied.
+    /// The answers in use since it was tidied, and the most that ever were.
     used: usize,
+    most_used: usize,
 }
 
 impl KnownTabs {
@@ -45,9 +46,10 @@ impl KnownTabs {
         *self.found.entry(mark).or_insert_with(is_tab)
     }
 
-    /// Forgets everything where much more is known than is in use.
+    /// Forgets everything where much more is known than ever was in use at once.
     pub(super) fn tidy(&mut self) {
-        if self.found.len() > 4 * self.used + 4096 {
+        self.most_used = self.most_used.max(self.used);
+        if self.found.len() > 4 * self.most_used + 4096 {
             self.found.clear();
         }
         self.used = 0;

@@ -36,8 +36,9 @@ pub(crate) struct Known {
     found: FxHashMap<u64, Arc<Found>>,
     /// The last cut of several passes that was searched.
     passed: Option<Box<Passed>>,
-    /// The results in use since the last search began: pairs of parts, and cuts.
+    /// The results in use since the last search began: pairs of parts, and cuts; and the most that ever were.
     used: [usize; 2],
+    most_used: [usize; 2],
     pub(in crate::program) tabs: KnownTabs,
 }
 
@@ -112,9 +113,11 @@ impl Known {
         }
     }
 
-    /// Ends the search: forgets everything where much more is known than is in use.
+    /// Ends the search: forgets everything where much more is known than ever was in use at once. What an edit leaves
+    /// alone is not asked for, and may be again.
     pub(crate) fn tidy(&mut self) {
-        let [pairs, cuts] = self.used;
+        let [pairs, cuts] = [0, 1].map(|kind| self.used[kind].max(self.most_used[kind]));
+        self.most_used = [pairs, cuts];
         if self.pairs.len() > 4 * pairs + 16_384 {
             self.pairs.clear();
         }
@@ -180,8 +183,13 @@ impl Found {
         self.crossings.is_empty() && !self.is_crowded
     }
 
-    /// The crossings to report.
-    pub(crate) fn findings(&self, way: &PartedWay<'_>, text: &SourceText) -> Vec<Finding> {
+    /// The crossings to report of a way, whose last block stands at some bytes of the text.
+    pub(crate) fn findings(
+        &self,
+        way: &PartedWay<'_>,
+        last: Option<Range<usize>>,
+        text: &SourceText,
+    ) -> Vec<Finding> {
         let mut findings = Vec::new();
         for crossing in &self.crossings {
             let (Some(from), Some(own)) = (way.range(crossing.first), way.range(crossing.second))
@@ -202,7 +210,6 @@ impl Found {
                 ..Finding::of(fault, own)
             });
         }
-        let last = way.count().checked_sub(1).and_then(|last| way.range(last));
         if let Some(range) = last.filter(|_| self.is_crowded) {
             let what = NotJudged::Crossings {
                 blocks: way.count(),

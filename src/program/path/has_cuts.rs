@@ -5,7 +5,7 @@ use super::crossings::{Found, Known};
 use super::lay::Lay;
 use super::parted::PartedWay;
 use crate::finding::{Finding, Severity};
-use std::borrow::{Borrow, Cow};
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -71,24 +71,11 @@ pub(crate) trait HasCuts {
         self.ends(cut).blocks <= FRAGMENT
     }
 
-    /// Searches cuts for crossings, reusing known results. `each` gets every cut that had to be searched.
-    fn look_through<C: Borrow<Self::Cut>>(
-        &self,
-        known: &mut Known,
-        cuts: impl Iterator<Item = C>,
-        mut each: impl FnMut(C, Arc<Found>),
-    ) {
-        known.begin();
-        for cut in cuts {
-            let own = cut.borrow();
-            let is_short = self.ends(own).blocks < FEWEST_CROSSING;
-            let crosses_nothing = || self.only_lay(own).is_some_and(|lay| !lay.may_cross());
-            if is_short || self.is_doubtful(own) || crosses_nothing() {
-                continue;
-            }
-            let found = known.crossings(self.mark(own), self.part_count(own), || self.way(own));
-            each(cut, found);
-        }
-        known.tidy();
+    /// Where a cut crosses itself, as is known or found; `None` for one that does not, by its parts, or that is doubtful.
+    fn crossings(&self, known: &mut Known, cut: &Self::Cut) -> Option<Arc<Found>> {
+        let is_short = self.ends(cut).blocks < FEWEST_CROSSING;
+        let crosses_nothing = || self.only_lay(cut).is_some_and(|lay| !lay.may_cross());
+        let is_asked = !is_short && !self.is_doubtful(cut) && !crosses_nothing();
+        is_asked.then(|| known.crossings(self.mark(cut), self.part_count(cut), || self.way(cut)))
     }
 }

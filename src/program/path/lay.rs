@@ -33,16 +33,19 @@ pub(crate) struct Lay {
 }
 
 impl Lay {
-    /// One of the last of these with a mark.
-    pub(crate) fn known<'a>(
+    /// One of the last of these with a mark, or of those that are gone.
+    pub(crate) fn known<'a, 'b>(
         before: impl Iterator<Item = &'a Lay>,
+        mut old: impl Iterator<Item = &'b Lay>,
         mark: u64,
         is_whole: bool,
     ) -> Option<Lay> {
-        let mut known = before.take(LOOKED_BACK).filter(|lay| lay.mark == mark);
-        known
-            .find(|lay| !is_whole || !lay.may_cross() || lay.crosses.is_some())
-            .cloned()
+        let is_it = |lay: &&Lay| {
+            lay.mark == mark && (!is_whole || !lay.may_cross() || lay.crosses.is_some())
+        };
+        let mut before = before.take(LOOKED_BACK);
+        let known = before.find(is_it).cloned();
+        known.or_else(|| old.find(is_it).cloned())
     }
 
     /// For a way that begins at the origin, and may be a cut by itself.

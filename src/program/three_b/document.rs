@@ -3,6 +3,7 @@
 //! The text is cut into stretches of lines. Lines are independent, so an edit rereads the stretches that it touched;
 //! everything about the whole program (contours, numbers, the end) comes from a few sums of each stretch.
 
+mod contours;
 mod cuts;
 mod fixes;
 mod joints;
@@ -21,6 +22,7 @@ use super::words::Words;
 use crate::finding::Finding;
 use crate::geometry::{Point, Vector};
 use crate::program::chunks::{ChunkReader, Chunks, Reread};
+use crate::program::contours::{Contours, PartAt, Touched};
 use crate::program::path::Known;
 use crate::settings::Effective;
 use crate::text::SourceText;
@@ -67,9 +69,6 @@ struct At {
     entry: usize,
 }
 
-/// A part by its stretch and its index in there.
-type PartAt = (usize, usize);
-
 /// Blocks between two words, put together from the parts of the stretches that they run through.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct JoinedCut {
@@ -80,9 +79,6 @@ pub(crate) struct JoinedCut {
     is_jump: bool,
     /// Blocks before its first stop, where it goes on behind that.
     stop: Option<usize>,
-    /// It is known to enclose something, and not to cross itself: as long as none of its lines is read again.
-    goes_round: bool,
-    crosses_nothing: bool,
 }
 
 /// The properties of the program as a whole.
@@ -94,14 +90,10 @@ struct View {
     taken: Vec<(At, Vector)>,
     /// The cuts that reach over the end of a stretch, or begin or end the text, in their order. The others are parts of one stretch.
     outer: Vec<JoinedCut>,
-    /// The starts of the contours that do not close.
-    open: Vec<PartAt>,
+    /// Those that are open, where they are not continued behind a stop, and those that cross themselves.
+    contours: Contours<JoinedCut>,
     /// The parts with an odd joint about the end of a stretch that is reported.
     odd: Vec<PartAt>,
-    /// The starts of cuts that continue the contour before them, behind the stop at its tab.
-    tabs: Vec<PartAt>,
-    /// The contours that a tab holds until it is cut off, while they are searched for crossings.
-    held: Vec<JoinedCut>,
     /// The word that ends the program.
     end: Option<At>,
     last_block: Option<At>,
@@ -173,6 +165,11 @@ impl Document {
         self.stretches.get(at.stretch)?.entries.get(at.entry)
     }
 
+    #[cfg(test)]
+    pub(in crate::program) fn contours(&self) -> &Contours<JoinedCut> {
+        &self.view.contours
+    }
+
     /// Bytes of an entry in the text.
     fn range_of(&self, at: At) -> Range<usize> {
         let byte = self.stretches.byte(at.stretch);
@@ -183,11 +180,44 @@ impl Document {
 
     /// What an edit has not `reread` stays, where nothing depends on the whole.
     fn judge_again(&mut self, reread: Option<Reread>) {
+        let before = std::mem::take(&mut *self.view);
+        self.view.end = self.end_word();
+        let same_end = |reread: &Reread| {
+            let moved = |end: At| {
+                let stretch = reread.moved(end.stretch)?;
+                Some(At { stretch, ..end })
+            };
+            before.end.map(moved) == self.view.end.map(Some)
+        };
+        let (reread, mut outer, mut contours) = match reread.filter(same_end) {
+            Some(reread) => (reread, before.outer, before.contours),
+            None => (
+                Reread::all(&self.stretches),
+                Vec::new(),
+                Contours::default(),
+            ),
+        };
+        let [from, to] = self.find_outer(&mut outer, &reread);
+        self.view.outer = outer;
+        self.view.last_block = self.last_block(self.view.end);
+        let off = self.off_positions();
+        self.view.taken = self.taken(&off);
+        self.view.begins = self.begins(&self.view.taken);
+        let touched = Touched {
+            reread: &reread,
+            from,
+            to,
+        };
+        // The contours within one stretch that are now known not to cross themselves.
+        let mut clean: Vec<PartAt> = Vec::new();
         let mut known = std::mem::take(&mut self.known);
-        let mut clean = Vec::new();
-        let before = reread.map(|reread| (std::mem::take(&mut *self.view), reread));
-        *self.view = self.judged(before, &mut known, &mut clean);
+        contours.look(self, touched, &mut known, |cut, crosses| {
+            let is_inner = cut.parts[0] == cut.parts[1];
+            clean.extend((is_inner && crosses == Some(false)).then_some(cut.parts[0]));
+        });
         self.known = known;
+        self.view.contours = contours;
+        self.judge(off);
         // The findings of a contour within one stretch depend on nothing else: it is not checked again.
         for of_stretch in clean.chunk_by(|a, b| a.0 == b.0) {
             let stretch = of_stretch
@@ -226,13 +256,14 @@ impl ChunkReader for Reader<'_> {
         (lines, ())
     }
 
-    fn finish(&self, text: &SourceText, lines: Range<usize>) -> Stretch {
+    fn finish(&self, text: &SourceText, lines: Range<usize>, old: &[Stretch]) -> Stretch {
         Stretch::read(
             text.bytes(),
             text.line_start(lines.start),
             lines.map(|line| text.line_range(line)),
             &self.words,
             self.limits,
+            old,
         )
     }
 

@@ -143,16 +143,20 @@ impl Open {
         self.trail = [Some(next), made, before];
     }
 
-    /// The part up to an entry, with the word there, where it is known how some parts before it lie.
+    /// The part up to an entry, with the word there, where it is known how some parts before it lie, and some that are
+    /// gone.
     fn closed<'a>(
         self,
         end: usize,
         word: Option<(Word, bool)>,
         is_whole: bool,
         known: impl Iterator<Item = &'a Lay>,
+        old: &[Stretch],
     ) -> Part {
         let sum = self.sum;
-        let lay = Lay::known(known, sum.mark, is_whole)
+        let old = old.iter().flat_map(|old| &old.parts);
+        let old = old.filter_map(|part| Some(&part.whole.as_ref()?.lay));
+        let lay = Lay::known(known, old, sum.mark, is_whole)
             .unwrap_or_else(|| Lay::of(&self.way, sum.mark, is_whole));
         Part {
             entries: (self.first as u32, end as u32),
@@ -197,24 +201,26 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
-    /// Reads lines that begin at `offset` of the text. `lines` are ranges of the text without line ends, `bytes` all of it.
+    /// Reads lines that begin at `offset` of the text. `lines` are ranges of the text without line ends, `bytes` all of it;
+    /// `old` stretches may know how some of their parts lie.
     pub(crate) fn read(
         text: &[u8],
         offset: usize,
         lines: impl Iterator<Item = Range<usize>>,
         words: &Words<'_>,
         limits: &Limits,
+        old: &[Stretch],
     ) -> Stretch {
         let mut stretch = Stretch::default();
         let mut open = Open::at(0);
         for (line, range) in lines.enumerate() {
             let start = range.start;
             read_line(&text[range], start, words, |item| {
-                stretch.take(item, line as u32, offset, &mut open, limits)
+                stretch.take(item, line as u32, offset, &mut open, (limits, old))
             });
         }
         let end = stretch.entries.len();
-        stretch.close(open, end, None);
+        stretch.close(open, end, None, old);
         stretch.entries.shrink_to_fit();
         stretch.parts.shrink_to_fit();
         stretch.sum_up();
@@ -222,7 +228,7 @@ impl Stretch {
     }
 
     /// Ends a part: its oddities count once its contour is known.
-    fn close(&mut self, mut open: Open, end: usize, word: Option<(Word, bool)>) {
+    fn close(&mut self, mut open: Open, end: usize, word: Option<(Word, bool)>, old: &[Stretch]) {
         if self.parts.is_empty() {
             self.edges[0] = open.edges[0];
         }
@@ -235,7 +241,7 @@ impl Stretch {
             .iter()
             .rev()
             .filter_map(|part| part.whole.as_ref());
-        let part = open.closed(end, word, is_whole, wholes.map(|whole| &whole.lay));
+        let part = open.closed(end, word, is_whole, wholes.map(|whole| &whole.lay), old);
         let own = self.entries.get(part.entries()).unwrap_or_default();
         let blocks = || own.iter().filter(|entry| entry.block().is_some());
         for (nth, fault) in odd {
@@ -338,7 +344,14 @@ impl Stretch {
         });
     }
 
-    fn take(&mut self, item: Item, line: u32, base: usize, open: &mut Open, limits: &Limits) {
+    fn take(
+        &mut self,
+        item: Item,
+        line: u32,
+        base: usize,
+        open: &mut Open,
+        (limits, old): (&Limits, &[Stretch]),
+    ) {
         let local = |range: Range<usize>| range.start - base..range.end - base;
         match item {
             Item::Block {
@@ -374,7 +387,7 @@ impl Stretch {
                 let end = self.entries.len();
                 self.push(local(range), line, number, What::Word { word, is_own });
                 let before = std::mem::replace(open, Open::at(end + 1));
-                self.close(before, end, Some((word, is_own)));
+                self.close(before, end, Some((word, is_own)), old);
             }
             Item::StartPoint { at, range } => {
                 self.positions.anchor = Some(Some(StatedPoint { at, decimals: 3 }));
@@ -437,7 +450,7 @@ mod tests {
                 from += line.len() + 1;
                 from - 1 - line.len()..from - 1
             });
-            let stretch = Stretch::read(text.as_bytes(), 0, lines, &Words::default(), &limits);
+            let stretch = Stretch::read(text.as_bytes(), 0, lines, &Words::default(), &limits, &[]);
             for part in &stretch.parts {
                 let held = Part { whole: None, ..part.clone() };
                 let [own, told] = [part, &held].map(|part| stretch.sum(part));

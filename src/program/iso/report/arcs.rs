@@ -5,7 +5,7 @@ use super::super::cut::JoinedCut;
 use super::super::moves::Course;
 use super::super::part::Tight;
 use super::super::tilt::{TiltedArc, Unknown};
-use super::{Report, at};
+use super::Report;
 use crate::finding::{Detail, Fault, NoFix, Rule, Severity, Side, SmallRadius};
 use crate::program::path::{UM_IN_MM, is_tight};
 use crate::settings::{Compensation, SideSetting};
@@ -15,8 +15,8 @@ impl Report<'_> {
     /// The arcs of a cut that may be too tight, with their places in the text.
     fn tight_of(&self, cut: &JoinedCut) -> Vec<(Tight, Range<usize>)> {
         let mut found = Vec::new();
-        for part in &cut.parts {
-            let Some(stretch) = self.document.stretches().get(part.stretch) else {
+        for &(index, part) in &cut.parts {
+            let Some(stretch) = self.document.stretches().get(index) else {
                 continue;
             };
             // Most programs have no arc as tight as any correction.
@@ -31,12 +31,12 @@ impl Report<'_> {
                     && (tight.arc.side.is_some() || !is_offset_only)
             };
             let tight = is_tight(tightest, self.largest_correction)
-                .then(|| stretch.tight_of(part.part).filter(may_be_tight));
+                .then(|| stretch.tight_of(part).filter(may_be_tight));
             found.extend(
                 tight
                     .into_iter()
                     .flatten()
-                    .map(|tight| (tight, at(part.offset, tight.range))),
+                    .map(|tight| (tight, self.document.bytes_of((index, tight.range)))),
             );
         }
         found

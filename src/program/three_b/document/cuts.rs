@@ -1,9 +1,8 @@
 //! The division of a program into contours and the ways between them: the blocks from one word to the next.
 
 use super::super::entry::{BlockEntry, Entry};
-use super::super::stretch::Stretch;
 use super::super::sum::{Sum, is_jump};
-use super::{At, Document, JoinedCut, PartAt, View};
+use super::{At, Document, JoinedCut, PartAt};
 use crate::program::chunks::Reread;
 use std::ops::Range;
 
@@ -78,7 +77,8 @@ impl Document {
     }
 
     /// The blocks from a part on, up to the next word; `None` behind the end of the program.
-    pub(super) fn cut_from(&self, start: PartAt, end: Option<At>) -> Option<JoinedCut> {
+    pub(super) fn cut_from(&self, start: PartAt) -> Option<JoinedCut> {
+        let end = self.view.end;
         let mut cut: Option<JoinedCut> = None;
         let (mut stretch, mut index) = start;
         while let Some(of) = self.stretches.get(stretch) {
@@ -92,8 +92,6 @@ impl Document {
                     sum: Sum::default(),
                     is_jump: false,
                     stop: None,
-                    goes_round: false,
-                    crosses_nothing: false,
                 });
                 own.parts[1] = (stretch, nth);
                 own.sum = own.sum.then(&of.sum(part));
@@ -103,7 +101,7 @@ impl Document {
                         && self.is_behind_word(start)
                         && !is_end
                         && is_jump(&own.sum)
-                        && !self.stops_again((stretch, nth), end);
+                        && !self.stops_again((stretch, nth));
                     return cut;
                 }
             }
@@ -123,7 +121,7 @@ impl Document {
 
     /// Whether another word follows the one behind a part, with no block between: an open contour before them is meant
     /// to end there. The word that ends the program does not count: a tab may be left standing.
-    pub(super) fn stops_again(&self, part: PartAt, end: Option<At>) -> bool {
+    pub(super) fn stops_again(&self, part: PartAt) -> bool {
         let (mut stretch, mut index) = self.part_behind(part);
         while let Some(of) = self.stretches.get(stretch) {
             for part in of.parts.iter().skip(index) {
@@ -132,7 +130,7 @@ impl Document {
                 }
                 if part.word.is_some() {
                     let entry = part.entries().end;
-                    return Some(At { stretch, entry }) != end;
+                    return Some(At { stretch, entry }) != self.view.end;
                 }
             }
             (stretch, index) = (stretch + 1, 0);
@@ -153,84 +151,63 @@ impl Document {
         }
     }
 
-    /// The cuts that are not parts of one stretch.
-    pub(super) fn outer_cuts(&self, end: Option<At>) -> Vec<JoinedCut> {
-        let mut cuts = Vec::new();
-        let mut start = Some((0, 0));
-        while let Some(cut) = start.and_then(|start| self.cut_from(start, end)) {
-            start = self.outer_start_behind(&cut);
-            cuts.push(cut);
-        }
-        cuts
-    }
-
-    /// Where the next of them begins; `None` behind the last.
+    /// Where the next cut that is not a part of one stretch begins; `None` behind the last.
     fn outer_start_behind(&self, cut: &JoinedCut) -> Option<PartAt> {
         let (stretch, part) = cut.parts[1];
         let parts = self.stretches.get(stretch)?.parts.len();
         (part + 1 < parts).then_some((stretch, parts - 1))
     }
 
-    /// The same after an edit: what lies apart from what was read again is as it was before, behind it perhaps some stretches on.
-    pub(super) fn outer_cuts_after(
-        &self,
-        before: View,
-        reread: &Reread,
-        end: Option<At>,
-    ) -> Vec<JoinedCut> {
-        let moved = |at: At| {
-            let stretch = reread.moved(at.stretch)?;
-            Some(At { stretch, ..at })
-        };
-        if before.end.map(moved) != end.map(Some) {
-            return self.outer_cuts(end);
-        }
-        let mut cuts = before.outer;
+    /// Finds the cuts that are not parts of one stretch: those apart from what was read again are as they were before,
+    /// behind it perhaps some stretches on. Returns where the first and the last of the others begin and end.
+    pub(super) fn find_outer(&self, cuts: &mut Vec<JoinedCut>, reread: &Reread) -> [PartAt; 2] {
         // How the last one before the edit ends may depend on what stands behind its word: it is asked again.
         let kept = cuts
             .partition_point(|cut| cut.parts[1].0 < reread.chunks.start)
             .saturating_sub(1);
         let mut fresh: Vec<JoinedCut> = Vec::new();
-        let mut start = match kept.checked_sub(1).and_then(|last| cuts.get(last)) {
+        let from = match kept.checked_sub(1).and_then(|last| cuts.get(last)) {
             Some(last) => self.outer_start_behind(last),
             None => Some((0, 0)),
         };
+        let behind = (self.stretches.len(), 0);
+        let mut to = behind;
+        let mut start = from;
         let mut same_from = cuts.len();
         while let Some(at) = start {
             if at.0 >= reread.chunks.end
-                && let Some(same) = place_of_moved(&cuts, reread, at)
+                && let Some(same) = place_of_moved(cuts, reread, at)
                 && same > 0
                 && kept + fresh.len() > 0
             {
-                same_from = same;
+                (same_from, to) = (same, at);
                 break;
             }
-            let Some(cut) = self.cut_from(at, end) else {
+            let Some(cut) = self.cut_from(at) else {
                 break;
             };
             start = self.outer_start_behind(&cut);
             fresh.push(cut);
         }
         if reread.chunks.len() != reread.before {
+            let moved = |stretch: usize| reread.moved(stretch).unwrap_or(stretch);
             for cut in cuts.iter_mut().skip(same_from) {
-                for part in &mut cut.parts {
-                    part.0 = reread.moved(part.0).unwrap_or(part.0);
-                }
+                cut.parts = cut.parts.map(|(stretch, part)| (moved(stretch), part));
             }
         }
         cuts.splice(kept..same_from, fresh);
-        cuts
+        [from.unwrap_or(behind), to]
     }
 
     /// The contour that a part belongs to, or the way between two: its cut, and those before and behind at its tabs.
-    pub(super) fn cut_of_part(&self, view: &View, part: PartAt) -> Option<JoinedCut> {
-        let mut cut = self.own_cut_of_part(view, part)?;
-        while view.tabs.binary_search(&cut.parts[0]).is_ok() {
+    pub(super) fn cut_of_part(&self, part: PartAt) -> Option<JoinedCut> {
+        let mut cut = self.own_cut_of_part(part)?;
+        while self.is_tab(cut.parts[0]) {
             let (stretch, part) = cut.parts[0];
             // Its word stands at the end of the part before.
             let Some(before) = part
                 .checked_sub(1)
-                .and_then(|part| self.own_cut_of_part(view, (stretch, part)))
+                .and_then(|part| self.own_cut_of_part((stretch, part)))
             else {
                 break;
             };
@@ -238,12 +215,8 @@ impl Document {
         }
         loop {
             let next = self.part_behind(cut.parts[1]);
-            let Some(behind) = view
-                .tabs
-                .binary_search(&next)
-                .ok()
-                .and_then(|_| self.cut_from(next, view.end))
-            else {
+            let is_tab = self.is_tab(next);
+            let Some(behind) = is_tab.then(|| self.cut_from(next)).flatten() else {
                 break;
             };
             cut = joined(cut, &behind);
@@ -253,18 +226,18 @@ impl Document {
 
     /// An open cut, and those before and behind its stops that are open too, as one: what is wrong may stand in any of
     /// them. `None` where it is the only one.
-    pub(super) fn with_open_beside(&self, view: &View, cut: &JoinedCut) -> Option<JoinedCut> {
-        let is_open = |cut: &JoinedCut| !self.closes(view, cut);
+    pub(super) fn with_open_beside(&self, cut: &JoinedCut) -> Option<JoinedCut> {
+        let is_open = |cut: &JoinedCut| !self.closes(cut);
         if !is_open(cut) {
             return None;
         }
         let (stretch, part) = cut.parts[0];
         let before = part
             .checked_sub(1)
-            .and_then(|part| self.own_cut_of_part(view, (stretch, part)))
+            .and_then(|part| self.own_cut_of_part((stretch, part)))
             .filter(is_open);
         let behind = self
-            .cut_from(self.part_behind(cut.parts[1]), view.end)
+            .cut_from(self.part_behind(cut.parts[1]))
             .filter(is_open);
         let whole = match &before {
             Some(before) => joined(before.clone(), cut),
@@ -277,15 +250,14 @@ impl Document {
     }
 
     /// The cut that a part belongs to.
-    fn own_cut_of_part(&self, view: &View, (stretch, part): PartAt) -> Option<JoinedCut> {
+    fn own_cut_of_part(&self, (stretch, part): PartAt) -> Option<JoinedCut> {
         let of = self.stretches.get(stretch)?;
         if part > 0 && part + 1 < of.parts.len() {
-            return self.cut_from((stretch, part), view.end);
+            return self.cut_from((stretch, part));
         }
-        let index = view
-            .outer
-            .partition_point(|cut| cut.parts[1] < (stretch, part));
-        view.outer.get(index).cloned()
+        let outer = &self.view.outer;
+        let index = outer.partition_point(|cut| cut.parts[1] < (stretch, part));
+        outer.get(index).cloned()
     }
 
     pub(super) fn is_jump(&self, part: PartAt) -> bool {
@@ -294,36 +266,16 @@ impl Document {
         if is_inner && parts.get(part.1).is_some_and(|own| !own.may_be_jump) {
             return false;
         }
-        self.cut_of_part(&self.view, part)
-            .is_some_and(|cut| cut.is_jump)
+        self.cut_of_part(part).is_some_and(|cut| cut.is_jump)
     }
 
     /// Whether the cut that begins with a part continues the contour before it.
     pub(super) fn is_tab(&self, part: PartAt) -> bool {
-        self.view.tabs.binary_search(&part).is_ok()
+        self.view.contours.is_tab(part)
     }
 
-    pub(super) fn closes(&self, view: &View, cut: &JoinedCut) -> bool {
-        view.open.binary_search(&cut.parts[0]).is_err()
-    }
-
-    /// Of the cuts within one stretch that it names, those up to the end of the program.
-    pub(super) fn inner_cuts<'a>(
-        &'a self,
-        end: Option<At>,
-        named: fn(&Stretch) -> &[usize],
-    ) -> impl Iterator<Item = JoinedCut> + 'a {
-        let up_to = end.map_or(usize::MAX, |end| end.stretch);
-        let stretches = self
-            .stretches
-            .iter()
-            .enumerate()
-            .take_while(move |(stretch, _)| *stretch <= up_to);
-        stretches.flat_map(move |(stretch, of)| {
-            named(of)
-                .iter()
-                .filter_map(move |part| self.cut_from((stretch, *part), end))
-        })
+    pub(super) fn closes(&self, cut: &JoinedCut) -> bool {
+        !self.view.contours.is_open(cut.parts[0])
     }
 
     /// The entries of a cut in their order.
@@ -362,7 +314,7 @@ impl Document {
 
     pub(super) fn cut_of(&self, at: At) -> Option<JoinedCut> {
         self.stretches.get(at.stretch)?;
-        self.cut_of_part(&self.view, (at.stretch, self.part_of(at)))
+        self.cut_of_part((at.stretch, self.part_of(at)))
     }
 
     /// The part of its stretch that an entry lies in.
@@ -381,8 +333,6 @@ pub(super) fn joined(cut: JoinedCut, behind: &JoinedCut) -> JoinedCut {
         sum: cut.sum.then(&behind.sum),
         is_jump: false,
         stop: cut.stop.or(Some(cut.sum.blocks)),
-        goes_round: false,
-        crosses_nothing: false,
     }
 }
 

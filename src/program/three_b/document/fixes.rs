@@ -81,7 +81,7 @@ impl Document {
             before,
             stated,
             goes_on,
-            closes: self.closes(&self.view, &cut),
+            closes: self.closes(&cut),
             closes_with: &|blocks| self.closes_with(at, entry, blocks),
         }))
     }

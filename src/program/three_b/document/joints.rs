@@ -4,9 +4,10 @@
 use super::super::entry::{Entry, What};
 use super::super::rules::{Counts, TextFix};
 use super::super::stretch::{Edge, Local, shape};
-use super::{At, Document, JoinedCut, View};
+use super::{At, Document, JoinedCut};
 use crate::finding::{Detail, Fault, Finding, FixKind};
 use crate::geometry::{Point, Segment, Vector};
+use crate::program::contours::PartAt;
 use crate::program::path::{may_be_odd, odd_joint, tolerance};
 use crate::text::TextEdit;
 use std::ops::Range;
@@ -15,8 +16,9 @@ use std::ops::Range;
 const REACH: usize = 3;
 
 impl Document {
-    /// The joints about the ends of stretches.
-    pub(super) fn judge_joints(&self, view: &mut View) {
+    /// The joints about the ends of stretches; returns the parts in which one is reported.
+    pub(super) fn judge_joints(&self, findings: &mut Vec<Finding>) -> Vec<PartAt> {
+        let mut told = Vec::new();
         let mut odd: Vec<(At, Fault)> = Vec::new();
         let mut before: Option<&Edge> = None;
         for (stretch, of) in self.stretches.iter().enumerate() {
@@ -35,12 +37,13 @@ impl Document {
         odd.dedup_by_key(|(at, _)| *at);
         for (at, fault) in odd {
             let part = (at.stretch, self.part_of(at));
-            let cut = self.cut_of_part(view, part);
-            if cut.is_some_and(|cut| self.is_told(view, &cut, at, &fault)) {
-                view.odd.push(part);
-                view.findings.push(Finding::of(fault, self.range_of(at)));
+            let cut = self.cut_of_part(part);
+            if cut.is_some_and(|cut| self.is_told(&cut, at, &fault)) {
+                told.push(part);
+                findings.push(Finding::of(fault, self.range_of(at)));
             }
         }
+        told
     }
 
     /// The odd joints whose blocks lie on both sides of the beginning of a stretch.
@@ -71,23 +74,23 @@ impl Document {
 
     /// Whether an odd joint is reported: the contour has no other fault, and a spur is no way out and in again between
     /// two passes.
-    pub(super) fn is_told(&self, view: &View, cut: &JoinedCut, at: At, fault: &Fault) -> bool {
-        let tip = || self.stands_before(view, at);
-        let begin = || Some(self.stands_before(view, self.blocks_of(cut).next()?));
+    pub(super) fn is_told(&self, cut: &JoinedCut, at: At, fault: &Fault) -> bool {
+        let tip = || self.stands_before(at);
+        let begin = || Some(self.stands_before(self.blocks_of(cut).next()?));
         let is_lead =
             || begin().is_some_and(|begin| (begin - tip()).norm() <= tolerance(cut.sum.arcs));
         cut.sum.errors == 0 && !(matches!(fault, Fault::Spur { .. }) && is_lead())
     }
 
     /// The same for one within a stretch.
-    pub(super) fn is_local_told(&self, view: &View, stretch: usize, local: &Local) -> bool {
+    pub(super) fn is_local_told(&self, stretch: usize, local: &Local) -> bool {
         let (Some(cut), Some(at)) = (
-            self.cut_of_part(view, (stretch, local.part)),
+            self.cut_of_part((stretch, local.part)),
             self.entry_of(stretch, local),
         ) else {
             return false;
         };
-        matches!(&local.detail, Detail::Program(fault) if self.is_told(view, &cut, at, fault))
+        matches!(&local.detail, Detail::Program(fault) if self.is_told(&cut, at, fault))
     }
 
     fn entry_of(&self, stretch: usize, local: &Local) -> Option<At> {
@@ -97,23 +100,34 @@ impl Document {
     }
 
     /// The machine's position before an entry, µm.
-    fn stands_before(&self, view: &View, at: At) -> Point {
+    fn stands_before(&self, at: At) -> Point {
         let travels = self
             .entries_in(at.stretch)
             .iter()
             .take(at.entry)
             .filter_map(Entry::block);
         let by = travels.map(|block| block.travel().machine);
-        let begin = view.begins.get(at.stretch).copied().unwrap_or_default();
+        let begin = self
+            .view
+            .begins
+            .get(at.stretch)
+            .copied()
+            .unwrap_or_default();
         let of_stretch = |(own, _): &&(At, Vector)| own.stretch == at.stretch && *own <= at;
-        let taken: Vector = view.taken.iter().filter(of_stretch).map(|(_, by)| by).sum();
+        let taken: Vector = self
+            .view
+            .taken
+            .iter()
+            .filter(of_stretch)
+            .map(|(_, by)| by)
+            .sum();
         by.fold(begin + taken, |at, [x, y]| {
             at + Vector::new(x as f64, y as f64)
         })
     }
 
     /// Whether an odd joint of a cut is reported.
-    pub(super) fn is_odd(&self, view: &View, cut: &JoinedCut) -> bool {
+    pub(super) fn is_odd(&self, cut: &JoinedCut) -> bool {
         let [(first_stretch, first), (last_stretch, last)] = cut.parts;
         let of_stretch = |stretch: usize| {
             let faults = self.stretches.get(stretch).map_or(&[][..], |of| &of.faults);
@@ -121,11 +135,12 @@ impl Document {
                 local.counts == Counts::IfAlone
                     && (first_stretch, first) <= (stretch, local.part)
                     && (stretch, local.part) <= (last_stretch, last)
-                    && self.is_local_told(view, stretch, local)
+                    && self.is_local_told(stretch, local)
             })
         };
-        let first_odd = view.odd.partition_point(|part| *part < cut.parts[0]);
-        let is_between = view
+        let first_odd = self.view.odd.partition_point(|part| *part < cut.parts[0]);
+        let is_between = self
+            .view
             .odd
             .get(first_odd)
             .is_some_and(|part| *part <= cut.parts[1]);

@@ -10,7 +10,7 @@ use super::super::repair::{
     BLOCKS, Change, Item, Loose, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs,
 };
 use super::super::rules::{TextFix, block_number};
-use super::{At, Document, JoinedCut, View};
+use super::{At, Document, JoinedCut};
 use crate::finding::{Axis, Fault, Finding, FixKind, Place, Rule};
 use crate::program::grid::Node;
 use crate::program::repair::offered;
@@ -52,7 +52,7 @@ impl Document {
         let Some(cut) = self.cut_of(at) else {
             return Vec::new();
         };
-        let Some(whole) = self.with_open_beside(&self.view, &cut) else {
+        let Some(whole) = self.with_open_beside(&cut) else {
             return self.searched(&cut, scope, |_| true);
         };
         // One slip leaves both open; of two nothing says in which of them each is.
@@ -76,7 +76,7 @@ impl Document {
         let Some((places, pieces)) = self.pieces_of(cut) else {
             return Vec::new();
         };
-        let is_closed = self.closes(&self.view, cut) && cut.sum.unread == 0;
+        let is_closed = self.closes(cut) && cut.sum.unread == 0;
         let path = self.path_of(cut, &places, &pieces, is_closed);
         let mut found = repairs(&path, scope);
         found.retain_mut(wanted);
@@ -89,8 +89,8 @@ impl Document {
     }
 
     /// The block that keeps a contour open, by its number in the cut, where no other repair is as likely.
-    pub(super) fn blamed(&self, view: &View, cut: &JoinedCut) -> Option<(usize, Fault)> {
-        let whole = self.with_open_beside(view, cut);
+    pub(super) fn blamed(&self, cut: &JoinedCut) -> Option<(usize, Fault)> {
+        let whole = self.with_open_beside(cut);
         let whole = whole.as_ref().unwrap_or(cut);
         let (places, pieces) = self.pieces_of(whole)?;
         let first = self.blocks_of(cut).next()?;

@@ -66,14 +66,14 @@ impl Document {
     }
 
     fn cut_of_local(&self, stretch: usize, local: &Local) -> Option<JoinedCut> {
-        self.cut_of_part(&self.view, (stretch, local.part))
+        self.cut_of_part((stretch, local.part))
     }
 
     fn is_unusual_only(&self, stretch: usize, local: &Local) -> bool {
         local.counts == Counts::MildIfClosed
             && self
                 .cut_of_local(stretch, local)
-                .is_none_or(|cut| self.closes(&self.view, &cut))
+                .is_none_or(|cut| self.closes(&cut))
     }
 
     fn own_severity(&self, stretch: usize, local: &Local) -> Severity {
@@ -88,8 +88,8 @@ impl Document {
         let cut = || self.cut_of_local(stretch, local);
         match local.counts {
             Counts::Always | Counts::MildIfClosed => true,
-            Counts::IfAlone => self.is_local_told(&self.view, stretch, local),
-            Counts::IfOpen => cut().is_some_and(|cut| !self.closes(&self.view, &cut)),
+            Counts::IfAlone => self.is_local_told(stretch, local),
+            Counts::IfOpen => cut().is_some_and(|cut| !self.closes(&cut)),
             Counts::IfInside { turns_left } => cut().is_some_and(|cut| {
                 let runs_left = cut.sum.twice_area > 0.0;
                 let wire_is_inside = self.limits.side == SideSetting::Opening;

@@ -4,7 +4,7 @@ use super::super::around::StatedPoint;
 use super::super::entry::{Entry, Move, What};
 use super::super::rules::block_number::{self, Numbered, Numbering, Sequence};
 use super::super::rules::position_mismatch;
-use super::{At, Document, View};
+use super::{At, Document};
 use crate::finding::{Fault, Finding};
 use crate::geometry::Vector;
 
@@ -27,7 +27,7 @@ pub(super) fn place_before(stated: &StatedPoint, travel: &Move) -> StatedPoint {
 }
 
 impl Document {
-    pub(super) fn judge_numbers(&self, view: &mut View) {
+    pub(super) fn judge_numbers(&self, findings: &mut Vec<Finding>) {
         let numbering = self
             .stretches
             .iter()
@@ -39,7 +39,7 @@ impl Document {
         {
             return;
         }
-        let end = view.end;
+        let end = self.view.end;
         let stretches = || 0..end.map_or(self.stretches.len(), |end| end.stretch + 1);
         let from = |stretch: usize| {
             (stretch..stretches().end).flat_map(|stretch| self.numbered_in(stretch, end))
@@ -83,7 +83,7 @@ impl Document {
             }
         }
         for (at, fault, _) in sequence.found() {
-            view.findings.push(Finding::of(fault, self.range_of(at)));
+            findings.push(Finding::of(fault, self.range_of(at)));
         }
     }
 
@@ -153,7 +153,7 @@ impl Document {
     }
 
     /// Where the wire was taken by hand, behind a stop without a way: the first block there, and how far, µm.
-    pub(super) fn taken(&self, view: &View, off: &[OffPosition]) -> Vec<(At, Vector)> {
+    pub(super) fn taken(&self, off: &[OffPosition]) -> Vec<(At, Vector)> {
         let behind_stops = off.iter().filter(|(_, at, _)| {
             let mut before = self.before(*at).map(|(_, entry)| &entry.what);
             let is_stop =
@@ -161,10 +161,10 @@ impl Document {
             matches!(before.find(is_stop), Some(What::Word { .. }))
         });
         let taken = behind_stops.filter_map(|&(_, at, by)| {
-            let own = self.cut_of_part(view, (at.stretch, self.part_of(at)))?;
+            let own = self.cut_of_part((at.stretch, self.part_of(at)))?;
             let (stretch, part) = own.parts[0];
             let before = part.checked_sub(1).map(|part| (stretch, part));
-            let before = before.and_then(|before| self.cut_of_part(view, before));
+            let before = before.and_then(|before| self.cut_of_part(before));
             let is_behind_way = before.is_some_and(|cut| cut.is_jump);
             (!is_behind_way && self.returns_beside(at)).then_some((at, Vector::from(by)))
         });
@@ -219,10 +219,15 @@ impl Document {
         goes_on != Some(false) && !is_at(&last, &before) && is_at(&last, &begin)
     }
 
-    pub(super) fn judge_positions(&self, view: &mut View, off: Vec<OffPosition>) {
+    pub(super) fn judge_positions(&self, findings: &mut Vec<Finding>, off: Vec<OffPosition>) {
         let mut before: Option<(usize, [f64; 2])> = None;
         for (ordinal, at, [x, y]) in off {
-            if view.taken.binary_search_by_key(&at, |(at, _)| *at).is_ok() {
+            if self
+                .view
+                .taken
+                .binary_search_by_key(&at, |(at, _)| *at)
+                .is_ok()
+            {
                 continue;
             }
             // One wrong end point is off once on the way there and once on the way back.
@@ -232,7 +237,7 @@ impl Document {
             before = (!goes_back).then_some((ordinal, [x, y]));
             if !goes_back {
                 let fault = Fault::PositionMismatch { x, y };
-                view.findings.push(Finding::of(fault, self.range_of(at)));
+                findings.push(Finding::of(fault, self.range_of(at)));
             }
         }
     }

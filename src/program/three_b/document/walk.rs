@@ -110,11 +110,9 @@ impl Program for Document {
         let Some(of) = self.stretches.get(stretch).filter(|_| !is_behind_end) else {
             return Sum::default();
         };
-        let tabs = &self.view.tabs;
-        let tabs_before = |stretch: usize| tabs.partition_point(|tab| tab.0 < stretch);
-        let own_tabs = match tabs.is_empty() || of.words == 0 {
-            true => 0,
-            false => tabs_before(stretch + 1) - tabs_before(stretch),
+        let own_tabs = match of.words {
+            0 => 0,
+            _ => self.view.contours.tabs_in(stretch),
         };
         let may_be_jump =
             of.words == 0 && of.parts.first().is_some_and(|part| is_jump(&of.sum(part)));

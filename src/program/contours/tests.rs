@@ -1,0 +1,189 @@
+//! Edits of programs with many stops, in every language, leave what is known of them as read afresh, and look at what they touch.
+
+use crate::program::{Document, Language};
+use crate::settings::Effective;
+use proptest::prelude::*;
+use std::fmt::Write as _;
+
+/// A step of the wire, mm, or a stop.
+type Step = Option<[i32; 2]>;
+
+/// How a die opening is cut from its thread hole on: its kind, its passes and its size, mm.
+type Opening = (u8, usize, i32);
+
+fn opening() -> impl Strategy<Value = Opening> {
+    (0_u8..12, 1_usize..4, 8_i32..14)
+}
+
+/// Its way, from the origin on: passes to and fro up to the tab, a stop, and what is behind it.
+fn way(&(kind, passes, size): &Opening) -> Vec<Step> {
+    let pass = [[2, 0], [size, 0], [size, size], [2, size], [2, 3]];
+    let mut way: Vec<Step> = pass.iter().copied().map(Some).collect();
+    for nth in 1..passes {
+        let mut own = pass.to_vec();
+        if nth % 2 == 1 {
+            own.reverse();
+        }
+        if kind == 1 {
+            way.push(None);
+        }
+        way.extend(own.into_iter().skip(1).map(Some));
+    }
+    let ends_at_tab = passes % 2 == 1;
+    let tab: &[Step] = match kind {
+        // The tab is left standing, or cut wrong; the machine stops twice; several stops hold the part.
+        2 => &[],
+        3 => &[None, Some([5, 5])],
+        4 => &[None, None, Some([2, 0]), Some([0, 0])],
+        5 => &[None, Some([2, 2]), None, Some([2, 0]), Some([0, 0])],
+        // A way to elsewhere, and one contour without a stop.
+        6 => &[None, Some([30, 0]), None],
+        7 => &[Some([2, 0]), Some([0, 0])],
+        8 => &[None, Some([2, 0]), Some([-9, size]), Some([0, 0])],
+        _ => &[None, Some([2, 0]), Some([0, 0])],
+    };
+    way.extend(tab.iter().filter(|_| ends_at_tab || kind != 7));
+    way
+}
+
+/// Openings beside each other, each with the way to the next, as a program.
+fn program(language: Language, openings: &[Opening], is_relative: bool) -> String {
+    let mut text = match (language, is_relative) {
+        (Language::ThreeB, _) => String::new(),
+        (Language::Iso, true) => "G92 X0. Y0.\nG91\n".to_owned(),
+        (Language::Iso, false) => "G92 X0. Y0.\nG90\n".to_owned(),
+    };
+    let mut at = [0, 0];
+    for (nth, own) in openings.iter().enumerate() {
+        let begin = 40 * nth as i32;
+        let to_here = [None, Some([0, 0]), None];
+        for (index, step) in to_here.into_iter().chain(way(own)).enumerate() {
+            let Some([x, y]) = step else {
+                text += if language == Language::Iso {
+                    "M00\n"
+                } else {
+                    "D\n"
+                };
+                continue;
+            };
+            let to = [begin + x, y];
+            let [dx, dy] = [to[0] - at[0], to[1] - at[1]];
+            at = to;
+            match language {
+                Language::ThreeB => {
+                    let quadrant = match (dx, dy) {
+                        (1.., 0..) => 1,
+                        (..=0, 1..) => 2,
+                        (..0, ..=0) => 3,
+                        _ => 4,
+                    };
+                    let [dx, dy] = [dx.abs() * 1000, dy.abs() * 1000];
+                    let axis = if dx > dy { 'X' } else { 'Y' };
+                    let _ = writeln!(text, "B{dx}B{dy}B{}G{axis}L{quadrant}", dx.max(dy));
+                }
+                Language::Iso => {
+                    let word = if index == 1 { "G00" } else { "G01" };
+                    let [x, y] = if is_relative { [dx, dy] } else { to };
+                    let _ = writeln!(text, "{word} X{x}. Y{y}.");
+                }
+            }
+        }
+    }
+    text + if language == Language::Iso {
+        "M02\n"
+    } else {
+        "DD\n"
+    }
+}
+
+fn told(document: &Document) -> Vec<String> {
+    let (findings, _) = document.findings(&Effective::default(), usize::MAX);
+    let mut told: Vec<String> = findings.iter().map(|one| format!("{one:?}")).collect();
+    told.sort();
+    told
+}
+
+fn assert_as_afresh(document: &Document) -> Result<(), TestCaseError> {
+    let text = document.text().bytes().to_vec();
+    let fresh = Document::read(document.language(), text, &Effective::default());
+    prop_assert_eq!(told(document), told(&fresh));
+    prop_assert_eq!(document.trace(), fresh.trace());
+    let all = 0..document.text().len();
+    prop_assert_eq!(document.steps_in(all.clone()), fresh.steps_in(all));
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+    #[test]
+    fn an_edit_among_stops_leaves_contours_as_read_afresh(
+        openings in prop::collection::vec(opening(), 1..16),
+        language in prop::sample::select(Language::ALL.to_vec()),
+        is_relative in any::<bool>(),
+        edits in prop::collection::vec((0.0..1.0, 0_usize..3, any::<prop::sample::Index>()), 1..5),
+    ) {
+        let words = match language {
+            Language::ThreeB => ["", "7", "1", "\n", "D\n", "DD\n", "B2000B0B2000GXL3\n", "x"],
+            Language::Iso => ["", "7", "1", "\n", "M00\n", "M02\n", "G00 X3. Y0.\n", "G91\n"],
+        };
+        let text = program(language, &openings, is_relative);
+        let mut document = Document::read(language, text.into_bytes(), &Effective::default());
+        for (place, length, word) in edits {
+            let start = (document.text().len() as f64 * place) as usize;
+            let start = if length == 0 { document.text().line_start(document.text().line_of(start)) } else { start };
+            let word = words[word.index(words.len())];
+            document.edit(start..start + length, word);
+            assert_as_afresh(&document)?;
+        }
+    }
+
+    #[test]
+    fn a_character_that_comes_and_goes_leaves_contours_as_they_were(
+        openings in prop::collection::vec(opening(), 1..16),
+        language in prop::sample::select(Language::ALL.to_vec()),
+        is_relative in any::<bool>(),
+        place in 0.0..1.0,
+        word in prop::sample::select(vec!["1", "x", "\n"]),
+    ) {
+        let text = program(language, &openings, is_relative);
+        let mut document = Document::read(language, text.into_bytes(), &Effective::default());
+        let before = told(&document);
+        let at = (document.text().len() as f64 * place) as usize;
+        document.edit(at..at, word);
+        assert_as_afresh(&document)?;
+        document.edit(at..at + 1, "");
+        assert_as_afresh(&document)?;
+        prop_assert_eq!(told(&document), before);
+    }
+}
+
+/// What an edit looks at does not grow with the program, wherever it is made.
+#[test]
+fn an_edit_among_many_stops_looks_at_few_cuts() {
+    for language in Language::ALL {
+        for is_relative in [false, true] {
+            let openings: Vec<Opening> = (0..400).map(|nth| (nth as u8 % 2, 3, 8)).collect();
+            let text = program(language, &openings, is_relative);
+            let mut document =
+                Document::read(language, text.clone().into_bytes(), &Effective::default());
+            let all = document.cuts_looked_at();
+            assert!(all >= 400, "{language:?}: {all}");
+            for (at, line) in text.match_indices('\n').skip(5).step_by(97) {
+                // Where the place is lost, it is for all steps behind.
+                for word in ["1", "\n", "x"]
+                    .into_iter()
+                    .take(3 - usize::from(is_relative))
+                {
+                    document.edit(at..at, word);
+                    let come = document.cuts_looked_at();
+                    document.edit(at..at + 1, "");
+                    let looked_at = come.max(document.cuts_looked_at());
+                    assert!(
+                        looked_at <= 40,
+                        "{language:?} {is_relative} {at} {line:?} {word:?}: {looked_at}"
+                    );
+                }
+            }
+        }
+    }
+}
