@@ -49,7 +49,7 @@ const ROUNDED: f64 = 2.5;
 const CHANGED: f64 = 2.5;
 /// For each differing block this many must be as we write them: then it is a change, and not another writer's rounding.
 const OWN: usize = 8;
-/// For each of two differing blocks this many must follow.
+/// For each of two differing blocks this many must follow, where one ends quite elsewhere.
 const LIKE: usize = 4;
 /// The most corrections that are found for further passes.
 const FURTHER: usize = 4;
@@ -427,8 +427,15 @@ impl Tried {
         // Several small differences come from the guessed settings, not from a change.
         let is_change = |unlike: &Unlike| unlike.kind != Kind::Block || unlike.off >= CHANGED;
         let all = &self.unlike[..];
-        // Of few blocks two are as soon as not those that another start has elsewhere.
-        let like = if all.len() < 2 { 1 } else { LIKE };
+        // Of few blocks, two that end farther from their places than they are long may be those that another start has there.
+        let goes_elsewhere = |unlike: &Unlike| {
+            let own = traced.blocks[unlike.block].segment();
+            own.is_some_and(|own| unlike.off > own.length())
+        };
+        let like = match all.len() > 1 && all.iter().any(goes_elsewhere) {
+            true => LIKE,
+            false => 1,
+        };
         let is_likely = self.followed >= like * all.len().max(1)
             && (all.len() < 2 || all.iter().all(is_change))
             && (all.len() < 3 || self.is_own());

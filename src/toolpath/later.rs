@@ -285,6 +285,20 @@ mod tests {
     use std::cell::Cell;
     use std::f64::consts::TAU;
 
+    const ROUNDING: f64 = 1e-6;
+
+    /// Every piece of one path lies along another.
+    fn lies_along(one: &[Element], other: &[Element], tolerance: f64) -> bool {
+        let is_near = |at: Point| {
+            let mut away = other.iter().map(|own| own.geometry.distance_to(at));
+            away.any(|away| away <= tolerance)
+        };
+        let mut pieces = one.iter();
+        pieces.all(|piece| {
+            [0.0, 0.5, 1.0].map(|share| is_near(piece.geometry.point_at(share))) == [true; 3]
+        })
+    }
+
     /// A path along that of a first pass is the one that is laid from nothing, on contours of which some lose pieces from one correction to the
     /// next, or gain them; on most there is one.
     #[test]
@@ -333,7 +347,7 @@ mod tests {
                     own: &own,
                     correction: later.correction,
                     side: -1.0,
-                    rounding: 1e-6,
+                    rounding: ROUNDING,
                     closed: true,
                 },
                 offsets: offsets(&later),
@@ -362,7 +376,12 @@ mod tests {
             };
             laid.set(laid.get() + 1);
             let fresh = trimmed(&Raw::new(offsets(&later))).map(|pieces| pieces.elements);
-            prop_assert_eq!(format!("{:?}", Some(path)), format!("{fresh:?}"));
+            let fresh = fresh.unwrap_or_default();
+            // Where three pieces meet in one point but for rounding, one of the two paths may do without the middle one.
+            let are_near =
+                || lies_along(&path, &fresh, ROUNDING) && lies_along(&fresh, &path, ROUNDING);
+            let is_same = format!("{path:?}") == format!("{fresh:?}") || are_near();
+            prop_assert!(is_same, "{path:?}\n{fresh:?}");
             Ok(())
         });
         assert_eq!(checked, Ok(()));
