@@ -72,6 +72,7 @@ impl Aside {
 
 impl fmt::Debug for Aside {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} bytes set aside", self.length)
+        let mut aside = f.debug_struct("Aside");
+        aside.field("length", &self.length).finish_non_exhaustive()
     }
 }
