@@ -374,7 +374,6 @@ impl Chains {
             };
             by_part.values().map(Vec::as_slice).map(of_part).collect()
         };
-        let before = self.next_key;
         for (entities, linked) in &linked {
             for way in &linked.ways {
                 let key = self.fresh_key();
@@ -383,7 +382,8 @@ impl Chains {
                 }
             }
         }
-        let mut new = Vec::with_capacity((self.next_key - before) as usize);
+        let count = linked.iter().map(|(_, linked)| linked.ways.len());
+        let mut new = Vec::with_capacity(count.sum());
         self.group(&entities, &ends_of, &joints);
         // Before there are contours: they and the joints take as much memory as the ends.
         drop(joints);
@@ -393,7 +393,8 @@ impl Chains {
             let chain = |way: &Way| Arc::new(Chain::new(drawing, entities, &linked.pieces, way));
             let chains: Vec<Arc<Chain>> = ways.map(chain).collect();
             self.contours.reserve(chains.len());
-            for (key, chain) in (before + 1 + new.len() as Key..).zip(chains) {
+            for chain in chains {
+                let key = self.contour_of[chain.contour.pieces[0].entity.0 as usize];
                 for (place, piece) in (0..).zip(&chain.contour.pieces) {
                     self.piece_of[piece.entity.0 as usize] = place;
                 }
