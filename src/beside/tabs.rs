@@ -3,7 +3,7 @@
 use super::drawn::Drawn;
 use super::reference::Reference;
 use super::traced::{Motion, Traced};
-use crate::geometry::{Point, Segment, Vector};
+use crate::geometry::{Bounds, Grid, Point, Segment, Vector};
 use crate::program::write::scaled;
 use crate::settings::PointSetting;
 use rustc_hash::FxHashMap;
@@ -46,26 +46,32 @@ pub(super) fn tabs(
     }
     let walls = Walls::of(drawn, corrections);
     let Some(walls) = walls else { return found };
-    let entries = |of: &Traced| -> Vec<(usize, f64)> {
-        let cuts = of.cuts.iter().filter_map(|[all, contour]| {
-            let by = laid(of, all, reference)?;
-            entry(of, contour, |place| walls.foot(place + by))
-        });
-        cuts.collect()
-    };
-    let mut all = entries(&reference.traced);
-    all.extend(entries(traced));
+    let pieces = Pieces::of(reference);
+    // By contour where the cuts of either program begin along it.
+    let mut entries: Vec<Vec<f64>> = vec![Vec::new(); walls.contours.len()];
+    let own = laid(traced, &pieces);
+    for (of, all) in [
+        (&reference.traced, &laid(&reference.traced, &pieces)),
+        (traced, &own),
+    ] {
+        for ([_, contour], by) in of.cuts.iter().zip(all) {
+            let at = by.and_then(|by| entry(of, contour, |place| walls.foot(place + by)));
+            if let Some((contour, along)) = at
+                && let Some(entries) = entries.get_mut(contour)
+            {
+                entries.push(along);
+            }
+        }
+    }
     let mut lengths: Vec<f64> = Vec::new();
-    for [cut, _] in &traced.cuts {
-        let Some(by) = laid(traced, cut, reference) else {
-            continue;
-        };
+    for ([cut, _], by) in traced.cuts.iter().zip(&own) {
+        let Some(by) = *by else { continue };
         for place in places(traced, cut) {
             let Some((contour, at)) = walls.foot(place + by) else {
                 continue;
             };
             let whole = walls.contours[contour].1;
-            for (_, entry) in all.iter().filter(|(own, _)| *own == contour) {
+            for entry in entries.get(contour).into_iter().flatten() {
                 let away = (entry - at).rem_euclid(whole);
                 lengths.extend([away, whole - away]);
             }
@@ -73,13 +79,15 @@ pub(super) fn tabs(
     }
     // That which most stops and entries speak for first, and of these the rounder number.
     let mut rounded: Vec<(usize, usize, f64)> = Vec::new();
+    let mut known: FxHashMap<u64, usize> = FxHashMap::default();
     for um in lengths {
         for (rank, to) in ROUND.iter().enumerate() {
             let round = (um / to).round() * to;
             if (round - um).abs() > ROUNDED || round <= 20.0 {
                 continue;
             }
-            match rounded.iter_mut().find(|(.., known)| *known == round) {
+            let at = *known.entry(round.to_bits()).or_insert(rounded.len());
+            match rounded.get_mut(at) {
                 Some((count, ..)) => *count += 1,
                 None => rounded.push((1, rank, round)),
             }
@@ -129,8 +137,10 @@ pub(super) fn threads(
 /// contour.
 struct Walls {
     contours: Vec<(Vec<(Segment, f64)>, f64)>,
-    /// The largest distance of the path from them, µm.
+    /// The distances of the path from them, µm.
     away: Vec<f64>,
+    /// The walls by contour and place in it.
+    boxes: Grid<(usize, usize)>,
 }
 
 impl Walls {
@@ -148,9 +158,20 @@ impl Walls {
             (segments.collect(), way)
         });
         let on_it = std::iter::once(0.0);
-        (sum <= WALLS).then(|| Walls {
-            contours: of_contours.collect(),
+        if sum > WALLS {
+            return None;
+        }
+        let contours: Vec<(Vec<(Segment, f64)>, f64)> = of_contours.collect();
+        let mut boxes = Grid::default();
+        for (index, (segments, _)) in contours.iter().enumerate() {
+            for (at, (wall, _)) in segments.iter().enumerate() {
+                boxes.insert((index, at), wall.bounds());
+            }
+        }
+        Some(Walls {
+            contours,
             away: on_it.chain(corrections.iter().map(|mm| mm * 1e3)).collect(),
+            boxes,
         })
     }
 
@@ -164,18 +185,28 @@ impl Walls {
 
     /// The contour beside which a place of the path lies, and how far along it.
     fn foot(&self, place: Point) -> Option<(usize, f64)> {
-        let mut best: Option<(f64, usize, f64)> = None;
-        for (index, (segments, _)) in self.contours.iter().enumerate() {
-            for (wall, begin) in segments {
-                let away = wall.distance_to(place);
-                let is_beside = self.away.iter().any(|own| (away - own).abs() <= NEAR);
-                if is_beside && best.is_none_or(|(least, ..)| away < least) {
-                    let share = wall.share_of(place).clamp(0.0, 1.0);
-                    best = Some((away, index, begin + share * wall.length()));
-                }
+        let reach = self.away.iter().fold(0.0, |most: f64, own| most.max(*own)) + NEAR;
+        let mut best: Option<(f64, (usize, usize))> = None;
+        let about = Bounds::of_disc(place, reach);
+        // Of walls that are as near the first one.
+        self.boxes.near(&about, |key @ (index, at), _| {
+            let Some((wall, _)) = self.wall(index, at) else {
+                return;
+            };
+            let away = wall.distance_to(place);
+            let is_beside = self.away.iter().any(|own| (away - own).abs() <= NEAR);
+            if is_beside && best.is_none_or(|known| (away, key) < known) {
+                best = Some((away, key));
             }
-        }
-        best.map(|(_, index, at)| (index, at))
+        });
+        let (_, (index, at)) = best?;
+        let (wall, begin) = self.wall(index, at)?;
+        let share = wall.share_of(place).clamp(0.0, 1.0);
+        Some((index, begin + share * wall.length()))
+    }
+
+    fn wall(&self, contour: usize, at: usize) -> Option<&(Segment, f64)> {
+        self.contours.get(contour)?.0.get(at)
     }
 }
 
@@ -207,40 +238,66 @@ fn places(traced: &Traced, cut: &Range<usize>) -> Vec<Point> {
     segments.map(Segment::end).collect()
 }
 
-/// From the places of a cut to those of the drawing, by which most of its blocks are pieces of the path.
-fn laid(traced: &Traced, cut: &Range<usize>, reference: &Reference) -> Option<Vector> {
-    let steps = |um: f64| um.round() as i64;
-    let key = |segment: &Segment| match segment {
-        Segment::Line(line) => {
-            let by = line.end - line.start;
-            let by = if (by.y, by.x) < (0.0, 0.0) { -by } else { by };
-            (steps(by.x), steps(by.y))
+/// The pieces of a written program's path, by what stays the same wherever they lie.
+struct Pieces(FxHashMap<(i64, i64), Vec<Point>>);
+
+impl Pieces {
+    fn of(reference: &Reference) -> Pieces {
+        let mut pieces: FxHashMap<(i64, i64), Vec<Point>> = FxHashMap::default();
+        for piece in reference.on_walls() {
+            let own = pieces.entry(Pieces::key(piece)).or_default();
+            own.push(Pieces::stands_for(piece));
         }
-        Segment::Arc(arc) => (steps(arc.radius), i64::MIN),
-    };
-    // Of a line its middle stands for it, whichever way it is gone.
-    let stands_for = |segment: &Segment| match segment {
-        Segment::Line(line) => line.start + (line.end - line.start) / 2.0,
-        Segment::Arc(arc) => arc.center,
-    };
-    let mut pieces: FxHashMap<(i64, i64), Vec<Point>> = FxHashMap::default();
-    for piece in reference.on_walls() {
-        pieces
-            .entry(key(piece))
-            .or_default()
-            .push(stands_for(piece));
+        Pieces(pieces)
     }
+
+    fn key(segment: &Segment) -> (i64, i64) {
+        let steps = |um: f64| um.round() as i64;
+        match segment {
+            Segment::Line(line) => {
+                let by = line.end - line.start;
+                let by = if (by.y, by.x) < (0.0, 0.0) { -by } else { by };
+                (steps(by.x), steps(by.y))
+            }
+            Segment::Arc(arc) => (steps(arc.radius), i64::MIN),
+        }
+    }
+
+    /// Of a line its middle stands for it, whichever way it is gone.
+    fn stands_for(segment: &Segment) -> Point {
+        match segment {
+            Segment::Line(line) => line.start + (line.end - line.start) / 2.0,
+            Segment::Arc(arc) => arc.center,
+        }
+    }
+
+    /// From a block to the first pieces that are as long, or as round.
+    fn votes(&self, segment: &Segment, votes: &mut Vec<Vector>) {
+        let (x, y) = Pieces::key(segment);
+        let about = if y == i64::MIN { 0..=0 } else { -1..=1 };
+        for (x, y) in (-1..=1).flat_map(|by| about.clone().map(move |more| (x + by, y + more))) {
+            let own = self.0.get(&(x, y)).into_iter().flatten();
+            let by = own
+                .take(VOTES)
+                .map(|place| place - Pieces::stands_for(segment));
+            votes.extend(by);
+        }
+    }
+}
+
+/// For each cut, from its places to those of the drawing, by which most of its blocks are pieces of the path.
+fn laid(traced: &Traced, pieces: &Pieces) -> Vec<Option<Vector>> {
+    let cuts = traced.cuts.iter();
+    cuts.map(|[cut, _]| laid_cut(traced, cut, pieces)).collect()
+}
+
+fn laid_cut(traced: &Traced, cut: &Range<usize>, pieces: &Pieces) -> Option<Vector> {
     let blocks = traced.blocks.get(cut.clone())?;
     let segments: Vec<&Segment> = blocks.iter().filter_map(|block| block.segment()).collect();
     let step = segments.len().div_ceil(ASKED).max(1);
     let mut votes: Vec<Vector> = Vec::new();
     for segment in segments.into_iter().step_by(step) {
-        let (x, y) = key(segment);
-        let about = if y == i64::MIN { 0..=0 } else { -1..=1 };
-        for (x, y) in (-1..=1).flat_map(|by| about.clone().map(move |more| (x + by, y + more))) {
-            let own = pieces.get(&(x, y)).into_iter().flatten();
-            votes.extend(own.take(VOTES).map(|place| place - stands_for(segment)));
-        }
+        pieces.votes(segment, &mut votes);
     }
     votes.sort_by(|one, other| one.x.total_cmp(&other.x));
     // Of each vote, those that lie near it in x stand about it.
