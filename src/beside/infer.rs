@@ -5,7 +5,7 @@
 //! together has a vote.
 
 use super::drawn::Contour;
-use crate::geometry::{Bounds, Segment, turn};
+use crate::geometry::{Bounds, Segment, Vector, positive_angle, turn};
 
 /// The range of corrections, µm.
 const LEAST: f64 = 5.0;
@@ -22,10 +22,46 @@ const ONE: f64 = 2.0;
 const TOLD: usize = 5;
 
 /// A segment with the turns before and behind it.
+#[derive(Clone, Debug)]
 struct Turned {
     segment: Segment,
     before: f64,
     behind: f64,
+}
+
+/// The blocks of a program by the direction in which they begin.
+struct Program(Vec<Vec<Turned>>);
+
+impl Program {
+    /// Each is wider than the angle by which two that belong together may differ.
+    const SECTORS: usize = (std::f64::consts::TAU / CUT_OFF) as usize;
+
+    fn of(blocks: Vec<Turned>) -> Program {
+        let mut sectors: Vec<Vec<Turned>> = Vec::new();
+        sectors.resize_with(Program::SECTORS, Vec::new);
+        for block in blocks {
+            sectors[Program::sector(block.segment.start_tangent())].push(block);
+        }
+        Program(sectors)
+    }
+
+    fn sector(direction: Vector) -> usize {
+        let share = positive_angle(direction.y.atan2(direction.x)) / std::f64::consts::TAU;
+        ((share * Program::SECTORS as f64) as usize).min(Program::SECTORS - 1)
+    }
+
+    /// The blocks that may have a vote for a segment: they begin about as it begins, or as it ends.
+    fn beside(&self, own: &Turned) -> impl Iterator<Item = &Turned> {
+        let ends = [own.segment.start_tangent(), own.segment.end_tangent()].map(Program::sector);
+        let is_about = move |sector: usize| {
+            let next = (sector + 1) % Program::SECTORS;
+            let is_it =
+                |end: usize| end == sector || end == next || (end + 1) % Program::SECTORS == sector;
+            ends.into_iter().any(is_it)
+        };
+        let about = (0..Program::SECTORS).filter(move |sector| is_about(*sector));
+        about.flat_map(|sector| &self.0[sector])
+    }
 }
 
 /// Corrections in mm, the one with the most votes first. `scale` is the drawing's unit in µm.
@@ -58,7 +94,7 @@ fn votes<'a>(
     scale: f64,
     blocks: &[Segment],
 ) -> Vec<f64> {
-    let program = turned(blocks, false);
+    let program = Program::of(turned(blocks, false));
     let mut votes = Vec::new();
     let mut box_of_program = Bounds::EMPTY;
     blocks
@@ -88,7 +124,7 @@ fn votes<'a>(
         let reversed: Vec<Segment> = segments.iter().rev().map(Segment::reversed).collect();
         let back = turned(&reversed, contour.closed);
         for own in forward.iter().chain(&back) {
-            votes.extend(program.iter().filter_map(|block| vote(own, block)));
+            votes.extend(program.beside(own).filter_map(|block| vote(own, block)));
         }
     }
     votes
@@ -170,5 +206,92 @@ fn vote(own: &Turned, block: &Turned) -> Option<f64> {
             round_corner.then_some(arc.radius)
         }
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point;
+    use proptest::prelude::*;
+
+    /// A line or an arc of any direction.
+    fn segment() -> impl Strategy<Value = Segment> {
+        let bulge = prop_oneof![Just(0.0), -2.0..2.0];
+        let place = || (-100i32..100).prop_map(|it| f64::from(it) / 10.0);
+        (place(), place(), 0.0..std::f64::consts::TAU, bulge).prop_map(|(x, y, angle, bulge)| {
+            let start = Point::new(x, y);
+            let end = start + 7.0 * Vector::new(angle.cos(), angle.sin());
+            Segment::from_bulge(start, end, bulge)
+        })
+    }
+
+    /// The same with neighbours that its votes may hang on.
+    fn turned_segment() -> impl Strategy<Value = Turned> {
+        (segment(), -1.5..1.5, -1.5..1.5).prop_map(|(segment, before, behind)| Turned {
+            segment,
+            before,
+            behind,
+        })
+    }
+
+    /// A segment, and a block that runs beside it or round its end.
+    fn pair() -> impl Strategy<Value = (Turned, Turned)> {
+        let alike = (turned_segment(), -0.25..0.25, any::<bool>());
+        alike.prop_map(|(own, by, is_behind)| {
+            let towards = match is_behind {
+                true => own.segment.end_tangent(),
+                false => own.segment.start_tangent(),
+            };
+            let (sine, cosine) = f64::sin_cos(by);
+            let along = Vector::new(
+                cosine * towards.x - sine * towards.y,
+                sine * towards.x + cosine * towards.y,
+            );
+            let from = own.segment.end();
+            let sweep = if is_behind {
+                own.behind
+            } else {
+                own.segment.as_arc().map_or(0.0, |arc| arc.sweep)
+            };
+            // An arc that begins that way bends away from its chord by half of its sweep.
+            let (sine, cosine) = f64::sin_cos(sweep / 2.0);
+            let chord = Vector::new(
+                cosine * along.x - sine * along.y,
+                sine * along.x + cosine * along.y,
+            );
+            let block = Turned {
+                segment: Segment::from_bulge(from, from + 5.0 * chord, (sweep / 4.0).tan()),
+                before: own.before,
+                behind: own.behind,
+            };
+            (own, block)
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn each_block_that_votes_is_looked_at((own, block) in pair()) {
+            let voted = vote(&own, &block);
+            let program = Program::of(vec![block]);
+            let looked_at: Vec<f64> =
+                program.beside(&own).filter_map(|block| vote(&own, block)).collect();
+            prop_assert_eq!(looked_at, voted.into_iter().collect::<Vec<f64>>());
+        }
+    }
+
+    #[test]
+    fn pairs_of_the_property_vote() {
+        use proptest::strategy::ValueTree;
+        use proptest::test_runner::TestRunner;
+        let mut runner = TestRunner::deterministic();
+        let votes = (0..200).filter(|_| {
+            let tree = pair().new_tree(&mut runner);
+            tree.is_ok_and(|tree| {
+                let (own, block) = tree.current();
+                vote(&own, &block).is_some()
+            })
+        });
+        assert!(votes.count() > 20);
     }
 }
